@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A design point in SI units, as read from rtl/designs/NAME.toml, and what follows from it:
+// quantised parameters and formats. Documentation: docs/designs.md
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "design/registers.hpp"
+#include "feltgate/chain_formats.hpp"
+
+namespace feltgate::design {
+
+/// A design, plant or register file that cannot be used; what() is "file:line: what is wrong; mend".
+class DesignError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The numbers of a design file; units are in the names.
+struct Design {
+  std::string name, path, description;
+  std::int64_t clock_hz = 0, tick_hz = 0;
+  int lines = 0, filter_samples = 0, encoder_polarity = 0;
+  int m1 = 0, n = 0;
+  double velocity_cutoff_rad_s = 0;
+  double observer_cutoff_rad_s = 0, torque_constant_nm_a = 0, inertia_kg_m2 = 0;
+  double kp_1_kg_m2 = 0, torque_limit_nm = 0, current_limit_a = 0, ramp_nm_s = 0;
+  std::string voltage_law;  ///< "regions" or "motor_model"
+  double kv_low = 0, kv_high = 0, region_nm = 0;
+  double dead_voltage_v = 0, dead_voltage_linear_nm = 0;
+  double resistance_ohm = 0, emf_constant_v_s_rad = 0;
+  std::int64_t pwm_hz = 0;
+  int pwm_mode = 0, motor_polarity = 0;
+  double dead_time_s = 0, supply_v = 0;
+  double overspeed_rad_s = 0, nominal_current_a = 0, i2t_budget_a2_s = 0;
+  double polarity_speed_rad_s = 0, polarity_current_a = 0, polarity_time_s = 0, watchdog_s = 0;
+  std::vector<std::string> scenes;
+  double setpoint_nm = 0, membrane_lower_rad = 0, membrane_upper_rad = 0, membrane_nm = 0;
+  double compression_contact_rad = 0, compression_nm_rad = 0;
+  double tension_rest_rad = 0, tension_nm_rad = 0, damper_nm_s_rad = 0;
+  double charge_centre_rad = 0, charge_nm_rad2 = 0, charge_core_rad = 0;
+  Format velocity{}, torque{}, current{}, voltage{};
+  int observer_fraction = 0;
+
+  int clocks_per_tick() const { return static_cast<int>(clock_hz / tick_hz); }
+  int pwm_period_clocks() const { return static_cast<int>(clock_hz / pwm_hz); }
+  int dead_clocks() const;
+  double tick_s() const { return 1.0 / static_cast<double>(tick_hz); }
+  /// One count in radians.
+  double count_rad() const;
+};
+
+/// A parameter with its value in the design: SI, quantised, and the format between them.
+struct Word {
+  Parameter parameter;
+  Format format{};
+  double si = 0;          ///< exact value, in the parameter's unit
+  std::int64_t raw = 0;   ///< the integer in the parameter RAM
+  double quantised() const;
+  double relative_error() const;  ///< (quantised-si)/si, 0 where si is 0
+};
+
+/// A design with everything that follows from it.
+struct Elaborated {
+  Design design;
+  RegisterMap registers;
+  std::vector<Word> words;
+  BaseFormats base{};
+  Formats formats{};
+
+  const Word& word(const std::string& name) const;
+};
+
+/// Reads a design file. Throws DesignError: unknown or missing key, wrong type, value out of range.
+Design read_design(const std::string& path);
+
+/// Quantises the design against a register map and checks it. Throws DesignError where a pole
+/// quantises to 0, a width exceeds the fabric, the latency exceeds the tick, or a resolution is
+/// coarser than promised.
+Elaborated elaborate(const Design& design, const RegisterMap& registers);
+
+/// The format of an unsigned (or signed) 17-bit mantissa for `value`: the binary point lies so that
+/// the value uses the top bit, so a register can raise it to just under the next power of two.
+Format coefficient_format(double value, bool is_signed);
+
+/// Clocks from the sampled position to the duty register; a constant of the RTL.
+constexpr int latency_clocks = 46;
+
+}  // namespace feltgate::design

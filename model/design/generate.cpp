@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The generated SystemVerilog package and C++ header. Documentation: docs/designs.md
+#include "design/generate.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <functional>
+#include <sstream>
+
+namespace feltgate::design {
+
+namespace {
+
+std::string upper(std::string s) {
+  std::transform(s.begin(), s.end(), s.begin(), [](unsigned char c) { return std::toupper(c); });
+  return s;
+}
+
+std::string camel(const std::string& s) {
+  std::string out;
+  bool start = true;
+  for (char c : s) {
+    if (c == '_' || c == '-') {
+      start = true;
+    } else {
+      out += start ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+      start = false;
+    }
+  }
+  return out;
+}
+
+std::string exact(double v) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", v);
+  std::string s = text;
+  if (s.find_first_of(".en") == std::string::npos) s += ".0";
+  return s;
+}
+
+std::string triple(Format f) {
+  return "{" + std::to_string(f.sign) + ", " + std::to_string(f.integer) + ", " +
+         std::to_string(f.fraction) + "}";
+}
+
+unsigned scene_mask(const Elaborated& e) {
+  unsigned mask = 0;
+  for (const std::string& s : e.design.scenes) mask |= 1u << e.registers.scene_number(s);
+  return mask;
+}
+
+std::uint32_t control_reset(const Design& d) {
+  return (static_cast<std::uint32_t>(d.motor_polarity) << 8) |
+         (static_cast<std::uint32_t>(d.encoder_polarity) << 9) |
+         (static_cast<std::uint32_t>(d.pwm_mode) << 10) |
+         (static_cast<std::uint32_t>(d.filter_samples) << 11);
+}
+
+std::string banner(const Elaborated& e, const char* what) {
+  return "// SPDX-License-Identifier: Apache-2.0\n"
+         "// SPDX-FileCopyrightText: 2026 the feltgate authors\n//\n"
+         "// Generated from rtl/designs/" + e.design.name + ".toml and rtl/registers.toml by\n"
+         "// `feltgate generate`: do not edit. " + what + "\n";
+}
+
+/// Plain integers that RTL and twin share: name, value, meaning.
+struct Constant {
+  std::string name;
+  long long value;
+  std::string doc;
+};
+
+std::vector<Constant> constants(const Elaborated& e) {
+  const Design& d = e.design;
+  return {
+      {"clocks_per_tick", d.clocks_per_tick(), "clocks"},
+      {"m1", d.m1, "ticks between the two positions of the velocity estimator"},
+      {"velocity_shift", d.n, "raw velocity = 2^n * counts"},
+      {"pwm_period", d.pwm_period_clocks(), "clocks"},
+      {"dead_clocks", d.dead_clocks(), "clocks"},
+      {"scene_mask", scene_mask(e), "bit n: scene n is built"},
+      {"control_reset", control_reset(d), "control word after reset"},
+      {"multiplier_a_bits", fabric::multiplier_a_bits, "bits"},
+      {"multiplier_b_bits", fabric::multiplier_b_bits, "bits"},
+      {"product_bits", fabric::product_bits, "bits"},
+      {"travel_bits", fabric::travel_bits, "bits"},
+      {"multiplier_latency", fabric::multiplier_latency, "clocks from the operands to the product"},
+  };
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, Format>> named_formats(const Formats& f) {
+  return {{"position", f.position},
+          {"scene_position", f.scene_position},
+          {"scene_offset", f.scene_offset},
+          {"travel_difference", f.travel_difference},
+          {"velocity_raw", f.velocity_raw},
+          {"velocity", f.velocity},
+          {"velocity_difference", f.velocity_difference},
+          {"inertia_torque", f.inertia_torque},
+          {"drive_torque", f.drive_torque},
+          {"observer", f.observer},
+          {"observer_difference", f.observer_difference},
+          {"observed", f.observed},
+          {"torque", f.torque},
+          {"ramp", f.ramp},
+          {"current", f.current},
+          {"current_part", f.current_part},
+          {"current_sum", f.current_sum},
+          {"voltage", f.voltage},
+          {"voltage_part", f.voltage_part},
+          {"voltage_sum", f.voltage_sum},
+          {"duty", f.duty},
+          {"duty_sum", f.duty_sum},
+          {"current_estimate_part", f.current_estimate_part},
+          {"current_estimate", f.current_estimate},
+          {"current_squared", f.current_squared},
+          {"i2t", f.i2t},
+          {"charge", f.charge}};
+}
+
+std::string systemverilog_package(const Elaborated& e) {
+  std::ostringstream s;
+  s << banner(e, "Formats [S,I,F], slots, constants.") << "\n`default_nettype none\n\n"
+    << "/* verilator lint_off UNUSEDPARAM */  // a block uses the constants that concern it\n"
+    << "package feltgate_pkg;\n";
+  for (const Constant& c : constants(e)) {
+    s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
+  }
+  s << "\n  // Widths (W) and fraction bits (F) of the signals.\n";
+  for (const auto& [name, f] : named_formats(e.formats)) {
+    s << "  localparam int " << upper(name) << "_W = " << f.width() << ";  // [" << f.sign << ","
+      << f.integer << "," << f.fraction << "]\n"
+      << "  localparam int " << upper(name) << "_F = " << f.fraction << ";\n";
+  }
+  s << "\n  // Fraction bits of the coefficients.\n";
+  for (const Word& w : e.words) {
+    if (w.parameter.kind == "coefficient" || w.parameter.kind == "signed") {
+      s << "  localparam int P_" << upper(w.parameter.name) << "_F = " << w.format.fraction << ";\n";
+    }
+  }
+  s << "\n  // Wave clocks in which a word is on the parameter bus.\n";
+  for (const Word& w : e.words) {
+    if (w.parameter.scene.empty()) {
+      s << "  localparam int S_" << upper(w.parameter.name) << " = " << w.parameter.slot << ";\n";
+    }
+  }
+  s << "\n  // Scene numbers.\n";
+  for (const Scene& scene : e.registers.scenes) {
+    s << "  localparam logic [3:0] SCENE_" << upper(scene.name) << " = 4'd" << scene.number << ";\n";
+  }
+  s << "\n  // Addresses of control and snapshot words, and bits of the control words.\n";
+  for (const Control& c : e.registers.controls) {
+    s << "  localparam logic [11:0] A_" << upper(c.name) << " = 12'h" << std::hex << c.address
+      << std::dec << ";\n";
+    for (const Field& f : c.fields) {
+      s << "  localparam int B_" << upper(c.name + "_" + f.name) << " = " << f.bit << ";\n";
+    }
+  }
+  for (const Snapshot& n : e.registers.snapshots) {
+    s << "  localparam int R_" << upper(n.name) << " = " << n.slot << ";\n";
+  }
+  s << "\n  // Parameter RAM after reset: the design's values, quantised.\n"
+    << "  function automatic logic [31:0] parameter_reset(input logic [8:0] address);\n"
+    << "    case (address)\n";
+  for (const Word& w : e.words) {
+    s << "      9'd" << w.parameter.address << ": parameter_reset = 32'd"
+      << static_cast<std::uint32_t>(w.raw) << ";  // " << w.parameter.name << "\n";
+  }
+  s << "      default: parameter_reset = 32'd0;\n    endcase\n  endfunction\n"
+    << "endpackage\n/* verilator lint_on UNUSEDPARAM */\n\n`default_nettype wire\n";
+  return s.str();
+}
+
+std::string cpp_header(const Elaborated& e) {
+  const Design& d = e.design;
+  const std::string type = camel(d.name);
+  std::ostringstream s;
+  s << banner(e, "") << "#pragma once\n\n#include <cstdint>\n#include <string_view>\n\n#include \"feltgate/chain_formats.hpp\"\n"
+    << "#include \"feltgate/parameter.hpp\"\n\nnamespace feltgate {\n\n"
+    << "/// " << d.description << ".\nstruct " << type << " {\n"
+    << "  static constexpr const char* name = \"" << d.name << "\";\n"
+    << "  static constexpr std::int64_t clock_hz = " << d.clock_hz << ";\n"
+    << "  static constexpr std::int64_t tick_hz = " << d.tick_hz << ";\n"
+    << "  static constexpr double count_rad = " << exact(d.count_rad()) << ";\n"
+    << "  static constexpr double supply_v = " << exact(d.supply_v) << ";\n";
+  for (const Constant& c : constants(e)) {
+    s << "  static constexpr int " << c.name << " = " << c.value << ";  // " << c.doc << "\n";
+  }
+  s << "\n  /// Formats of the parameters.\n  struct P {\n";
+  for (const Word& w : e.words) {
+    s << "    static constexpr Format " << w.parameter.name << triple(w.format) << ";\n";
+  }
+  s << "  };\n\n  /// Addresses of the parameters.\n  struct A {\n";
+  for (const Word& w : e.words) {
+    s << "    static constexpr int " << w.parameter.name << " = " << w.parameter.address << ";\n";
+  }
+  s << "  };\n\n  /// Scene numbers.\n  struct S {\n";
+  for (const Scene& scene : e.registers.scenes) {
+    s << "    static constexpr int " << scene.name << " = " << scene.number << ";\n";
+  }
+  s << "  };\n  /// Number of a scene by name, -1 when there is none.\n"
+    << "  static constexpr int scene_number(std::string_view scene) {\n";
+  for (const Scene& scene : e.registers.scenes) {
+    s << "    if (scene == \"" << scene.name << "\") return " << scene.number << ";\n";
+  }
+  s << "    return -1;\n";
+  s << "  }\n\n  /// Addresses of control and snapshot words, and bits of the control words.\n"
+    << "  struct C {\n";
+  for (const Control& c : e.registers.controls) {
+    s << "    static constexpr int " << c.name << " = " << c.address << ";\n";
+    for (const Field& f : c.fields) {
+      s << "    static constexpr int " << c.name << "_" << f.name << " = " << f.bit << ";\n";
+    }
+  }
+  for (const Snapshot& n : e.registers.snapshots) {
+    s << "    static constexpr int read_" << n.name << " = " << snapshot_base + n.slot << ";\n";
+  }
+  s << "  };\n\n  static constexpr BaseFormats base{\n"
+    << "      " << triple(d.velocity) << ", " << triple(d.torque) << ", " << triple(d.current) << ", "
+    << triple(d.voltage) << ",\n      " << d.observer_fraction << ", velocity_shift,\n"
+    << "      P::velocity_a1, P::torque_constant, P::inertia_gain, P::observer_a1,\n"
+    << "      P::torque_gain, P::observer_gain, P::voltage_gain, P::emf_constant,\n"
+    << "      P::dead_voltage_slope, P::voltage_to_current, P::duty_gain,\n"
+    << "      P::inverse_resistance, P::emf_over_resistance};\n"
+    << "  static constexpr Formats f = derive(base);\n\n"
+    << "  /// Parameters: name, unit, address, format, exact value, integer.\n"
+    << "  static constexpr ParameterInfo parameters[] = {\n";
+  for (const Word& w : e.words) {
+    s << "      {\"" << w.parameter.name << "\", \"" << w.parameter.unit << "\", A::"
+      << w.parameter.name << ", P::" << w.parameter.name << ",\n       " << exact(w.si) << ", "
+      << w.raw << "},\n";
+  }
+  s << "  };\n};\n\n}  // namespace feltgate\n";
+  return s.str();
+}
+
+}  // namespace feltgate::design

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Reader of rtl/designs/NAME.toml. Documentation: docs/designs.md
+#include <cmath>
+#include <filesystem>
+
+#include "design/design.hpp"
+#include "design/toml_reader.hpp"
+
+namespace feltgate::design {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+Format read_format(TomlReader& r, const std::string& key) {
+  const toml::array& a = r.array(key);
+  int v[3] = {0, 0, 0};
+  if (a.size() != 3) r.fail(key, "formats." + key + " needs three numbers [S,I,F]; write them");
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto n = a[i].value_exact<std::int64_t>();
+    if (!n || *n < -64 || *n > 64) {
+      r.fail(key, "formats." + key + ": [S,I,F] takes integers from -64 to 64; mend them");
+    }
+    v[i] = static_cast<int>(*n);
+  }
+  if (v[0] != 1) r.fail(key, "formats." + key + ": signals are signed; write S = 1");
+  return {v[0], v[1], v[2]};
+}
+
+int choice(TomlReader& r, const std::string& key, const std::string& zero, const std::string& one) {
+  const std::string text = r.text(key);
+  if (text != zero && text != one) {
+    r.fail(key, key + " = \"" + text + "\" is unknown; choose \"" + zero + "\" or \"" + one + "\"");
+  }
+  return text == one ? 1 : 0;
+}
+
+void read_control(TomlReader& r, Design& d) {
+  // Kp = 1/Jn is a choice of law, not a number to be typed: it makes the observer's gain zero.
+  if (r.has("kp")) {
+    if (r.text("kp") != "1/inertia") r.fail("kp", "kp takes only \"1/inertia\"; or give kp_1_kg_m2");
+    d.kp_1_kg_m2 = 1.0 / d.inertia_kg_m2;
+  } else {
+    d.kp_1_kg_m2 = r.number("kp_1_kg_m2", 0.0, 1e6);
+  }
+  d.torque_limit_nm = r.number("torque_limit_nm", 0.0, 15.0);
+  d.current_limit_a = r.number("current_limit_a", 0.0, 1000.0);
+  d.ramp_nm_s = r.number("ramp_nm_s", 1e-3, 1e5);
+}
+
+void read_voltage(TomlReader& r, Design& d) {
+  d.voltage_law = r.text("law");
+  if (d.voltage_law == "regions") {
+    d.kv_low = r.number("kv_low", 0.0, 100.0);
+    d.kv_high = r.number("kv_high", 0.0, 100.0);
+    d.region_nm = r.number("region_nm", 0.0, 15.0);
+  } else if (d.voltage_law == "motor_model") {
+    d.dead_voltage_v = r.number("dead_voltage_v", 0.0, 24.0);
+    d.dead_voltage_linear_nm = r.number("dead_voltage_linear_nm", 1e-4, 1.0);
+  } else {
+    r.fail("law", "voltage.law = \"" + d.voltage_law + "\" is unknown; choose \"regions\" or "
+                  "\"motor_model\"");
+  }
+}
+
+void read_scenes(TomlReader& r, Design& d) {
+  for (const toml::node& node : r.array("include")) {
+    d.scenes.push_back(node.value_or(std::string()));
+  }
+  d.setpoint_nm = r.number("setpoint_nm", -15.0, 15.0);
+  d.membrane_lower_rad = r.number("membrane_lower_rad", -200.0, 200.0);
+  d.membrane_upper_rad = r.number("membrane_upper_rad", d.membrane_lower_rad, 200.0);
+  d.membrane_nm = r.number("membrane_nm", 0.0, 15.0);
+  d.compression_contact_rad = r.number("compression_contact_rad", -200.0, 200.0);
+  d.compression_nm_rad = r.number("compression_nm_rad", 0.0, 1000.0);
+  d.tension_rest_rad = r.number("tension_rest_rad", -200.0, 200.0);
+  d.tension_nm_rad = r.number("tension_nm_rad", 0.0, 1000.0);
+  d.damper_nm_s_rad = r.number("damper_nm_s_rad", 0.0, 100.0);
+  d.charge_centre_rad = r.number("charge_centre_rad", -200.0, 200.0);
+  d.charge_nm_rad2 = r.number("charge_nm_rad2", 0.0, 0.15);
+  d.charge_core_rad = r.number("charge_core_rad", 0.0, 10.0);
+}
+
+void read_supervisor(TomlReader& r, Design& d) {
+  d.overspeed_rad_s = r.number("overspeed_rad_s", 1.0, 1e5);
+  d.nominal_current_a = r.number("nominal_current_a", 0.01, 100.0);
+  d.i2t_budget_a2_s = r.number("i2t_budget_a2_s", 1e-3, 1000.0);
+  d.polarity_speed_rad_s = r.number("polarity_speed_rad_s", 0.1, 1e4);
+  d.polarity_current_a = r.number("polarity_current_a", 0.0, 30.0);
+  d.polarity_time_s = r.number("polarity_time_s", 1e-6, 0.06);
+  d.watchdog_s = r.number("watchdog_s", 1e-4, 10.0);
+}
+
+}  // namespace
+
+int Design::dead_clocks() const {
+  return static_cast<int>(std::lround(dead_time_s * static_cast<double>(clock_hz)));
+}
+
+double Design::count_rad() const { return 2.0 * pi / (4.0 * lines); }
+
+Design read_design(const std::string& path) {
+  const toml::table root = parse_toml(path);
+  TomlReader top(path, "", root);
+  Design d;
+  d.path = path;
+  d.name = std::filesystem::path(path).stem().string();
+  d.description = top.text("description");
+  const auto section = [&](const char* key, auto&& use) {
+    TomlReader r(path, key, top.table(key));
+    use(r);
+    r.finish();
+  };
+  section("clock", [&](TomlReader& r) {
+    d.clock_hz = r.integer("clock_hz", 1'000'000, 400'000'000);
+    d.tick_hz = r.integer("tick_hz", 1'000, 2'000'000);
+    if (d.clock_hz % d.tick_hz != 0) {
+      r.fail("tick_hz", "clock_hz is not a multiple of tick_hz; choose a divisor of the clock");
+    }
+  });
+  section("encoder", [&](TomlReader& r) {
+    d.lines = static_cast<int>(r.integer("lines", 1, 1'000'000));
+    d.filter_samples = static_cast<int>(r.integer("filter_samples", 0, 15));
+    d.encoder_polarity = static_cast<int>(r.integer("polarity", 0, 1));
+  });
+  section("velocity", [&](TomlReader& r) {
+    d.m1 = static_cast<int>(r.integer("m1", 1, 1534));
+    d.n = static_cast<int>(r.integer("n", 0, 12));
+    d.velocity_cutoff_rad_s = r.number("cutoff_rad_s", 1e-3, 1e6);
+  });
+  section("observer", [&](TomlReader& r) {
+    d.observer_cutoff_rad_s = r.number("cutoff_rad_s", 1e-3, 1e6);
+    d.torque_constant_nm_a = r.number("torque_constant_nm_a", 1e-5, 10.0);
+    d.inertia_kg_m2 = r.number("inertia_kg_m2", 1e-9, 10.0);
+  });
+  section("control", [&](TomlReader& r) { read_control(r, d); });
+  section("voltage", [&](TomlReader& r) { read_voltage(r, d); });
+  section("motor", [&](TomlReader& r) {
+    d.resistance_ohm = r.number("resistance_ohm", 1e-3, 1e3);
+    d.emf_constant_v_s_rad = r.number("emf_constant_v_s_rad", 0.0, 10.0);
+  });
+  section("pwm", [&](TomlReader& r) {
+    d.pwm_hz = r.integer("frequency_hz", 1'000, 1'000'000);
+    if (d.clock_hz % d.pwm_hz != 0 || d.clock_hz / d.pwm_hz > 4095) {
+      r.fail("frequency_hz", "the PWM period is not a whole number of clocks up to 4095; choose "
+                             "another frequency");
+    }
+    d.pwm_mode = choice(r, "mode", "sign_magnitude", "locked_antiphase");
+    d.motor_polarity = static_cast<int>(r.integer("polarity", 0, 1));
+    d.dead_time_s = r.number("dead_time_s", 0.0, 1e-5);
+    d.supply_v = r.number("supply_v", 1.0, 31.9);
+  });
+  section("supervisor", [&](TomlReader& r) { read_supervisor(r, d); });
+  section("scenes", [&](TomlReader& r) { read_scenes(r, d); });
+  section("formats", [&](TomlReader& r) {
+    d.velocity = read_format(r, "velocity");
+    d.torque = read_format(r, "torque");
+    d.current = read_format(r, "current");
+    d.voltage = read_format(r, "voltage");
+    d.observer_fraction = static_cast<int>(r.integer("observer_fraction", 0, 48));
+  });
+  top.finish();
+  return d;
+}
+
+}  // namespace feltgate::design

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Reader of rtl/registers.toml. Documentation: docs/registers.md (generated)
+#include "design/registers.hpp"
+
+#include <functional>
+#include <set>
+
+#include "design/toml_reader.hpp"
+
+namespace feltgate::design {
+
+int RegisterMap::scene_number(const std::string& name) const {
+  for (const Scene& s : scenes) {
+    if (s.name == name) return s.number;
+  }
+  return -1;
+}
+
+namespace {
+
+int small(TomlReader& r, const std::string& key, std::int64_t high) {
+  return static_cast<int>(r.integer(key, 0, high));
+}
+
+Parameter read_parameter(TomlReader& r, const RegisterMap& map, std::set<int>& used) {
+  Parameter p;
+  p.name = r.text("name");
+  p.scene = r.text_or("scene", "");
+  p.slot = small(r, "slot", p.scene.empty() ? 63 : 31);
+  p.kind = r.text("kind");
+  static const std::set<std::string> kinds{"coefficient", "signed", "signal", "counts", "integer"};
+  if (kinds.count(p.kind) == 0) {
+    r.fail("kind", "kind = \"" + p.kind + "\" is unknown; choose coefficient, signed, signal, "
+                   "counts or integer");
+  }
+  if (p.kind == "signal") p.signal = r.text("format");
+  p.same_format_as = r.text_or("same_format_as", "");
+  p.unit = r.text("unit");
+  p.doc = r.text("doc");
+  p.address = p.slot;
+  if (!p.scene.empty()) {
+    const int number = map.scene_number(p.scene);
+    if (number < 2) r.fail("scene", "scene \"" + p.scene + "\" has no bank; list it under [[scene]]");
+    p.address += 32 * number;
+  }
+  if (!used.insert(p.address).second) {
+    r.fail("slot", p.name + " shares its address with another parameter; choose a free slot");
+  }
+  r.finish();
+  return p;
+}
+
+Control read_control(const std::string& path, TomlReader& r) {
+  Control c;
+  c.name = r.text("name");
+  c.address = small(r, "address", 0x2ff);
+  c.doc = r.text("doc");
+  for (const toml::node& node : r.array("fields")) {
+    TomlReader f(path, c.name, *node.as_table());
+    Field field;
+    field.name = f.text("name");
+    field.bit = small(f, "bit", 31);
+    field.width = f.has("width") ? small(f, "width", 32) : 1;
+    field.doc = f.text("doc");
+    f.finish();
+    c.fields.push_back(field);
+  }
+  r.finish();
+  return c;
+}
+
+}  // namespace
+
+RegisterMap read_registers(const std::string& path) {
+  const toml::table root = parse_toml(path);
+  TomlReader top(path, "", root);
+  RegisterMap map;
+  const auto each = [&](const char* key, const std::function<void(TomlReader&)>& use) {
+    for (const toml::node& node : top.array(key)) {
+      TomlReader r(path, key, *node.as_table());
+      use(r);
+    }
+  };
+  each("scene", [&](TomlReader& r) {
+    map.scenes.push_back({r.text("name"), small(r, "number", 15)});
+    r.finish();
+  });
+  std::set<int> used;
+  each("parameter", [&](TomlReader& r) { map.parameters.push_back(read_parameter(r, map, used)); });
+  each("control", [&](TomlReader& r) { map.controls.push_back(read_control(path, r)); });
+  each("snapshot", [&](TomlReader& r) {
+    map.snapshots.push_back({r.text("name"), small(r, "slot", 63), r.text("doc")});
+    r.finish();
+  });
+  top.finish();
+  return map;
+}
+
+}  // namespace feltgate::design

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The register map as read from rtl/registers.toml. Documentation: docs/registers.md (generated)
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace feltgate::design {
+
+/// One word of the parameter RAM.
+struct Parameter {
+  std::string name;
+  std::string scene;           ///< empty for a word that every scene shares
+  int slot = 0;                ///< wave clock in which the word is on the parameter bus
+  std::string kind;            ///< coefficient, signed, signal, counts or integer
+  std::string signal;          ///< format of a word of kind signal
+  std::string same_format_as;  ///< takes the format of another coefficient
+  std::string unit;
+  std::string doc;
+  int address = 0;  ///< slot, or slot within the scene's bank of 32
+};
+
+struct Scene {
+  std::string name;
+  int number = 0;
+};
+
+struct Field {
+  std::string name;
+  int bit = 0;
+  int width = 1;
+  std::string doc;
+};
+
+struct Control {
+  std::string name;
+  int address = 0;
+  std::string doc;
+  std::vector<Field> fields;
+};
+
+struct Snapshot {
+  std::string name;
+  int slot = 0;
+  std::string doc;
+};
+
+struct RegisterMap {
+  std::vector<Parameter> parameters;
+  std::vector<Scene> scenes;
+  std::vector<Control> controls;
+  std::vector<Snapshot> snapshots;
+
+  int scene_number(const std::string& name) const;  ///< -1 when there is no such scene
+};
+
+/// First address of the snapshot words in the register port's address space.
+constexpr int snapshot_base = 0x300;
+
+/// Reads the map. Throws DesignError with file and line on a malformed entry, a slot used twice or
+/// an unknown scene.
+RegisterMap read_registers(const std::string& path);
+
+}  // namespace feltgate::design

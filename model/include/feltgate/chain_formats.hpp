@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The format of every signal of the chain, derived once from a design's base formats by the growth
+// rules. The twin uses the result at compile time, the generator writes it into feltgate_pkg.sv.
+// Documentation: docs/fixed-point.md
+#pragma once
+
+#include "feltgate/format.hpp"
+
+namespace feltgate {
+
+/// Widths that the fabric fixes.
+namespace fabric {
+constexpr int multiplier_a_bits = 35;  ///< data operand: two signed 18x18 multipliers
+constexpr int multiplier_b_bits = 18;  ///< coefficient operand
+constexpr int product_bits = multiplier_a_bits + multiplier_b_bits;
+constexpr int word_bits = 32;          ///< register port and parameter RAM
+constexpr int travel_bits = 16;        ///< free-running count of the velocity estimator
+constexpr int multiplier_latency = 4;  ///< clocks from operands on the bus to the product
+}  // namespace fabric
+
+/// What a design states (signals) and what its values imply (coefficients).
+struct BaseFormats {
+  Format velocity;        ///< rad/s
+  Format torque;          ///< Nm
+  Format current;         ///< A
+  Format voltage;         ///< V
+  int observer_fraction;  ///< fraction bits of the observer's state
+  int velocity_shift;     ///< n of the N-method: raw = 2^n * counts
+  Format velocity_a1;
+  Format torque_constant;
+  Format inertia_gain;
+  Format observer_a1;
+  Format torque_gain;
+  Format observer_gain;
+  Format voltage_gain;
+  Format emf_constant;
+  Format dead_voltage_slope;
+  Format voltage_to_current;
+  Format duty_gain;
+  Format inverse_resistance;
+  Format emf_over_resistance;
+};
+
+/// Every format of the chain, in the order of the wave.
+struct Formats {
+  Format position;             ///< count, wraps
+  Format scene_position;       ///< count, saturated: what a scene sees
+  Format scene_offset;         ///< count: a scene's distance from its reference, and its parameters
+  Format travel_difference;    ///< count in m1 ticks
+  Format velocity_raw;         ///< rad/s before the low-pass, exact
+  Format velocity;             ///< rad/s, also the low-pass state
+  Format velocity_difference;  ///< low-pass input minus state, as the multiplier takes it
+  Format inertia_torque;       ///< g*Jn*w
+  Format drive_torque;         ///< Ktn*I
+  Format observer;             ///< observer input and state
+  Format observer_difference;  ///< observer input minus state, as the multiplier takes it
+  Format observed;             ///< state minus inertia torque, before it is narrowed
+  Format torque;               ///< Nm
+  Format ramp;                 ///< Nm, the torque while it ramps
+  Format current;              ///< A
+  Format current_part;         ///< A: one of the two products that make the current
+  Format current_sum;          ///< A, before the limit
+  Format voltage;              ///< V
+  Format voltage_part;         ///< V: one product of the voltage law
+  Format voltage_sum;          ///< V, before the limit
+  Format duty;                 ///< clock
+  Format duty_sum;             ///< clock, before the limit
+  Format current_estimate_part;  ///< A: one product of the estimate
+  Format current_estimate;       ///< A: (V - Ke*w)/R
+  Format current_squared;        ///< A^2
+  Format i2t;                    ///< A^2 tick
+  Format charge;                 ///< Nm count^2
+};
+
+namespace growth {
+
+/// f cut to `width` bits by giving up fraction bits.
+constexpr Format fit(Format f, int width) {
+  return f.width() <= width ? f : Format{f.sign, f.integer, f.fraction - (f.width() - width)};
+}
+
+/// f with another number of fraction bits.
+constexpr Format with_fraction(Format f, int fraction) { return {f.sign, f.integer, fraction}; }
+
+}  // namespace growth
+
+/// The formats that follow from the base ones. No sum or product in the chain can overflow; it
+/// narrows only into velocity, torque, current, voltage, duty and the estimate.
+constexpr Formats derive(const BaseFormats& b) {
+  Formats f{};
+  f.position = {1, 31, 0};
+  f.scene_position = {1, 17, 0};
+  f.scene_offset = {1, 17, 8};
+  f.travel_difference = {1, fabric::travel_bits - 1, 0};
+  f.velocity_raw = growth::scaled(f.travel_difference, b.velocity_shift);
+  f.velocity = b.velocity;
+  f.velocity_difference =
+      growth::fit(growth::difference(b.velocity, b.velocity), fabric::multiplier_a_bits);
+  f.inertia_torque =
+      growth::with_fraction(growth::product(b.velocity, b.inertia_gain), b.observer_fraction);
+  f.drive_torque =
+      growth::with_fraction(growth::product(b.current, b.torque_constant), b.observer_fraction);
+  f.observer = growth::sum(f.inertia_torque, f.drive_torque);
+  f.observer_difference =
+      growth::fit(growth::difference(f.observer, f.observer), fabric::multiplier_a_bits);
+  f.observed = growth::difference(f.observer, f.inertia_torque);
+  f.torque = b.torque;
+  f.ramp = growth::with_fraction(b.torque, 24);
+  f.current = b.current;
+  const Format by_tau_ref = growth::product(b.torque, b.torque_gain);
+  const Format by_tau_hat = growth::product(b.torque, b.observer_gain);
+  f.current_part = {1, growth::max_of(by_tau_ref.integer, by_tau_hat.integer), b.current.fraction};
+  f.current_sum = growth::sum(f.current_part, f.current_part);
+  f.voltage = b.voltage;
+  const Format resistive = growth::product(b.current, b.voltage_gain);
+  const Format emf = growth::product(b.velocity, b.emf_constant);
+  const Format dead = growth::product(b.torque, b.dead_voltage_slope);
+  f.voltage_part = {1, growth::max_of(growth::max_of(resistive.integer, emf.integer), dead.integer),
+                    b.voltage.fraction};
+  f.voltage_sum = {1, f.voltage_part.integer + 2, b.voltage.fraction};  // three parts
+  f.duty = {1, 12, 0};
+  f.duty_sum = growth::with_fraction(growth::product(b.voltage, b.duty_gain), 0);
+  const Format estimate_v = growth::product(b.voltage, b.inverse_resistance);
+  const Format estimate_w = growth::product(b.velocity, b.emf_over_resistance);
+  f.current_estimate_part = {1, growth::max_of(estimate_v.integer, estimate_w.integer), 8};
+  f.current_estimate = growth::difference(f.current_estimate_part, f.current_estimate_part);
+  f.current_squared = {0, 17, 2};
+  f.i2t = {0, 30, 2};
+  f.charge = {0, 16, 16};
+  return f;
+}
+
+}  // namespace feltgate

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Twin of rtl/lowpass.sv: one-pole low-pass y += round(a1 * (x - y)), round half up.
+// With 0 <= a1 < 1 the state stays between its old value and the input, so it cannot overflow.
+// Documentation: docs/blocks/lowpass.md
+#pragma once
+
+#include <cstdint>
+
+#include "feltgate/numbers.hpp"
+
+namespace feltgate {
+
+/// The arithmetic, in number policy N; formats as packed keys.
+template <class N, int StateKey, int OperandKey>
+struct LowpassLaw {
+  using State = typename N::template num<StateKey>;
+  using Operand = typename N::template num<OperandKey>;
+
+  /// x - y as the multiplier takes it: low bits are given up where it is narrower (truncation).
+  static constexpr Operand operand(State x, State y) {
+    return quantise<N, OperandKey, Round::truncate, Overflow::wrap>(x - y);
+  }
+
+  /// The new state from the old one and a1 * operand.
+  template <class Product>
+  static constexpr State next(State y, Product a1_times_operand) {
+    return quantise<N, StateKey, Round::half_up, Overflow::wrap>(y + a1_times_operand);
+  }
+};
+
+/// Clocked twin. CoefficientKey is the format of a1.
+template <int StateKey, int OperandKey, int CoefficientKey>
+class Lowpass {
+ public:
+  using Law = LowpassLaw<Fixed, StateKey, OperandKey>;
+  using State = typename Law::State;
+  using Product = decltype(typename Law::Operand{} * fixed_of<CoefficientKey>{});
+
+  struct In {
+    bool valid = false;        ///< x is new
+    bool follow = false;       ///< y := x instead of filtering
+    std::int64_t x = 0;        ///< held until the new y
+    std::int64_t product = 0;  ///< five clocks after valid: a1 * operand
+  };
+  struct Out {
+    std::int64_t operand = 0;
+    std::int64_t y = 0;
+  };
+
+  void reset() {
+    stage_ = 0;
+    y_ = State{};
+    out_ = {};
+  }
+
+  void clock(const In& in) {
+    const bool take = (stage_ & 0x10u) != 0;
+    const State x = State::from_raw(static_cast<typename State::raw_type>(in.x));
+    if (in.valid) out_.operand = static_cast<std::int64_t>(Law::operand(x, y_).raw());
+    if (take) y_ = in.follow ? x : Law::next(y_, Product::from_raw(in.product));
+    stage_ = ((stage_ << 1) | (in.valid ? 1u : 0u)) & 0x1fu;
+    out_.y = static_cast<std::int64_t>(y_.raw());
+  }
+
+  const Out& out() const { return out_; }
+  State state() const { return y_; }
+  /// Puts the state in place between waves: used by the event-skipping engine.
+  void set_state(State y) {
+    y_ = y;
+    out_.y = static_cast<std::int64_t>(y.raw());
+  }
+
+ private:
+  unsigned stage_ = 0;
+  State y_{};
+  Out out_;
+};
+
+}  // namespace feltgate

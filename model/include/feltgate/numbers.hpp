@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Number policies: the laws of the chain are written once as templates and evaluated in fixed point
+// (bit-exact with the RTL) or in real arithmetic (the reference). Documentation:
+// docs/architecture.md
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "feltgate/fixed.hpp"
+
+namespace feltgate {
+
+namespace detail {
+
+template <class X>
+struct Negated {
+  static constexpr X of(X x) { return -x; }
+};
+
+template <int S, int I, int F>
+struct Negated<fixed<S, I, F>> {
+  static constexpr fixed<S, I, F> of(fixed<S, I, F> x) {
+    return fixed<S, I, F>::from_raw(-x.raw());
+  }
+};
+
+}  // namespace detail
+
+/// Fixed point: a number of format Key is a fixed<S,I,F>.
+struct Fixed {
+  static constexpr bool is_fixed = true;
+  template <int Key>
+  using num = fixed_of<Key>;
+};
+
+/// Real arithmetic in T (double, __float128): every number is a T and nothing is ever rounded off.
+template <class T>
+struct Real {
+  static constexpr bool is_fixed = false;
+  template <int Key>
+  using num = T;
+};
+
+/// x narrowed to the format Key in Fixed; x itself in Real.
+template <class N, int Key, Round R, Overflow O, class X>
+constexpr typename N::template num<Key> quantise(X x, bool* saturated = nullptr) {
+  if constexpr (N::is_fixed) {
+    return narrow<fixed_of<Key>, R, O>(x, saturated);
+  } else {
+    (void)saturated;
+    return x;
+  }
+}
+
+/// An integer as a number of the integer format Key (fraction 0); exact in both policies as long as
+/// it lies in the format's range.
+template <class N, int Key>
+constexpr typename N::template num<Key> from_integer(std::int64_t v) {
+  if constexpr (N::is_fixed) {
+    static_assert(Format::from_key(Key).fraction == 0, "an integer format has no fraction");
+    return fixed_of<Key>::from_raw(static_cast<typename fixed_of<Key>::raw_type>(v));
+  } else {
+    return static_cast<typename N::template num<Key>>(v);
+  }
+}
+
+/// x * 2^K, exact in both policies (K >= 0).
+template <class N, int K, class X>
+constexpr auto times_power_of_two(X x) {
+  if constexpr (N::is_fixed) {
+    return scale_by_power_of_two<K>(x);
+  } else {
+    return static_cast<X>(x * static_cast<X>(1 << K));
+  }
+}
+
+/// -x in the type of x. Precondition in Fixed: x is not the format's minimum.
+template <class X>
+constexpr X negated(X x) {
+  return detail::Negated<X>::of(x);
+}
+
+/// x limited to [-limit, limit]; sets *limited when that changed it.
+template <class X>
+constexpr X clamp_magnitude(X x, X limit, bool* limited) {
+  if (x > limit) {
+    *limited = true;
+    return limit;
+  }
+  if (x < negated(limit)) {
+    *limited = true;
+    return negated(limit);
+  }
+  return x;
+}
+
+}  // namespace feltgate

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// One parameter of a design as the generated headers list it. Documentation: docs/registers.md
+#pragma once
+
+#include <cstdint>
+
+#include "feltgate/format.hpp"
+
+namespace feltgate {
+
+struct ParameterInfo {
+  const char* name;
+  const char* unit;
+  int address;       ///< word in the parameter RAM
+  Format format;     ///< how the word is read
+  double si;         ///< the design's exact value, in `unit`
+  std::int64_t raw;  ///< the same, quantised
+};
+
+}  // namespace feltgate

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Twin of rtl/pwm.sv: centre-aligned PWM for an H-bridge with dead time. Duty [1,12,0] clocks;
+// taken once a period with period_start, at the gates 3 clocks later, rising ones after the dead
+// time too. Documentation: docs/blocks/pwm.md
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace feltgate {
+
+/// Bit-exact and clock-exact with the RTL.
+class Pwm {
+ public:
+  struct In {
+    bool enable = false;    ///< false: every gate off within this clock
+    bool mode = false;      ///< false: sign-magnitude, true: locked-antiphase
+    bool polarity = false;  ///< true: motor wired the other way
+    std::int16_t duty = 0;  ///< clocks, -4096..4095; beyond +-period it acts as +-period
+    bool operator==(const In& o) const {
+      return enable == o.enable && mode == o.mode && polarity == o.polarity && duty == o.duty;
+    }
+  };
+  struct Out {
+    bool gate_a_hi = false;
+    bool gate_a_lo = false;
+    bool gate_b_hi = false;
+    bool gate_b_lo = false;
+    bool period_start = false;     ///< duty has just been taken
+    std::int16_t duty_active = 0;  ///< as taken, clocks
+    bool operator==(const Out& o) const {
+      return gate_a_hi == o.gate_a_hi && gate_a_lo == o.gate_a_lo && gate_b_hi == o.gate_b_hi &&
+             gate_b_lo == o.gate_b_lo && period_start == o.period_start &&
+             duty_active == o.duty_active;
+    }
+  };
+  /// Clocks per period for which each gate is on.
+  struct OnTimes {
+    int a_hi, a_lo, b_hi, b_lo;
+  };
+
+  /// `period` in clocks: even, 4 to 4094. `dead_clocks`: 1 to 64.
+  explicit Pwm(int period = 1000, int dead_clocks = 25) : period_(period), dead_(dead_clocks - 1) {
+    reset();
+  }
+
+  void reset() {
+    time_ = period_ - 2;
+    taken_ = Command{};
+    command_ = Command{};
+    legs_ = {};
+    for (Leg& leg : legs_) leg.dead = dead_;
+    enable_ = false;
+    out_ = Out{};
+  }
+
+  void clock(const In& in) {
+    const std::array<bool, 2> high = wanted();
+    legs_[0].clock(high[0], in.enable, dead_);
+    legs_[1].clock(high[1], in.enable, dead_);
+    command_ = taken_;
+    out_.period_start = time_ == period_ - 2;
+    if (out_.period_start) {
+      taken_ = command(in);
+      out_.duty_active = in.duty;
+    }
+    time_ = time_ == period_ - 1 ? 0 : time_ + 1;
+    enable_ = in.enable;
+    gate(out_, enable_);
+  }
+
+  const Out& out() const { return out_; }
+
+  /// The outputs before the next edge: enable acts at once.
+  Out peek(const In& in) const {
+    Out now = out_;
+    gate(now, in.enable);
+    return now;
+  }
+
+  /// Coming clocks, inputs held, in which no output changes and skip() may stand for clock(). At
+  /// least one clock() is due when it is 0.
+  int quiet_clocks(const In& in) const {
+    if (in.enable != enable_ || out_.period_start) return 0;
+    int quiet = period_ - 2 - time_;
+    const std::array<bool, 2> next = wanted();
+    for (std::size_t l = 0; l < 2; ++l) {
+      const Leg& leg = legs_[l];
+      if (leg.high_q != next[l] || leg.wanted_q != leg.high_q) return 0;
+      if (!in.enable) {
+        if (leg.dead != dead_) return 0;
+      } else if (leg.dead > 0) {
+        quiet = std::min(quiet, leg.dead);
+      } else if (leg.hi_q != leg.wanted_q || leg.lo_q == leg.wanted_q) {
+        return 0;
+      }
+    }
+    const int threshold = command_.threshold;
+    if (threshold > 0 && threshold < period_) {
+      const int rise = (period_ - threshold + 1) / 2;
+      const int fall = (period_ + threshold + 1) / 2;
+      if (time_ < rise) {
+        quiet = std::min(quiet, rise - time_);
+      } else if (time_ < fall) {
+        quiet = std::min(quiet, fall - time_);
+      }
+    }
+    return quiet;
+  }
+
+  /// The same as `clocks` times clock() with the inputs held, 0 <= clocks <= quiet_clocks().
+  void skip(int clocks) {
+    time_ += clocks;
+    if (!enable_) return;
+    for (Leg& leg : legs_) leg.dead = std::max(0, leg.dead - clocks);
+  }
+
+  /// Closed form of a steady duty while enabled: a gate waits out the dead time, then is on for the
+  /// rest of its share of the period; a leg that never switches is on throughout.
+  OnTimes on_times(const In& in) const {
+    const Command steady = command(in);
+    const int share = std::clamp(steady.threshold, 0, period_);
+    const int a = steady.antiphase || !steady.switch_b ? share : 0;
+    const int b = steady.antiphase ? period_ - share : (steady.switch_b ? share : 0);
+    return {on_time(a), on_time(period_ - a), on_time(b), on_time(period_ - b)};
+  }
+
+ private:
+  struct Leg {
+    bool high_q = false;
+    bool wanted_q = false;
+    bool hi_q = false;
+    bool lo_q = false;
+    int dead = 0;  // clocks until dead_q has counted to its top bit
+
+    void clock(bool high, bool enable, int dead_clocks) {
+      const bool free = enable && high_q == wanted_q;
+      hi_q = free && dead == 0 && wanted_q;
+      lo_q = free && dead == 0 && !wanted_q;
+      dead = free ? std::max(0, dead - 1) : dead_clocks;
+      wanted_q = high_q;
+      high_q = high;
+    }
+  };
+
+  /// A duty as the comparator wants it.
+  struct Command {
+    int threshold = 0;  // clocks with leg A high (leg B when switch_b)
+    bool antiphase = false;
+    bool switch_b = false;
+  };
+
+  Command command(const In& in) const {
+    Command c;
+    c.antiphase = in.mode;
+    c.switch_b = (in.duty < 0) != in.polarity;
+    const int twice = period_ + (in.polarity ? -in.duty : in.duty);
+    c.threshold = in.mode ? (twice - (twice & 1)) / 2 : (in.duty < 0 ? -in.duty : in.duty);
+    return c;
+  }
+  /// Legs A and B wanted high in this clock of the carrier Period, Period-2 .. 2, 1, 3 .. Period-1.
+  std::array<bool, 2> wanted() const {
+    const int carrier = 2 * time_ < period_ ? period_ - 2 * time_ : 2 * time_ - period_ + 1;
+    const bool high = carrier <= command_.threshold;
+    if (command_.antiphase) return {high, !high};
+    return {high && !command_.switch_b, high && command_.switch_b};
+  }
+  int on_time(int share) const {
+    return share >= period_ ? period_ : std::max(0, share - (dead_ + 1));
+  }
+  void gate(Out& out, bool enable) const {
+    out.gate_a_hi = legs_[0].hi_q && enable;
+    out.gate_a_lo = legs_[0].lo_q && enable;
+    out.gate_b_hi = legs_[1].hi_q && enable;
+    out.gate_b_lo = legs_[1].lo_q && enable;
+  }
+
+  int period_;
+  int dead_;      // DeadClocks - 1
+  int time_ = 0;  // clocks since the carrier's first
+  Command taken_;
+  Command command_;
+  bool enable_ = false;
+  std::array<Leg, 2> legs_{};
+  Out out_;
+};
+
+}  // namespace feltgate

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Twin of rtl/torque_control.sv: torque reference to current, voltage and duty.
+//   I = Jn*Kp/Ktn * tau_ref + (1 - Jn*Kp)/Ktn * tau_hat        limited, shown to the observer
+//   V = gain*I + Ke*w + dead voltage                           limited
+//   duty = V * period/supply                                   limited
+// Documentation: docs/blocks/torque_control.md
+#pragma once
+
+#include <cstdint>
+
+#include "feltgate/numbers.hpp"
+
+namespace feltgate {
+
+/// What the control word's mode bits mean.
+enum class Mode : std::uint8_t {
+  closed_loop = 0,  ///< tau_hat is fed back
+  open_loop = 1,    ///< tau_hat is not fed back
+  voltage = 2       ///< the voltage set-point replaces the law; the observer sees V * voltage_to_current
+};
+
+/// The arithmetic, in number policy N, for design D.
+template <class D, class N>
+struct TorqueControlLaw {
+  using Torque = typename N::template num<D::f.torque.key()>;
+  using Current = typename N::template num<D::f.current.key()>;
+  using CurrentSum = typename N::template num<D::f.current_sum.key()>;
+  using Voltage = typename N::template num<D::f.voltage.key()>;
+  using VoltageSum = typename N::template num<D::f.voltage_sum.key()>;
+  using Duty = typename N::template num<D::f.duty.key()>;
+  using DutySum = typename N::template num<D::f.duty_sum.key()>;
+
+  /// One product of the current, truncated to the current's last bit.
+  template <class Product>
+  static constexpr CurrentSum current_part(Product p) {
+    return quantise<N, D::f.current_sum.key(), Round::truncate, Overflow::wrap>(p);
+  }
+  /// One product of the voltage, truncated to the voltage's last bit.
+  template <class Product>
+  static constexpr VoltageSum voltage_part(Product p) {
+    return quantise<N, D::f.voltage_sum.key(), Round::truncate, Overflow::wrap>(p);
+  }
+  /// Clocks of on-time, rounded half up.
+  template <class Product>
+  static constexpr DutySum duty_sum(Product p) {
+    return quantise<N, D::f.duty_sum.key(), Round::half_up, Overflow::wrap>(p);
+  }
+  /// Sums of parts; they fit by construction of the formats.
+  template <class A, class B>
+  static constexpr CurrentSum add_current(A a, B b) {
+    return quantise<N, D::f.current_sum.key(), Round::truncate, Overflow::wrap>(a + b);
+  }
+  template <class A, class B>
+  static constexpr VoltageSum add_voltage(A a, B b) {
+    return quantise<N, D::f.voltage_sum.key(), Round::truncate, Overflow::wrap>(a + b);
+  }
+  /// x in [-limit, limit] and in the format Key.
+  template <int Key, class X, class Limit>
+  static constexpr typename N::template num<Key> limited(X x, Limit limit, bool* hit) {
+    *hit = x > limit || x < -limit;
+    if (x > limit) return quantise<N, Key, Round::truncate, Overflow::wrap>(limit);
+    if (x < -limit) return quantise<N, Key, Round::truncate, Overflow::wrap>(-limit);
+    return quantise<N, Key, Round::truncate, Overflow::wrap>(x);
+  }
+  /// Whether tau_ref lies in the high-torque region; at the border the low one holds.
+  static constexpr bool region_high(Torque tau_ref, Torque border) {
+    return tau_ref > border || tau_ref < -border;
+  }
+};
+
+/// The limits that hold in this tick.
+struct ControlLimits {
+  bool current = false;
+  bool voltage = false;
+  bool duty = false;
+};
+
+/// One tick of torque control. W gives the parameters: w.template get<Key>(address).
+/// Writes current, voltage and duty; in voltage mode the voltage set-point is limited too.
+template <class D, class N>
+struct TorqueControlStep {
+  using Law = TorqueControlLaw<D, N>;
+  using P = typename D::P;
+  using A = typename D::A;
+  typename Law::Current current{};
+  typename Law::Voltage voltage{};
+  typename Law::Duty duty{};
+  ControlLimits limit;
+  bool region_high = false;
+
+  template <class W, class Velocity>
+  void tick(const W& w, bool armed, Mode mode, typename Law::Torque tau_ref,
+            typename Law::Torque tau_hat, Velocity velocity) {
+    const bool direct = mode == Mode::voltage;
+    typename Law::CurrentSum current_sum{};
+    region_high = Law::region_high(tau_ref, w.template get<D::f.torque.key()>(A::region_torque));
+    if (direct) {
+      voltage = w.template get<D::f.voltage.key()>(A::voltage_setpoint);
+      current_sum = Law::current_part(
+          voltage * w.template get<P::voltage_to_current.key()>(A::voltage_to_current));
+    } else {
+      const auto by_ref =
+          Law::current_part(tau_ref * w.template get<P::torque_gain.key()>(A::torque_gain));
+      const auto by_hat =
+          mode == Mode::open_loop
+              ? typename Law::CurrentSum{}
+              : Law::current_part(tau_hat * w.template get<P::observer_gain.key()>(A::observer_gain));
+      current_sum = Law::add_current(by_ref, by_hat);
+    }
+    current = Law::template limited<D::f.current.key()>(
+        current_sum, w.template get<D::f.current.key()>(A::current_limit), &limit.current);
+    if (!armed) {
+      current = typename Law::Current{};
+      limit.current = false;
+    }
+    typename Law::VoltageSum voltage_sum{};
+    if (direct) {
+      voltage_sum = Law::add_voltage(voltage, typename Law::VoltageSum{});
+    } else {
+      const auto emf =
+          Law::voltage_part(velocity * w.template get<P::emf_constant.key()>(A::emf_constant));
+      const auto slope = Law::voltage_part(
+          tau_ref * w.template get<P::dead_voltage_slope.key()>(A::dead_voltage_slope));
+      bool linear = false;
+      const auto dead = Law::template limited<D::f.voltage.key()>(
+          slope, w.template get<D::f.voltage.key()>(A::dead_voltage), &linear);
+      const int gain = region_high ? A::voltage_gain_high : A::voltage_gain;
+      const auto resistive =
+          Law::voltage_part(current * w.template get<P::voltage_gain.key()>(gain));
+      voltage_sum = Law::add_voltage(resistive, Law::add_voltage(emf, dead));
+    }
+    voltage = Law::template limited<D::f.voltage.key()>(
+        voltage_sum, w.template get<D::f.voltage.key()>(A::voltage_limit), &limit.voltage);
+    if (!armed) {
+      voltage = typename Law::Voltage{};
+      limit.voltage = false;
+    }
+    duty = Law::template limited<D::f.duty.key()>(
+        Law::duty_sum(voltage * w.template get<P::duty_gain.key()>(A::duty_gain)),
+        w.template get<P::duty_limit.key()>(A::duty_limit), &limit.duty);
+  }
+};
+
+/// Clocked twin. `wave` is the clock of the wave, -1 between waves.
+template <class D>
+class TorqueControl {
+ public:
+  using Law = TorqueControlLaw<D, Fixed>;
+  using P = typename D::P;
+  template <int Key>
+  using Word = fixed_of<Key>;
+
+  struct In {
+    bool armed = false;
+    Mode mode = Mode::closed_loop;
+    int wave = -1;
+    std::int64_t param = 0;    ///< parameter bus
+    std::int64_t product = 0;  ///< of the operands four clocks ago
+    std::int64_t tau_ref = 0;
+  };
+  struct Out {
+    bool region_high = false;
+    std::int64_t operand = 0;  ///< I in clock 34, V in clock 40
+    std::int64_t current_ref = 0;
+    std::int64_t voltage = 0;
+    std::int64_t duty = 0;
+    ControlLimits limit;
+  };
+
+  void reset() { *this = TorqueControl{}; }
+
+  void clock(const In& in) {
+    const bool direct = in.mode == Mode::voltage;
+    switch (in.wave) {
+      case 24:
+        if (direct) voltage_ = word<D::f.voltage.key()>(in.param);
+        break;
+      case 26:
+        offset_ = direct ? VoltageSum{} : Law::voltage_part(product<D::f.velocity.key(), P::emf_constant.key()>(in));
+        break;
+      case 27:
+        kept_ = in.mode == Mode::open_loop
+                    ? CurrentSum{}
+                    : Law::current_part(product<D::f.torque.key(), P::observer_gain.key()>(in));
+        break;
+      case 30:
+        out_.region_high = Law::region_high(word<D::f.torque.key()>(in.tau_ref),
+                                            word<D::f.torque.key()>(in.param));
+        break;
+      case 31:
+        current_sum_ = Law::current_part(product<D::f.voltage.key(), P::voltage_to_current.key()>(in));
+        break;
+      case 32:
+        if (!direct) {
+          current_sum_ = Law::add_current(
+              Law::current_part(product<D::f.torque.key(), P::torque_gain.key()>(in)), kept_);
+        }
+        break;
+      case 33: limit_current(in); break;
+      case 35: {
+        bool linear = false;
+        dead_ = Law::template limited<D::f.voltage.key()>(voltage_sum_, word<D::f.voltage.key()>(in.param), &linear);
+        out_.operand = dead_.raw();
+        break;
+      }
+      case 36: offset_ = Law::add_voltage(offset_, dead_); break;
+      case 38:
+        voltage_sum_ = direct ? Law::add_voltage(voltage_, VoltageSum{})
+                              : Law::add_voltage(Law::voltage_part(product<D::f.current.key(), P::voltage_gain.key()>(in)), offset_);
+        break;
+      case 39: limit_voltage(in); break;
+      case 44: duty_sum_ = Law::duty_sum(product<D::f.voltage.key(), P::duty_gain.key()>(in)); break;
+      case 45:
+        out_.duty = Law::template limited<D::f.duty.key()>(duty_sum_, word<P::duty_limit.key()>(in.param), &out_.limit.duty).raw();
+        break;
+      default: break;
+    }
+    out_.voltage = voltage_.raw();
+  }
+
+  const Out& out() const { return out_; }
+
+ private:
+  using CurrentSum = typename Law::CurrentSum;
+  using VoltageSum = typename Law::VoltageSum;
+  using DutySum = typename Law::DutySum;
+
+  template <int Key>
+  static Word<Key> word(std::int64_t raw) {
+    return Word<Key>::from_raw(raw);
+  }
+  /// The product on the bus as the number it is: a signal times a coefficient.
+  template <int SignalKey, int CoefficientKey>
+  static auto product(const In& in) {
+    return decltype(Word<SignalKey>{} * Word<CoefficientKey>{})::from_raw(in.product);
+  }
+
+  void limit_current(const In& in) {
+    auto current = Law::template limited<D::f.current.key()>(
+        current_sum_, word<D::f.current.key()>(in.param), &out_.limit.current);
+    if (!in.armed) {
+      current = {};
+      out_.limit.current = false;
+    }
+    out_.current_ref = out_.operand = current.raw();
+    voltage_sum_ = in.mode == Mode::voltage
+                       ? VoltageSum{}
+                       : Law::voltage_part(product<D::f.torque.key(), P::dead_voltage_slope.key()>(in));
+  }
+
+  void limit_voltage(const In& in) {
+    voltage_ = Law::template limited<D::f.voltage.key()>(
+        voltage_sum_, word<D::f.voltage.key()>(in.param), &out_.limit.voltage);
+    if (!in.armed) {
+      voltage_ = {};
+      out_.limit.voltage = false;
+    }
+    out_.operand = voltage_.raw();
+  }
+
+  typename Law::Voltage voltage_{}, dead_{};
+  CurrentSum current_sum_{}, kept_{};
+  VoltageSum voltage_sum_{}, offset_{};
+  DutySum duty_sum_{};
+  Out out_;
+};
+
+}  // namespace feltgate

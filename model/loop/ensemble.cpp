@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A core with its riders. Documentation: docs/architecture.md
+#include "loop/ensemble.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+namespace feltgate {
+
+EngineChoice choose_engines(const std::string& engine) {
+  if (engine == "all") return {"lockstep", {"double", "quad"}, false};
+  if (engine == "rtl" || engine == "twin") return {engine, {}, false};
+  if (engine == "double" || engine == "quad") return {"twin", {engine}, true};
+  throw std::invalid_argument("engine \"" + engine +
+                              "\" is unknown; choose rtl, twin, double, quad or all");
+}
+
+Ensemble::Ensemble(const std::string& design, const EngineChoice& choice, std::uint64_t seed,
+                   EncoderPins pins, const std::string& fst)
+    : choice_(choice), lead_(make_engine(design, choice.lead)) {
+  if (!fst.empty()) lead_->trace(fst, 0, -1);
+  lead_->reset(seed, pins);
+  control_ = applied_control_ = lead_->design().control_reset;
+  for (const std::string& kind : choice.riders) {
+    Rider r;
+    r.chain = make_real_chain(design, kind);
+    r.chain->reset();
+    r.figures.name = kind;
+    riders_.push_back(std::move(r));
+  }
+  for (const Rider& r : riders_) {
+    if (r.figures.name == "quad") quad_ = r.chain.get();
+  }
+  lead_figures_.compared = quad_ != nullptr && !choice.rider_drives;
+}
+
+double Ensemble::scaled(std::int64_t raw, Format f) {
+  return std::ldexp(static_cast<double>(raw), -f.fraction);
+}
+
+double Ensemble::seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void Ensemble::write(const Write& w) {
+  lead_->write(w.address, w.data);
+  pending_.push_back(w);
+}
+
+void Ensemble::set_parameter(const std::string& name, double value) {
+  const ParameterInfo* info = design().find(name);
+  if (info == nullptr) {
+    throw std::invalid_argument("parameter \"" + name + "\" is unknown; `feltgate design " +
+                                design().name + "` lists them");
+  }
+  write({info->address, static_cast<std::uint32_t>(quantise_parameter(*info, value)), value});
+}
+
+void Ensemble::set_control(int scene, int mode, bool arm) {
+  const ControlBits& bits = design().control;
+  std::uint32_t word = design().control_reset;
+  word |= 1u << bits.host;
+  if (arm) word |= 1u << bits.arm;
+  word |= static_cast<std::uint32_t>(scene) << bits.scene;
+  word |= static_cast<std::uint32_t>(mode) << bits.mode;
+  write({design().control_address, word, 0});
+}
+
+void Ensemble::command(std::uint32_t bits) { write({design().command_address, bits, 0}); }
+
+void Ensemble::ride(const Snapshot& s) {
+  // Writes that the core has carried out by now hold for the riders' tick too.
+  for (; writes_applied_ < s.writes && !pending_.empty(); ++writes_applied_) {
+    const Write w = pending_.front();
+    pending_.pop_front();
+    if (w.address == design().control_address) {
+      applied_control_ = w.data;
+    } else if (w.address != design().command_address) {
+      for (Rider& r : riders_) r.chain->set_parameter(w.address, w.value);
+    }
+  }
+  lead_figures_.saturations += (s.limits & 0x7f & ~limit_ramp) != 0 ? 1 : 0;
+  if (riders_.empty()) return;
+  const int mode = static_cast<int>((applied_control_ >> design().control.mode) & 3u);
+  const ChainIn in{s.position, s.travel, s.armed, s.scene, mode};
+  for (Rider& r : riders_) {
+    const double begin = seconds();
+    r.chain->tick(in);
+    r.figures.busy_s += seconds() - begin;
+  }
+  if (quad_ == nullptr) return;
+  const ChainOut& exact = quad_->out();
+  const double ktn = design().torque_constant_nm_a;
+  if (lead_figures_.compared) {
+    lead_figures_.velocity_rad_s.add(velocity_rad_s(s) - exact.velocity_rad_s);
+    lead_figures_.tau_hat_nm.add(torque_nm(s.tau_hat) - exact.tau_hat_nm);
+    lead_figures_.torque_nm.add(ktn * (current_a(s) - exact.current_a));
+  }
+  for (Rider& r : riders_) {
+    const ChainOut& o = r.chain->out();
+    r.figures.velocity_rad_s.add(o.velocity_rad_s - exact.velocity_rad_s);
+    r.figures.tau_hat_nm.add(o.tau_hat_nm - exact.tau_hat_nm);
+    r.figures.torque_nm.add(ktn * (o.current_a - exact.current_a));
+    r.figures.compared = true;
+  }
+}
+
+std::vector<EngineFigures> Ensemble::figures() const {
+  std::vector<EngineFigures> all;
+  if (choice_.lead == "lockstep") {
+    // Both halves showed the same outputs, or the mismatches say otherwise.
+    for (const char* half : {"rtl", "twin"}) {
+      EngineFigures f = lead_figures_;
+      f.name = half;
+      f.busy_s = lead_->busy_s(half);
+      all.push_back(f);
+    }
+  } else if (!choice_.rider_drives) {
+    EngineFigures f = lead_figures_;
+    f.name = choice_.lead;
+    f.busy_s = lead_busy_s_;
+    all.push_back(f);
+  }
+  for (const Rider& r : riders_) all.push_back(r.figures);
+  return all;
+}
+
+}  // namespace feltgate

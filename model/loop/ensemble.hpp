@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A core with its riders: queues register writes for all of them alike and collects their errors
+// against the quad reference. Used by closed loop and replay. Documentation: docs/architecture.md
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "loop/loop.hpp"
+
+namespace feltgate {
+
+class Ensemble {
+ public:
+  Ensemble(const std::string& design, const EngineChoice& choice, std::uint64_t seed,
+           EncoderPins pins, const std::string& fst);
+
+  Engine& lead() { return *lead_; }
+  const DesignInfo& design() const { return lead_->design(); }
+
+  /// A parameter in its unit, for every engine; takes effect with the same tick in all.
+  /// Throws std::invalid_argument for an unknown name or a value that does not fit.
+  void set_parameter(const std::string& name, double value);
+  void set_control(int scene, int mode, bool arm);
+  void command(std::uint32_t bits);
+  void set_panel(const Panel& panel) { lead_->set_panel(panel); }
+
+  /// Runs the core, then the riders on each new snapshot; `each` sees every snapshot.
+  template <class Each>
+  void advance(Clock clocks, const EncoderEvent* first, const EncoderEvent* last, Each&& each) {
+    const double begin = seconds();
+    lead_->advance(clocks, first, last);
+    lead_busy_s_ += seconds() - begin;
+    for (const Snapshot& s : lead_->snapshots()) {
+      ride(s);
+      each(s);
+    }
+  }
+
+  /// The rider that serves as reference, or none.
+  const RealChain* quad() const { return quad_; }
+  const RealChain* rider(std::size_t i) const { return riders_[i].chain.get(); }
+  std::size_t rider_count() const { return riders_.size(); }
+
+  double velocity_rad_s(const Snapshot& s) const { return scaled(s.velocity, design().velocity); }
+  double torque_nm(std::int64_t raw) const { return scaled(raw, design().torque); }
+  double current_a(const Snapshot& s) const { return scaled(s.current_ref, design().current); }
+  double voltage_v(const Snapshot& s) const { return scaled(s.voltage, design().voltage); }
+
+  /// Error and speed figures of all engines, steps left empty.
+  std::vector<EngineFigures> figures() const;
+
+ private:
+  struct Write {
+    int address = 0;
+    std::uint32_t data = 0;
+    double value = 0;
+  };
+  struct Rider {
+    std::unique_ptr<RealChain> chain;
+    EngineFigures figures;
+  };
+
+  static double scaled(std::int64_t raw, Format f);
+  static double seconds();
+  void write(const Write& w);
+  void ride(const Snapshot& s);
+
+  EngineChoice choice_;
+  std::unique_ptr<Engine> lead_;
+  std::vector<Rider> riders_;
+  const RealChain* quad_ = nullptr;
+  std::deque<Write> pending_;
+  std::uint32_t control_ = 0, applied_control_ = 0;
+  std::int64_t writes_applied_ = 0;
+  EngineFigures lead_figures_;
+  double lead_busy_s_ = 0;
+};
+
+}  // namespace feltgate

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Figures of a run: errors against the quad reference, step responses, extremes.
+// Documentation: docs/json.md
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace feltgate {
+
+/// Largest and root-mean-square difference of a signal from its reference.
+class ErrorFigure {
+ public:
+  void add(double error) {
+    const double magnitude = std::abs(error);
+    if (magnitude > max_) max_ = magnitude;
+    sum_of_squares_ += error * error;
+    ++count_;
+  }
+  double max() const { return max_; }
+  double rms() const {
+    return count_ == 0 ? 0.0 : std::sqrt(sum_of_squares_ / static_cast<double>(count_));
+  }
+  std::int64_t count() const { return count_; }
+
+ private:
+  double max_ = 0, sum_of_squares_ = 0;
+  std::int64_t count_ = 0;
+};
+
+/// One torque step.
+struct StepResponse {
+  double tau_ref_nm = 0;
+  double settling_ms = 0;      ///< from the step to the last sample outside 2 % of the final value
+  double overshoot_pct = 0;    ///< beyond the final value, of the step
+  double final_value_nm = 0;   ///< mean of the last tenth
+  double final_error_pct = 0;  ///< final value against the reference
+  double ripple_nm = 0;        ///< rms around the final value in the last tenth
+};
+
+/// Step response of `samples`, `sample_s` apart, the first one at the step; `before_nm` is the value
+/// the signal had before the step. Settling is measured on the 2 % band of the final value.
+StepResponse step_response(const std::vector<double>& samples, double sample_s, double before_nm,
+                           double tau_ref_nm);
+
+}  // namespace feltgate

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Closed loop: one core, one plant, one clock; real-arithmetic chains ride along on the core's
+// sampled counts. Documentation: docs/architecture.md
+#pragma once
+
+#include <functional>
+#include <iosfwd>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "engines/engine.hpp"
+#include "loop/figures.hpp"
+#include "loop/scenario.hpp"
+#include "reference/real_chain.hpp"
+
+namespace feltgate {
+
+struct StepFigures {
+  double tau_ref_nm = 0;
+  StepResponse tau_hat;  ///< of the observed torque
+  StepResponse torque;   ///< of the motor torque, averaged over each PWM period
+};
+
+/// What is known of one engine after a run.
+struct EngineFigures {
+  std::string name;
+  bool compared = false;  ///< the error figures below were taken against the quad reference
+  ErrorFigure velocity_rad_s, tau_hat_nm, torque_nm;
+  std::vector<StepFigures> steps;
+  std::int64_t saturations = 0;  ///< ticks in which a limit held
+  double busy_s = 0;             ///< time spent in the engine
+};
+
+struct PositionFigures {
+  std::int64_t steps = 0, illegal = 0, reversals = 0;
+};
+
+struct RunResult {
+  std::string design, subject;  ///< subject: scene or trace
+  Clock clocks = 0;
+  std::int64_t ticks = 0;
+  std::int64_t mismatches = 0;
+  std::string first_mismatch;
+  bool lock_step = false;
+  PositionFigures position;
+  std::vector<EngineFigures> engines;
+  std::map<std::string, double> figures;  ///< what scene files put bounds on
+  std::vector<std::string> broken;        ///< expectations that do not hold, one line each
+  double simulated_s = 0;
+};
+
+/// One row per tick, for CSV and pictures.
+struct Row {
+  double time_s = 0, theta_rad = 0, omega_rad_s = 0, motor_torque_nm = 0, hand_torque_nm = 0;
+  double position_rad = 0, velocity_rad_s = 0, tau_ref_nm = 0, tau_hat_nm = 0, current_a = 0,
+         voltage_v = 0, duty = 0;
+  double quad_velocity_rad_s = 0, quad_tau_hat_nm = 0, quad_current_a = 0;
+  int limits = 0, faults = 0;
+};
+
+struct RunOptions {
+  std::string design = "lever";
+  std::string engine = "all";  ///< rtl, twin, double, quad or all
+  std::uint64_t seed = 1;
+  std::string fst;             ///< waveform of the whole run; empty: none
+  std::function<void(const Row&)> row;              ///< called once per tick; may be empty
+  std::function<void(double done)> progress;        ///< called now and then with 0..1; may be empty
+};
+
+/// Runs a scene. Throws std::invalid_argument for a scene, parameter or engine that the design has not.
+RunResult run_scenario(const Scenario& scenario, const plant::Parameters& plant,
+                       const RunOptions& options);
+
+/// Engines that an --engine choice starts: the lead ("rtl", "twin" or "lockstep") and the riders.
+struct EngineChoice {
+  std::string lead;
+  std::vector<std::string> riders;
+  bool rider_drives = false;  ///< the rider's duty drives the motor instead of the lead's
+};
+EngineChoice choose_engines(const std::string& engine);
+
+}  // namespace feltgate

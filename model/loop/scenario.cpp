@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Reader of scene files. Documentation: docs/scenes.md
+#include "loop/scenario.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "plant/hand_file.hpp"
+#include "plant/plant_file.hpp"
+#include "plant/toml_reader.hpp"
+
+namespace feltgate {
+
+namespace {
+
+using plant::kAnyNumber;
+using plant::kNotNegative;
+using plant::kPositive;
+using plant::TomlReader;
+
+const std::vector<std::string> kModes{"closed_loop", "open_loop", "voltage"};
+
+std::map<std::string, double> read_values(const toml::table& table, TomlReader reader) {
+  std::map<std::string, double> values;
+  for (const auto& [key, node] : table) {
+    (void)node;
+    const std::string name(key.str());
+    values[name] = reader.number(name, kAnyNumber);
+  }
+  return values;
+}
+
+Event read_event(TomlReader r, const toml::table& table) {
+  Event e;
+  e.at_s = r.number("at_s", kNotNegative);
+  if (r.has("scene")) e.scene = r.text("scene");
+  if (r.has("mode")) e.mode = static_cast<int>(r.choice("mode", kModes));
+  if (r.has("arm")) e.arm = r.flag("arm");
+  if (r.has("stop")) e.stop = r.flag("stop");
+  if (r.has("set")) {
+    TomlReader set = r.section("set");
+    e.set = read_values(*table["set"].as_table(), set);
+  }
+  if (r.has("step_nm")) e.step_nm = r.number("step_nm", kAnyNumber);
+  r.finish();
+  return e;
+}
+
+Expectation read_expectation(TomlReader r, const toml::table& table) {
+  Expectation x;
+  x.figure = r.text("figure");
+  x.line = static_cast<int>(table.source().begin.line);
+  if (r.has("design")) x.design = r.text("design");
+  x.low = r.number_or("low", -1e300, kAnyNumber);
+  x.high = r.number_or("high", 1e300, kAnyNumber);
+  if (!r.has("low") && !r.has("high")) {
+    r.fail("figure", "an expectation needs a bound", "give low, high or both");
+  }
+  r.finish();
+  return x;
+}
+
+}  // namespace
+
+Scenario read_scenario(const std::string& path) {
+  const toml::table root = plant::parse_toml_file(path);
+  TomlReader top(root, path, "the scene");
+  Scenario s;
+  s.path = path;
+  s.name = std::filesystem::path(path).stem().string();
+  s.title = top.text("title");
+  s.about = top.text("about");
+  s.duration_s = top.number("duration_s", {1e-5, 1e5});
+  s.plant = top.has("plant") ? top.text("plant") : "p24";
+  s.step_clocks = top.has("step_clocks") ? static_cast<int>(top.integer("step_clocks", 1, 250)) : 25;
+  if (top.has("bridge")) s.switched = top.choice("bridge", {"averaged", "switched"}) == 1;
+  {
+    TomlReader core = top.section("core");
+    s.scene = core.text("scene");
+    if (core.has("mode")) s.mode = static_cast<int>(core.choice("mode", kModes));
+    s.arm_s = core.number_or("arm_s", 0.0, kNotNegative);
+    core.finish();
+  }
+  if (top.has("parameters")) {
+    s.parameters = read_values(*root["parameters"].as_table(), top.section("parameters"));
+  }
+  const auto events = top.sections("event");
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    s.events.push_back(read_event(events[i], *root["event"].as_array()->get(i)->as_table()));
+  }
+  std::stable_sort(s.events.begin(), s.events.end(),
+                   [](const Event& a, const Event& b) { return a.at_s < b.at_s; });
+  if (top.has("effects")) {
+    s.effects = plant::read_effects(top.section("effects"), plant::Effects{});
+  }
+  if (top.has("hand")) s.hand = plant::read_hand(top.section("hand"));
+  const auto expectations = top.sections("expect");
+  for (std::size_t i = 0; i < expectations.size(); ++i) {
+    s.expectations.push_back(
+        read_expectation(expectations[i], *root["expect"].as_array()->get(i)->as_table()));
+  }
+  top.finish();
+  return s;
+}
+
+}  // namespace feltgate

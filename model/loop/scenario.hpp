@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A scene file: what the core renders, what the hand does, which effects of the plant matter, how
+// long it lasts and what must come out. Documentation: docs/scenes.md
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plant/hand.hpp"
+#include "plant/parameters.hpp"
+
+namespace feltgate {
+
+/// Something that happens at a time: the host changes scene, mode or parameters, or a pin moves.
+struct Event {
+  double at_s = 0;
+  std::optional<std::string> scene;
+  std::optional<int> mode;
+  std::optional<bool> arm;
+  std::optional<bool> stop;
+  std::map<std::string, double> set;  ///< parameters in their units
+  std::optional<double> step_nm;      ///< a torque step to this reference begins here
+};
+
+/// A bound on one figure of the run.
+struct Expectation {
+  std::string figure;
+  std::optional<std::string> design;  ///< only when run on this design
+  double low = 0, high = 0;
+  int line = 0;
+};
+
+struct Scenario {
+  std::string name, path, title, about;
+  double duration_s = 0;
+  std::string plant;            ///< name of the plant file
+  int step_clocks = 25;         ///< plant step
+  bool switched = false;        ///< gates drive the plant instead of the mean duty
+  std::string scene = "free";
+  int mode = 0;
+  double arm_s = 0;
+  std::map<std::string, double> parameters;  ///< set before arming, in their units
+  std::vector<Event> events;                 ///< in order of time
+  plant::Effects effects;
+  plant::Hand hand;
+  std::vector<Expectation> expectations;
+};
+
+/// Reads vectors/scenes/NAME.toml. `effects` are the defaults of the plant that will be used.
+/// Throws plant::ConfigError: "file:line: what; mend".
+Scenario read_scenario(const std::string& path);
+
+}  // namespace feltgate

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The H-bridge between supply and motor: from duty or gate signals to the voltage at the terminals,
+// with free-wheeling diodes and dead time. Documentation: docs/plant.md
+#pragma once
+
+#include "plant/parameters.hpp"
+
+namespace feltgate::plant {
+
+/// What the bridge does during one step.
+struct Bridge {
+  enum class Mode {
+    kOff,       ///< no gate on: the current decays through the diodes into the supply
+    kAveraged,  ///< mean over PWM periods, dead time included by its mean effect
+    kSwitched,  ///< gate signals
+  };
+  Mode mode = Mode::kOff;
+  double duty = 0.0;  ///< averaged: commanded duty in [-1, 1], before dead time
+  /// Switched: fraction of the step each gate is on, in [0, 1]; a_hi + a_lo <= 1, b likewise.
+  double a_hi = 0.0;
+  double a_lo = 0.0;
+  double b_hi = 0.0;
+  double b_lo = 0.0;
+
+  static Bridge off() { return {}; }
+  /// `enabled` false is off() whatever the duty.
+  static Bridge averaged(double duty, bool enabled = true);
+  static Bridge gates(double a_hi, double a_lo, double b_hi, double b_lo);
+  /// Both gates of a leg are on for more than the whole step: a short circuit, not simulated.
+  bool shoots_through() const { return a_hi + a_lo > kWhole || b_hi + b_lo > kWhole; }
+
+ private:
+  static constexpr double kWhole = 1.0 + 1e-9;
+};
+
+/// What the averaged mode must know of the drive electronics.
+struct Drive {
+  enum class Switching {
+    kSignMagnitude,    ///< one leg switches, the other holds its low side on
+    kLockedAntiphase,  ///< both legs switch against each other
+  };
+  double clock_hz = 50e6;
+  double pwm_hz = 20e3;
+  double dead_time_s = 0.5e-6;  ///< turn-on of each gate comes this much late, turn-off does not
+  Switching switching = Switching::kSignMagnitude;
+};
+
+/// Terminal voltage as a function of the direction of the current i:
+/// i > 0: share_positive*bus - diode_v; i < 0: share_negative*bus + diode_v. The same share of the
+/// motor current is drawn from the supply.
+struct BridgeVoltage {
+  double share_positive = 0.0;
+  double share_negative = 0.0;
+  double diode_v = 0.0;
+  double at_positive_v(double bus_v) const { return share_positive * bus_v - diode_v; }
+  double at_negative_v(double bus_v) const { return share_negative * bus_v + diode_v; }
+};
+
+class BridgeModel {
+ public:
+  /// Errors: std::invalid_argument when the dead time takes half a PWM period or more.
+  BridgeModel(const Drive& drive, const SupplyParameters& supply, const MotorParameters& motor,
+              const Effects& effects);
+
+  /// `current_a` at the start of the step decides how much of the dead time is felt.
+  BridgeVoltage voltage(const Bridge& bridge, double bus_v, double current_a) const;
+
+ private:
+  double dead_share(double on_share, double against_share) const;
+  double felt(double duty, double bus_v, double current_a) const;
+  BridgeVoltage averaged(double duty, double bus_v, double current_a) const;
+
+  double diode_v_;
+  bool dead_time_;
+  bool hard_;             ///< no inductance, hence no ripple that would soften the dead time
+  double dead_fraction_;  ///< dead time over PWM period
+  double ripple_a_v_;     ///< half peak-to-peak ripple per volt of bus and unit of D*(1-D)
+  bool antiphase_;
+};
+
+}  // namespace feltgate::plant

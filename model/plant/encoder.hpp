@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Incremental encoder: from the angle to changes of the pins A, B and Z, each with the clock at
+// which it is first seen. Documentation: docs/plant.md
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "feltgate/encoder_source.hpp"
+#include "plant/parameters.hpp"
+
+namespace feltgate::plant {
+
+class Encoder {
+ public:
+  /// With `imperfect` false offsets and jitter are left out.
+  Encoder(const EncoderParameters& parameters, bool imperfect, double start_rad);
+
+  /// The angle goes linearly to `theta_rad` in the `clocks` after `begin`. Events are appended with
+  /// clocks in (begin, begin + clocks], strictly increasing; what falls on one clock is one event.
+  void advance(double theta_rad, Clock begin, Clock clocks, std::vector<EncoderEvent>& events) {
+    if (theta_rad >= low_rad_ && theta_rad < high_rad_) {
+      theta_rad_ = theta_rad;
+      return;
+    }
+    cross(theta_rad, begin, clocks, events);
+  }
+
+  EncoderPins pins() const { return pins_of(count_); }
+  /// Ideal position, counts: 0 while the angle is in [0, one count).
+  std::int64_t count() const { return count_; }
+  /// Angle of the edge between counts `edge` - 1 and `edge`, rad; both directions share it.
+  double edge_rad(std::int64_t edge) const;
+  std::uint64_t offset_edges() const { return offset_edges_; }
+
+ private:
+  void cross(double theta_rad, Clock begin, Clock clocks, std::vector<EncoderEvent>& events);
+  void settle();
+  EncoderPins pins_of(std::int64_t count) const;
+
+  std::int64_t counts_per_rev_;
+  double count_rad_;
+  std::vector<double> offset_counts_;  ///< empty when ideal
+  mutable std::uint64_t offset_edges_ = 0;
+  double theta_rad_;
+  std::int64_t count_ = 0;
+  double low_rad_ = 0.0;  ///< edges around the present count
+  double high_rad_ = 0.0;
+};
+
+}  // namespace feltgate::plant

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Reads the [hand] table of a scene. Documentation: docs/plant.md
+#include "plant/hand_file.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <utility>
+
+namespace feltgate::plant {
+namespace {
+
+using Kind = HandPhase::Kind;
+
+constexpr Range kPhase{-7.0, 7.0};
+constexpr Range kFrequency{1e-6, 1e5};
+
+// `unit` is the suffix of the keys: rad or nm.
+Segment read_segment(TomlReader table, const std::string& unit, bool steps_allowed) {
+  Segment segment;
+  segment.kind = static_cast<Segment::Kind>(
+      table.choice("kind", {"hold", "step", "ramp", "minimum_jerk", "sine"}));
+  if (segment.kind == Segment::Kind::kStep && !steps_allowed) {
+    table.fail("kind", "an imposed angle cannot step", "use ramp or minimum_jerk");
+  }
+  segment.duration_s = table.number("duration_s", kPositive);
+  if (segment.kind == Segment::Kind::kSine) {
+    segment.amplitude = table.number("amplitude_" + unit, kAnyNumber);
+    segment.frequency_hz = table.number("frequency_hz", kFrequency);
+    segment.phase_rad = table.number_or("phase_rad", 0.0, kPhase);
+  } else if (segment.kind != Segment::Kind::kHold) {
+    segment.to = table.number("to_" + unit, kAnyNumber);
+  }
+  table.finish();
+  return segment;
+}
+
+Profile read_profile(TomlReader& table, const std::string& key, const std::string& unit,
+                     bool steps_allowed) {
+  Profile profile;
+  for (TomlReader& segment : table.sections(key)) {
+    profile.push_back(read_segment(std::move(segment), unit, steps_allowed));
+  }
+  if (profile.empty()) {
+    table.fail(key, "\"" + key + "\" is missing or empty",
+               "write " + key + " = [{kind = \"hold\", duration_s = 1.0}, ...]");
+  }
+  return profile;
+}
+
+std::string beside(const std::string& file, const std::string& name) {
+  const auto slash = file.find_last_of('/');
+  if (slash == std::string::npos || (!name.empty() && name[0] == '/')) return name;
+  return file.substr(0, slash + 1) + name;
+}
+
+void check_trace(const TomlReader& table, const std::string& key, const Trace& trace) {
+  if (trace.time_s.size() != trace.theta_rad.size() || trace.time_s.size() < 2) {
+    table.fail(key,
+               "the trace holds " + std::to_string(trace.time_s.size()) + " times and " +
+                   std::to_string(trace.theta_rad.size()) + " angles",
+               "give as many times as angles, two at least");
+  }
+  for (std::size_t i = 1; i < trace.time_s.size(); ++i) {
+    if (trace.time_s[i] > trace.time_s[i - 1]) continue;
+    table.fail(key, "time does not increase at sample " + std::to_string(i),
+               "sort the samples and drop repeated times");
+  }
+}
+
+Trace read_trace(TomlReader& table) {
+  Trace trace;
+  if (table.has("file")) {
+    trace = read_trace_file(beside(table.file(), table.text("file")));
+    check_trace(table, "file", trace);
+  } else {
+    trace.time_s = table.numbers("time_s", kNotNegative);
+    trace.theta_rad = table.numbers("theta_rad", kAnyNumber);
+    check_trace(table, "time_s", trace);
+  }
+  return trace;
+}
+
+Impedance read_impedance(TomlReader& table) {
+  Impedance i;
+  i.mass_kg = table.number_or("mass_kg", i.mass_kg, kPositive);
+  i.damping_ns_m = table.number_or("damping_ns_m", i.damping_ns_m, kNotNegative);
+  i.stiffness_n_m = table.number_or("stiffness_n_m", i.stiffness_n_m, kNotNegative);
+  i.grip_stiffness_n_m = table.number_or("grip_stiffness_n_m", i.grip_stiffness_n_m, kNotNegative);
+  i.grip_damping_ns_m = table.number_or("grip_damping_ns_m", i.grip_damping_ns_m, kNotNegative);
+  return i;
+}
+
+Cord read_cord(TomlReader& table) {
+  Cord cord;
+  cord.stiffness_nm_rad = table.number_or("stiffness_nm_rad", cord.stiffness_nm_rad, kNotNegative);
+  cord.damping_nm_s_rad = table.number_or("damping_nm_s_rad", cord.damping_nm_s_rad, kNotNegative);
+  return cord;
+}
+
+HandPhase read_phase(TomlReader table, bool last) {
+  HandPhase phase;
+  phase.kind = static_cast<Kind>(table.choice(
+      "kind", {"free", "locked", "prescribed", "trace", "impedance", "cord", "torque"}));
+  double natural_s = 0.0;
+  if (phase.kind == Kind::kPrescribed || phase.kind == Kind::kImpedance) {
+    phase.profile = read_profile(table, "motion", "rad", phase.kind == Kind::kImpedance);
+    natural_s = duration_s(phase.profile);
+  } else if (phase.kind == Kind::kTorque) {
+    phase.profile = read_profile(table, "torque", "nm", true);
+    natural_s = duration_s(phase.profile);
+  } else if (phase.kind == Kind::kTrace) {
+    phase.trace = read_trace(table);
+    natural_s = phase.trace.time_s.back();
+  }
+  if (phase.kind == Kind::kImpedance) phase.impedance = read_impedance(table);
+  if (phase.kind == Kind::kCord) phase.cord = read_cord(table);
+  if (table.has("duration_s")) {
+    phase.duration_s = table.number("duration_s", kPositive);
+  } else if (!last) {
+    if (natural_s <= 0.0) phase.duration_s = table.number("duration_s", kPositive);
+    phase.duration_s = natural_s;
+  }
+  table.finish();
+  return phase;
+}
+
+}  // namespace
+
+double Hand::initial_rad() const {
+  if (start_rad) return *start_rad;
+  if (phases.empty() || phases.front().kind != Kind::kTrace) return 0.0;
+  return phases.front().trace.theta_rad.empty() ? 0.0 : phases.front().trace.theta_rad.front();
+}
+
+Trace read_trace_file(const std::string& path) {
+  std::ifstream in(path);
+  std::string line;
+  if (!in || !std::getline(in, line)) {
+    throw ConfigError(path + ":0: cannot be read or is empty; give the path of a CSV file");
+  }
+  if (!line.empty() && line.back() == '\r') line.pop_back();
+  if (line != "time_s,theta_rad") {
+    throw ConfigError(path + ":1: unknown header; it must be \"time_s,theta_rad\"");
+  }
+  Trace trace;
+  for (int number = 2; std::getline(in, line); ++number) {
+    const std::string place = path + ":" + std::to_string(number) + ": ";
+    try {
+      std::size_t end = 0;
+      const double time_s = std::stod(line, &end);
+      if (end >= line.size() || line[end] != ',') throw ConfigError("no comma");
+      const std::string second = line.substr(end + 1);
+      const double theta_rad = std::stod(second, &end);
+      if (end < second.size() && second[end] != '\r') throw ConfigError("more than two columns");
+      if (!std::isfinite(time_s) || !std::isfinite(theta_rad)) throw ConfigError("not finite");
+      trace.time_s.push_back(time_s);
+      trace.theta_rad.push_back(theta_rad);
+    } catch (const std::exception&) {
+      throw ConfigError(place + "not two finite numbers; write \"seconds,radians\"");
+    }
+  }
+  return trace;
+}
+
+Hand read_hand(TomlReader table) {
+  Hand hand;
+  if (table.has("start_rad")) hand.start_rad = table.number("start_rad", kAnyNumber);
+  if (table.has("radius_m")) hand.radius_m = table.number("radius_m", kPositive);
+  auto phases = table.sections("phase");
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    hand.phases.push_back(read_phase(std::move(phases[i]), i + 1 == phases.size()));
+  }
+  if (hand.start_rad && !hand.phases.empty() && hand.phases.front().kind == Kind::kTrace &&
+      *hand.start_rad != hand.phases.front().trace.theta_rad.front()) {
+    table.fail("start_rad", "\"start_rad\" is not the first angle of the leading trace",
+               "remove it");
+  }
+  table.finish();
+  return hand;
+}
+
+}  // namespace feltgate::plant

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Carries out the phases of a Hand. Documentation: docs/plant.md
+#include "plant/hand_run.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace feltgate::plant {
+
+using Kind = HandPhase::Kind;
+
+HandRun::HandRun(Hand hand, double radius_m, double clock_hz)
+    : hand_(std::move(hand)), radius_m_(radius_m), clock_hz_(clock_hz) {
+  if (hand_.phases.empty()) hand_.phases.emplace_back();
+}
+
+Clock HandRun::end_of(std::size_t index) const {
+  return phase_begin_ + std::llround(hand_.phases[index].duration_s * clock_hz_);
+}
+
+void HandRun::begin_phase(const Shaft& lever) {
+  const HandPhase& phase = hand_.phases[index_];
+  const bool goes_on = started_ && kind_ == Kind::kImpedance && phase.kind == Kind::kImpedance;
+  kind_ = phase.kind;
+  started_ = true;
+  // A last phase lasts for good, whatever its duration says.
+  last_ = index_ + 1 == hand_.phases.size() || std::isinf(phase.duration_s);
+  if (!last_) phase_end_ = end_of(index_);
+  anchor_rad_ = lever.theta_rad;
+  target_ = {lever.theta_rad, 0.0};
+  applied_nm_ = 0.0;
+  switch (kind_) {
+    case Kind::kPrescribed:
+      profile_ = ProfileRun(phase.profile, lever.theta_rad);
+      break;
+    case Kind::kTorque:
+      profile_ = ProfileRun(phase.profile, 0.0);
+      break;
+    case Kind::kTrace:
+      trace_ = TraceRun(phase.trace);
+      shift_rad_ =
+          phase.trace.theta_rad.empty() ? 0.0 : lever.theta_rad - phase.trace.theta_rad.front();
+      break;
+    case Kind::kImpedance: {
+      const Impedance& i = phase.impedance;
+      const double r2 = radius_m_ * radius_m_;
+      profile_ = ProfileRun(phase.profile, goes_on ? dynamics_.equilibrium_rad : lever.theta_rad);
+      if (!goes_on) mass_ = lever;
+      dynamics_ = {1.0 / (i.mass_kg * r2),
+                   i.damping_ns_m * r2,
+                   i.stiffness_n_m * r2,
+                   i.grip_damping_ns_m * r2,
+                   i.grip_stiffness_n_m * r2,
+                   0.0,
+                   0.0};
+      break;
+    }
+    case Kind::kFree:
+    case Kind::kLocked:
+    case Kind::kCord:
+      break;
+  }
+}
+
+void HandRun::begin_step(Clock now, double dt_s, const Shaft& lever) {
+  if (!started_) begin_phase(lever);
+  while (!last_ && now >= phase_end_) {
+    phase_begin_ = phase_end_;
+    ++index_;
+    begin_phase(lever);
+  }
+  if (kind_ == Kind::kFree || kind_ == Kind::kLocked || kind_ == Kind::kCord) return;
+  const double begin_s = static_cast<double>(now - phase_begin_) / clock_hz_;
+  if (kind_ == Kind::kPrescribed) {
+    const ProfileSample end = profile_.at(begin_s + dt_s);
+    target_ = {end.value, end.rate};
+  } else if (kind_ == Kind::kTrace) {
+    const ProfileSample end = trace_.at(begin_s + dt_s);
+    target_ = {end.value + shift_rad_, end.rate};
+  } else {
+    const ProfileSample middle = profile_.at(begin_s + 0.5 * dt_s);
+    applied_nm_ = middle.value;
+    dynamics_.equilibrium_rad = middle.value;
+    dynamics_.equilibrium_rad_s = middle.rate;
+  }
+}
+
+ShaftTorque HandRun::torque() const {
+  if (kind_ == Kind::kTorque) return {applied_nm_, 0.0, 0.0};
+  if (kind_ != Kind::kCord) return {};
+  const Cord& cord = hand_.phases[index_].cord;
+  return {cord.stiffness_nm_rad * anchor_rad_, -cord.damping_nm_s_rad, -cord.stiffness_nm_rad};
+}
+
+double HandRun::torque_nm(const Shaft& lever) const {
+  if (has_mass()) return dynamics_.grip_nm(lever, mass_);
+  const ShaftTorque t = torque();
+  return t.constant_nm + t.omega_nm_s_rad * lever.omega_rad_s + t.theta_nm_rad * lever.theta_rad;
+}
+
+}  // namespace feltgate::plant

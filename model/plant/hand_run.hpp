@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Carries out the phases of a Hand, step by step on the integer clock. Documentation: docs/plant.md
+#pragma once
+
+#include <cstddef>
+
+#include "feltgate/encoder_source.hpp"
+#include "plant/hand.hpp"
+#include "plant/mechanics.hpp"
+
+namespace feltgate::plant {
+
+class HandRun {
+ public:
+  HandRun(Hand hand, double radius_m, double clock_hz);
+
+  /// Prepares the step of dt_s from clock `now` with the lever at `lever`. A phase begins with the
+  /// first step at or after its time; profiles run from the time itself, so nothing drifts.
+  void begin_step(Clock now, double dt_s, const Shaft& lever);
+
+  HandPhase::Kind kind() const { return kind_; }
+  /// The lever is where the hand puts it: target() at the end of the step.
+  bool imposes() const {
+    return kind_ == HandPhase::Kind::kLocked || kind_ == HandPhase::Kind::kPrescribed ||
+           kind_ == HandPhase::Kind::kTrace;
+  }
+  bool has_mass() const { return kind_ == HandPhase::Kind::kImpedance; }
+  const Shaft& target() const { return target_; }
+
+  /// Torque of cord or torque profile over the step, for the mechanics.
+  ShaftTorque torque() const;
+  /// The same at one state of the lever (for impedance: through the grip), Nm.
+  double torque_nm(const Shaft& lever) const;
+  const HandDynamics& dynamics() const { return dynamics_; }
+  /// State of the hand's own mass, in angles of the lever.
+  Shaft& mass() { return mass_; }
+  const Shaft& mass() const { return mass_; }
+
+ private:
+  void begin_phase(const Shaft& lever);
+  Clock end_of(std::size_t index) const;
+
+  Hand hand_;
+  double radius_m_;
+  double clock_hz_;
+  std::size_t index_ = 0;
+  bool started_ = false;
+  Clock phase_begin_ = 0;
+  Clock phase_end_ = 0;
+  bool last_ = true;
+  HandPhase::Kind kind_ = HandPhase::Kind::kFree;
+  ProfileRun profile_;
+  TraceRun trace_;
+  double shift_rad_ = 0.0;
+  double anchor_rad_ = 0.0;
+  double applied_nm_ = 0.0;
+  Shaft target_;
+  Shaft mass_;
+  HandDynamics dynamics_;
+};
+
+}  // namespace feltgate::plant

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Constants of the motor, lever, friction, encoder and supply, in SI units, and the list of effects
+// that a scene switches on. Documentation: docs/plant.md
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace feltgate::plant {
+
+struct MotorParameters {
+  double torque_constant_nm_a = 0.0;
+  double back_emf_constant_v_s_rad = 0.0;
+  double resistance_ohm = 0.0;  ///< everything in series: winding, wiring, driver
+  double inductance_h = 0.0;
+  double dead_voltage_v = 0.0;  ///< brush drop, opposes the current
+};
+
+struct LeverParameters {
+  double inertia_kg_m2 = 0.0;  ///< rotor and lever
+  double viscous_nm_s_rad = 0.0;
+  double radius_m = 0.0;  ///< where the hand holds the lever
+};
+
+/// LuGre friction: g(w) = coulomb + (static - coulomb)*exp(-(w/stribeck)^2).
+struct LugreParameters {
+  double stiffness_nm_rad = 0.0;  ///< sigma0
+  double damping_nm_s_rad = 0.0;  ///< sigma1
+  double viscous_nm_s_rad = 0.0;  ///< sigma2
+  double coulomb_nm = 0.0;
+  double static_nm = 0.0;
+  double stribeck_rad_s = 0.0;
+};
+
+struct SupplyParameters {
+  double voltage_v = 0.0;
+  double current_limit_a = 0.0;
+  double bus_capacitance_f = 0.0;
+  double diode_drop_v = 0.0;  ///< of each free-wheeling diode of the bridge
+};
+
+struct EncoderParameters {
+  int lines = 0;                                  ///< 4*lines counts per revolution
+  std::array<double, 4> edge_offset_counts = {};  ///< of the edges 4k, 4k+1, 4k+2, 4k+3
+  double line_jitter_counts_rms = 0.0;            ///< one draw per line, shared by its edges
+  std::uint64_t seed = 0;
+};
+
+/// What is computed. An effect that is off is neither evaluated nor part of the state vector.
+struct Effects {
+  bool inductance = true;  ///< off: current follows voltage at once
+  bool back_emf = true;
+  bool dead_voltage = true;
+  bool lugre = true;
+  bool viscous = false;       ///< LeverParameters::viscous_nm_s_rad
+  bool supply_limit = false;  ///< current limit of the source, bus voltage as a state
+  bool dead_time = true;      ///< what dead time takes away in averaged mode
+  bool encoder_imperfect = false;
+};
+
+struct Parameters {
+  std::string name;
+  MotorParameters motor;
+  LeverParameters lever;
+  LugreParameters lugre;
+  SupplyParameters supply;
+  EncoderParameters encoder;
+  Effects effects;  ///< defaults of the file; a scene may override each
+};
+
+/// How often each effect was evaluated, for tests ("off costs nothing").
+struct Evaluations {
+  std::uint64_t inductance = 0;
+  std::uint64_t back_emf = 0;
+  std::uint64_t dead_voltage = 0;
+  std::uint64_t lugre = 0;
+  std::uint64_t viscous = 0;
+  std::uint64_t supply_limit = 0;
+  std::uint64_t dead_time = 0;
+  std::uint64_t encoder_imperfect = 0;  ///< edges placed with an offset
+  std::uint64_t hand = 0;
+};
+
+}  // namespace feltgate::plant

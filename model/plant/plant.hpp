@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Motor, lever, friction, encoder, supply and hand behind the H-bridge: closes the loop in
+// simulation. Equations, step and convergence: docs/plant.md
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "feltgate/encoder_source.hpp"
+#include "plant/bridge.hpp"
+#include "plant/encoder.hpp"
+#include "plant/hand_run.hpp"
+#include "plant/lugre.hpp"
+#include "plant/mechanics.hpp"
+#include "plant/parameters.hpp"
+#include "plant/supply.hpp"
+#include "plant/winding.hpp"
+
+namespace feltgate::plant {
+
+/// What can be seen of the plant, at the end of the last step unless it says mean.
+struct Observables {
+  double theta_rad = 0.0;
+  double omega_rad_s = 0.0;
+  double motor_current_a = 0.0;
+  double motor_current_mean_a = 0.0;  ///< over the last step
+  double motor_torque_nm = 0.0;       ///< Kt*i, on the lever, before friction
+  double motor_torque_mean_nm = 0.0;  ///< over the last step; feed PeriodMean with it
+  double friction_nm = 0.0;           ///< mean of the last step, opposes positive omega
+  double hand_torque_nm = 0.0;        ///< of the hand on the lever; mean where the hand imposes
+  double hand_force_n = 0.0;          ///< hand torque over the radius of the hand
+  double supply_current_a = 0.0;      ///< mean of the last step
+  double bus_v = 0.0;
+  bool shoot_through = false;  ///< both gates of a leg were on at once, ever
+};
+
+struct StateValue {
+  std::string name;  ///< with its unit
+  double value;
+};
+
+class Plant {
+ public:
+  /// `hand` decides the angle at clock 0; the lever starts at rest, without current.
+  /// Errors: std::invalid_argument for a drive that cannot be (see BridgeModel).
+  Plant(const Parameters& parameters, const Effects& effects, const Drive& drive, const Hand& hand);
+
+  /// Advances by `clocks` >= 1 FPGA clocks with the bridge as given. Steps of one length are
+  /// fastest; recommended 25 clocks (0.5 us), at most 250 (5 us).
+  void advance(const Bridge& bridge, Clock clocks);
+
+  /// Time since the start, in clocks. Seconds come from it alone.
+  Clock now() const { return now_; }
+  /// Pin changes during the last step; valid until the next advance().
+  const std::vector<EncoderEvent>& events() const { return events_; }
+  const Encoder& encoder() const { return encoder_; }
+  const Observables& observables() const { return seen_; }
+
+  /// Number of continuous states that the effects switched on and the hand of now need.
+  std::size_t state_size() const;
+  /// These states with their names, in a fixed order.
+  std::vector<StateValue> state() const;
+  Evaluations evaluations() const;
+
+ private:
+  void set_step(Clock clocks);
+  double advance_current(const Bridge& bridge, double omega_rad_s);
+  void advance_shaft(double motor_nm, double friction_nm, double omega_mid_rad_s);
+
+  Parameters p_;
+  Effects on_;
+  double clock_hz_;
+  double per_radius_;       ///< 1/m
+  double smooth_nm_s_rad_;  ///< viscous torque per omega, of the effects switched on
+  BridgeModel bridge_;
+  Winding winding_;
+  Lugre lugre_;
+  Supply supply_;
+  Mechanics mechanics_;
+  HandRun hand_;
+  Shaft shaft_;
+  Encoder encoder_;
+
+  Clock now_ = 0;
+  Clock step_clocks_ = -1;  ///< none yet
+  double dt_s_ = 0.0;
+  double per_s_ = 0.0;                ///< 1/dt_s_
+  double acceleration_rad_s2_ = 0.0;  ///< mean of the last step, predicts the next middle
+  double current_a_ = 0.0;
+  std::vector<EncoderEvent> events_;
+  Observables seen_;
+  Evaluations evaluations_;
+};
+
+}  // namespace feltgate::plant

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Reads vectors/plants/NAME.toml. Documentation: docs/plant.md
+#include "plant/plant_file.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace feltgate::plant {
+namespace {
+
+// Edges keep their order on the circle while offsets and 4-sigma jitter stay below one count.
+constexpr Range kEdgeOffset{-0.25, 0.25};
+constexpr Range kLineJitter{0.0, 0.05};
+
+MotorParameters read_motor(TomlReader table) {
+  MotorParameters motor;
+  motor.torque_constant_nm_a = table.number("torque_constant_nm_a", kPositive);
+  motor.back_emf_constant_v_s_rad = table.number("back_emf_constant_v_s_rad", kPositive);
+  motor.resistance_ohm = table.number("resistance_ohm", kPositive);
+  motor.inductance_h = table.number("inductance_h", kPositive);
+  motor.dead_voltage_v = table.number("dead_voltage_v", kNotNegative);
+  table.finish();
+  return motor;
+}
+
+LeverParameters read_lever(TomlReader table) {
+  LeverParameters lever;
+  lever.inertia_kg_m2 = table.number("inertia_kg_m2", kPositive);
+  lever.viscous_nm_s_rad = table.number("viscous_nm_s_rad", kNotNegative);
+  lever.radius_m = table.number("radius_m", kPositive);
+  table.finish();
+  return lever;
+}
+
+LugreParameters read_lugre(TomlReader table) {
+  LugreParameters lugre;
+  lugre.stiffness_nm_rad = table.number("stiffness_nm_rad", kPositive);
+  lugre.damping_nm_s_rad = table.number("damping_nm_s_rad", kNotNegative);
+  lugre.viscous_nm_s_rad = table.number("viscous_nm_s_rad", kNotNegative);
+  lugre.coulomb_nm = table.number("coulomb_nm", kPositive);
+  lugre.static_nm = table.number("static_nm", kPositive);
+  lugre.stribeck_rad_s = table.number("stribeck_rad_s", kPositive);
+  if (lugre.static_nm < lugre.coulomb_nm) {
+    table.fail("static_nm", "\"static_nm\" is less than \"coulomb_nm\"",
+               "breaking away takes at least the sliding torque: raise it");
+  }
+  table.finish();
+  return lugre;
+}
+
+SupplyParameters read_supply(TomlReader table) {
+  SupplyParameters supply;
+  supply.voltage_v = table.number("voltage_v", kPositive);
+  supply.current_limit_a = table.number("current_limit_a", kPositive);
+  supply.bus_capacitance_f = table.number("bus_capacitance_f", kPositive);
+  supply.diode_drop_v = table.number("diode_drop_v", kNotNegative);
+  table.finish();
+  return supply;
+}
+
+EncoderParameters read_encoder(TomlReader table) {
+  EncoderParameters encoder;
+  encoder.lines = static_cast<int>(table.integer("lines", 1, 1 << 20));
+  const auto offsets = table.numbers("edge_offset_counts", kEdgeOffset);
+  if (offsets.size() != encoder.edge_offset_counts.size()) {
+    table.fail("edge_offset_counts", "\"edge_offset_counts\" does not hold four numbers",
+               "write one for each edge of a cycle");
+  }
+  std::copy(offsets.begin(), offsets.end(), encoder.edge_offset_counts.begin());
+  encoder.line_jitter_counts_rms = table.number("line_jitter_counts_rms", kLineJitter);
+  encoder.seed = static_cast<std::uint64_t>(
+      table.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
+  table.finish();
+  return encoder;
+}
+
+// Without a base every flag is required.
+Effects read_flags(TomlReader table, const Effects* base) {
+  Effects effects = base != nullptr ? *base : Effects{};
+  const auto read = [&](const char* key, bool& flag) {
+    flag = base != nullptr ? table.flag_or(key, flag) : table.flag(key);
+  };
+  read("inductance", effects.inductance);
+  read("back_emf", effects.back_emf);
+  read("dead_voltage", effects.dead_voltage);
+  read("lugre", effects.lugre);
+  read("viscous", effects.viscous);
+  read("supply_limit", effects.supply_limit);
+  read("dead_time", effects.dead_time);
+  read("encoder_imperfect", effects.encoder_imperfect);
+  table.finish();
+  return effects;
+}
+
+}  // namespace
+
+Effects read_effects(TomlReader table, const Effects& base) {
+  return read_flags(std::move(table), &base);
+}
+
+Parameters read_plant(const toml::table& root, const std::string& file) {
+  TomlReader reader(root, file, "the file");
+  Parameters parameters;
+  parameters.name = reader.text("name");
+  parameters.motor = read_motor(reader.section("motor"));
+  parameters.lever = read_lever(reader.section("lever"));
+  parameters.lugre = read_lugre(reader.section("lugre"));
+  parameters.supply = read_supply(reader.section("supply"));
+  parameters.encoder = read_encoder(reader.section("encoder"));
+  parameters.effects = read_flags(reader.section("effects"), nullptr);
+  reader.finish();
+  return parameters;
+}
+
+Parameters read_plant_file(const std::string& path) {
+  return read_plant(parse_toml_file(path), path);
+}
+
+}  // namespace feltgate::plant

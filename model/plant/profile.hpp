@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A value over time made of segments (hold, step, ramp, minimum jerk, sine): the angle that a hand
+// imposes, or the torque that it applies. Documentation: docs/plant.md
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace feltgate::plant {
+
+/// Unit of `to` and `amplitude`: rad or Nm, by the use of the profile.
+struct Segment {
+  enum class Kind { kHold, kStep, kRamp, kMinimumJerk, kSine };
+  Kind kind = Kind::kHold;
+  double duration_s = 0.0;
+  double to = 0.0;         ///< step, ramp, minimum jerk: value at the end
+  double amplitude = 0.0;  ///< sine, around a centre that makes its first value continuous
+  double frequency_hz = 0.0;
+  double phase_rad = 0.0;  ///< pi/2 starts and ends at rest
+};
+
+using Profile = std::vector<Segment>;
+
+/// Sum of the durations, s.
+double duration_s(const Profile& profile);
+
+/// Value and its rate (per second) at one time.
+struct ProfileSample {
+  double value = 0.0;
+  double rate = 0.0;
+};
+
+/// A profile under way: each segment starts where the one before it ended, the first at `start`.
+/// After the last segment its final value is held. Times must not decrease from call to call.
+class ProfileRun {
+ public:
+  ProfileRun() = default;
+  ProfileRun(Profile profile, double start);
+  ProfileSample at(double time_s);
+
+ private:
+  Profile profile_;
+  std::size_t index_ = 0;
+  double begin_s_ = 0.0;
+  double start_ = 0.0;
+};
+
+/// Recorded samples, interpolated by cubic Hermite pieces (slope: central difference) so that the
+/// velocity is continuous; at rest before the first and after the last sample.
+struct Trace {
+  std::vector<double> time_s;  ///< strictly increasing
+  std::vector<double> theta_rad;
+};
+
+/// A trace under way. Times must not decrease from call to call.
+class TraceRun {
+ public:
+  TraceRun() = default;
+  explicit TraceRun(Trace trace) : trace_(std::move(trace)) {}
+  ProfileSample at(double time_s);
+
+ private:
+  double slope(std::size_t i) const;
+  Trace trace_;
+  std::size_t index_ = 0;
+};
+
+}  // namespace feltgate::plant

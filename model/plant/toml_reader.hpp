@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Strict reading of a TOML table: every key is asked for by name with its range, what nobody asked
+// for is an error, and every error says file, line, what and mend. Documentation: docs/plant.md
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <cstdint>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace feltgate::plant {
+
+/// A file that cannot be used; what() reads "file:line: what; mend".
+class ConfigError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Closed interval of admissible values, in the unit of the key.
+struct Range {
+  double min;
+  double max;
+};
+
+inline constexpr Range kAnyNumber{-1e300, 1e300};
+inline constexpr Range kPositive{1e-300, 1e300};
+inline constexpr Range kNotNegative{0.0, 1e300};
+
+/// Parses a whole file. Errors: ConfigError when it cannot be opened or is not TOML.
+toml::table parse_toml_file(const std::string& path);
+
+/// One table of a file. It keeps a reference: the parsed file must outlive it.
+class TomlReader {
+ public:
+  /// `name` is how errors call the table, e.g. "[motor]".
+  TomlReader(const toml::table& table, std::string file, std::string name);
+
+  /// Whether the table holds `key`; asking makes it a known key.
+  bool has(const std::string& key);
+  /// Numbers may be written as integers; NaN and infinities are errors.
+  double number(const std::string& key, Range range);
+  double number_or(const std::string& key, double fallback, Range range);
+  std::vector<double> numbers(const std::string& key, Range range);
+  std::int64_t integer(const std::string& key, std::int64_t min, std::int64_t max);
+  bool flag(const std::string& key);
+  bool flag_or(const std::string& key, bool fallback);
+  std::string text(const std::string& key);
+  /// Index of the text under `key` in `choices`; the error lists them.
+  std::size_t choice(const std::string& key, const std::vector<std::string>& choices);
+  TomlReader section(const std::string& key);
+  /// An array of tables ([[a.b]] or inline); empty when the key is missing.
+  std::vector<TomlReader> sections(const std::string& key);
+
+  /// Every key must have been asked for by now. Errors: ConfigError for the first that was not.
+  void finish() const;
+  /// Throws ConfigError at the line of `key`, or of the table when the key is missing.
+  [[noreturn]] void fail(const std::string& key, const std::string& what,
+                         const std::string& mend) const;
+  const std::string& file() const { return file_; }
+
+ private:
+  const toml::node& required(const std::string& key);
+  double checked(const toml::node& node, const std::string& key, Range range) const;
+
+  const toml::table* table_;
+  std::string file_;
+  std::string name_;
+  std::set<std::string> asked_;
+};
+
+}  // namespace feltgate::plant

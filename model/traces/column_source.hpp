@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Plain columns: a time and a position in counts, or in another unit with a scale. Several counts
+// between two rows are spread evenly over the interval. Documentation: docs/traces.md
+#pragma once
+
+#include <filesystem>
+
+#include "feltgate/encoder_source.hpp"
+#include "traces/options.hpp"
+#include "traces/table.hpp"
+
+namespace feltgate::traces {
+
+/// Columns that are taken for the position when none is named.
+bool has_count_column(const Table& table);
+
+/// d counts between two rows take one slot each of d equal ones; an edge falls at the end of its
+/// slot, or with jitter at a seeded uniform clock of it, so that at the time of a row the position
+/// is always the row's. A value off the grid of counts is rounded to the nearest (half away from
+/// 0).
+class ColumnSource final : public EncoderSource {
+ public:
+  ColumnSource(const std::filesystem::path& path, const Options& options);
+
+  EncoderPins initial() const override { return initial_; }
+  std::optional<EncoderEvent> next() override;
+  Clock length() const override { return row_clock_ + 1; }
+
+ private:
+  std::int64_t read_count();
+  bool advance();
+
+  Table table_;
+  ClockMap map_;
+  bool jitter_;
+  Random random_;
+  double scale_;
+  std::size_t column_ = 0;
+  EncoderPins initial_;
+  std::int64_t count_ = 0;  // of the row read last
+  std::int64_t steps_ = 0;  // edges of the present interval, and how many of them are given
+  std::int64_t given_ = 0;
+  bool up_ = true;
+  unsigned phase_ = 0;
+  Clock from_ = 0;
+  Clock row_clock_ = 0;
+};
+
+}  // namespace feltgate::traces

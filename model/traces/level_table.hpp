@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Tables of levels: `time,A,B[,Z]` (a row per sample or per change) and Saleae Logic exports.
+// Documentation: docs/traces.md
+#pragma once
+
+#include <deque>
+#include <string>
+
+#include "traces/capture.hpp"
+#include "traces/options.hpp"
+#include "traces/table.hpp"
+
+namespace feltgate::traces {
+
+/// Every column but the time is a channel; only the chosen ones must hold 0 or 1.
+class LevelTable final : public Capture {
+ public:
+  LevelTable(const std::filesystem::path& path, const Options& options);
+
+  const std::vector<std::string>& channels() const override { return names_; }
+  TimeBase time_base() const override { return Table::kTimeBase; }
+  std::uint32_t start(const std::vector<std::size_t>& chosen) override;
+  std::optional<Change> next() override;
+  std::int64_t end() const override { return table_.time() + width_; }
+  std::string where() const override { return table_.where(); }
+
+ private:
+  struct Row {
+    std::int64_t time = 0;
+    std::uint32_t levels = 0;
+  };
+  std::optional<Row> read();
+  void find_width();
+
+  Table table_;
+  std::int64_t sample_hz_;
+  std::vector<std::string> names_;
+  std::vector<std::size_t> columns_;  // column of each channel
+  std::vector<std::size_t> chosen_;
+  std::deque<Row> ahead_;   // the first rows, read to see whether rows are samples or changes
+  std::int64_t width_ = 0;  // of a sample, in ps; 0: rows are changes at exact times
+  std::uint32_t levels_ = 0;
+};
+
+}  // namespace feltgate::traces

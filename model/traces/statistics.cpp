@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Counts what a perfect x4 decoder must find. Documentation: docs/traces.md
+#include "traces/statistics.hpp"
+
+namespace feltgate::traces {
+
+void StepCounter::add(const EncoderEvent& event) {
+  const EncoderPins was = pins_;
+  pins_ = event.pins;
+  const bool a_moved = was.a != pins_.a;
+  const bool b_moved = was.b != pins_.b;
+  if (!a_moved && !b_moved) return;
+  ++result_.steps;
+  if (last_ &&
+      (!result_.shortest_edge_spacing || event.clock - *last_ < *result_.shortest_edge_spacing)) {
+    result_.shortest_edge_spacing = event.clock - *last_;
+  }
+  last_ = event.clock;
+  if (a_moved && b_moved) {
+    ++result_.illegal;
+    return;
+  }
+  // Counting up A leads: A moves away from B, or B follows A.
+  const bool up = a_moved ? pins_.a != pins_.b : pins_.a == pins_.b;
+  const int direction = up ? 1 : -1;
+  if (direction_ == -direction) ++result_.reversals;
+  direction_ = direction;
+  result_.position += direction;
+}
+
+Statistics count_steps(EncoderSource& source) {
+  StepCounter counter(source.initial());
+  while (const auto event = source.next()) counter.add(*event);
+  Statistics result = counter.result();
+  result.length = source.length();
+  return result;
+}
+
+}  // namespace feltgate::traces

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Reset from a key: asserted as the key closes, without waiting for the clock; released in step
+// with the clock once the key has been open for 2^HoldBits clocks, and likewise after power-up.
+// Documentation: docs/boards/de0_nano.md
+`default_nettype none
+
+module de0_nano_reset #(
+  parameter int HoldBits = 19
+) (
+  input  logic clk_i,
+  input  logic key_ni,  // asynchronous, low while pressed, bounces
+  output logic rst_no
+);
+
+  logic                open_meta_q, open_q;
+  logic [HoldBits-1:0] hold_q;
+  logic                rst_n_q;
+
+  // The FPGA's configuration loads these; nothing else resets the reset.
+  initial begin
+    open_meta_q = 1'b0;
+    open_q      = 1'b0;
+    hold_q      = '0;
+    rst_n_q     = 1'b0;
+  end
+
+  always_ff @(posedge clk_i or negedge key_ni) begin
+    if (!key_ni) begin
+      open_meta_q <= 1'b0;
+      open_q      <= 1'b0;
+    end else begin
+      open_meta_q <= 1'b1;
+      open_q      <= open_meta_q;
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge open_q) begin
+    if (!open_q) begin
+      hold_q  <= '0;
+      rst_n_q <= 1'b0;
+    end else if (&hold_q) begin
+      rst_n_q <= 1'b1;
+    end else begin
+      hold_q <= hold_q + 1'b1;
+    end
+  end
+
+  assign rst_no = rst_n_q;
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The whole core: encoder pins to gate pins. Once per tick a wave runs through quad_decoder,
+// velocity_n, dob, scenes and torque_control; all of them share one multiplier and one parameter
+// bus, each in its own clock of the wave. Sampled position (clock 0) to duty register: 46 clocks.
+// docs/blocks/feltgate_core.md, docs/architecture.md
+
+`default_nettype none
+
+module feltgate_core #(
+    parameter int ReadBack = 1,  // 0: no snapshot RAM, the host can only write
+    parameter int Defect   = 0   // 1: tau_hat of the tick before, 2: scene operand late, 3: gates open on a fault
+) (
+    input  logic clk_i,
+    input  logic rst_ni,
+
+    // Encoder, motor
+    input  logic enc_a_i,
+    input  logic enc_b_i,
+    input  logic enc_z_i,
+    output logic gate_a_hi_o,
+    output logic gate_a_lo_o,
+    output logic gate_b_hi_o,
+    output logic gate_b_lo_o,
+
+    // Panel, used while the control word does not say that the host has the say
+    input  logic       arm_i,       // level; its rising edge arms
+    input  logic       stop_i,      // external stop, asynchronous, latched as a fault
+    input  logic       set_zero_i,  // one clock: position := 0 at the end of the tick
+    input  logic [3:0] scene_i,
+
+    // Register port
+    input  logic [11:0] reg_addr_i,
+    input  logic [31:0] reg_wdata_i,
+    input  logic        reg_write_i,
+    output logic        reg_busy_o,
+    output logic [31:0] reg_rdata_o,
+
+    // Snapshot: all of one tick in the clock in which snapshot_valid_o is high
+    output logic                                         snapshot_valid_o,
+    output logic        [                          31:0] tick_count_o,
+    output logic signed [                          31:0] position_o,
+    output logic signed [  feltgate_pkg::VELOCITY_W-1:0] velocity_o,
+    output logic signed [    feltgate_pkg::TORQUE_W-1:0] tau_hat_o,
+    output logic signed [    feltgate_pkg::TORQUE_W-1:0] tau_ref_o,
+    output logic signed [   feltgate_pkg::CURRENT_W-1:0] current_ref_o,
+    output logic signed [   feltgate_pkg::VOLTAGE_W-1:0] voltage_o,
+    output logic signed [      feltgate_pkg::DUTY_W-1:0] duty_o,
+    output logic        [                           3:0] scene_o,
+    output logic        [                           7:0] limits_o,
+    output logic        [                           7:0] faults_o,
+    output logic        [                           3:0] first_fault_o,
+    output logic                                         armed_o,
+    output logic signed [      feltgate_pkg::DUTY_W-1:0] duty_active_o,   // in force in the bridge
+    output logic                                         gates_enable_o
+);
+  localparam int OperandW = feltgate_pkg::MULTIPLIER_A_BITS;
+  localparam int ProductW = feltgate_pkg::PRODUCT_BITS;
+  localparam int SceneW = feltgate_pkg::SCENE_POSITION_W;
+
+  // The wave and its two buses.
+  logic                       tick;
+  logic [                5:0] slot_fetch;
+  logic                       scene_slot_fetch;
+  logic [               49:0] wave;
+  logic [               31:0] param;
+  logic signed [OperandW-1:0] operand;
+  logic signed [        17:0] factor;
+  logic signed [ProductW-1:0] product;
+
+  // What the registers and the panel ask for.
+  logic [14:0] control;
+  logic [ 3:0] scene_wanted;
+  logic [ 1:0] mode;
+  logic host, arm_request, set_zero, zero_pending_q, host_zero, clear_faults, kick, region_high;
+  logic [3:0] scene_q;
+  assign host         = control[feltgate_pkg::B_CONTROL_HOST];
+  assign mode         = control[feltgate_pkg::B_CONTROL_MODE+:2];
+  assign arm_request  = host ? control[feltgate_pkg::B_CONTROL_ARM] : arm_i;
+  assign scene_wanted = host ? control[feltgate_pkg::B_CONTROL_SCENE+:4] : scene_i;
+  assign set_zero     = tick && (host_zero || zero_pending_q);
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      scene_q        <= '0;
+      zero_pending_q <= 1'b0;
+    end else begin
+      if (tick) scene_q <= scene_wanted;
+      zero_pending_q <= set_zero_i || (zero_pending_q && !tick);
+    end
+  end
+
+  sequencer u_sequencer (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .tick_o(tick),
+      .slot_fetch_o(slot_fetch),
+      .scene_slot_fetch_o(scene_slot_fetch),
+      .wave_o(wave),
+      .tick_count_o(tick_count_o)
+  );
+
+  registers #(
+      .ReadBack(ReadBack)
+  ) u_registers (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .tick_i(tick),
+      .reg_addr_i(reg_addr_i),
+      .reg_wdata_i(reg_wdata_i),
+      .reg_write_i(reg_write_i),
+      .reg_rdata_o(reg_rdata_o),
+      .reg_busy_o(reg_busy_o),
+      .slot_fetch_i(slot_fetch),
+      .scene_slot_fetch_i(scene_slot_fetch),
+      .scene_i(scene_q),
+      .region_high_i(region_high),
+      .param_o(param),
+      .control_o(control),
+      .set_zero_o(host_zero),
+      .clear_faults_o(clear_faults),
+      .kick_o(kick),
+      .snap_slot_i(slot_fetch - 6'd2),
+      .snap_valid_i(snap_valid),
+      .snap_data_i(operand[31:0])
+  );
+
+  mult u_mult (
+      .clk_i(clk_i),
+      .a_i(operand),
+      .b_i(factor),
+      .product_o(product)
+  );
+
+  // Encoder to position; the sample that the wave carries.
+  logic signed [31:0] position, index_position;
+  logic signed [feltgate_pkg::TRAVEL_BITS-1:0] travel;
+  logic [15:0] error_count, rejected_count;
+  logic encoder_error, illegal;
+  quad_decoder u_quad_decoder (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .a_i(enc_a_i),
+      .b_i(enc_b_i),
+      .z_i(enc_z_i),
+      .filter_i(control[feltgate_pkg::B_CONTROL_FILTER+:4]),
+      .polarity_i(control[feltgate_pkg::B_CONTROL_ENCODER_POLARITY]),
+      .set_zero_i(set_zero),
+      .clear_error_i(clear_faults),
+      .position_o(position),
+      .travel_o(travel),
+      .step_o(),
+      .illegal_o(illegal),
+      .error_o(encoder_error),
+      .error_count_o(error_count),
+      .rejected_count_o(rejected_count),
+      .index_position_o(index_position),
+      .index_seen_o()
+  );
+
+  logic signed [SceneW-1:0] scene_position_q;
+  logic position_over;
+  assign position_over = position[31:SceneW-1] != {(33 - SceneW) {position[31]}};
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      position_o       <= '0;
+      scene_position_q <= '0;
+    end else if (wave[0]) begin
+      position_o       <= position;
+      scene_position_q <= position_over ? {position[31], {(SceneW - 1) {~position[31]}}}
+                                        : position[SceneW-1:0];
+    end
+  end
+
+  logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] velocity_operand;
+  logic velocity_saturated;
+  velocity_n u_velocity_n (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .valid_i(wave[0]),
+      .travel_i(travel),
+      .operand_o(velocity_operand),
+      .product_i(product),
+      .velocity_o(velocity_o),
+      .saturated_o(velocity_saturated)
+  );
+
+  logic signed [feltgate_pkg::OBSERVER_DIFFERENCE_W-1:0] dob_operand;
+  logic signed [feltgate_pkg::TORQUE_W-1:0] tau_hat;
+  logic tau_hat_saturated;
+  dob u_dob (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .armed_i(armed_o),
+      .valid_i(wave[12]),
+      .product_i(product),
+      .operand_o(dob_operand),
+      .tau_hat_o(tau_hat),
+      .saturated_o(tau_hat_saturated)
+  );
+  assign tau_hat_o = tau_hat;
+
+  logic signed [feltgate_pkg::SCENE_OFFSET_W-1:0] scene_operand;
+  logic scene_square, limit_torque, limit_ramp;
+  scenes u_scenes (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .armed_i(armed_o),
+      .scene_i(scene_q),
+      .start_i(wave[1]),
+      .position_i(scene_position_q),
+      .param_i(param),
+      .product_i(product),
+      .operand_o(scene_operand),
+      .square_o(scene_square),
+      .tau_ref_o(tau_ref_o),
+      .limit_torque_o(limit_torque),
+      .limit_ramp_o(limit_ramp)
+  );
+
+  logic signed [feltgate_pkg::CURRENT_W-1:0] control_operand;
+  logic limit_current, limit_voltage, limit_duty;
+  torque_control u_torque_control (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .armed_i(armed_o),
+      .mode_i(mode),
+      .wave_i(wave),
+      .param_i(param),
+      .product_i(product),
+      .tau_ref_i(tau_ref_o),
+      .region_high_o(region_high),
+      .operand_o(control_operand),
+      .current_ref_o(current_ref_o),
+      .voltage_o(voltage_o),
+      .duty_o(duty_o),
+      .limit_current_o(limit_current),
+      .limit_voltage_o(limit_voltage),
+      .limit_duty_o(limit_duty)
+  );
+
+  logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate;
+  logic gates_enable;
+  supervisor u_supervisor (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .tick_i(tick),
+      .arm_i(arm_request),
+      .stop_i(stop_i),
+      .clear_faults_i(clear_faults),
+      .kick_i(kick),
+      .encoder_error_i(illegal),
+      .velocity_i(velocity_o),
+      .current_ref_i(current_ref_o),
+      .wave_i(wave),
+      .param_i(param),
+      .product_i(product),
+      .current_estimate_o(current_estimate),
+      .armed_o(armed_o),
+      .gates_enable_o(gates_enable),
+      .faults_o(faults_o),
+      .first_fault_o(first_fault_o)
+  );
+
+  pwm #(
+      .Period(feltgate_pkg::PWM_PERIOD),
+      .DeadClocks(feltgate_pkg::DEAD_CLOCKS)
+  ) u_pwm (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .enable_i((Defect == 3) ? armed_o : gates_enable),
+      .mode_i(control[feltgate_pkg::B_CONTROL_PWM_MODE]),
+      .polarity_i(control[feltgate_pkg::B_CONTROL_MOTOR_POLARITY]),
+      .duty_i(duty_o),
+      .gate_a_hi_o(gate_a_hi_o),
+      .gate_a_lo_o(gate_a_lo_o),
+      .gate_b_hi_o(gate_b_hi_o),
+      .gate_b_lo_o(gate_b_lo_o),
+      .period_start_o(),
+      .duty_active_o(duty_active_o)
+  );
+
+  // Operand bus: who holds the wave drives it. Between the products pass the snapshot's words.
+  logic [31:0] status;
+  assign status = {
+    4'd0, encoder_error, mode, armed_o, scene_q, limits_o, first_fault_o, faults_o
+  };
+  logic signed [feltgate_pkg::TORQUE_W-1:0] tau_hat_bus;
+  if (Defect == 1) begin : gen_stale
+    logic signed [feltgate_pkg::TORQUE_W-1:0] stale_q;
+    always_ff @(posedge clk_i) if (wave[0]) stale_q <= tau_hat;
+    assign tau_hat_bus = stale_q;
+  end else begin : gen_fresh
+    assign tau_hat_bus = tau_hat;
+  end
+  logic [3:0] select;
+  always_comb begin
+    select = 4'd0;
+    if (wave[7] || wave[9] || wave[10] || wave[22]) select = 4'd0;
+    if (wave[4]) select = 4'd1;
+    if (wave[3]) select = (scene_square && Defect != 2) ? 4'd3 : 4'd2;
+    if (wave[6]) select = 4'd2;
+    if (wave[5] || wave[27]) select = 4'd4;
+    if (wave[8]) select = 4'd5;
+    if (wave[13]) select = 4'd6;
+    if (wave[15]) select = 4'd7;
+    if (wave[23]) select = 4'd8;
+    if (wave[28] || wave[29]) select = 4'd9;
+    if (wave[34] || wave[40]) select = 4'd10;
+    if (wave[0]) select = 4'd11;
+    if (wave[1]) select = 4'd12;
+    if (wave[2]) select = 4'd13;
+    if (wave[14] || wave[11]) select = 4'd14;
+    if (wave[46]) select = 4'd15;
+  end
+  always_comb begin
+    case (select)
+      4'd0:    operand = OperandW'(velocity_o);
+      4'd1:    operand = OperandW'(velocity_operand);
+      4'd2:    operand = OperandW'(scene_operand);
+      4'd3:    operand = OperandW'(scene_operand >>> feltgate_pkg::SCENE_OFFSET_F);
+      4'd4:    operand = OperandW'(voltage_o);
+      4'd5:    operand = OperandW'(current_ref_o);
+      4'd6:    operand = OperandW'(current_estimate);
+      4'd7:    operand = OperandW'(dob_operand);
+      4'd8:    operand = OperandW'(tau_hat_bus);
+      4'd9:    operand = OperandW'(tau_ref_o);
+      4'd10:   operand = OperandW'(control_operand);
+      4'd11:   operand = (ReadBack != 0) ? OperandW'($signed(tick_count_o)) : '0;
+      4'd12:   operand = (ReadBack != 0) ? OperandW'(position_o) : '0;
+      4'd13:   operand = (ReadBack != 0) ? OperandW'($signed(status)) : '0;
+      4'd14:   operand = (ReadBack == 0) ? '0
+                       : wave[11] ? OperandW'(index_position)
+                       : OperandW'($signed({rejected_count, error_count}));
+      default: operand = (ReadBack != 0) ? OperandW'(duty_o) : '0;
+    endcase
+  end
+  // A square takes its own operand as the factor; a coefficient has no sign but in slot 23.
+  logic square;
+  assign square = (wave[3] && scene_square) || wave[13];
+  assign factor = square ? operand[17:0] : {param[17] && wave[23], param[16:0]};
+
+  logic snap_valid;
+  assign snap_valid = wave[0] || wave[1] || wave[2] || wave[9] || wave[11] || wave[14] ||
+                      wave[23] || wave[28] || wave[34] || wave[40] || wave[46];
+
+  assign scene_o          = scene_q;
+  assign gates_enable_o   = gates_enable;
+  assign snapshot_valid_o = wave[47];
+  assign limits_o = {!gates_enable, tau_hat_saturated, velocity_saturated, limit_duty,
+                     limit_voltage, limit_current, limit_ramp, limit_torque};
+endmodule
+
+`default_nettype wire

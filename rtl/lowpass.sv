@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// One-pole low-pass y += round(a1 * (x - y)), round half up, on the shared multiplier.
+// Latency: x in clock v, operand in v + 1, product in v + 5, new y in v + 6. The difference gives up
+// low bits where it is wider than the multiplier. docs/blocks/lowpass.md
+
+`default_nettype none
+
+module lowpass #(
+    parameter int Width       = 32,  // of x and y
+    parameter int OperandW    = 33,  // of the difference on the multiplier
+    parameter int ProductDrop = 27,  // fraction bits of the product below those of y
+    parameter int ProductW    = 53,
+    parameter int Defect      = 0    // 1: truncates, 2: the guard bits are lost, 3: difference without its growth bit, 4: product a clock early
+) (
+    input  logic                       clk_i,
+    input  logic                       rst_ni,
+    input  logic                       valid_i,    // x_i is new
+    input  logic                       follow_i,   // y := x instead of filtering; held with x
+    input  logic signed [   Width-1:0] x_i,        // held until the new y
+    output logic signed [OperandW-1:0] operand_o,
+    input  logic signed [ProductW-1:0] product_i,
+    output logic signed [   Width-1:0] y_o
+);
+  logic [4:0] stage_q;  // stage_q[k]: k + 1 clocks after valid_i
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) stage_q <= '0;
+    else stage_q <= {stage_q[3:0], valid_i};
+  end
+
+  /* verilator lint_off UNUSEDSIGNAL */  // the low bits are given up where the operand is narrower
+  logic signed [Width:0] difference_q;
+  /* verilator lint_on UNUSEDSIGNAL */
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) difference_q <= '0;
+    else if (valid_i) difference_q <= (Defect == 3) ? (Width + 1)'(Width'(x_i - y_q)) : x_i - y_q;
+  end
+  assign operand_o = difference_q[Width-:OperandW];
+
+  // {y,1} + {p,r} carries exactly when the rounding bit r is set: round half up without an adder.
+  logic signed [Width-1:0] y_q;
+  logic        [  Width:0] increment, sum;
+  assign increment = (Width + 1)'(product_i >>> (ProductDrop - 1));
+  assign sum       = {y_q, (Defect == 1) ? 1'b0 : 1'b1} + increment;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      y_q <= '0;
+    end else if ((Defect == 4) ? stage_q[3] : stage_q[4]) begin
+      y_q <= follow_i ? x_i : $signed(sum[Width:1]);
+      if (Defect == 2) y_q[7:0] <= '0;
+    end
+  end
+  assign y_o = y_q;
+
+  logic unused_sum;
+  assign unused_sum = sum[0];
+endmodule
+
+`default_nettype wire

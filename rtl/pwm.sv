@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Centre-aligned PWM for an H-bridge, sign-magnitude or locked-antiphase, with dead time.
+// Duty [1,12,0] clocks; taken once a period with period_start_o, at the gates 3 clocks later, rising
+// ones after the dead time too.
+// Documentation: docs/blocks/pwm.md
+`default_nettype none
+
+module pwm #(
+  parameter int Period     = 1000,  // clocks, even, 4 to 4094
+  parameter int DeadClocks = 25,    // clocks, 1 to 64
+  parameter int Defect     = 0      // test only: see testbench/pwm
+) (
+  input  logic               clk_i,
+  input  logic               rst_ni,
+  input  logic               enable_i,        // 0: every gate off within this clock
+  input  logic               mode_i,          // 0: sign-magnitude, 1: locked-antiphase
+  input  logic               polarity_i,      // 1: motor wired the other way
+  input  logic signed [12:0] duty_i,          // beyond +-Period it acts as +-Period
+  output logic               gate_a_hi_o,
+  output logic               gate_a_lo_o,
+  output logic               gate_b_hi_o,
+  output logic               gate_b_lo_o,
+  output logic               period_start_o,  // duty_i has just been taken
+  output logic signed [12:0] duty_active_o    // as taken
+);
+
+  localparam logic signed [13:0] HALF = 14'(Period / 2);
+  localparam logic        [10:0] LAST = 11'(Period / 2 - 1);
+
+  // The carrier {level, rising} runs through Period, Period-2 .. 2, 1, 3 .. Period-1: each number
+  // from 1 to Period once, so that carrier <= n holds for exactly n clocks, centred to half a clock.
+  logic [10:0] level_q;
+  logic        rising_q, take, turn;
+
+  assign take = rising_q && level_q == LAST - 11'd1;  // one clock before the end of the period
+  assign turn = rising_q ? period_start_o : level_q == 11'd1;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      level_q        <= LAST - 11'd1;  // the first clock after reset takes the first duty
+      rising_q       <= 1'b1;
+      period_start_o <= 1'b0;
+    end else begin
+      level_q        <= level_q + {{10{!rising_q}}, 1'b1};
+      rising_q       <= rising_q ^ turn;
+      period_start_o <= take;
+    end
+  end
+
+  // Clocks with leg A high: |duty| in sign-magnitude, floor((Period + duty) / 2) in locked-antiphase.
+  logic               antiphase_q, negate_q, switch_b_q;
+  logic               increment, unused_sum;
+  logic signed [13:0] addend, threshold_d;
+
+  assign addend    = (antiphase_q ? {{2{duty_active_o[12]}}, duty_active_o[12:1]} :
+                                    {duty_active_o[12], duty_active_o}) ^ {14{negate_q}};
+  assign increment = negate_q && !(antiphase_q && duty_active_o[0]);
+  // One carry chain: the bit below the operands carries the increment in.
+  assign {threshold_d, unused_sum} = {antiphase_q ? HALF : 14'sd0, 1'b1} + {addend, increment};
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      duty_active_o <= 13'sd0;
+      antiphase_q   <= 1'b0;
+      negate_q      <= 1'b0;
+      switch_b_q    <= 1'b0;
+    end else if (take || (Defect == 1)) begin
+      duty_active_o <= duty_i;
+      antiphase_q   <= mode_i;
+      negate_q      <= mode_i ? polarity_i : duty_i[12];
+      switch_b_q    <= duty_i[12] ^ polarity_i;
+    end
+  end
+
+  logic signed [13:0] threshold_q;
+  logic               antiphase_q2, switch_b_q2;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      threshold_q  <= 14'sd0;
+      antiphase_q2 <= 1'b0;
+      switch_b_q2  <= 1'b0;
+    end else begin
+      threshold_q  <= threshold_d;
+      antiphase_q2 <= antiphase_q;
+      switch_b_q2  <= switch_b_q;
+    end
+  end
+
+  // threshold - carrier lies in -5643..4095: its sign alone compares them.
+  logic        high, above;
+  logic [12:0] unused_difference;
+  logic [1:0]  high_q;  // leg A, leg B: wanted high
+
+  assign {above, unused_difference} = {threshold_q[13:1], threshold_q[0] && (Defect != 3)} -
+                                      {2'b00, level_q, rising_q};
+  assign high = !above;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) high_q <= 2'b00;
+    else high_q <= antiphase_q2 ? {!high, high} : {high && switch_b_q2, high && !switch_b_q2};
+  end
+
+  // One leg: both gates are off for DeadClocks whenever the wanted level changes or while disabled.
+  // The top bit of dead_q ends the count of DeadClocks - 1.
+  localparam int DEAD_BITS = (DeadClocks > 1) ? $clog2(DeadClocks) : 1;
+  localparam logic [DEAD_BITS:0] DEAD = (DEAD_BITS + 1)'(2 ** DEAD_BITS - (DeadClocks - 1));
+
+  logic [1:0] hi_q, lo_q;
+
+  for (genvar l = 0; l < 2; l++) begin : g_leg
+    logic               wanted_q, changes, elapsed;
+    logic [DEAD_BITS:0] dead_q;
+
+    assign changes = high_q[l] != wanted_q;
+    assign elapsed = dead_q[DEAD_BITS];
+
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        wanted_q <= 1'b0;
+        dead_q   <= DEAD;
+        hi_q[l]  <= 1'b0;
+        lo_q[l]  <= 1'b0;
+      end else begin
+        wanted_q <= high_q[l];
+        if (!enable_i || changes) dead_q <= DEAD;
+        else if (!elapsed) dead_q <= dead_q + 1'b1;
+        hi_q[l] <= enable_i && !changes && elapsed && wanted_q;
+        lo_q[l] <= enable_i && !wanted_q && !changes && elapsed ||
+                   Defect == 2 && enable_i && changes && wanted_q;
+      end
+    end
+  end
+
+  logic enable;
+
+  assign enable      = enable_i || (Defect == 4);
+  assign gate_a_hi_o = hi_q[0] && enable;
+  assign gate_a_lo_o = lo_q[0] && enable;
+  assign gate_b_hi_o = hi_q[1] && enable;
+  assign gate_b_lo_o = lo_q[1] && enable;
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Incremental encoder to position: synchroniser, glitch filter, x4 decoding, index latch, error and
+// glitch counters. Position [1,31,0] counts, wraps. Pin to travel_o 3 clocks, to position_o 4, plus
+// the filter length. Documentation: docs/blocks/quad_decoder.md
+`default_nettype none
+
+module quad_decoder #(
+  parameter int ResetPosition = 0,  // test only: brings the wrap near
+  parameter int Defect = 0          // test only: see testbench/quad_decoder
+) (
+  input  logic               clk_i,
+  input  logic               rst_ni,
+  input  logic               a_i,               // asynchronous pins
+  input  logic               b_i,
+  input  logic               z_i,
+  input  logic        [3:0]  filter_i,          // pulses of so many clocks are still rejected
+  input  logic               polarity_i,        // 1: count the other way
+  input  logic               set_zero_i,
+  input  logic               clear_error_i,
+  output logic signed [31:0] position_o,
+  output logic        [15:0] travel_o,          // free-running, set_zero_i does not touch it
+  output logic signed [1:0]  step_o,            // what travel_o moved by in this clock
+  output logic               error_o,           // sticky: both channels changed in one clock
+  output logic        [15:0] error_count_o,     // saturates
+  output logic        [15:0] rejected_count_o,  // saturates
+  output logic signed [31:0] index_position_o,
+  output logic               index_seen_o
+);
+
+  // Channels: 0 = A, 1 = B, 2 = Z. sync_q[0] may be metastable and feeds nothing but sync_q[1].
+  logic [2:0] meta_q, sync_q, previous_q, level_q;
+  logic [2:0] changed, rejected;
+  logic [1:0] fill_q;
+  logic       primed_q, primed;
+
+  assign primed = (Defect == 2) ? 1'b1 : primed_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      meta_q     <= 3'b000;
+      sync_q     <= 3'b000;
+      previous_q <= 3'b000;
+      fill_q     <= 2'b00;
+      primed_q   <= 1'b0;
+    end else begin
+      meta_q     <= {z_i, b_i, a_i};
+      sync_q     <= meta_q;
+      previous_q <= sync_q;
+      fill_q     <= {fill_q[0], 1'b1};
+      primed_q   <= fill_q[1];
+    end
+  end
+
+  // A level that differs from the accepted one must last while `wait_q` runs from filter_i to 0.
+  logic [3:0] load;
+  assign load = (Defect == 4 && filter_i != 4'd0) ? filter_i - 4'd1 : filter_i;
+
+  for (genvar c = 0; c < 3; c++) begin : g_filter
+    logic [3:0] wait_q;
+    logic       differs, elapsed_q, reload;  // elapsed_q: wait_q is 0
+
+    assign differs     = sync_q[c] != level_q[c];
+    assign changed[c]  = differs && elapsed_q && primed;
+    assign rejected[c] = !differs && (previous_q[c] != sync_q[c]) && primed;
+    assign reload      = !differs || elapsed_q || !primed;
+
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        wait_q     <= 4'd0;
+        elapsed_q  <= 1'b1;
+        level_q[c] <= 1'b0;
+      end else begin
+        wait_q    <= reload ? load : wait_q - 4'd1;
+        elapsed_q <= reload ? load == 4'd0 : wait_q == 4'd1;
+        if (elapsed_q || !primed) level_q[c] <= sync_q[c];  // the first sample counts as no edge
+      end
+    end
+  end
+
+  // Gray order of (A,B): 00 01 11 10 counts up.
+  logic              illegal, moved, down, down_now, down_q;
+  logic signed [1:0] step;
+
+  assign illegal  = changed[0] && changed[1];
+  assign moved    = changed[0] != changed[1];
+  assign down_now = changed[0] ^ level_q[0] ^ level_q[1] ^ polarity_i;
+  assign down     = (Defect == 1) ? down_q : down_now;
+  assign step     = (Defect == 7 && illegal) ? 2'sd1 : {moved && down, moved};
+
+  logic signed [31:0] count_q, zero_q, count_d, difference, position_d;
+
+  assign count_d    = count_q + 32'(step);
+  assign difference = count_q - zero_q;
+  assign position_d = (Defect == 6) ? {difference[30], difference[30:0]} : difference;
+
+  logic signed [1:0] step_q;
+  logic              index_q;
+
+  // The count is never written: a new zero cannot lose an edge that arrives with it.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      count_q          <= ResetPosition;
+      zero_q           <= 32'sd0;
+      position_o       <= ResetPosition;
+      step_q           <= 2'sd0;
+      down_q           <= 1'b0;
+      index_q          <= 1'b0;
+      index_position_o <= 32'sd0;
+    end else begin
+      count_q    <= count_d;
+      position_o <= position_d;
+      step_q     <= step;
+      if (moved) down_q <= down_now;
+      if (set_zero_i) zero_q <= (Defect == 5) ? count_d : count_q;
+      index_q <= changed[2] && sync_q[2];
+      if (index_q) index_position_o <= position_d;
+    end
+  end
+
+  assign travel_o = count_q[15:0];
+  assign step_o   = step_q;
+
+  // Both counters share one incrementer; an event waits one clock while the other is served.
+  logic        error_wait_q, rejected_wait_q, serve_error, serve_rejected, full;
+  logic [15:0] operand, sum;
+
+  assign serve_rejected = rejected_wait_q && !clear_error_i;
+  assign serve_error    = error_wait_q && !rejected_wait_q && !clear_error_i;
+  assign operand        = clear_error_i ? 16'd0 :
+                          rejected_wait_q ? rejected_count_o : error_count_o;
+  assign {full, sum}    = {1'b0, operand} + {16'd0, !clear_error_i};
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      error_wait_q     <= 1'b0;
+      rejected_wait_q  <= 1'b0;
+      error_o          <= 1'b0;
+      index_seen_o     <= 1'b0;
+      error_count_o    <= 16'd0;
+      rejected_count_o <= 16'd0;
+    end else begin
+      error_wait_q    <= (illegal && Defect != 3) || (error_wait_q && !serve_error);
+      rejected_wait_q <= (rejected != 3'b000) || (rejected_wait_q && !serve_rejected);
+      error_o         <= (illegal && Defect != 3) || (error_o && !clear_error_i);
+      index_seen_o    <= index_q || (index_seen_o && !clear_error_i);
+      if (clear_error_i || (serve_error && (!full || Defect == 8))) error_count_o <= sum;
+      if (clear_error_i || (serve_rejected && !full)) rejected_count_o <= sum;
+    end
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Register port, parameter RAM (512 x 32), control word, commands and the double-buffered snapshot.
+// A write takes effect at tick_i; param_o follows slot_fetch_i by 2 clocks, reg_rdata_o follows
+// reg_addr_i by 3. Documentation: docs/blocks/registers.md
+`default_nettype none
+
+module registers #(
+  parameter int ReadBack = 1,  // 0: no snapshot, reads give 0
+  parameter int Defect   = 0   // test only: see testbench/registers
+) (
+  input  logic        clk_i,
+  input  logic        rst_ni,
+  input  logic        tick_i,              // last clock of a tick
+
+  input  logic [11:0] reg_addr_i,
+  input  logic [31:0] reg_wdata_i,
+  input  logic        reg_write_i,         // ignored while reg_busy_o is high
+  output logic [31:0] reg_rdata_o,
+  output logic        reg_busy_o,          // a write waits for the end of the tick
+
+  input  logic [5:0]  slot_fetch_i,
+  input  logic        scene_slot_fetch_i,
+  input  logic [3:0]  scene_i,             // the bank of the scene in force; not 1
+  input  logic        region_high_i,       // slot 34 comes from word 50
+  output logic [31:0] param_o,
+
+  output logic [14:0] control_o,
+  output logic        set_zero_o,          // commands: high in the clock of tick_i
+  output logic        clear_faults_o,
+  output logic        kick_o,
+
+  input  logic [5:0]  snap_slot_i,
+  input  logic        snap_valid_i,
+  input  logic [31:0] snap_data_i
+);
+
+  localparam logic [5:0] LOW  = 6'(feltgate_pkg::S_VOLTAGE_GAIN);
+  localparam logic [5:0] HIGH = 6'(feltgate_pkg::S_VOLTAGE_GAIN_HIGH);
+
+  // The waiting write: where it goes (none set: nothing waits), and its word.
+  logic        to_parameter_q, to_control_q, to_command_q;
+  logic        at_parameter, at_control, at_command, accept, commit;
+  logic [8:0]  address_q;
+  logic [31:0] data_q;
+
+  assign at_parameter = reg_addr_i[11:9] == 3'd0;
+  assign at_control   = reg_addr_i == feltgate_pkg::A_CONTROL;
+  assign at_command   = reg_addr_i == feltgate_pkg::A_COMMAND;
+  assign reg_busy_o   = to_parameter_q || to_control_q || to_command_q;
+  assign accept       = reg_write_i && !reg_busy_o;
+  assign commit       = tick_i || (Defect == 1);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      to_parameter_q <= 1'b0;
+      to_control_q   <= 1'b0;
+      to_command_q   <= 1'b0;
+      address_q      <= 9'd0;
+      data_q         <= 32'd0;
+      control_o      <= 15'(feltgate_pkg::CONTROL_RESET);
+    end else begin
+      if (accept) begin
+        to_parameter_q <= at_parameter;
+        to_control_q   <= at_control;
+        to_command_q   <= at_command;
+      end else if (commit) begin
+        to_parameter_q <= 1'b0;
+        to_control_q   <= 1'b0;
+        to_command_q   <= 1'b0;
+      end
+      if (accept || (reg_write_i && Defect == 4)) begin
+        address_q <= reg_addr_i[8:0];
+        data_q    <= reg_wdata_i;
+      end
+      if (commit && to_control_q) control_o <= data_q[14:0];
+    end
+  end
+
+  assign set_zero_o     = commit && to_command_q && data_q[feltgate_pkg::B_COMMAND_SET_ZERO];
+  assign clear_faults_o = commit && to_command_q && data_q[feltgate_pkg::B_COMMAND_CLEAR_FAULTS];
+  assign kick_o         = commit && to_command_q && data_q[feltgate_pkg::B_COMMAND_KICK];
+
+  // Parameter RAM. It keeps what was written through a reset; only configuration loads the values
+  // of the design. A word is written in a clock in which no block fetches a word of its own, so
+  // what a block RAM returns for a read of the word being written does not matter.
+  (* no_rw_check, ram_style = "block", ramstyle = "no_rw_check" *)
+  logic [31:0] parameter_ram [0:511];
+
+  initial begin
+    for (int i = 0; i < 512; i++) parameter_ram[i] = feltgate_pkg::parameter_reset(9'(i));
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (commit && to_parameter_q) parameter_ram[address_q] <= data_q;
+  end
+
+  logic        high;
+  logic [8:0]  fetch_address;
+  logic [31:0] fetch_q;
+  logic        warm_q;  // keeps what the RAM's own, unreset output register held off the bus
+
+  assign high = region_high_i && slot_fetch_i == LOW && (Defect != 5);
+  assign fetch_address = scene_slot_fetch_i ? {scene_i, slot_fetch_i[4:0]}
+                                            : {3'b000, high ? HIGH : slot_fetch_i};
+
+  always_ff @(posedge clk_i) fetch_q <= parameter_ram[fetch_address];
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      warm_q  <= 1'b0;
+      param_o <= 32'd0;
+    end else begin
+      warm_q <= 1'b1;
+      if (warm_q) param_o <= fetch_q;
+    end
+  end
+
+  if (ReadBack != 0) begin : g_read
+    // Words of the running tick go to bank write_bank_q, the port reads the other bank.
+    (* no_rw_check, ram_style = "block", ramstyle = "no_rw_check" *)
+    logic [31:0] snapshot_ram [0:127];
+    logic        write_bank_q, frozen_q, read_bank;
+    logic [31:0] parameter_q, parameter_q2, snapshot_q, snapshot_q2;
+    logic        at_snapshot;
+    // Where the addressed word is: 1 parameter, 2 snapshot, 3 control, 0 nowhere.
+    logic [1:0]  source_q, source_q2;
+
+    initial begin
+      for (int i = 0; i < 128; i++) snapshot_ram[i] = 32'd0;
+    end
+
+    assign read_bank   = (Defect == 3) ? write_bank_q : !write_bank_q;
+    assign at_snapshot = reg_addr_i[11:6] == 6'h0c;
+
+    always_ff @(posedge clk_i) begin
+      if (snap_valid_i) snapshot_ram[{write_bank_q, snap_slot_i}] <= snap_data_i;
+    end
+    always_ff @(posedge clk_i) snapshot_q <= snapshot_ram[{read_bank, reg_addr_i[5:0]}];
+    always_ff @(posedge clk_i) parameter_q <= parameter_ram[reg_addr_i[8:0]];
+
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        write_bank_q <= 1'b0;
+        frozen_q     <= 1'b0;
+        source_q     <= 2'd0;
+        source_q2    <= 2'd0;
+        parameter_q2 <= 32'd0;
+        snapshot_q2  <= 32'd0;
+        reg_rdata_o  <= 32'd0;
+      end else begin
+        // The tick that a freeze ends is the one that is held.
+        if (tick_i && (!frozen_q || Defect == 2)) write_bank_q <= !write_bank_q;
+        if (commit && to_command_q) begin
+          frozen_q <= data_q[feltgate_pkg::B_COMMAND_FREEZE] ||
+                      (frozen_q && !data_q[feltgate_pkg::B_COMMAND_THAW]);
+        end
+        source_q  <= {at_snapshot || at_control, at_parameter || at_control};
+        source_q2 <= source_q;
+        if (warm_q) begin
+          parameter_q2 <= parameter_q;
+          snapshot_q2  <= snapshot_q;
+        end
+        case (source_q2)
+          2'd1:    reg_rdata_o <= parameter_q2;
+          2'd2:    reg_rdata_o <= snapshot_q2;
+          2'd3:    reg_rdata_o <= {17'd0, control_o};
+          default: reg_rdata_o <= 32'd0;
+        endcase
+      end
+    end
+  end else begin : g_write_only
+    logic unused;
+    assign unused      = ^{snap_slot_i, snap_valid_i, snap_data_i, data_q[31:15]};
+    assign reg_rdata_o = 32'd0;
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Counts the clocks of a tick, starts one wave per tick and reads the parameter slots ahead of it.
+// Clock c of a tick fetches slot c and is wave clock c-2. Documentation: docs/blocks/sequencer.md
+`default_nettype none
+
+module sequencer #(
+  parameter int ClocksPerTick = feltgate_pkg::CLOCKS_PER_TICK,  // at least WaveLength
+  parameter int WaveLength    = 50,
+  parameter int ResetTicks    = 0,  // test only: brings the wrap of the tick count near
+  parameter int Defect        = 0   // test only: see testbench/sequencer
+) (
+  input  logic                  clk_i,
+  input  logic                  rst_ni,
+  output logic                  tick_o,              // last clock of a tick
+  output logic [5:0]            slot_fetch_o,        // on the bus two clocks later
+  output logic                  scene_slot_fetch_o,  // that slot lies in the scene's bank
+  output logic [WaveLength-1:0] wave_o,              // one-hot
+  output logic [31:0]           tick_count_o
+);
+
+  localparam int CLOCK_W = (ClocksPerTick > 64) ? $clog2(ClocksPerTick) : 6;
+  localparam logic [CLOCK_W-1:0] BEFORE_LAST = CLOCK_W'(ClocksPerTick - 2);
+  localparam int FIRST_WAVE = (Defect == 1) ? 2 : 1;  // the clock before wave clock 0
+  // Slots of the scene bank: 1, 2, 3, 6, 10, 11, 12 and 14.
+  localparam logic [63:0] SCENE_SLOTS = 64'h0000_0000_0000_5c4e;
+
+  logic [CLOCK_W-1:0] clock_q;
+  logic [5:0]         next_slot;
+
+  assign next_slot = clock_q[5:0] + 6'd1;
+
+  if (CLOCK_W > 6) begin : g_long_tick
+    // Past the last slot nothing is read: hold the word that no block uses.
+    assign slot_fetch_o = (clock_q[CLOCK_W-1:6] != '0) ? 6'd63 : clock_q[5:0];
+  end else begin : g_short_tick
+    assign slot_fetch_o = clock_q[5:0];
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      clock_q            <= '0;
+      tick_o             <= 1'b0;
+      scene_slot_fetch_o <= 1'b0;
+      wave_o             <= '0;
+      tick_count_o       <= ResetTicks;
+    end else begin
+      clock_q <= tick_o ? '0 : clock_q + CLOCK_W'(1);
+      tick_o  <= clock_q == BEFORE_LAST;
+      // After the tick comes slot 0, which is not a scene's; neither is 63 nor its successor.
+      scene_slot_fetch_o <= SCENE_SLOTS[next_slot] && !tick_o && (clock_q < CLOCK_W'(63));
+      wave_o             <= {wave_o[WaveLength-2:0], clock_q == CLOCK_W'(FIRST_WAVE)};
+      if (tick_o && !(Defect == 2 && tick_count_o[15:0] == 16'hffff)) begin
+        tick_count_o <= tick_count_o + 32'd1;
+      end
+    end
+  end
+
+endmodule
+
+`default_nettype wire

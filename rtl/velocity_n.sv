@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// N-method velocity: 2^n times the counts of the last m1 ticks, saturated, through a low-pass.
+// Latency: travel sampled in clock 0 (valid_i), operand in 4, product in 8, velocity in 9.
+// Formats: travel [1,15,0] wrapping, velocity as the design says. docs/blocks/velocity_n.md
+
+`default_nettype none
+
+module velocity_n #(
+    parameter int M1     = feltgate_pkg::M1,
+    parameter int Shift  = feltgate_pkg::VELOCITY_SHIFT,
+    parameter int Defect = 0  // 1: line one entry long, 2: unfilled line is read, 3: wraps instead of saturating, 4: counter wrap taken for a glitch
+) (
+    input  logic                                                  clk_i,
+    input  logic                                                  rst_ni,
+    input  logic                                                  valid_i,
+    input  logic signed [feltgate_pkg::TRAVEL_BITS-1:0]           travel_i,
+    output logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] operand_o,
+    input  logic signed [feltgate_pkg::PRODUCT_BITS-1:0]          product_i,
+    output logic signed [feltgate_pkg::VELOCITY_W-1:0]            velocity_o,
+    output logic                                                  saturated_o  // raw velocity was limited
+);
+  localparam int T = feltgate_pkg::TRAVEL_BITS;
+  localparam int W = feltgate_pkg::VELOCITY_W;
+  localparam int F = feltgate_pkg::VELOCITY_F;
+  localparam int Low = F + Shift;        // weight of one count in bits of the velocity
+  localparam int Room = W - Low;         // bits of a count that fit, sign included
+  localparam int AddressW = 11;
+  localparam int Last = (Defect == 1) ? M1 : M1 - 1;
+
+  logic [2:0] stage_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) stage_q <= '0;
+    else stage_q <= {stage_q[1:0], valid_i};
+  end
+
+  // Delay line of m1 entries; until it has filled, the position before reset stands for the oldest.
+  logic        [       T-1:0] line    [2**AddressW];
+  logic        [       T-1:0] line_q;
+  logic        [AddressW-1:0] pointer_q;
+  logic                       filled_q;
+  logic signed [       T-1:0] travel_q, oldest_q, difference_q;
+  always_ff @(posedge clk_i) begin
+    if (stage_q[1]) line[pointer_q] <= travel_q;
+    line_q <= line[pointer_q];
+  end
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      pointer_q <= '0;
+      filled_q  <= 1'b0;
+    end else if (stage_q[2]) begin
+      if (pointer_q == AddressW'(Last)) begin
+        pointer_q <= '0;
+        filled_q  <= 1'b1;
+      end else begin
+        pointer_q <= pointer_q + 1'b1;
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      travel_q     <= '0;
+      oldest_q     <= '0;
+      difference_q <= '0;
+    end else begin
+      if (valid_i) begin
+        travel_q <= travel_i;
+        oldest_q <= (filled_q || Defect == 2) ? line_q : '0;
+      end
+      if (stage_q[0]) begin
+        difference_q <= (Defect == 4 && travel_q < 0 && oldest_q > 0) ? '0 : travel_q - oldest_q;
+      end
+    end
+  end
+
+  // Counts to rad/s: a shift, saturated where the counts need more bits than are above it.
+  logic                over;
+  logic signed [W-1:0] raw_q;
+  assign over = (Defect != 3) && (difference_q[T-1:Room-1] != {(T - Room + 1) {difference_q[T-1]}});
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      raw_q       <= '0;
+      saturated_o <= 1'b0;
+    end else if (stage_q[1]) begin
+      raw_q       <= over ? {difference_q[T-1], {(W - 1) {~difference_q[T-1]}}} : {difference_q[Room-1:0], {Low{1'b0}}};
+      saturated_o <= over;
+    end
+  end
+
+  lowpass #(
+      .Width(W),
+      .OperandW(feltgate_pkg::VELOCITY_DIFFERENCE_W),
+      .ProductDrop(feltgate_pkg::VELOCITY_DIFFERENCE_F + feltgate_pkg::P_VELOCITY_A1_F - F),
+      .ProductW(feltgate_pkg::PRODUCT_BITS)
+  ) u_lowpass (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .valid_i(stage_q[2]),
+      .follow_i(1'b0),
+      .x_i(raw_q),
+      .operand_o(operand_o),
+      .product_i(product_i),
+      .y_o(velocity_o)
+  );
+endmodule
+
+`default_nettype wire

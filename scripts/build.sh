@@ -1,0 +1,87 @@
+# shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+#
+# Configures and builds out of tree with CMake and Ninja; the Python venv of synth. Sourced by
+# feltgate. All messages go to stderr, so that the program's stdout stays its own.
+
+# Copies stdin to a log; shows its newest line on a terminal, or one line every ten seconds.
+show_progress() {
+  local label=$1 log=$2 line width=80 next=$((SECONDS + 10))
+  if [[ -t 2 ]]; then width=$(tput cols 2>/dev/null || echo 80); fi
+  while IFS= read -r line; do
+    printf '%s\n' "$line" >&3
+    if [[ -t 2 ]]; then
+      printf '\r\033[K%.*s' $((width - 1)) "feltgate: $label: $line" >&2
+    elif ((SECONDS >= next)); then
+      next=$((SECONDS + 10))
+      say "$label: ${line:0:100}"
+    fi
+  done 3>"$log"
+  if [[ -t 2 ]]; then printf '\r\033[K' >&2; fi
+}
+
+# run_logged LABEL LOG COMMAND...: its status; a failure prints the last lines and the log's path.
+run_logged() {
+  local label=$1 log=$2 status=0 start=$SECONDS
+  shift 2
+  "$@" </dev/null 2>&1 9>&- | show_progress "$label" "$log" || status=${PIPESTATUS[0]}
+  if ((status > 128)); then
+    say "$label: interrupted"
+  elif ((status)); then
+    tail -n 40 "$log" >&2
+    say "$label: failed with status $status; the whole log: $log"
+  elif ((SECONDS - start >= 2)); then
+    say "$label: done in $((SECONDS - start)) s"
+  fi
+  return "$status"
+}
+
+# Holds a lock for the rest of the build, so that two starts at once do not build into each other.
+lock_build() {
+  mkdir -p "$STATE"
+  exec 9>"$STATE/lock"
+  flock -n 9 && return
+  say "another feltgate builds in $BUILD; waiting for it"
+  flock 9
+}
+
+# configure TESTS: once per build folder, again when tests are wanted or the repository moved.
+configure() {
+  local tests=$1 had_tests='' had_root='' fresh=()
+  if [[ -f $BUILD/build.ninja && -f $STATE/configured ]]; then
+    { read -r had_tests && read -r had_root; } <"$STATE/configured" || true
+  fi
+  if [[ $had_tests == ON ]]; then tests=ON; fi
+  [[ $had_tests == "$tests" && $had_root == "$ROOT" ]] && return
+  if [[ $had_root && $had_root != "$ROOT" ]]; then fresh=(--fresh); fi
+  run_logged "configuring" "$STATE/configure.log" cmake "${fresh[@]}" -S "$ROOT" -B "$BUILD" \
+    -G Ninja -DCMAKE_BUILD_TYPE=Release -DFELTGATE_TESTS="$tests" \
+    -DPython3_EXECUTABLE="$FELTGATE_PYTHON" || return
+  printf '%s\n%s\n' "$tests" "$ROOT" >"$STATE/configured"
+}
+
+# build TESTS TARGET: ends the launcher with the build's own status when it fails.
+build() {
+  lock_build
+  configure "$1" || exit
+  NINJA_STATUS='[%f/%t] ' run_logged "building" "$STATE/build.log" \
+    ninja -C "$BUILD" "$2" || exit
+  exec 9>&-
+}
+
+# The pinned Yosys and nextpnr, in a venv that is remade when scripts/requirements.txt changes.
+need_venv() {
+  local venv=$BUILD/venv pins=$ROOT/scripts/requirements.txt
+  if ! cmp -s "$pins" "$venv/requirements.txt"; then
+    lock_build
+    say "fetching Yosys and nextpnr for ECP5 from PyPI into $venv, once"
+    rm -rf "$venv"
+    run_logged "Python venv" "$STATE/venv.log" "$FELTGATE_PYTHON" -m venv "$venv" || exit
+    run_logged "Python packages" "$STATE/pip.log" "$venv/bin/pip" install \
+      --disable-pip-version-check -r "$pins" || exit
+    cp "$pins" "$venv/requirements.txt"
+    exec 9>&-
+  fi
+  export FELTGATE_VENV=$venv PATH=$venv/bin:$PATH
+}

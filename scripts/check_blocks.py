@@ -1,0 +1,228 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""One block, one name everywhere: fails when a block lacks one of its siblings.
+
+Every rtl/<b>.sv has model/include/feltgate/<b>.hpp, testbench/<b>/<b>_test.cpp and
+docs/blocks/<b>.md (scene_* blocks may share one folder testbench/scene*/), at least one seeded
+defect, and a page that links the other three. Beside that: no hand-written source of more than 400
+lines, and the lists made from the blocks are fresh: docs/blocks.md, and the sources in
+feltgate.core and the boards' .qsf.
+
+  check_blocks.py           check; one line 'path: what; mend' for each finding, status 1
+  check_blocks.py --write   write the lists again, then check
+"""
+
+import argparse
+import os
+import re
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+MAX_LINES = 400
+SOURCE_SUFFIXES = {".sv", ".v", ".svh", ".cpp", ".hpp", ".h", ".py", ".sh", ".cmake", ".tcl"}
+SKIPPED_FOLDERS = {".git", "build", "generated", "__pycache__"}
+BOARD_DESIGN = "lever"
+BEGIN = "# sources: written by scripts/check_blocks.py --write"
+END = "# end of sources"
+MEND_LIST = "run scripts/check_blocks.py --write"
+
+
+@dataclass(frozen=True)
+class Block:
+    """Paths are relative to the root and need not exist."""
+
+    name: str
+    rtl: Path
+    twin: Path
+    test: Path
+    doc: Path
+    defects: tuple
+
+
+def code_only(text):
+    """SystemVerilog without comments."""
+    return re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.S)
+
+
+def shared_scene_test(root, name):
+    """The first test in a folder testbench/scene*/ that names the block, if any."""
+    for test in sorted(root.glob("testbench/scene*/*_test.cpp")):
+        class_name = "".join(part.capitalize() for part in name.split("_"))
+        if re.search(rf"\b({name}|{class_name})(?![A-Za-z0-9])", test.read_text(encoding="utf-8")):
+            return test.relative_to(root)
+    return None
+
+
+def find_blocks(root):
+    blocks = []
+    for rtl in sorted(root.glob("rtl/*.sv")):
+        code, name = code_only(rtl.read_text(encoding="utf-8")), rtl.stem
+        if not re.search(r"^\s*module\b", code, re.M):
+            continue  # a package
+        test = Path(f"testbench/{name}/{name}_test.cpp")
+        if name.startswith("scene_") and not (root / test).exists():
+            test = shared_scene_test(root, name) or test
+        blocks.append(
+            Block(
+                name=name,
+                rtl=rtl.relative_to(root),
+                twin=Path(f"model/include/feltgate/{name}.hpp"),
+                test=test,
+                doc=Path(f"docs/blocks/{name}.md"),
+                defects=tuple(
+                    sorted({int(n) for n in re.findall(r"\bDefect\s*[=!]=\s*(\d+)", code)})
+                ),
+            )
+        )
+    return blocks
+
+
+def check_block(root, block):
+    for what, path in (("twin", block.twin), ("test", block.test), ("page", block.doc)):
+        if not (root / path).exists():
+            yield f"{path}: missing, the {what} of {block.rtl}; write it"
+    rtl = (root / block.rtl).read_text(encoding="utf-8")
+    if not re.search(rf"\bmodule\s+{block.name}\b", rtl):
+        yield f"{block.rtl}: no module {block.name} in it; name the module as the file"
+    if str(block.doc) not in rtl:
+        yield f"{block.rtl}: does not name its page; add {block.doc} to the head comment"
+    if not block.defects:
+        yield f"{block.rtl}: no seeded defect; add a parameter Defect and 'Defect == 1'"
+    elif block.defects != tuple(range(1, len(block.defects) + 1)):
+        yield f"{block.rtl}: defects are {list(block.defects)}; number them 1, 2, 3 without gaps"
+    if (root / block.doc).exists():
+        links = linked_files(root, block.doc)
+        for path in (block.rtl, block.twin, block.test):
+            # A link to the test's folder is as good.
+            if not {path, path.parent} & links:
+                yield f"{block.doc}: no link to {path}; link it in the first lines"
+
+
+def linked_files(root, page):
+    links = set()
+    for target in re.findall(r"\]\(([^)#\s]+)", (root / page).read_text(encoding="utf-8")):
+        if "://" not in target:
+            links.add(Path(os.path.normpath(page.parent / target)))
+    return links
+
+
+def check_links(root, page):
+    for target in sorted(linked_files(root, page)):
+        if not (root / target).exists():
+            yield f"{page}: links {target}, which is not there; mend the link"
+
+
+def check_lengths(root):
+    for folder, folders, files in os.walk(root):
+        folders[:] = [
+            f for f in folders if f not in SKIPPED_FOLDERS and not f.startswith(("build-", "."))
+        ]
+        for file in files:
+            path = Path(folder, file)
+            if path.suffix in SOURCE_SUFFIXES or file in ("CMakeLists.txt", "feltgate"):
+                lines = path.read_bytes().count(b"\n")
+                if lines > MAX_LINES:
+                    relative = path.relative_to(root)
+                    yield f"{relative}: {lines} lines, more than {MAX_LINES}; split it"
+
+
+def blocks_table(blocks):
+    def link(path):
+        return f"[{path.name}]({os.path.relpath(path, 'docs')})"
+
+    rows = [
+        f"| {b.name} | {link(b.rtl)} | {link(b.twin)} | {link(b.test)} | {link(b.doc)} "
+        f"| {len(b.defects)} |"
+        for b in blocks
+    ]
+    return "\n".join(
+        [
+            "# Blocks",
+            "",
+            "Every block has one name everywhere. The last column counts the seeded defects in",
+            "its RTL; the block's test runs once against each and must fail. Written by",
+            "`scripts/check_blocks.py --write`, which also fails when a sibling is missing.",
+            "",
+            "| block | RTL | twin | test | page | seeded defects |",
+            "|---|---|---|---|---|---|",
+            *rows,
+            "",
+        ]
+    )
+
+
+def sources(root):
+    """RTL of the core with the boards' design, packages first."""
+    generated = sorted(root.glob(f"rtl/generated/{BOARD_DESIGN}/*.sv"))
+    blocks = sorted(root.glob("rtl/*.sv"))
+    both = [path.relative_to(root) for path in generated + blocks]
+    return sorted(both, key=lambda path: not path.stem.endswith("_pkg"))
+
+
+def replace_list(text, lines, indent=""):
+    """The text with the lines between the two markers replaced; None without markers."""
+    pattern = re.compile(
+        rf"^{indent}{re.escape(BEGIN)}\n.*?^{indent}{re.escape(END)}$", re.S | re.M
+    )
+    body = "\n".join([indent + BEGIN, *(indent + line for line in lines), indent + END])
+    return pattern.sub(lambda _: body, text) if pattern.search(text) else None
+
+
+def fresh_lists(root, blocks):
+    """(path, wanted text) of everything that is made from the blocks."""
+    yield Path("docs/blocks.md"), blocks_table(blocks)
+    core = root / "feltgate.core"
+    if core.exists():
+        lines = [f"- {path}" for path in sources(root)]
+        yield core.relative_to(root), replace_list(core.read_text(encoding="utf-8"), lines, " " * 6)
+    for qsf in sorted(root.glob("rtl/boards/*/*.qsf")):
+        files = sources(root) + [p.relative_to(root) for p in sorted(qsf.parent.glob("*.sv"))]
+        lines = [
+            "set_global_assignment -name SYSTEMVERILOG_FILE "
+            + os.path.relpath(path, qsf.parent.relative_to(root))
+            for path in files
+        ]
+        yield qsf.relative_to(root), replace_list(qsf.read_text(encoding="utf-8"), lines)
+
+
+def check_lists(root, blocks, write):
+    for path, wanted in fresh_lists(root, blocks):
+        if wanted is None:
+            yield f"{path}: no lines '{BEGIN}' and '{END}'; put them back"
+            continue
+        there = (root / path).read_text(encoding="utf-8") if (root / path).exists() else ""
+        if there == wanted:
+            continue
+        if write:
+            (root / path).write_text(wanted, encoding="utf-8")
+        else:
+            yield f"{path}: stale; {MEND_LIST}"
+
+
+def check(root, write=False):
+    blocks = find_blocks(root)
+    found = [] if blocks else ["rtl: no blocks; is this the root of the repository?"]
+    found += check_lists(root, blocks, write)
+    for block in blocks:
+        found += check_block(root, block)
+    for page in sorted(root.glob("docs/**/*.md")):
+        if page != root / "docs/blocks.md":  # its links are the siblings, checked above
+            found += check_links(root, page.relative_to(root))
+    found += check_lengths(root)
+    return found
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--write", action="store_true", help="write the lists again")
+    parser.add_argument("--root", type=Path, default=Path(__file__).resolve().parents[1])
+    arguments = parser.parse_args()
+    found = check(arguments.root.resolve(), arguments.write)
+    print("\n".join(found) if found else "check_blocks: all blocks complete, all lists fresh")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""check_blocks.py must find what it promises: each test breaks a small complete tree in one way."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import check_blocks
+
+PAGE = "[{0}](../../rtl/{0}.sv) [twin](../../model/include/feltgate/{0}.hpp) [test](../../{1})\n"
+RTL = (
+    "// docs/blocks/{0}.md\n"
+    "module {0} #(parameter int Defect = 0);\n  // Defect == 9\n{1}endmodule\n"
+)
+LISTS = f"{check_blocks.BEGIN}\n{check_blocks.END}\n"
+CORE = "files:\n" + "".join(f"      {line}\n" for line in LISTS.splitlines())
+
+
+class CheckBlocks(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name)
+        self.add_block("alpha", "testbench/alpha/alpha_test.cpp")
+        self.add_block("scene_spring", "testbench/scene_all/scene_test.cpp")
+        self.put("testbench/scene_all/scene_test.cpp", "SceneSpring twin;\n")
+        self.put("rtl/generated/lever/feltgate_pkg.sv", "package feltgate_pkg;\nendpackage\n")
+        self.put("rtl/boards/toy/toy.sv", "module toy;\nendmodule\n")
+        self.put("rtl/boards/toy/toy.qsf", "# head\n" + LISTS)
+        self.put("feltgate.core", CORE)
+        self.assertEqual(check_blocks.check(self.root, write=True), [])
+        self.assertEqual(check_blocks.check(self.root), [])
+
+    def put(self, path, text):
+        (self.root / path).parent.mkdir(parents=True, exist_ok=True)
+        (self.root / path).write_text(text, encoding="utf-8")
+
+    def add_block(self, name, test):
+        self.put(f"rtl/{name}.sv", RTL.format(name, "  assign a = Defect == 1;\n"))
+        self.put(f"model/include/feltgate/{name}.hpp", "")
+        self.put(test, "")
+        self.put(f"docs/blocks/{name}.md", PAGE.format(name, test))
+
+    def expect(self, *words):
+        found = check_blocks.check(self.root)
+        for word in words:
+            self.assertTrue(any(word in line for line in found), found)
+
+    def test_lists(self):
+        table = (self.root / "docs/blocks.md").read_text(encoding="utf-8")
+        self.assertIn("| alpha | [alpha.sv](../rtl/alpha.sv) |", table)
+        self.assertIn("| [alpha.md](blocks/alpha.md) | 1 |", table)
+        qsf = (self.root / "rtl/boards/toy/toy.qsf").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(
+            [line.split()[-1] for line in qsf if line.startswith("set_")],
+            [
+                "../../generated/lever/feltgate_pkg.sv",
+                "../../alpha.sv",
+                "../../scene_spring.sv",
+                "toy.sv",
+            ],
+        )
+        self.assertIn("      - rtl/alpha.sv\n", (self.root / "feltgate.core").read_text())
+
+    def test_every_missing_sibling(self):
+        for path in (
+            "model/include/feltgate/alpha.hpp",
+            "testbench/alpha/alpha_test.cpp",
+            "docs/blocks/alpha.md",
+        ):
+            with self.subTest(path):
+                saved = (self.root / path).read_text(encoding="utf-8")
+                (self.root / path).unlink()
+                self.expect(f"{path}: missing")
+                self.put(path, saved)
+
+    def test_scene_that_no_shared_test_names(self):
+        self.put("testbench/scene_all/scene_test.cpp", "SceneSpringy other;\n")
+        self.expect("testbench/scene_spring/scene_spring_test.cpp: missing")
+
+    def test_defects(self):
+        self.put("rtl/alpha.sv", RTL.format("alpha", ""))
+        self.expect("no seeded defect")
+        self.put("rtl/alpha.sv", RTL.format("alpha", "  assign a = Defect == 1 || Defect == 3;\n"))
+        self.expect("without gaps")
+
+    def test_module_name_and_page_name(self):
+        self.put("rtl/alpha.sv", "module beta;\nassign a = Defect == 1;\nendmodule\n")
+        self.expect("no module alpha", "does not name its page")
+
+    def test_links(self):
+        self.put("docs/blocks/alpha.md", "no links\n")
+        self.expect("no link to rtl/alpha.sv", "no link to model/include/feltgate/alpha.hpp")
+        self.put("docs/other.md", "[gone](nowhere.md) [far](https://example.org/x)\n")
+        self.expect("docs/other.md: links docs/nowhere.md")
+
+    def test_stale_lists(self):
+        self.add_block("beta", "testbench/beta/beta_test.cpp")
+        self.expect("blocks.md: stale", "feltgate.core: stale", "toy.qsf: stale")
+
+    def test_lost_markers(self):
+        self.put("rtl/boards/toy/toy.qsf", "# head\n")
+        self.expect("toy.qsf: no lines")
+
+    def test_long_files(self):
+        self.put("model/long.cpp", "\n" * 401)
+        self.put("rtl/generated/paper/long.sv", "\n" * 401)
+        self.put("build/long.cpp", "\n" * 401)
+        found = [line for line in check_blocks.check(self.root) if "lines, more than" in line]
+        self.assertEqual(found, ["model/long.cpp: 401 lines, more than 400; split it"])
+
+    def test_empty_tree(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertIn("no blocks", check_blocks.check(Path(folder))[0])
+
+
+if __name__ == "__main__":
+    unittest.main()

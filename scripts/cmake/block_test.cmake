@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+#
+# feltgate_block_test(<block> DEFECTS <n> [NAME <test>] [DESIGN <design>] [SOURCES extra.sv...]
+#                     [PARAMS -GName=value...] [DEFINES NAME=value...] [LIBRARIES target...])
+# verilates rtl/<block>.sv, links testbench/<block>/<block>_test.cpp to it and adds the CTest <test>
+# (default <block>, labels unit and lockstep) and, for each N in 1..n, <test>.defect<N> (label
+# mutation): the same executable on -GDefect=N, which passes only when an assertion fails.
+# SOURCES are relative to the repository. PARAMS reach the RTL, DEFINES the test. docs/testing.md
+include_guard(GLOBAL)
+
+include("${CMAKE_CURRENT_LIST_DIR}/verilate.cmake")
+
+set(FELTGATE_EXPECT_FAILURE "${CMAKE_CURRENT_LIST_DIR}/expect_failure.cmake")
+find_package(Catch2 REQUIRED)
+
+if(NOT TARGET feltgate_catch_main)
+  # main() and the reports of a mismatch.
+  add_library(feltgate_catch_main STATIC
+    ${FELTGATE_ROOT}/testbench/common/catch_main.cpp ${FELTGATE_ROOT}/testbench/common/mismatch.cpp)
+  target_include_directories(feltgate_catch_main PUBLIC
+    ${FELTGATE_ROOT}/testbench/common ${FELTGATE_ROOT}/model/include)
+  target_compile_definitions(feltgate_catch_main PUBLIC
+    FELTGATE_BUILD_DIR="${CMAKE_BINARY_DIR}" FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}")
+  target_compile_features(feltgate_catch_main PUBLIC cxx_std_17)
+  target_compile_options(feltgate_catch_main PRIVATE ${FELTGATE_WARNINGS})
+  target_link_libraries(feltgate_catch_main PUBLIC Catch2::Catch2)
+endif()
+
+function(feltgate_block_test block)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "DEFECTS;NAME;DESIGN" "SOURCES;PARAMS;DEFINES;LIBRARIES")
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "feltgate_block_test(${block}): unknown ${arg_UNPARSED_ARGUMENTS}")
+  endif()
+  if(NOT arg_NAME)
+    set(arg_NAME ${block})
+  endif()
+  if(NOT arg_DESIGN)
+    set(arg_DESIGN lever)
+  endif()
+  if(NOT arg_DEFECTS)
+    set(arg_DEFECTS 0)
+  endif()
+  set(sources "")
+  set(package "${FELTGATE_ROOT}/rtl/generated/${arg_DESIGN}/feltgate_pkg.sv")
+  if(EXISTS "${package}")
+    list(APPEND sources "${package}")
+  endif()
+  foreach(source IN LISTS arg_SOURCES)
+    get_filename_component(source "${source}" ABSOLUTE BASE_DIR "${FELTGATE_ROOT}")
+    list(APPEND sources "${source}")
+  endforeach()
+  list(APPEND sources "${FELTGATE_ROOT}/rtl/${block}.sv")
+
+  # The ports do not depend on Defect, so one object of the test serves every variant.
+  feltgate_verilate(${arg_NAME}_rtl ${block} "${sources}" ${arg_PARAMS})
+  add_library(${arg_NAME}_object OBJECT "${FELTGATE_ROOT}/testbench/${block}/${block}_test.cpp")
+  target_compile_definitions(${arg_NAME}_object PRIVATE ${arg_DEFINES})
+  target_compile_options(${arg_NAME}_object PRIVATE ${FELTGATE_WARNINGS} -O2)
+  target_link_libraries(${arg_NAME}_object PUBLIC feltgate_catch_main ${arg_LIBRARIES})
+  target_link_libraries(${arg_NAME}_object PRIVATE ${arg_NAME}_rtl)
+  if(TARGET feltgate_model)
+    target_link_libraries(${arg_NAME}_object PUBLIC feltgate_model)
+  endif()
+
+  add_executable(${arg_NAME}_test $<TARGET_OBJECTS:${arg_NAME}_object>)
+  target_link_libraries(${arg_NAME}_test PRIVATE
+    feltgate_catch_main ${arg_LIBRARIES} ${arg_NAME}_rtl)
+  add_test(NAME ${arg_NAME} COMMAND ${arg_NAME}_test)
+  set_tests_properties(${arg_NAME} PROPERTIES LABELS "unit;lockstep" TIMEOUT 3600)
+
+  foreach(n RANGE 1 ${arg_DEFECTS})
+    if(n GREATER arg_DEFECTS)
+      break()
+    endif()
+    set(name ${arg_NAME}_defect${n})
+    feltgate_verilate(${name}_rtl ${block} "${sources}" ${arg_PARAMS} -GDefect=${n})
+    add_executable(${name} $<TARGET_OBJECTS:${arg_NAME}_object>)
+    target_link_libraries(${name} PRIVATE feltgate_catch_main ${arg_LIBRARIES} ${name}_rtl)
+    add_test(NAME ${arg_NAME}.defect${n}
+      COMMAND ${CMAKE_COMMAND} -DTEST=$<TARGET_FILE:${name}> -P "${FELTGATE_EXPECT_FAILURE}")
+    set_tests_properties(${arg_NAME}.defect${n} PROPERTIES LABELS mutation TIMEOUT 3600
+      ENVIRONMENT "FELTGATE_MISMATCH_DIR=${CMAKE_BINARY_DIR}/mismatch/defect${n}")
+  endforeach()
+endfunction()

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+#
+# Verilator: its run-time as a library and feltgate_verilate(). docs/testing.md
+include_guard(GLOBAL)
+
+get_filename_component(FELTGATE_ROOT "${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
+set(FELTGATE_JOIN_SOURCES "${CMAKE_CURRENT_LIST_DIR}/join_sources.cmake")
+set(FELTGATE_WARNINGS -Wall -Wextra -Wconversion -Wpedantic -Werror
+    CACHE STRING "Warnings for code of this project, not for Verilator's output")
+
+find_package(verilator REQUIRED HINTS $ENV{VERILATOR_ROOT} /usr/share/verilator)
+find_package(ZLIB REQUIRED)
+find_package(Threads REQUIRED)
+
+# Verilator's own run-time, compiled once.
+add_library(feltgate_verilated STATIC
+  ${VERILATOR_ROOT}/include/verilated.cpp
+  ${VERILATOR_ROOT}/include/verilated_threads.cpp
+  ${VERILATOR_ROOT}/include/verilated_fst_c.cpp)
+target_include_directories(feltgate_verilated SYSTEM PUBLIC
+  ${VERILATOR_ROOT}/include ${VERILATOR_ROOT}/include/vltstd)
+target_compile_definitions(feltgate_verilated PUBLIC
+  VM_COVERAGE=0 VM_SC=0 VM_TRACE=1 VM_TRACE_FST=1 VM_TRACE_VCD=0)
+target_compile_features(feltgate_verilated PUBLIC cxx_std_17)
+target_compile_options(feltgate_verilated PRIVATE -w -O2)
+find_library(FELTGATE_ATOMIC_LIBRARY NAMES atomic libatomic.so.1)
+target_link_libraries(feltgate_verilated PUBLIC ZLIB::ZLIB Threads::Threads
+  $<$<BOOL:${FELTGATE_ATOMIC_LIBRARY}>:${FELTGATE_ATOMIC_LIBRARY}>)
+
+# Only the oldest supported version decides which warnings are errors: newer ones learn new warnings.
+execute_process(COMMAND ${VERILATOR_BIN} --version OUTPUT_VARIABLE FELTGATE_VERILATOR_VERSION)
+string(REGEX MATCH "[0-9]+\\.[0-9]+" FELTGATE_VERILATOR_VERSION "${FELTGATE_VERILATOR_VERSION}")
+set(FELTGATE_VERILATOR_WARNINGS -Wall)
+if(NOT FELTGATE_VERILATOR_VERSION VERSION_EQUAL "5.006")
+  list(APPEND FELTGATE_VERILATOR_WARNINGS -Wno-fatal)
+endif()
+
+# feltgate_verilate(<target> <top> <sources> [CLASS <name>] [verilator arguments...]): static library
+# <target> with the class <name> (default V<top>), generated and compiled at build time as one
+# translation unit.
+function(feltgate_verilate target top sources)
+  cmake_parse_arguments(PARSE_ARGV 3 arg "" "CLASS" "")
+  if(NOT arg_CLASS)
+    set(arg_CLASS V${top})
+  endif()
+  set(directory "${CMAKE_CURRENT_BINARY_DIR}/${target}.verilated")
+  set(joined "${directory}/all.cpp")
+  add_custom_command(
+    OUTPUT "${joined}" "${directory}/${arg_CLASS}.h"
+    COMMAND ${CMAKE_COMMAND} -E rm -rf "${directory}"
+    COMMAND ${CMAKE_COMMAND} -E make_directory "${directory}"
+    COMMAND ${CMAKE_COMMAND} -E env "VERILATOR_ROOT=${VERILATOR_ROOT}" ${VERILATOR_BIN} --cc
+            --prefix ${arg_CLASS} --top-module ${top} --Mdir "${directory}" --trace-fst
+            --x-initial unique --x-assign unique --output-split 0 ${FELTGATE_VERILATOR_WARNINGS}
+            ${arg_UNPARSED_ARGUMENTS} ${sources}
+    COMMAND ${CMAKE_COMMAND} -DDIRECTORY=${directory} -P "${FELTGATE_JOIN_SOURCES}"
+    DEPENDS ${sources} "${FELTGATE_JOIN_SOURCES}"
+    COMMENT "Verilating ${target}" VERBATIM)
+  add_library(${target} STATIC "${joined}" "${directory}/${arg_CLASS}.h")
+  target_include_directories(${target} SYSTEM PUBLIC "${directory}")
+  target_compile_options(${target} PRIVATE -w -O2)
+  target_link_libraries(${target} PUBLIC feltgate_verilated)
+endfunction()

@@ -1,0 +1,107 @@
+# shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+#
+# Debian packages by group, why each is needed, and how they get installed. Sourced by feltgate.
+
+# Group | package | what for.
+PACKAGES=(
+  "build|g++|compiles the C++ twin, the plant and the tools"
+  "build|cmake|configures the build"
+  "build|ninja-build|runs the build"
+  "build|pkg-config|finds the libraries below"
+  "build|python3|runs the build's small scripts"
+  "build|verilator|turns the SystemVerilog core into a C++ simulation"
+  "build|libboost-dev|Odeint and 128-bit floats for plant and reference (headers)"
+  "build|libtomlplusplus-dev|reads designs, plants and scenes (TOML)"
+  "build|libarchive-dev|reads sigrok recordings (zip)"
+  "build|nlohmann-json3-dev|writes the JSON results"
+  "build|libcli11-dev|reads the command line"
+  "build|zlib1g-dev|writes FST waveforms"
+  "plots|python3-matplotlib|draws the figures of the report"
+  "test|catch2|the unit test framework"
+  "test|libsystemc-dev|sc_fixed, the independent oracle of the fixed-point type"
+  "test|iverilog|second simulator, with unknown values (X)"
+  "test|yosys|checks that the RTL is synthesizable"
+  "synth|python3-venv|holds the pinned Yosys and nextpnr of scripts/requirements.txt"
+  "synth|ca-certificates|lets pip fetch them over https"
+)
+
+# Missing ones among the named packages, one a line.
+missing_packages() {
+  local name status installed=" " package
+  while read -r name status; do
+    if [[ $status == ?i* ]]; then installed+="$name "; fi
+  done < <(dpkg-query -W -f '${Package} ${db:Status-Abbrev}\n' "$@" 2>/dev/null)
+  for package in "$@"; do
+    [[ $installed == *" $package "* ]] || printf '%s\n' "$package"
+  done
+}
+
+list_with_reasons() {
+  local entry rest
+  for entry in "${PACKAGES[@]}"; do
+    rest=${entry#*|}
+    if [[ " $* " == *" ${rest%%|*} "* ]]; then
+      printf '  %-20s %s\n' "${rest%%|*}" "${rest#*|}" >&2
+    fi
+  done
+}
+
+# 0 when the installation may go on without, or after, a question.
+may_install() {
+  [[ ${ASSUME_YES-} || (${CI-} && ${CI-} != false && ${CI-} != 0) ]] && return
+  [[ -t 0 ]] || return 1
+  local answer
+  read -r -p "Install them now? [Y/n] " answer || return 1
+  [[ ! $answer || $answer == [Yy]* ]]
+}
+
+install_packages() {
+  local shown as_root=() apt install=(install --yes --no-install-recommends "$@")
+  shown="apt-get update && apt-get ${install[*]}"
+  if ((EUID != 0)); then
+    if ! command -v sudo >/dev/null; then
+      die "neither root nor sudo here; run this, then start again:"$'\n'"  su -c '$shown'"
+    fi
+    shown=${shown//apt-get/sudo apt-get}
+    as_root=(sudo)
+    [[ -t 0 ]] || as_root+=(-n)
+  fi
+  may_install || die "nothing installed; run this, then start again:"$'\n'"  $shown"
+  say "$shown"
+  # Ask for the password here, not behind the progress line.
+  if [[ ${as_root[*]} == sudo ]]; then sudo -v || die "sudo refused; the command was: $shown"; fi
+  apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300)
+  # Old package lists may still do, so only the installation decides.
+  run_logged "package lists" "$STATE/apt-update.log" "${apt[@]}" update || true
+  run_logged "installing" "$STATE/apt-install.log" "${apt[@]}" "${install[@]}" ||
+    die "the installation failed; the command was: $shown"
+}
+
+# need_packages GROUPS: all packages of these groups are there, or the launcher ends with status 2.
+# The stamp saves even the look, until dpkg changes anything.
+need_packages() {
+  local entry rest wanted=() missing stamp=$STATE/packages-${1// /-}
+  [[ ${FELTGATE_SKIP_PACKAGES-} == 1 ]] && return
+  for entry in "${PACKAGES[@]}"; do
+    rest=${entry#*|}
+    if [[ " $1 " == *" ${entry%%|*} "* ]]; then wanted+=("${rest%%|*}"); fi
+  done
+  [[ $stamp -nt /var/lib/dpkg/status && $(<"$stamp") == "${wanted[*]}" ]] && return
+  mkdir -p "$STATE"
+  if ! command -v dpkg-query >/dev/null; then
+    say "this is no Debian; these packages, or what your system calls them, are needed:"
+    list_with_reasons "${wanted[@]}"
+    die "when they are there, start again with FELTGATE_SKIP_PACKAGES=1"
+  fi
+  mapfile -t missing < <(missing_packages "${wanted[@]}")
+  if ((${#missing[@]})); then
+    say "these Debian packages are missing:"
+    list_with_reasons "${missing[@]}"
+    install_packages "${missing[@]}"
+    mapfile -t missing < <(missing_packages "${wanted[@]}")
+    ((${#missing[@]} == 0)) || die "still missing after the installation: ${missing[*]}"
+  fi
+  printf '%s\n' "${wanted[*]}" >"$stamp"
+}

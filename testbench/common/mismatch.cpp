@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Reports of lock-step runs, compiled once for all benches. Documentation: docs/testing.md
+#include "mismatch.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <stdexcept>
+
+#include "catch.hpp"
+
+namespace feltgate::test {
+
+std::string mismatch_file(const char* block) {
+  const char* asked = std::getenv("FELTGATE_MISMATCH_DIR");
+  const std::filesystem::path directory =
+      asked != nullptr ? asked : std::filesystem::path(FELTGATE_BUILD_DIR) / "mismatch";
+  std::filesystem::create_directories(directory);
+  return (directory / (std::string(block) + ".fst")).string();
+}
+
+void fail_with(const char* block, std::uint64_t seed, const Mismatch& mismatch,
+               const std::string& waveform) {
+  std::ostringstream text;
+  if (mismatch.is_property) {
+    text << block << ": mismatch with a property at clock " << mismatch.cycle << ": "
+         << mismatch.signal;
+  } else {
+    text << block << ": mismatch at clock " << mismatch.cycle << ", signal " << mismatch.signal
+         << ' ' << mismatch.instant << ": RTL " << mismatch.rtl << ", twin " << mismatch.twin;
+  }
+  text << " (seed " << seed << ")\nwaveform: " << waveform << " (clock c rises at 20 c + 10 ns)";
+  const std::filesystem::path save = std::filesystem::path(FELTGATE_SOURCE_DIR) / "scripts" /
+                                     "gtkwave" / (std::string(block) + ".gtkw");
+  if (std::filesystem::exists(save)) {
+    text << "\nview: gtkwave " << waveform << ' ' << save.string();
+  }
+  FAIL(text.str());
+  throw std::logic_error("FAIL returned");
+}
+
+std::int64_t scaled_clocks(std::int64_t n) {
+  const char* factor = std::getenv("FELTGATE_LONG");
+  if (factor == nullptr) return n;
+  const long long times = std::strtoll(factor, nullptr, 10);
+  return times > 1 ? n * times : n;
+}
+
+}  // namespace feltgate::test

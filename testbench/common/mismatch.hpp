@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What a lock-step run found first, and how it is reported. Documentation: docs/testing.md
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <type_traits>
+
+namespace feltgate::test {
+
+/// The first difference between RTL and twin, or the first broken property.
+struct Mismatch {
+  std::int64_t cycle = 0;
+  const char* signal = nullptr;  ///< port name, or the text of the property
+  const char* instant = "";      ///< before or after the rising edge
+  bool is_property = false;      ///< then rtl and twin have no meaning
+  std::int64_t rtl = 0;
+  std::int64_t twin = 0;
+};
+
+/// The low W bits of a word as a two's complement number, 1 <= W <= 64. Verilator hands out signed
+/// ports of odd widths as unsigned words.
+template <int W, class Word>
+constexpr std::int64_t sign_extend(Word word) {
+  static_assert(W >= 1 && W <= 64 && std::is_unsigned<Word>::value, "");
+  constexpr std::uint64_t sign = std::uint64_t{1} << (W - 1);
+  constexpr std::uint64_t mask = sign + (sign - 1);
+  return static_cast<std::int64_t>(((word & mask) ^ sign) - sign);
+}
+
+/// The low W bits of a signed number, as Verilator wants its input ports.
+template <int W, class Word = std::uint32_t>
+constexpr Word port_bits(std::int64_t value) {
+  static_assert(W >= 1 && W < 64, "");
+  return static_cast<Word>(static_cast<std::uint64_t>(value) & ((std::uint64_t{1} << W) - 1));
+}
+
+/// Compares values; remembers the first difference only, so that the path of equality stays short.
+class Check {
+ public:
+  template <class RtlWord, class TwinWord>
+  void operator()(const char* signal, RtlWord rtl, TwinWord twin) {
+    static_assert(sizeof(RtlWord) <= 8 && sizeof(TwinWord) <= 8, "compare wide words in parts");
+    std::int64_t rtl_value;
+    if constexpr (std::is_signed<TwinWord>::value && sizeof(TwinWord) == sizeof(RtlWord)) {
+      rtl_value = static_cast<TwinWord>(rtl);  // a full-width signed port
+    } else {
+      rtl_value = static_cast<std::int64_t>(rtl);
+    }
+    const auto twin_value = static_cast<std::int64_t>(twin);
+    if (__builtin_expect(rtl_value != twin_value, 0) && first_.signal == nullptr) {
+      first_.signal = signal;
+      first_.rtl = rtl_value;
+      first_.twin = twin_value;
+    }
+  }
+  bool failed() const { return first_.signal != nullptr; }
+  Mismatch& first() { return first_; }
+
+ private:
+  Mismatch first_;
+};
+
+/// Where the waveform of a mismatch goes: $FELTGATE_MISMATCH_DIR or <build>/mismatch. Creates it.
+std::string mismatch_file(const char* block);
+
+/// Ends the test case with the message; names the waveform and its save file where one is
+/// committed.
+[[noreturn]] void fail_with(const char* block, std::uint64_t seed, const Mismatch& mismatch,
+                            const std::string& waveform);
+
+/// n, or n * $FELTGATE_LONG for the long regression.
+std::int64_t scaled_clocks(std::int64_t n);
+
+}  // namespace feltgate::test

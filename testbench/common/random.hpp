@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A small seeded generator (splitmix64) for stimuli: same numbers with every compiler and library,
+// one multiplication chain per draw, copyable. Documentation: docs/testing.md
+#pragma once
+
+#include <cstdint>
+
+namespace feltgate::test {
+
+class Random {
+ public:
+  explicit constexpr Random(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15U + 1U) {}
+
+  /// 64 uniform bits.
+  constexpr std::uint64_t bits() {
+    state_ += 0x9e3779b97f4a7c15U;
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
+    return z ^ (z >> 31);
+  }
+  /// Uniform in [0, n), n in [1, 2^32]; the bias of n/2^32 does not matter to a stimulus.
+  constexpr std::uint32_t below(std::uint64_t n) {
+    return static_cast<std::uint32_t>(((bits() >> 32) * n) >> 32);
+  }
+  /// Uniform in [low, high], both included; the range spans less than 2^32.
+  constexpr std::int64_t between(std::int64_t low, std::int64_t high) {
+    return low + static_cast<std::int64_t>(below(static_cast<std::uint64_t>(high - low + 1)));
+  }
+  /// True once in n draws on average.
+  constexpr bool one_in(std::uint64_t n) { return below(n) == 0; }
+  constexpr bool coin() { return (bits() >> 63) != 0; }
+
+ private:
+  std::uint64_t state_;
+};
+
+}  // namespace feltgate::test

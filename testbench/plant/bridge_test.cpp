@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// H-bridge, dead time, free-wheeling and supply. docs/plant.md
+#include "catch.hpp"
+#include "plant/period_mean.hpp"
+#include "plant/plant_fixture.hpp"
+
+using namespace feltgate;
+using namespace feltgate::plant;
+
+namespace {
+
+// Gate signals of one leg, clock by clock: centre-aligned on-time, each turn-on `dead` clocks late.
+class Leg {
+ public:
+  Leg(Clock period, Clock dead) : period_(period), dead_(dead) {}
+  void clock(Clock now, double on_share, double& hi, double& lo) {
+    const Clock on = std::llround(on_share * static_cast<double>(period_));
+    const Clock at = now % period_;
+    const Clock begin = (period_ - on) / 2;
+    const bool want = at >= begin && at < begin + on;
+    since_ = want == want_ ? since_ + 1 : 0;
+    want_ = want;
+    hi = want && since_ >= dead_ ? 1.0 : 0.0;
+    lo = !want && since_ >= dead_ ? 1.0 : 0.0;
+  }
+
+ private:
+  Clock period_;
+  Clock dead_;
+  Clock since_ = 1000000;
+  bool want_ = false;
+};
+
+struct Means {
+  double torque_nm;
+  double supply_a;
+};
+
+// Locked rotor for 4 ms; means over the last PWM period.
+Means switched(const Parameters& p, const Drive& drive, double duty) {
+  const Clock period = std::llround(drive.clock_hz / drive.pwm_hz);
+  const Clock dead = std::llround(drive.dead_time_s * drive.clock_hz);
+  Plant plant(p, p.effects, drive, hand_of(HandPhase::Kind::kLocked));
+  Leg a(period, dead);
+  Leg b(period, dead);
+  PeriodMean torque(period);
+  PeriodMean supply(period);
+  const bool antiphase = drive.switching == Drive::Switching::kLockedAntiphase;
+  const double a_on = antiphase ? 0.5 * (1.0 + duty) : std::max(0.0, duty);
+  const double b_on = antiphase ? 1.0 - a_on : std::max(0.0, -duty);
+  while (plant.now() < period * 200) {
+    Bridge bridge = Bridge::gates(0, 0, 0, 0);
+    a.clock(plant.now(), a_on, bridge.a_hi, bridge.a_lo);
+    // In antiphase leg B is the complement of leg A, not a second centred pulse.
+    double hi = 0.0;
+    double lo = 0.0;
+    b.clock(plant.now(), antiphase ? a_on : b_on, hi, lo);
+    bridge.b_hi = antiphase ? lo : hi;
+    bridge.b_lo = antiphase ? hi : lo;
+    plant.advance(bridge, 1);
+    torque.add(1, plant.observables().motor_torque_mean_nm);
+    supply.add(1, plant.observables().supply_current_a);
+  }
+  CHECK_FALSE(plant.observables().shoot_through);
+  return {torque.mean(), supply.mean()};
+}
+
+Means averaged(const Parameters& p, const Drive& drive, double duty) {
+  Plant plant(p, p.effects, drive, hand_of(HandPhase::Kind::kLocked));
+  run(plant, Bridge::averaged(duty), 4e-3);
+  return {plant.observables().motor_torque_mean_nm, plant.observables().supply_current_a};
+}
+
+}  // namespace
+
+TEST_CASE("averaged and switched bridge agree", "[bridge]") {
+  const Parameters p = shipped("p24");
+  Parameters ideal = p;
+  ideal.effects.dead_time = false;
+  // The torque that the dead voltage takes: where ripple turns the current round within each period
+  // it dithers the brushes, which the averaged mode leaves out.
+  const double brushes_nm =
+      p.motor.dead_voltage_v / p.motor.resistance_ohm * p.motor.torque_constant_nm_a;
+  double worst_nm = 0.0;
+  double without_nm = 0.0;
+  for (const auto switching :
+       {Drive::Switching::kSignMagnitude, Drive::Switching::kLockedAntiphase}) {
+    const bool antiphase = switching == Drive::Switching::kLockedAntiphase;
+    for (const double pwm_hz : {20e3, 50e3}) {
+      Drive drive;
+      drive.pwm_hz = pwm_hz;
+      drive.switching = switching;
+      for (const double duty : {-0.5, -0.2, -0.05, 0.0, 0.02, 0.1, 0.15, 0.25, 0.4, 0.6, 0.9}) {
+        const Means fine = switched(p, drive, duty);
+        const Means coarse = averaged(p, drive, duty);
+        CAPTURE(pwm_hz, duty, antiphase, fine.torque_nm, coarse.torque_nm);
+        const double error_nm = std::abs(fine.torque_nm - coarse.torque_nm);
+        const double half_ripple_nm = p.motor.torque_constant_nm_a * p.supply.voltage_v *
+                                      (1.0 - duty * duty) / (4.0 * p.motor.inductance_h * pwm_hz);
+        CHECK(coarse.supply_a == Approx(fine.supply_a).margin(antiphase ? 0.12 : 0.03));
+        if (antiphase && std::abs(fine.torque_nm) < half_ripple_nm) {
+          CHECK(error_nm < brushes_nm);
+          continue;
+        }
+        CHECK(error_nm < 1e-3);
+        worst_nm = std::max(worst_nm, error_nm);
+        without_nm =
+            std::max(without_nm, std::abs(fine.torque_nm - averaged(ideal, drive, duty).torque_nm));
+      }
+    }
+  }
+  CAPTURE(worst_nm, without_nm);
+  // Leaving the dead time out would be far worse.
+  CHECK(without_nm > 0.08);
+}
+
+TEST_CASE("dead time takes t_dead*f per switching leg", "[bridge]") {
+  const Parameters p = shipped("p24");
+  Drive drive;
+  drive.pwm_hz = 50e3;
+  BridgeModel one(drive, p.supply, p.motor, p.effects);
+  // At 10 A no edge sees the current change its sign: 0.025 of the bus, and two diode drops for it.
+  CHECK(one.voltage(Bridge::averaged(0.5), 24.0, 10.0).at_positive_v(24.0) ==
+        Approx(12.0 - 0.6 - 0.035));
+  CHECK(one.voltage(Bridge::averaged(0.5), 24.0, -10.0).at_negative_v(24.0) ==
+        Approx(12.0 + 0.6 + 0.035));
+  CHECK(one.voltage(Bridge::averaged(0.01), 24.0, 10.0).share_positive == 0.0);
+  CHECK(one.voltage(Bridge::averaged(0.0), 24.0, 10.0).at_positive_v(24.0) == 0.0);
+  drive.switching = Drive::Switching::kLockedAntiphase;
+  BridgeModel both(drive, p.supply, p.motor, p.effects);
+  CHECK(both.voltage(Bridge::averaged(0.5), 24.0, 10.0).at_positive_v(24.0) ==
+        Approx(12.0 - 1.2 - 0.07));
+  // Small currents change sign within every period: nothing is lost.
+  CHECK(both.voltage(Bridge::averaged(0.0), 24.0, 0.5).at_positive_v(24.0) == 0.0);
+  drive.dead_time_s = 11e-6;
+  CHECK_THROWS_AS(BridgeModel(drive, p.supply, p.motor, p.effects), std::invalid_argument);
+}
+
+TEST_CASE("all gates off: the current decays through the diodes into the supply", "[bridge]") {
+  const Parameters p = shipped("p24");
+  for (const double sign : {1.0, -1.0}) {
+    Plant plant(p, p.effects, Drive{}, hand_of(HandPhase::Kind::kLocked));
+    run(plant, volts(p, sign * 6.0), 5e-3);
+    const double start_a = std::abs(plant.observables().motor_current_a);
+    CHECK(start_a > 10.0);
+    const double tau_s = p.motor.inductance_h / p.motor.resistance_ohm;
+    const double against_a = (24.0 + 2 * 0.7 + 0.34) / p.motor.resistance_ohm;
+    const double expected_s = tau_s * std::log1p(start_a / against_a);
+    const Clock begin = plant.now();
+    while (plant.observables().motor_current_a != 0.0) {
+      plant.advance(Bridge::gates(0, 0, 0, 0), 1);
+      REQUIRE(plant.observables().supply_current_a <= 0.0);
+      REQUIRE(plant.observables().motor_current_a * sign >= 0.0);
+    }
+    CHECK(static_cast<double>(plant.now() - begin) / kClockHz == Approx(expected_s).margin(2e-8));
+    run(plant, Bridge::off(), 1e-4);
+    CHECK(plant.observables().motor_current_a == 0.0);
+  }
+}
+
+TEST_CASE("the current through zero is exact whatever the step", "[bridge]") {
+  for (const double back_v : {-0.1, -2.0}) {  // stays at zero, goes on
+    Winding coarse(0.42, 82.3e-6);
+    coarse.set_step(100e-6);
+    Winding fine(0.42, 82.3e-6);
+    fine.set_step(0.01e-6);
+    const double dead_v = 0.34;
+    const CurrentStep big = coarse.advance(0.5, back_v - dead_v, back_v + dead_v);
+    double i = 0.5;
+    double charge = 0.0;
+    for (int k = 0; k < 10000; ++k) {
+      const CurrentStep s = fine.advance(i, back_v - dead_v, back_v + dead_v);
+      i = s.end_a;
+      charge += s.mean_a * 0.01e-6;
+    }
+    CHECK(big.end_a == Approx(i).margin(1e-12));
+    CHECK(big.mean_a * 100e-6 == Approx(charge).epsilon(1e-9));
+    CHECK((big.end_a == 0.0) == (back_v == -0.1));
+  }
+}
+
+TEST_CASE("supply limit: the bus gives way until the source delivers its limit", "[bridge]") {
+  const Parameters p = shipped("p24");
+  Effects effects = p.effects;
+  effects.supply_limit = true;
+  effects.dead_time = false;
+  Plant plant(p, effects, Drive{}, hand_of(HandPhase::Kind::kLocked));
+  run(plant, Bridge::averaged(1.0), 0.2);
+  // Duty 1: motor current is supply current.
+  CHECK(plant.observables().supply_current_a == Approx(7.0));
+  CHECK(plant.observables().motor_current_a == Approx(7.0).epsilon(1e-4));
+  CHECK(plant.observables().bus_v == Approx(7.0 * 0.42 + 0.34).epsilon(1e-4));
+  // 0.5 Nm draw 16.6 A of the motor but 4.8 A of the supply: within the limit.
+  Plant half(p, effects, Drive{}, hand_of(HandPhase::Kind::kLocked));
+  run(half, volts(p, 0.42 * 0.5 / 0.0302 + 0.34), 0.05);
+  CHECK(half.observables().motor_torque_nm == Approx(0.5).epsilon(1e-6));
+  CHECK(half.observables().supply_current_a == Approx(5.04).epsilon(0.01));
+  CHECK(half.observables().bus_v == 24.0);
+  // Braking from speed returns current: the clamp holds the bus at its nominal voltage.
+  Plant brake(p, effects, Drive{}, Hand{});
+  run(brake, Bridge::averaged(0.5), 0.3);
+  brake.advance(Bridge::off(), 25);
+  run(brake, Bridge::averaged(0.1), 1e-3);
+  CHECK(brake.observables().supply_current_a < 0.0);
+  CHECK(brake.observables().bus_v == 24.0);
+}
+
+TEST_CASE("two gates of a leg at once are reported", "[bridge]") {
+  const Parameters p = shipped("p24");
+  Plant plant(p, p.effects, Drive{}, Hand{});
+  plant.advance(Bridge::gates(0.5, 0.5, 0.5, 0.5), 25);
+  CHECK_FALSE(plant.observables().shoot_through);
+  plant.advance(Bridge::gates(0.6, 0.5, 0, 1), 25);
+  plant.advance(Bridge::off(), 25);
+  CHECK(plant.observables().shoot_through);
+}

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Plant files and [hand] tables: what they mean and what their errors say. docs/plant.md
+#include <cstdio>
+#include <fstream>
+
+#include "catch.hpp"
+#include "plant/hand_file.hpp"
+#include "plant/plant_fixture.hpp"
+
+using namespace feltgate::plant;
+
+namespace {
+
+std::string p24_text() {
+  std::ifstream in(std::string(FELTGATE_SOURCE_DIR) + "/vectors/plants/p24.toml");
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+int line_of(const std::string& text, const std::string& what) {
+  int line = 1;
+  const auto at = text.find(what);
+  REQUIRE(at != std::string::npos);
+  for (std::size_t i = 0; i < at; ++i) line += text[i] == '\n' ? 1 : 0;
+  return line;
+}
+
+std::string plant_error(const std::string& text) {
+  const toml::table table = toml::parse(text);
+  try {
+    (void)read_plant(table, "x.toml");
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string hand_error(const std::string& text) {
+  const toml::table table = toml::parse(text);
+  try {
+    (void)read_hand(TomlReader(table, "s.toml", "the file").section("hand"));
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+Hand hand_from(const std::string& text) {
+  const toml::table table = toml::parse(text);
+  return read_hand(TomlReader(table, "s.toml", "the file").section("hand"));
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("shipped plants are read", "[plant_file]") {
+  const Parameters p24 = shipped("p24");
+  CHECK(p24.name == "p24");
+  CHECK(p24.motor.resistance_ohm == 0.42);
+  CHECK(p24.motor.inductance_h == 82.3e-6);
+  CHECK(p24.lever.inertia_kg_m2 == 1.22e-4);
+  CHECK(p24.encoder.edge_offset_counts[3] == -0.07);
+  CHECK(p24.effects.lugre);
+  CHECK_FALSE(p24.effects.supply_limit);
+  CHECK(shipped("p48").motor.torque_constant_nm_a == 0.0603);
+  const Parameters linear = shipped("linear");
+  CHECK_FALSE(linear.effects.lugre);
+  CHECK_FALSE(linear.effects.dead_voltage);
+  CHECK_FALSE(linear.effects.dead_time);
+  // 0.5 Nm: 16.6 A and 6.95 V + dead voltage; the winding's 0.211 Nm at 7 A.
+  CHECK(0.5 / p24.motor.torque_constant_nm_a == Approx(16.6).epsilon(0.01));
+  CHECK(7.0 * p24.motor.torque_constant_nm_a == Approx(0.211).epsilon(0.01));
+  CHECK(7.0 * shipped("p48").motor.torque_constant_nm_a == Approx(0.42).epsilon(0.01));
+}
+
+TEST_CASE("errors of a plant file say file, line, what and mend", "[plant_file]") {
+  const std::string good = p24_text();
+  CHECK(plant_error(good) == "no error");
+  const std::string unknown = replaced(good, "seed = 1", "sed = 1\nseed = 1");
+  CHECK(plant_error(unknown) == "x.toml:" + std::to_string(line_of(unknown, "sed = 1")) +
+                                    ": key \"sed\" is unknown in [encoder]; remove it or use one "
+                                    "of: edge_offset_counts, line_jitter_counts_rms, lines, seed");
+  const std::string missing = replaced(good, "coulomb_nm = 3.5e-3\n", "");
+  CHECK(plant_error(missing) == "x.toml:" + std::to_string(line_of(missing, "[lugre]")) +
+                                    ": key \"coulomb_nm\" is missing in [lugre]; add it");
+  const std::string range = replaced(good, "resistance_ohm = 0.42", "resistance_ohm = -0.42");
+  CHECK(plant_error(range) == "x.toml:" + std::to_string(line_of(range, "resistance_ohm")) +
+                                  ": \"resistance_ohm\" = -0.42 is out of range; it must be "
+                                  "greater than 0");
+  CHECK(contains(plant_error(replaced(good, "lines = 1024", "lines = 10.5")), "not an integer"));
+  CHECK(contains(plant_error(replaced(good, "lugre = true", "lugre = 1")), "true or false"));
+  CHECK(contains(plant_error(replaced(good, "lugre = true", "")), "\"lugre\" is missing"));
+  CHECK(contains(plant_error(replaced(good, "82.3e-6", "\"82.3e-6\"")), "not a number"));
+  CHECK(contains(plant_error(replaced(good, "82.3e-6", "nan")), "out of range"));
+  CHECK(contains(plant_error(replaced(good, "[0.0, 0.10, 0.05, -0.07]", "[0.0, 0.1]")), "four"));
+  CHECK(contains(plant_error(replaced(good, "0.10,", "0.60,")), "from -0.25 to 0.25"));
+  CHECK(contains(plant_error(replaced(good, "static_nm = 4.5e-3", "static_nm = 1e-3")), "raise"));
+  CHECK(contains(plant_error(replaced(good, "[supply]", "[suply]")), "\"supply\" is missing"));
+  CHECK(contains(plant_error(replaced(good, "name = \"p24\"", "name = \"p24\"\nx = 1")),
+                 "\"x\" is unknown in the file"));
+  CHECK_THROWS_AS(read_plant_file("/nonexistent/plant.toml"), ConfigError);
+}
+
+TEST_CASE("a scene overrides single effects", "[plant_file]") {
+  const toml::table table = toml::parse("[effects]\nsupply_limit = true\nlugre = false\n");
+  const Effects effects = read_effects(TomlReader(table, "s.toml", "the file").section("effects"),
+                                       shipped("p24").effects);
+  CHECK(effects.supply_limit);
+  CHECK_FALSE(effects.lugre);
+  CHECK(effects.inductance);
+}
+
+TEST_CASE("the hand of a scene", "[plant_file]") {
+  const Hand hand = hand_from(R"([hand]
+start_rad = 0.3
+radius_m = 0.2
+[[hand.phase]]
+kind = "locked"
+duration_s = 1
+[[hand.phase]]
+kind = "prescribed"
+motion = [
+  {kind = "minimum_jerk", to_rad = 0.7, duration_s = 0.4},
+  {kind = "sine", amplitude_rad = 0.1, frequency_hz = 2, phase_rad = 1.57, duration_s = 1.0},
+]
+[[hand.phase]]
+kind = "torque"
+torque = [{kind = "step", to_nm = 0.2, duration_s = 0.1}]
+duration_s = 0.3
+[[hand.phase]]
+kind = "impedance"
+mass_kg = 0.4
+motion = [{kind = "hold", duration_s = 2}]
+[[hand.phase]]
+kind = "cord"
+stiffness_nm_rad = 0.4
+)");
+  REQUIRE(hand.phases.size() == 5);
+  CHECK(hand.initial_rad() == 0.3);
+  CHECK(*hand.radius_m == 0.2);
+  CHECK(hand.phases[0].kind == HandPhase::Kind::kLocked);
+  CHECK(hand.phases[1].duration_s == Approx(1.4));
+  CHECK(hand.phases[1].profile[1].frequency_hz == 2.0);
+  CHECK(hand.phases[2].duration_s == 0.3);
+  CHECK(hand.phases[3].impedance.mass_kg == 0.4);
+  CHECK(hand.phases[3].impedance.grip_stiffness_n_m == 3000.0);
+  CHECK(hand.phases[4].cord.stiffness_nm_rad == 0.4);
+  CHECK(hand.phases[4].cord.damping_nm_s_rad == 0.1);
+  CHECK(std::isinf(hand.phases[4].duration_s));
+  const Hand traced = hand_from(
+      "[hand]\n[[hand.phase]]\nkind = \"trace\"\ntime_s = [0, 1]\ntheta_rad = [0.5, 0.6]\n");
+  CHECK(traced.initial_rad() == 0.5);
+}
+
+TEST_CASE("errors of a hand say file, line, what and mend", "[plant_file]") {
+  const auto error = [](const std::string& phase) {
+    return hand_error("[hand]\n[[hand.phase]]\n" + phase);
+  };
+  CHECK(error("kind = \"glued\"") ==
+        "s.toml:3: \"kind\" = \"glued\" is not known; it must be one of free, locked, prescribed, "
+        "trace, impedance, cord, torque");
+  CHECK(contains(error("kind = \"prescribed\""), "\"motion\" is missing or empty"));
+  CHECK(contains(error("kind = \"prescribed\"\n"
+                       "motion = [{kind = \"step\", to_rad = 1, duration_s = 1}]"),
+                 "s.toml:4: an imposed angle cannot step; use ramp or minimum_jerk"));
+  CHECK(contains(error("kind = \"torque\"\ntorque = [{kind = \"ramp\", to_rad = 1, "
+                       "duration_s = 1}]"),
+                 "\"to_nm\" is missing"));
+  CHECK(contains(error("kind = \"free\"\n[[hand.phase]]\nkind = \"locked\""),
+                 "\"duration_s\" is missing"));
+  CHECK(contains(error("kind = \"free\"\nstifness = 1"), "\"stifness\" is unknown"));
+  CHECK(contains(error("kind = \"trace\"\ntime_s = [0, 1, 1]\ntheta_rad = [0, 0, 0]"),
+                 "time does not increase at sample 2"));
+  CHECK(contains(error("kind = \"trace\"\ntime_s = [0, 1]\ntheta_rad = [0]"), "2 times and 1"));
+  CHECK(contains(error("kind = \"trace\"\nfile = \"nowhere.csv\""), "nowhere.csv:0: cannot"));
+  CHECK(contains(hand_error("[hand]\nstart_rad = 1\n[[hand.phase]]\nkind = \"trace\"\n"
+                            "time_s = [0, 1]\ntheta_rad = [0, 1]"),
+                 "start_rad"));
+}
+
+TEST_CASE("a recorded motion is read from CSV", "[plant_file]") {
+  const std::string path = std::string(FELTGATE_BUILD_DIR) + "/plant_trace_test.csv";
+  const auto read = [&path](const std::string& text) {
+    std::ofstream(path) << text;
+    return read_trace_file(path);
+  };
+  const Trace trace = read("time_s,theta_rad\n0,0.5\r\n0.25,-1e-3\n");
+  CHECK(trace.time_s == std::vector<double>{0.0, 0.25});
+  CHECK(trace.theta_rad == std::vector<double>{0.5, -1e-3});
+  for (const char* bad : {"", "t,x\n0,0\n", "time_s,theta_rad\n0\n", "time_s,theta_rad\n0,a\n",
+                          "time_s,theta_rad\n0,nan\n", "time_s,theta_rad\n0,1,2\n"}) {
+    CHECK_THROWS_AS(read(bad), ConfigError);
+  }
+  std::remove(path.c_str());
+}

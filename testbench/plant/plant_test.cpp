@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Motor and lever against closed forms; effects that are off; step-size convergence. docs/plant.md
+#include <cstdio>
+
+#include "catch.hpp"
+#include "plant/period_mean.hpp"
+#include "plant/plant_fixture.hpp"
+
+using namespace feltgate;
+using namespace feltgate::plant;
+
+namespace {
+
+// A model of the no-load run as anyone would first write it: everything, bristles included, by
+// explicit fourth-order Runge-Kutta at 1 us. Kept to show what goes wrong.
+double naive_no_load_rad_s(const Parameters& p, double seconds) {
+  using State = std::array<double, 3>;  // omega, current, z
+  const auto rates = [&p](const State& s) {
+    const double x = s[0] / p.lugre.stribeck_rad_s;
+    const double g =
+        p.lugre.coulomb_nm + (p.lugre.static_nm - p.lugre.coulomb_nm) * std::exp(-x * x);
+    const double z_rate = s[0] - p.lugre.stiffness_nm_rad * std::abs(s[0]) * s[2] / g;
+    const double friction = p.lugre.stiffness_nm_rad * s[2] + p.lugre.damping_nm_s_rad * z_rate +
+                            p.lugre.viscous_nm_s_rad * s[0];
+    const double volts = p.supply.voltage_v - p.motor.dead_voltage_v -
+                         p.motor.back_emf_constant_v_s_rad * s[0] - p.motor.resistance_ohm * s[1];
+    return State{(p.motor.torque_constant_nm_a * s[1] - friction) / p.lever.inertia_kg_m2,
+                 volts / p.motor.inductance_h, z_rate};
+  };
+  State s{};
+  const double dt = 1e-6;
+  const auto plus = [](const State& a, const State& b, double h) {
+    return State{a[0] + h * b[0], a[1] + h * b[1], a[2] + h * b[2]};
+  };
+  for (long k = 0; k < std::lround(seconds / dt); ++k) {
+    const State k1 = rates(s);
+    const State k2 = rates(plus(s, k1, dt / 2));
+    const State k3 = rates(plus(s, k2, dt / 2));
+    const State k4 = rates(plus(s, k3, dt));
+    for (std::size_t i = 0; i < 3; ++i) s[i] += dt / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
+  }
+  return s[0];
+}
+
+Effects without_dead_time(const Parameters& p) {
+  Effects effects = p.effects;
+  effects.dead_time = false;
+  return effects;
+}
+
+double no_load_rad_s(const Parameters& p, Clock step, double seconds) {
+  Plant plant(p, without_dead_time(p), Drive{}, Hand{});
+  run(plant, volts(p, p.supply.voltage_v), seconds, step);
+  return plant.observables().omega_rad_s;
+}
+
+// Largest error of angle, current and bristle torque at 1 ms of a torque step against a cord.
+double cord_error(const Parameters& p, Clock step, const std::vector<StateValue>& reference) {
+  Plant plant(p, without_dead_time(p), Drive{}, hand_of(HandPhase::Kind::kCord));
+  run(plant, volts(p, 4.5), 1e-3, step);
+  const auto state = plant.state();
+  const std::array<double, 4> scale{0.3 / 30.0, 1.0, 10.0, 1e-4};
+  double worst = 0.0;
+  for (std::size_t i = 0; i < scale.size(); ++i) {
+    worst = std::max(worst, std::abs(state[i].value - reference[i].value) / scale[i]);
+  }
+  return worst;
+}
+
+std::vector<StateValue> cord_reference(const Parameters& p) {
+  Plant plant(p, without_dead_time(p), Drive{}, hand_of(HandPhase::Kind::kCord));
+  run(plant, volts(p, 4.5), 1e-3, 1);
+  return plant.state();
+}
+
+}  // namespace
+
+TEST_CASE("no-load speed does not depend on the step", "[plant]") {
+  const Parameters p = shipped("p24");
+  for (const Clock step : {5, 10, 25, 50, 250}) {
+    CAPTURE(step);
+    // 778 rad/s: the speed after 0.3 s, 5.3 mechanical time constants.
+    CHECK(no_load_rad_s(p, step, 0.3) == Approx(778.0).epsilon(0.005));
+  }
+  const double fine = no_load_rad_s(p, 5, 0.3);
+  CHECK(no_load_rad_s(p, 50, 0.3) == Approx(fine).epsilon(1e-6));
+  CHECK(no_load_rad_s(p, 250, 0.3) == Approx(fine).epsilon(1e-6));
+
+  // At rest of the transient: V = R*i + Ke*w + Vd with Kt*i = coulomb + sigma2*w.
+  const double kt = p.motor.torque_constant_nm_a;
+  const double expected =
+      (p.supply.voltage_v - p.motor.dead_voltage_v -
+       p.motor.resistance_ohm * p.lugre.coulomb_nm / kt) /
+      (p.motor.back_emf_constant_v_s_rad + p.motor.resistance_ohm * p.lugre.viscous_nm_s_rad / kt);
+  CHECK(no_load_rad_s(p, 25, 1.5) == Approx(expected).epsilon(1e-6));
+}
+
+TEST_CASE("an explicit step would be wrong without a warning", "[plant]") {
+  CHECK(naive_no_load_rad_s(shipped("p24"), 0.3) < 400.0);
+}
+
+TEST_CASE("the whole step converges with second order", "[plant]") {
+  const Parameters p = shipped("p24");
+  const auto reference = cord_reference(p);
+  const double coarse = cord_error(p, 200, reference);
+  const double middle = cord_error(p, 100, reference);
+  const double fine = cord_error(p, 50, reference);
+  CHECK(coarse / middle == Approx(4.0).margin(1.0));
+  CHECK(middle / fine == Approx(4.0).margin(1.0));
+  CHECK(cord_error(p, 25, reference) < 1e-5);
+}
+
+TEST_CASE("table of step sizes for docs/plant.md", "[.][table]") {
+  const Parameters p = shipped("p24");
+  const auto reference = cord_reference(p);
+  std::printf("| step us | speed at 0.3 s, rad/s | speed at 1.5 s, rad/s | cord step error |\n");
+  std::printf("|---|---|---|---|\n");
+  for (const Clock step : {5, 10, 25, 50, 100, 200, 250}) {
+    std::printf("| %g | %.5f | %.5f | %.1e |\n", static_cast<double>(step) / 50.0,
+                no_load_rad_s(p, step, 0.3), no_load_rad_s(p, step, 1.5),
+                cord_error(p, step, reference));
+  }
+  std::printf("| explicit, 1 | %.1f | | |\n", naive_no_load_rad_s(p, 0.3));
+}
+
+TEST_CASE("locked rotor: current (V - Vd)/R, torque Kt*i", "[plant]") {
+  const Parameters p = shipped("p24");
+  const double wanted_nm = 0.3;
+  const double needed_v =
+      p.motor.resistance_ohm * wanted_nm / p.motor.torque_constant_nm_a + p.motor.dead_voltage_v;
+  CHECK(needed_v == Approx(4.512).margin(0.001));
+  for (const double sign : {1.0, -1.0}) {
+    for (const bool inductance : {true, false}) {
+      Effects effects = without_dead_time(p);
+      effects.inductance = inductance;
+      Plant plant(p, effects, Drive{}, hand_of(HandPhase::Kind::kLocked));
+      run(plant, volts(p, sign * needed_v), 0.01);
+      const Observables& seen = plant.observables();
+      CHECK(seen.motor_torque_nm == Approx(sign * wanted_nm).epsilon(1e-9));
+      CHECK(seen.hand_torque_nm == Approx(-sign * wanted_nm).epsilon(1e-9));
+      CHECK(seen.hand_force_n == Approx(-sign * wanted_nm / 0.1).epsilon(1e-9));
+      CHECK(seen.supply_current_a == Approx(needed_v / 24.0 * seen.motor_current_mean_a * sign));
+      run(plant, volts(p, sign * 0.33), 0.01);
+      CHECK(plant.observables().motor_current_a == 0.0);
+      CHECK(plant.encoder().count() == 0);
+    }
+  }
+}
+
+TEST_CASE("electrical time constant L/R = 196 us", "[plant]") {
+  const Parameters p = shipped("p24");
+  const double tau_s = p.motor.inductance_h / p.motor.resistance_ohm;
+  CHECK(tau_s == Approx(196e-6).epsilon(0.001));
+  Plant plant(p, without_dead_time(p), Drive{}, hand_of(HandPhase::Kind::kLocked));
+  const double final_a = (6.0 - p.motor.dead_voltage_v) / p.motor.resistance_ohm;
+  double crossed_s = 0.0;
+  while (plant.now() < clocks_of(1e-3)) {
+    plant.advance(volts(p, 6.0), 25);
+    const double t = static_cast<double>(plant.now()) / kClockHz;
+    const double i = plant.observables().motor_current_a;
+    REQUIRE(i == Approx(final_a * (1.0 - std::exp(-t / tau_s))).epsilon(1e-11));
+    if (crossed_s == 0.0 && i >= final_a * (1.0 - std::exp(-1.0))) crossed_s = t;
+  }
+  CHECK(crossed_s == Approx(tau_s).margin(0.5e-6));
+}
+
+TEST_CASE("speed of the linear plant follows its two poles", "[plant]") {
+  const Parameters p = shipped("linear");
+  Plant plant(p, p.effects, Drive{}, Hand{});
+  // J*L*s^2 + J*R*s + Kt*Ke
+  const double jl = p.lever.inertia_kg_m2 * p.motor.inductance_h;
+  const double jr = p.lever.inertia_kg_m2 * p.motor.resistance_ohm;
+  const double k = p.motor.torque_constant_nm_a * p.motor.back_emf_constant_v_s_rad;
+  const double root = std::sqrt(jr * jr - 4.0 * jl * k);
+  const double fast = (-jr - root) / (2.0 * jl);
+  const double slow = (-jr + root) / (2.0 * jl);
+  const double final_rad_s = 12.0 / p.motor.back_emf_constant_v_s_rad;
+  for (const double t : {1e-4, 1e-3, 1e-2, 0.1, 0.3}) {
+    run(plant, volts(p, 12.0), t - static_cast<double>(plant.now()) / kClockHz);
+    const double expected =
+        final_rad_s *
+        (1.0 + (slow * std::exp(fast * t) - fast * std::exp(slow * t)) / (fast - slow));
+    CAPTURE(t);
+    CHECK(plant.observables().omega_rad_s == Approx(expected).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("what is off is neither evaluated nor a state", "[plant]") {
+  const Parameters p = shipped("p24");
+  Plant bare(p, kNoEffects, Drive{}, Hand{});
+  CHECK(bare.state_size() == 2);
+  run(bare, Bridge::averaged(0.2), 1e-3);
+  const Evaluations none = bare.evaluations();
+  CHECK(none.inductance + none.back_emf + none.dead_voltage + none.lugre + none.viscous +
+            none.supply_limit + none.dead_time + none.encoder_imperfect + none.hand ==
+        0);
+
+  struct Case {
+    bool Effects::*effect;
+    std::uint64_t Evaluations::*count;
+    std::size_t states;
+  };
+  for (const Case& c : std::vector<Case>{{&Effects::inductance, &Evaluations::inductance, 1},
+                                         {&Effects::back_emf, &Evaluations::back_emf, 0},
+                                         {&Effects::dead_voltage, &Evaluations::dead_voltage, 0},
+                                         {&Effects::lugre, &Evaluations::lugre, 1},
+                                         {&Effects::viscous, &Evaluations::viscous, 0},
+                                         {&Effects::supply_limit, &Evaluations::supply_limit, 1},
+                                         {&Effects::dead_time, &Evaluations::dead_time, 0}}) {
+    Effects effects = kNoEffects;
+    effects.*c.effect = true;
+    Plant plant(p, effects, Drive{}, Hand{});
+    CHECK(plant.state_size() == 2 + c.states);
+    run(plant, Bridge::averaged(0.2), 1e-3);
+    CHECK(plant.evaluations().*c.count == 2000);
+  }
+
+  Plant locked(p, kNoEffects, Drive{}, hand_of(HandPhase::Kind::kLocked));
+  CHECK(locked.state_size() == 0);
+  Plant held(p, kNoEffects, Drive{}, hand_of(HandPhase::Kind::kImpedance));
+  CHECK(held.state_size() == 4);
+  Plant full(p, Effects{true, true, true, true, true, true, true, true}, Drive{},
+             hand_of(HandPhase::Kind::kImpedance));
+  CHECK(full.state_size() == 7);
+  CHECK(full.state()[4].name == "bus_v");
+}
+
+TEST_CASE("each effect changes what it should", "[plant]") {
+  const Parameters p = shipped("p24");
+  const auto speed_with = [&p](Effects effects) {
+    Plant plant(p, effects, Drive{}, Hand{});
+    run(plant, volts(p, 6.0), 0.05);
+    return plant.observables().omega_rad_s;
+  };
+  Effects effects = kNoEffects;
+  const double bare = speed_with(effects);
+  CHECK(bare == Approx(6.0 / 0.42 * 0.0302 / 1.22e-4 * 0.05).epsilon(1e-6));
+  for (bool Effects::*effect :
+       {&Effects::inductance, &Effects::back_emf, &Effects::dead_voltage, &Effects::lugre,
+        &Effects::viscous, &Effects::dead_time, &Effects::supply_limit}) {
+    effects = kNoEffects;
+    effects.*effect = true;
+    // 6 V draw 3.6 A from the supply: its limit does nothing here.
+    const bool slower = speed_with(effects) < bare * 0.9999;
+    CHECK(slower == (effect != &Effects::supply_limit));
+  }
+}
+
+TEST_CASE("mean over PWM periods of whole clocks", "[plant]") {
+  PeriodMean mean(100);
+  CHECK(mean.add(99, 1.0) == 0);
+  CHECK(mean.add(2, 3.0) == 1);
+  CHECK(mean.mean() == Approx((99.0 + 3.0) / 100.0));
+  CHECK(mean.add(299, 2.0) == 3);
+  CHECK(mean.mean() == Approx(2.0));
+  CHECK(mean.periods() == 4);
+  PeriodMean shifted(100, 30);
+  CHECK(shifted.add(30, 7.0) == 0);
+  CHECK(shifted.add(100, 1.0) == 1);
+  CHECK(shifted.mean() == Approx(1.0));
+  CHECK_THROWS_AS(PeriodMean(0), std::invalid_argument);
+}
+
+TEST_CASE("a step is at least one clock, and time is counted in clocks", "[plant]") {
+  const Parameters p = shipped("p24");
+  Plant plant(p, p.effects, Drive{}, Hand{});
+  CHECK_THROWS_AS(plant.advance(Bridge::off(), 0), std::invalid_argument);
+  plant.advance(Bridge::off(), 7);
+  plant.advance(Bridge::off(), 11);
+  CHECK(plant.now() == 18);
+  CHECK(plant.observables().motor_current_a == 0.0);
+}

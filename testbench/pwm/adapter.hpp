@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Ports of the Verilated pwm against its twin, and what no bridge may ever see.
+// Documentation: docs/blocks/pwm.md
+#pragma once
+
+#include <Vpwm.h>
+
+#include "feltgate/pwm.hpp"
+#include "lock_step.hpp"
+
+namespace feltgate::test {
+
+struct PwmAdapter {
+  static void drive(Vpwm& rtl, const Pwm::In& in) {
+    rtl.enable_i = in.enable;
+    rtl.mode_i = in.mode;
+    rtl.polarity_i = in.polarity;
+    rtl.duty_i = port_bits<13, std::uint16_t>(in.duty);
+  }
+  template <class Check>
+  static void compare(Check& check, const Vpwm& rtl, const Pwm::Out& out) {
+    check("gate_a_hi", rtl.gate_a_hi_o, out.gate_a_hi);
+    check("gate_a_lo", rtl.gate_a_lo_o, out.gate_a_lo);
+    check("gate_b_hi", rtl.gate_b_hi_o, out.gate_b_hi);
+    check("gate_b_lo", rtl.gate_b_lo_o, out.gate_b_lo);
+    check("period_start", rtl.period_start_o, out.period_start);
+    check("duty_active", sign_extend<13>(rtl.duty_active_o), out.duty_active);
+  }
+};
+
+using PwmBench = LockStep<Vpwm, Pwm, PwmAdapter>;
+
+/// Watches the gates of the RTL alone, clock by clock.
+class BridgeGuard {
+ public:
+  explicit BridgeGuard(int dead_clocks) : dead_clocks_(dead_clocks) {}
+
+  struct Totals {
+    std::int64_t turn_ons = 0, disables = 0, duties = 0;
+  };
+
+  const char* operator()(const Pwm::In& in, const Vpwm& rtl, bool in_reset) {
+    const bool on[4] = {rtl.gate_a_hi_o != 0, rtl.gate_a_lo_o != 0, rtl.gate_b_hi_o != 0,
+                        rtl.gate_b_lo_o != 0};
+    ++clock_;
+    if (in_reset || !in.enable) {
+      last_disabled_ = clock_;
+      totals.disables += was_enabled_ ? 1 : 0;
+    }
+    was_enabled_ = in.enable && !in_reset;
+    for (int gate = 0; gate < 4; ++gate) {
+      if (!on[gate]) {
+        was_on_[gate] = false;
+        continue;
+      }
+      if (in_reset) return "no gate is on during reset";
+      if (!in.enable) return "no gate is on while disabled";
+      if (on[gate ^ 1]) return "never both gates of a leg";
+      if (!was_on_[gate]) {
+        ++totals.turn_ons;
+        if (clock_ - last_on_[gate ^ 1] <= dead_clocks_) return "dead time between two gates";
+        if (clock_ - last_disabled_ < dead_clocks_) return "dead time after enable";
+      }
+      was_on_[gate] = true;
+      last_on_[gate] = clock_;
+    }
+    const auto duty = sign_extend<13>(rtl.duty_active_o);
+    if (duty != duty_ && !rtl.period_start_o && !in_reset) return "a duty begins with a period";
+    totals.duties += duty != duty_ ? 1 : 0;
+    duty_ = duty;
+    return nullptr;
+  }
+
+  Totals totals;
+
+ private:
+  int dead_clocks_;
+  std::int64_t clock_ = 0;
+  std::int64_t last_on_[4] = {-1000, -1000, -1000, -1000};
+  bool was_on_[4] = {};
+  std::int64_t last_disabled_ = 0;
+  bool was_enabled_ = false;
+  std::int64_t duty_ = 0;
+};
+
+}  // namespace feltgate::test

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// quad_decoder: RTL against twin on every clock, and both against what an encoder means.
+// Documentation: docs/blocks/quad_decoder.md
+#include <algorithm>
+#include <limits>
+
+#include "adapter.hpp"
+#include "catch.hpp"
+#include "stimulus.hpp"
+
+using feltgate::QuadDecoder;
+using namespace feltgate::test;
+
+namespace {
+
+constexpr std::int32_t kStart = RESET_POSITION;  // near the wrap
+
+/// Counts up from the start, modulo 2^32.
+std::int32_t moved(const QuadDecoder& decoder) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(decoder.out().position) -
+                                   static_cast<std::uint32_t>(kStart));
+}
+
+QuadDecoder play(const Script& script, std::uint64_t seed = 1) {
+  QuadDecoderBench bench("quad_decoder", seed, QuadDecoder(kStart));
+  return bench.run_list(script.list);
+}
+
+}  // namespace
+
+TEST_CASE("quad_decoder: every transition between two states") {
+  for (int from = 0; from < 4; ++from) {
+    for (int turn = 0; turn < 4; ++turn) {
+      for (const bool polarity : {false, true}) {
+        Script script(at_phase(from));
+        script.now.polarity = polarity;
+        const QuadDecoder end = play(script.hold(10).phase(from + turn, 10));
+        const int up = turn == 1 ? 1 : (turn == 3 ? -1 : 0);
+        REQUIRE(moved(end) == (polarity ? -up : up));
+        REQUIRE(end.out().error == (turn == 2));
+        REQUIRE(end.out().error_count == (turn == 2 ? 1 : 0));
+      }
+    }
+  }
+}
+
+TEST_CASE("quad_decoder: primed with whatever the pins are after reset") {
+  for (int phase = 0; phase < 4; ++phase) {
+    for (const int filter : {0, 1, 15}) {
+      for (const bool z : {false, true}) {
+        Script script(at_phase(phase));
+        script.now.filter = static_cast<std::uint8_t>(filter);
+        script.now.z = z;
+        const QuadDecoder end = play(script.hold(40), static_cast<std::uint64_t>(phase + 1));
+        REQUIRE(moved(end) == 0);
+        REQUIRE_FALSE(end.out().error);
+        REQUIRE_FALSE(end.out().index_seen);
+        REQUIRE(end.out().rejected_count == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("quad_decoder: N steps forth and N back end at the start, from every phase") {
+  for (int phase = 0; phase < 4; ++phase) {
+    for (const int direction : {1, -1}) {
+      for (int steps = 1; steps <= 9; ++steps) {
+        for (const int dwell : {1, 2, 7}) {
+          Script forth(at_phase(phase));
+          forth.hold(6);
+          for (int k = 1; k <= steps; ++k) forth.phase(phase + direction * k, dwell);
+          Script back = forth;
+          for (int k = steps - 1; k >= 0; --k) back.phase(phase + direction * k, dwell);
+          REQUIRE(moved(play(forth.hold(6))) == direction * steps);
+          const QuadDecoder end = play(back.hold(6));
+          REQUIRE(moved(end) == 0);
+          REQUIRE_FALSE(end.out().error);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("quad_decoder: an edge at the pin is in travel after 3 clocks, in position after 4") {
+  for (int filter = 0; filter < 16; ++filter) {
+    Script script(at_phase(0));
+    script.now.filter = static_cast<std::uint8_t>(filter);
+    script.hold(30).phase(1, filter + 2);
+    REQUIRE(play(script).out().step == 0);
+    REQUIRE(play(script.hold(1)).out().step == 1);
+    REQUIRE(moved(play(script)) == 0);
+    REQUIRE(moved(play(script.hold(1))) == 1);
+  }
+}
+
+TEST_CASE("quad_decoder: the filter rejects pulses up to its length and counts them") {
+  for (int filter = 0; filter < 16; ++filter) {
+    for (int length = 1; length <= 18; ++length) {
+      for (int channel = 0; channel < 3; ++channel) {
+        for (const bool rest : {false, true}) {
+          Script script(at_phase(0));
+          bool QuadDecoder::In::*const pin = channel == 0   ? &QuadDecoder::In::a
+                                             : channel == 1 ? &QuadDecoder::In::b
+                                                            : &QuadDecoder::In::z;
+          script.now.filter = static_cast<std::uint8_t>(filter);
+          script.now.*pin = rest;
+          script.hold(25);
+          script.now.*pin = !rest;
+          script.hold(length);
+          script.now.*pin = rest;
+          const auto passed = length > filter;
+          QuadDecoderBench bench("quad_decoder", 5, QuadDecoder(kStart));
+          const QuadDecoder end = bench.run_list(script.hold(25).list);
+          REQUIRE(end.out().rejected_count == (passed ? 0 : 1));
+          REQUIRE(end.out().index_seen == (passed && channel == 2));
+          REQUIRE(moved(end) == 0);
+          if (channel == 2) continue;
+          int steps = 0;
+          QuadDecoder twin(kStart);
+          for (const QuadDecoder::In& in : script.list) {
+            twin.clock(in);
+            steps += twin.out().step * twin.out().step;
+          }
+          REQUIRE(steps == (passed ? 2 : 0));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("quad_decoder: the position wraps at 2^31 both ways") {
+  Script script(at_phase(0));
+  script.hold(6);
+  for (int k = 1; k <= 20; ++k) script.phase(k, 2);
+  const QuadDecoder top = play(script.hold(6));
+  REQUIRE(top.out().position == std::numeric_limits<std::int32_t>::min() + 12);
+  for (int k = 19; k >= -5; --k) script.phase(k, 2);
+  REQUIRE(play(script.hold(6)).out().position == kStart - 5);
+}
+
+TEST_CASE("quad_decoder: set-zero loses no edge, whichever clock it meets") {
+  for (std::size_t clock = 6; clock < 26; ++clock) {
+    for (const int direction : {1, -1}) {
+      Script script(at_phase(0));
+      script.hold(12).phase(direction, 20);
+      script.list[clock].set_zero = true;
+      const QuadDecoder end = play(script);
+      // The pin of clock 12 is in travel from clock 15 on: from there the zero contains the step.
+      REQUIRE(end.out().position == (clock >= 15 ? 0 : direction));
+      REQUIRE(end.out().travel == ((kStart + direction) & 0xffff));
+    }
+  }
+}
+
+TEST_CASE("quad_decoder: the counters saturate, clear, and lose no event to a clear") {
+  Script errors(at_phase(0));
+  errors.hold(6);
+  for (int k = 0; k < 65540; ++k) errors.phase(2 * k, 1);
+  QuadDecoder end = play(errors.hold(6));
+  REQUIRE(end.out().error_count == 65535);
+  REQUIRE(moved(end) == 0);
+
+  Script glitches(at_phase(0));
+  glitches.now.filter = 3;
+  glitches.hold(6);
+  for (int k = 0; k < 65540; ++k) {
+    glitches.now.a = true;
+    glitches.hold(1);
+    glitches.now.a = false;
+    glitches.hold(1);
+  }
+  end = play(glitches.hold(6));
+  REQUIRE(end.out().rejected_count == 65535);
+  REQUIRE(end.out().error_count == 0);
+  glitches.now.clear_error = true;
+  REQUIRE(play(glitches.hold(1)).out().rejected_count == 0);
+
+  for (int clear = 0; clear < 8; ++clear) {  // an error that meets the clear is counted after it
+    Script meet(at_phase(0));
+    meet.hold(6).phase(2, 12);
+    meet.list[static_cast<std::size_t>(6 + clear)].clear_error = true;
+    end = play(meet);
+    REQUIRE(end.out().error == (clear <= 2));
+    REQUIRE(end.out().error_count == (clear <= 3 ? 1 : 0));
+  }
+}
+
+TEST_CASE("quad_decoder: random shafts against twin and oracle") {
+  Mix plain;
+  Mix fast;
+  fast.dwell = 1;
+  Mix jumps;
+  jumps.jump = 30;
+  Mix back;
+  back.polarity = true;
+  std::vector<Mix> mixes{plain, fast, jumps, back};
+  for (std::uint8_t filter = 1; filter < 16; ++filter) {
+    Mix noisy;
+    noisy.filter = filter;
+    noisy.dwell = 40;
+    noisy.glitch = 30;
+    noisy.jump = 500;
+    mixes.push_back(noisy);
+  }
+  std::uint64_t seed = 10;
+  Oracle::Totals sum;
+  for (const Mix& mix : mixes) {
+    QuadDecoderBench bench("quad_decoder", ++seed, QuadDecoder(kStart));
+    Oracle::Totals totals;
+    const auto watch = [oracle = Oracle(kStart), &totals](const auto& in, const auto&,
+                                                          const QuadDecoder& twin,
+                                                          bool in_reset) mutable {
+      const char* broken = oracle(in, twin.out(), in_reset);
+      totals = oracle.totals;
+      return broken;
+    };
+    bench.run(Wander(seed, mix), scaled_clocks(500'000), ResetPlan{5000}, watch);
+    REQUIRE(totals.up > 1000);
+    REQUIRE(totals.down > 1000);
+    REQUIRE(totals.index > 100);
+    REQUIRE(totals.resets > 50);
+    REQUIRE((totals.illegal > 50) == (mix.jump != 0));
+    REQUIRE((totals.rejected > 1000) == (mix.filter != 0));
+    sum.illegal += totals.illegal;
+    sum.rejected += totals.rejected;
+  }
+  CAPTURE(sum.illegal, sum.rejected);
+  REQUIRE(sum.rejected > 100'000);
+}
+
+TEST_CASE("quad_decoder: everything at random") {
+  Mix mix;
+  mix.dwell = 2;
+  mix.glitch = 100;
+  mix.jump = 50;
+  mix.registers = 300;
+  QuadDecoderBench bench("quad_decoder", 77, QuadDecoder(kStart));
+  bench.run(Wander(77, mix), scaled_clocks(5'000'000), ResetPlan{3000});
+}
+
+TEST_CASE("quad_decoder: a settled twin may be skipped") {
+  QuadDecoder every(kStart);
+  QuadDecoder skipping(kStart);
+  Mix mix;
+  mix.filter = 4;
+  mix.glitch = 10;
+  mix.jump = 40;
+  Wander wander(3, mix);
+  std::int64_t skipped = 0;
+  for (int k = 0; k < 50'000; ++k) {
+    QuadDecoder::In in = wander(k);
+    for (int held = 0; held < 30; ++held) {
+      every.clock(in);
+      if (skipping.settled(in)) {
+        ++skipped;
+      } else {
+        skipping.clock(in);
+      }
+      in.set_zero = in.clear_error = false;
+      REQUIRE(every.out() == skipping.out());
+    }
+  }
+  REQUIRE(skipped > 500'000);
+}

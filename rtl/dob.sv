@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Disturbance observer: tau_hat = LPF(Ktn*I + g*Jn*w) - g*Jn*w, the load that opposes positive motor
-// torque. Disarmed, the current counts as 0 and the filter follows its input, so that tau_hat is 0
-// and arming in motion makes no jump.
+// Disturbance observer: tau_hat = LPF(Ktn*I + g*Jn*w) - g*Jn*w, the load that opposes positive
+// motor torque. Disarmed, the current counts as 0 and the filter follows its input, so that tau_hat
+// is 0 and arming in motion makes no jump.
 // Latency: Ktn*I in clock 0 (valid_i), g*Jn*w in 1, operand in 3, product in 7, tau_hat in 11.
 // docs/blocks/dob.md
 
 `default_nettype none
 
 module dob #(
-    parameter int Defect = 0  // 1: tau_hat with the other sign of inertia, 2: state kept while disarmed, 3: current counts while disarmed, 4: tau_hat wraps, 5: truncates
+    // 1: the other sign of inertia, 2: state kept while disarmed, 3: current counts while disarmed,
+    // 4: tau_hat wraps, 5: tau_hat truncated
+    parameter int Defect = 0
 ) (
     input  logic                                                  clk_i,
     input  logic                                                  rst_ni,
@@ -57,7 +59,8 @@ module dob #(
     end
     // Half up: the bit below the last one is the carry.
     if (stage_q[8]) begin
-      rounded_q <= RoundedW'(observed_q >>> TorqueDrop) + RoundedW'({1'b0, observed_q[TorqueDrop-1] && Defect != 5});
+      rounded_q <= RoundedW'(observed_q >>> TorqueDrop) +
+                   RoundedW'({1'b0, observed_q[TorqueDrop-1] && Defect != 5});
     end
   end
 
@@ -78,7 +81,8 @@ module dob #(
   );
 
   logic over;
-  assign over = Defect != 4 && rounded_q[RoundedW-1:TorqueW-1] != {(RoundedW - TorqueW + 1) {rounded_q[RoundedW-1]}};
+  assign over = Defect != 4 && rounded_q[RoundedW-1:TorqueW-1] !=
+                               {(RoundedW - TorqueW + 1) {rounded_q[RoundedW-1]}};
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       tau_hat_o   <= '0;

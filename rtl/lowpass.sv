@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // One-pole low-pass y += round(a1 * (x - y)), round half up, on the shared multiplier.
-// Latency: x in clock v, operand in v + 1, product in v + 5, new y in v + 6. The difference gives up
-// low bits where it is wider than the multiplier. docs/blocks/lowpass.md
+// Latency: x in clock v, operand in v + 1, product in v + 5, new y in v + 6. The difference gives
+// up low bits where it is wider than the multiplier. docs/blocks/lowpass.md
 
 `default_nettype none
 
@@ -12,7 +12,9 @@ module lowpass #(
     parameter int OperandW    = 33,  // of the difference on the multiplier
     parameter int ProductDrop = 27,  // fraction bits of the product below those of y
     parameter int ProductW    = 53,
-    parameter int Defect      = 0    // 1: truncates, 2: the guard bits are lost, 3: difference without its growth bit, 4: product a clock early
+    // 1: truncates, 2: guard bits lost, 3: difference without its growth bit, 4: product a clock
+    // early
+    parameter int Defect      = 0
 ) (
     input  logic                       clk_i,
     input  logic                       rst_ni,

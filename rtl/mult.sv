@@ -8,7 +8,8 @@
 `default_nettype none
 
 module mult #(
-    parameter int Defect = 0  // 1: low half taken as signed, 2: carry of the halves loses its sign, 3: halves of two clocks
+    // 1: low half taken as signed, 2: carry of the halves loses its sign, 3: halves of two clocks
+    parameter int Defect = 0
 ) (
     input  logic               clk_i,
     input  logic signed [34:0] a_i,
@@ -45,7 +46,8 @@ module mult #(
   logic signed [35:0] upper_q;
   logic        [16:0] lower_q;
   always_ff @(posedge clk_i) begin
-    upper_q <= high_product + ((Defect == 2) ? 36'(low_product[35:17]) : 36'(low_product >>> 17));
+    upper_q <= high_product +
+               ((Defect == 2) ? 36'(low_product[35:17]) : 36'(low_product >>> 17));
     lower_q <= low_product[16:0];
   end
   assign product_o = {upper_q, lower_q};

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Centre-aligned PWM for an H-bridge, sign-magnitude or locked-antiphase, with dead time.
-// Duty [1,12,0] clocks; taken once a period with period_start_o, at the gates 3 clocks later, rising
-// ones after the dead time too.
+// Duty [1,12,0] clocks; taken once a period with period_start_o, at the gates 3 clocks later
+// (turning on: plus the dead time).
 // Documentation: docs/blocks/pwm.md
 `default_nettype none
 
@@ -30,7 +30,7 @@ module pwm #(
   localparam logic        [10:0] LAST = 11'(Period / 2 - 1);
 
   // The carrier {level, rising} runs through Period, Period-2 .. 2, 1, 3 .. Period-1: each number
-  // from 1 to Period once, so that carrier <= n holds for exactly n clocks, centred to half a clock.
+  // from 1 to Period once, so that carrier <= n holds for just n clocks, centred to half a clock.
   logic [10:0] level_q;
   logic        rising_q, take, turn;
 
@@ -49,7 +49,7 @@ module pwm #(
     end
   end
 
-  // Clocks with leg A high: |duty| in sign-magnitude, floor((Period + duty) / 2) in locked-antiphase.
+  // Clocks wanted high: |duty| in sign-magnitude, floor((Period + duty) / 2) in locked-antiphase.
   logic               antiphase_q, negate_q, switch_b_q;
   logic               increment, unused_sum;
   logic signed [13:0] addend, threshold_d;

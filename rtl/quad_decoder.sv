@@ -23,6 +23,7 @@ module quad_decoder #(
   output logic        [15:0] travel_o,          // free-running, set_zero_i does not touch it
   output logic signed [1:0]  step_o,            // what travel_o moved by in this clock
   output logic               error_o,           // sticky: both channels changed in one clock
+  output logic               illegal_o,         // both channels changed in the clock before
   output logic        [15:0] error_count_o,     // saturates
   output logic        [15:0] rejected_count_o,  // saturates
   output logic signed [31:0] index_position_o,
@@ -137,6 +138,7 @@ module quad_decoder #(
       error_wait_q     <= 1'b0;
       rejected_wait_q  <= 1'b0;
       error_o          <= 1'b0;
+      illegal_o        <= 1'b0;
       index_seen_o     <= 1'b0;
       error_count_o    <= 16'd0;
       rejected_count_o <= 16'd0;
@@ -144,6 +146,7 @@ module quad_decoder #(
       error_wait_q    <= (illegal && Defect != 3) || (error_wait_q && !serve_error);
       rejected_wait_q <= (rejected != 3'b000) || (rejected_wait_q && !serve_rejected);
       error_o         <= (illegal && Defect != 3) || (error_o && !clear_error_i);
+      illegal_o       <= illegal && Defect != 3;
       index_seen_o    <= index_q || (index_seen_o && !clear_error_i);
       if (clear_error_i || (serve_error && (!full || Defect == 8))) error_count_o <= sum;
       if (clear_error_i || (serve_rejected && !full)) rejected_count_o <= sum;

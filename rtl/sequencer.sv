@@ -35,7 +35,7 @@ module sequencer #(
     // Past the last slot nothing is read: hold the word that no block uses.
     assign slot_fetch_o = (clock_q[CLOCK_W-1:6] != '0) ? 6'd63 : clock_q[5:0];
   end else begin : g_short_tick
-    assign slot_fetch_o = clock_q[5:0];
+    assign slot_fetch_o = (Defect == 3) ? next_slot : clock_q[5:0];
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -85,7 +85,8 @@ module supervisor #(
   // One adder compares with the parameter on the bus: unit = param + operand + carry, where the
   // operand is the complement ~x, that is -x-1, of what is compared (of a signal: its magnitude); so
   // unit < 0 says x >= param, or x > param with the carry. What is only ever compared is kept as a
-  // complement. Operands are loaded one clock ahead into registers of which all but one are 0.
+  // complement. Operands are loaded one clock ahead into registers of which all but one are 0; the
+  // sign is looked at one clock later.
   logic [SUM_W-1:0]     not_sum_q;       // I2t sum
   logic [COUNTED_W-1:0] not_polarity_q;  // ticks of running away so far, plus 1
   logic [TIMER_W-1:0]   not_watchdog_q;  // ticks since the last kick
@@ -95,12 +96,12 @@ module supervisor #(
   logic [31:0]          of_signal_q;
   logic [SUM_W-1:0]     of_sum_q;
   logic [TIMER_W-1:0]   of_timer_q;
-  logic                 carry_q, signal_q, timer_q, over, unused_carry;
+  logic                 carry_q, signal_q, timer_q, over_q, unused_carry;
   logic [UNIT_W-1:0]    operand, unit;
 
   assign takes_signal   = wave_i[15] || wave_i[18] || wave_i[19];
   assign takes_sum      = wave_i[16] || wave_i[17];
-  assign takes_polarity = wave_i[20] || wave_i[21];
+  assign takes_polarity = wave_i[20] || wave_i[22];
   assign signal    = wave_i[19] ? 32'(current_ref_i) : 32'(velocity_i);
   assign positive  = !signal[31] || (Defect == 3);
   assign not_timer = takes_polarity ? {{(TIMER_W - COUNTED_W) {1'b1}}, not_polarity_q} :
@@ -113,6 +114,7 @@ module supervisor #(
     carry_q     <= takes_signal && positive;  // a signal is over above its limit, the others at it
     signal_q    <= takes_signal;
     timer_q     <= !takes_signal && !takes_sum;
+    over_q      <= unit[UNIT_W-1];
   end
 
   assign operand[TIMER_W-1:0]    = of_signal_q[TIMER_W-1:0] | of_sum_q[TIMER_W-1:0] | of_timer_q;
@@ -122,7 +124,6 @@ module supervisor #(
   assign operand[UNIT_W-1]       = 1'b1;
   assign {unit, unused_carry}    =
       {{(UNIT_W - 32) {param_i[31] && signal_q}}, param_i, 1'b1} + {operand, carry_q};
-  assign over = unit[UNIT_W-1];
 
   // I2t: each tick sum := max(sum - Inom^2, 0) + I^2, without I^2 while disarmed. At 2^32 or more
   // nothing is added, so that it cannot wrap. In complements: cooled is param + ~sum as it stands.
@@ -150,13 +151,13 @@ module supervisor #(
   assign watchdog_full  = !not_watchdog_q[WATCHDOG_BITS];
 
   always_ff @(posedge clk_i) begin
-    if (!live_q || (wave_i[21] && !runs_away_q)) not_polarity_q <= ~COUNTED_W'(1);
-    else if (wave_i[21])                         not_polarity_q <= not_timer_next[COUNTED_W-1:0];
+    if (!live_q || (wave_i[22] && !runs_away_q)) not_polarity_q <= ~COUNTED_W'(1);
+    else if (wave_i[22])                         not_polarity_q <= not_timer_next[COUNTED_W-1:0];
     if (!live_q || (kick_i && Defect != 5)) not_watchdog_q <= '1;
     else if (tick_i)                        not_watchdog_q <= not_timer_next;
-    if (wave_i[19]) fast_q <= over;
-    if (wave_i[20]) runs_away_q <= over && fast_q && (velocity_i[feltgate_pkg::VELOCITY_W-1] !=
-                                                      current_ref_i[feltgate_pkg::CURRENT_W-1]);
+    if (wave_i[20]) fast_q <= over_q;
+    if (wave_i[21]) runs_away_q <= over_q && fast_q && (velocity_i[feltgate_pkg::VELOCITY_W-1] !=
+                                                        current_ref_i[feltgate_pkg::CURRENT_W-1]);
   end
 
   // Encoder errors fill a bucket that leaks; the error that finds it full trips and empties it.
@@ -188,11 +189,11 @@ module supervisor #(
   logic       any_trip, clear, faulty;
   logic [3:0] code;
 
-  assign speed_trip    = wave_i[16] && over;
-  assign i2t_trip      = wave_i[18] && over;
-  assign polarity_trip = wave_i[21] && live_q && runs_away_q &&
-                         (over || polarity_full);
-  assign watchdog_trip = wave_i[46] && live_q && awake_q && (over || watchdog_full);
+  assign speed_trip    = wave_i[17] && over_q;
+  assign i2t_trip      = wave_i[19] && over_q;
+  assign polarity_trip = wave_i[22] && live_q && runs_away_q &&
+                         (over_q || polarity_full);
+  assign watchdog_trip = wave_i[47] && live_q && awake_q && (over_q || watchdog_full);
   assign stop_trip     = stop_q[1] && live_q;
   assign trip = {1'b0, stop_trip, watchdog_trip, i2t_trip, polarity_trip, speed_trip, error_trip,
                  1'b0};

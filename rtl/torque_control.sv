@@ -5,14 +5,17 @@
 //   I = Jn*Kp/Ktn * tau_ref + (1 - Jn*Kp)/Ktn * tau_hat        limited, shown to the observer
 //   V = gain*I + Ke*w + dead voltage                           limited
 //   duty = V * period/supply                                   limited
-// One adder and one limiter serve all of them in turn. Clocks are those of the wave: it takes
-// products 22, 23, 27, 28, 29, 34, 40 four clocks after their slots; current in 34, voltage in 40,
-// duty in 46. docs/blocks/torque_control.md
+// One adder and one limiter serve all of them in turn, the region's border too. Clocks are those of
+// the wave: it takes products 22, 23, 27, 28, 29, 34, 40 four clocks after their slots; current in
+// 34, voltage in 40, duty in 46. docs/blocks/torque_control.md
 
 `default_nettype none
 
 module torque_control #(
-    parameter int Defect = 0  // 1: unsaturated current to the observer, 2: limit on one side only, 3: region border exclusive, 4: tau_hat fed back in open loop, 5: disarming leaves the voltage, 6: duty truncated, 7: back-EMF of the wrong sign
+    // 1: unsaturated current to the observer, 2: limit on one side only, 3: region border
+    // exclusive, 4: tau_hat fed back in open loop, 5: disarming leaves the voltage, 6: duty
+    // truncated, 7: back-EMF of the wrong sign
+    parameter int Defect = 0
 ) (
     input  logic                                         clk_i,
     input  logic                                         rst_ni,
@@ -73,8 +76,8 @@ module torque_control #(
                (!direct && (wave_i[32] || wave_i[38]));
   always_ff @(posedge clk_i) begin
     if (wave_i[26]) begin
-      offset_q <= direct ? Wide'(voltage_o)
-                         : (Defect == 7) ? -Wide'(product_i >>> EmfDrop) : Wide'(product_i >>> EmfDrop);
+      if (direct) offset_q <= Wide'(voltage_o);
+      else offset_q <= (Defect == 7) ? -Wide'(product_i >>> EmfDrop) : Wide'(product_i >>> EmfDrop);
     end
     if (wave_i[27]) begin
       kept_q <= (mode_i == Open && Defect != 4) ? '0 : Wide'(product_i >>> TauHatDrop);

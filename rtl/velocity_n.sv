@@ -10,7 +10,9 @@
 module velocity_n #(
     parameter int M1     = feltgate_pkg::M1,
     parameter int Shift  = feltgate_pkg::VELOCITY_SHIFT,
-    parameter int Defect = 0  // 1: line one entry long, 2: unfilled line is read, 3: wraps instead of saturating, 4: counter wrap taken for a glitch
+    // 1: line one entry long, 2: unfilled line is read, 3: wraps instead of saturating, 4: counter
+    // wrap taken for a glitch
+    parameter int Defect = 0
 ) (
     input  logic                                                  clk_i,
     input  logic                                                  rst_ni,
@@ -19,7 +21,7 @@ module velocity_n #(
     output logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] operand_o,
     input  logic signed [feltgate_pkg::PRODUCT_BITS-1:0]          product_i,
     output logic signed [feltgate_pkg::VELOCITY_W-1:0]            velocity_o,
-    output logic                                                  saturated_o  // raw velocity was limited
+    output logic                                                  saturated_o  // raw was limited
 );
   localparam int T = feltgate_pkg::TRAVEL_BITS;
   localparam int W = feltgate_pkg::VELOCITY_W;
@@ -84,7 +86,8 @@ module velocity_n #(
       raw_q       <= '0;
       saturated_o <= 1'b0;
     end else if (stage_q[1]) begin
-      raw_q       <= over ? {difference_q[T-1], {(W - 1) {~difference_q[T-1]}}} : {difference_q[Room-1:0], {Low{1'b0}}};
+      raw_q       <= over ? {difference_q[T-1], {(W - 1) {~difference_q[T-1]}}}
+                          : {difference_q[Room-1:0], {Low{1'b0}}};
       saturated_o <= over;
     end
   end

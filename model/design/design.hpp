@@ -37,6 +37,8 @@ struct Design {
   std::int64_t pwm_hz = 0;
   int pwm_mode = 0, motor_polarity = 0;
   double dead_time_s = 0, supply_v = 0;
+  double diode_drop_v = 0;
+  bool compensate_dead_time = false;
   double overspeed_rad_s = 0, nominal_current_a = 0, i2t_budget_a2_s = 0;
   double polarity_speed_rad_s = 0, polarity_current_a = 0, polarity_time_s = 0, watchdog_s = 0;
   std::vector<std::string> scenes;

@@ -23,6 +23,11 @@ std::map<std::string, double> parameter_values(const Design& d) {
   const double one_ohm = 1.0;
   const double tick_hz = static_cast<double>(d.tick_hz);
   const double observer_part = 1.0 - jk;
+  // Each leg that switches turns on late by the dead time, and meanwhile the current flows through
+  // diodes; the lost voltage opposes the current like a brush drop and is given back by the same law.
+  const double legs = d.pwm_mode == 1 ? 2.0 : 1.0;
+  const double dead_v = (model ? d.dead_voltage_v : 0.0) +
+                        (d.compensate_dead_time ? legs * (d.supply_v + 2 * d.diode_drop_v) * d.dead_clocks() / d.pwm_period_clocks() : 0.0);
   const double core_slope =
       d.charge_core_rad > 0 ? d.charge_nm_rad2 / std::pow(d.charge_core_rad, 3) * q : 0.0;
   const double charge = d.charge_nm_rad2 / (q * q);
@@ -48,12 +53,12 @@ std::map<std::string, double> parameter_values(const Design& d) {
       {"ramp_step", d.ramp_nm_s / tick_hz},
       {"voltage_to_current", model ? 1.0 / d.resistance_ohm : 1.0 / one_ohm},
       {"torque_gain", jk / d.torque_constant_nm_a},
-      {"dead_voltage_slope", model ? d.dead_voltage_v / d.dead_voltage_linear_nm : 0.0},
+      {"dead_voltage_slope", dead_v / d.dead_voltage_linear_nm},
       {"region_torque", model ? d.torque_limit_nm : d.region_nm},
       {"current_limit", d.current_limit_a},
       {"voltage_gain", model ? d.resistance_ohm : d.kv_low * one_ohm},
       {"voltage_gain_high", model ? d.resistance_ohm : d.kv_high * one_ohm},
-      {"dead_voltage", d.dead_voltage_v},
+      {"dead_voltage", dead_v},
       {"voltage_limit", d.supply_v},
       {"duty_gain", d.pwm_period_clocks() / d.supply_v},
       {"duty_limit", static_cast<double>(d.pwm_period_clocks())},

@@ -52,13 +52,13 @@ void read_control(TomlReader& r, Design& d) {
 
 void read_voltage(TomlReader& r, Design& d) {
   d.voltage_law = r.text("law");
+  d.dead_voltage_linear_nm = r.number("dead_voltage_linear_nm", 1e-4, 1.0);
   if (d.voltage_law == "regions") {
     d.kv_low = r.number("kv_low", 0.0, 100.0);
     d.kv_high = r.number("kv_high", 0.0, 100.0);
     d.region_nm = r.number("region_nm", 0.0, 15.0);
   } else if (d.voltage_law == "motor_model") {
     d.dead_voltage_v = r.number("dead_voltage_v", 0.0, 24.0);
-    d.dead_voltage_linear_nm = r.number("dead_voltage_linear_nm", 1e-4, 1.0);
   } else {
     r.fail("law", "voltage.law = \"" + d.voltage_law + "\" is unknown; choose \"regions\" or "
                   "\"motor_model\"");
@@ -150,6 +150,8 @@ Design read_design(const std::string& path) {
     d.pwm_mode = choice(r, "mode", "sign_magnitude", "locked_antiphase");
     d.motor_polarity = static_cast<int>(r.integer("polarity", 0, 1));
     d.dead_time_s = r.number("dead_time_s", 0.0, 1e-5);
+    d.diode_drop_v = r.number("diode_drop_v", 0.0, 5.0);
+    d.compensate_dead_time = r.integer("compensate_dead_time", 0, 1) == 1;
     d.supply_v = r.number("supply_v", 1.0, 31.9);
   });
   section("supervisor", [&](TomlReader& r) { read_supervisor(r, d); });

@@ -11,18 +11,9 @@
 #include <vector>
 
 #include "engines/engine.hpp"
+#include "feltgate/feltgate_core.hpp"
 
 namespace feltgate {
-
-/// Inputs of the core in one clock.
-struct CoreIn {
-  EncoderPins encoder;
-  bool arm = false, stop = false, set_zero = false;
-  std::uint8_t scene = 0;
-  std::uint16_t reg_addr = 0;
-  std::uint32_t reg_wdata = 0;
-  bool reg_write = false;
-};
 
 /// Register writes wait here; one is issued in an early clock of each tick.
 class WriteQueue {
@@ -71,65 +62,97 @@ class EventQueue {
   std::deque<EncoderEvent> events_;
 };
 
-/// Derived supplies: void reset_core(seed); void clock_core(const CoreIn&) ; and after it
-/// snapshot_valid(), snapshot(), gate bits (a_hi, a_lo, b_hi, b_lo from bit 0), duty(),
-/// gates_enabled().
-template <class Derived>
+/// Carries pins, panel and register writes to a core, collects snapshots and gate times.
+/// Derived supplies reset_core(seed, pins), run(first clock, inputs) and name().
 class ClockedEngine : public Engine {
  public:
+  explicit ClockedEngine(DesignInfo info) : info_(std::move(info)) {}
+
+  const DesignInfo& design() const override { return info_; }
   void reset(std::uint64_t seed, EncoderPins pins) override {
     now_ = 0;
     events_.reset(pins);
     writes_.clear();
     panel_ = {};
     snapshots_.clear();
-    self().reset_core(seed, pins);
+    gates_ = {};
+    last_ = {};
+    reset_core(seed, pins);
   }
   void set_panel(const Panel& panel) override { panel_ = panel; }
   void write(int address, std::uint32_t data) override { writes_.push(address, data); }
+  Clock now() const override { return now_; }
+  const std::vector<Snapshot>& snapshots() const override { return snapshots_; }
+  GateClocks gates() const override { return gates_; }
+  int duty() const override { return last_.duty_active; }
+  bool gates_enabled() const override { return last_.gates_enable; }
 
-  void advance(Clock clocks, const EncoderEvent* first, const EncoderEvent* last) override {
+ protected:
+  virtual void reset_core(std::uint64_t seed, EncoderPins pins) = 0;
+
+  /// Runs `each(inputs)` for every clock of an advance(); each returns the outputs after the clock.
+  template <class EachClock>
+  void run(Clock clocks, const EncoderEvent* first, const EncoderEvent* last, EachClock&& each) {
     snapshots_.clear();
     gates_ = {};
     events_.push(first, last);
-    const int per_tick = design().clocks_per_tick;
     CoreIn in;
     in.arm = panel_.arm;
     in.stop = panel_.stop;
     in.scene = panel_.scene;
+    in.reg_addr = reg_addr_;
+    int clock_of_tick = static_cast<int>(now_ % info_.clocks_per_tick);
     for (const Clock end = now_ + clocks; now_ < end; ++now_) {
       in.encoder = events_.at(now_);
       in.reg_write = false;
-      if (!writes_.empty() && now_ % per_tick == WriteQueue::issue_clock) {
+      if (clock_of_tick == WriteQueue::issue_clock && !writes_.empty()) {
         const auto w = writes_.pop();
-        in.reg_addr = w.first;
+        in.reg_addr = reg_addr_ = w.first;
         in.reg_wdata = w.second;
         in.reg_write = true;
       }
-      self().clock_core(in);
-      const unsigned bits = self().gate_bits();
-      gates_.a_hi += bits & 1u;
-      gates_.a_lo += (bits >> 1) & 1u;
-      gates_.b_hi += (bits >> 2) & 1u;
-      gates_.b_lo += (bits >> 3) & 1u;
-      if (self().snapshot_valid()) snapshots_.push_back(self().snapshot());
+      if (++clock_of_tick == info_.clocks_per_tick) clock_of_tick = 0;
+      each(in);
     }
   }
 
-  Clock now() const override { return now_; }
-  const std::vector<Snapshot>& snapshots() const override { return snapshots_; }
-  GateClocks gates() const override { return gates_; }
+  /// Takes note of the outputs after a clock.
+  void note(const CoreOut& out) {
+    gates_.a_hi += out.gates & 1u;
+    gates_.a_lo += (out.gates >> 1) & 1u;
+    gates_.b_hi += (out.gates >> 2) & 1u;
+    gates_.b_lo += (out.gates >> 3) & 1u;
+    last_ = out;
+  }
+  void keep(const CoreOut& out, std::int16_t travel, std::int64_t writes) {
+    Snapshot s;
+    s.tick = out.tick_count;
+    s.position = out.position;
+    s.velocity = out.velocity;
+    s.tau_hat = out.tau_hat;
+    s.tau_ref = out.tau_ref;
+    s.current_ref = out.current_ref;
+    s.voltage = out.voltage;
+    s.duty = out.duty;
+    s.scene = out.scene;
+    s.limits = out.limits;
+    s.faults = out.faults;
+    s.first_fault = out.first_fault;
+    s.armed = out.armed;
+    s.travel = travel;
+    s.writes = writes;
+    snapshots_.push_back(s);
+  }
 
- protected:
+  DesignInfo info_;
   Clock now_ = 0;
   Panel panel_;
   EventQueue events_;
   WriteQueue writes_;
+  std::uint16_t reg_addr_ = 0;
   std::vector<Snapshot> snapshots_;
   GateClocks gates_;
-
- private:
-  Derived& self() { return static_cast<Derived&>(*this); }
+  CoreOut last_;
 };
 
 /// The generated constants of design D as run-time information.

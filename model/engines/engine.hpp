@@ -117,6 +117,7 @@ class Engine {
   /// Lock-step engines: number of clocks in which any output differed, and the first difference.
   virtual std::int64_t mismatches() const { return 0; }
   virtual std::string first_mismatch() const { return {}; }
+  virtual Clock first_mismatch_clock() const { return 0; }
 };
 
 /// Engines of the designs that were built in. Kinds: "rtl", "twin", "lockstep".

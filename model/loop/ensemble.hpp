@@ -20,6 +20,7 @@ class Ensemble {
            EncoderPins pins, const std::string& fst);
 
   Engine& lead() { return *lead_; }
+  const Engine& lead_const() const { return *lead_; }
   const DesignInfo& design() const { return lead_->design(); }
 
   /// A parameter in its unit, for every engine; takes effect with the same tick in all.

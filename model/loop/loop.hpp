@@ -48,6 +48,7 @@ struct RunResult {
   PositionFigures position;
   std::vector<EngineFigures> engines;
   std::map<std::string, double> figures;  ///< what scene files put bounds on
+  int expectations_checked = 0;
   std::vector<std::string> broken;        ///< expectations that do not hold, one line each
   double simulated_s = 0;
 };

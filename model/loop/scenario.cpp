@@ -9,52 +9,48 @@
 
 #include "plant/hand_file.hpp"
 #include "plant/plant_file.hpp"
-#include "plant/toml_reader.hpp"
+#include "config/toml_reader.hpp"
 
 namespace feltgate {
 
 namespace {
 
-using plant::kAnyNumber;
-using plant::kNotNegative;
-using plant::kPositive;
-using plant::TomlReader;
 
 const std::vector<std::string> kModes{"closed_loop", "open_loop", "voltage"};
 
-std::map<std::string, double> read_values(const toml::table& table, TomlReader reader) {
+std::map<std::string, double> read_values(const toml::table& table, config::TomlReader reader) {
   std::map<std::string, double> values;
   for (const auto& [key, node] : table) {
     (void)node;
     const std::string name(key.str());
-    values[name] = reader.number(name, kAnyNumber);
+    values[name] = reader.number(name, config::kAnyNumber);
   }
   return values;
 }
 
-Event read_event(TomlReader r, const toml::table& table) {
+Event read_event(config::TomlReader r, const toml::table& table) {
   Event e;
-  e.at_s = r.number("at_s", kNotNegative);
+  e.at_s = r.number("at_s", config::kNotNegative);
   if (r.has("scene")) e.scene = r.text("scene");
   if (r.has("mode")) e.mode = static_cast<int>(r.choice("mode", kModes));
   if (r.has("arm")) e.arm = r.flag("arm");
   if (r.has("stop")) e.stop = r.flag("stop");
   if (r.has("set")) {
-    TomlReader set = r.section("set");
+    config::TomlReader set = r.section("set");
     e.set = read_values(*table["set"].as_table(), set);
   }
-  if (r.has("step_nm")) e.step_nm = r.number("step_nm", kAnyNumber);
+  if (r.has("step_nm")) e.step_nm = r.number("step_nm", config::kAnyNumber);
   r.finish();
   return e;
 }
 
-Expectation read_expectation(TomlReader r, const toml::table& table) {
+Expectation read_expectation(config::TomlReader r, const toml::table& table) {
   Expectation x;
   x.figure = r.text("figure");
   x.line = static_cast<int>(table.source().begin.line);
   if (r.has("design")) x.design = r.text("design");
-  x.low = r.number_or("low", -1e300, kAnyNumber);
-  x.high = r.number_or("high", 1e300, kAnyNumber);
+  x.low = r.number_or("low", -1e300, config::kAnyNumber);
+  x.high = r.number_or("high", 1e300, config::kAnyNumber);
   if (!r.has("low") && !r.has("high")) {
     r.fail("figure", "an expectation needs a bound", "give low, high or both");
   }
@@ -65,8 +61,8 @@ Expectation read_expectation(TomlReader r, const toml::table& table) {
 }  // namespace
 
 Scenario read_scenario(const std::string& path) {
-  const toml::table root = plant::parse_toml_file(path);
-  TomlReader top(root, path, "the scene");
+  const toml::table root = config::parse_toml_file(path);
+  config::TomlReader top(root, path, "the scene");
   Scenario s;
   s.path = path;
   s.name = std::filesystem::path(path).stem().string();
@@ -77,10 +73,10 @@ Scenario read_scenario(const std::string& path) {
   s.step_clocks = top.has("step_clocks") ? static_cast<int>(top.integer("step_clocks", 1, 250)) : 25;
   if (top.has("bridge")) s.switched = top.choice("bridge", {"averaged", "switched"}) == 1;
   {
-    TomlReader core = top.section("core");
+    config::TomlReader core = top.section("core");
     s.scene = core.text("scene");
     if (core.has("mode")) s.mode = static_cast<int>(core.choice("mode", kModes));
-    s.arm_s = core.number_or("arm_s", 0.0, kNotNegative);
+    s.arm_s = core.number_or("arm_s", 0.0, config::kNotNegative);
     core.finish();
   }
   if (top.has("parameters")) {
@@ -92,9 +88,7 @@ Scenario read_scenario(const std::string& path) {
   }
   std::stable_sort(s.events.begin(), s.events.end(),
                    [](const Event& a, const Event& b) { return a.at_s < b.at_s; });
-  if (top.has("effects")) {
-    s.effects = plant::read_effects(top.section("effects"), plant::Effects{});
-  }
+  if (top.has("effects")) plant::read_effects(top.section("effects"), plant::Effects{});
   if (top.has("hand")) s.hand = plant::read_hand(top.section("hand"));
   const auto expectations = top.sections("expect");
   for (std::size_t i = 0; i < expectations.size(); ++i) {
@@ -103,6 +97,13 @@ Scenario read_scenario(const std::string& path) {
   }
   top.finish();
   return s;
+}
+
+void resolve_effects(Scenario& scenario, const plant::Effects& of_plant) {
+  const toml::table root = config::parse_toml_file(scenario.path);
+  config::TomlReader top(root, scenario.path, "the scene");
+  scenario.effects = of_plant;
+  if (top.has("effects")) scenario.effects = plant::read_effects(top.section("effects"), of_plant);
 }
 
 }  // namespace feltgate

@@ -45,13 +45,15 @@ struct Scenario {
   double arm_s = 0;
   std::map<std::string, double> parameters;  ///< set before arming, in their units
   std::vector<Event> events;                 ///< in order of time
-  plant::Effects effects;
+  plant::Effects effects;                    ///< of the plant, as the scene overrides them
   plant::Hand hand;
   std::vector<Expectation> expectations;
 };
 
-/// Reads vectors/scenes/NAME.toml. `effects` are the defaults of the plant that will be used.
-/// Throws plant::ConfigError: "file:line: what; mend".
+/// Reads vectors/scenes/NAME.toml. Throws config::ConfigError: "file:line: what; mend".
 Scenario read_scenario(const std::string& path);
+
+/// Fills scenario.effects: the plant's defaults with the scene's overrides.
+void resolve_effects(Scenario& scenario, const plant::Effects& of_plant);
 
 }  // namespace feltgate

@@ -13,33 +13,33 @@ namespace {
 
 using Kind = HandPhase::Kind;
 
-constexpr Range kPhase{-7.0, 7.0};
-constexpr Range kFrequency{1e-6, 1e5};
+constexpr config::Range kPhase{-7.0, 7.0};
+constexpr config::Range kFrequency{1e-6, 1e5};
 
 // `unit` is the suffix of the keys: rad or nm.
-Segment read_segment(TomlReader table, const std::string& unit, bool steps_allowed) {
+Segment read_segment(config::TomlReader table, const std::string& unit, bool steps_allowed) {
   Segment segment;
   segment.kind = static_cast<Segment::Kind>(
       table.choice("kind", {"hold", "step", "ramp", "minimum_jerk", "sine"}));
   if (segment.kind == Segment::Kind::kStep && !steps_allowed) {
     table.fail("kind", "an imposed angle cannot step", "use ramp or minimum_jerk");
   }
-  segment.duration_s = table.number("duration_s", kPositive);
+  segment.duration_s = table.number("duration_s", config::kPositive);
   if (segment.kind == Segment::Kind::kSine) {
-    segment.amplitude = table.number("amplitude_" + unit, kAnyNumber);
+    segment.amplitude = table.number("amplitude_" + unit, config::kAnyNumber);
     segment.frequency_hz = table.number("frequency_hz", kFrequency);
     segment.phase_rad = table.number_or("phase_rad", 0.0, kPhase);
   } else if (segment.kind != Segment::Kind::kHold) {
-    segment.to = table.number("to_" + unit, kAnyNumber);
+    segment.to = table.number("to_" + unit, config::kAnyNumber);
   }
   table.finish();
   return segment;
 }
 
-Profile read_profile(TomlReader& table, const std::string& key, const std::string& unit,
+Profile read_profile(config::TomlReader& table, const std::string& key, const std::string& unit,
                      bool steps_allowed) {
   Profile profile;
-  for (TomlReader& segment : table.sections(key)) {
+  for (config::TomlReader& segment : table.sections(key)) {
     profile.push_back(read_segment(std::move(segment), unit, steps_allowed));
   }
   if (profile.empty()) {
@@ -55,7 +55,7 @@ std::string beside(const std::string& file, const std::string& name) {
   return file.substr(0, slash + 1) + name;
 }
 
-void check_trace(const TomlReader& table, const std::string& key, const Trace& trace) {
+void check_trace(const config::TomlReader& table, const std::string& key, const Trace& trace) {
   if (trace.time_s.size() != trace.theta_rad.size() || trace.time_s.size() < 2) {
     table.fail(key,
                "the trace holds " + std::to_string(trace.time_s.size()) + " times and " +
@@ -69,37 +69,37 @@ void check_trace(const TomlReader& table, const std::string& key, const Trace& t
   }
 }
 
-Trace read_trace(TomlReader& table) {
+Trace read_trace(config::TomlReader& table) {
   Trace trace;
   if (table.has("file")) {
     trace = read_trace_file(beside(table.file(), table.text("file")));
     check_trace(table, "file", trace);
   } else {
-    trace.time_s = table.numbers("time_s", kNotNegative);
-    trace.theta_rad = table.numbers("theta_rad", kAnyNumber);
+    trace.time_s = table.numbers("time_s", config::kNotNegative);
+    trace.theta_rad = table.numbers("theta_rad", config::kAnyNumber);
     check_trace(table, "time_s", trace);
   }
   return trace;
 }
 
-Impedance read_impedance(TomlReader& table) {
+Impedance read_impedance(config::TomlReader& table) {
   Impedance i;
-  i.mass_kg = table.number_or("mass_kg", i.mass_kg, kPositive);
-  i.damping_ns_m = table.number_or("damping_ns_m", i.damping_ns_m, kNotNegative);
-  i.stiffness_n_m = table.number_or("stiffness_n_m", i.stiffness_n_m, kNotNegative);
-  i.grip_stiffness_n_m = table.number_or("grip_stiffness_n_m", i.grip_stiffness_n_m, kNotNegative);
-  i.grip_damping_ns_m = table.number_or("grip_damping_ns_m", i.grip_damping_ns_m, kNotNegative);
+  i.mass_kg = table.number_or("mass_kg", i.mass_kg, config::kPositive);
+  i.damping_ns_m = table.number_or("damping_ns_m", i.damping_ns_m, config::kNotNegative);
+  i.stiffness_n_m = table.number_or("stiffness_n_m", i.stiffness_n_m, config::kNotNegative);
+  i.grip_stiffness_n_m = table.number_or("grip_stiffness_n_m", i.grip_stiffness_n_m, config::kNotNegative);
+  i.grip_damping_ns_m = table.number_or("grip_damping_ns_m", i.grip_damping_ns_m, config::kNotNegative);
   return i;
 }
 
-Cord read_cord(TomlReader& table) {
+Cord read_cord(config::TomlReader& table) {
   Cord cord;
-  cord.stiffness_nm_rad = table.number_or("stiffness_nm_rad", cord.stiffness_nm_rad, kNotNegative);
-  cord.damping_nm_s_rad = table.number_or("damping_nm_s_rad", cord.damping_nm_s_rad, kNotNegative);
+  cord.stiffness_nm_rad = table.number_or("stiffness_nm_rad", cord.stiffness_nm_rad, config::kNotNegative);
+  cord.damping_nm_s_rad = table.number_or("damping_nm_s_rad", cord.damping_nm_s_rad, config::kNotNegative);
   return cord;
 }
 
-HandPhase read_phase(TomlReader table, bool last) {
+HandPhase read_phase(config::TomlReader table, bool last) {
   HandPhase phase;
   phase.kind = static_cast<Kind>(table.choice(
       "kind", {"free", "locked", "prescribed", "trace", "impedance", "cord", "torque"}));
@@ -117,9 +117,9 @@ HandPhase read_phase(TomlReader table, bool last) {
   if (phase.kind == Kind::kImpedance) phase.impedance = read_impedance(table);
   if (phase.kind == Kind::kCord) phase.cord = read_cord(table);
   if (table.has("duration_s")) {
-    phase.duration_s = table.number("duration_s", kPositive);
+    phase.duration_s = table.number("duration_s", config::kPositive);
   } else if (!last) {
-    if (natural_s <= 0.0) phase.duration_s = table.number("duration_s", kPositive);
+    if (natural_s <= 0.0) phase.duration_s = table.number("duration_s", config::kPositive);
     phase.duration_s = natural_s;
   }
   table.finish();
@@ -138,11 +138,11 @@ Trace read_trace_file(const std::string& path) {
   std::ifstream in(path);
   std::string line;
   if (!in || !std::getline(in, line)) {
-    throw ConfigError(path + ":0: cannot be read or is empty; give the path of a CSV file");
+    throw config::ConfigError(path + ":0: cannot be read or is empty; give the path of a CSV file");
   }
   if (!line.empty() && line.back() == '\r') line.pop_back();
   if (line != "time_s,theta_rad") {
-    throw ConfigError(path + ":1: unknown header; it must be \"time_s,theta_rad\"");
+    throw config::ConfigError(path + ":1: unknown header; it must be \"time_s,theta_rad\"");
   }
   Trace trace;
   for (int number = 2; std::getline(in, line); ++number) {
@@ -150,24 +150,24 @@ Trace read_trace_file(const std::string& path) {
     try {
       std::size_t end = 0;
       const double time_s = std::stod(line, &end);
-      if (end >= line.size() || line[end] != ',') throw ConfigError("no comma");
+      if (end >= line.size() || line[end] != ',') throw config::ConfigError("no comma");
       const std::string second = line.substr(end + 1);
       const double theta_rad = std::stod(second, &end);
-      if (end < second.size() && second[end] != '\r') throw ConfigError("more than two columns");
-      if (!std::isfinite(time_s) || !std::isfinite(theta_rad)) throw ConfigError("not finite");
+      if (end < second.size() && second[end] != '\r') throw config::ConfigError("more than two columns");
+      if (!std::isfinite(time_s) || !std::isfinite(theta_rad)) throw config::ConfigError("not finite");
       trace.time_s.push_back(time_s);
       trace.theta_rad.push_back(theta_rad);
     } catch (const std::exception&) {
-      throw ConfigError(place + "not two finite numbers; write \"seconds,radians\"");
+      throw config::ConfigError(place + "not two finite numbers; write \"seconds,radians\"");
     }
   }
   return trace;
 }
 
-Hand read_hand(TomlReader table) {
+Hand read_hand(config::TomlReader table) {
   Hand hand;
-  if (table.has("start_rad")) hand.start_rad = table.number("start_rad", kAnyNumber);
-  if (table.has("radius_m")) hand.radius_m = table.number("radius_m", kPositive);
+  if (table.has("start_rad")) hand.start_rad = table.number("start_rad", config::kAnyNumber);
+  if (table.has("radius_m")) hand.radius_m = table.number("radius_m", config::kPositive);
   auto phases = table.sections("phase");
   for (std::size_t i = 0; i < phases.size(); ++i) {
     hand.phases.push_back(read_phase(std::move(phases[i]), i + 1 == phases.size()));

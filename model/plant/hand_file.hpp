@@ -5,16 +5,16 @@
 #pragma once
 
 #include "plant/hand.hpp"
-#include "plant/toml_reader.hpp"
+#include "config/toml_reader.hpp"
 
 namespace feltgate::plant {
 
 /// Reads [hand] and [[hand.phase]]; files of traces are relative to the folder of the scene.
-/// Errors: ConfigError "file:line: what; mend".
-Hand read_hand(TomlReader table);
+/// Errors: config::ConfigError "file:line: what; mend".
+Hand read_hand(config::TomlReader table);
 
 /// Reads a recorded motion: a CSV with the header "time_s,theta_rad".
-/// Errors: ConfigError with file and line of the first bad row.
+/// Errors: config::ConfigError with file and line of the first bad row.
 Trace read_trace_file(const std::string& path);
 
 }  // namespace feltgate::plant

@@ -12,37 +12,37 @@ namespace feltgate::plant {
 namespace {
 
 // Edges keep their order on the circle while offsets and 4-sigma jitter stay below one count.
-constexpr Range kEdgeOffset{-0.25, 0.25};
-constexpr Range kLineJitter{0.0, 0.05};
+constexpr config::Range kEdgeOffset{-0.25, 0.25};
+constexpr config::Range kLineJitter{0.0, 0.05};
 
-MotorParameters read_motor(TomlReader table) {
+MotorParameters read_motor(config::TomlReader table) {
   MotorParameters motor;
-  motor.torque_constant_nm_a = table.number("torque_constant_nm_a", kPositive);
-  motor.back_emf_constant_v_s_rad = table.number("back_emf_constant_v_s_rad", kPositive);
-  motor.resistance_ohm = table.number("resistance_ohm", kPositive);
-  motor.inductance_h = table.number("inductance_h", kPositive);
-  motor.dead_voltage_v = table.number("dead_voltage_v", kNotNegative);
+  motor.torque_constant_nm_a = table.number("torque_constant_nm_a", config::kPositive);
+  motor.back_emf_constant_v_s_rad = table.number("back_emf_constant_v_s_rad", config::kPositive);
+  motor.resistance_ohm = table.number("resistance_ohm", config::kPositive);
+  motor.inductance_h = table.number("inductance_h", config::kPositive);
+  motor.dead_voltage_v = table.number("dead_voltage_v", config::kNotNegative);
   table.finish();
   return motor;
 }
 
-LeverParameters read_lever(TomlReader table) {
+LeverParameters read_lever(config::TomlReader table) {
   LeverParameters lever;
-  lever.inertia_kg_m2 = table.number("inertia_kg_m2", kPositive);
-  lever.viscous_nm_s_rad = table.number("viscous_nm_s_rad", kNotNegative);
-  lever.radius_m = table.number("radius_m", kPositive);
+  lever.inertia_kg_m2 = table.number("inertia_kg_m2", config::kPositive);
+  lever.viscous_nm_s_rad = table.number("viscous_nm_s_rad", config::kNotNegative);
+  lever.radius_m = table.number("radius_m", config::kPositive);
   table.finish();
   return lever;
 }
 
-LugreParameters read_lugre(TomlReader table) {
+LugreParameters read_lugre(config::TomlReader table) {
   LugreParameters lugre;
-  lugre.stiffness_nm_rad = table.number("stiffness_nm_rad", kPositive);
-  lugre.damping_nm_s_rad = table.number("damping_nm_s_rad", kNotNegative);
-  lugre.viscous_nm_s_rad = table.number("viscous_nm_s_rad", kNotNegative);
-  lugre.coulomb_nm = table.number("coulomb_nm", kPositive);
-  lugre.static_nm = table.number("static_nm", kPositive);
-  lugre.stribeck_rad_s = table.number("stribeck_rad_s", kPositive);
+  lugre.stiffness_nm_rad = table.number("stiffness_nm_rad", config::kPositive);
+  lugre.damping_nm_s_rad = table.number("damping_nm_s_rad", config::kNotNegative);
+  lugre.viscous_nm_s_rad = table.number("viscous_nm_s_rad", config::kNotNegative);
+  lugre.coulomb_nm = table.number("coulomb_nm", config::kPositive);
+  lugre.static_nm = table.number("static_nm", config::kPositive);
+  lugre.stribeck_rad_s = table.number("stribeck_rad_s", config::kPositive);
   if (lugre.static_nm < lugre.coulomb_nm) {
     table.fail("static_nm", "\"static_nm\" is less than \"coulomb_nm\"",
                "breaking away takes at least the sliding torque: raise it");
@@ -51,17 +51,17 @@ LugreParameters read_lugre(TomlReader table) {
   return lugre;
 }
 
-SupplyParameters read_supply(TomlReader table) {
+SupplyParameters read_supply(config::TomlReader table) {
   SupplyParameters supply;
-  supply.voltage_v = table.number("voltage_v", kPositive);
-  supply.current_limit_a = table.number("current_limit_a", kPositive);
-  supply.bus_capacitance_f = table.number("bus_capacitance_f", kPositive);
-  supply.diode_drop_v = table.number("diode_drop_v", kNotNegative);
+  supply.voltage_v = table.number("voltage_v", config::kPositive);
+  supply.current_limit_a = table.number("current_limit_a", config::kPositive);
+  supply.bus_capacitance_f = table.number("bus_capacitance_f", config::kPositive);
+  supply.diode_drop_v = table.number("diode_drop_v", config::kNotNegative);
   table.finish();
   return supply;
 }
 
-EncoderParameters read_encoder(TomlReader table) {
+EncoderParameters read_encoder(config::TomlReader table) {
   EncoderParameters encoder;
   encoder.lines = static_cast<int>(table.integer("lines", 1, 1 << 20));
   const auto offsets = table.numbers("edge_offset_counts", kEdgeOffset);
@@ -78,7 +78,7 @@ EncoderParameters read_encoder(TomlReader table) {
 }
 
 // Without a base every flag is required.
-Effects read_flags(TomlReader table, const Effects* base) {
+Effects read_flags(config::TomlReader table, const Effects* base) {
   Effects effects = base != nullptr ? *base : Effects{};
   const auto read = [&](const char* key, bool& flag) {
     flag = base != nullptr ? table.flag_or(key, flag) : table.flag(key);
@@ -97,12 +97,12 @@ Effects read_flags(TomlReader table, const Effects* base) {
 
 }  // namespace
 
-Effects read_effects(TomlReader table, const Effects& base) {
+Effects read_effects(config::TomlReader table, const Effects& base) {
   return read_flags(std::move(table), &base);
 }
 
 Parameters read_plant(const toml::table& root, const std::string& file) {
-  TomlReader reader(root, file, "the file");
+  config::TomlReader reader(root, file, "the file");
   Parameters parameters;
   parameters.name = reader.text("name");
   parameters.motor = read_motor(reader.section("motor"));
@@ -116,7 +116,7 @@ Parameters read_plant(const toml::table& root, const std::string& file) {
 }
 
 Parameters read_plant_file(const std::string& path) {
-  return read_plant(parse_toml_file(path), path);
+  return read_plant(config::parse_toml_file(path), path);
 }
 
 }  // namespace feltgate::plant

@@ -7,18 +7,18 @@
 #include <string>
 
 #include "plant/parameters.hpp"
-#include "plant/toml_reader.hpp"
+#include "config/toml_reader.hpp"
 
 namespace feltgate::plant {
 
 /// Reads and checks a plant file; every key is required, unknown keys are errors.
-/// Errors: ConfigError "file:line: what; mend".
+/// Errors: config::ConfigError "file:line: what; mend".
 Parameters read_plant_file(const std::string& path);
 
 /// The same from a parsed table, `file` being the name that errors print.
 Parameters read_plant(const toml::table& root, const std::string& file);
 
 /// Effects of a scene's [effects] table over `base`: a missing key keeps the value of `base`.
-Effects read_effects(TomlReader table, const Effects& base);
+Effects read_effects(config::TomlReader table, const Effects& base);
 
 }  // namespace feltgate::plant

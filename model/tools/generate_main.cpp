@@ -32,10 +32,21 @@ bool update(const fs::path& path, const std::string& text, bool check_only) {
 
 }  // namespace
 
+constexpr const char* usage =
+    "usage: feltgate generate [--check]\n"
+    "Writes what follows from rtl/registers.toml and rtl/designs/*.toml: the SystemVerilog packages in\n"
+    "rtl/generated, the C++ headers in model/include/feltgate/generated, and docs/registers.md.\n"
+    "--check only compares; exit code 1 when a file is stale.\n";
+
 int main(int argc, char** argv) {
-  const bool check_only = argc == 3 && std::string(argv[2]) == "--check";
+  const std::string option = argc == 3 ? argv[2] : "";
+  const bool check_only = option == "--check";
+  if (option == "--help" || option == "-h") {
+    std::cout << usage;
+    return 0;
+  }
   if (argc < 2 || argc > 3 || (argc == 3 && !check_only)) {
-    std::cerr << "usage: feltgate_generate ROOT [--check]\n";
+    std::cerr << usage;
     return 2;
   }
   try {

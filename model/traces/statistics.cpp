@@ -13,17 +13,18 @@ void StepCounter::add(const EncoderEvent& event) {
   const bool b_moved = was.b != pins_.b;
   if (!a_moved && !b_moved) return;
   ++result_.steps;
-  if (last_ &&
-      (!result_.shortest_edge_spacing || event.clock - *last_ < *result_.shortest_edge_spacing)) {
-    result_.shortest_edge_spacing = event.clock - *last_;
+  const Clock spacing = event.clock - last_;
+  if (moved_ && spacing < result_.shortest_edge_spacing.value_or(spacing + 1)) {
+    result_.shortest_edge_spacing = spacing;
   }
+  moved_ = true;
   last_ = event.clock;
   if (a_moved && b_moved) {
     ++result_.illegal;
     return;
   }
-  // Counting up A leads: A moves away from B, or B follows A.
-  const bool up = a_moved ? pins_.a != pins_.b : pins_.a == pins_.b;
+  // Counting up B leads: B moves away from A, or A follows B.
+  const bool up = b_moved ? pins_.a != pins_.b : pins_.a == pins_.b;
   const int direction = up ? 1 : -1;
   if (direction_ == -direction) ++result_.reversals;
   direction_ = direction;

@@ -31,7 +31,8 @@ class StepCounter {
  private:
   EncoderPins pins_;
   Statistics result_;
-  std::optional<Clock> last_;
+  bool moved_ = false;
+  Clock last_ = 0;  ///< clock of the last step, once there was one
   int direction_ = 0;
 };
 

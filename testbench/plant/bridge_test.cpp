@@ -4,7 +4,7 @@
 // H-bridge, dead time, free-wheeling and supply. docs/plant.md
 #include "catch.hpp"
 #include "plant/period_mean.hpp"
-#include "plant/plant_fixture.hpp"
+#include "plant_fixture.hpp"
 
 using namespace feltgate;
 using namespace feltgate::plant;

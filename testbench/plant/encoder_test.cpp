@@ -5,7 +5,7 @@
 #include <set>
 
 #include "catch.hpp"
-#include "plant/plant_fixture.hpp"
+#include "plant_fixture.hpp"
 
 using namespace feltgate;
 using namespace feltgate::plant;

@@ -3,7 +3,7 @@
 //
 // Hand, cord, friction and energy against closed forms. docs/plant.md
 #include "catch.hpp"
-#include "plant/plant_fixture.hpp"
+#include "plant_fixture.hpp"
 
 using namespace feltgate;
 using namespace feltgate::plant;
@@ -223,6 +223,39 @@ TEST_CASE("phases change on their clock: blocked for 1 s, then released", "[hand
   CHECK(moved == 50000025);
   CHECK(plant.observables().theta_rad > 0.5);
   CHECK(plant.observables().hand_torque_nm == 0.0);
+}
+
+TEST_CASE("phases that end between steps do not drift", "[hand]") {
+  const Parameters p = shipped("p24");
+  Hand hand;
+  HandPhase locked;
+  locked.kind = Kind::kLocked;
+  locked.duration_s = 35 / kClockHz;
+  hand.phases.assign(20, locked);
+  HandPhase ramp;
+  ramp.kind = Kind::kPrescribed;
+  ramp.profile = {segment(Segment::Kind::kRamp, 1.0, 1.0)};
+  hand.phases.push_back(ramp);
+  Plant plant(p, p.effects, Drive{}, hand);
+  run(plant, Bridge::off(), 0.01);
+  CHECK(plant.observables().theta_rad == Approx(0.01 - 20 * 35 / kClockHz).epsilon(1e-9));
+}
+
+TEST_CASE("a second impedance phase takes over equilibrium and hand", "[hand]") {
+  const Parameters p = shipped("linear");
+  HandPhase first;
+  first.kind = Kind::kImpedance;
+  first.duration_s = 1e-3;
+  first.profile = {segment(Segment::Kind::kStep, 1.0, 0.5)};
+  HandPhase second = first;
+  second.profile = {segment(Segment::Kind::kHold, 1.0)};
+  Hand hand = hand_of(first);
+  hand.phases.push_back(second);
+  Plant plant(p, kNoEffects, Drive{}, hand);
+  run(plant, Bridge::averaged(0.0), 0.01);
+  CHECK(plant.observables().theta_rad < 0.25);
+  run(plant, Bridge::averaged(0.0), 3.0, 50);
+  CHECK(plant.observables().theta_rad == Approx(0.5).epsilon(1e-4));
 }
 
 TEST_CASE("a trace is passed through its samples with continuous velocity", "[hand]") {

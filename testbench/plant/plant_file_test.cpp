@@ -7,7 +7,7 @@
 
 #include "catch.hpp"
 #include "plant/hand_file.hpp"
-#include "plant/plant_fixture.hpp"
+#include "plant_fixture.hpp"
 
 using namespace feltgate::plant;
 
@@ -36,7 +36,7 @@ std::string plant_error(const std::string& text) {
   const toml::table table = toml::parse(text);
   try {
     (void)read_plant(table, "x.toml");
-  } catch (const ConfigError& error) {
+  } catch (const config::ConfigError& error) {
     return error.what();
   }
   return "no error";
@@ -45,8 +45,8 @@ std::string plant_error(const std::string& text) {
 std::string hand_error(const std::string& text) {
   const toml::table table = toml::parse(text);
   try {
-    (void)read_hand(TomlReader(table, "s.toml", "the file").section("hand"));
-  } catch (const ConfigError& error) {
+    (void)read_hand(config::TomlReader(table, "s.toml", "the file").section("hand"));
+  } catch (const config::ConfigError& error) {
     return error.what();
   }
   return "no error";
@@ -54,7 +54,7 @@ std::string hand_error(const std::string& text) {
 
 Hand hand_from(const std::string& text) {
   const toml::table table = toml::parse(text);
-  return read_hand(TomlReader(table, "s.toml", "the file").section("hand"));
+  return read_hand(config::TomlReader(table, "s.toml", "the file").section("hand"));
 }
 
 bool contains(const std::string& text, const std::string& part) {
@@ -108,12 +108,12 @@ TEST_CASE("errors of a plant file say file, line, what and mend", "[plant_file]"
   CHECK(contains(plant_error(replaced(good, "[supply]", "[suply]")), "\"supply\" is missing"));
   CHECK(contains(plant_error(replaced(good, "name = \"p24\"", "name = \"p24\"\nx = 1")),
                  "\"x\" is unknown in the file"));
-  CHECK_THROWS_AS(read_plant_file("/nonexistent/plant.toml"), ConfigError);
+  CHECK_THROWS_AS(read_plant_file("/nonexistent/plant.toml"), config::ConfigError);
 }
 
 TEST_CASE("a scene overrides single effects", "[plant_file]") {
   const toml::table table = toml::parse("[effects]\nsupply_limit = true\nlugre = false\n");
-  const Effects effects = read_effects(TomlReader(table, "s.toml", "the file").section("effects"),
+  const Effects effects = read_effects(config::TomlReader(table, "s.toml", "the file").section("effects"),
                                        shipped("p24").effects);
   CHECK(effects.supply_limit);
   CHECK_FALSE(effects.lugre);
@@ -199,7 +199,7 @@ TEST_CASE("a recorded motion is read from CSV", "[plant_file]") {
   CHECK(trace.theta_rad == std::vector<double>{0.5, -1e-3});
   for (const char* bad : {"", "t,x\n0,0\n", "time_s,theta_rad\n0\n", "time_s,theta_rad\n0,a\n",
                           "time_s,theta_rad\n0,nan\n", "time_s,theta_rad\n0,1,2\n"}) {
-    CHECK_THROWS_AS(read(bad), ConfigError);
+    CHECK_THROWS_AS(read(bad), config::ConfigError);
   }
   std::remove(path.c_str());
 }

@@ -2,11 +2,13 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Motor and lever against closed forms; effects that are off; step-size convergence. docs/plant.md
+#include <array>
+#include <chrono>
 #include <cstdio>
 
 #include "catch.hpp"
 #include "plant/period_mean.hpp"
-#include "plant/plant_fixture.hpp"
+#include "plant_fixture.hpp"
 
 using namespace feltgate;
 using namespace feltgate::plant;
@@ -123,6 +125,26 @@ TEST_CASE("table of step sizes for docs/plant.md", "[.][table]") {
                 cord_error(p, step, reference));
   }
   std::printf("| explicit, 1 | %.1f | | |\n", naive_no_load_rad_s(p, 0.3));
+}
+
+TEST_CASE("speed for docs/plant.md", "[.][speed]") {
+  const Parameters p = shipped("p24");
+  HandPhase impedance;
+  impedance.kind = HandPhase::Kind::kImpedance;
+  impedance.profile = {sine(10.0, 0.5, 2.0, 0.0)};
+  const Effects all{true, true, true, true, true, true, true, true};
+  const auto report = [&p](const char* name, const Effects& effects, const Hand& hand) {
+    Plant plant(p, effects, Drive{}, hand);
+    const auto begin = std::chrono::steady_clock::now();
+    for (int k = 0; k < 20; ++k) run(plant, Bridge::averaged(k % 2 == 0 ? 0.1 : -0.1), 0.1);
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+    std::printf("| %s | %.1f | %.0f |\n", name, 2.0 / spent.count(), spent.count() / 4e6 * 1e9);
+  };
+  std::printf("| 0.5 us steps | times real time | ns per step |\n|---|---|---|\n");
+  report("all effects off, free lever", kNoEffects, Hand{});
+  report("effects of p24, free lever", p.effects, Hand{});
+  report("all effects on, free lever", all, Hand{});
+  report("all effects on, hand as impedance on a sine", all, hand_of(impedance));
 }
 
 TEST_CASE("locked rotor: current (V - Vd)/R, torque Kt*i", "[plant]") {

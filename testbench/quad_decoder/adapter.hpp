@@ -27,6 +27,7 @@ struct QuadDecoderAdapter {
     check("travel", rtl.travel_o, out.travel);
     check("step", sign_extend<2>(rtl.step_o), out.step);
     check("error", rtl.error_o, out.error);
+    check("illegal", rtl.illegal_o, out.illegal);
     check("error_count", rtl.error_count_o, out.error_count);
     check("rejected_count", rtl.rejected_count_o, out.rejected_count);
     check("index_position", rtl.index_position_o, out.index_position);

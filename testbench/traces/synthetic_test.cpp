@@ -30,9 +30,9 @@ std::vector<Source> list(Source a, Source b) {
 
 }  // namespace
 
-TEST_CASE("phases and pins are inverse, and counting up A leads", "[traces]") {
+TEST_CASE("phases and pins are inverse, and counting up B leads", "[traces]") {
   for (unsigned phase = 0; phase < 4; ++phase) CHECK(phase_of(pins_at(phase)) == phase);
-  CHECK(pins_at(1) == EncoderPins{true, false, false});
+  CHECK(pins_at(1) == EncoderPins{false, true, false});
   CHECK(pins_at(7) == pins_at(3));
 }
 

@@ -119,7 +119,7 @@ TEST_CASE("VCD of wires in scopes", "[traces]") {
   const auto vcd =
       folder.file("a.vcd", header +
                                "$comment 0! $end\n#10\n$dumpvars\nx! 0\" b0 # $end\n"
-                               "#11 0!\n#11 1!\n#12 b1 \"\nb1010 #\n#14 0!\n0\"\n#20\n");
+                               "#11 0!\n#11 1!\n#12 b1 \"\nb1010 #\n#14 0!\n#14 0\"\n#20\n");
   CHECK(told(vcd, plain()) == "0:00 50:10 100:11 200:00 end:550");
   const auto twice = folder.file(
       "b.vcd",

@@ -121,7 +121,10 @@ constexpr Formats derive(const BaseFormats& b) {
                     b.voltage.fraction};
   f.voltage_sum = {1, f.voltage_part.integer + 2, b.voltage.fraction};  // three parts
   f.duty = {1, 12, 0};
-  f.duty_sum = growth::with_fraction(growth::product(b.voltage, b.duty_gain), 0);
+  // The limiter is as wide as the current; rounding up may need one bit more.
+  const Format limited_voltage = {1, b.current.width() - 1 - b.voltage.fraction,
+                                  b.voltage.fraction};
+  f.duty_sum = {1, growth::product(limited_voltage, b.duty_gain).integer + 1, 0};
   const Format estimate_v = growth::product(b.voltage, b.inverse_resistance);
   const Format estimate_w = growth::product(b.velocity, b.emf_over_resistance);
   f.current_estimate_part = {1, growth::max_of(estimate_v.integer, estimate_w.integer), 8};

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/dob.sv: disturbance observer tau_hat = LPF(Ktn*I + g*Jn*w) - g*Jn*w, the load that
-// opposes positive motor torque. Disarmed, the current counts as 0 and the filter follows its input,
-// so tau_hat is 0 and arming in motion makes no jump. Documentation: docs/blocks/dob.md
+// opposes positive motor torque. Disarmed, the current counts as 0 and the filter follows its
+// input, so tau_hat is 0 and arming in motion makes no jump. Documentation: docs/blocks/dob.md
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,7 @@ struct DobLaw {
   /// tau_hat, rounded half up and saturated to the torque format.
   static constexpr Torque tau_hat(State state, Inertia inertia, bool* saturated) {
     return quantise<N, D::f.torque.key(), Round::half_up, Overflow::saturate>(state - inertia,
-                                                                             saturated);
+                                                                              saturated);
   }
 };
 
@@ -57,7 +57,7 @@ class Dob {
 
   struct In {
     bool armed = false;
-    bool valid = false;        ///< product is Ktn*I; the next clock's is g*Jn*w
+    bool valid = false;  ///< product is Ktn*I; the next clock's is g*Jn*w
     std::int64_t product = 0;
   };
   struct Out {
@@ -75,7 +75,8 @@ class Dob {
 
   void clock(const In& in) {
     const bool done = (stage_ & 0x200u) != 0;
-    filter_.clock({(stage_ & 2u) != 0, !in.armed, static_cast<std::int64_t>(input_.raw()), in.product});
+    filter_.clock(
+        {(stage_ & 2u) != 0, !in.armed, static_cast<std::int64_t>(input_.raw()), in.product});
     if (done) observe();
     if ((stage_ & 1u) != 0) {
       inertia_ = Law::inertia(decltype(Velocity{} * InertiaGain{})::from_raw(in.product));

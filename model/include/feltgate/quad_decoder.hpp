@@ -32,12 +32,14 @@ class QuadDecoder {
     std::uint16_t travel = 0;          ///< counts since reset, modulo 2^16
     std::int8_t step = 0;              ///< -1, 0, +1: what travel moved by in this clock
     bool error = false;                ///< sticky: both channels changed in one clock
+    bool illegal = false;              ///< both channels changed in the clock before
     std::uint16_t error_count = 0;     ///< such clocks, saturates at 65535
     std::uint16_t rejected_count = 0;  ///< clocks in which the filter rejected, saturates at 65535
     std::int32_t index_position = 0;   ///< position at the last rising edge of Z
     bool index_seen = false;
     bool operator==(const Out& o) const {
       return position == o.position && travel == o.travel && step == o.step && error == o.error &&
+             illegal == o.illegal &&
              error_count == o.error_count && rejected_count == o.rejected_count &&
              index_position == o.index_position && index_seen == o.index_seen;
     }
@@ -87,6 +89,7 @@ class QuadDecoder {
     const bool changed_b = (changed & kB) != 0;
     const bool illegal = changed_a && changed_b;
     out_.error = illegal || (out_.error && !in.clear_error);
+    out_.illegal = illegal;
     error_wait_q_ |= illegal;
     out_.step = 0;
     if (changed_a != changed_b) {
@@ -104,7 +107,7 @@ class QuadDecoder {
   /// between two pin changes may be skipped.
   bool settled(const In& in) const {
     if (!primed_q_ || in.set_zero || in.clear_error || error_wait_q_ || rejected_wait_q_ ||
-        index_q_ || out_.step != 0 ||
+        index_q_ || out_.step != 0 || out_.illegal ||
         out_.position != static_cast<std::int32_t>(count_q_ - zero_q_)) {
       return false;
     }

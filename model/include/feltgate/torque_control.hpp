@@ -18,7 +18,7 @@ namespace feltgate {
 enum class Mode : std::uint8_t {
   closed_loop = 0,  ///< tau_hat is fed back
   open_loop = 1,    ///< tau_hat is not fed back
-  voltage = 2       ///< the voltage set-point replaces the law; the observer sees V * voltage_to_current
+  voltage = 2  ///< the voltage set-point replaces the law; the observer sees V * voltage_to_current
 };
 
 /// The arithmetic, in number policy N, for design D.
@@ -31,6 +31,16 @@ struct TorqueControlLaw {
   using VoltageSum = typename N::template num<D::f.voltage_sum.key()>;
   using Duty = typename N::template num<D::f.duty.key()>;
   using DutySum = typename N::template num<D::f.duty_sum.key()>;
+
+  // One limiter, as wide as the current, reads every limit and border at the sum's binary point.
+  static constexpr int kLimiterBits = D::f.current.width();
+  static constexpr int kCurrentKey = D::f.current.key();
+  static constexpr int kBorderKey =
+      Format{1, kLimiterBits - 1 - D::f.torque.fraction, D::f.torque.fraction}.key();
+  static constexpr int kVoltageKey =
+      Format{1, kLimiterBits - 1 - D::f.voltage.fraction, D::f.voltage.fraction}.key();
+  static constexpr int kDutyKey = Format{1, kLimiterBits - 1, 0}.key();
+  using LimitedVoltage = typename N::template num<kVoltageKey>;
 
   /// One product of the current, truncated to the current's last bit.
   template <class Product>
@@ -56,7 +66,11 @@ struct TorqueControlLaw {
   static constexpr VoltageSum add_voltage(A a, B b) {
     return quantise<N, D::f.voltage_sum.key(), Round::truncate, Overflow::wrap>(a + b);
   }
-  /// x in [-limit, limit] and in the format Key.
+  /// The limited voltage as the port shows it; the same number while the limit is in its format.
+  static constexpr Voltage port_voltage(LimitedVoltage v) {
+    return quantise<N, D::f.voltage.key(), Round::truncate, Overflow::wrap>(v);
+  }
+  /// x in [-limit, limit] and in the format Key. A negative limit gives the limit itself.
   template <int Key, class X, class Limit>
   static constexpr typename N::template num<Key> limited(X x, Limit limit, bool* hit) {
     *hit = x > limit || x < -limit;
@@ -65,7 +79,8 @@ struct TorqueControlLaw {
     return quantise<N, Key, Round::truncate, Overflow::wrap>(x);
   }
   /// Whether tau_ref lies in the high-torque region; at the border the low one holds.
-  static constexpr bool region_high(Torque tau_ref, Torque border) {
+  template <class Border>
+  static constexpr bool region_high(Torque tau_ref, Border border) {
     return tau_ref > border || tau_ref < -border;
   }
 };
@@ -95,7 +110,7 @@ struct TorqueControlStep {
             typename Law::Torque tau_hat, Velocity velocity) {
     const bool direct = mode == Mode::voltage;
     typename Law::CurrentSum current_sum{};
-    region_high = Law::region_high(tau_ref, w.template get<D::f.torque.key()>(A::region_torque));
+    region_high = Law::region_high(tau_ref, w.template get<Law::kBorderKey>(A::region_torque));
     if (direct) {
       voltage = w.template get<D::f.voltage.key()>(A::voltage_setpoint);
       current_sum = Law::current_part(
@@ -103,10 +118,10 @@ struct TorqueControlStep {
     } else {
       const auto by_ref =
           Law::current_part(tau_ref * w.template get<P::torque_gain.key()>(A::torque_gain));
-      const auto by_hat =
-          mode == Mode::open_loop
-              ? typename Law::CurrentSum{}
-              : Law::current_part(tau_hat * w.template get<P::observer_gain.key()>(A::observer_gain));
+      const auto by_hat = mode == Mode::open_loop
+                              ? typename Law::CurrentSum{}
+                              : Law::current_part(tau_hat * w.template get<P::observer_gain.key()>(
+                                                                A::observer_gain));
       current_sum = Law::add_current(by_ref, by_hat);
     }
     current = Law::template limited<D::f.current.key()>(
@@ -115,31 +130,34 @@ struct TorqueControlStep {
       current = typename Law::Current{};
       limit.current = false;
     }
-    typename Law::VoltageSum voltage_sum{};
+    typename Law::VoltageSum offset{}, slope{};
     if (direct) {
-      voltage_sum = Law::add_voltage(voltage, typename Law::VoltageSum{});
+      offset = Law::add_voltage(voltage, typename Law::VoltageSum{});
     } else {
-      const auto emf =
-          Law::voltage_part(velocity * w.template get<P::emf_constant.key()>(A::emf_constant));
-      const auto slope = Law::voltage_part(
-          tau_ref * w.template get<P::dead_voltage_slope.key()>(A::dead_voltage_slope));
-      bool linear = false;
-      const auto dead = Law::template limited<D::f.voltage.key()>(
-          slope, w.template get<D::f.voltage.key()>(A::dead_voltage), &linear);
+      offset = Law::voltage_part(velocity * w.template get<P::emf_constant.key()>(A::emf_constant));
+      slope = Law::voltage_part(tau_ref *
+                                w.template get<P::dead_voltage_slope.key()>(A::dead_voltage_slope));
+    }
+    bool linear = false;
+    const auto dead = Law::template limited<Law::kVoltageKey>(
+        slope, w.template get<Law::kVoltageKey>(A::dead_voltage), &linear);
+    auto voltage_sum = Law::add_voltage(offset, dead);
+    if (!direct) {
       const int gain = region_high ? A::voltage_gain_high : A::voltage_gain;
       const auto resistive =
           Law::voltage_part(current * w.template get<P::voltage_gain.key()>(gain));
-      voltage_sum = Law::add_voltage(resistive, Law::add_voltage(emf, dead));
+      voltage_sum = Law::add_voltage(resistive, voltage_sum);
     }
-    voltage = Law::template limited<D::f.voltage.key()>(
-        voltage_sum, w.template get<D::f.voltage.key()>(A::voltage_limit), &limit.voltage);
+    auto applied = Law::template limited<Law::kVoltageKey>(
+        voltage_sum, w.template get<Law::kVoltageKey>(A::voltage_limit), &limit.voltage);
     if (!armed) {
-      voltage = typename Law::Voltage{};
+      applied = {};
       limit.voltage = false;
     }
+    voltage = Law::port_voltage(applied);
     duty = Law::template limited<D::f.duty.key()>(
-        Law::duty_sum(voltage * w.template get<P::duty_gain.key()>(A::duty_gain)),
-        w.template get<P::duty_limit.key()>(A::duty_limit), &limit.duty);
+        Law::duty_sum(applied * w.template get<P::duty_gain.key()>(A::duty_gain)),
+        w.template get<Law::kDutyKey>(A::duty_limit), &limit.duty);
   }
 };
 
@@ -178,7 +196,9 @@ class TorqueControl {
         if (direct) voltage_ = word<D::f.voltage.key()>(in.param);
         break;
       case 26:
-        offset_ = direct ? VoltageSum{} : Law::voltage_part(product<D::f.velocity.key(), P::emf_constant.key()>(in));
+        offset_ = direct
+                      ? Law::add_voltage(voltage_, VoltageSum{})
+                      : Law::voltage_part(product<D::f.velocity.key(), P::emf_constant.key()>(in));
         break;
       case 27:
         kept_ = in.mode == Mode::open_loop
@@ -186,11 +206,12 @@ class TorqueControl {
                     : Law::current_part(product<D::f.torque.key(), P::observer_gain.key()>(in));
         break;
       case 30:
-        out_.region_high = Law::region_high(word<D::f.torque.key()>(in.tau_ref),
-                                            word<D::f.torque.key()>(in.param));
+        out_.region_high =
+            Law::region_high(Torque::from_raw(in.tau_ref), word<Law::kBorderKey>(in.param));
         break;
       case 31:
-        current_sum_ = Law::current_part(product<D::f.voltage.key(), P::voltage_to_current.key()>(in));
+        current_sum_ =
+            Law::current_part(product<D::f.voltage.key(), P::voltage_to_current.key()>(in));
         break;
       case 32:
         if (!direct) {
@@ -198,24 +219,36 @@ class TorqueControl {
               Law::current_part(product<D::f.torque.key(), P::torque_gain.key()>(in)), kept_);
         }
         break;
-      case 33: limit_current(in); break;
-      case 35: {
-        bool linear = false;
-        dead_ = Law::template limited<D::f.voltage.key()>(voltage_sum_, word<D::f.voltage.key()>(in.param), &linear);
+      case 33:
+        limit_current(in);
+        break;
+      case 35:
+        dead_ = limited<Law::kVoltageKey>(voltage_sum_, in, nullptr);
         out_.operand = dead_.raw();
         break;
-      }
-      case 36: offset_ = Law::add_voltage(offset_, dead_); break;
+      case 36:
+        voltage_sum_ = Law::add_voltage(offset_, dead_);
+        break;
       case 38:
-        voltage_sum_ = direct ? Law::add_voltage(voltage_, VoltageSum{})
-                              : Law::add_voltage(Law::voltage_part(product<D::f.current.key(), P::voltage_gain.key()>(in)), offset_);
+        if (!direct) {
+          voltage_sum_ = Law::add_voltage(
+              Law::voltage_part(product<D::f.current.key(), P::voltage_gain.key()>(in)),
+              voltage_sum_);
+        }
         break;
-      case 39: limit_voltage(in); break;
-      case 44: duty_sum_ = Law::duty_sum(product<D::f.voltage.key(), P::duty_gain.key()>(in)); break;
+      case 39:
+        limit_voltage(in);
+        break;
+      case 44:
+        duty_sum_ = Law::duty_sum(product<Law::kVoltageKey, P::duty_gain.key()>(in));
+        break;
       case 45:
-        out_.duty = Law::template limited<D::f.duty.key()>(duty_sum_, word<P::duty_limit.key()>(in.param), &out_.limit.duty).raw();
+        out_.duty = narrow<Duty, Round::truncate, Overflow::wrap>(
+                        limited<Law::kDutyKey>(duty_sum_, in, &out_.limit.duty))
+                        .raw();
         break;
-      default: break;
+      default:
+        break;
     }
     out_.voltage = voltage_.raw();
   }
@@ -227,40 +260,52 @@ class TorqueControl {
   using VoltageSum = typename Law::VoltageSum;
   using DutySum = typename Law::DutySum;
 
+  using Torque = typename Law::Torque;
+  using Duty = typename Law::Duty;
+
+  /// The low bits of a word of the bus as a number.
   template <int Key>
   static Word<Key> word(std::int64_t raw) {
-    return Word<Key>::from_raw(raw);
+    return narrow<Word<Key>, Round::truncate, Overflow::wrap>(
+        fixed<1, 63 - Word<Key>::format.fraction, Word<Key>::format.fraction>::from_raw(raw));
   }
   /// The product on the bus as the number it is: a signal times a coefficient.
   template <int SignalKey, int CoefficientKey>
   static auto product(const In& in) {
     return decltype(Word<SignalKey>{} * Word<CoefficientKey>{})::from_raw(in.product);
   }
+  /// x limited by the word on the bus.
+  template <int Key, class X>
+  static Word<Key> limited(X x, const In& in, bool* hit) {
+    bool unused = false;
+    return Law::template limited<Key>(x, word<Key>(in.param), hit != nullptr ? hit : &unused);
+  }
 
   void limit_current(const In& in) {
-    auto current = Law::template limited<D::f.current.key()>(
-        current_sum_, word<D::f.current.key()>(in.param), &out_.limit.current);
+    auto current = limited<Law::kCurrentKey>(current_sum_, in, &out_.limit.current);
     if (!in.armed) {
       current = {};
       out_.limit.current = false;
     }
     out_.current_ref = out_.operand = current.raw();
-    voltage_sum_ = in.mode == Mode::voltage
-                       ? VoltageSum{}
-                       : Law::voltage_part(product<D::f.torque.key(), P::dead_voltage_slope.key()>(in));
+    voltage_sum_ =
+        in.mode == Mode::voltage
+            ? VoltageSum{}
+            : Law::voltage_part(product<D::f.torque.key(), P::dead_voltage_slope.key()>(in));
   }
 
   void limit_voltage(const In& in) {
-    voltage_ = Law::template limited<D::f.voltage.key()>(
-        voltage_sum_, word<D::f.voltage.key()>(in.param), &out_.limit.voltage);
+    auto applied = limited<Law::kVoltageKey>(voltage_sum_, in, &out_.limit.voltage);
     if (!in.armed) {
-      voltage_ = {};
+      applied = {};
       out_.limit.voltage = false;
     }
-    out_.operand = voltage_.raw();
+    out_.operand = applied.raw();
+    voltage_ = Law::port_voltage(applied);
   }
 
-  typename Law::Voltage voltage_{}, dead_{};
+  typename Law::Voltage voltage_{};
+  typename Law::LimitedVoltage dead_{};
   CurrentSum current_sum_{}, kept_{};
   VoltageSum voltage_sum_{}, offset_{};
   DutySum duty_sum_{};

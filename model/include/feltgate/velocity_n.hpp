@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/velocity_n.sv: N-method velocity. Velocity is 2^n times the counts of the last m1
-// ticks, saturated to the velocity format, through a low-pass. Documentation: docs/blocks/velocity_n.md
+// ticks, saturated to the velocity format, through a low-pass. Documentation:
+// docs/blocks/velocity_n.md
 #pragma once
 
 #include <array>
@@ -13,7 +14,8 @@
 
 namespace feltgate {
 
-/// Travel of the last M1 ticks; before the line has filled, the travel before reset (0) is the oldest.
+/// Travel of the last M1 ticks; before the line has filled, the travel before reset (0) is the
+/// oldest.
 template <int M1>
 class DelayLine {
  public:
@@ -66,7 +68,7 @@ class VelocityN {
   using A1 = fixed_of<D::P::velocity_a1.key()>;
 
   struct In {
-    bool valid = false;        ///< clock 0 of the wave: travel is sampled
+    bool valid = false;  ///< clock 0 of the wave: travel is sampled
     std::int16_t travel = 0;
     std::int64_t product = 0;  ///< in clock 8: a1 * operand
   };

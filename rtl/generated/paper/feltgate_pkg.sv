@@ -64,7 +64,7 @@ package feltgate_pkg;
   localparam int VOLTAGE_SUM_F = 14;
   localparam int DUTY_W = 13;  // [1,12,0]
   localparam int DUTY_F = 0;
-  localparam int DUTY_SUM_W = 13;  // [1,12,0]
+  localparam int DUTY_SUM_W = 16;  // [1,15,0]
   localparam int DUTY_SUM_F = 0;
   localparam int CURRENT_ESTIMATE_PART_W = 16;  // [1,7,8]
   localparam int CURRENT_ESTIMATE_PART_F = 8;
@@ -88,7 +88,7 @@ package feltgate_pkg;
   localparam int P_OBSERVER_GAIN_F = 15;
   localparam int P_VOLTAGE_TO_CURRENT_F = 16;
   localparam int P_TORQUE_GAIN_F = 13;
-  localparam int P_DEAD_VOLTAGE_SLOPE_F = 17;
+  localparam int P_DEAD_VOLTAGE_SLOPE_F = 12;
   localparam int P_VOLTAGE_GAIN_F = 16;
   localparam int P_VOLTAGE_GAIN_HIGH_F = 16;
   localparam int P_DUTY_GAIN_F = 10;
@@ -189,12 +189,12 @@ package feltgate_pkg;
       9'd26: parameter_reset = 32'd84;  // ramp_step
       9'd27: parameter_reset = 32'd65536;  // voltage_to_current
       9'd28: parameter_reset = 32'd106071;  // torque_gain
-      9'd29: parameter_reset = 32'd0;  // dead_voltage_slope
+      9'd29: parameter_reset = 32'd104038;  // dead_voltage_slope
       9'd30: parameter_reset = 32'd9830;  // region_torque
       9'd33: parameter_reset = 32'd541620;  // current_limit
       9'd34: parameter_reset = 32'd81920;  // voltage_gain
       9'd50: parameter_reset = 32'd62259;  // voltage_gain_high
-      9'd35: parameter_reset = 32'd0;  // dead_voltage
+      9'd35: parameter_reset = 32'd4162;  // dead_voltage
       9'd39: parameter_reset = 32'd393216;  // voltage_limit
       9'd40: parameter_reset = 32'd106667;  // duty_gain
       9'd45: parameter_reset = 32'd2500;  // duty_limit

@@ -54,7 +54,7 @@ struct Lever {
     static constexpr Format ramp_step{1, 4, 24};
     static constexpr Format voltage_to_current{0, 2, 15};
     static constexpr Format torque_gain{0, 6, 11};
-    static constexpr Format dead_voltage_slope{0, 6, 11};
+    static constexpr Format dead_voltage_slope{0, 7, 10};
     static constexpr Format region_torque{1, 4, 16};
     static constexpr Format current_limit{1, 5, 16};
     static constexpr Format voltage_gain{0, -1, 18};
@@ -237,7 +237,7 @@ struct Lever {
       {"torque_gain", "A/Nm", A::torque_gain, P::torque_gain,
        33.11258278145695, 67815},
       {"dead_voltage_slope", "V/Nm", A::dead_voltage_slope, P::dead_voltage_slope,
-       34.0, 69632},
+       97.5, 99840},
       {"region_torque", "Nm", A::region_torque, P::region_torque,
        0.5, 32768},
       {"current_limit", "A", A::current_limit, P::current_limit,
@@ -247,7 +247,7 @@ struct Lever {
       {"voltage_gain_high", "ohm", A::voltage_gain_high, P::voltage_gain_high,
        0.41999999999999998, 110100},
       {"dead_voltage", "V", A::dead_voltage, P::dead_voltage,
-       0.34000000000000002, 5571},
+       0.97500000000000009, 15974},
       {"voltage_limit", "V", A::voltage_limit, P::voltage_limit,
        24.0, 393216},
       {"duty_gain", "clock/V", A::duty_gain, P::duty_gain,

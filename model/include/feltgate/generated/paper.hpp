@@ -54,7 +54,7 @@ struct Paper {
     static constexpr Format ramp_step{1, 4, 24};
     static constexpr Format voltage_to_current{0, 1, 16};
     static constexpr Format torque_gain{0, 4, 13};
-    static constexpr Format dead_voltage_slope{0, 0, 17};
+    static constexpr Format dead_voltage_slope{0, 5, 12};
     static constexpr Format region_torque{1, 4, 16};
     static constexpr Format current_limit{1, 5, 16};
     static constexpr Format voltage_gain{0, 1, 16};
@@ -237,7 +237,7 @@ struct Paper {
       {"torque_gain", "A/Nm", A::torque_gain, P::torque_gain,
        12.948099173553718, 106071},
       {"dead_voltage_slope", "V/Nm", A::dead_voltage_slope, P::dead_voltage_slope,
-       0.0, 0},
+       25.399999999999999, 104038},
       {"region_torque", "Nm", A::region_torque, P::region_torque,
        0.14999999999999999, 9830},
       {"current_limit", "A", A::current_limit, P::current_limit,
@@ -247,7 +247,7 @@ struct Paper {
       {"voltage_gain_high", "ohm", A::voltage_gain_high, P::voltage_gain_high,
        0.94999999999999996, 62259},
       {"dead_voltage", "V", A::dead_voltage, P::dead_voltage,
-       0.0, 0},
+       0.254, 4162},
       {"voltage_limit", "V", A::voltage_limit, P::voltage_limit,
        24.0, 393216},
       {"duty_gain", "clock/V", A::duty_gain, P::duty_gain,

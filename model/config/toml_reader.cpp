@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Strict reading of a TOML table. Documentation: docs/plant.md
-#include "plant/toml_reader.hpp"
+// Strict reading of a TOML table. Documentation: docs/designs.md
+#include "config/toml_reader.hpp"
 
 #include <cmath>
 #include <sstream>
 #include <utility>
 
-namespace feltgate::plant {
+namespace feltgate::config {
 namespace {
 
 std::string place(const std::string& file, const toml::source_region& source) {
@@ -152,14 +152,16 @@ void TomlReader::finish() const {
   for (const auto& [key, node] : *table_) {
     const std::string name(key.str());
     if (asked_.count(name) != 0) continue;
-    std::string known;
-    for (const std::string& other : asked_) {
-      if (!known.empty()) known += ", ";
-      known += other;
+    std::ostringstream text;
+    text << place(file_, node.source()) << "key \"" << name << "\" is unknown in " << name_
+         << "; remove it or use one of: ";
+    const char* comma = "";
+    for (const std::string& known : asked_) {
+      text << comma << known;
+      comma = ", ";
     }
-    throw ConfigError(place(file_, node.source()) + "key \"" + name + "\" is unknown in " + name_ +
-                      "; remove it or use one of: " + known);
+    throw ConfigError(text.str());
   }
 }
 
-}  // namespace feltgate::plant
+}  // namespace feltgate::config

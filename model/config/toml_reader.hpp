@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Strict reading of a TOML table: every key is asked for by name with its range, what nobody asked
-// for is an error, and every error says file, line, what and mend. Documentation: docs/plant.md
+// for is an error, and every error says file, line, what and mend. Documentation: docs/designs.md
 #pragma once
 
 #include <toml++/toml.h>
@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace feltgate::plant {
+namespace feltgate::config {
 
 /// A file that cannot be used; what() reads "file:line: what; mend".
 class ConfigError : public std::runtime_error {
@@ -73,4 +73,4 @@ class TomlReader {
   std::set<std::string> asked_;
 };
 
-}  // namespace feltgate::plant
+}  // namespace feltgate::config

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Registry of the engines that were built in. Documentation: docs/architecture.md
+#include "engines/engine.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "reference/real_chain.hpp"
+
+namespace feltgate {
+
+#define FELTGATE_DESIGN(name)                                        \
+  std::unique_ptr<Engine> make_##name##_engine(const std::string&);  \
+  std::unique_ptr<RealChain> make_##name##_chain(const std::string&);
+#include "designs.inc"
+#undef FELTGATE_DESIGN
+
+std::vector<std::string> design_names() {
+  return {
+#define FELTGATE_DESIGN(name) #name,
+#include "designs.inc"
+#undef FELTGATE_DESIGN
+  };
+}
+
+namespace {
+
+[[noreturn]] void unknown_design(const std::string& design) {
+  std::string list;
+  for (const std::string& name : design_names()) list += (list.empty() ? "" : ", ") + name;
+  throw std::invalid_argument("design \"" + design + "\" is not built in; choose one of " + list +
+                              ", or add rtl/designs/" + design + ".toml and run `feltgate generate`");
+}
+
+}  // namespace
+
+std::unique_ptr<Engine> make_engine(const std::string& design, const std::string& kind) {
+#define FELTGATE_DESIGN(name) \
+  if (design == #name) return make_##name##_engine(kind);
+#include "designs.inc"
+#undef FELTGATE_DESIGN
+  unknown_design(design);
+}
+
+std::unique_ptr<RealChain> make_real_chain(const std::string& design, const std::string& kind) {
+#define FELTGATE_DESIGN(name) \
+  if (design == #name) return make_##name##_chain(kind);
+#include "designs.inc"
+#undef FELTGATE_DESIGN
+  unknown_design(design);
+}
+
+void Engine::trace(const std::string& path, Clock, Clock) {
+  throw std::invalid_argument(path + ": the engine " + name() +
+                              " has no waveform; choose --engine rtl or all");
+}
+
+const ParameterInfo* DesignInfo::find(const std::string& parameter) const {
+  for (int i = 0; i < parameter_count; ++i) {
+    if (parameter == parameters[i].name) return &parameters[i];
+  }
+  return nullptr;
+}
+
+std::int64_t quantise_parameter(const ParameterInfo& info, double value) {
+  const double scaled = std::ldexp(value, info.format.fraction);
+  const double high = std::ldexp(1.0, info.format.width() - info.format.sign);
+  const double low = info.format.sign == 1 ? -high : 0.0;
+  if (!(scaled >= low && std::round(scaled) < high)) {
+    throw std::invalid_argument(std::string(info.name) + " = " + std::to_string(value) + " " + info.unit +
+                                " does not fit its register; choose a value from " +
+                                std::to_string(std::ldexp(low, -info.format.fraction)) + " to below " +
+                                std::to_string(std::ldexp(high, -info.format.fraction)));
+  }
+  return std::llround(scaled);
+}
+
+}  // namespace feltgate

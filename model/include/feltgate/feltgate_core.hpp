@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Twin of rtl/feltgate_core.sv: the whole core, every output pin and register on every clock.
+// The wave is computed in a few steps and each result shown in the clock in which the RTL shows it.
+// clock() advances one clock, skip() a stretch in which no input changes, with identical results.
+// Documentation: docs/blocks/feltgate_core.md
+#pragma once
+
+#include <cstdint>
+
+#include "feltgate/dob.hpp"
+#include "feltgate/encoder_source.hpp"
+#include "feltgate/pwm.hpp"
+#include "feltgate/quad_decoder.hpp"
+#include "feltgate/registers.hpp"
+#include "feltgate/scenes.hpp"
+#include "feltgate/sequencer.hpp"
+#include "feltgate/supervisor.hpp"
+#include "feltgate/torque_control.hpp"
+#include "feltgate/velocity_n.hpp"
+#include "feltgate/words.hpp"
+
+namespace feltgate {
+
+/// Inputs of the core in one clock.
+struct CoreIn {
+  EncoderPins encoder;
+  bool arm = false, stop = false, set_zero = false;
+  std::uint8_t scene = 0;
+  std::uint16_t reg_addr = 0;
+  std::uint32_t reg_wdata = 0;
+  bool reg_write = false;
+};
+
+/// Every output of the core after one clock.
+struct CoreOut {
+  std::int64_t velocity = 0;
+  std::uint32_t tick_count = 0, reg_rdata = 0;
+  std::int32_t position = 0, tau_hat = 0, tau_ref = 0, current_ref = 0, voltage = 0;
+  std::int16_t duty = 0, duty_active = 0;
+  std::uint8_t gates = 0;  ///< a_hi, a_lo, b_hi, b_lo from bit 0
+  std::uint8_t scene = 0, limits = 0, faults = 0, first_fault = 0;
+  bool armed = false, gates_enable = false, snapshot_valid = false, reg_busy = false;
+
+  bool operator==(const CoreOut& o) const {
+    return velocity == o.velocity && tick_count == o.tick_count && reg_rdata == o.reg_rdata &&
+           position == o.position && tau_hat == o.tau_hat && tau_ref == o.tau_ref &&
+           current_ref == o.current_ref && voltage == o.voltage && duty == o.duty &&
+           duty_active == o.duty_active && gates == o.gates && scene == o.scene &&
+           limits == o.limits && faults == o.faults && first_fault == o.first_fault &&
+           armed == o.armed && gates_enable == o.gates_enable &&
+           snapshot_valid == o.snapshot_valid && reg_busy == o.reg_busy;
+  }
+};
+
+template <class D>
+class FeltgateCore {
+ public:
+  using In = CoreIn;
+  using Out = CoreOut;
+
+  FeltgateCore() { reset(); }
+
+  /// The parameter RAM keeps its words, as in the RTL.
+  void reset() {
+    sequencer_.reset();
+    registers_.reset();
+    decoder_.reset();
+    velocity_.reset();
+    dob_.reset();
+    scenes_.reset();
+    control_ = {};
+    supervisor_.reset();
+    pwm_.reset();
+    operand_v_ = operand_w_ = 0;
+    scene_position_ = 0;
+    sampled_travel_ = 0;
+    zero_pending_ = false;
+    flags_ = {};
+    writes_ = 0;
+    out_ = Out{};
+  }
+
+  void clock(const In& in) {
+    const int c = sequencer_.clock_of_tick();
+    const bool tick = c == D::clocks_per_tick - 1;
+    const int t = c - 2;  // clock of the wave
+    const std::uint32_t control = registers_.out().control;
+    const bool host = bit(control, D::C::control_host);
+
+    // What the rest of the core sees of the registers in this clock, before the edge.
+    typename Registers<D>::In reg = register_inputs(in, c, tick);
+    const bool zero = tick && (registers_.commands(D::C::command_set_zero) || zero_pending_);
+    const bool clear = tick && registers_.commands(D::C::command_clear_faults);
+    const bool kick = tick && registers_.commands(D::C::command_kick);
+    const std::int16_t travel = static_cast<std::int16_t>(decoder_.out().travel);
+    const std::int32_t position = decoder_.out().position;
+
+    // Supervisor and PWM see the registers of the clock before.
+    typename Supervisor<D>::In sup;
+    sup.tick = tick;
+    sup.arm = host ? bit(control, D::C::control_arm) : in.arm;
+    sup.stop = in.stop;
+    sup.clear_faults = clear;
+    sup.kick = kick;
+    sup.encoder_error = decoder_.out().illegal;
+    sup.velocity = static_cast<std::int32_t>(out_.velocity);
+    sup.current_ref = out_.current_ref;
+    sup.wave = sequencer_.out().wave;
+    sup.param = registers_.out().param;
+    if (t == 5) operand_v_ = out_.voltage * factor(registers_.out().param);
+    if (t == 7) operand_w_ = out_.velocity * factor(registers_.out().param);
+    if (t == 9) sup.product = operand_v_;
+    if (t == 11) sup.product = operand_w_;
+    if (t == 17) {
+      const std::int64_t estimate = supervisor_.out().current_estimate;
+      sup.product = estimate * estimate;
+    }
+    const bool gates_before = supervisor_.out().gates_enable;
+    clock_pwm(gates_before, control);
+    supervisor_.clock(sup);
+    clock_decoder(in, control, zero, clear);
+
+    wave_clock(t, position, travel);
+
+    const bool committed = tick && registers_.out().reg_busy;
+    registers_.clock(reg);
+    if (tick) {
+      const unsigned wanted = host ? (control >> D::C::control_scene) & 15u : in.scene;
+      out_.scene = static_cast<std::uint8_t>(wanted);
+      if (committed) {
+        ++writes_;
+        if (pending_address_ < 512) {
+          words_.set_raw(pending_address_, registers_.parameter(pending_address_));
+        }
+      }
+    }
+    if (in.reg_write && !out_.reg_busy) pending_address_ = in.reg_addr;
+    zero_pending_ = in.set_zero || (zero_pending_ && !tick);
+    sequencer_.clock({});
+    show(t);
+  }
+
+  const Out& out() const { return out_; }
+  /// Free-running count that the running wave started from.
+  std::int16_t sampled_travel() const { return sampled_travel_; }
+  /// Register writes carried out so far.
+  std::int64_t writes() const { return writes_; }
+  /// The clock of the tick that comes next, 0 .. clocks_per_tick - 1.
+  int clock_of_tick() const { return sequencer_.clock_of_tick(); }
+
+ private:
+  static bool bit(std::uint32_t word, int n) { return ((word >> n) & 1u) != 0; }
+  static std::int64_t factor(std::uint32_t param) { return param & 0x1ffffu; }
+
+  /// The laws at the clocks in which the RTL shows their results.
+  void wave_clock(int t, std::int32_t position, std::int16_t travel) {
+    switch (t) {
+      case 0:
+        out_.position = position;
+        sampled_travel_ = travel;
+        scene_position_ = narrow<fixed_of<D::f.scene_position.key()>, Round::truncate, Overflow::saturate>(
+                              fixed_of<D::f.position.key()>::from_raw(position)).raw();
+        break;
+      case 2:
+        velocity_.tick(sampled_travel_, words_.template get<D::P::velocity_a1.key()>(D::A::velocity_a1));
+        flags_.velocity = velocity_.out().saturated;
+        break;
+      case 8: out_.velocity = velocity_.out().velocity; break;
+      case 22:
+        dob_.tick(out_.armed, fixed_of<D::f.current.key()>::from_raw(out_.current_ref), velocity_.velocity(),
+                  words_.template get<D::P::torque_constant.key()>(D::A::torque_constant),
+                  words_.template get<D::P::inertia_gain.key()>(D::A::inertia_gain),
+                  words_.template get<D::P::observer_a1.key()>(D::A::observer_a1));
+        out_.tau_hat = static_cast<std::int32_t>(dob_.out().tau_hat);
+        flags_.tau_hat = dob_.out().saturated;
+        break;
+      case 24:
+        if (mode() == Mode::voltage) {
+          out_.voltage = static_cast<std::int32_t>(
+              words_.template get<D::f.voltage.key()>(D::A::voltage_setpoint).raw());
+        }
+        break;
+      case 25:
+        scenes_.tick(words_, out_.armed, out_.scene, static_cast<std::int32_t>(scene_position_), velocity_.velocity());
+        flags_.torque = scenes_.limit_torque();
+        break;
+      case 27:
+        out_.tau_ref = static_cast<std::int32_t>(scenes_.tau_ref().raw());
+        flags_.ramp = scenes_.limit_ramp();
+        break;
+      case 33:
+        control_.tick(words_, out_.armed, mode(), scenes_.tau_ref(), dob_.tau_hat(), velocity_.velocity());
+        out_.current_ref = static_cast<std::int32_t>(control_.current.raw());
+        flags_.control.current = control_.limit.current;
+        break;
+      case 39:
+        out_.voltage = static_cast<std::int32_t>(control_.voltage.raw());
+        flags_.control.voltage = control_.limit.voltage;
+        break;
+      case 45:
+        out_.duty = static_cast<std::int16_t>(control_.duty.raw());
+        flags_.control.duty = control_.limit.duty;
+        break;
+      default: break;
+    }
+  }
+
+  Mode mode() const {
+    return static_cast<Mode>((registers_.out().control >> D::C::control_mode) & 3u);
+  }
+
+  typename Registers<D>::In register_inputs(const In& in, int c, bool tick) const {
+    typename Registers<D>::In reg;
+    const int t = c - 2;
+    reg.tick = tick;
+    reg.reg_addr = in.reg_addr;
+    reg.reg_wdata = in.reg_wdata;
+    reg.reg_write = in.reg_write;
+    reg.slot_fetch = static_cast<std::uint8_t>(sequencer_.out().slot_fetch);
+    reg.scene_slot_fetch = sequencer_.out().scene_slot_fetch;
+    reg.scene = out_.scene;
+    reg.region_high = control_.region_high;
+    constexpr std::uint64_t words = 1ull << 0 | 1ull << 1 | 1ull << 2 | 1ull << 9 | 1ull << 11 |
+                                    1ull << 14 | 1ull << 23 | 1ull << 28 | 1ull << 34 | 1ull << 40 | 1ull << 46;
+    if (t >= 0 && t < 50 && ((words >> t) & 1u) != 0) {
+      reg.snap_valid = true;
+      reg.snap_slot = static_cast<std::uint8_t>(t);
+      reg.snap_data = snapshot_word(t);
+    }
+    return reg;
+  }
+
+  std::uint32_t snapshot_word(int t) const {
+    switch (t) {
+      case 0: return out_.tick_count;
+      case 1: return static_cast<std::uint32_t>(out_.position);
+      case 2: return status();
+      case 9: return static_cast<std::uint32_t>(out_.velocity);
+      case 11: return static_cast<std::uint32_t>(decoder_.out().index_position);
+      case 14:
+        return static_cast<std::uint32_t>(decoder_.out().rejected_count) << 16 | decoder_.out().error_count;
+      case 23: return static_cast<std::uint32_t>(out_.tau_hat);
+      case 28: return static_cast<std::uint32_t>(out_.tau_ref);
+      case 34: return static_cast<std::uint32_t>(out_.current_ref);
+      case 40: return static_cast<std::uint32_t>(out_.voltage);
+      default: return static_cast<std::uint32_t>(static_cast<std::int32_t>(out_.duty));
+    }
+  }
+
+  std::uint32_t status() const {
+    return static_cast<std::uint32_t>(decoder_.out().error) << 27 | static_cast<std::uint32_t>(mode()) << 25 |
+           static_cast<std::uint32_t>(out_.armed) << 24 | static_cast<std::uint32_t>(out_.scene) << 20 |
+           static_cast<std::uint32_t>(out_.limits) << 12 | static_cast<std::uint32_t>(out_.first_fault) << 8 |
+           out_.faults;
+  }
+
+  void clock_decoder(const In& in, std::uint32_t control, bool zero, bool clear) {
+    QuadDecoder::In d;
+    d.a = in.encoder.a;
+    d.b = in.encoder.b;
+    d.z = in.encoder.z;
+    d.filter = static_cast<std::uint8_t>((control >> D::C::control_filter) & 15u);
+    d.polarity = bit(control, D::C::control_encoder_polarity);
+    d.set_zero = zero;
+    d.clear_error = clear;
+    if (!decoder_.settled(d)) decoder_.clock(d);
+  }
+
+  void clock_pwm(bool enable, std::uint32_t control) {
+    Pwm::In p;
+    p.enable = enable;
+    p.mode = bit(control, D::C::control_pwm_mode);
+    p.polarity = bit(control, D::C::control_motor_polarity);
+    p.duty = out_.duty;
+    pwm_.clock(p);
+  }
+
+  /// Outputs after the edge; `t` was the clock of the wave before it.
+  void show(int t) {
+    out_.armed = supervisor_.out().armed;
+    out_.gates_enable = supervisor_.out().gates_enable;
+    out_.faults = supervisor_.out().faults;
+    out_.first_fault = supervisor_.out().first_fault;
+    out_.tick_count = sequencer_.out().tick_count;
+    out_.reg_rdata = registers_.out().reg_rdata;
+    out_.reg_busy = registers_.out().reg_busy;
+    out_.snapshot_valid = t == 46;
+    Pwm::In p;
+    p.enable = out_.gates_enable;
+    const Pwm::Out g = pwm_.peek(p);
+    out_.duty_active = g.duty_active;
+    out_.gates = static_cast<std::uint8_t>(g.gate_a_hi | g.gate_a_lo << 1 | g.gate_b_hi << 2 | g.gate_b_lo << 3);
+    out_.limits = static_cast<std::uint8_t>(
+        flags_.torque | flags_.ramp << 1 | flags_.control.current << 2 | flags_.control.voltage << 3 |
+        flags_.control.duty << 4 | flags_.velocity << 5 | flags_.tau_hat << 6 | !out_.gates_enable << 7);
+  }
+
+  struct Flags {
+    bool torque = false, ramp = false, velocity = false, tau_hat = false;
+    ControlLimits control;
+  };
+
+  Sequencer<D::clocks_per_tick> sequencer_;
+  Registers<D> registers_;
+  QuadDecoder decoder_;
+  VelocityN<D> velocity_;
+  Dob<D> dob_;
+  Scenes<D> scenes_;
+  TorqueControlStep<D, Fixed> control_;
+  Supervisor<D> supervisor_;
+  Pwm pwm_{D::pwm_period, D::dead_clocks};
+  Words<D, Fixed> words_;
+  std::int64_t operand_v_ = 0, operand_w_ = 0;
+  std::int64_t scene_position_ = 0;
+  std::int16_t sampled_travel_ = 0;
+  int pending_address_ = 0;
+  bool zero_pending_ = false;
+  Flags flags_;
+  std::int64_t writes_ = 0;
+  Out out_;
+};
+
+}  // namespace feltgate

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Twin of rtl/registers.sv: register port, parameter RAM, control word, commands and snapshot. A
+// write takes effect at the end of the tick; a word is on the parameter bus 2 clocks after its slot
+// is fetched, read data follow their address by 3 clocks. Documentation: docs/blocks/registers.md
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace feltgate {
+
+/// D: a design as generated. ReadBack = false: no snapshot, every read gives 0.
+template <class D, bool ReadBack = true>
+class Registers {
+ public:
+  struct In {
+    bool tick = false;  ///< last clock of a tick
+    std::uint16_t reg_addr = 0;
+    std::uint32_t reg_wdata = 0;
+    bool reg_write = false;  ///< ignored while out().reg_busy
+    std::uint8_t slot_fetch = 0;
+    bool scene_slot_fetch = false;
+    std::uint8_t scene = 0;
+    bool region_high = false;
+    std::uint8_t snap_slot = 0;
+    bool snap_valid = false;
+    std::uint32_t snap_data = 0;
+  };
+  struct Out {
+    std::uint32_t reg_rdata = 0;
+    bool reg_busy = false;
+    std::uint32_t param = 0;
+    std::uint16_t control = static_cast<std::uint16_t>(D::control_reset);
+    bool set_zero = false;  ///< these three only in peek(): high in the clock of tick
+    bool clear_faults = false;
+    bool kick = false;
+  };
+
+  Registers() {
+    for (const auto& p : D::parameters) {
+      parameters_[static_cast<std::size_t>(p.address)] = static_cast<std::uint32_t>(p.raw);
+    }
+  }
+
+  /// Both RAMs keep their words.
+  void reset() {
+    out_ = Out();
+    target_ = Target::none;
+    address_ = 0;
+    data_ = 0;
+    warm_ = false;
+    write_bank_ = 0;
+    frozen_ = false;
+    source_ = source_2_ = Source::nowhere;
+    parameter_2_ = snapshot_2_ = 0;
+  }
+
+  void clock(const In& in) {
+    // What is read in this clock is what the RAMs held before it.
+    const std::uint32_t fetched = parameters_[fetch_address(in)];
+    if (warm_) out_.param = fetch_;
+    fetch_ = fetched;
+    if constexpr (ReadBack) read(in);
+    if (in.snap_valid) write_snapshot(in.snap_slot, in.snap_data);
+    warm_ = true;
+    const bool accept = in.reg_write && target_ == Target::none;
+    if (in.tick) commit();
+    if (accept) {
+      target_ = target_of(in.reg_addr);
+      address_ = in.reg_addr & 0x1ffU;
+      data_ = in.reg_wdata;
+    }
+    out_.reg_busy = target_ != Target::none;
+  }
+
+  /// Registered outputs.
+  const Out& out() const { return out_; }
+
+  /// All outputs in a clock with these inputs.
+  Out peek(const In& in) const {
+    Out now = out_;
+    now.set_zero = in.tick && commands(D::C::command_set_zero);
+    now.clear_faults = in.tick && commands(D::C::command_clear_faults);
+    now.kick = in.tick && commands(D::C::command_kick);
+    return now;
+  }
+
+  /// The command `bit` waits for the end of the tick.
+  bool commands(int bit) const { return target_ == Target::command && ((data_ >> bit) & 1U) != 0; }
+
+  /// A word of the parameter RAM, 0 <= address < 512.
+  std::uint32_t parameter(int address) const {
+    return parameters_[static_cast<std::size_t>(address)];
+  }
+  /// As a write through the port that has taken effect.
+  void set_parameter(int address, std::uint32_t word) {
+    parameters_[static_cast<std::size_t>(address)] = word;
+  }
+
+  /// One word into the snapshot of the running tick, 0 <= slot < 64.
+  void write_snapshot(int slot, std::uint32_t word) {
+    if constexpr (ReadBack) snapshot_[bank_index(write_bank_, slot)] = word;
+  }
+  /// As a tick of clock() calls from tick to tick, at once: no write waiting or made, reg_addr
+  /// held, the words of the tick given to write_snapshot(), and at least one tick run since the
+  /// reset.
+  void skip_tick(std::uint16_t reg_addr) {
+    if constexpr (ReadBack) {
+      parameter_ = parameter_2_ = parameters_[reg_addr & 0x1ffU];
+      snapshot_word_ = snapshot_2_ = snapshot_[bank_index(read_bank(), reg_addr & 63)];
+      source_ = source_2_ = source_of(reg_addr);
+      out_.reg_rdata = selected();
+      if (!frozen_) write_bank_ ^= 1;
+    } else {
+      (void)reg_addr;
+    }
+  }
+
+ private:
+  enum class Target : std::uint8_t { none, parameter, control, command };
+  enum class Source : std::uint8_t { nowhere, parameter, snapshot, control };
+
+  static Target target_of(std::uint16_t address) {
+    if (address < 0x200) return Target::parameter;
+    if (address == D::C::control) return Target::control;
+    return address == D::C::command ? Target::command : Target::none;
+  }
+  static Source source_of(std::uint16_t address) {
+    if (address < 0x200) return Source::parameter;
+    if (address == D::C::control) return Source::control;
+    return (address >> 6) == 0x0c ? Source::snapshot : Source::nowhere;
+  }
+  static std::size_t fetch_address(const In& in) {
+    if (in.scene_slot_fetch) return (in.scene * 32U + (in.slot_fetch & 31U)) & 0x1ffU;
+    const bool high = in.region_high && in.slot_fetch == D::A::voltage_gain;
+    return high ? D::A::voltage_gain_high : in.slot_fetch;
+  }
+  static std::size_t bank_index(int bank, int slot) {
+    return static_cast<std::size_t>(bank * 64 + slot);
+  }
+  int read_bank() const { return write_bank_ ^ 1; }
+
+  void read(const In& in) {
+    out_.reg_rdata = selected();
+    if (warm_) {
+      parameter_2_ = parameter_;
+      snapshot_2_ = snapshot_word_;
+    }
+    parameter_ = parameters_[in.reg_addr & 0x1ffU];
+    snapshot_word_ = snapshot_[bank_index(read_bank(), in.reg_addr & 63)];
+    source_2_ = source_;
+    source_ = source_of(in.reg_addr);
+  }
+  std::uint32_t selected() const {
+    switch (source_2_) {
+      case Source::parameter:
+        return parameter_2_;
+      case Source::snapshot:
+        return snapshot_2_;
+      case Source::control:
+        return out_.control;
+      default:
+        return 0;
+    }
+  }
+
+  /// The end of a tick.
+  void commit() {
+    const bool swap = !frozen_;  // the tick that a freeze ends is the one that is held
+    if (target_ == Target::parameter) parameters_[address_] = data_;
+    if (target_ == Target::control) out_.control = static_cast<std::uint16_t>(data_ & 0x7fffU);
+    if (ReadBack && target_ == Target::command) {
+      frozen_ = commands(D::C::command_freeze) || (frozen_ && !commands(D::C::command_thaw));
+    }
+    if (ReadBack && swap) write_bank_ ^= 1;
+    target_ = Target::none;
+  }
+
+  std::array<std::uint32_t, 512> parameters_{};
+  std::array<std::uint32_t, ReadBack ? 128 : 1> snapshot_{};
+  Out out_;
+  Target target_ = Target::none;  ///< of the write that waits
+  std::size_t address_ = 0;
+  std::uint32_t data_ = 0;
+  bool warm_ = false;
+  std::uint32_t fetch_ = 0;
+  int write_bank_ = 0;
+  bool frozen_ = false;
+  Source source_ = Source::nowhere;
+  Source source_2_ = Source::nowhere;
+  std::uint32_t parameter_ = 0;
+  std::uint32_t parameter_2_ = 0;
+  std::uint32_t snapshot_word_ = 0;
+  std::uint32_t snapshot_2_ = 0;
+};
+
+}  // namespace feltgate

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Twin of rtl/sequencer.sv: clocks of a tick, waves, slots to fetch. Clock c of a tick fetches slot
+// c and is wave clock c-2. Documentation: docs/blocks/sequencer.md
+#pragma once
+
+#include <cstdint>
+
+namespace feltgate {
+
+/// Counts ticks of ClocksPerTick clocks (at least 50) from a reset on.
+template <int ClocksPerTick, std::uint32_t ResetTicks = 0>
+class Sequencer {
+ public:
+  struct In {};
+  struct Out {
+    bool tick = false;              ///< last clock of a tick
+    int slot_fetch = 0;             ///< slot whose word is on the bus two clocks later, 0..63
+    bool scene_slot_fetch = false;  ///< that slot lies in the scene's bank
+    std::uint64_t wave = 0;         ///< one-hot: bit t in wave clock t, 0..49
+    std::uint32_t tick_count = 0;   ///< ticks since reset, wraps
+  };
+
+  Sequencer() { reset(); }
+
+  void reset() {
+    clock_ = 0;
+    out_ = Out();
+    out_.tick_count = ResetTicks;
+  }
+
+  void clock(const In&) {
+    if (out_.tick) ++out_.tick_count;
+    out_.wave = ((out_.wave << 1) | (clock_ == kFirstWaveClock - 1 ? 1U : 0U)) & kWaveMask;
+    clock_ = out_.tick ? 0 : clock_ + 1;
+    out_.tick = clock_ == ClocksPerTick - 1;
+    out_.slot_fetch = clock_ > 63 ? 63 : clock_;
+    out_.scene_slot_fetch = ((kSceneSlots >> out_.slot_fetch) & 1U) != 0;
+  }
+
+  const Out& out() const { return out_; }
+
+  /// The clock of the tick that is running, 0..ClocksPerTick-1.
+  int clock_of_tick() const { return clock_; }
+
+  /// As n*ClocksPerTick calls of clock(), at once; n >= 1.
+  void skip_ticks(std::uint32_t n) {
+    out_.tick_count += n;
+    out_.wave = 0;
+    for (int t = clock_ - kFirstWaveClock; t < kWaveLength; t += ClocksPerTick) {
+      if (t >= 0) out_.wave |= std::uint64_t{1} << t;
+    }
+  }
+
+ private:
+  static constexpr int kWaveLength = 50;
+  static_assert(ClocksPerTick >= kWaveLength, "a wave must end before the next one starts");
+  static constexpr int kFirstWaveClock = 2;  // wave clock 0
+  static constexpr std::uint64_t kWaveMask = (std::uint64_t{1} << kWaveLength) - 1;
+  static constexpr std::uint64_t kSceneSlots = 0x5c4e;  // 1, 2, 3, 6, 10, 11, 12, 14
+
+  int clock_ = 0;
+  Out out_;
+};
+
+}  // namespace feltgate

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Closed loop. Documentation: docs/architecture.md
+#include "loop/loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "loop/ensemble.hpp"
+#include "plant/period_mean.hpp"
+#include "plant/plant.hpp"
+#include "config/toml_reader.hpp"
+#include "traces/statistics.hpp"
+
+namespace feltgate {
+
+namespace {
+
+/// Smallest and largest value seen.
+struct Range {
+  double low = 1e300, high = -1e300;
+  void add(double v) {
+    low = std::min(low, v);
+    high = std::max(high, v);
+  }
+};
+
+/// Records the torques from one step of the reference to the next.
+struct StepRecord {
+  double tau_ref_nm = 0, tau_hat_before_nm = 0, torque_before_nm = 0;
+  std::vector<double> tau_hat_nm, torque_nm;
+};
+
+class ScenarioRun {
+ public:
+  ScenarioRun(const Scenario& scenario, const plant::Parameters& plant, const RunOptions& options)
+      : s_(scenario),
+        options_(options),
+        choice_(choose_engines(options.engine)),
+        plant_(plant, scenario.effects, drive(options.design, choice_), scenario.hand),
+        core_(options.design, choice_, options.seed, plant_.encoder().pins(), options.fst),
+        mean_(core_.design().pwm_period),
+        scene_(scene_number(scenario.scene)),
+        mode_(scenario.mode),
+        counter_(plant_.encoder().pins()) {}
+
+  RunResult run() {
+    const DesignInfo& d = core_.design();
+    const Clock end = std::llround(s_.duration_s * static_cast<double>(d.clock_hz));
+    for (const auto& [name, value] : s_.parameters) core_.set_parameter(name, value);
+    core_.set_control(scene_, mode_, false);
+    std::size_t next_event = 0;
+    const Clock arm_at = clock_of(s_.arm_s);
+    Clock next_report = 0;
+    while (core_.lead().now() < end) {
+      const Clock now = core_.lead().now();
+      if (!armed_ && !arm_done_ && now >= arm_at) request_arm();
+      while (next_event < s_.events.size() && now >= clock_of(s_.events[next_event].at_s)) {
+        apply(s_.events[next_event++]);
+      }
+      step(std::min<Clock>(s_.step_clocks, end - now));
+      if (options_.progress && now >= next_report) {
+        options_.progress(static_cast<double>(now) / static_cast<double>(end));
+        next_report = now + d.clock_hz / 100;
+      }
+    }
+    if (options_.progress) options_.progress(1.0);
+    return result(end);
+  }
+
+ private:
+  static plant::Drive drive(const std::string& design, const EngineChoice& choice) {
+    const auto engine = make_engine(design, choice.lead == "lockstep" ? "twin" : choice.lead);
+    const DesignInfo& d = engine->design();
+    plant::Drive drive;
+    drive.clock_hz = static_cast<double>(d.clock_hz);
+    drive.pwm_hz = drive.clock_hz / d.pwm_period;
+    drive.dead_time_s = d.dead_clocks / drive.clock_hz;
+    drive.switching = d.pwm_mode == 1 ? plant::Drive::Switching::kLockedAntiphase
+                                      : plant::Drive::Switching::kSignMagnitude;
+    return drive;
+  }
+
+  Clock clock_of(double seconds) const {
+    return std::llround(seconds * static_cast<double>(core_.design().clock_hz));
+  }
+
+  int scene_number(const std::string& name) const {
+    const int number = core_.design().scene_number(name);
+    if (number < 0) {
+      throw std::invalid_argument("scene \"" + name + "\" is not built in design " +
+                                  core_.design().name + "; choose a design that lists it");
+    }
+    return number;
+  }
+
+  void request_arm() {
+    armed_ = arm_done_ = true;
+    core_.set_control(scene_, mode_, true);
+  }
+
+  void apply(const Event& e) {
+    for (const auto& [name, value] : e.set) core_.set_parameter(name, value);
+    if (e.stop) {
+      Panel panel;
+      panel.stop = *e.stop;
+      core_.set_panel(panel);
+    }
+    if (e.scene || e.mode || e.arm) {
+      if (e.scene) scene_ = scene_number(*e.scene);
+      if (e.mode) mode_ = *e.mode;
+      if (e.arm) armed_ = *e.arm;
+      core_.set_control(scene_, mode_, armed_);
+    }
+    recording_ = e.step_nm.has_value();
+    if (e.step_nm) {
+      steps_.push_back({*e.step_nm, last_.tau_hat_nm, last_.motor_torque_nm, {}, {}});
+    }
+  }
+
+  plant::Bridge bridge(const GateClocks& gates, Clock clocks) const {
+    const Engine& lead = core_.lead_const();
+    if (choice_.rider_drives) {
+      const double duty = core_.rider(0)->out().duty_clocks / core_.design().pwm_period;
+      return plant::Bridge::averaged(std::clamp(duty, -1.0, 1.0), lead.gates_enabled());
+    }
+    if (s_.switched) {
+      const double n = static_cast<double>(clocks);
+      return plant::Bridge::gates(static_cast<double>(gates.a_hi) / n, static_cast<double>(gates.a_lo) / n,
+                                  static_cast<double>(gates.b_hi) / n, static_cast<double>(gates.b_lo) / n);
+    }
+    return plant::Bridge::averaged(static_cast<double>(lead.duty()) / core_.design().pwm_period,
+                                   lead.gates_enabled());
+  }
+
+  // The bridge of the last interval drives the motor in this one: no edge depends on its own future.
+  void step(Clock clocks) {
+    const plant::Bridge b = bridge(core_.lead().gates(), last_clocks_);
+    plant_.advance(b, clocks);
+    last_clocks_ = clocks;
+    const plant::Observables& o = plant_.observables();
+    mean_.add(clocks, o.motor_torque_mean_nm);
+    const double dt = static_cast<double>(clocks) / static_cast<double>(core_.design().clock_hz);
+    hand_energy_j_ += o.hand_torque_nm * o.omega_rad_s * dt;
+    absorbed_j_ -= last_.tau_ref_nm * o.omega_rad_s * dt;
+    const auto& events = plant_.events();
+    for (const EncoderEvent& e : events) counter_.add(e);
+    core_.advance(clocks, events.data(), events.data() + events.size(),
+                  [this](const Snapshot& s) { tick(s); });
+  }
+
+  void tick(const Snapshot& s) {
+    const plant::Observables& o = plant_.observables();
+    Row& r = last_;
+    r.time_s = static_cast<double>(ticks_) / static_cast<double>(core_.design().tick_hz);
+    r.theta_rad = o.theta_rad;
+    r.omega_rad_s = o.omega_rad_s;
+    r.motor_torque_nm = mean_.mean();
+    r.hand_torque_nm = o.hand_torque_nm;
+    r.position_rad = s.position * core_.design().count_rad;
+    if (choice_.rider_drives) {
+      const ChainOut& c = core_.rider(0)->out();
+      r.velocity_rad_s = c.velocity_rad_s;
+      r.tau_ref_nm = c.tau_ref_nm;
+      r.tau_hat_nm = c.tau_hat_nm;
+      r.current_a = c.current_a;
+      r.voltage_v = c.voltage_v;
+      r.duty = c.duty_clocks / core_.design().pwm_period;
+    } else {
+      r.velocity_rad_s = core_.velocity_rad_s(s);
+      r.tau_ref_nm = core_.torque_nm(s.tau_ref);
+      r.tau_hat_nm = core_.torque_nm(s.tau_hat);
+      r.current_a = core_.current_a(s);
+      r.voltage_v = core_.voltage_v(s);
+      r.duty = static_cast<double>(s.duty) / core_.design().pwm_period;
+    }
+    if (core_.quad() != nullptr) {
+      const ChainOut& q = core_.quad()->out();
+      r.quad_velocity_rad_s = q.velocity_rad_s;
+      r.quad_tau_hat_nm = q.tau_hat_nm;
+      r.quad_current_a = q.current_a;
+    }
+    r.limits = s.limits;
+    r.faults = s.faults;
+    faults_ |= s.faults;
+    ++ticks_;
+    tau_ref_.add(r.tau_ref_nm);
+    tau_hat_.add(r.tau_hat_nm);
+    velocity_.add(r.velocity_rad_s);
+    theta_.add(r.theta_rad);
+    if (recording_) {
+      steps_.back().tau_hat_nm.push_back(r.tau_hat_nm);
+      steps_.back().torque_nm.push_back(r.motor_torque_nm);
+    }
+    if (options_.row) options_.row(r);
+  }
+
+  RunResult result(Clock clocks) {
+    RunResult out;
+    const DesignInfo& d = core_.design();
+    out.design = d.name;
+    out.subject = s_.name;
+    out.clocks = clocks;
+    out.ticks = ticks_;
+    out.simulated_s = static_cast<double>(clocks) / static_cast<double>(d.clock_hz);
+    out.lock_step = choice_.lead == "lockstep";
+    out.mismatches = core_.lead().mismatches();
+    out.first_mismatch = core_.lead().first_mismatch();
+    const traces::Statistics& p = counter_.result();
+    out.position = {p.steps, p.illegal, p.reversals};
+    out.engines = core_.figures();
+    const double tick_s = 1.0 / static_cast<double>(d.tick_hz);
+    std::vector<StepFigures> steps;
+    for (const StepRecord& r : steps_) {
+      steps.push_back({r.tau_ref_nm,
+                       step_response(r.tau_hat_nm, tick_s, r.tau_hat_before_nm, r.tau_ref_nm),
+                       step_response(r.torque_nm, tick_s, r.torque_before_nm, r.tau_ref_nm)});
+    }
+    for (EngineFigures& e : out.engines) {
+      if (closes_loop(e.name)) e.steps = steps;
+    }
+    fill_figures(out, steps);
+    for (const Expectation& x : s_.expectations) check(out, x);
+    return out;
+  }
+
+  /// The engine whose duty drove the motor: only its torques are responses to the steps.
+  bool closes_loop(const std::string& engine) const {
+    return choice_.rider_drives ? engine == options_.engine : engine == "rtl" || engine == "twin";
+  }
+
+  void fill_figures(RunResult& out, const std::vector<StepFigures>& steps) const {
+    auto& f = out.figures;
+    f["mismatches"] = static_cast<double>(out.mismatches);
+    f["faults"] = faults_;
+    f["tau_ref_min_nm"] = tau_ref_.low;
+    f["tau_ref_max_nm"] = tau_ref_.high;
+    f["tau_hat_min_nm"] = tau_hat_.low;
+    f["tau_hat_max_nm"] = tau_hat_.high;
+    f["velocity_min_rad_s"] = velocity_.low;
+    f["velocity_max_rad_s"] = velocity_.high;
+    f["theta_min_rad"] = theta_.low;
+    f["theta_max_rad"] = theta_.high;
+    f["hand_energy_j"] = hand_energy_j_;
+    f["energy_absorbed_j"] = absorbed_j_;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const std::string n = "." + std::to_string(i);
+      f["tau_hat_settling_ms" + n] = steps[i].tau_hat.settling_ms;
+      f["tau_hat_final_nm" + n] = steps[i].tau_hat.final_value_nm;
+      f["tau_hat_final_error_nm" + n] = steps[i].tau_hat.final_value_nm - steps[i].tau_ref_nm;
+      f["torque_settling_ms" + n] = steps[i].torque.settling_ms;
+      f["torque_final_nm" + n] = steps[i].torque.final_value_nm;
+      f["overshoot_pct" + n] = steps[i].torque.overshoot_pct;
+      f["final_error_pct" + n] = steps[i].torque.final_error_pct;
+    }
+  }
+
+  void check(RunResult& out, const Expectation& x) const {
+    if (x.design && *x.design != out.design) return;
+    ++out.expectations_checked;
+    const auto it = out.figures.find(x.figure);
+    if (it == out.figures.end()) {
+      throw config::ConfigError(s_.path + ":" + std::to_string(x.line) + ": figure \"" + x.figure +
+                               "\" is not one of this run; see docs/scenes.md");
+    }
+    if (it->second >= x.low && it->second <= x.high) return;
+    out.broken.push_back(s_.path + ":" + std::to_string(x.line) + ": " + x.figure + " = " +
+                         std::to_string(it->second) + " is outside its bounds");
+  }
+
+  const Scenario& s_;
+  const RunOptions& options_;
+  EngineChoice choice_;
+  plant::Plant plant_;
+  Ensemble core_;
+  plant::PeriodMean mean_;
+  int scene_, mode_;
+  traces::StepCounter counter_;
+  bool armed_ = false, arm_done_ = false, recording_ = false;
+  Clock last_clocks_ = 1;
+  std::int64_t ticks_ = 0;
+  int faults_ = 0;
+  double hand_energy_j_ = 0, absorbed_j_ = 0;
+  Range tau_ref_, tau_hat_, velocity_, theta_;
+  Row last_;
+  std::vector<StepRecord> steps_;
+};
+
+}  // namespace
+
+RunResult run_scenario(const Scenario& scenario, const plant::Parameters& plant,
+                       const RunOptions& options) {
+  return ScenarioRun(scenario, plant, options).run();
+}
+
+}  // namespace feltgate

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Open loop on an encoder recording. Documentation: docs/traces.md
+#include "loop/replay.hpp"
+
+#include <stdexcept>
+
+#include "loop/ensemble.hpp"
+#include "traces/statistics.hpp"
+
+namespace feltgate {
+
+RunResult run_replay(EncoderSource& source, const std::string& subject,
+                     const ReplayOptions& options) {
+  if (options.engine == "double" || options.engine == "quad") {
+    throw std::invalid_argument("engine \"" + options.engine +
+                                "\" alone has nothing to be compared with here; choose rtl, twin or all");
+  }
+  Ensemble core(options.design, choose_engines(options.engine), options.seed, source.initial(), options.fst);
+  const DesignInfo& d = core.design();
+  const int scene = d.scene_number(options.scene);
+  if (scene < 0) throw std::invalid_argument("scene \"" + options.scene + "\" is not built in design " + d.name);
+  core.set_control(scene, 0, options.arm);
+
+  RunResult out;
+  out.design = d.name;
+  out.subject = subject;
+  traces::StepCounter counter(source.initial());
+  const auto tick = [&](const Snapshot& s) {
+    ++out.ticks;
+    if (!options.row) return;
+    Row r;
+    r.time_s = static_cast<double>(out.ticks) / static_cast<double>(d.tick_hz);
+    r.position_rad = s.position * d.count_rad;
+    r.velocity_rad_s = core.velocity_rad_s(s);
+    r.tau_ref_nm = core.torque_nm(s.tau_ref);
+    r.tau_hat_nm = core.torque_nm(s.tau_hat);
+    r.current_a = core.current_a(s);
+    r.voltage_v = core.voltage_v(s);
+    r.duty = static_cast<double>(s.duty) / d.pwm_period;
+    if (core.quad() != nullptr) {
+      r.quad_velocity_rad_s = core.quad()->out().velocity_rad_s;
+      r.quad_tau_hat_nm = core.quad()->out().tau_hat_nm;
+      r.quad_current_a = core.quad()->out().current_a;
+    }
+    r.limits = s.limits;
+    r.faults = s.faults;
+    options.row(r);
+  };
+
+  // In blocks of a thousand ticks: long enough to be cheap, short enough to show progress.
+  const Clock block = 1000 * static_cast<Clock>(d.clocks_per_tick);
+  std::vector<EncoderEvent> events;
+  std::optional<EncoderEvent> pending = source.next();
+  bool ended = false;
+  while (!ended) {
+    const Clock begin = core.lead().now();
+    Clock end = begin + block;
+    if (options.most_clocks > 0 && end >= options.most_clocks) {
+      end = options.most_clocks;
+      ended = true;
+    }
+    events.clear();
+    while (pending && pending->clock < end) {
+      events.push_back(*pending);
+      counter.add(*pending);
+      pending = source.next();
+    }
+    // The recording's length is known once its last event has been read; run to a whole tick.
+    if (!pending && source.length() <= end) {
+      const Clock whole = (source.length() + d.clocks_per_tick - 1) / d.clocks_per_tick * d.clocks_per_tick;
+      if (whole <= end) {
+        end = whole;
+        ended = true;
+      }
+    }
+    if (end > begin) {
+      core.advance(end - begin, events.data(), events.data() + events.size(), tick);
+    }
+    if (options.progress) options.progress(core.lead().now());
+  }
+  out.clocks = core.lead().now();
+  out.simulated_s = static_cast<double>(out.clocks) / static_cast<double>(d.clock_hz);
+  out.lock_step = choose_engines(options.engine).lead == "lockstep";
+  out.mismatches = core.lead().mismatches();
+  out.first_mismatch = core.lead().first_mismatch();
+  out.position = {counter.result().steps, counter.result().illegal, counter.result().reversals};
+  out.engines = core.figures();
+  return out;
+}
+
+}  // namespace feltgate

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The subcommands of the feltgate program. Commands parse, call and print; they compute nothing.
+// Documentation: README.md
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace feltgate {
+
+/// Exit codes: 0 all well, 1 a mismatch or a broken expectation, 2 input that cannot be used.
+enum Exit : int { exit_ok = 0, exit_failed = 1, exit_unusable = 2 };
+
+/// A subcommand adds its options to the program and sets *exit_code when it has run.
+void add_run(CLI::App& app, int* exit_code);
+void add_replay(CLI::App& app, int* exit_code);
+void add_import(CLI::App& app, int* exit_code);
+void add_design(CLI::App& app, int* exit_code);
+/// demo, figures and synth are orchestration: Python scripts that call this program.
+void add_scripts(CLI::App& app, int* exit_code);
+
+/// The repository: FELTGATE_ROOT, or where this program was built from.
+std::string repository();
+
+/// `name` itself when it is a path (has a slash or the suffix), else folder/name.toml of the repository.
+/// Throws std::invalid_argument listing what there is.
+std::string find_file(const std::string& name, const std::string& folder);
+
+/// Progress with rate and time left on a terminal; silent elsewhere.
+class Progress {
+ public:
+  Progress(std::string label, bool quiet);
+  ~Progress();
+  /// done in 0..1
+  void update(double done);
+
+ private:
+  std::string label_;
+  bool on_;
+  double start_s_, last_s_ = 0;
+};
+
+}  // namespace feltgate

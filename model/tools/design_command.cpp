@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate design. Documentation: docs/designs.md
+#include <cstdio>
+
+#include "design/generate.hpp"
+#include "tools/commands.hpp"
+
+namespace feltgate {
+
+void add_design(CLI::App& app, int* exit_code) {
+  auto name = std::make_shared<std::string>();
+  CLI::App* sub = app.add_subcommand("design", "the table of a design point: value, integer, error, range, headroom");
+  sub->add_option("design", *name, "name in rtl/designs or a path")->required()->type_name("DESIGN");
+  sub->callback([name, exit_code] {
+    const auto registers = design::read_registers(repository() + "/rtl/registers.toml");
+    const auto e = elaborate(design::read_design(find_file(*name, "rtl/designs")), registers);
+    std::fputs(design_table(e).c_str(), stdout);
+    *exit_code = exit_ok;
+  });
+}
+
+}  // namespace feltgate

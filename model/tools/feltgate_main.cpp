@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The feltgate program. Documentation: README.md
+#include <cstdio>
+#include <exception>
+
+#include "tools/commands.hpp"
+
+int main(int argc, char** argv) {
+  using namespace feltgate;
+  CLI::App app{"feltgate: an open fixed-point DSP core for haptic devices, with its bit-exact twin"};
+  app.name("feltgate");
+  app.set_version_flag("--version", std::string("feltgate ") + FELTGATE_VERSION);
+  app.require_subcommand(1);
+  app.failure_message(CLI::FailureMessage::simple);
+  int exit_code = exit_ok;
+  add_run(app, &exit_code);
+  add_replay(app, &exit_code);
+  add_import(app, &exit_code);
+  add_design(app, &exit_code);
+  add_scripts(app, &exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? exit_ok : exit_unusable;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "feltgate: %s\n", e.what());
+    return exit_unusable;
+  }
+  return exit_code;
+}

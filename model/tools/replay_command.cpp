@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate replay and feltgate import. Documentation: docs/traces.md, docs/json.md
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "loop/replay.hpp"
+#include "tools/commands.hpp"
+#include "tools/output.hpp"
+#include "traces/open.hpp"
+#include "traces/vector_file.hpp"
+
+namespace feltgate {
+
+namespace {
+
+/// Options that say how to read a recording; replay and import share them.
+struct TraceArguments {
+  std::string path, probes, scale, format;
+  traces::Options options;
+  bool no_jitter = false;
+
+  traces::Options read() {
+    if (!probes.empty()) options.probes = traces::split_names(probes);
+    if (!scale.empty()) options.scale = traces::parse_scale(scale);
+    if (!format.empty()) options.format = traces::parse_format(format);
+    options.jitter = !no_jitter;
+    return options;
+  }
+  void add_to(CLI::App* sub) {
+    sub->add_option("trace", path, "recording: .sr, VCD, CSV, or a vector of this project")->required()->type_name("TRACE");
+    sub->add_option("--probes", probes, "names of the signals A,B[,Z]; default: guessed");
+    sub->add_option("--step", options.step, "name of the STEP signal; with --dir");
+    sub->add_option("--dir", options.dir, "name of the DIR signal");
+    sub->add_option("--time-column", options.time_column, "column with the time");
+    sub->add_option("--count-column", options.count_column, "column with counts or an angle");
+    sub->add_option("--scale", scale, "counts per unit of that column, e.g. 2048/2pi for radians");
+    sub->add_option("--sample-hz", options.sample_hz, "rate of the capture, where the file does not say it");
+    sub->add_option("--format", format, "sigrok, vcd, saleae, levels, columns or vector; default: by content");
+    sub->add_flag("--no-jitter", no_jitter, "edges at the start of their sample instead of a seeded place inside");
+    sub->add_option("--seed", options.seed, "of that place")->capture_default_str();
+  }
+};
+
+struct ReplayArguments {
+  TraceArguments trace;
+  std::string design = "lever", engine = "all", scene = "spring_tension", json, csv, fst;
+  double seconds = 0;
+  int every = 1;
+  bool quiet = false;
+};
+
+std::string probe_text(const traces::Options& o) {
+  if (!o.step.empty()) return o.step + "," + o.dir;
+  std::string text;
+  for (const std::string& p : o.probes) text += (text.empty() ? "" : ",") + p;
+  return text;
+}
+
+int replay(ReplayArguments& a) {
+  traces::Options how = a.trace.read();
+  how.clock_hz = make_engine(a.design, "twin")->design().clock_hz;
+  const auto source = traces::open(a.trace.path, how);
+  const std::string name = std::filesystem::path(a.trace.path).filename().string();
+
+  ReplayOptions options;
+  options.design = a.design;
+  options.engine = a.engine;
+  options.scene = a.scene;
+  options.seed = how.seed;
+  options.fst = a.fst;
+  options.most_clocks = static_cast<Clock>(a.seconds * static_cast<double>(how.clock_hz));
+  std::unique_ptr<CsvWriter> csv;
+  if (!a.csv.empty()) {
+    csv = std::make_unique<CsvWriter>(a.csv, a.every);
+    options.row = [&csv](const Row& r) { csv->add(r); };
+  }
+  // The length is not known before the end; a first pass over the file finds it.
+  Clock length = 0;
+  if (options.most_clocks > 0) {
+    length = options.most_clocks;
+  } else {
+    const auto first_pass = traces::open(a.trace.path, how);
+    while (first_pass->next()) {
+    }
+    length = first_pass->length();
+  }
+  Progress progress(name, a.quiet);
+  options.progress = [&progress, length](Clock done) {
+    progress.update(length > 0 ? static_cast<double>(done) / static_cast<double>(length) : 1.0);
+  };
+  const RunResult result = run_replay(*source, name, options);
+  const RunLabels labels{"trace", "", probe_text(how), false, 0};
+  if (csv) csv->commit();
+  if (!a.json.empty()) {
+    OutputFile file(a.json);
+    std::fputs(run_json(result, labels).c_str(), file.handle());
+    file.commit();
+  }
+  if (!a.quiet) std::fputs(run_text(result, labels).c_str(), stdout);
+  if (a.quiet && !result.first_mismatch.empty()) {
+    std::fprintf(stderr, "first mismatch: %s\n", result.first_mismatch.c_str());
+  }
+  return result.mismatches == 0 ? exit_ok : exit_failed;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, int* exit_code) {
+  auto a = std::make_shared<ReplayArguments>();
+  CLI::App* sub = app.add_subcommand("replay", "open loop on an encoder recording, through every engine");
+  sub->footer(
+      "  feltgate replay hand.sr --probes XA,XB\n"
+      "  feltgate replay axis.sr --step 5 --dir 6\n"
+      "  feltgate replay log.csv --time-column t --count-column theta --scale 2048/2pi\n"
+      "Exit code: 0 no mismatch, 1 mismatches, 2 the recording or an option cannot be used.");
+  a->trace.add_to(sub);
+  sub->add_option("--design", a->design, "design point in rtl/designs")->capture_default_str();
+  sub->add_option("--engine", a->engine, "rtl, twin or all")->capture_default_str();
+  sub->add_option("--scene", a->scene, "what the core renders meanwhile")->capture_default_str();
+  sub->add_option("--seconds", a->seconds, "stop after so much of it; default: its end");
+  sub->add_option("--json", a->json, "figures as JSON (docs/json.md)");
+  sub->add_option("--csv", a->csv, "one row per tick");
+  sub->add_option("--every", a->every, "CSV: only every n-th tick")->check(CLI::PositiveNumber);
+  sub->add_option("--fst", a->fst, "waveform of every clock of the RTL (large: with --seconds)");
+  sub->add_flag("--quiet", a->quiet, "print only what went wrong");
+  sub->callback([a, exit_code] { *exit_code = replay(*a); });
+}
+
+void add_import(CLI::App& app, int* exit_code) {
+  struct Arguments {
+    TraceArguments trace;
+    std::string out, design = "lever";
+  };
+  auto a = std::make_shared<Arguments>();
+  CLI::App* sub = app.add_subcommand("import", "convert an encoder recording to this project's vector format");
+  a->trace.add_to(sub);
+  sub->add_option("out", a->out, "vector file to write")->required()->type_name("OUT");
+  sub->add_option("--design", a->design, "design whose clock stamps the edges")->capture_default_str();
+  sub->callback([a, exit_code] {
+    traces::Options how = a->trace.read();
+    how.clock_hz = make_engine(a->design, "twin")->design().clock_hz;
+    const auto source = traces::open(a->trace.path, how);
+    traces::write_vector(a->out, a->design, how.clock_hz, *source);
+    std::printf("wrote %s, %.6g s\n", a->out.c_str(),
+                static_cast<double>(source->length()) / static_cast<double>(how.clock_hz));
+    *exit_code = exit_ok;
+  });
+}
+
+}  // namespace feltgate

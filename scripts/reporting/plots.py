@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""The look of every picture: one colour per source of a curve, small enough for a phone.
+
+RTL is a broad blue line and the quad reference a thin orange one over it, so that both show where
+they agree. Documentation: docs/figures.md
+"""
+
+import base64
+import io
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+# Okabe and Ito's colours: told apart by colour-blind eyes too.
+COLOURS = {
+    "rtl": "#0072b2",
+    "quad": "#e69f00",
+    "ideal": "#333333",
+    "motor": "#009e73",
+    "hand": "#cc5fa0",
+    "reference": "#8c96a0",
+    "fault": "#d55e00",
+    "paper": "#d55e00",
+}
+STYLES = {
+    "rtl": {"linewidth": 2.6, "alpha": 0.75, "solid_capstyle": "round"},
+    "quad": {"linewidth": 1.0, "zorder": 3},
+    "ideal": {"linewidth": 1.0, "linestyle": (0, (4, 3)), "zorder": 4},
+    "motor": {"linewidth": 1.1},
+    "hand": {"linewidth": 1.1},
+    "reference": {"linewidth": 1.4},
+    "paper": {"linewidth": 1.1, "linestyle": ":"},
+}
+LABELS = {"rtl": "RTL", "quad": "quad reference", "ideal": "ideal", "motor": "motor"}
+POINTS = 700  # a line is thinned to about twice this many
+
+matplotlib.rcParams.update(
+    {
+        "font.size": 9,
+        "axes.titlesize": 9.5,
+        "axes.titlelocation": "left",
+        "axes.grid": True,
+        "axes.axisbelow": True,
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "axes.edgecolor": "#8c96a0",
+        "axes.formatter.useoffset": False,
+        "axes.xmargin": 0.01,
+        "grid.color": "#e3e7eb",
+        "grid.linewidth": 0.7,
+        "legend.fontsize": 8,
+        "legend.frameon": False,
+        "xtick.labelsize": 8,
+        "ytick.labelsize": 8,
+        "lines.dash_capstyle": "butt",
+        "svg.fonttype": "none",
+        "svg.hashsalt": "feltgate",
+    }
+)
+
+
+@dataclass
+class Picture:
+    """A drawn picture: SVG for pages, PNG for those who cannot show it."""
+
+    name: str
+    caption: str
+    svg: str
+    png: bytes = b""
+
+    def data_uri(self):
+        return "data:image/svg+xml;base64," + base64.b64encode(self.svg.encode()).decode()
+
+    def write(self, folder):
+        """Writes NAME.svg, and NAME.png where it was drawn; returns the names."""
+        folder = Path(folder)
+        (folder / f"{self.name}.svg").write_text(self.svg, encoding="utf-8")
+        if not self.png:
+            return [f"{self.name}.svg"]
+        (folder / f"{self.name}.png").write_bytes(self.png)
+        return [f"{self.name}.svg", f"{self.name}.png"]
+
+
+def stacked(title, heights, shared=True, width=5.4):
+    """A figure and its axes one below the other; `heights` in inches."""
+    figure = Figure(figsize=(width, sum(heights) + 0.45), layout="constrained")
+    FigureCanvasAgg(figure)
+    axes = figure.subplots(
+        len(heights), 1, sharex=shared, squeeze=False, gridspec_kw={"height_ratios": heights}
+    )[:, 0]
+    figure.get_layout_engine().set(h_pad=0.04, w_pad=0.04)
+    if title:
+        figure.suptitle(title, fontsize=10, fontweight="bold", x=0.01, ha="left")
+    return figure, list(axes)
+
+
+def finish(figure, name, caption="", png=False):
+    svg = io.StringIO()
+    figure.savefig(svg, format="svg", metadata={"Date": None, "Creator": "feltgate"})
+    # The prologue is of no use inside a page; coordinates need no six decimals.
+    text = svg.getvalue()[svg.getvalue().index("<svg") :]
+    text = re.sub(r"(?<=[\s\"MLCQ-])(\d+\.\d{2})\d+", r"\1", text)
+    picture = Picture(name, caption, text)
+    if png:
+        raster = io.BytesIO()
+        figure.savefig(raster, format="png", dpi=160)
+        picture.png = raster.getvalue()
+    return picture
+
+
+def thinned(x, y, points=POINTS):
+    """The line through the smallest and largest value of each of `points` slices of x: peaks stay."""
+    if len(x) <= 2 * points:
+        return x, y
+    edges = np.linspace(0, len(x), points + 1).astype(int)
+    keep = {0, len(x) - 1}
+    for low, high in zip(edges[:-1], edges[1:]):
+        part = y[low:high]
+        keep.add(low + int(part.argmin()))
+        keep.add(low + int(part.argmax()))
+    index = np.array(sorted(keep))
+    return x[index], y[index]
+
+
+def draw(axes, x, y, kind, label=None, **more):
+    """A line in its kind's colour. label None: the kind's own; "": none."""
+    text = LABELS.get(kind, kind) if label is None else label
+    x, y = thinned(np.asarray(x), np.asarray(y))
+    style = {"color": COLOURS[kind], **STYLES[kind], **more}
+    return axes.plot(x, y, label=text or "_nolegend_", **style)
+
+
+def legend(axes, columns=None):
+    """Above the axes, where no data can be."""
+    handles, labels = axes.get_legend_handles_labels()
+    if not handles:
+        return
+    axes.legend(
+        handles,
+        labels,
+        loc="lower right",
+        bbox_to_anchor=(1.0, 1.0),
+        ncols=columns or min(4, len(labels)),
+        borderaxespad=0.1,
+        handlelength=1.6,
+        columnspacing=1.0,
+        handletextpad=0.5,
+    )
+
+
+def at_least(axes, span):
+    """Opens the y axis to `span`, so that noise of one bit does not fill it."""
+    low, high = axes.get_ylim()
+    if high - low < span:
+        middle = 0.5 * (low + high)
+        axes.set_ylim(middle - span / 2, middle + span / 2)

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Progress of many jobs: a bar with rate and time left on a terminal, else one line per job."""
+
+import shutil
+import sys
+import threading
+import time
+
+
+def clock_text(seconds):
+    seconds = max(0, round(seconds))
+    return f"{seconds // 60}:{seconds % 60:02d}"
+
+
+class Progress:
+    """Thread-safe. Work is counted in device seconds; jobs under way count by the rate so far."""
+
+    def __init__(self, jobs, stream=None, width=None):
+        self.stream = stream or sys.stderr
+        self.live = self.stream.isatty()
+        self.total_s = sum(job.seconds for job in jobs)
+        self.count = len(jobs)
+        self.width = width
+        self.done_s = self.spent_s = 0.0
+        self.finished = 0
+        self.running = {}
+        self.began = time.monotonic()
+        self.lock = threading.Lock()
+        self.stopped = threading.Event()
+        self.thread = None
+
+    def __enter__(self):
+        if self.live:
+            self.thread = threading.Thread(target=self._redraw, daemon=True)
+            self.thread.start()
+        return self
+
+    def __exit__(self, *_):
+        self.stopped.set()
+        if self.thread:
+            self.thread.join()
+            self.stream.write("\r\x1b[K")
+            self.stream.flush()
+
+    def begin(self, job):
+        with self.lock:
+            self.running[job.name] = (job, time.monotonic())
+
+    def end(self, job, run):
+        with self.lock:
+            self.running.pop(job.name, None)
+            self.finished += 1
+            self.done_s += job.seconds
+            self.spent_s += run.took_s
+            if not self.live:
+                self.stream.write(
+                    f"[{self.finished}/{self.count}] {job.name}: {describe(run)}, "
+                    f"{run.took_s:.1f} s, {self._left()} left\n"
+                )
+                self.stream.flush()
+
+    def _rate(self):
+        """Device seconds per second of one core; 0 while nothing has finished."""
+        return self.done_s / self.spent_s if self.spent_s > 0 else 0.0
+
+    def _under_way(self):
+        now, rate = time.monotonic(), self._rate()
+        return sum(min(0.95 * j.seconds, rate * (now - at)) for j, at in self.running.values())
+
+    def _left(self):
+        elapsed = time.monotonic() - self.began
+        done = self.done_s + self._under_way()
+        if done <= 0 or self.finished == 0:
+            return "?"
+        return clock_text(elapsed * (self.total_s - done) / done)
+
+    def line(self):
+        with self.lock:
+            elapsed = time.monotonic() - self.began
+            done = self.done_s + self._under_way()
+            share = min(1.0, done / self.total_s) if self.total_s else 1.0
+            names = ", ".join(self.running)
+            text = (
+                f" {100 * share:3.0f} %  {self.finished}/{self.count}  "
+                f"{done / max(elapsed, 1e-9):.2f} s/s  {clock_text(elapsed)}, "
+                f"{self._left()} left  {names}"
+            )
+        columns = self.width or shutil.get_terminal_size().columns
+        bar = max(8, min(30, columns - 60))
+        full = int(share * bar)
+        return f"[{'#' * full}{'.' * (bar - full)}]{text}"[: columns - 1]
+
+    def _redraw(self):
+        while not self.stopped.wait(0.2):
+            self.stream.write("\r" + self.line() + "\x1b[K")
+            self.stream.flush()
+
+
+def describe(run):
+    """One word or a few on how a run went."""
+    if not run.ran:
+        return f"did not run: {run.complaint}"
+    broken = len(run.summary.get("expectations", {}).get("broken", []))
+    text = f"{run.mismatches} mismatches"
+    return f"{text}, {broken} broken expectations" if broken else text

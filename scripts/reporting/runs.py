@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Starts the feltgate program, several jobs at once, and reads back its JSON and CSV.
+
+Documentation: docs/json.md, docs/figures.md
+"""
+
+import json
+import os
+import subprocess
+import threading
+import time
+import tomllib
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[2]))
+SCENES = ROOT / "vectors" / "scenes"
+
+
+def build_folder():
+    return Path(os.environ.get("FELTGATE_BUILD", ROOT / "build"))
+
+
+def program():
+    """Path of the built program; a mistake here is the caller's to report."""
+    path = build_folder() / "feltgate"
+    if not os.access(path, os.X_OK):
+        raise FileNotFoundError(f"{path}: not built; start it through ./feltgate, which builds it")
+    return path
+
+
+@lru_cache
+def read_toml(path):
+    return tomllib.loads(Path(path).read_text(encoding="utf-8"))
+
+
+def design(name):
+    """The design point's file, as a dictionary."""
+    return read_toml(ROOT / "rtl" / "designs" / f"{name}.toml")
+
+
+def scene_file(name):
+    return read_toml(SCENES / f"{name}.toml")
+
+
+def read_csv(path):
+    """{column: array} of a run's CSV. Raises ValueError, one line, for a file that is not one."""
+    with open(path, encoding="utf-8") as file:
+        names = file.readline().strip().split(",")
+        if "time_s" not in names:
+            raise ValueError(f"{path}:1: no column time_s; give a CSV written by feltgate --csv")
+        try:
+            rows = np.loadtxt(file, delimiter=",", ndmin=2)
+        except ValueError as error:
+            raise ValueError(f"{path}: {error}") from None
+    if rows.shape[0] == 0 or rows.shape[1] != len(names):
+        raise ValueError(f"{path}: no rows, or not {len(names)} columns; run it again")
+    return dict(zip(names, rows.T))
+
+
+@dataclass(frozen=True)
+class Job:
+    """One start of the program. `seconds` is the device time, for order and forecast."""
+
+    name: str
+    arguments: tuple
+    seconds: float
+    every: int = 100
+    recording: object = None  # reporting.recordings.Recording of a replay
+
+
+@dataclass
+class Run:
+    """What came of a job. `csv` is read when first asked for."""
+
+    job: Job
+    status: int
+    complaint: str = ""
+    summary: dict = field(default_factory=dict)
+    csv_path: Path = None
+    took_s: float = 0.0
+
+    @cached_property
+    def csv(self):
+        return read_csv(self.csv_path)
+
+    @property
+    def ran(self):
+        return bool(self.summary)
+
+    @property
+    def design(self):
+        return self.summary.get("design", "lever")
+
+    @property
+    def mismatches(self):
+        return self.summary.get("mismatches", 0)
+
+    def __getstate__(self):
+        """Without the table: another process reads the file itself."""
+        return {k: v for k, v in self.__dict__.items() if k != "csv"}
+
+
+def scene_job(scene, design_name="lever", plant=None, sets=(), variant="", every=100):
+    """A closed-loop job with RTL, twin and both references. `sets` is ((name, value), ...)."""
+    arguments = ["run", scene, "--design", design_name]
+    if plant:
+        arguments += ["--plant", plant]
+    for name, value in sets:
+        arguments += ["--set", f"{name}={value}"]
+    name = "-".join(part for part in (scene, design_name, plant, variant) if part)
+    return Job(name, tuple(arguments), float(scene_file(scene)["duration_s"]), every)
+
+
+def start(job, folder, children):
+    """Runs one job to its end; never raises for what the program does."""
+    json_path, csv_path = folder / f"{job.name}.json", folder / f"{job.name}.csv"
+    for path in (json_path, csv_path):
+        path.unlink(missing_ok=True)
+    command = [str(program()), *job.arguments, "--engine", "all", "--quiet"]
+    command += ["--json", str(json_path), "--csv", str(csv_path), "--every", str(job.every)]
+    began = time.monotonic()
+    child = subprocess.Popen(
+        command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE
+    )
+    children.add(child)
+    stderr = child.communicate()[1].decode(errors="replace").strip()
+    children.discard(child)
+    run = Run(job, child.returncode, stderr.splitlines()[-1] if stderr else "")
+    run.took_s, run.csv_path = time.monotonic() - began, csv_path
+    if child.returncode in (0, 1) and json_path.exists() and csv_path.exists():
+        try:
+            run.summary = json.loads(json_path.read_text(encoding="utf-8"))
+        except ValueError as error:
+            run.complaint = f"{json_path}: {error}"
+    elif not run.complaint:
+        run.complaint = f"feltgate ended with status {child.returncode} and wrote no result"
+    return run
+
+
+def run_all(jobs, folder, progress, workers=None):
+    """{name: Run} of all jobs, the longest first on every core. `progress` is told of each.
+
+    An interrupt ends the programs that were started here, and no others.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    program()  # complain once, not once per job
+    children, runs, stop = set(), {}, threading.Event()
+
+    def one(job):
+        if stop.is_set():
+            return Run(job, -1, "interrupted")
+        progress.begin(job)
+        run = start(job, folder, children)
+        progress.end(job, run)
+        return run
+
+    ordered = sorted(jobs, key=lambda job: -job.seconds)
+    with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
+        waiting = [pool.submit(one, job) for job in ordered]
+        try:
+            for done in as_completed(waiting):
+                run = done.result()
+                runs[run.job.name] = run
+        except BaseException:
+            stop.set()
+            for child in list(children):
+                child.terminate()
+            raise
+    return {job.name: runs[job.name] for job in jobs}

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// dob: RTL against twin on every clock; stall, motion and arming against closed forms, and the
+// distance from quad precision. Documentation: docs/blocks/dob.md
+#include "dob_bench.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "catch.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+constexpr double kPole = 500.0;
+constexpr std::int64_t kAmpere = std::int64_t{1} << Design::f.current.fraction;
+constexpr std::int64_t kRadS = std::int64_t{1} << Design::f.velocity.fraction;
+
+double nm(std::int64_t tau_hat) { return std::ldexp(static_cast<double>(tau_hat), -16); }
+
+/// tau_hat of the RTL after every wave of next().
+template <class Next>
+std::vector<std::int64_t> observe(Next next, std::int64_t waves) {
+  std::vector<std::int64_t> tau_hat;
+  int since_valid = 99;
+  const auto keep = [&](const Twin::In& in, const Vdob& rtl, const Twin&, bool in_reset) {
+    since_valid = in.port.valid && !in_reset ? 0 : since_valid + 1;
+    if (since_valid == 10) tau_hat.push_back(sign_extend<21>(rtl.tau_hat_o));
+    return static_cast<const char*>(nullptr);
+  };
+  Bench bench("dob", 3);
+  bench.run(Waves<Next>(3, next, 1), 16 * waves + 10, {}, keep);
+  return tau_hat;
+}
+
+quad quantised(const ParameterInfo& p) { return static_cast<quad>(p.raw) * lsb(p.format.fraction); }
+
+/// Largest distance of tau_hat from the exact law on the same current and velocity. Three sources:
+/// a1 (coefficient over the largest difference, half an LSB of the state, the bits the difference
+/// gives up), Ktn*I, and g*Jn*w, which enters through the low-pass and leaves directly; then the
+/// rounding to torque.
+quad error_bound(quad largest_difference, quad current, quad velocity) {
+  const ParameterInfo& a1 = parameter(Design::A::observer_a1);
+  const quad last = lsb(Design::f.observer.fraction);
+  const quad filter = (coefficient_error(a1) * largest_difference + last / 2) / quantised(a1) +
+                      lsb(Design::f.observer_difference.fraction);
+  const quad drive = coefficient_error(parameter(Design::A::torque_constant)) * current + last;
+  const quad inertia = coefficient_error(parameter(Design::A::inertia_gain)) * velocity + last;
+  return filter + drive + 2 * inertia + lsb(Design::f.torque.fraction) / 2;
+}
+
+}  // namespace
+
+TEST_CASE("dob: random currents, velocities, coefficients, arming and resets") {
+  Tally tally;
+  Bench bench("dob", 1);
+  bench.run(Waves<RandomWaves>(2, {}, 30), scaled_clocks(1500000), {5000}, TickBeside{&tally});
+  bench.run(Waves<RandomWaves>(3, {}, 1), scaled_clocks(1000000), {100000}, TickBeside{&tally});
+  INFO("waves " << tally.waves << ", armed " << tally.armed << ", saturated " << tally.saturated
+                << ", armed anew " << tally.arming);
+  REQUIRE(tally.armed > tally.waves / 4);
+  REQUIRE(tally.armed < tally.waves * 3 / 4);
+  REQUIRE(tally.saturated > tally.waves / 100);
+  REQUIRE(tally.saturated < tally.waves / 2);
+  REQUIRE(tally.arming > 300);
+  REQUIRE(tally.disarmed_in_motion > tally.waves / 10);
+}
+
+TEST_CASE("dob: at stall tau_hat is the 500 rad/s low-pass of Ktn*I, within one LSB") {
+  for (const double torque : {0.5, 0.1, -0.3}) {
+    const double ktn = parameter(Design::A::torque_constant).si;
+    Wave wave;
+    wave.armed = true;
+    wave.current = std::llround(torque / ktn * static_cast<double>(kAmpere));
+    const auto tau_hat = observe([wave](std::int64_t) { return wave; }, 30000);
+    REQUIRE(tau_hat.size() > 29990);
+    const double final = ktn * static_cast<double>(wave.current) / static_cast<double>(kAmpere);
+    double worst = 0;
+    for (std::size_t k = 0; k < tau_hat.size(); ++k) {
+      const double exact_tau = -final * std::expm1(-kPole * 1e-6 * static_cast<double>(k + 1));
+      worst = std::max(worst, std::fabs(nm(tau_hat[k]) - exact_tau));
+    }
+    INFO("torque " << torque << " Nm, worst " << worst << " Nm");
+    REQUIRE(worst <= std::ldexp(1.0, -16));
+    REQUIRE(std::fabs(nm(tau_hat.back()) - final) <= std::ldexp(1.0, -16));
+  }
+}
+
+TEST_CASE("dob: a free lever that accelerates by its nominal inertia shows no load") {
+  // Jn*alpha = Ktn*I, hence tau_hat stays 0 but for the one tick by which w lags.
+  const double ktn = parameter(Design::A::torque_constant).si;
+  const double jn = parameter(Design::A::inertia_gain).si / kPole;
+  const double amperes = kIsPaper ? 2.0 : 0.5;
+  const double rad_s2 = ktn * amperes / jn;
+  const auto next = [=](std::int64_t wave) {
+    Wave w;
+    w.armed = true;
+    w.current = static_cast<std::int64_t>(amperes * static_cast<double>(kAmpere));
+    const double time = 1e-6 * static_cast<double>(wave + 1);
+    w.velocity = std::llround(rad_s2 * time * static_cast<double>(kRadS));
+    return w;
+  };
+  const auto tau_hat = observe(next, 20000);
+  const double torque = ktn * amperes;
+  for (const std::int64_t t : tau_hat) {
+    if (std::fabs(nm(t)) > torque * kPole * 1e-6 + std::ldexp(2.0, -16)) FAIL("load " << nm(t));
+  }
+  REQUIRE(torque > 0.01);
+}
+
+TEST_CASE("dob: a load that blocks a moving lever shows with its sign") {
+  // Positive motor torque, speed falling at Jn*alpha = -0.05 Nm: the load is the sum of both.
+  const double ktn = parameter(Design::A::torque_constant).si;
+  const double jn = parameter(Design::A::inertia_gain).si / kPole;
+  const double amperes = 0.1 / ktn;
+  const auto next = [=](std::int64_t wave) {
+    Wave w;
+    w.armed = true;
+    w.current = std::llround(amperes * static_cast<double>(kAmpere));
+    const double speed = 10 - 0.05 / jn * 1e-6 * static_cast<double>(wave + 1);
+    w.velocity = std::llround(speed * static_cast<double>(kRadS));
+    return w;
+  };
+  const auto tau_hat = observe(next, 40000);
+  REQUIRE(std::fabs(nm(tau_hat.back()) - 0.15) < 0.0001);
+}
+
+TEST_CASE("dob: arming in motion makes no jump, disarming ends the estimate at once") {
+  constexpr std::int64_t arm = 1000, disarm = 12000;
+  const auto next = [](std::int64_t wave) {
+    Wave w;
+    w.armed = wave >= arm && wave < disarm;
+    w.current = 2 * kAmpere;
+    w.velocity = 30 * kRadS + wave * 200;
+    return w;
+  };
+  const auto tau_hat = observe(next, 14000);
+  const double gjn = parameter(Design::A::inertia_gain).si;
+  const double ktn_i = parameter(Design::A::torque_constant).si * 2;
+  // What one tick can add: Ktn*I through the low-pass, and one tick's inertia torque.
+  const double step = ktn_i * kPole * 1e-6 + gjn * std::ldexp(200.0, -21) + std::ldexp(1.0, -16);
+  for (std::size_t k = 1; k < tau_hat.size(); ++k) {
+    const bool off = k < arm || k >= disarm;
+    if (off && tau_hat[k] != 0) FAIL("tau_hat while disarmed, tick " << k);
+    if (k != disarm && std::fabs(nm(tau_hat[k] - tau_hat[k - 1])) > step) FAIL("jump at " << k);
+  }
+  REQUIRE(nm(tau_hat[disarm - 1]) > ktn_i / 4);
+}
+
+TEST_CASE("dob: distance from quad precision") {
+  using Law = DobLaw<Design, Real<quad>>;
+  Observer twin;
+  twin.reset();
+  Random random(31);
+  quad state = 0, worst = 0, largest_difference = 0;
+  const auto si = [](int address) { return static_cast<quad>(parameter(address).si); };
+  Wave wave;
+  wave.armed = true;
+  constexpr std::int64_t max_velocity = 20 * kRadS, max_current = 15 * kAmpere;
+  std::int64_t target = 0;
+  for (std::int64_t k = 0; k < scaled_clocks(200000); ++k) {
+    if (random.one_in(300)) wave.current = random.between(-max_current, max_current);
+    if (random.one_in(2000)) target = random.between(-max_velocity, max_velocity);
+    wave.velocity += (target - wave.velocity) / 512;
+    tick(twin, wave);
+    REQUIRE_FALSE(twin.out().saturated);
+    const quad drive =
+        Law::drive(si(Design::A::torque_constant) * exact(Current::from_raw(wave.current)));
+    const quad inertia =
+        Law::inertia(si(Design::A::inertia_gain) * exact(Velocity::from_raw(wave.velocity)));
+    const quad difference = Law::Filter::operand(Law::input(drive, inertia), state);
+    if (magnitude(difference) > largest_difference) largest_difference = magnitude(difference);
+    state = Law::Filter::next(state, si(Design::A::observer_a1) * difference);
+    bool unused = false;
+    const quad error = magnitude(exact(twin.tau_hat()) - Law::tau_hat(state, inertia, &unused));
+    if (error > worst) worst = error;
+  }
+  const quad bound = error_bound(largest_difference, 15, 20);
+  INFO("worst " << static_cast<double>(worst) << " Nm, bound " << static_cast<double>(bound)
+                << " Nm, largest difference " << static_cast<double>(largest_difference));
+  REQUIRE(worst <= bound);
+  REQUIRE(worst > bound / 10);
+  REQUIRE(bound < 8 * lsb(16));
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What the tests of the chain share: the design under test, exact parameters in quad precision, and
+// the twin wrapped so that a stimulus learns of resets. Documentation: docs/testing.md
+#pragma once
+
+#include <cstdint>
+
+#include "feltgate/fixed.hpp"
+#include "feltgate/generated/lever.hpp"
+#include "feltgate/generated/paper.hpp"
+
+#ifndef FELTGATE_DESIGN
+#define FELTGATE_DESIGN Lever
+#endif
+
+namespace feltgate::test {
+
+using Design = FELTGATE_DESIGN;
+constexpr bool kIsPaper = Design::m1 == Paper::m1;
+
+#ifdef __SIZEOF_FLOAT128__
+__extension__ typedef __float128 quad;
+#else
+typedef long double quad;
+#endif
+
+constexpr quad magnitude(quad x) { return x < 0 ? -x : x; }
+
+/// 2^-k
+constexpr quad lsb(int k) {
+  quad value = 1;
+  for (int n = 0; n < k; ++n) value /= 2;
+  for (int n = 0; n > k; --n) value *= 2;
+  return value;
+}
+
+/// A fixed-point number, exactly.
+template <int S, int I, int F>
+constexpr quad exact(fixed<S, I, F> x) {
+  return static_cast<quad>(x.raw()) * lsb(F);
+}
+
+/// The design's parameter at an address.
+inline const ParameterInfo& parameter(int address) {
+  for (const ParameterInfo& p : Design::parameters) {
+    if (p.address == address) return p;
+  }
+  return Design::parameters[0];
+}
+
+/// How far the quantised parameter is from its exact value, in its unit.
+inline quad coefficient_error(const ParameterInfo& p) {
+  return magnitude(static_cast<quad>(p.raw) * lsb(p.format.fraction) - static_cast<quad>(p.si));
+}
+
+/// A twin whose inputs carry, beside its ports, what the test needs, and whose outputs count
+/// resets.
+template <class Block, class Aside>
+struct Watched {
+  struct In {
+    typename Block::In port;
+    Aside aside;
+  };
+  struct Out {
+    typename Block::Out port;
+    std::int64_t resets = 0;
+  };
+  void reset() {
+    block.reset();
+    seen.port = block.out();
+    ++seen.resets;
+  }
+  void clock(const In& in) {
+    block.clock(in.port);
+    seen.port = block.out();
+  }
+  const Out& out() const { return seen; }
+
+  Block block;
+  Out seen;
+};
+
+}  // namespace feltgate::test

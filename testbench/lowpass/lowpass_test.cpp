@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// lowpass: RTL against twin and against plain integers on every clock; pole, dead band and error
+// bound against the closed form. Documentation: docs/blocks/lowpass.md
+#include "lowpass_bench.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "catch.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+constexpr quad kTick = 1e-6L;
+constexpr double kPole = 500.0;
+
+/// The RTL's y after every sample of a fixed x, from reset on.
+std::vector<std::int64_t> constant_input(std::int64_t first, std::int64_t then, int samples) {
+  const auto next = [first, then](std::int64_t, std::int64_t sample) {
+    Twin::In in;
+    in.port.x = sample == 0 ? first : then;
+    in.port.follow = sample == 0;  // puts y at `first`
+    return in;
+  };
+  std::vector<std::int64_t> y;
+  const auto keep = [&y](const Twin::In& in, const Vlowpass& rtl, const Twin&, bool in_reset) {
+    if (in.port.valid && !in_reset) y.push_back(sign_extend<kState.width()>(rtl.y_o));
+    return static_cast<const char*>(nullptr);
+  };
+  Bench bench("lowpass", 5);
+  bench.run(Samples<decltype(next)>(5, next, 1), 6 * std::int64_t{samples}, {}, keep);
+  return y;  // y[1] is first, y[1 + k] follows after k samples of `then`
+}
+
+/// Largest distance between state and exact filter: (coefficient error + half an LSB) / a1, and the
+/// bits that the difference gives up.
+quad error_bound(quad step_size) {
+  const quad a1 = static_cast<quad>(kDesignA1) * lsb(kA1.fraction);
+  const quad exact_a1 = 1 - static_cast<quad>(std::exp(-kPole * 1e-6));
+  const quad given_up = kGivenUp > 0 ? lsb(kOperand.fraction) : quad{0};
+  return (magnitude(a1 - exact_a1) * step_size + lsb(kState.fraction) / 2) / a1 + given_up;
+}
+
+/// Where y stops: |x - y| with a1*|x - y| rounded to nothing.
+quad dead_band() {
+  const quad a1 = static_cast<quad>(kDesignA1) * lsb(kA1.fraction);
+  return lsb(kState.fraction) / 2 / a1 + (kGivenUp > 0 ? lsb(kOperand.fraction) : quad{0});
+}
+
+quad value(std::int64_t raw) { return static_cast<quad>(raw) * lsb(kState.fraction); }
+
+}  // namespace
+
+TEST_CASE("lowpass: the parameters of the RTL are those of the design") {
+  REQUIRE(kOperand.width() <= 35);
+  REQUIRE(Bench::kFirstReset > 0);
+#ifdef FELTGATE_OBSERVER
+  REQUIRE(kOperand.width() < kState.width() + 1);
+  REQUIRE(kDrop == 21);
+#else
+  REQUIRE(kOperand.width() == kState.width() + 1);
+  REQUIRE(kDrop == 27);
+#endif
+}
+
+TEST_CASE("lowpass: random steps, coefficients, gaps and resets") {
+  Tally tally;
+  Bench bench("lowpass", 1);
+  bench.run(Samples<RandomSamples>(2, {}, 20), scaled_clocks(1500000), {2000},
+            PlainIntegers{&tally});
+  bench.run(Samples<RandomSamples>(4, {}, 1), scaled_clocks(1000000), {50000},
+            PlainIntegers{&tally});
+  INFO("samples " << tally.samples << ", followed " << tally.followed << ", growth bit "
+                  << tally.growth_bit_used << ", still " << tally.still);
+  REQUIRE(tally.followed > tally.samples / 50);
+  REQUIRE(tally.growth_bit_used > tally.samples / 100);
+  REQUIRE(tally.still > tally.samples / 20);
+  REQUIRE(tally.up > tally.samples / 10);
+  REQUIRE(tally.down > tally.samples / 10);
+}
+
+TEST_CASE("lowpass: step response is 1 - exp(-500 t)") {
+  constexpr int samples = 30000;
+  const std::int64_t x = kMax / 8;
+  const std::vector<std::int64_t> y = constant_input(0, x, samples);
+  REQUIRE(y.size() > samples - 2);
+  const quad bound = error_bound(value(x));
+  quad worst = 0;
+  for (std::size_t k = 1; k < y.size(); ++k) {
+    const double t = static_cast<double>(k - 1) * static_cast<double>(kTick);
+    const quad closed_form = value(x) * static_cast<quad>(-std::expm1(-kPole * t));
+    const quad error = magnitude(value(y[k]) - closed_form);
+    if (error > worst) worst = error;
+  }
+  INFO("worst " << static_cast<double>(worst) << ", bound " << static_cast<double>(bound));
+  REQUIRE(worst <= bound);
+  REQUIRE(worst > bound / 10);         // the bound says something
+  REQUIRE(bound < value(x) / 100000);  // and is small beside the step
+  // Pole from the sample nearest to one time constant (2000 ticks).
+  const quad left = 1 - value(y[2001]) / value(x);  // 2000 samples of x
+  const double pole = -std::log(static_cast<double>(left)) / 0.002;
+  REQUIRE(std::fabs(pole / kPole - 1) < 1e-5);
+}
+
+TEST_CASE("lowpass: dead band, from both sides") {
+  const std::int64_t x = kMax / 1000;
+  for (const std::int64_t start : {std::int64_t{0}, 2 * x}) {
+    const std::vector<std::int64_t> y = constant_input(start, x, 60000);
+    REQUIRE(y[1] == start);
+    REQUIRE(y.back() == y[y.size() - 1000]);  // it has stopped
+    const quad rest = magnitude(value(x - y.back()));
+    INFO("rest " << static_cast<double>(rest) << ", dead band "
+                 << static_cast<double>(dead_band()));
+    REQUIRE(rest <= dead_band());
+    REQUIRE(rest > dead_band() * 9 / 10 - lsb(kOperand.fraction));
+  }
+}
+
+TEST_CASE("lowpass: the longest step there is does not overflow") {
+  for (const std::int64_t from : {kMax, -kMax - 1}) {
+    const std::int64_t to = -1 - from;
+    const std::vector<std::int64_t> y = constant_input(from, to, 40000);
+    REQUIRE(y[1] == from);
+    for (std::size_t k = 2; k < y.size(); ++k) {
+      if (from > to ? y[k] > y[k - 1] || y[k] < to : y[k] < y[k - 1] || y[k] > to) {
+        FAIL("not monotone at sample " << k);
+      }
+    }
+    REQUIRE(magnitude(value(y.back() - to)) < value(kMax) / 1000);
+  }
+}

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Ports of the Verilated registers, a host that follows a script and one that does as it pleases.
+// Documentation: docs/blocks/registers.md
+#pragma once
+
+#include <Vregisters.h>
+
+#include "../sequencer/running_clock.hpp"
+#include "feltgate/generated/lever.hpp"
+#include "feltgate/registers.hpp"
+#include "feltgate/sequencer.hpp"
+#include "lock_step.hpp"
+
+namespace feltgate::test {
+
+using Twin = Registers<Lever, READ_BACK != 0>;
+using Clock = Sequencer<Lever::clocks_per_tick>;
+
+struct RegistersAdapter {
+  static void drive(Vregisters& rtl, const Twin::In& in) {
+    rtl.tick_i = in.tick;
+    rtl.reg_addr_i = in.reg_addr;
+    rtl.reg_wdata_i = in.reg_wdata;
+    rtl.reg_write_i = in.reg_write;
+    rtl.slot_fetch_i = in.slot_fetch;
+    rtl.scene_slot_fetch_i = in.scene_slot_fetch;
+    rtl.scene_i = in.scene;
+    rtl.region_high_i = in.region_high;
+    rtl.snap_slot_i = in.snap_slot;
+    rtl.snap_valid_i = in.snap_valid;
+    rtl.snap_data_i = in.snap_data;
+  }
+  template <class Check>
+  static void compare(Check& check, const Vregisters& rtl, const Twin::Out& out) {
+    check("reg_rdata", rtl.reg_rdata_o, out.reg_rdata);
+    check("reg_busy", rtl.reg_busy_o, out.reg_busy);
+    check("param", rtl.param_o, out.param);
+    check("control", rtl.control_o, out.control);
+    check("set_zero", rtl.set_zero_o, out.set_zero);
+    check("clear_faults", rtl.clear_faults_o, out.clear_faults);
+    check("kick", rtl.kick_o, out.kick);
+  }
+};
+using RegistersBench = LockStep<Vregisters, Twin, RegistersAdapter>;
+
+/// The word that slot `slot` of tick number `tick` carries in these tests: its own label.
+constexpr std::uint32_t label(std::uint32_t tick, int slot) {
+  return tick * 64 + static_cast<std::uint32_t>(slot);
+}
+
+/// Inputs as the sequencer gives them; in wave clock t the snapshot takes a labelled word.
+inline Twin::In inputs_of(const Clock::Out& now) {
+  Twin::In in;
+  in.tick = now.tick;
+  in.slot_fetch = static_cast<std::uint8_t>(now.slot_fetch);
+  in.scene_slot_fetch = now.scene_slot_fetch;
+  if (now.slot_fetch >= 2 && now.slot_fetch < 49) {
+    in.snap_slot = static_cast<std::uint8_t>(now.slot_fetch - 2);
+    in.snap_valid = true;
+    in.snap_data = label(now.tick_count, in.snap_slot);
+  }
+  return in;
+}
+
+/// A host with a script. Runs the twin as it goes and keeps the inputs for the lock-step run.
+class Script {
+ public:
+  std::uint8_t scene = 0;
+  bool region_high = false;
+  std::uint16_t address = 0;
+
+  Script() { twin_.reset(); }
+
+  const Twin& twin() const { return twin_; }
+  const Twin::Out& out() const { return twin_.out(); }
+  int clock_of_tick() const { return clock_.clock_of_tick(); }
+  std::uint32_t tick() const { return clock_.out().tick_count; }
+
+  /// One clock; returns all outputs in it.
+  Twin::Out clock(bool write = false, std::uint32_t data = 0) {
+    Twin::In in = inputs_of(clock_.out());
+    in.scene = scene;
+    in.region_high = region_high;
+    in.reg_addr = address;
+    in.reg_write = write;
+    in.reg_wdata = data;
+    list_.push_back(in);
+    const Twin::Out now = twin_.peek(in);
+    twin_.clock(in);
+    clock_.clock({});
+    return now;
+  }
+  /// On to clock c of a tick, of the next one if that clock has passed.
+  Script& until(int c) {
+    do {
+      clock();
+    } while (clock_of_tick() != c);
+    return *this;
+  }
+  Script& write(std::uint16_t at, std::uint32_t data) {
+    address = at;
+    clock(true, data);
+    return *this;
+  }
+  std::uint32_t read(std::uint16_t at) {
+    address = at;
+    for (int k = 0; k < 3; ++k) clock();
+    return out().reg_rdata;
+  }
+  /// The word of slot t as the bus carries it in wave clock t.
+  std::uint32_t bus(int t) {
+    until(t + 2);
+    return out().param;
+  }
+  /// RTL and twin on all of it.
+  void play() {
+    RegistersBench bench("registers", 1);
+    bench.run_list(list_);
+  }
+
+ private:
+  Clock clock_;
+  Twin twin_;
+  std::vector<Twin::In> list_;
+};
+
+/// Any access at any time.
+class RandomHost {
+ public:
+  RandomHost(std::uint64_t seed, ResetPlan plan) : random_(seed), clock_(seed, plan) {}
+
+  Twin::In operator()(std::int64_t) {
+    Twin::In in = inputs_of(clock_.next());
+    if (in.tick) {
+      in_force_.scene = static_cast<std::uint8_t>(random_.below(16));
+      in_force_.region_high = random_.coin();
+    }
+    in.scene = in_force_.scene;
+    in.region_high = in_force_.region_high;
+    if (random_.one_in(4)) in_force_.reg_addr = any_address();
+    in.reg_addr = in_force_.reg_addr;
+    in.reg_write = random_.one_in(20);
+    in.reg_wdata = static_cast<std::uint32_t>(random_.bits());
+    in.snap_data = static_cast<std::uint32_t>(random_.bits());
+    return in;
+  }
+
+ private:
+  std::uint16_t any_address() {
+    switch (random_.below(8)) {
+      case 0:
+      case 1:
+        return static_cast<std::uint16_t>(random_.below(0x200));
+      case 2:
+        return static_cast<std::uint16_t>(random_.below(64));
+      case 3:
+        return Lever::C::control;
+      case 4:
+        return Lever::C::command;
+      case 5:
+      case 6:
+        return static_cast<std::uint16_t>(0x300 + random_.below(64));
+      default:
+        return static_cast<std::uint16_t>(random_.below(0x1000));
+    }
+  }
+
+  Random random_;
+  RunningClock<Lever::clocks_per_tick> clock_;
+  Twin::In in_force_;
+};
+
+}  // namespace feltgate::test

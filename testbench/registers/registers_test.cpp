@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// registers: RTL against twin on every clock, and both against what the port promises to a host.
+// Documentation: docs/blocks/registers.md
+#include <set>
+
+#include "catch.hpp"
+#include "host.hpp"
+
+using namespace feltgate::test;
+using feltgate::Lever;
+
+namespace {
+
+constexpr int kCommandBits = 5;
+constexpr std::uint16_t kControl = Lever::C::control;
+constexpr std::uint16_t kCommand = Lever::C::command;
+constexpr int kLast = Lever::clocks_per_tick - 1;
+
+}  // namespace
+
+TEST_CASE("registers: after configuration the RAM holds the design's values") {
+  Script host;
+  std::set<int> named;
+  for (const auto& p : Lever::parameters) {
+    named.insert(p.address);
+    REQUIRE(host.twin().parameter(p.address) == static_cast<std::uint32_t>(p.raw));
+  }
+  for (int address = 0; address < 512; ++address) {
+    if (named.count(address) == 0) REQUIRE(host.twin().parameter(address) == 0);
+    if (READ_BACK != 0) {
+      REQUIRE(host.read(static_cast<std::uint16_t>(address)) == host.twin().parameter(address));
+    }
+  }
+  // Every word through the bus as well: common slots once, scene slots of every bank.
+  for (std::uint8_t scene = 0; scene < 16; ++scene) {
+    host.scene = scene;
+    for (int slot = 0; slot < 48; ++slot) {
+      const bool of_scene = ((0x5c4e >> slot) & 1) != 0 && slot < 16;
+      const int address = of_scene ? scene * 32 + slot : slot;
+      REQUIRE(host.bus(slot) == host.twin().parameter(address));
+    }
+  }
+  host.play();
+}
+
+TEST_CASE("registers: a write takes effect at the end of the tick, whenever it is made") {
+  Script host;
+  std::uint32_t word = 100;
+  for (int c = 0; c <= kLast; ++c) {
+    host.until(c);
+    const std::uint32_t old = host.twin().parameter(Lever::A::velocity_a1);
+    REQUIRE_FALSE(host.out().reg_busy);
+    host.write(Lever::A::velocity_a1, ++word);
+    REQUIRE(host.out().reg_busy);
+    // A write in the last clock waits for the next tick's.
+    const std::uint32_t commits = host.tick();
+    while (host.tick() == commits) {
+      REQUIRE(host.out().reg_busy);
+      REQUIRE(host.twin().parameter(Lever::A::velocity_a1) == old);
+      if (host.clock_of_tick() == 6) REQUIRE(host.out().param == old);
+      host.clock();
+    }
+    REQUIRE_FALSE(host.out().reg_busy);
+    REQUIRE(host.twin().parameter(Lever::A::velocity_a1) == word);
+    REQUIRE(host.bus(4) == word);
+    if (READ_BACK != 0) REQUIRE(host.read(Lever::A::velocity_a1) == word);
+  }
+  host.play();
+}
+
+TEST_CASE("registers: a write while another one waits is ignored") {
+  Script host;
+  for (int c = 3; c < kLast - 2; c += 5) {
+    host.until(c);
+    host.write(Lever::A::overspeed, 1000U + static_cast<std::uint32_t>(c));
+    host.write(Lever::A::i2t_budget, 77);
+    host.write(kControl, 0x7fff);
+    host.until(0);
+    REQUIRE(host.bus(Lever::A::overspeed) == 1000U + static_cast<std::uint32_t>(c));
+    REQUIRE(host.bus(Lever::A::i2t_budget) == 2920000000U);
+    REQUIRE(host.out().control == Lever::control_reset);
+  }
+  // Nor does a write to nowhere or to a word that is only read keep the port busy.
+  for (const int address : {0x202, 0x2ff, 0x300, 0x33f, 0x340, 0xfff}) {
+    host.write(static_cast<std::uint16_t>(address), 0xffffffffU);
+    REQUIRE_FALSE(host.out().reg_busy);
+  }
+  host.play();
+}
+
+TEST_CASE("registers: the control word changes between two waves only") {
+  Script host;
+  host.until(20);
+  host.write(kControl, 0xffffa5a5U);
+  while (host.clock_of_tick() != 0) {
+    REQUIRE(host.out().control == Lever::control_reset);
+    host.clock();
+  }
+  REQUIRE(host.out().control == 0x25a5);
+  REQUIRE(host.read(kControl) == (READ_BACK != 0 ? 0x25a5U : 0U));
+  REQUIRE(host.read(kCommand) == 0);
+  host.play();
+}
+
+TEST_CASE("registers: each command acts once, in the last clock of the tick") {
+  Script host;
+  for (std::uint32_t bits = 0; bits < (1U << kCommandBits); ++bits) {
+    host.until(static_cast<int>(bits));
+    host.write(kCommand, bits);
+    for (int k = 0; k < 2 * kLast; ++k) {
+      const bool acts = host.clock_of_tick() == kLast && host.out().reg_busy;
+      const auto now = host.clock();
+      REQUIRE(now.set_zero == (acts && (bits & 1U) != 0));
+      REQUIRE(now.clear_faults == (acts && (bits & 2U) != 0));
+      REQUIRE(now.kick == (acts && (bits & 4U) != 0));
+    }
+  }
+  host.play();
+}
+
+TEST_CASE("registers: slot 34 carries word 50 in the high region") {
+  Script host;
+  host.write(Lever::A::voltage_gain, 1111).until(0);
+  host.write(Lever::A::voltage_gain_high, 2222).until(0);
+  for (const bool high : {false, true, false}) {
+    host.region_high = high;
+    REQUIRE(host.bus(34) == (high ? 2222U : 1111U));
+    REQUIRE(host.bus(33) == host.twin().parameter(33));
+    REQUIRE(host.bus(35) == host.twin().parameter(35));
+  }
+  host.play();
+}
+
+TEST_CASE("registers: read data follow the address by exactly three clocks") {
+  if (READ_BACK == 0) return;
+  Script host;
+  std::vector<std::uint16_t> addresses;
+  for (int k = 0; k < 500; ++k) {
+    host.address = static_cast<std::uint16_t>((k * 37) % 0x201);  // parameters and control
+    addresses.push_back(host.address);
+    host.clock();
+    if (k < 2) continue;
+    const std::uint16_t asked = addresses[static_cast<std::size_t>(k - 2)];
+    REQUIRE(host.out().reg_rdata ==
+            (asked == kControl ? host.out().control : host.twin().parameter(asked)));
+  }
+  host.play();
+}
+
+TEST_CASE("registers: a snapshot is of one tick, and a frozen one stays") {
+  if (READ_BACK == 0) return;
+  Script host;
+  Random random(5);
+  const auto tick_read = [&host](int slot) {
+    return (host.read(static_cast<std::uint16_t>(0x300 + slot)) - label(0, slot)) / 64;
+  };
+  host.until(0);
+  for (int round = 0; round < 40; ++round) {
+    // Following: a word is of the last whole tick when its address has stood for three clocks.
+    host.until(random.below(kLast));
+    for (int k = 0; k < 20; ++k) {
+      host.until(3 + static_cast<int>(random.below(kLast - 7)));
+      REQUIRE(tick_read(static_cast<int>(random.below(47))) == host.tick() - 1);
+    }
+    host.until(static_cast<int>(random.below(kLast)));
+    host.write(kCommand, 1U << Lever::C::command_freeze);
+    const std::uint32_t held = host.tick();  // the tick that the command ends
+    host.until(0);
+    for (int k = 0; k < 60; ++k) {
+      for (std::uint32_t wait = random.below(120); wait > 0; --wait) host.clock();
+      REQUIRE(tick_read(static_cast<int>(random.below(47))) == held);
+    }
+    host.until(static_cast<int>(random.below(kLast)));
+    host.write(kCommand, 1U << Lever::C::command_thaw).until(0).until(0);
+    REQUIRE(tick_read(9) == host.tick() - 1);
+  }
+  // Both at once: freeze wins.
+  host.until(10);
+  host.write(kCommand, (1U << Lever::C::command_freeze) | (1U << Lever::C::command_thaw));
+  const std::uint32_t held = host.tick();
+  host.until(0).until(0).until(0);
+  REQUIRE(tick_read(9) == held);
+  host.play();
+}
+
+TEST_CASE("registers: any access at any time, with and without resets") {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const ResetPlan plan{seed % 2 == 0 ? 3000U : 0U};
+    RegistersBench bench("registers", seed);
+    bench.run(RandomHost(seed, plan), scaled_clocks(100000), plan);
+  }
+}
+
+TEST_CASE("registers: skipping a tick is clocking through it") {
+  Random random(9);
+  Clock clock;
+  Twin clocked;
+  clocked.reset();
+  const auto tick = [&](bool write) {
+    const std::uint16_t address = static_cast<std::uint16_t>(0x300 + random.below(64));
+    Twin skipped = clocked;
+    for (int c = 0; c <= kLast; ++c) {
+      auto in = inputs_of(clock.out());
+      in.reg_addr = write && c == 7 ? kCommand : address;
+      in.reg_write = write && c == 7;
+      in.reg_wdata = 8U << random.below(2);  // freeze or thaw
+      if (in.snap_valid) skipped.write_snapshot(in.snap_slot, in.snap_data);
+      clocked.clock(in);
+      clock.clock({});
+    }
+    if (write) return;
+    skipped.skip_tick(address);
+    for (int c = 0; c <= kLast; ++c) {
+      REQUIRE(skipped.out().param == clocked.out().param);
+      REQUIRE(skipped.out().reg_rdata == clocked.out().reg_rdata);
+      auto in = inputs_of(clock.out());
+      in.reg_addr = address;
+      clocked.clock(in);
+      skipped.clock(in);
+      clock.clock({});
+    }
+  };
+  tick(true);
+  for (int k = 0; k < 200; ++k) tick(random.one_in(3));
+}

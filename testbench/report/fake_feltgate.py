@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Stands in for the feltgate program in the tests of the reports: same options, same JSON and CSV,
+crude numbers from closed forms. FAKE_MISMATCHES=N makes every run report N mismatches.
+"""
+
+import argparse
+import json
+import os
+import sys
+import tomllib
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+COUNT_RAD = 2 * np.pi / 4096
+COLUMNS = (
+    "time_s theta_rad omega_rad_s motor_torque_nm hand_torque_nm position_rad velocity_rad_s "
+    "tau_ref_nm tau_hat_nm current_a voltage_v duty quad_velocity_rad_s quad_tau_hat_nm "
+    "quad_current_a limits faults"
+).split()
+
+
+def profile(segments, time, start):
+    """Position of the hand's motion at each time."""
+    theta, begin, at = np.full_like(time, start), 0.0, start
+    for segment in segments:
+        length, goal = segment["duration_s"], segment.get("to_rad", at)
+        s = np.clip((time - begin) / length, 0, 1)
+        if segment["kind"] == "minimum_jerk":
+            s = 10 * s**3 - 15 * s**4 + 6 * s**5
+        theta = np.where(time >= begin, at + (goal - at) * s, theta)
+        begin, at = begin + length, goal
+    return theta
+
+
+def scene_torque(scene, x, omega):
+    if scene == "membrane":
+        return np.where((x > 0.5) & (x < 0.7), 0.5, 0.0)
+    if scene == "spring_compression":
+        return np.clip(0.5 - x, 0, 0.5)
+    if scene == "spring_tension":
+        return np.clip(-0.5 * x, -0.5, 0)
+    if scene == "damper":
+        return np.clip(-0.03 * omega, -0.5, 0.5)
+    inverse = np.where(np.abs(x) < 0.2, 2.5 * x, 0.02 / np.maximum(x, 1e-9) ** 2)
+    return {"charge_attract": -inverse, "charge_repel": inverse}.get(scene, 0 * x)
+
+
+def low_pass(x, dt, pole):
+    y, a, state = np.empty_like(x), 1 - np.exp(-pole * dt), 0.0
+    for i, value in enumerate(x):
+        state += a * (value - state)
+        y[i] = state
+    return y
+
+
+def run(options):
+    """CSV columns and step responses of a scene."""
+    scene_file = ROOT / "vectors" / "scenes" / f"{options.subject}.toml"
+    if not scene_file.exists():
+        raise SystemExit(f"{options.subject}: no such scene; see vectors/scenes")
+    scene = tomllib.loads(scene_file.read_text())
+    dt = 1e-6 * options.every
+    time = np.arange(dt, scene["duration_s"] + dt / 2, dt)
+    phase = scene["hand"]["phase"][0]
+    theta = profile(phase.get("motion", []), time, scene["hand"].get("start_rad", 0.0))
+    omega = np.gradient(theta, time)
+    paper = options.design == "paper"
+    constant = 0.0605 if paper else 0.0302
+    motor_constant, resistance = (0.0603, 1.25) if options.plant == "p48" else (0.0302, 0.42)
+    velocity = low_pass(omega, dt, 500)
+    armed = time >= scene["core"].get("arm_s", 0)
+    reference = scene_torque(scene["core"]["scene"], theta, velocity) * armed
+    direct = np.zeros_like(time)
+    for event in scene.get("event", []):
+        sets = event.get("set", {})
+        later = time >= event["at_s"]
+        reference = np.where(later, sets.get("setpoint_torque", reference), reference)
+        direct = np.where(later, sets.get("voltage_setpoint", direct), direct)
+    if paper:
+        tau_hat = low_pass(reference, dt, 391.68)
+        current = (0.78336 * reference + 0.21664 * tau_hat) / constant
+        low, high = (dict(options.set).get(k, v) for k, v in
+                     (("voltage_gain", 1.25), ("voltage_gain_high", 0.95)))
+        voltage = np.where(np.abs(reference) > 0.15, float(high), float(low)) * current
+    else:
+        current = reference / constant
+        tau_hat = low_pass(reference, dt, 500)
+        voltage = current * 0.42 + np.clip(34 * reference, -0.34, 0.34) + 0.0302 * velocity
+    if scene["core"].get("mode") == "voltage":
+        voltage, current = direct, direct if paper else direct / 0.42
+        tau_hat = low_pass(constant * current, dt, 500)
+    dead = np.clip(voltage, -0.34, 0.34)
+    torque = low_pass(motor_constant * (voltage - dead) / resistance, dt, 5000)
+    data = dict.fromkeys(COLUMNS, np.zeros_like(time))
+    data |= {"time_s": time, "theta_rad": theta, "omega_rad_s": omega, "motor_torque_nm": torque}
+    data |= {"hand_torque_nm": -torque, "position_rad": np.round(theta / COUNT_RAD) * COUNT_RAD}
+    data |= {"velocity_rad_s": velocity, "tau_ref_nm": reference, "tau_hat_nm": tau_hat}
+    data |= {"current_a": current, "voltage_v": voltage, "duty": voltage / 24}
+    noise = np.random.default_rng(1).normal(0, 2e-6, len(time))
+    data |= {"quad_velocity_rad_s": velocity + noise / 10, "quad_tau_hat_nm": tau_hat + noise}
+    data |= {"quad_current_a": current + noise}
+    steps = [
+        {"tau_ref_nm": e["step_nm"], "tau_hat_settling_ms": 9.99 if paper else 7.8,
+         "torque_settling_ms": 6.6 if paper else 0.77, "overshoot_pct": 0.1,
+         "final_error_pct": 4.8 if paper else -0.1, "tau_hat_final_error_pct": 0.001}
+        for e in scene.get("event", []) if "step_nm" in e
+    ]
+    return data, steps
+
+
+def replay(options):
+    path = Path(options.subject)
+    if not path.exists() or path.stat().st_size < 10:
+        raise SystemExit(f"{path}: empty; record it again")
+    dt = 1e-6 * options.every
+    time = np.arange(dt, 0.5, dt)
+    data = dict.fromkeys(COLUMNS, np.zeros_like(time))
+    theta = np.round(np.sin(12 * time) / COUNT_RAD) * COUNT_RAD
+    velocity = low_pass(12 * np.cos(12 * time), dt, 500)
+    return data | {"time_s": time, "position_rad": theta, "velocity_rad_s": velocity,
+                   "quad_velocity_rad_s": velocity}
+
+
+def summary(options, data, steps):
+    mismatches = int(os.environ.get("FAKE_MISMATCHES", "0"))
+    length, errors = float(data["time_s"][-1]), {"max_error": 3.1e-5, "rms_error": 4e-6}
+    engines = {}
+    for name, speed in (("rtl", 0.4), ("twin", 2.0), ("double", 9.0), ("quad", 0.5)):
+        engine = {"saturations": 0, "speed": speed}
+        if name != "quad":
+            engine |= {"velocity_rad_s": errors, "tau_hat_nm": errors, "torque_nm": errors}
+        if steps and name == "rtl":
+            engine |= {"step_responses": steps, "ripple_nm": 1e-4}
+        engines[name] = engine
+    out = {"schema": "feltgate-run-1", "version": "0.0.0-fake", "design": options.design,
+           "simulated_s": length, "clocks": round(length * 5e7), "ticks": round(length * 1e6),
+           "mismatches": mismatches, "position": {"steps": 42, "illegal": 0, "reversals": 3},
+           "engines": engines}
+    if options.command == "run":
+        broken = ["mismatches = 1 is outside its bounds"] if mismatches else []
+        return out | {"scene": options.subject, "plant": options.plant or "p24",
+                      "expectations": {"checked": 3, "broken": broken}}
+    return out | {"trace": Path(options.subject).name, "probes": options.probes or ""}
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("command", choices=["run", "replay"])
+    parser.add_argument("subject")
+    for name in ("plant", "engine", "json", "csv", "probes", "step", "dir", "time-column",
+                 "count-column", "scale", "scene", "seed", "seconds"):
+        parser.add_argument(f"--{name}")
+    parser.add_argument("--design", default="lever")
+    parser.add_argument("--every", type=int, default=1)
+    parser.add_argument("--set", action="append", default=[], type=lambda s: s.split("=", 1))
+    parser.add_argument("--quiet", action="store_true")
+    options = parser.parse_args()
+    if options.command == "run":
+        data, steps = run(options)
+    else:
+        data, steps = replay(options), []
+    result = summary(options, data, steps)
+    table = np.column_stack([data[name] for name in COLUMNS])
+    np.savetxt(options.csv, table, fmt="%.9g", delimiter=",", header=",".join(COLUMNS), comments="")
+    Path(options.json).write_text(json.dumps(result))
+    return 1 if result["mismatches"] else 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except SystemExit as error:
+        if isinstance(error.code, str):
+            print(error.code, file=sys.stderr)
+            sys.exit(2)
+        raise

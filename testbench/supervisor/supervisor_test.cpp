@@ -1,0 +1,425 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// supervisor: each cause of fault at its exact border, arming, and what is latched.
+// Documentation: docs/blocks/supervisor.md
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "bus.hpp"
+#include "catch.hpp"
+#include "random_core.hpp"
+
+using namespace feltgate::test;
+using feltgate::Fault;
+
+namespace {
+
+constexpr int kTick = Design::clocks_per_tick;
+constexpr std::int32_t kRadS = 1 << Design::f.velocity.fraction;
+constexpr std::int32_t kAmpere = 1 << Design::f.current.fraction;
+constexpr std::int32_t kVolt = 1 << Design::f.voltage.fraction;
+
+constexpr unsigned bit(Fault cause) { return 1U << static_cast<unsigned>(cause); }
+
+bool only(const Script& script, Fault cause) {
+  return script.out().faults == bit(cause) &&
+         script.out().first_fault == static_cast<unsigned>(cause);
+}
+
+}  // namespace
+
+TEST_CASE("supervisor: arming asks for a rising request, no fault and no stop") {
+  Script s;
+  s.now.arm = true;  // stuck high from reset on
+  s.ticks(5);
+  REQUIRE_FALSE(s.out().armed);
+  s.now.arm = false;
+  s.ticks(1);
+  s.now.arm = true;
+  s.clocks(kTick - 1);
+  REQUIRE_FALSE(s.out().armed);  // only when the tick ends
+  s.clocks(1);
+  REQUIRE((s.out().armed && s.out().gates_enable));
+  s.clocks(10);
+  s.now.arm = false;
+  s.clocks(kTick - 11);
+  REQUIRE((s.out().armed && s.out().gates_enable));
+  s.clocks(1);
+  REQUIRE_FALSE((s.out().armed || s.out().gates_enable));
+  REQUIRE(s.out().faults == 0);
+
+  s.now.stop = true;  // a request during a stop is lost
+  s.arm();
+  REQUIRE_FALSE(s.out().armed);
+  s.now.stop = false;
+  s.ticks(5);
+  REQUIRE_FALSE(s.out().armed);
+  REQUIRE(s.out().faults == 0);
+  s.arm();
+  REQUIRE(s.out().armed);
+
+  s.now.velocity = std::numeric_limits<std::int32_t>::max();
+  s.ticks(1);
+  REQUIRE(only(s, Fault::speed));
+  s.now.velocity = 0;
+  s.now.clear_faults = true;  // does not act while the request is high
+  s.ticks(3);
+  REQUIRE(only(s, Fault::speed));
+  s.now.clear_faults = false;
+  s.arm();  // a request during a fault is lost
+  s.ticks(2);
+  REQUIRE_FALSE(s.out().armed);
+  s.clear();
+  REQUIRE(s.out().faults == 0);
+  REQUIRE(s.out().first_fault == 0);
+  REQUIRE_FALSE(s.out().armed);
+  s.arm();
+  REQUIRE(s.out().armed);
+  s.play();
+}
+
+TEST_CASE("supervisor: over-speed at the limit plus one bit, either way") {
+  Script s;
+  const auto limit = static_cast<std::int32_t>(s.now.words.overspeed);
+  for (const std::int32_t bad : {limit + 1, -limit - 1, std::numeric_limits<std::int32_t>::max(),
+                                 std::numeric_limits<std::int32_t>::min()}) {
+    s.now.velocity = bad > 0 ? limit : -limit;
+    s.arm().ticks(3);
+    REQUIRE(s.out().armed);
+    s.now.velocity = bad;
+    REQUIRE(s.clocks_to_fall(kTick) == 20);  // at the end of wave clock 17
+    REQUIRE(only(s, Fault::speed));
+    REQUIRE(s.out().armed);  // the wave goes on
+    s.until(0);
+    REQUIRE_FALSE(s.out().armed);
+    s.clear().ticks(1);
+    REQUIRE(s.out().faults == bit(Fault::speed));  // the cause stands
+    s.now.velocity = 0;
+    s.clear().clear();
+    REQUIRE(s.out().faults == 0);
+  }
+  s.play();
+}
+
+TEST_CASE("supervisor: running away against the commanded current") {
+  Script s;
+  s.now.words.polarity_ticks = 12;
+  const auto speed = static_cast<std::int32_t>(s.now.words.polarity_speed);
+  const auto current = static_cast<std::int32_t>(s.now.words.polarity_current);
+  for (const int sign : {1, -1}) {
+    const auto set = [&](std::int32_t w, std::int32_t i) {
+      s.now.velocity = sign * w;
+      s.now.current_ref = -sign * i;
+    };
+    // One bit less of either, the other sign, or one tick less: no fault.
+    set(speed, 2 * current);
+    s.arm().ticks(20);
+    set(2 * speed, current);
+    s.ticks(20);
+    set(2 * speed, -2 * current);
+    s.ticks(20);
+    set(0, 2 * current);
+    s.ticks(2);
+    for (int round = 0; round < 3; ++round) {
+      set(speed + 1, current + 1);
+      s.ticks(11);
+      set(speed, current + 1);
+      s.ticks(1);
+    }
+    REQUIRE(s.out().armed);
+    set(speed + 1, current + 1);
+    REQUIRE(s.clocks_to_fall(20 * kTick) == 11 * kTick + 25);  // wave clock 22 of the twelfth
+    REQUIRE(only(s, Fault::polarity));
+    s.clear();
+    s.ticks(30);  // while disarmed nothing is counted
+    REQUIRE(s.out().faults == 0);
+    set(0, 0);
+    s.ticks(2);
+  }
+  s.play();
+}
+
+TEST_CASE("supervisor: a wrong-polarity time beyond the counter is 65536 ticks") {
+  Script s;
+  s.now.words.polarity_ticks = 0x7fffffff;
+  s.now.current_ref = -10 * kAmpere / 4;
+  s.arm();
+  s.now.velocity = 100 * kRadS;
+  s.ticks(65534);
+  REQUIRE(s.clocks_to_fall(2 * kTick) == kTick + 25);
+  REQUIRE(only(s, Fault::polarity));
+  s.play();
+}
+
+TEST_CASE("supervisor: I2t trips when the closed form says") {
+  const double lsb = std::ldexp(1.0, -Design::f.current_estimate.fraction);
+  for (const double volts : {3.0, 6.95, 12.0, -9.5}) {
+    Script s;
+    s.now.voltage = static_cast<std::int32_t>(volts * kVolt);
+    const double current = volts / 0.42;
+    const double nominal = s.now.words.nominal_current_squared / 4.0;
+    const double excess = current * current - nominal;
+    const double budget = 3000.0 * excess + current * current;
+    s.now.words.i2t_budget = static_cast<std::uint32_t>(budget * 4.0);
+    s.arm();
+    // The sum is I^2 after the first armed tick and is compared in the tick after.
+    const std::int64_t clocks = s.clocks_to_fall(4000 * kTick);
+    REQUIRE(only(s, Fault::i2t));
+    REQUIRE((clocks - 22) % kTick == 0);  // wave clock 19
+    const auto ticks = static_cast<double>((clocks - 22) / kTick);
+    // I is one LSB off at most and I^2 loses up to a quarter more.
+    const double error = (3 * lsb * std::fabs(current) + 0.25) / excess * 3000.0 + 2.0;
+    REQUIRE(std::fabs(ticks - 3001.0) <= error);
+    // The heat is not forgotten with the fault: it goes by the nominal square per tick.
+    for (int k = 0; k < 100 && s.out().faults != 0; ++k) s.clear().ticks(1);
+    s.arm();
+    REQUIRE(s.clocks_to_fall(60 * kTick) > 0);
+    REQUIRE(only(s, Fault::i2t));
+    s.now.arm = false;
+    s.now.words.nominal_current_squared = 1U << 18;
+    s.ticks(static_cast<std::int64_t>(budget * 4.0 / (1 << 18)) + 2);
+    s.clear().clear();
+    REQUIRE(s.out().faults == 0);
+    s.play();
+  }
+}
+
+TEST_CASE("supervisor: I2t in integers, on the estimate of voltage and speed") {
+  Script s;
+  s.now.words.nominal_current_squared = 100;
+  s.now.voltage = 5 * kVolt;
+  s.now.velocity = 40 * kRadS;
+  s.ticks(2);
+  const double current = (5.0 - 0.0302 * 40.0) / 0.42;
+  REQUIRE(std::fabs(s.out().current_estimate / 256.0 - current) <= 2.0 / 256.0);
+  const std::int64_t estimate = s.out().current_estimate;
+  const std::int64_t square = estimate * estimate / (1 << 14);
+  for (const int ticks : {1, 2, 3, 100}) {
+    // The largest budget that so many armed ticks reach.
+    s.now.words.i2t_budget = static_cast<std::uint32_t>(square + (ticks - 1) * (square - 100));
+    s.arm();
+    REQUIRE(s.clocks_to_fall(200 * kTick) == ticks * kTick + 22);
+    s.now.words.nominal_current_squared = 1U << 31;  // cold at once, and never below
+    s.ticks(4);
+    s.now.words.nominal_current_squared = 100;
+    s.clear().clear();
+    REQUIRE(s.out().faults == 0);
+  }
+  s.play();
+}
+
+TEST_CASE("supervisor: the I2t sum does not wrap at the largest budget") {
+  Script s;
+  s.now.words.nominal_current_squared = 0;
+  s.now.words.i2t_budget = 0xffffffffU;
+  s.now.words.inverse_resistance = 0x1ffff;
+  s.now.voltage = 31 * kVolt;
+  s.arm();
+  s.ticks(2);
+  const std::int64_t square =
+      std::int64_t{s.out().current_estimate} * s.out().current_estimate / (1 << 14);
+  const std::int64_t ticks = (0xffffffffLL + square - 1) / square;
+  REQUIRE(s.clocks_to_fall(2 * ticks * kTick) > 0);
+  REQUIRE(only(s, Fault::i2t));
+  for (int k = 0; k < 10; ++k) {
+    s.clear().ticks(1);
+    REQUIRE(s.out().faults == bit(Fault::i2t));
+  }
+  s.play();
+}
+
+TEST_CASE("supervisor: the host watchdog sleeps until the first kick and then counts exactly") {
+  Script s;
+  s.now.words.watchdog_ticks = 30;
+  s.arm().ticks(200);
+  REQUIRE(s.out().armed);  // never kicked
+  const auto kick_after = [&s](int ticks) {
+    s.ticks(ticks - 1);
+    s.now.kick = true;
+    s.ticks(1);
+    s.now.kick = false;
+  };
+  for (int k = 0; k < 5; ++k) kick_after(30);
+  REQUIRE(s.out().armed);
+  REQUIRE(s.clocks_to_fall(100 * kTick) == 30 * kTick + 50);  // wave clock 47 of the 31st tick
+  REQUIRE(only(s, Fault::watchdog));
+  s.clear().ticks(100);
+  REQUIRE(s.out().faults == 0);  // only while armed
+  s.arm();
+  REQUIRE(s.clocks_to_fall(100 * kTick) == 30 * kTick + 50);
+  s.clear();
+  s.now.words.watchdog_ticks = 0;
+  s.arm();
+  REQUIRE(s.clocks_to_fall(100 * kTick) == 50);
+  s.play();
+}
+
+TEST_CASE("supervisor: the external stop takes three clocks and stays") {
+  for (int phase = 0; phase < kTick; ++phase) {
+    Script s;
+    s.arm().clocks(phase);
+    s.now.stop = true;
+    s.clocks(1);
+    s.now.stop = false;
+    REQUIRE(s.out().gates_enable);
+    REQUIRE(s.clocks_to_fall(10) == 2);
+    REQUIRE(only(s, Fault::stop));
+    s.ticks(2);
+    REQUIRE(only(s, Fault::stop));
+    s.clear().arm();
+    REQUIRE(s.out().armed);
+    s.play();
+  }
+}
+
+TEST_CASE("supervisor: eight encoder errors trip, one is forgiven every 1024 ticks") {
+  const auto errors = [](Script& s, int n) {
+    s.now.encoder_error = true;
+    s.clocks(n);
+    s.now.encoder_error = false;
+  };
+  Script s;
+  s.arm();
+  errors(s, 7);
+  s.clocks(20);
+  REQUIRE(s.out().armed);
+  errors(s, 1);
+  REQUIRE_FALSE(s.out().gates_enable);
+  REQUIRE(only(s, Fault::encoder));
+  s.clear().arm();
+  errors(s, 7);
+  s.ticks(1024);
+  errors(s, 1);
+  REQUIRE(s.out().gates_enable);
+  errors(s, 1);
+  REQUIRE(only(s, Fault::encoder));
+  s.clear();
+  for (int k = 0; k < 30; ++k) {  // less than one in 1024 ticks: for ever
+    errors(s, 1);
+    s.ticks(1030);
+  }
+  REQUIRE(s.out().faults == 0);
+  s.play();
+}
+
+TEST_CASE("supervisor: the first cause stays, of two at once the lower number") {
+  Script s;
+  s.now.words.i2t_budget = 0;  // trips in every tick
+  s.now.velocity = std::numeric_limits<std::int32_t>::max();
+  s.ticks(1);
+  REQUIRE(s.out().faults == (bit(Fault::speed) | bit(Fault::i2t)));
+  REQUIRE(s.out().first_fault == static_cast<unsigned>(Fault::speed));
+  s.now.encoder_error = true;
+  s.clocks(16);
+  s.now.encoder_error = false;
+  REQUIRE(s.out().faults == (bit(Fault::speed) | bit(Fault::i2t) | bit(Fault::encoder)));
+  REQUIRE(s.out().first_fault == static_cast<unsigned>(Fault::speed));
+  s.now.words.i2t_budget = 1;
+  s.now.velocity = 0;
+  s.clear().clear();
+  REQUIRE(s.out().faults == 0);
+  // The eighth encoder error in wave clock 17, that is clock 19, of an over-speed tick.
+  for (const bool too_fast : {false, true}) {
+    s.arm();
+    s.now.encoder_error = true;
+    s.clocks(7);
+    s.now.encoder_error = false;
+    s.now.velocity = too_fast ? std::numeric_limits<std::int32_t>::min() : 0;
+    s.until(19);
+    REQUIRE(s.out().gates_enable);
+    s.now.encoder_error = true;
+    s.clocks(1);
+    s.now.encoder_error = false;
+    REQUIRE(s.out().faults == (bit(Fault::encoder) | (too_fast ? bit(Fault::speed) : 0)));
+    REQUIRE(s.out().first_fault == static_cast<unsigned>(Fault::encoder));
+    s.now.velocity = 0;
+    s.clear().clear();
+    REQUIRE(s.out().faults == 0);
+  }
+  s.play();
+}
+
+TEST_CASE("supervisor: anything at any time, with and without resets") {
+  std::array<std::int64_t, 8> trips{};
+  std::int64_t armings = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const ResetPlan plan{seed % 2 == 0 ? 20000U : 0U};
+    SupervisorBench bench("supervisor", seed);
+    Watch watch(&trips, &armings);
+    bench.run(RandomCore(seed, plan), scaled_clocks(400000), plan, watch);
+  }
+  // Each cause was the first one often enough, while the motor was armed.
+  for (std::size_t cause = 1; cause <= 6; ++cause) {
+    CAPTURE(cause, trips[cause]);
+    CHECK(trips[cause] >= 20);
+  }
+  CHECK(armings >= 300);
+}
+
+TEST_CASE("supervisor: a tick at once is its clocks one by one") {
+  Random random(3);
+  Script clocked;
+  Twin at_once;
+  at_once.reset();
+  std::int64_t falls = 0;
+  RandomScenario scenario(4);
+  for (int k = 0; k < 60000; ++k) {
+    const Scenario before = clocked.now;
+    clocked.now = scenario.next();
+    clocked.now.stop = clocked.now.encoder_error = false;
+    Twin::Tick tick;
+    tick.voltage_before = k == 0 ? 0 : before.voltage;
+    tick.velocity_before = k == 0 ? 0 : before.velocity;
+    tick.current_ref = k == 0 ? 0 : before.current_ref;
+    tick.velocity = clocked.now.velocity;
+    tick.arm = clocked.now.arm;
+    tick.clear_faults = clocked.now.clear_faults;
+    tick.kick = clocked.now.kick;
+    if (k == 0) {  // lets the synchroniser settle
+      clocked.ticks(1);
+      at_once = clocked.twin();
+      continue;
+    }
+    REQUIRE(at_once.steady(false));
+    const int fell = at_once.tick(clocked.now.words, tick);
+    const bool live = clocked.out().gates_enable;
+    int fell_clocked = -1;
+    for (int c = 0; c < kTick; ++c) {
+      clocked.clocks(1);
+      const bool fault = clocked.out().first_fault != 0;
+      if (live && fell_clocked < 0 && fault && !clocked.out().gates_enable) fell_clocked = c;
+    }
+    falls += fell >= 0 ? 1 : 0;
+    REQUIRE(fell == fell_clocked);
+    REQUIRE(at_once.out().armed == clocked.out().armed);
+    REQUIRE(at_once.out().gates_enable == clocked.out().gates_enable);
+    REQUIRE(at_once.out().faults == clocked.out().faults);
+    REQUIRE(at_once.out().first_fault == clocked.out().first_fault);
+    REQUIRE(at_once.out().current_estimate == clocked.out().current_estimate);
+  }
+  CHECK(falls >= 100);
+}
+
+TEST_CASE("supervisor: the estimate against real arithmetic") {
+  using Exact = feltgate::SupervisorLaw<feltgate::Real<long double>, Design>;
+  using Law = Twin::Law;
+  Random random(6);
+  for (int k = 0; k < 100000; ++k) {
+    using V = feltgate::fixed_of<Design::f.voltage.key()>;
+    using W = feltgate::fixed_of<Design::f.velocity.key()>;
+    using Pv = feltgate::fixed_of<Design::P::inverse_resistance.key()>;
+    using Pw = feltgate::fixed_of<Design::P::emf_over_resistance.key()>;
+    const auto v = V::from_raw(random.between(V::min_raw(), V::max_raw()));
+    const auto w = W::from_raw(random.between(W::min_raw() / 2, W::max_raw() / 2));
+    const auto pv = Pv::from_raw(random.between(0, Pv::max_raw()));
+    const auto pw = Pw::from_raw(random.between(0, Pw::max_raw()));
+    const auto got = Law::current_estimate(v * pv, w * pw);
+    static_assert(decltype(got)::format == Design::f.current_estimate, "");
+    using Real = long double;
+    const Real exact = Exact::current_estimate(Real(v.to_double()) * Real(pv.to_double()),
+                                               Real(w.to_double()) * Real(pw.to_double()));
+    REQUIRE(std::fabs(Real(got.to_double()) - exact) < std::ldexp(Real(1), -8));
+  }
+}

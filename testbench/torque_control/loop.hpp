@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// torque_control and dob in a loop on a blocked lever, and torque_control beside quad precision.
+// Documentation: docs/blocks/torque_control.md
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "feltgate/dob.hpp"
+#include "wave_bus.hpp"
+
+namespace feltgate::test {
+
+inline std::int64_t torque_raw(double newton_metres) {
+  return std::llround(std::ldexp(newton_metres, 16));
+}
+
+/// tick() with the interface of RtlAlone.
+struct TwinAlone {
+  static Control::Out run(const Wave& w) {
+    Step step;
+    tick(step, w);
+    Control::Out out;
+    out.current_ref = step.current.raw();
+    out.voltage = step.voltage.raw();
+    out.duty = step.duty.raw();
+    return out;
+  }
+};
+
+/// The classic mistake: the observer sees the current before its limit.
+struct Unlimited {
+  static Control::Out run(const Wave& w) {
+    Control::Out out = TwinAlone::run(w);
+    Wave free = w;
+    free.words.set(A::current_limit, Current::max_raw());
+    out.current_ref = TwinAlone::run(free).current_ref;
+    return out;
+  }
+};
+
+/// A blocked lever: the observer sees the current of the tick before, the control its tau_hat.
+template <class Driven>
+class Loop {
+ public:
+  Loop() { observer_.reset(); }
+
+  /// tau_hat in Nm after each tick.
+  std::vector<double> run(Wave w, int ticks) {
+    std::vector<double> tau_hat;
+    const auto word = [](int address) { return parameter(address).raw; };
+    using Observer = Dob<Design>;
+    for (int k = 0; k < ticks; ++k) {
+      observer_.tick(w.armed, Current::from_raw(out_.current_ref), Velocity{},
+                     Observer::TorqueConstant::from_raw(word(A::torque_constant)),
+                     Observer::InertiaGain::from_raw(word(A::inertia_gain)),
+                     Observer::A1::from_raw(word(A::observer_a1)));
+      w.tau_hat = observer_.tau_hat().raw();
+      tau_hat.push_back(observer_.tau_hat().to_double());
+      out_ = driven_.run(w);
+    }
+    return tau_hat;
+  }
+  std::int64_t current() const { return out_.current_ref; }
+  std::int64_t voltage() const { return out_.voltage; }
+
+ private:
+  Driven driven_;
+  Dob<Design> observer_;
+  Control::Out out_;
+};
+
+/// Exact parameters for the law in quad precision; the voltage set-point is an input, not a gain.
+struct ExactWords {
+  explicit ExactWords(const Words& words)
+      : setpoint(static_cast<quad>(words.at(A::voltage_setpoint)) * lsb(14)) {}
+  template <int Key>
+  quad get(int address) const {
+    return address == A::voltage_setpoint ? setpoint : static_cast<quad>(parameter(address).si);
+  }
+  quad setpoint;
+};
+
+/// Largest errors of a tick against quad precision, in LSB of 2^-16 A, of 2^-14 V and of a clock,
+/// and the largest bounds that hold for them.
+struct Worst {
+  double current = 0, current_bound = 0, voltage = 0, voltage_bound = 0, duty = 0, duty_bound = 0;
+
+  /// Compares one wave; the text of the bound that does not hold, or nullptr.
+  const char* add(const Wave& w) {
+    Step fixed;
+    tick(fixed, w);
+    TorqueControlStep<Design, Real<quad>> real;
+    const quad tau_ref = exact(Torque::from_raw(w.tau_ref));
+    const quad tau_hat = exact(Torque::from_raw(w.tau_hat));
+    const quad omega = exact(Velocity::from_raw(w.velocity));
+    const ExactWords words(w.words);
+    real.tick(words, w.armed, w.mode, tau_ref, tau_hat, omega);
+
+    const auto off = [](int address) { return coefficient_error(parameter(address)); };
+    const quad ampere = lsb(16), volt = lsb(14);
+    const bool direct = w.mode == Mode::voltage;
+    // A truncated product errs by less than one LSB; a limit by its own quantisation instead.
+    quad i = direct ? off(A::voltage_to_current) * magnitude(words.setpoint) + ampere
+                    : off(A::torque_gain) * magnitude(tau_ref) +
+                          off(A::observer_gain) * magnitude(tau_hat) + 2 * ampere;
+    i = std::max(i, off(A::current_limit));
+    const int gain = real.region_high ? A::voltage_gain_high : A::voltage_gain;
+    const quad dead =
+        std::max(off(A::dead_voltage_slope) * magnitude(tau_ref) + volt, off(A::dead_voltage));
+    quad v = direct
+                 ? quad{0}
+                 : static_cast<quad>(parameter(gain).si) * i + off(gain) * magnitude(real.current) +
+                       volt + off(A::emf_constant) * magnitude(omega) + volt + dead;
+    v = std::max(v, off(A::voltage_limit));
+    const quad d = static_cast<quad>(parameter(A::duty_gain).si) * v +
+                   off(A::duty_gain) * magnitude(real.voltage) + quad{0.5};
+
+    const bool holds =
+        raise(&current, &current_bound, exact(fixed.current) - real.current, i, ampere) &&
+        raise(&voltage, &voltage_bound, exact(fixed.voltage) - real.voltage, v, volt) &&
+        raise(&duty, &duty_bound, exact(fixed.duty) - real.duty, d, 1);
+    if (fixed.region_high != real.region_high) return "region";
+    return holds ? nullptr : "error above its bound";
+  }
+
+ private:
+  static bool raise(double* worst, double* largest, quad error, quad bound, quad unit) {
+    *worst = std::max(*worst, static_cast<double>(magnitude(error) / unit));
+    *largest = std::max(*largest, static_cast<double>(bound / unit));
+    return magnitude(error) <= bound;
+  }
+};
+
+}  // namespace feltgate::test

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// torque_control: RTL against twin on every clock, its law by hand, and its distance from quad
+// precision. The loops through the observer are in loop.hpp. docs/blocks/torque_control.md
+#include "loop.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "catch.hpp"
+#include "random_waves.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+double si(int address) { return parameter(address).si; }
+double volts(std::int64_t raw) { return std::ldexp(static_cast<double>(raw), -14); }
+double amperes(std::int64_t raw) { return std::ldexp(static_cast<double>(raw), -16); }
+
+Wave stall(double tau_ref) {
+  Wave w;
+  w.tau_ref = torque_raw(tau_ref);
+  return w;
+}
+
+}  // namespace
+
+TEST_CASE("torque_control: random waves, words, modes, arming and resets") {
+  Tally t;
+  Bench bench("torque_control", 1);
+  bench.run(Waves(2, 20), scaled_clocks(2000000), {20000}, TickBeside{&t});
+  bench.run(Waves(3, 1), scaled_clocks(1500000), {400}, TickBeside{&t});
+  const auto often = [&t](const std::int64_t count[2], std::int64_t one_in) {
+    return count[0] * one_in > t.waves && count[1] * one_in > t.waves;
+  };
+  INFO("waves " << t.waves << ", limits: current " << t.current[0] << " " << t.current[1]
+                << ", voltage " << t.voltage[0] << " " << t.voltage[1] << ", duty " << t.duty[0]
+                << " " << t.duty[1] << ", on the border " << t.border[0] << " " << t.border[1]);
+  REQUIRE(t.waves > 30000);
+  for (const std::int64_t count : t.modes) REQUIRE(count * 5 > t.waves);
+  REQUIRE(t.disarmed * 10 > t.waves);
+  REQUIRE(often(t.current, 50));
+  REQUIRE(often(t.voltage, 50));
+  REQUIRE(often(t.duty, 100));
+  REQUIRE(often(t.dead, 50));
+  REQUIRE(t.dead_linear * 50 > t.waves);
+  REQUIRE(often(t.border, 50));
+  REQUIRE(often(t.high, 50));
+}
+
+TEST_CASE("torque_control: the region's border belongs to the low gain, one LSB above does not") {
+  RtlAlone rtl;
+  Wave w = stall(0);
+  const std::int64_t border = w.words.at(A::region_torque);
+  for (const std::int64_t sign : {1, -1}) {
+    for (const std::int64_t off : {-1, 0, 1}) {
+      w.tau_ref = sign * (border + off);
+      REQUIRE(rtl.run(w).region_high == (off > 0));
+    }
+  }
+}
+
+TEST_CASE("torque_control: current and voltage of the design, by hand") {
+  RtlAlone rtl;
+  for (const double tau_ref : {0.1, -0.1, 0.2, 0.4, -0.005}) {
+    for (const double omega : {0.0, 20.0, -20.0}) {
+      Wave w = stall(tau_ref);
+      w.tau_hat = torque_raw(0.05);
+      w.velocity = std::llround(std::ldexp(omega, 21));
+      const Control::Out out = rtl.run(w);
+      const double current = kIsPaper ? (0.78336 * tau_ref + 0.21664 * 0.05) / 0.0605  // reading A
+                                      : tau_ref / 0.0302;
+      REQUIRE(std::fabs(amperes(out.current_ref) - current) < 1e-3);
+      const double kv = std::fabs(tau_ref) > 0.15 ? 0.95 : 1.25;
+      // What the bridge's dead time takes (0.5 us of each period), lever's brushes besides.
+      const double lost = kIsPaper ? 0.5e-6 * 20e3 * 24 : 0.5e-6 * 50e3 * 24 + 0.34;
+      const double dead = lost * std::fmax(-1, std::fmin(1, tau_ref / 0.01));
+      const double voltage = (kIsPaper ? kv * current : 0.42 * current + 0.0302 * omega) + dead;
+      REQUIRE(std::fabs(volts(out.voltage) - voltage) < 2e-3);
+      const double duty = voltage / 24 * Design::pwm_period;
+      REQUIRE(std::fabs(static_cast<double>(out.duty) - duty) < 0.8);
+      REQUIRE_FALSE(out.limit.current);
+    }
+  }
+}
+
+TEST_CASE("torque_control: paper's border lets the voltage fall while the torque grows") {
+  if (!kIsPaper) return;
+  RtlAlone rtl;
+  Wave below = stall(0), above = stall(0);
+  below.tau_ref = below.words.at(A::region_torque);
+  above.tau_ref = below.tau_ref + 1;
+  below.tau_hat = above.tau_hat = below.tau_ref;  // the loop has settled
+  const double fall = volts(rtl.run(below).voltage) - volts(rtl.run(above).voltage);
+  REQUIRE(std::fabs(fall - 0.744) < 0.001);          // 3.10 V to 2.36 V
+  REQUIRE(std::fabs(fall * 0.0725 - 0.054) < 5e-4);  // in torque of a 0.0302 Nm/A, 0.42 ohm motor
+}
+
+TEST_CASE("torque_control: voltage mode and disarming") {
+  RtlAlone rtl;
+  Wave w = stall(0.3);
+  w.mode = Mode::voltage;
+  w.tau_hat = torque_raw(0.2);
+  w.velocity = Velocity::max_raw() / 4;
+  for (const double set : {3.0, -3.0, 30.0}) {
+    w.words.set(A::voltage_setpoint, std::llround(std::ldexp(set, 14)));
+    const Control::Out out = rtl.run(w);
+    REQUIRE(volts(out.voltage) == (set > 24 ? 24.0 : set));
+    REQUIRE(out.limit.voltage == (set > 24));
+    const double current = std::fmin(si(A::current_limit), set * si(A::voltage_to_current));
+    REQUIRE(std::fabs(amperes(out.current_ref) - current) < 1e-3);
+  }
+  w.armed = false;
+  const Control::Out out = rtl.run(w);
+  REQUIRE(out.voltage == 0);
+  REQUIRE(out.current_ref == 0);
+  REQUIRE(out.duty == 0);
+  REQUIRE_FALSE(out.limit.voltage);
+}
+
+TEST_CASE("torque_control: distance from quad precision") {
+  Worst worst;
+  RandomWaves random{Random(51)};
+  for (std::int64_t k = 0; k < scaled_clocks(100000); ++k) {
+    Wave w;  // the design's words
+    w.mode = static_cast<Mode>(random.random.below(3));
+    w.tau_ref = random.random.between(-32768, 32768);  // +-0.5 Nm
+    w.tau_hat = random.random.between(-65536, 65536);
+    w.velocity = random.any<Velocity>();
+    w.words.set(A::voltage_setpoint, random.random.between(-393216, 393216));
+    if (const char* broken = worst.add(w)) FAIL(broken << " at wave " << k);
+  }
+  INFO("worst and bound: current "
+       << worst.current << " " << worst.current_bound << " LSB, voltage " << worst.voltage << " "
+       << worst.voltage_bound << " LSB, duty " << worst.duty << " " << worst.duty_bound);
+  REQUIRE(worst.current > worst.current_bound / 4);
+  REQUIRE(worst.current_bound < 16);
+  REQUIRE(worst.voltage > worst.voltage_bound / 8);
+  REQUIRE(worst.voltage_bound < 16);
+  REQUIRE(worst.duty > 0.4);
+  REQUIRE(worst.duty_bound < 1.0);
+}
+
+TEST_CASE("torque_control: with the observer at stall, paper's loop has its pole at 391.68 rad/s") {
+  if (!kIsPaper) return;
+  for (const double tau_ref : {0.1, 0.2, 0.3}) {
+    const Wave w = stall(tau_ref);
+    Loop<TwinAlone> loop;
+    const auto tau_hat = loop.run(w, 40000);
+    const double target = std::ldexp(static_cast<double>(w.tau_ref), -16);
+    // 2 % settling: the last tick outside.
+    std::size_t settled = tau_hat.size();
+    while (std::fabs(tau_hat[settled - 1] / target - 1) <= 0.02) --settled;
+    REQUIRE(std::fabs(static_cast<double>(settled) * 1e-3 / 9.988 - 1) < 0.01);
+    // Pole from the decay between 1 and 5 ms.
+    const double pole = std::log((target - tau_hat[999]) / (target - tau_hat[4999])) / 0.004;
+    REQUIRE(std::fabs(pole / 391.68 - 1) < 0.002);
+    REQUIRE(std::fabs(tau_hat.back() - target) <= std::ldexp(1.0, -16));
+  }
+}
+
+TEST_CASE("torque_control: open loop leaves paper at 78.336 % of the torque, lever at all of it") {
+  Wave w = stall(0.2);
+  w.mode = Mode::open_loop;
+  Loop<TwinAlone> loop;
+  const auto tau_hat = loop.run(w, 40000);
+  const double ratio = tau_hat.back() / std::ldexp(static_cast<double>(w.tau_ref), -16);
+  REQUIRE(std::fabs(ratio - (kIsPaper ? 0.78336 : 1.0)) < 2e-4);
+}
+
+TEST_CASE("torque_control: lever's observer displays, it does not act") {
+  if (kIsPaper) return;
+  RtlAlone rtl;
+  Wave w = stall(0.3);
+  const Control::Out alone = rtl.run(w);
+  w.tau_hat = Torque::max_raw();
+  REQUIRE(rtl.run(w).current_ref == alone.current_ref);
+  REQUIRE(rtl.run(w).duty == alone.duty);
+}
+
+TEST_CASE("torque_control: no wind-up at the current limit") {
+  // Blocked lever, current limit at 0.1 Nm, paper's gains: 0.5 Nm for long, then -0.05.
+  if (!kIsPaper) return;
+  Wave w = stall(0.5);
+  w.words.set(A::current_limit, std::llround(std::ldexp(0.1 / 0.0605, 16)));
+  const auto ticks_until_sign_changes = [&w](auto& loop, int long_ticks) {
+    w.tau_ref = torque_raw(0.5);
+    loop.run(w, long_ticks);
+    REQUIRE(loop.current() > 0);
+    w.tau_ref = torque_raw(-0.05);
+    int ticks = 0;
+    do {
+      loop.run(w, 1);
+      ++ticks;
+    } while (loop.voltage() >= 0 && ticks < 10000);
+    return ticks;
+  };
+  Loop<TwinAlone> twin;
+  REQUIRE(ticks_until_sign_changes(twin, 1000000) == 1);
+  Loop<RtlAlone> rtl;
+  REQUIRE(ticks_until_sign_changes(rtl, 20000) == 1);
+  // The same law with the observer fed what the limit has not yet cut: about 2 ms.
+  Loop<Unlimited> wrong;
+  const int wrong_ticks = ticks_until_sign_changes(wrong, 20000);
+  REQUIRE(wrong_ticks > 1500);
+  REQUIRE(wrong_ticks < 3000);
+}

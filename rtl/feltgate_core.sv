@@ -136,7 +136,8 @@ module feltgate_core #(
   logic signed [31:0] position, index_position;
   logic signed [feltgate_pkg::TRAVEL_BITS-1:0] travel;
   logic [15:0] error_count, rejected_count;
-  logic encoder_error, illegal;
+  logic encoder_error, illegal, unused_index_seen;
+  logic signed [1:0] unused_step;
   quad_decoder u_quad_decoder (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
@@ -149,13 +150,13 @@ module feltgate_core #(
       .clear_error_i(clear_faults),
       .position_o(position),
       .travel_o(travel),
-      .step_o(),
+      .step_o(unused_step),
       .illegal_o(illegal),
       .error_o(encoder_error),
       .error_count_o(error_count),
       .rejected_count_o(rejected_count),
       .index_position_o(index_position),
-      .index_seen_o()
+      .index_seen_o(unused_index_seen)
   );
 
   logic signed [SceneW-1:0] scene_position_q;
@@ -240,7 +241,7 @@ module feltgate_core #(
   );
 
   logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate;
-  logic gates_enable;
+  logic gates_enable, unused_period_start;
   supervisor u_supervisor (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
@@ -276,7 +277,7 @@ module feltgate_core #(
       .gate_a_lo_o(gate_a_lo_o),
       .gate_b_hi_o(gate_b_hi_o),
       .gate_b_lo_o(gate_b_lo_o),
-      .period_start_o(),
+      .period_start_o(unused_period_start),
       .duty_active_o(duty_active_o)
   );
 
@@ -318,7 +319,7 @@ module feltgate_core #(
       4'd0:    operand = OperandW'(velocity_o);
       4'd1:    operand = OperandW'(velocity_operand);
       4'd2:    operand = OperandW'(scene_operand);
-      4'd3:    operand = OperandW'(scene_operand >>> feltgate_pkg::SCENE_OFFSET_F);
+      4'd3:    operand = OperandW'(scene_operand) >>> feltgate_pkg::SCENE_OFFSET_F;
       4'd4:    operand = OperandW'(voltage_o);
       4'd5:    operand = OperandW'(current_ref_o);
       4'd6:    operand = OperandW'(current_estimate);

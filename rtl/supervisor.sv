@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Arms, watches and alone opens the gates. Six causes of fault; a fault is latched and the gates are
-// off one clock after its cause is seen. Estimated current [1,8,8] A, I2t sum [0,31,2] A^2 tick.
-// Documentation: docs/blocks/supervisor.md
+// Arms, watches and alone opens the gates. Six causes of fault; a fault is latched and the gates
+// are off one clock after its cause is seen. Estimated current [1,8,8] A, I2t sum [0,31,2] A^2
+// tick. Documentation: docs/blocks/supervisor.md
 `default_nettype none
 
 module supervisor #(
@@ -83,7 +83,7 @@ module supervisor #(
   end
 
   // One adder compares with the parameter on the bus: unit = param + operand + carry, where the
-  // operand is the complement ~x, that is -x-1, of what is compared (of a signal: its magnitude); so
+  // operand is the complement ~x, that is -x-1, of what is compared (of a signal: its size); so
   // unit < 0 says x >= param, or x > param with the carry. What is only ever compared is kept as a
   // complement. Operands are loaded one clock ahead into registers of which all but one are 0; the
   // sign is looked at one clock later.

@@ -60,8 +60,9 @@ module torque_control #(
 
   // Adder: one product, cut to the sum's binary point, plus what has been kept. Clock 29 passes
   // tau_ref on, so that the limiter compares it with the border in 30.
-  logic signed [Wide-1:0] kept_q, offset_q, sum_q, term, addend;
-  logic                   carry, add;
+  logic signed [    Wide-1:0] kept_q, offset_q, sum_q, term, addend;
+  logic signed [CurrentW-1:0] limited_q;
+  logic                       carry, add;
   assign term = (Wide'(tau_ref_i) & {Wide{wave_i[29]}}) |
                 (Wide'(product_i >>> DirectDrop) & {Wide{wave_i[31]}}) |
                 (Wide'(product_i >>> TauRefDrop) & {Wide{wave_i[32]}}) |
@@ -88,7 +89,6 @@ module torque_control #(
 
   // Limiter: sum_q to [-limit, limit], limit being the word on the bus.
   logic signed [    Wide-1:0] limit, upper_gap, lower_gap;
-  logic signed [CurrentW-1:0] limited_q;
   logic                       above, below;
   assign limit     = Wide'($signed(param_i[CurrentW-1:0]));
   assign upper_gap = limit - sum_q;
@@ -133,8 +133,8 @@ module torque_control #(
   end
 
   logic unused_wave;
-  assign unused_wave = &{wave_i[49:46], wave_i[43:40], wave_i[37], wave_i[34], wave_i[29:28],
-                         wave_i[25], wave_i[23:0], param_i[31:CurrentW], upper_gap[0], lower_gap[0]};
+  assign unused_wave = &{wave_i[49:46], wave_i[43:40], wave_i[37], wave_i[34], wave_i[28],
+                         wave_i[25], wave_i[23:0], param_i[31:CurrentW]};
 endmodule
 
 `default_nettype wire

@@ -18,6 +18,7 @@ from reporting import page, run_section
 from reporting.runs import read_csv
 
 SCHEMA = "feltgate-run-1"
+MOST_ROWS = 60_000  # a picture shows no more
 
 
 def read_summary(path):
@@ -57,16 +58,14 @@ def report(summary, tables):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        prog="feltgate report", description=__doc__.splitlines()[0]
-    )
+    parser = argparse.ArgumentParser(prog="feltgate report", description=__doc__.splitlines()[0])
     parser.add_argument("folder", metavar="DIR", type=Path, help="where report.html is written")
     parser.add_argument("json", metavar="JSON", help="what --json wrote")
     parser.add_argument("csv", metavar="CSV", nargs="*", help="what --csv wrote")
     arguments = parser.parse_args()
     try:
         summary = read_summary(arguments.json)
-        text = report(summary, [read_csv(path) for path in arguments.csv])
+        text = report(summary, [read_csv(path, MOST_ROWS) for path in arguments.csv])
         arguments.folder.mkdir(parents=True, exist_ok=True)
         path = arguments.folder / "report.html"
         path.write_text(text, encoding="utf-8")

@@ -77,6 +77,27 @@ double TomlReader::checked(const toml::node& node, const std::string& key, Range
   return *value;
 }
 
+std::int64_t TomlReader::checked(const toml::node& node, const std::string& key, std::int64_t min,
+                                 std::int64_t max) const {
+  const auto value = node.value<std::int64_t>();
+  if (!node.is_integer() || *value < min || *value > max) {
+    fail(key, "\"" + key + "\" is not an integer of its range",
+         "it must be from " + std::to_string(min) + " to " + std::to_string(max));
+  }
+  return *value;
+}
+
+std::string TomlReader::checked_text(const toml::node& node, const std::string& key) const {
+  if (!node.is_string()) fail(key, "\"" + key + "\" is not a text", "write it in quotes");
+  return *node.value<std::string>();
+}
+
+const toml::array& TomlReader::list(const std::string& key) {
+  const toml::array* array = required(key).as_array();
+  if (array == nullptr) fail(key, "\"" + key + "\" is not an array", "write [a, b, ...]");
+  return *array;
+}
+
 double TomlReader::number(const std::string& key, Range range) {
   return checked(required(key), key, range);
 }
@@ -86,21 +107,20 @@ double TomlReader::number_or(const std::string& key, double fallback, Range rang
 }
 
 std::vector<double> TomlReader::numbers(const std::string& key, Range range) {
-  const toml::array* array = required(key).as_array();
-  if (array == nullptr) fail(key, "\"" + key + "\" is not an array", "write [a, b, ...]");
   std::vector<double> values;
-  for (const toml::node& node : *array) values.push_back(checked(node, key, range));
+  for (const toml::node& node : list(key)) values.push_back(checked(node, key, range));
   return values;
 }
 
 std::int64_t TomlReader::integer(const std::string& key, std::int64_t min, std::int64_t max) {
-  const toml::node& node = required(key);
-  const auto value = node.value<std::int64_t>();
-  if (!node.is_integer() || *value < min || *value > max) {
-    fail(key, "\"" + key + "\" is not an integer of its range",
-         "it must be from " + std::to_string(min) + " to " + std::to_string(max));
-  }
-  return *value;
+  return checked(required(key), key, min, max);
+}
+
+std::vector<std::int64_t> TomlReader::integers(const std::string& key, std::int64_t min,
+                                               std::int64_t max) {
+  std::vector<std::int64_t> values;
+  for (const toml::node& node : list(key)) values.push_back(checked(node, key, min, max));
+  return values;
 }
 
 bool TomlReader::flag(const std::string& key) {
@@ -113,10 +133,12 @@ bool TomlReader::flag_or(const std::string& key, bool fallback) {
   return has(key) ? flag(key) : fallback;
 }
 
-std::string TomlReader::text(const std::string& key) {
-  const toml::node& node = required(key);
-  if (!node.is_string()) fail(key, "\"" + key + "\" is not a text", "write it in quotes");
-  return *node.value<std::string>();
+std::string TomlReader::text(const std::string& key) { return checked_text(required(key), key); }
+
+std::vector<std::string> TomlReader::texts(const std::string& key) {
+  std::vector<std::string> values;
+  for (const toml::node& node : list(key)) values.push_back(checked_text(node, key));
+  return values;
 }
 
 std::size_t TomlReader::choice(const std::string& key, const std::vector<std::string>& choices) {

@@ -47,9 +47,11 @@ class TomlReader {
   double number_or(const std::string& key, double fallback, Range range);
   std::vector<double> numbers(const std::string& key, Range range);
   std::int64_t integer(const std::string& key, std::int64_t min, std::int64_t max);
+  std::vector<std::int64_t> integers(const std::string& key, std::int64_t min, std::int64_t max);
   bool flag(const std::string& key);
   bool flag_or(const std::string& key, bool fallback);
   std::string text(const std::string& key);
+  std::vector<std::string> texts(const std::string& key);
   /// Index of the text under `key` in `choices`; the error lists them.
   std::size_t choice(const std::string& key, const std::vector<std::string>& choices);
   TomlReader section(const std::string& key);
@@ -65,7 +67,11 @@ class TomlReader {
 
  private:
   const toml::node& required(const std::string& key);
+  const toml::array& list(const std::string& key);
   double checked(const toml::node& node, const std::string& key, Range range) const;
+  std::int64_t checked(const toml::node& node, const std::string& key, std::int64_t min,
+                       std::int64_t max) const;
+  std::string checked_text(const toml::node& node, const std::string& key) const;
 
   const toml::table* table_;
   std::string file_;

@@ -4,10 +4,9 @@
 // Reader of rtl/registers.toml. Documentation: docs/registers.md (generated)
 #include "design/registers.hpp"
 
-#include <functional>
 #include <set>
 
-#include "design/toml_reader.hpp"
+#include "config/toml_reader.hpp"
 
 namespace feltgate::design {
 
@@ -20,45 +19,41 @@ int RegisterMap::scene_number(const std::string& name) const {
 
 namespace {
 
-int small(TomlReader& r, const std::string& key, std::int64_t high) {
+int small(config::TomlReader& r, const std::string& key, std::int64_t high) {
   return static_cast<int>(r.integer(key, 0, high));
 }
 
-Parameter read_parameter(TomlReader& r, const RegisterMap& map, std::set<int>& used) {
+Parameter read_parameter(config::TomlReader r, const RegisterMap& map, std::set<int>& used) {
+  static const std::vector<std::string> kinds{"coefficient", "signed", "signal", "counts",
+                                              "integer"};
   Parameter p;
   p.name = r.text("name");
-  p.scene = r.text_or("scene", "");
+  if (r.has("scene")) p.scene = r.text("scene");
   p.slot = small(r, "slot", p.scene.empty() ? 63 : 31);
-  p.kind = r.text("kind");
-  static const std::set<std::string> kinds{"coefficient", "signed", "signal", "counts", "integer"};
-  if (kinds.count(p.kind) == 0) {
-    r.fail("kind", "kind = \"" + p.kind + "\" is unknown; choose coefficient, signed, signal, "
-                   "counts or integer");
-  }
+  p.kind = kinds[r.choice("kind", kinds)];
   if (p.kind == "signal") p.signal = r.text("format");
-  p.same_format_as = r.text_or("same_format_as", "");
+  if (r.has("same_format_as")) p.same_format_as = r.text("same_format_as");
   p.unit = r.text("unit");
   p.doc = r.text("doc");
   p.address = p.slot;
   if (!p.scene.empty()) {
     const int number = map.scene_number(p.scene);
-    if (number < 2) r.fail("scene", "scene \"" + p.scene + "\" has no bank; list it under [[scene]]");
+    if (number < 2) r.fail("scene", "scene \"" + p.scene + "\" has no bank", "list it under [[scene]]");
     p.address += 32 * number;
   }
   if (!used.insert(p.address).second) {
-    r.fail("slot", p.name + " shares its address with another parameter; choose a free slot");
+    r.fail("slot", p.name + " shares its address with another parameter", "choose a free slot");
   }
   r.finish();
   return p;
 }
 
-Control read_control(const std::string& path, TomlReader& r) {
+Control read_control(config::TomlReader r) {
   Control c;
   c.name = r.text("name");
   c.address = small(r, "address", 0x2ff);
   c.doc = r.text("doc");
-  for (const toml::node& node : r.array("fields")) {
-    TomlReader f(path, c.name, *node.as_table());
+  for (config::TomlReader& f : r.sections("fields")) {
     Field field;
     field.name = f.text("name");
     field.bit = small(f, "bit", 31);
@@ -74,26 +69,22 @@ Control read_control(const std::string& path, TomlReader& r) {
 }  // namespace
 
 RegisterMap read_registers(const std::string& path) {
-  const toml::table root = parse_toml(path);
-  TomlReader top(path, "", root);
+  const toml::table root = config::parse_toml_file(path);
+  config::TomlReader top(root, path, "the register map");
   RegisterMap map;
-  const auto each = [&](const char* key, const std::function<void(TomlReader&)>& use) {
-    for (const toml::node& node : top.array(key)) {
-      TomlReader r(path, key, *node.as_table());
-      use(r);
-    }
-  };
-  each("scene", [&](TomlReader& r) {
+  for (config::TomlReader& r : top.sections("scene")) {
     map.scenes.push_back({r.text("name"), small(r, "number", 15)});
     r.finish();
-  });
+  }
   std::set<int> used;
-  each("parameter", [&](TomlReader& r) { map.parameters.push_back(read_parameter(r, map, used)); });
-  each("control", [&](TomlReader& r) { map.controls.push_back(read_control(path, r)); });
-  each("snapshot", [&](TomlReader& r) {
+  for (config::TomlReader& r : top.sections("parameter")) {
+    map.parameters.push_back(read_parameter(r, map, used));
+  }
+  for (config::TomlReader& r : top.sections("control")) map.controls.push_back(read_control(r));
+  for (config::TomlReader& r : top.sections("snapshot")) {
     map.snapshots.push_back({r.text("name"), small(r, "slot", 63), r.text("doc")});
     r.finish();
-  });
+  }
   top.finish();
   return map;
 }

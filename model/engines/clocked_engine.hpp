@@ -77,6 +77,7 @@ class ClockedEngine : public Engine {
     snapshots_.clear();
     gates_ = {};
     last_ = {};
+    reg_addr_ = 0;
     reset_core(seed, pins);
   }
   void set_panel(const Panel& panel) override { panel_ = panel; }
@@ -96,24 +97,33 @@ class ClockedEngine : public Engine {
     snapshots_.clear();
     gates_ = {};
     events_.push(first, last);
-    CoreIn in;
-    in.arm = panel_.arm;
-    in.stop = panel_.stop;
-    in.scene = panel_.scene;
-    in.reg_addr = reg_addr_;
+    CoreIn in = inputs();
     int clock_of_tick = static_cast<int>(now_ % info_.clocks_per_tick);
     for (const Clock end = now_ + clocks; now_ < end; ++now_) {
       in.encoder = events_.at(now_);
       in.reg_write = false;
       if (clock_of_tick == WriteQueue::issue_clock && !writes_.empty()) {
-        const auto w = writes_.pop();
-        in.reg_addr = reg_addr_ = w.first;
-        in.reg_wdata = w.second;
-        in.reg_write = true;
+        issue_write(&in);
       }
       if (++clock_of_tick == info_.clocks_per_tick) clock_of_tick = 0;
       each(in);
     }
+  }
+
+  /// What holds between events: panel and the address last used.
+  CoreIn inputs() const {
+    CoreIn in;
+    in.arm = panel_.arm;
+    in.stop = panel_.stop;
+    in.scene = panel_.scene;
+    in.reg_addr = reg_addr_;
+    return in;
+  }
+  void issue_write(CoreIn* in) {
+    const auto w = writes_.pop();
+    in->reg_addr = reg_addr_ = w.first;
+    in->reg_wdata = w.second;
+    in->reg_write = true;
   }
 
   /// Takes note of the outputs after a clock.

@@ -35,16 +35,16 @@ struct Snapshot {
 };
 
 /// Bits of Snapshot::limits: which limit holds the torque now.
-enum Limit : std::uint8_t {
-  limit_torque = 1,        ///< torque reference at its limit
-  limit_ramp = 2,          ///< ramping after arming or a change of scene
-  limit_current = 4,
-  limit_voltage = 8,
-  limit_duty = 16,
-  limit_velocity = 32,     ///< the raw velocity saturated its format
-  limit_tau_hat = 64,      ///< tau_hat saturated its format
-  limit_gates_closed = 128
-};
+namespace limit {
+constexpr unsigned torque = 1;         ///< torque reference at its limit
+constexpr unsigned ramp = 2;           ///< ramping after arming or a change of scene
+constexpr unsigned current = 4;
+constexpr unsigned voltage = 8;
+constexpr unsigned duty = 16;
+constexpr unsigned velocity = 32;      ///< the raw velocity saturated its format
+constexpr unsigned tau_hat = 64;       ///< tau_hat saturated its format
+constexpr unsigned gates_closed = 128;
+}  // namespace limit
 
 /// Switches and pins of the board.
 struct Panel {

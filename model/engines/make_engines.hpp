@@ -41,12 +41,36 @@ class TwinEngine : public ClockedEngine {
  public:
   TwinEngine() : ClockedEngine(design_info<D>()) {}
   const char* name() const override { return "twin"; }
+
+  /// From event to event: pins, register writes and the end of the stretch.
   void advance(Clock clocks, const EncoderEvent* first, const EncoderEvent* last) override {
-    run(clocks, first, last, [this](const CoreIn& in) {
-      core_.clock(in);
-      note(core_.out());
-      if (last_.snapshot_valid) keep(last_, core_.sampled_travel(), core_.writes());
-    });
+    snapshots_.clear();
+    events_.push(first, last);
+    const auto before = core_.gate_clocks();
+    const auto tell = [this] { keep(core_.out(), core_.sampled_travel(), core_.writes()); };
+    CoreIn in = inputs();
+    for (const Clock end = now_ + clocks; now_ < end;) {
+      in.encoder = events_.at(now_);
+      const int clock_of_tick = static_cast<int>(now_ % D::clocks_per_tick);
+      if (!writes_.empty() && clock_of_tick == WriteQueue::issue_clock) {
+        issue_write(&in);
+        core_.clock(in);
+        if (core_.out().snapshot_valid) tell();
+        in.reg_write = false;
+        ++now_;
+        continue;
+      }
+      Clock until = std::min(end, events_.next(end));
+      if (!writes_.empty()) {
+        const int ahead = WriteQueue::issue_clock - clock_of_tick;
+        until = std::min(until, now_ + (ahead > 0 ? ahead : ahead + D::clocks_per_tick));
+      }
+      core_.run(in, until - now_, tell);
+      now_ = until;
+    }
+    const auto& after = core_.gate_clocks();
+    gates_ = {after[0] - before[0], after[1] - before[1], after[2] - before[2], after[3] - before[3]};
+    last_ = core_.out();
   }
 
  private:

@@ -33,6 +33,7 @@ class RtlCore {
   /// A new chip: registers filled with random bits of `seed`, four clocks of reset.
   void power_up(std::uint64_t seed, EncoderPins pins) {
     close_trace();
+    rtl_.reset();  // before its context
     context_ = std::make_unique<VerilatedContext>();
     context_->randReset(2);
     context_->randSeed(static_cast<int>(seed % 0x7ffffffeU) + 1);

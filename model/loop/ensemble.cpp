@@ -82,7 +82,7 @@ void Ensemble::ride(const Snapshot& s) {
       for (Rider& r : riders_) r.chain->set_parameter(w.address, w.value);
     }
   }
-  lead_figures_.saturations += (s.limits & 0x7f & ~limit_ramp) != 0 ? 1 : 0;
+  lead_figures_.saturations += (s.limits & ~(limit::ramp | limit::gates_closed)) != 0 ? 1 : 0;
   if (riders_.empty()) return;
   const int mode = static_cast<int>((applied_control_ >> design().control.mode) & 3u);
   const ChainIn in{s.position, s.travel, s.armed, s.scene, mode};

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "config/toml_reader.hpp"
 #include "loop/ensemble.hpp"
 #include "plant/period_mean.hpp"
 #include "plant/plant.hpp"
-#include "config/toml_reader.hpp"
 #include "traces/statistics.hpp"
 
 namespace feltgate {

@@ -7,14 +7,13 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "config/toml_reader.hpp"
 #include "plant/hand_file.hpp"
 #include "plant/plant_file.hpp"
-#include "config/toml_reader.hpp"
 
 namespace feltgate {
 
 namespace {
-
 
 const std::vector<std::string> kModes{"closed_loop", "open_loop", "voltage"};
 

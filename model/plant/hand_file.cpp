@@ -87,15 +87,19 @@ Impedance read_impedance(config::TomlReader& table) {
   i.mass_kg = table.number_or("mass_kg", i.mass_kg, config::kPositive);
   i.damping_ns_m = table.number_or("damping_ns_m", i.damping_ns_m, config::kNotNegative);
   i.stiffness_n_m = table.number_or("stiffness_n_m", i.stiffness_n_m, config::kNotNegative);
-  i.grip_stiffness_n_m = table.number_or("grip_stiffness_n_m", i.grip_stiffness_n_m, config::kNotNegative);
-  i.grip_damping_ns_m = table.number_or("grip_damping_ns_m", i.grip_damping_ns_m, config::kNotNegative);
+  i.grip_stiffness_n_m =
+      table.number_or("grip_stiffness_n_m", i.grip_stiffness_n_m, config::kNotNegative);
+  i.grip_damping_ns_m =
+      table.number_or("grip_damping_ns_m", i.grip_damping_ns_m, config::kNotNegative);
   return i;
 }
 
 Cord read_cord(config::TomlReader& table) {
   Cord cord;
-  cord.stiffness_nm_rad = table.number_or("stiffness_nm_rad", cord.stiffness_nm_rad, config::kNotNegative);
-  cord.damping_nm_s_rad = table.number_or("damping_nm_s_rad", cord.damping_nm_s_rad, config::kNotNegative);
+  cord.stiffness_nm_rad =
+      table.number_or("stiffness_nm_rad", cord.stiffness_nm_rad, config::kNotNegative);
+  cord.damping_nm_s_rad =
+      table.number_or("damping_nm_s_rad", cord.damping_nm_s_rad, config::kNotNegative);
   return cord;
 }
 
@@ -153,8 +157,10 @@ Trace read_trace_file(const std::string& path) {
       if (end >= line.size() || line[end] != ',') throw config::ConfigError("no comma");
       const std::string second = line.substr(end + 1);
       const double theta_rad = std::stod(second, &end);
-      if (end < second.size() && second[end] != '\r') throw config::ConfigError("more than two columns");
-      if (!std::isfinite(time_s) || !std::isfinite(theta_rad)) throw config::ConfigError("not finite");
+      if (end < second.size() && second[end] != '\r')
+        throw config::ConfigError("more than two columns");
+      if (!std::isfinite(time_s) || !std::isfinite(theta_rad))
+        throw config::ConfigError("not finite");
       trace.time_s.push_back(time_s);
       trace.theta_rad.push_back(theta_rad);
     } catch (const std::exception&) {

@@ -4,8 +4,8 @@
 // Reads the [hand] table of a scene. Documentation: docs/plant.md
 #pragma once
 
-#include "plant/hand.hpp"
 #include "config/toml_reader.hpp"
+#include "plant/hand.hpp"
 
 namespace feltgate::plant {
 

@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "plant/parameters.hpp"
 #include "config/toml_reader.hpp"
+#include "plant/parameters.hpp"
 
 namespace feltgate::plant {
 

@@ -5,8 +5,8 @@
 from html import escape
 
 STYLE = """
-:root{color-scheme:light dark;--back:#fff;--text:#1d2329;--soft:#5a6570;--line:#d8dee4;--tint:#f4f6f8;
---good:#116329;--good-back:#dcf5e3;--bad:#a40e26;--bad-back:#ffe3e3;--link:#0550ae}
+:root{color-scheme:light dark;--back:#fff;--text:#1d2329;--soft:#5a6570;--line:#d8dee4;
+--tint:#f4f6f8;--good:#116329;--good-back:#dcf5e3;--bad:#a40e26;--bad-back:#ffe3e3;--link:#0550ae}
 @media(prefers-color-scheme:dark){:root{--back:#15191e;--text:#e4e9ee;--soft:#9aa6b2;--line:#343c45;
 --tint:#1e242b;--good:#6fdd8b;--good-back:#12301c;--bad:#ff9492;--bad-back:#3d1418;--link:#6cb6ff}}
 *{box-sizing:border-box}
@@ -24,9 +24,10 @@ p,ul{max-width:46rem}
 .verdict ul{font-weight:400;margin:.4rem 0 0;padding-left:1.2rem}
 .scroll{overflow-x:auto;margin:.6rem 0}
 table{border-collapse:collapse;font-size:.85rem;font-variant-numeric:tabular-nums}
-th,td{padding:.25rem .6rem;border-bottom:1px solid var(--line);text-align:right;white-space:nowrap}
-th{background:var(--tint);font-weight:600;vertical-align:bottom}
-th:first-child,td:first-child,.words{text-align:left}
+th,td{padding:.25rem .5rem;border-bottom:1px solid var(--line);text-align:right;white-space:nowrap}
+th{background:var(--tint);font-weight:600;vertical-align:bottom;white-space:normal;line-height:1.25}
+th:first-child,td:first-child,th.words,td.words{text-align:left}
+td:first-child{position:sticky;left:0;background:var(--back)}
 td.words,th.words{white-space:normal;min-width:9rem}
 .pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,26rem),1fr));gap:.8rem}
 figure{margin:0;break-inside:avoid}
@@ -110,7 +111,8 @@ def pictures(drawn):
     for picture in drawn:
         caption = f"<figcaption>{escape(picture.caption)}</figcaption>" if picture.caption else ""
         alternative = escape(picture.caption or picture.name, quote=True)
-        items.append(f'<figure><img src="{picture.data_uri()}" alt="{alternative}">{caption}</figure>')
+        image = f'<img src="{picture.data_uri()}" alt="{alternative}">'
+        items.append(f"<figure>{image}{caption}</figure>")
     return '<div class="pictures">' + "\n".join(items) + "</div>" if items else ""
 
 
@@ -133,8 +135,11 @@ def number(value, digits=3):
         return "0"
     size = abs(value)
     if size >= 1000:
-        return f"{value:,.0f}"
-    if size < 1e-6:
-        return f"{value:.{digits - 1}e}"
-    text = f"{value:#.{digits}g}"
-    return text.rstrip(".") if "e" not in text else f"{value:.6f}".rstrip("0")
+        text = f"{size:,.0f}"
+    elif size < 1e-6:
+        text = f"{size:.{digits - 1}e}"
+    elif size < 1e-4:  # where 'g' would turn to an exponent
+        text = f"{size:.8f}".rstrip("0")
+    else:
+        text = f"{size:#.{digits}g}".rstrip(".")
+    return "−" + text if value < 0 else text

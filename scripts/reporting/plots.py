@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """The look of every picture: one colour per source of a curve, small enough for a phone.
 
-RTL is a broad blue line and the quad reference a thin orange one over it, so that both show where
-they agree. Documentation: docs/figures.md
+RTL is a broad pale line and the quad reference a thin dark one over it, so that both show where they
+agree. Documentation: docs/figures.md
 """
 
 import base64
@@ -17,22 +17,22 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-# Okabe and Ito's colours: told apart by colour-blind eyes too.
+# Near Okabe and Ito's colours: told apart by colour-blind eyes too.
 COLOURS = {
-    "rtl": "#0072b2",
-    "quad": "#e69f00",
-    "ideal": "#333333",
-    "motor": "#009e73",
-    "hand": "#cc5fa0",
+    "rtl": "#6db8ec",
+    "quad": "#b23a00",
+    "ideal": "#1d2329",
+    "motor": "#008a64",
+    "hand": "#b04a8b",
     "reference": "#8c96a0",
     "fault": "#d55e00",
-    "paper": "#d55e00",
+    "paper": "#7d4bb5",
 }
 STYLES = {
-    "rtl": {"linewidth": 2.6, "alpha": 0.75, "solid_capstyle": "round"},
+    "rtl": {"linewidth": 3.0, "solid_capstyle": "round"},
     "quad": {"linewidth": 1.0, "zorder": 3},
-    "ideal": {"linewidth": 1.0, "linestyle": (0, (4, 3)), "zorder": 4},
-    "motor": {"linewidth": 1.1},
+    "ideal": {"linewidth": 1.0, "linestyle": (0, (5, 6)), "zorder": 4},
+    "motor": {"linewidth": 1.0, "zorder": 1.5},
     "hand": {"linewidth": 1.1},
     "reference": {"linewidth": 1.4},
     "paper": {"linewidth": 1.1, "linestyle": ":"},
@@ -105,7 +105,7 @@ def finish(figure, name, caption="", png=False):
     figure.savefig(svg, format="svg", metadata={"Date": None, "Creator": "feltgate"})
     # The prologue is of no use inside a page; coordinates need no six decimals.
     text = svg.getvalue()[svg.getvalue().index("<svg") :]
-    text = re.sub(r"(?<=[\s\"MLCQ-])(\d+\.\d{2})\d+", r"\1", text)
+    text = re.sub(r' d="[^"]*"', lambda d: re.sub(r"(\.\d\d)\d+", r"\1", d[0]), text)
     picture = Picture(name, caption, text)
     if png:
         raster = io.BytesIO()
@@ -115,7 +115,7 @@ def finish(figure, name, caption="", png=False):
 
 
 def thinned(x, y, points=POINTS):
-    """The line through the smallest and largest value of each of `points` slices of x: peaks stay."""
+    """Only the smallest and largest value of each of `points` slices of x: peaks stay."""
     if len(x) <= 2 * points:
         return x, y
     edges = np.linspace(0, len(x), points + 1).astype(int)
@@ -152,6 +152,11 @@ def legend(axes, columns=None):
         columnspacing=1.0,
         handletextpad=0.5,
     )
+
+
+def sentence(text):
+    """With a capital at the start, the rest as it is."""
+    return text[:1].upper() + text[1:]
 
 
 def at_least(axes, span):

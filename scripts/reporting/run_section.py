@@ -38,10 +38,11 @@ def mark_faults(axes, time, faults):
     """Shades the time in which a fault was latched."""
     if not np.any(faults):
         return
+    since, colour = time[np.argmax(faults > 0)], plots.COLOURS["fault"]
     for axis in axes:
-        axis.axvspan(time[np.argmax(faults > 0)], time[-1], color=plots.COLOURS["fault"], alpha=0.08)
-    axes[0].annotate("fault latched", (time[np.argmax(faults > 0)], 0.9), color=plots.COLOURS["fault"],
-                     xycoords=("data", "axes fraction"), fontsize=8)
+        axis.axvspan(since, time[-1], color=colour, alpha=0.08)
+    where = ("data", "axes fraction")
+    axes[0].annotate("fault latched", (since, 0.9), xycoords=where, color=colour, fontsize=8)
 
 
 def motion_picture(name, summary, csv):
@@ -97,12 +98,12 @@ def difference_picture(name, summary, csv):
     )
     for axis, (signal, error) in zip(axes, rows):
         unit = lsb(summary["design"], signal)
-        plots.draw(axis, time, error / unit, "rtl", "", linewidth=0.8, alpha=1.0)
+        plots.draw(axis, time, error / unit, "rtl", "", linewidth=0.7, color="#2f7fb8")
         axis.set_ylabel({"torque": "observed\ntorque"}.get(signal, signal))
         plots.at_least(axis, 2.0)
-        exponent = round(np.log2(unit))
-        name_of_unit = {"velocity": "rad/s", "torque": "Nm", "current": "A"}[signal]
-        axis.set_title(f"1 = 2^{exponent} {name_of_unit}", loc="right", fontsize=7.5, color="#5a6570")
+        si = {"velocity": "rad/s", "torque": "Nm", "current": "A"}[signal]
+        place = f"1 = 2^{round(np.log2(unit))} {si}"
+        axis.set_title(place, loc="right", fontsize=7.5, color="#5a6570")
     axes[-1].set_xlabel(label)
     return plots.finish(figure, f"{name}-difference")
 
@@ -165,8 +166,17 @@ def error_cells(engine, key, scale):
 
 
 def engine_table(summary):
-    head = ["engine", "velocity, max µrad/s", "rms", "observed torque, max µNm", "rms",
-            "torque, max µNm", "rms", "saturated ticks", "speed, s/s"]
+    head = [
+        "engine",
+        "velocity, max µrad/s",
+        "rms",
+        "observed torque, max µNm",
+        "rms",
+        "torque, max µNm",
+        "rms",
+        "saturated ticks",
+        "speed, s/s",
+    ]
     rows = []
     for name in ENGINES:
         engine = summary["engines"].get(name)
@@ -210,11 +220,11 @@ def step_table(summary):
 def faults_of(summary):
     """Everything that makes a run wrong, one line each."""
     count = summary.get("mismatches", 0)
-    found = [f"{subject(summary)}, {summary['design']}: {count:,} mismatches"] if count else []
-    return found + [
-        f"{subject(summary)}, {summary['design']}: {text}"
-        for text in summary.get("expectations", {}).get("broken", [])
-    ]
+    texts = [f"{count:,} mismatches"] if count else []
+    if "first_mismatch" in summary:
+        texts[-1:] = [f"{count:,} mismatches, the first: {summary['first_mismatch']}"]
+    texts += summary.get("expectations", {}).get("broken", [])
+    return [f"{subject(summary)}, {summary['design']}: {text}" for text in texts]
 
 
 def inside(summary, drawn):

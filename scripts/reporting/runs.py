@@ -14,6 +14,7 @@ import tomllib
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -28,7 +29,7 @@ def build_folder():
 
 def program():
     """Path of the built program; a mistake here is the caller's to report."""
-    path = build_folder() / "feltgate"
+    path = Path(os.environ.get("FELTGATE_PROGRAM") or build_folder() / "feltgate")
     if not os.access(path, os.X_OK):
         raise FileNotFoundError(f"{path}: not built; start it through ./feltgate, which builds it")
     return path
@@ -48,14 +49,22 @@ def scene_file(name):
     return read_toml(SCENES / f"{name}.toml")
 
 
-def read_csv(path):
-    """{column: array} of a run's CSV. Raises ValueError, one line, for a file that is not one."""
+def read_csv(path, most_rows=None):
+    """{column: array} of a run's CSV; of a longer one than most_rows only every so many rows.
+
+    Raises ValueError, one line, for a file that is not one.
+    """
     with open(path, encoding="utf-8") as file:
         names = file.readline().strip().split(",")
         if "time_s" not in names:
             raise ValueError(f"{path}:1: no column time_s; give a CSV written by feltgate --csv")
+        start, stride = file.tell(), 1
+        if most_rows:
+            length = max(1, len(file.readline()))
+            stride = 1 + int(os.path.getsize(path) / length / most_rows)
+            file.seek(start)
         try:
-            rows = np.loadtxt(file, delimiter=",", ndmin=2)
+            rows = np.loadtxt(islice(file, 0, None, stride), delimiter=",", ndmin=2)
         except ValueError as error:
             raise ValueError(f"{path}: {error}") from None
     if rows.shape[0] == 0 or rows.shape[1] != len(names):

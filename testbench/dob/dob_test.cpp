@@ -166,7 +166,7 @@ TEST_CASE("dob: distance from quad precision") {
     if (random.one_in(2000)) target = random.between(-max_velocity, max_velocity);
     wave.velocity += (target - wave.velocity) / 512;
     tick(twin, wave);
-    REQUIRE_FALSE(twin.out().saturated);
+    if (twin.out().saturated) FAIL("saturated at wave " << k);
     const quad drive =
         Law::drive(si(Design::A::torque_constant) * exact(Current::from_raw(wave.current)));
     const quad inertia =

@@ -113,8 +113,8 @@ TEST_CASE("errors of a plant file say file, line, what and mend", "[plant_file]"
 
 TEST_CASE("a scene overrides single effects", "[plant_file]") {
   const toml::table table = toml::parse("[effects]\nsupply_limit = true\nlugre = false\n");
-  const Effects effects = read_effects(config::TomlReader(table, "s.toml", "the file").section("effects"),
-                                       shipped("p24").effects);
+  const Effects effects = read_effects(
+      config::TomlReader(table, "s.toml", "the file").section("effects"), shipped("p24").effects);
   CHECK(effects.supply_limit);
   CHECK_FALSE(effects.lugre);
   CHECK(effects.inductance);

@@ -37,7 +37,7 @@ TEST_CASE("registers: after configuration the RAM holds the design's values") {
   for (std::uint8_t scene = 0; scene < 16; ++scene) {
     host.scene = scene;
     for (int slot = 0; slot < 48; ++slot) {
-      const bool of_scene = ((0x5c4e >> slot) & 1) != 0 && slot < 16;
+      const bool of_scene = slot < 16 && ((0x5c4e >> slot) & 1) != 0;
       const int address = of_scene ? scene * 32 + slot : slot;
       REQUIRE(host.bus(slot) == host.twin().parameter(address));
     }
@@ -159,7 +159,7 @@ TEST_CASE("registers: a snapshot is of one tick, and a frozen one stays") {
   host.until(0);
   for (int round = 0; round < 40; ++round) {
     // Following: a word is of the last whole tick when its address has stood for three clocks.
-    host.until(random.below(kLast));
+    host.until(static_cast<int>(random.below(kLast)));
     for (int k = 0; k < 20; ++k) {
       host.until(3 + static_cast<int>(random.below(kLast - 7)));
       REQUIRE(tick_read(static_cast<int>(random.below(47))) == host.tick() - 1);

@@ -83,8 +83,10 @@ def run(options):
     if paper:
         tau_hat = low_pass(reference, dt, 391.68)
         current = (0.78336 * reference + 0.21664 * tau_hat) / constant
-        low, high = (dict(options.set).get(k, v) for k, v in
-                     (("voltage_gain", 1.25), ("voltage_gain_high", 0.95)))
+        low, high = (
+            dict(options.set).get(k, v)
+            for k, v in (("voltage_gain", 1.25), ("voltage_gain_high", 0.95))
+        )
         voltage = np.where(np.abs(reference) > 0.15, float(high), float(low)) * current
     else:
         current = reference / constant
@@ -104,10 +106,16 @@ def run(options):
     data |= {"quad_velocity_rad_s": velocity + noise / 10, "quad_tau_hat_nm": tau_hat + noise}
     data |= {"quad_current_a": current + noise}
     steps = [
-        {"tau_ref_nm": e["step_nm"], "tau_hat_settling_ms": 9.99 if paper else 7.8,
-         "torque_settling_ms": 6.6 if paper else 0.77, "overshoot_pct": 0.1,
-         "final_error_pct": 4.8 if paper else -0.1, "tau_hat_final_error_pct": 0.001}
-        for e in scene.get("event", []) if "step_nm" in e
+        {
+            "tau_ref_nm": e["step_nm"],
+            "tau_hat_settling_ms": 9.99 if paper else 7.8,
+            "torque_settling_ms": 6.6 if paper else 0.77,
+            "overshoot_pct": 0.1,
+            "final_error_pct": 4.8 if paper else -0.1,
+            "tau_hat_final_error_pct": 0.001,
+        }
+        for e in scene.get("event", [])
+        if "step_nm" in e
     ]
     return data, steps
 
@@ -121,8 +129,12 @@ def replay(options):
     data = dict.fromkeys(COLUMNS, np.zeros_like(time))
     theta = np.round(np.sin(12 * time) / COUNT_RAD) * COUNT_RAD
     velocity = low_pass(12 * np.cos(12 * time), dt, 500)
-    return data | {"time_s": time, "position_rad": theta, "velocity_rad_s": velocity,
-                   "quad_velocity_rad_s": velocity}
+    return data | {
+        "time_s": time,
+        "position_rad": theta,
+        "velocity_rad_s": velocity,
+        "quad_velocity_rad_s": velocity,
+    }
 
 
 def summary(options, data, steps):
@@ -136,14 +148,24 @@ def summary(options, data, steps):
         if steps and name == "rtl":
             engine |= {"step_responses": steps, "ripple_nm": 1e-4}
         engines[name] = engine
-    out = {"schema": "feltgate-run-1", "version": "0.0.0-fake", "design": options.design,
-           "simulated_s": length, "clocks": round(length * 5e7), "ticks": round(length * 1e6),
-           "mismatches": mismatches, "position": {"steps": 42, "illegal": 0, "reversals": 3},
-           "engines": engines}
+    out = {
+        "schema": "feltgate-run-1",
+        "version": "0.0.0-fake",
+        "design": options.design,
+        "simulated_s": length,
+        "clocks": round(length * 5e7),
+        "ticks": round(length * 1e6),
+        "mismatches": mismatches,
+        "position": {"steps": 42, "illegal": 0, "reversals": 3},
+        "engines": engines,
+    }
     if options.command == "run":
         broken = ["mismatches = 1 is outside its bounds"] if mismatches else []
-        return out | {"scene": options.subject, "plant": options.plant or "p24",
-                      "expectations": {"checked": 3, "broken": broken}}
+        return out | {
+            "scene": options.subject,
+            "plant": options.plant or "p24",
+            "expectations": {"checked": 3, "broken": broken},
+        }
     return out | {"trace": Path(options.subject).name, "probes": options.probes or ""}
 
 
@@ -151,8 +173,21 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("command", choices=["run", "replay"])
     parser.add_argument("subject")
-    for name in ("plant", "engine", "json", "csv", "probes", "step", "dir", "time-column",
-                 "count-column", "scale", "scene", "seed", "seconds"):
+    for name in (
+        "plant",
+        "engine",
+        "json",
+        "csv",
+        "probes",
+        "step",
+        "dir",
+        "time-column",
+        "count-column",
+        "scale",
+        "scene",
+        "seed",
+        "seconds",
+    ):
         parser.add_argument(f"--{name}")
     parser.add_argument("--design", default="lever")
     parser.add_argument("--every", type=int, default=1)

@@ -57,6 +57,11 @@ struct SupervisorAdapter {
 };
 using SupervisorBench = LockStep<Vsupervisor, Twin, SupervisorAdapter>;
 
+inline bool same(const Twin::Out& a, const Twin::Out& b) {
+  return a.current_estimate == b.current_estimate && a.armed == b.armed &&
+         a.gates_enable == b.gates_enable && a.faults == b.faults && a.first_fault == b.first_fault;
+}
+
 /// What the core would do around the supervisor from now on.
 struct Scenario {
   bool arm = false;
@@ -162,6 +167,13 @@ class Script {
   Script& until(int c) {
     const int left = c - clock_of_tick();
     return clocks(left > 0 ? left : left + Design::clocks_per_tick);
+  }
+  /// n clocks with an illegal transition each.
+  Script& errors(std::int64_t n) {
+    now.encoder_error = true;
+    clocks(n);
+    now.encoder_error = false;
+    return *this;
   }
   /// The request falls, rises, and a tick ends: armed, if all is well.
   Script& arm() {

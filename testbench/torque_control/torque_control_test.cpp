@@ -75,9 +75,8 @@ TEST_CASE("torque_control: current and voltage of the design, by hand") {
                                       : tau_ref / 0.0302;
       REQUIRE(std::fabs(amperes(out.current_ref) - current) < 1e-3);
       const double kv = std::fabs(tau_ref) > 0.15 ? 0.95 : 1.25;
-      // What the bridge's dead time takes (0.5 us of each period), lever's brushes besides.
-      const double lost = kIsPaper ? 0.5e-6 * 20e3 * 24 : 0.5e-6 * 50e3 * 24 + 0.34;
-      const double dead = lost * std::fmax(-1, std::fmin(1, tau_ref / 0.01));
+      // Brushes and dead time of the bridge: constant, but linear below 10 mNm.
+      const double dead = si(A::dead_voltage) * std::fmax(-1, std::fmin(1, tau_ref / 0.01));
       const double voltage = (kIsPaper ? kv * current : 0.42 * current + 0.0302 * omega) + dead;
       REQUIRE(std::fabs(volts(out.voltage) - voltage) < 2e-3);
       const double duty = voltage / 24 * Design::pwm_period;

@@ -7,6 +7,8 @@
 // Documentation: docs/blocks/feltgate_core.md
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "feltgate/dob.hpp"
@@ -60,7 +62,10 @@ class FeltgateCore {
   using In = CoreIn;
   using Out = CoreOut;
 
-  FeltgateCore() { reset(); }
+  FeltgateCore() {
+    reset();
+    note_supervisor_words();
+  }
 
   /// The parameter RAM keeps its words, as in the RTL.
   void reset() {
@@ -79,6 +84,7 @@ class FeltgateCore {
     zero_pending_ = false;
     flags_ = {};
     writes_ = 0;
+    gate_clocks_ = {};
     out_ = Out{};
   }
 
@@ -118,9 +124,10 @@ class FeltgateCore {
       sup.product = estimate * estimate;
     }
     const bool gates_before = supervisor_.out().gates_enable;
-    clock_pwm(gates_before, control);
+    pwm_.clock(pwm_inputs(gates_before, control));
     supervisor_.clock(sup);
-    clock_decoder(in, control, zero, clear);
+    const QuadDecoder::In d = decoder_inputs(in, control, zero, clear);
+    if (!decoder_.settled(d)) decoder_.clock(d);
 
     wave_clock(t, position, travel);
 
@@ -133,6 +140,7 @@ class FeltgateCore {
         ++writes_;
         if (pending_address_ < 512) {
           words_.set_raw(pending_address_, registers_.parameter(pending_address_));
+          note_supervisor_words();
         }
       }
     }
@@ -140,9 +148,30 @@ class FeltgateCore {
     zero_pending_ = in.set_zero || (zero_pending_ && !tick);
     sequencer_.clock({});
     show(t);
+    count_gates(1);
+  }
+
+  /// `clocks` clocks with the inputs held; reg_write and set_zero must be low. The same as so many
+  /// calls of clock(), a whole tick at a time where nothing but the tick itself happens.
+  /// `on_snapshot()` is called whenever out() holds a valid snapshot.
+  template <class OnSnapshot>
+  void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
+    while (clocks > 0) {
+      if (clocks >= D::clocks_per_tick && can_skip(in)) {
+        clocks -= D::clocks_per_tick;
+        // Only the last snapshots of a stretch can ever be read back.
+        skip_tick(in, clocks < 3 * D::clocks_per_tick, on_snapshot);
+      } else {
+        clock(in);
+        if (out_.snapshot_valid) on_snapshot();
+        --clocks;
+      }
+    }
   }
 
   const Out& out() const { return out_; }
+  /// Clocks since reset for which each gate was on: a_hi, a_lo, b_hi, b_lo.
+  const std::array<std::int64_t, 4>& gate_clocks() const { return gate_clocks_; }
   /// Free-running count that the running wave started from.
   std::int16_t sampled_travel() const { return sampled_travel_; }
   /// Register writes carried out so far.
@@ -153,6 +182,15 @@ class FeltgateCore {
  private:
   static bool bit(std::uint32_t word, int n) { return ((word >> n) & 1u) != 0; }
   static std::int64_t factor(std::uint32_t param) { return param & 0x1ffffu; }
+
+  void note_supervisor_words() {
+    using A = typename D::A;
+    const auto word = [this](int address) { return registers_.parameter(address); };
+    supervisor_words_ = {word(A::inverse_resistance), word(A::emf_over_resistance),
+                         word(A::nominal_current_squared), word(A::overspeed), word(A::i2t_budget),
+                         word(A::polarity_speed), word(A::polarity_current), word(A::polarity_ticks),
+                         word(A::watchdog_ticks)};
+  }
 
   /// The laws at the clocks in which the RTL shows their results.
   void wave_clock(int t, std::int32_t position, std::int16_t travel) {
@@ -256,7 +294,7 @@ class FeltgateCore {
            out_.faults;
   }
 
-  void clock_decoder(const In& in, std::uint32_t control, bool zero, bool clear) {
+  QuadDecoder::In decoder_inputs(const In& in, std::uint32_t control, bool zero, bool clear) const {
     QuadDecoder::In d;
     d.a = in.encoder.a;
     d.b = in.encoder.b;
@@ -265,16 +303,120 @@ class FeltgateCore {
     d.polarity = bit(control, D::C::control_encoder_polarity);
     d.set_zero = zero;
     d.clear_error = clear;
-    if (!decoder_.settled(d)) decoder_.clock(d);
+    return d;
   }
 
-  void clock_pwm(bool enable, std::uint32_t control) {
+  Pwm::In pwm_inputs(bool enable, std::uint32_t control) const {
     Pwm::In p;
     p.enable = enable;
     p.mode = bit(control, D::C::control_pwm_mode);
     p.polarity = bit(control, D::C::control_motor_polarity);
     p.duty = out_.duty;
-    pwm_.clock(p);
+    return p;
+  }
+
+  void count_gates(int clocks) {
+    for (std::size_t g = 0; g < gate_clocks_.size(); ++g) {
+      if (((out_.gates >> g) & 1u) != 0) gate_clocks_[g] += clocks;
+    }
+  }
+
+  /// At the start of a tick with nothing under way that is not the tick's own.
+  bool can_skip(const In& in) const {
+    return sequencer_.clock_of_tick() == 0 && sequencer_.out().tick_count != 0 &&
+           !registers_.out().reg_busy && !zero_pending_ && supervisor_.steady(in.stop) &&
+           decoder_.settled(decoder_inputs(in, registers_.out().control, false, false));
+  }
+
+  /// One whole tick from its first clock.
+  template <class OnSnapshot>
+  void skip_tick(const In& in, bool keep_words, OnSnapshot&& on_snapshot) {
+    const std::uint32_t control = registers_.out().control;
+    const bool host = bit(control, D::C::control_host);
+    const bool enabled = out_.gates_enable;
+    const auto keep = [&](int t) {
+      if (keep_words) registers_.write_snapshot(t, snapshot_word(t));
+    };
+    typename Supervisor<D>::Tick sup;
+    sup.voltage_before = out_.voltage;
+    sup.velocity_before = static_cast<std::int32_t>(out_.velocity);
+    sup.current_ref = out_.current_ref;
+    sup.arm = host ? bit(control, D::C::control_arm) : in.arm;
+
+    out_.snapshot_valid = false;
+    keep(0);
+    wave_clock(0, decoder_.out().position, static_cast<std::int16_t>(decoder_.out().travel));
+    keep(1);
+    keep(2);
+    wave_clock(2, 0, 0);
+    wave_clock(8, 0, 0);
+    sup.velocity = static_cast<std::int32_t>(out_.velocity);
+    // Every cause is seen by wave clock 46, so the snapshot shows it; the gates fall in clock `fell`.
+    const int fell = supervisor_.tick(supervisor_words_, sup);
+    for (const int t : {9, 11, 14}) keep(t);
+    wave_clock(22, 0, 0);
+    keep(23);
+    wave_clock(24, 0, 0);
+    wave_clock(25, 0, 0);
+    wave_clock(27, 0, 0);
+    keep(28);
+    wave_clock(33, 0, 0);
+    keep(34);
+    wave_clock(39, 0, 0);
+    keep(40);
+    const int open_clocks = !enabled ? 0 : fell < 0 ? D::clocks_per_tick : fell + 1;
+    advance_pwm(0, 48, open_clocks, control);
+    wave_clock(45, 0, 0);
+    keep(46);
+    out_.faults = supervisor_.out().faults;
+    out_.first_fault = supervisor_.out().first_fault;
+    out_.gates_enable = enabled && fell < 0;
+    show_limits();
+    out_.snapshot_valid = true;
+    on_snapshot();
+    out_.snapshot_valid = false;
+    advance_pwm(48, D::clocks_per_tick - 1, open_clocks, control);
+    // The last clock of the tick: arming, scene, counters.
+    pwm_.clock(pwm_inputs(out_.gates_enable, control));
+    registers_.skip_tick(in.reg_addr);
+    out_.scene = static_cast<std::uint8_t>(host ? (control >> D::C::control_scene) & 15u : in.scene);
+    sequencer_.skip_ticks(1);
+    show(D::clocks_per_tick - 3);
+    count_gates(1);
+  }
+
+  /// Clocks [from, to) of a tick whose gates are open in its first `open` clocks.
+  void advance_pwm(int from, int to, int open, std::uint32_t control) {
+    while (from < to) {
+      const Pwm::In p = pwm_inputs(from < open, control);
+      // Up to where the enable changes; what the gates show after a clock is the next one's enable.
+      const int end = from < open - 1 ? std::min(to, open - 1) : from < open ? from + 1 : to;
+      const int quiet = std::min(end - from, pwm_.quiet_clocks(p));
+      if (quiet > 0) {
+        pwm_.skip(quiet);
+        from += quiet;
+        out_.gates = gate_bits(from < open);
+        count_gates(quiet);
+      } else {
+        pwm_.clock(p);
+        ++from;
+        out_.gates = gate_bits(from < open);
+        count_gates(1);
+      }
+    }
+  }
+
+  std::uint8_t gate_bits(bool enable) const {
+    Pwm::In p;
+    p.enable = enable;
+    const Pwm::Out g = pwm_.peek(p);
+    return static_cast<std::uint8_t>(g.gate_a_hi | g.gate_a_lo << 1 | g.gate_b_hi << 2 | g.gate_b_lo << 3);
+  }
+
+  void show_limits() {
+    out_.limits = static_cast<std::uint8_t>(
+        flags_.torque | flags_.ramp << 1 | flags_.control.current << 2 | flags_.control.voltage << 3 |
+        flags_.control.duty << 4 | flags_.velocity << 5 | flags_.tau_hat << 6 | !out_.gates_enable << 7);
   }
 
   /// Outputs after the edge; `t` was the clock of the wave before it.
@@ -287,14 +429,9 @@ class FeltgateCore {
     out_.reg_rdata = registers_.out().reg_rdata;
     out_.reg_busy = registers_.out().reg_busy;
     out_.snapshot_valid = t == 46;
-    Pwm::In p;
-    p.enable = out_.gates_enable;
-    const Pwm::Out g = pwm_.peek(p);
-    out_.duty_active = g.duty_active;
-    out_.gates = static_cast<std::uint8_t>(g.gate_a_hi | g.gate_a_lo << 1 | g.gate_b_hi << 2 | g.gate_b_lo << 3);
-    out_.limits = static_cast<std::uint8_t>(
-        flags_.torque | flags_.ramp << 1 | flags_.control.current << 2 | flags_.control.voltage << 3 |
-        flags_.control.duty << 4 | flags_.velocity << 5 | flags_.tau_hat << 6 | !out_.gates_enable << 7);
+    out_.duty_active = pwm_.out().duty_active;
+    out_.gates = gate_bits(out_.gates_enable);
+    show_limits();
   }
 
   struct Flags {
@@ -310,6 +447,7 @@ class FeltgateCore {
   Scenes<D> scenes_;
   TorqueControlStep<D, Fixed> control_;
   Supervisor<D> supervisor_;
+  typename Supervisor<D>::Words supervisor_words_;
   Pwm pwm_{D::pwm_period, D::dead_clocks};
   Words<D, Fixed> words_;
   std::int64_t operand_v_ = 0, operand_w_ = 0;
@@ -319,6 +457,7 @@ class FeltgateCore {
   bool zero_pending_ = false;
   Flags flags_;
   std::int64_t writes_ = 0;
+  std::array<std::int64_t, 4> gate_clocks_{};
   Out out_;
 };
 

@@ -1,0 +1,176 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""The main job: every scene in closed loop and every recording whole, through RTL and twin.
+
+Writes demo.html (one file, pictures inside, no network) and demo.json, and prints the page's path
+last. Ends with 1 when anything mismatched or an expectation broke, after listing it.
+Documentation: docs/figures.md
+"""
+
+import argparse
+import json
+import os
+import sys
+import time
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+
+from reporting import all_figures, demo_page, recordings, run_section, runs
+from reporting.progress import Progress, clock_text
+
+SCHEMA = "feltgate-demo-1"
+DESIGNS = ("lever", "paper")
+# Velocity alone would leave half of the core idle: the damper makes torque of it.
+REPLAY_SCENE = "damper"
+
+
+def scene_jobs():
+    """Every scene on lever; those in which the published design teaches something on paper too."""
+    names = sorted(path.stem for path in runs.SCENES.glob("*.toml"))
+    on_paper = [n for n in names if n.startswith(("torque_step", "calibration_"))]
+    return [runs.scene_job(n) for n in names] + [runs.scene_job(n, "paper") for n in on_paper]
+
+
+def all_jobs(scenes, replays, figures):
+    """Each run once: figures use the runs of the scenes, with the finer rows of the two."""
+    jobs = {job.name: job for job in scenes + replays}
+    for job in figures:
+        if job.name not in jobs or job.every < jobs[job.name].every:
+            jobs[job.name] = job
+    return list(jobs.values())
+
+
+def find_recordings(named):
+    """(recordings, complaints, where they lie). Without any: those of the project itself."""
+    where = recordings.folder(named)
+    found, complaints = recordings.find(where) if where.is_dir() else ([], [])
+    if found:
+        return found, complaints, where
+    print(recordings.SOURCES, file=sys.stderr)
+    own, more = recordings.find(recordings.OWN)
+    return own, complaints + more, recordings.OWN
+
+
+def draw_run(run):
+    return run_section.pictures(run.job.name, run.summary, run.csv)
+
+
+def faults(found):
+    lines = []
+    for run in found.values():
+        if run.ran:
+            lines += run_section.faults_of(run.summary)
+        elif run.job.recording is None:
+            lines.append(f"{run.job.name}: {run.complaint}")
+        if run.job.recording is not None:
+            lines += recordings.faults(run)
+    return lines
+
+
+def write(folder, demo):
+    """demo.json and demo.html; the path of the page."""
+    summary = {
+        "schema": SCHEMA,
+        "took_s": round(demo.took_s, 1),
+        "cores": os.cpu_count(),
+        "simulated_s": demo.simulated_s,
+        "clocks": demo.clocks,
+        "mismatches": demo.mismatches,
+        "broken": demo.wrong,
+        "unreadable": demo.unreadable,
+        "runs": {name: run.summary for name, run in demo.runs.items() if run.ran},
+        "figures": [figure.summary() for figure in demo.figures],
+    }
+    text = json.dumps(summary, indent=1, ensure_ascii=False)
+    (folder / "demo.json").write_text(text + "\n", encoding="utf-8")
+    path = folder / "demo.html"
+    path.write_text(demo_page.document(demo), encoding="utf-8")
+    return path
+
+
+def arguments_of(argv):
+    parser = argparse.ArgumentParser(
+        prog="feltgate demo",
+        description="Every scene in closed loop and every recording whole, through RTL and twin in "
+        "lock-step; one HTML report. Under ten minutes on two cores.",
+        epilog="Without recordings it says where public ones are to be had.",
+    )
+    parser.add_argument(
+        "--traces", metavar="DIR", help="recordings; default: FELTGATE_TRACES, ../shared/traces"
+    )
+    parser.add_argument("--out", type=Path, metavar="DIR", help="default: demo in the build folder")
+    parser.add_argument("--jobs", type=int, metavar="N", help="runs at a time; default: all cores")
+    parser.add_argument(
+        "--no-figures", action="store_true", help="leave out the runs that only the figures need"
+    )
+    arguments = parser.parse_args(argv)
+    if arguments.traces and not Path(arguments.traces).is_dir():
+        parser.error(f"--traces {arguments.traces}: no such folder")
+    if arguments.jobs is not None and arguments.jobs < 1:
+        parser.error("--jobs: at least 1")
+    return arguments
+
+
+def main(argv=None):
+    arguments = arguments_of(argv)
+    folder = (arguments.out or runs.build_folder() / "demo").resolve()
+    began = time.monotonic()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        found, unreadable, where = find_recordings(arguments.traces)
+        scenes = scene_jobs()
+        replays = [recordings.job(r, i, "lever", REPLAY_SCENE) for i, r in enumerate(found, 1)]
+        figures = [] if arguments.no_figures else all_figures.jobs(DESIGNS)
+        jobs = all_jobs(scenes, replays, figures)
+        total = sum(job.seconds for job in jobs)
+        print(
+            f"demo: {len(scenes)} scenes, {len(replays)} recordings in {where}, "
+            f"{len(jobs) - len(scenes) - len(replays)} more runs for the figures; {total:.0f} s of "
+            "device time",
+            file=sys.stderr,
+        )
+        with Progress(jobs) as progress:
+            done = runs.run_all(jobs, folder / "data", progress, arguments.jobs)
+        unreadable += [
+            f"{r.job.recording.title}: {r.complaint}"
+            for r in done.values()
+            if not r.ran and r.job.recording and not r.job.recording.sure
+        ]
+        drawn = [] if arguments.no_figures else all_figures.draw(done, DESIGNS)
+        shown = [job.name for job in scenes + replays if done[job.name].ran]
+        with ProcessPoolExecutor(arguments.jobs) as pool:
+            pictures = dict(zip(shown, pool.map(draw_run, [done[name] for name in shown])))
+        demo = demo_page.Demo(
+            runs=done,
+            scenes=[job.name for job in scenes],
+            replays=[job.name for job in replays],
+            pictures=pictures,
+            figures=drawn,
+            wrong=faults(done),
+            unreadable=unreadable,
+            where=where,
+            own=where == recordings.OWN,
+            took_s=time.monotonic() - began,
+        )
+        path = write(folder, demo)
+    except OSError as error:
+        print(f"demo: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("demo: interrupted", file=sys.stderr)
+        return 130
+    for line in demo.unreadable:
+        print(f"demo: could not read {line}", file=sys.stderr)
+    for line in demo.wrong:
+        print(f"demo: {line}", file=sys.stderr)
+    print(
+        f"demo: {demo.mismatches:,} mismatches in {demo.clocks:,} clocks, {len(demo.wrong)} things "
+        f"wrong, {clock_text(demo.took_s)} min"
+    )
+    print(path)
+    return 1 if demo.wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Redraws the paper's figures 7, 10, 11, 14, 16, 17, 19, 21 and 22 from runs of the RTL.
+
+Each has the float reference and the ideal curve in it, and beside it what the paper says and what
+came out. Writes figures.html (pictures inside), figures.json, and each picture as SVG and PNG.
+Documentation: docs/figures.md
+"""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+from reporting import all_figures, page, runs, run_section
+from reporting.progress import Progress
+
+SCHEMA = "feltgate-figures-1"
+DESIGNS = ("lever", "paper")
+INTRODUCTION = (
+    "The figures of A. G. Rodríguez Ramírez, M. Nandayapa, O. O. Vergara Villegas and F. García "
+    "Luna, “Haptic Augmentation Towards a Smart Learning Environment: The Haptic Lever Design”, "
+    "IEEE Access, redrawn from this project's RTL. The paper's curves were measured on a device; "
+    "ours are a simulation of the core, cycle by cycle, on a modelled motor, lever and hand. Design "
+    "paper has the published numbers; lever has the constants of the motor that is really there."
+)
+LEGEND = (
+    "In every picture: broad pale blue is the RTL, thin dark red the same chain in 113-bit floating "
+    "point on the same counts, dashed black the ideal, green the torque of the modelled motor."
+)
+
+
+def faults(found):
+    """What went wrong in {name: Run}, one line each."""
+    lines = []
+    for run in found.values():
+        if run.ran:
+            lines += run_section.faults_of(run.summary)
+        else:
+            lines.append(f"{run.job.name}: {run.complaint}")
+    return lines
+
+
+def write(folder, drawn, found):
+    """Pictures, figures.json and figures.html; the path of the page."""
+    for figure in drawn:
+        for picture in figure.pictures:
+            picture.write(folder)
+    wrong = faults(found)
+    clocks = sum(run.summary.get("clocks", 0) for run in found.values())
+    mismatches = sum(run.mismatches for run in found.values())
+    summary = {
+        "schema": SCHEMA,
+        "clocks": clocks,
+        "mismatches": mismatches,
+        "broken": wrong,
+        "figures": [figure.summary() for figure in drawn],
+    }
+    (folder / "figures.json").write_text(
+        json.dumps(summary, indent=1, ensure_ascii=False) + "\n", encoding="utf-8"
+    )
+    body = "<h1>The Haptic Lever's figures, redrawn from RTL</h1>"
+    body += page.verdict(wrong, f"0 mismatches between RTL and twin in {clocks:,} clocks")
+    body += page.paragraph(INTRODUCTION) + page.paragraph(LEGEND)
+    body += "".join(figure.html() for figure in drawn)
+    path = folder / "figures.html"
+    path.write_text(page.document("feltgate: figures of the paper", body), encoding="utf-8")
+    return path
+
+
+def main():
+    parser = argparse.ArgumentParser(
+        prog="feltgate figures",
+        description="Redraws the figures of the Haptic Lever paper from runs of the RTL.",
+    )
+    parser.add_argument(
+        "--out", type=Path, metavar="DIR", help="default: figures in the build folder"
+    )
+    parser.add_argument("--design", choices=DESIGNS, help="only this design; default: both")
+    arguments = parser.parse_args()
+    folder = (arguments.out or runs.build_folder() / "figures").resolve()
+    designs = (arguments.design,) if arguments.design else DESIGNS
+    jobs = all_figures.jobs(designs)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with Progress(jobs) as progress:
+            found = runs.run_all(jobs, folder / "data", progress)
+        drawn = all_figures.draw(found, designs, png=True)
+        path = write(folder, drawn, found)
+    except OSError as error:
+        print(f"figures: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        return 130
+    wrong = faults(found)
+    for line in wrong:
+        print(f"figures: {line}", file=sys.stderr)
+    print(path)
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

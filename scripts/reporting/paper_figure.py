@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""One figure of the paper redrawn: pictures, a table of what the paper says beside what came out,
+notes on what cannot be the same. Documentation: docs/figures.md
+"""
+
+from dataclasses import dataclass, field
+
+from reporting import page
+
+
+@dataclass
+class Row:
+    """One quantity. The key carries the unit and is the name in figures.json."""
+
+    key: str
+    what: str
+    published: str = ""
+    values: dict = field(default_factory=dict)  # column: number
+
+
+@dataclass
+class PaperFigure:
+    number: int
+    title: str
+    said: str
+    columns: list
+    rows: list = field(default_factory=list)
+    pictures: list = field(default_factory=list)
+    notes: list = field(default_factory=list)
+
+    def add(self, key, what, published="", **values):
+        """One row; columns are named by keyword, and None means that there is no such value."""
+        present = {k: float(v) for k, v in values.items() if v is not None}
+        self.rows.append(Row(key, what, published, present))
+
+    def name(self):
+        return f"figure-{self.number:02d}"
+
+    def html(self):
+        used = [c for c in self.columns if any(c[0] in row.values for row in self.rows)]
+        head = ["quantity", "the paper"] + [title for _, title in used]
+        rows = [
+            [row.what, row.published or "–"] + [page.number(row.values.get(key)) for key, _ in used]
+            for row in self.rows
+        ]
+        inside = page.paragraph(f"The paper: {self.said}") + page.pictures(self.pictures)
+        inside += page.table(head, rows, words=(0, 1)) + page.bullets(self.notes)
+        return page.section(self.name(), f"Figure {self.number}: {self.title}", inside)
+
+    def summary(self):
+        """For figures.json."""
+        numbers = {}
+        for row in self.rows:
+            entry = dict(row.values)
+            if row.published:
+                entry["published"] = row.published
+            numbers[row.key] = entry
+        return {
+            "figure": self.number,
+            "title": self.title,
+            "paper_says": self.said,
+            "numbers": numbers,
+            "notes": self.notes,
+            "pictures": [p.name for p in self.pictures],
+        }

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Runs Yosys and nextpnr for `feltgate synth`: the recipe, and nothing about tables.
+
+Both tools may be YoWASP's (WebAssembly from PyPI), which sees /tmp as a folder of its own and loses
+its log after ABC has run; so every run happens inside one working folder, with relative names, and
+results come back in files.
+"""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+DEVICE = ("--85k", "--package", "CABGA381", "--speed", "6")
+TARGET_MHZ = 200
+
+
+class ToolError(Exception):
+    """A tool that is missing or has failed; the message is for the user."""
+
+
+def find(name):
+    """YoWASP's tool in the venv or on PATH, else Debian's; None when there is neither."""
+    folders = os.environ.get("PATH", "")
+    if "FELTGATE_VENV" in os.environ:
+        folders = os.path.join(os.environ["FELTGATE_VENV"], "bin") + os.pathsep + folders
+    return shutil.which(f"yowasp-{name}", path=folders) or shutil.which(name, path=folders)
+
+
+def version(tool):
+    """First line of a tool's --version, shortened to name and number."""
+    if tool is None:
+        return "none"
+    done = subprocess.run([tool, "--version"], capture_output=True, text=True, check=False)
+    text = (done.stdout + done.stderr).strip().splitlines()
+    number = re.search(r"\d+\.\d+(\.\d+)*", text[0] if text else "")
+    name = Path(tool).name
+    return f"{name} {number.group(0)}" if number else name
+
+
+class Tools:
+    """The tools of one run and the folder in which they work."""
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        self.yosys = find("yosys")
+        self.nextpnr = find("nextpnr-ecp5")
+        if self.yosys is None:
+            raise ToolError("no Yosys: run ./feltgate synth, which fetches it, or install yosys")
+
+    def is_wasm(self):
+        return Path(self.yosys).name.startswith("yowasp")
+
+    def run_yosys(self, name, script, outputs):
+        """Runs a script; its log is NAME.log. Fails unless every output was written."""
+        for output in outputs:
+            (self.folder / output).unlink(missing_ok=True)
+        (self.folder / f"{name}.ys").write_text("\n".join(script) + "\n", encoding="utf-8")
+        self.run([self.yosys, "-s", f"{name}.ys"], name, outputs)
+
+    def run(self, command, name, outputs):
+        log = self.folder / f"{name}.log"
+        with log.open("wb") as file:
+            done = subprocess.run(
+                command, cwd=self.folder, stdout=file, stderr=subprocess.STDOUT, check=False
+            )
+        missing = [output for output in outputs if not (self.folder / output).exists()]
+        if done.returncode or missing:
+            tail = log.read_text(encoding="utf-8", errors="replace").splitlines()[-5:]
+            raise ToolError("\n".join([f"{command[0]} failed; the whole log: {log}", *tail]))
+
+    def synthesize_ecp5(self, name, top, read):
+        """Synthesizes TOP; returns its cell counts. NAME.json is what nextpnr takes.
+
+        abc9 maps the LUTs (the only way in current Yosys, an option in 0.23), without the PFU's
+        wide multiplexers, which take two LUTs where ABC finds one. opt_merge then removes the
+        reset inverters that Yosys 0.23 writes once per flip-flop.
+        """
+        option = "" if self.is_wasm() else " -abc9"
+        script = [
+            *read,
+            f"synth_ecp5 -top {top} -nowidelut{option} -run begin:check",
+            "opt_merge -share_all",
+            "opt_clean",
+            f"tee -q -o {name}.stat stat -json -top {top}",
+            f"write_rtlil {name}.il",
+        ]
+        self.run_yosys(name, script, [f"{name}.stat", f"{name}.il"])
+        return cell_counts(self.folder / f"{name}.stat")
+
+    def write_netlist(self, name):
+        """NAME.il as NAME.json, for nextpnr. A run of its own: see above on ABC and the log."""
+        script = [f"read_rtlil {name}.il", "autoname", "blackbox =A:whitebox"]
+        self.run_yosys(f"{name}_json", [*script, f"write_json {name}.json"], [f"{name}.json"])
+
+    def route(self, name, seed):
+        """Places and routes NAME.json; returns nextpnr's report."""
+        report = f"{name}_{seed}.report"
+        (self.folder / report).unlink(missing_ok=True)
+        command = [self.nextpnr, *DEVICE, "--freq", str(TARGET_MHZ), "--timing-allow-fail"]
+        command += ["--seed", str(seed), "--json", f"{name}.json", "--report", report]
+        self.run([*command, "--lpf-allow-unconstrained", "-q"], f"{name}_{seed}", [report])
+        return json.loads((self.folder / report).read_text(encoding="utf-8"))
+
+    def ports(self, top, read):
+        """(name, direction, width) of every port of TOP."""
+        name = f"{top}_ports"
+        script = [*read, f"hierarchy -top {top}", "proc", f"write_json {name}.json"]
+        self.run_yosys(name, script, [f"{name}.json"])
+        modules = json.loads((self.folder / f"{name}.json").read_text(encoding="utf-8"))["modules"]
+        found = next(m for m in modules.values() if int(m["attributes"].get("top", "0"), 2))
+        return [(n, p["direction"], len(p["bits"])) for n, p in found["ports"].items()]
+
+    def synthesize_cyclone(self, name, top, read):
+        """Cell counts for Cyclone IV E: not fitted, 18 x 18 products as black boxes."""
+        script = [
+            "read_verilog -lib cyclone_cells.v",
+            *read,
+            f"hierarchy -check -top {top}",
+            "proc",
+            "flatten",
+            "opt",
+            "wreduce",
+            "techmap -map +/mul2dsp.v -D DSP_A_MAXWIDTH=18 -D DSP_B_MAXWIDTH=18 "
+            "-D DSP_A_MINWIDTH=5 -D DSP_B_MINWIDTH=5 -D DSP_NAME=$__MUL18X18",
+            "techmap -map cyclone_mult.v",
+            "delete t:$meminit t:$meminit_v2",  # Yosys' map of M9K has no place for contents
+            "opt_clean",
+            f"synth_intel -family cycloneive -top {top} -run begin:vqm",
+            "opt_clean",
+            f"tee -q -o {name}.stat stat -json -top {top}",
+        ]
+        (self.folder / "cyclone_mult.v").write_text(CYCLONE_MULT, encoding="utf-8")
+        (self.folder / "cyclone_cells.v").write_text(CYCLONE_CELLS, encoding="utf-8")
+        self.run_yosys(name, script, [f"{name}.stat"])
+        return cell_counts(self.folder / f"{name}.stat")
+
+
+# mul2dsp writes $__MUL18X18. The cell is counted only, so it needs no contents.
+CYCLONE_CELLS = """(* blackbox *)
+module cycloneive_mult18 (input [17:0] A, input [17:0] B, output [35:0] Y);
+endmodule
+"""
+CYCLONE_MULT = """module \\$__MUL18X18 (input [17:0] A, input [17:0] B, output [35:0] Y);
+  parameter A_WIDTH = 18, B_WIDTH = 18, Y_WIDTH = 36, A_SIGNED = 0, B_SIGNED = 0;
+  cycloneive_mult18 _TECHMAP_REPLACE_ (.A(A), .B(B), .Y(Y));
+endmodule
+"""
+
+
+def cell_counts(path):
+    text = path.read_text(encoding="utf-8")
+    found = json.loads(text[text.index("{") :])
+    design = found.get("design") or next(iter(found["modules"].values()))
+    return design["num_cells_by_type"]

@@ -10,7 +10,7 @@
 `default_nettype none
 
 module scene_charge #(
-    parameter int Defect = 0  // 1: divider one iteration short, 2: x = 0 not saturated, 3: sign at x = 0, 4: core border inclusive on one side, 5: core repels when it attracts, 6: distance wraps
+    parameter int Defect = 0  // 1: divider one iteration short, 2: x = 0 not saturated, 3: sign at x = 0, 4: core border inclusive on one side, 5: core repels when it attracts, 6: distance wraps, 7: quotient wraps
 ) (
     input  logic                                             clk_i,
     input  logic                                             rst_ni,
@@ -81,7 +81,7 @@ module scene_charge #(
   end
   assign huge         = square_q[34:32] != '0;
   assign difference   = {1'b0, remainder_q, bring} - {1'b0, square_q[31:0]};
-  assign fits         = !difference[32] && !huge;
+  assign fits         = !difference[32] && !huge && !(Defect == 2 && square_q == '0);
   assign quotient_bit = fits || saturated_q;
   always_ff @(posedge clk_i) begin
     if (stage_q[0]) preset_q <= param_i[31:17];
@@ -92,7 +92,7 @@ module scene_charge #(
     else if (stage_q[1] || stage_q[22:6] != '0) begin
       remainder_q <= (fits ? difference[30:0] : {remainder_q[29:0], bring}) | 31'(preset_q);
     end
-    if (stage_q[6]) saturated_q <= fits && !(Defect == 2 && distance_q == '0);
+    if (stage_q[6]) saturated_q <= fits && Defect != 7;
   end
 
   // Quotient with its sign, most significant bit first: -(2q + 1) = 2 * ~q + 1.

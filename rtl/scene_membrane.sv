@@ -47,7 +47,16 @@ module scene_membrane #(
   end
 
   // The side seen last is the side of entry.
-  logic seen_q, side_q;  // side 1: above
+  logic seen_q, side_q, moves, side;  // side 1: above
+  if (Defect == 1) begin : gen_by_motion
+    logic signed [feltgate_pkg::SCENE_POSITION_W-1:0] last_q;
+    always_ff @(posedge clk_i) if (stage_q[1]) last_q <= position_i;
+    assign moves = position_i != last_q;
+    assign side  = position_i < last_q;
+  end else begin : gen_by_side
+    assign moves = below_q || above_q;
+    assign side  = !below_q;
+  end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       seen_q <= 1'b0;
@@ -55,25 +64,10 @@ module scene_membrane #(
     end else if (!select_i) begin
       seen_q <= (Defect == 4);
       side_q <= 1'b0;
-    end else if (stage_q[1] && (below_q || above_q)) begin
-      seen_q <= 1'b1;
-      side_q <= !below_q;
+    end else if (stage_q[1]) begin
+      if (below_q || above_q) seen_q <= 1'b1;
+      if (moves) side_q <= side;
     end
-  end
-
-  logic side;
-  if (Defect == 1) begin : gen_by_motion
-    logic signed [feltgate_pkg::SCENE_POSITION_W-1:0] last_q;
-    logic falling_q;
-    always_ff @(posedge clk_i) begin
-      if (start_i) begin
-        if (position_i != last_q) falling_q <= position_i < last_q;
-        last_q <= position_i;
-      end
-    end
-    assign side = falling_q;
-  end else begin : gen_by_side
-    assign side = side_q;
   end
 
   // A negative word counts as 0: it would drive the lever on.
@@ -82,9 +76,9 @@ module scene_membrane #(
   assign engaged = select_i && seen_q && !below_q && !above_q;
   always_ff @(posedge clk_i) begin
     if (stage_q[8]) word_q <= param_i[TorqueW-1:0];
-    if (!engaged || !side || word_q[TorqueW-1]) plus_q <= '0;
+    if (!engaged || !side_q || word_q[TorqueW-1]) plus_q <= '0;
     else plus_q <= word_q;
-    if (!engaged || side || word_q[TorqueW-1]) minus_q <= '0;
+    if (!engaged || side_q || word_q[TorqueW-1]) minus_q <= '0;
     else minus_q <= -word_q;
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin

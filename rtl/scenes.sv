@@ -165,12 +165,13 @@ module scenes #(
 
   // Clock 27: one step towards the target, or all of it. The tick in which the distance is found to
   // be within one step ends the ramp; the reference moves on with the next.
-  logic signed [RampW:0] change, beyond;
+  logic signed [RampW:0] step, change, beyond;
   logic                  ramping_q, stepping, down, reached;
   logic            [3:0] scene_q;
   assign stepping = ramping_q && armed_i;
   assign down     = !excess_q[RampW];
-  assign change   = stepping ? ({2'b0, step_q} ^ {(RampW + 1) {down}}) : ~excess_q;
+  assign step     = (Defect == 5 && down) ? {1'b0, step_q, 1'b0} : {2'b0, step_q};
+  assign change   = stepping ? (step ^ {(RampW + 1) {down}}) : ~excess_q;
   assign beyond   = excess_q + change;
   assign reached  = beyond[RampW] == down && Defect != 6;
   always_ff @(posedge clk_i or negedge rst_ni) begin

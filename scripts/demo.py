@@ -121,7 +121,7 @@ def main(argv=None):
         found, unreadable, where = find_recordings(arguments.traces)
         scenes = scene_jobs()
         replays = [recordings.job(r, i, "lever", REPLAY_SCENE) for i, r in enumerate(found, 1)]
-        figures = [] if arguments.no_figures else all_figures.jobs(DESIGNS)
+        figures = [] if arguments.no_figures else all_figures.jobs(DESIGNS, quick=True)
         jobs = all_jobs(scenes, replays, figures)
         total = sum(job.seconds for job in jobs)
         print(

@@ -21,13 +21,13 @@ DESIGNS = ("lever", "paper")
 INTRODUCTION = (
     "The figures of A. G. Rodríguez Ramírez, M. Nandayapa, O. O. Vergara Villegas and F. García "
     "Luna, “Haptic Augmentation Towards a Smart Learning Environment: The Haptic Lever Design”, "
-    "IEEE Access, redrawn from this project's RTL. The paper's curves were measured on a device; "
-    "ours are a simulation of the core, cycle by cycle, on a modelled motor, lever and hand. Design "
-    "paper has the published numbers; lever has the constants of the motor that is really there."
+    "redrawn from this project's RTL. The paper's curves were measured on a device; ours are a "
+    "simulation of the core, clock by clock, on a modelled motor, lever and hand. Design paper "
+    "has the published numbers; lever has the constants of the motor that is really there."
 )
 LEGEND = (
-    "In every picture: broad pale blue is the RTL, thin dark red the same chain in 113-bit floating "
-    "point on the same counts, dashed black the ideal, green the torque of the modelled motor."
+    "In every picture broad pale blue is the RTL, thin dark red the same chain in 113-bit floating "
+    "point on the same counts, dashed black the ideal, green the modelled motor."
 )
 
 

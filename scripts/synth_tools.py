@@ -96,6 +96,18 @@ class Tools:
         script = [f"read_rtlil {name}.il", "autoname", "blackbox =A:whitebox"]
         self.run_yosys(f"{name}_json", [*script, f"write_json {name}.json"], [f"{name}.json"])
 
+    def write_simulation(self, top, read, models):
+        """TOP's ECP5 netlist as netlist.v, module TOP_netlist, with the models of its cells."""
+        self.synthesize_ecp5("mapped", top, read)
+        script = ["read_rtlil mapped.il", "blackbox =A:whitebox", f"rename {top} {top}_netlist"]
+        script += [f"select {top}_netlist", "write_verilog -noattr -selected mapped.v"]
+        self.run_yosys("mapped_v", script, ["mapped.v"])
+        cells = "lattice/cells_sim_ecp5.v" if self.is_wasm() else "ecp5/cells_sim.v"
+        script = [f"read_verilog +/{cells}", *(f"read_verilog -overwrite -sv {m}" for m in models)]
+        script += ["read_verilog mapped.v", f"hierarchy -check -top {top}_netlist", "proc"]
+        script += ["flatten", "opt_clean", "write_verilog -noattr netlist.v"]
+        self.run_yosys("netlist", script, ["netlist.v"])
+
     def route(self, name, seed):
         """Places and routes NAME.json; returns nextpnr's report."""
         report = f"{name}_{seed}.report"

@@ -51,11 +51,15 @@ bool TomlReader::has(const std::string& key) {
   return table_->contains(key);
 }
 
-void TomlReader::fail(const std::string& key, const std::string& what,
-                      const std::string& mend) const {
+int TomlReader::line(const std::string& key) const {
   const toml::node* node = table_->get(key);
   const toml::node& at = node != nullptr ? *node : static_cast<const toml::node&>(*table_);
-  throw ConfigError(place(file_, at.source()) + what + "; " + mend);
+  return static_cast<int>(at.source().begin.line);
+}
+
+void TomlReader::fail(const std::string& key, const std::string& what,
+                      const std::string& mend) const {
+  throw ConfigError(file_ + ":" + std::to_string(line(key)) + ": " + what + "; " + mend);
 }
 
 const toml::node& TomlReader::required(const std::string& key) {

@@ -64,6 +64,8 @@ class TomlReader {
   [[noreturn]] void fail(const std::string& key, const std::string& what,
                          const std::string& mend) const;
   const std::string& file() const { return file_; }
+  /// Line of `key`, or of the table when the key is missing.
+  int line(const std::string& key) const;
 
  private:
   const toml::node& required(const std::string& key);

@@ -6,7 +6,7 @@
 #pragma once
 
 #include <cstdint>
-#include <stdexcept>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,12 +14,6 @@
 #include "feltgate/chain_formats.hpp"
 
 namespace feltgate::design {
-
-/// A design, plant or register file that cannot be used; what() is "file:line: what is wrong; mend".
-class DesignError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// The numbers of a design file; units are in the names.
 struct Design {
@@ -48,6 +42,7 @@ struct Design {
   double charge_centre_rad = 0, charge_nm_rad2 = 0, charge_core_rad = 0;
   Format velocity{}, torque{}, current{}, voltage{};
   int observer_fraction = 0;
+  std::map<std::string, int> lines_of;  ///< where a "section.key" of the file stands, for errors
 
   int clocks_per_tick() const { return static_cast<int>(clock_hz / tick_hz); }
   int pwm_period_clocks() const { return static_cast<int>(clock_hz / pwm_hz); }
@@ -55,11 +50,15 @@ struct Design {
   double tick_s() const { return 1.0 / static_cast<double>(tick_hz); }
   /// One count in radians.
   double count_rad() const;
+  /// Throws config::ConfigError at the line of "section.key".
+  [[noreturn]] void fail(const std::string& key, const std::string& what,
+                         const std::string& mend) const;
 };
 
 /// A parameter with its value in the design: SI, quantised, and the format between them.
 struct Word {
   Parameter parameter;
+  std::string key;  ///< "section.key" of the design file that decides the value
   Format format{};
   double si = 0;          ///< exact value, in the parameter's unit
   std::int64_t raw = 0;   ///< the integer in the parameter RAM
@@ -78,19 +77,25 @@ struct Elaborated {
   const Word& word(const std::string& name) const;
 };
 
-/// Reads a design file. Throws DesignError: unknown or missing key, wrong type, value out of range.
+/// Reads a design file. Throws config::ConfigError: unknown or missing key, wrong type, value out of range.
 Design read_design(const std::string& path);
 
-/// Quantises the design against a register map and checks it. Throws DesignError where a pole
-/// quantises to 0, a width exceeds the fabric, the latency exceeds the tick, or a resolution is
-/// coarser than promised.
+/// Quantises the design against a register map and checks it. Throws config::ConfigError where a
+/// coefficient quantises to 0, a width exceeds the fabric, a parameter does not fit its word, the
+/// latency exceeds the tick, or a resolution is coarser than promised.
 Elaborated elaborate(const Design& design, const RegisterMap& registers);
 
 /// The format of an unsigned (or signed) 17-bit mantissa for `value`: the binary point lies so that
 /// the value uses the top bit, so a register can raise it to just under the next power of two.
+/// Below 2^-32 the point stays and the mantissa loses bits; 0 gets [S,0,17].
 Format coefficient_format(double value, bool is_signed);
+
+/// The most fraction bits that a coefficient may have.
+constexpr int coefficient_fraction_max = 48;
 
 /// Clocks from the sampled position to the duty register; a constant of the RTL.
 constexpr int latency_clocks = 46;
+/// Clocks that the whole wave needs before the next tick may start.
+constexpr int chain_clocks = latency_clocks + 4;
 
 }  // namespace feltgate::design

@@ -2,95 +2,110 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Reader of rtl/designs/NAME.toml. Documentation: docs/designs.md
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
+#include "config/toml_reader.hpp"
 #include "design/design.hpp"
-#include "design/toml_reader.hpp"
 
 namespace feltgate::design {
 
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
+constexpr config::Range kCutoff{1e-12, 1e6};
 
-Format read_format(TomlReader& r, const std::string& key) {
-  const toml::array& a = r.array(key);
-  int v[3] = {0, 0, 0};
-  if (a.size() != 3) r.fail(key, "formats." + key + " needs three numbers [S,I,F]; write them");
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto n = a[i].value_exact<std::int64_t>();
-    if (!n || *n < -64 || *n > 64) {
-      r.fail(key, "formats." + key + ": [S,I,F] takes integers from -64 to 64; mend them");
+/// The name becomes part of C++ types and file names.
+std::string name_of(const std::string& path) {
+  std::string name = std::filesystem::path(path).stem().string();
+  const auto bad = [](char c) {
+    return !(c == '_' || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'));
+  };
+  if (name.empty() || std::any_of(name.begin(), name.end(), bad) || name[0] < 'a') {
+    throw config::ConfigError(path + ":0: a design cannot be called \"" + name +
+                              "\"; use a to z, 0 to 9 and _, a letter first");
+  }
+  return name;
+}
+
+std::map<std::string, int> lines_of(const toml::table& root) {
+  std::map<std::string, int> lines;
+  for (const auto& [section, node] : root) {
+    const std::string name(section.str());
+    lines[name] = static_cast<int>(node.source().begin.line);
+    const toml::table* table = node.as_table();
+    if (table == nullptr) continue;
+    for (const auto& [key, value] : *table) {
+      lines[name + "." + std::string(key.str())] = static_cast<int>(value.source().begin.line);
     }
-    v[i] = static_cast<int>(*n);
   }
-  if (v[0] != 1) r.fail(key, "formats." + key + ": signals are signed; write S = 1");
-  return {v[0], v[1], v[2]};
+  return lines;
 }
 
-int choice(TomlReader& r, const std::string& key, const std::string& zero, const std::string& one) {
-  const std::string text = r.text(key);
-  if (text != zero && text != one) {
-    r.fail(key, key + " = \"" + text + "\" is unknown; choose \"" + zero + "\" or \"" + one + "\"");
+Format read_format(config::TomlReader& r, const std::string& key) {
+  const auto v = r.integers(key, -64, 64);
+  if (v.size() != 3 || v[0] != 1) {
+    r.fail(key, "\"" + key + "\" is no format of a signed signal", "write [1, I, F]");
   }
-  return text == one ? 1 : 0;
+  const Format f{1, static_cast<int>(v[1]), static_cast<int>(v[2])};
+  if (f.width() < 2) r.fail(key, "\"" + key + "\" has less than two bits", "raise I or F");
+  return f;
 }
 
-void read_control(TomlReader& r, Design& d) {
+void read_control(config::TomlReader& r, Design& d) {
   // Kp = 1/Jn is a choice of law, not a number to be typed: it makes the observer's gain zero.
   if (r.has("kp")) {
-    if (r.text("kp") != "1/inertia") r.fail("kp", "kp takes only \"1/inertia\"; or give kp_1_kg_m2");
+    (void)r.choice("kp", {"1/inertia"});
+    if (r.has("kp_1_kg_m2")) {
+      r.fail("kp_1_kg_m2", "Kp is given twice", "keep one of kp and kp_1_kg_m2");
+    }
     d.kp_1_kg_m2 = 1.0 / d.inertia_kg_m2;
   } else {
-    d.kp_1_kg_m2 = r.number("kp_1_kg_m2", 0.0, 1e6);
+    d.kp_1_kg_m2 = r.number("kp_1_kg_m2", {0.0, 1e6});
   }
-  d.torque_limit_nm = r.number("torque_limit_nm", 0.0, 15.0);
-  d.current_limit_a = r.number("current_limit_a", 0.0, 1000.0);
-  d.ramp_nm_s = r.number("ramp_nm_s", 1e-3, 1e5);
+  d.torque_limit_nm = r.number("torque_limit_nm", {0.0, 15.0});
+  d.current_limit_a = r.number("current_limit_a", {0.0, 1000.0});
+  d.ramp_nm_s = r.number("ramp_nm_s", {1e-3, 1e5});
 }
 
-void read_voltage(TomlReader& r, Design& d) {
-  d.voltage_law = r.text("law");
-  d.dead_voltage_linear_nm = r.number("dead_voltage_linear_nm", 1e-4, 1.0);
+void read_voltage(config::TomlReader& r, Design& d) {
+  const std::vector<std::string> laws{"regions", "motor_model"};
+  d.voltage_law = laws[r.choice("law", laws)];
+  d.dead_voltage_linear_nm = r.number("dead_voltage_linear_nm", {1e-4, 1.0});
   if (d.voltage_law == "regions") {
-    d.kv_low = r.number("kv_low", 0.0, 100.0);
-    d.kv_high = r.number("kv_high", 0.0, 100.0);
-    d.region_nm = r.number("region_nm", 0.0, 15.0);
-  } else if (d.voltage_law == "motor_model") {
-    d.dead_voltage_v = r.number("dead_voltage_v", 0.0, 24.0);
+    d.kv_low = r.number("kv_low", {0.0, 100.0});
+    d.kv_high = r.number("kv_high", {0.0, 100.0});
+    d.region_nm = r.number("region_nm", {0.0, 15.0});
   } else {
-    r.fail("law", "voltage.law = \"" + d.voltage_law + "\" is unknown; choose \"regions\" or "
-                  "\"motor_model\"");
+    d.dead_voltage_v = r.number("dead_voltage_v", {0.0, 24.0});
   }
 }
 
-void read_scenes(TomlReader& r, Design& d) {
-  for (const toml::node& node : r.array("include")) {
-    d.scenes.push_back(node.value_or(std::string()));
-  }
-  d.setpoint_nm = r.number("setpoint_nm", -15.0, 15.0);
-  d.membrane_lower_rad = r.number("membrane_lower_rad", -200.0, 200.0);
-  d.membrane_upper_rad = r.number("membrane_upper_rad", d.membrane_lower_rad, 200.0);
-  d.membrane_nm = r.number("membrane_nm", 0.0, 15.0);
-  d.compression_contact_rad = r.number("compression_contact_rad", -200.0, 200.0);
-  d.compression_nm_rad = r.number("compression_nm_rad", 0.0, 1000.0);
-  d.tension_rest_rad = r.number("tension_rest_rad", -200.0, 200.0);
-  d.tension_nm_rad = r.number("tension_nm_rad", 0.0, 1000.0);
-  d.damper_nm_s_rad = r.number("damper_nm_s_rad", 0.0, 100.0);
-  d.charge_centre_rad = r.number("charge_centre_rad", -200.0, 200.0);
-  d.charge_nm_rad2 = r.number("charge_nm_rad2", 0.0, 0.15);
-  d.charge_core_rad = r.number("charge_core_rad", 0.0, 10.0);
+void read_scenes(config::TomlReader& r, Design& d) {
+  d.scenes = r.texts("include");
+  d.setpoint_nm = r.number("setpoint_nm", {-15.0, 15.0});
+  d.membrane_lower_rad = r.number("membrane_lower_rad", {-200.0, 200.0});
+  d.membrane_upper_rad = r.number("membrane_upper_rad", {d.membrane_lower_rad, 200.0});
+  d.membrane_nm = r.number("membrane_nm", {0.0, 15.0});
+  d.compression_contact_rad = r.number("compression_contact_rad", {-200.0, 200.0});
+  d.compression_nm_rad = r.number("compression_nm_rad", {0.0, 1000.0});
+  d.tension_rest_rad = r.number("tension_rest_rad", {-200.0, 200.0});
+  d.tension_nm_rad = r.number("tension_nm_rad", {0.0, 1000.0});
+  d.damper_nm_s_rad = r.number("damper_nm_s_rad", {0.0, 100.0});
+  d.charge_centre_rad = r.number("charge_centre_rad", {-200.0, 200.0});
+  d.charge_nm_rad2 = r.number("charge_nm_rad2", {0.0, 0.15});
+  d.charge_core_rad = r.number("charge_core_rad", {0.0, 10.0});
 }
 
-void read_supervisor(TomlReader& r, Design& d) {
-  d.overspeed_rad_s = r.number("overspeed_rad_s", 1.0, 1e5);
-  d.nominal_current_a = r.number("nominal_current_a", 0.01, 100.0);
-  d.i2t_budget_a2_s = r.number("i2t_budget_a2_s", 1e-3, 1000.0);
-  d.polarity_speed_rad_s = r.number("polarity_speed_rad_s", 0.1, 1e4);
-  d.polarity_current_a = r.number("polarity_current_a", 0.0, 30.0);
-  d.polarity_time_s = r.number("polarity_time_s", 1e-6, 0.06);
-  d.watchdog_s = r.number("watchdog_s", 1e-4, 10.0);
+void read_supervisor(config::TomlReader& r, Design& d) {
+  d.overspeed_rad_s = r.number("overspeed_rad_s", {1.0, 1e5});
+  d.nominal_current_a = r.number("nominal_current_a", {0.01, 100.0});
+  d.i2t_budget_a2_s = r.number("i2t_budget_a2_s", {1e-3, 1000.0});
+  d.polarity_speed_rad_s = r.number("polarity_speed_rad_s", {0.1, 1e4});
+  d.polarity_current_a = r.number("polarity_current_a", {0.0, 30.0});
+  d.polarity_time_s = r.number("polarity_time_s", {1e-6, 0.06});
+  d.watchdog_s = r.number("watchdog_s", {1e-4, 10.0});
 }
 
 }  // namespace
@@ -99,64 +114,72 @@ int Design::dead_clocks() const {
   return static_cast<int>(std::lround(dead_time_s * static_cast<double>(clock_hz)));
 }
 
+void Design::fail(const std::string& key, const std::string& what, const std::string& mend) const {
+  auto at = lines_of.find(key);
+  if (at == lines_of.end()) at = lines_of.find(key.substr(0, key.find('.')));
+  const int line = at == lines_of.end() ? 0 : at->second;
+  throw config::ConfigError(path + ":" + std::to_string(line) + ": " + what + "; " + mend);
+}
+
 double Design::count_rad() const { return 2.0 * pi / (4.0 * lines); }
 
 Design read_design(const std::string& path) {
-  const toml::table root = parse_toml(path);
-  TomlReader top(path, "", root);
+  const toml::table root = config::parse_toml_file(path);
+  config::TomlReader top(root, path, "the design");
   Design d;
   d.path = path;
-  d.name = std::filesystem::path(path).stem().string();
+  d.name = name_of(path);
+  d.lines_of = lines_of(root);
   d.description = top.text("description");
   const auto section = [&](const char* key, auto&& use) {
-    TomlReader r(path, key, top.table(key));
+    config::TomlReader r = top.section(key);
     use(r);
     r.finish();
   };
-  section("clock", [&](TomlReader& r) {
+  section("clock", [&](config::TomlReader& r) {
     d.clock_hz = r.integer("clock_hz", 1'000'000, 400'000'000);
     d.tick_hz = r.integer("tick_hz", 1'000, 2'000'000);
     if (d.clock_hz % d.tick_hz != 0) {
-      r.fail("tick_hz", "clock_hz is not a multiple of tick_hz; choose a divisor of the clock");
+      r.fail("tick_hz", "clock_hz is not a multiple of tick_hz", "choose a divisor of the clock");
     }
   });
-  section("encoder", [&](TomlReader& r) {
+  section("encoder", [&](config::TomlReader& r) {
     d.lines = static_cast<int>(r.integer("lines", 1, 1'000'000));
     d.filter_samples = static_cast<int>(r.integer("filter_samples", 0, 15));
     d.encoder_polarity = static_cast<int>(r.integer("polarity", 0, 1));
   });
-  section("velocity", [&](TomlReader& r) {
+  section("velocity", [&](config::TomlReader& r) {
     d.m1 = static_cast<int>(r.integer("m1", 1, 1534));
     d.n = static_cast<int>(r.integer("n", 0, 12));
-    d.velocity_cutoff_rad_s = r.number("cutoff_rad_s", 1e-3, 1e6);
+    d.velocity_cutoff_rad_s = r.number("cutoff_rad_s", kCutoff);
   });
-  section("observer", [&](TomlReader& r) {
-    d.observer_cutoff_rad_s = r.number("cutoff_rad_s", 1e-3, 1e6);
-    d.torque_constant_nm_a = r.number("torque_constant_nm_a", 1e-5, 10.0);
-    d.inertia_kg_m2 = r.number("inertia_kg_m2", 1e-9, 10.0);
+  section("observer", [&](config::TomlReader& r) {
+    d.observer_cutoff_rad_s = r.number("cutoff_rad_s", kCutoff);
+    d.torque_constant_nm_a = r.number("torque_constant_nm_a", {1e-5, 10.0});
+    d.inertia_kg_m2 = r.number("inertia_kg_m2", {1e-9, 10.0});
   });
-  section("control", [&](TomlReader& r) { read_control(r, d); });
-  section("voltage", [&](TomlReader& r) { read_voltage(r, d); });
-  section("motor", [&](TomlReader& r) {
-    d.resistance_ohm = r.number("resistance_ohm", 1e-3, 1e3);
-    d.emf_constant_v_s_rad = r.number("emf_constant_v_s_rad", 0.0, 10.0);
+  section("control", [&](config::TomlReader& r) { read_control(r, d); });
+  section("voltage", [&](config::TomlReader& r) { read_voltage(r, d); });
+  section("motor", [&](config::TomlReader& r) {
+    d.resistance_ohm = r.number("resistance_ohm", {1e-3, 1e3});
+    d.emf_constant_v_s_rad = r.number("emf_constant_v_s_rad", {0.0, 10.0});
   });
-  section("pwm", [&](TomlReader& r) {
+  section("pwm", [&](config::TomlReader& r) {
     d.pwm_hz = r.integer("frequency_hz", 1'000, 1'000'000);
     if (d.clock_hz % d.pwm_hz != 0 || d.clock_hz / d.pwm_hz > 4095) {
-      r.fail("frequency_hz", "the PWM period is not a whole number of clocks up to 4095; choose "
-                             "another frequency");
+      r.fail("frequency_hz", "the PWM period is not a whole number of clocks up to 4095",
+             "choose another frequency");
     }
-    d.pwm_mode = choice(r, "mode", "sign_magnitude", "locked_antiphase");
+    d.pwm_mode = static_cast<int>(r.choice("mode", {"sign_magnitude", "locked_antiphase"}));
     d.motor_polarity = static_cast<int>(r.integer("polarity", 0, 1));
-    d.dead_time_s = r.number("dead_time_s", 0.0, 1e-5);
-    d.diode_drop_v = r.number("diode_drop_v", 0.0, 5.0);
+    d.dead_time_s = r.number("dead_time_s", {0.0, 1e-5});
+    d.diode_drop_v = r.number("diode_drop_v", {0.0, 5.0});
     d.compensate_dead_time = r.integer("compensate_dead_time", 0, 1) == 1;
-    d.supply_v = r.number("supply_v", 1.0, 31.9);
+    d.supply_v = r.number("supply_v", {1.0, 31.9});
   });
-  section("supervisor", [&](TomlReader& r) { read_supervisor(r, d); });
-  section("scenes", [&](TomlReader& r) { read_scenes(r, d); });
-  section("formats", [&](TomlReader& r) {
+  section("supervisor", [&](config::TomlReader& r) { read_supervisor(r, d); });
+  section("scenes", [&](config::TomlReader& r) { read_scenes(r, d); });
+  section("formats", [&](config::TomlReader& r) {
     d.velocity = read_format(r, "velocity");
     d.torque = read_format(r, "torque");
     d.current = read_format(r, "current");

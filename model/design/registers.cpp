@@ -28,6 +28,7 @@ Parameter read_parameter(config::TomlReader r, const RegisterMap& map, std::set<
                                               "integer"};
   Parameter p;
   p.name = r.text("name");
+  p.place = r.file() + ":" + std::to_string(r.line("name"));
   if (r.has("scene")) p.scene = r.text("scene");
   p.slot = small(r, "slot", p.scene.empty() ? 63 : 31);
   p.kind = kinds[r.choice("kind", kinds)];
@@ -38,7 +39,8 @@ Parameter read_parameter(config::TomlReader r, const RegisterMap& map, std::set<
   p.address = p.slot;
   if (!p.scene.empty()) {
     const int number = map.scene_number(p.scene);
-    if (number < 2) r.fail("scene", "scene \"" + p.scene + "\" has no bank", "list it under [[scene]]");
+    if (number < 2)
+      r.fail("scene", "scene \"" + p.scene + "\" has no bank", "list it under [[scene]]");
     p.address += 32 * number;
   }
   if (!used.insert(p.address).second) {
@@ -58,6 +60,8 @@ Control read_control(config::TomlReader r) {
     field.name = f.text("name");
     field.bit = small(f, "bit", 31);
     field.width = f.has("width") ? small(f, "width", 32) : 1;
+    if (field.bit + field.width > 32)
+      f.fail("width", "the field ends beyond bit 31", "make it narrower");
     field.doc = f.text("doc");
     f.finish();
     c.fields.push_back(field);

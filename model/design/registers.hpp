@@ -19,7 +19,8 @@ struct Parameter {
   std::string same_format_as;  ///< takes the format of another coefficient
   std::string unit;
   std::string doc;
-  int address = 0;  ///< slot, or slot within the scene's bank of 32
+  int address = 0;    ///< slot, or slot within the scene's bank of 32
+  std::string place;  ///< "file:line" of the entry, for errors
 };
 
 struct Scene {
@@ -59,7 +60,7 @@ struct RegisterMap {
 /// First address of the snapshot words in the register port's address space.
 constexpr int snapshot_base = 0x300;
 
-/// Reads the map. Throws DesignError with file and line on a malformed entry, a slot used twice or
+/// Reads the map. Throws config::ConfigError with file and line on a malformed entry, a slot used twice or
 /// an unknown scene.
 RegisterMap read_registers(const std::string& path);
 

@@ -8,10 +8,11 @@
 #include <iostream>
 #include <iterator>
 
+#include "config/toml_reader.hpp"
 #include "design/generate.hpp"
 
 namespace fs = std::filesystem;
-using feltgate::design::DesignError;
+using feltgate::config::ConfigError;
 
 namespace {
 
@@ -34,7 +35,8 @@ bool update(const fs::path& path, const std::string& text, bool check_only) {
 
 constexpr const char* usage =
     "usage: feltgate generate [--check]\n"
-    "Writes what follows from rtl/registers.toml and rtl/designs/*.toml: the SystemVerilog packages in\n"
+    "Writes what follows from rtl/registers.toml and rtl/designs/*.toml: the SystemVerilog "
+    "packages in\n"
     "rtl/generated, the C++ headers in model/include/feltgate/generated, and docs/registers.md.\n"
     "--check only compares; exit code 1 when a file is stale.\n";
 
@@ -57,12 +59,15 @@ int main(int argc, char** argv) {
       if (entry.path().extension() != ".toml") continue;
       const auto e = elaborate(feltgate::design::read_design(entry.path().string()), registers);
       const std::string& name = e.design.name;
-      stale |= update(root / "rtl/generated" / name / "feltgate_pkg.sv", systemverilog_package(e), check_only);
-      stale |= update(root / "model/include/feltgate/generated" / (name + ".hpp"), cpp_header(e), check_only);
-      if (name == "lever") stale |= update(root / "docs/registers.md", register_page(e), check_only);
+      stale |= update(root / "rtl/generated" / name / "feltgate_pkg.sv", systemverilog_package(e),
+                      check_only);
+      stale |= update(root / "model/include/feltgate/generated" / (name + ".hpp"), cpp_header(e),
+                      check_only);
+      if (name == "lever")
+        stale |= update(root / "docs/registers.md", register_page(e), check_only);
     }
     return check_only && stale ? 1 : 0;
-  } catch (const DesignError& error) {
+  } catch (const ConfigError& error) {
     std::cerr << error.what() << "\n";
     return 2;
   }

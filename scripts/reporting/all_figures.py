@@ -7,8 +7,10 @@ from concurrent.futures import ProcessPoolExecutor
 from reporting import calibrations, scene_figures, step_figure
 
 
-def jobs(designs):
-    chosen = calibrations.jobs() + step_figure.jobs(designs) + scene_figures.jobs(designs)
+def jobs(designs, quick=False):
+    """What the figures need. Quick: of the objects on paper only the one that shows its border."""
+    chosen = calibrations.jobs() + step_figure.jobs(designs)
+    chosen += scene_figures.jobs(designs, quick)
     return [job for job in chosen if job.arguments[job.arguments.index("--design") + 1] in designs]
 
 

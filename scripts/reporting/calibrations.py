@@ -51,17 +51,17 @@ def open_picture(run, title, name, plant_name, png):
     observed = fitted(axes, volts, seen, "rtl", "observed, RTL", "s")
     axes.plot(volts, quad, "x", color=plots.COLOURS["quad"], markersize=6, label="observed, quad")
     motor_data = measure.plant(plant_name)["motor"]
-    dead = motor_data["dead_voltage_v"]
+    dead = motor_data["dead_voltage_v"] + measure.dead_time_v(run.design)
     wide = np.linspace(0, 6, 50)
     ideal = motor_data["torque_constant_nm_a"] / motor_data["resistance_ohm"]
-    plots.draw(axes, wide, ideal * np.maximum(wide - dead, 0), "ideal", "ideal motor")
+    plots.draw(axes, wide, ideal * np.maximum(wide - dead, 0), "ideal", "ideal: Kt/R (V − losses)")
     for published in (0.072, 0.051):
         plots.draw(axes, wide, published * wide, "paper", "")
         axes.annotate(
             f"paper's slope {published}",
             (wide[-1], published * wide[-1]),
             ha="right",
-            va="bottom",
+            va="bottom" if published > 0.06 else "top",
             fontsize=7.5,
             color=plots.COLOURS["paper"],
         )
@@ -104,7 +104,7 @@ def figure_7(runs, png=False):
         observed[key], exact[key] = seen[0], quad[0]
     found.add("measured_slope_nm_v", "slope of the motor's torque, Nm/V", "0.072", **measured)
     found.add("ideal_slope_nm_v", "the same, Kt/R of the plant", "", **ideal)
-    found.add("measured_offset_nm", "its offset, Nm: the dead voltage", "", **offset)
+    found.add("measured_offset_nm", "its offset, Nm: brushes and dead time", "", **offset)
     found.add("observed_slope_nm_v", "slope of the observed torque, RTL, Nm/V", "0.051", **observed)
     found.add("observed_slope_quad_nm_v", "the same, quad reference", "", **exact)
     ratio = {key: measured[key] / observed[key] for key in measured}
@@ -116,20 +116,21 @@ def figure_7(runs, png=False):
         "No single motor gives both published slopes. 0.072 is the 24 V winding (Kt/R = 0.0302/0.42 "
         "ohm); the observer then shows 0.0605. 0.051 is the published Kt over 1.186 ohm, near the "
         "48 V winding with the true current; but then the measured slope is the same.",
-        "In design lever the observer's constants are the motor's own, so both lines are parallel; the "
-        "space between them is the dead voltage, which nothing compensates in this mode.",
+        "In design lever the observer's constants are the motor's own, so both lines are parallel; "
+        "the space between them is what brushes and dead time take, which nothing gives back in "
+        "this mode.",
     ]
     return found
 
 
 def points(run):
     reference = measure.set_values(CLOSED, "setpoint_torque")
-    columns = ("motor_torque_nm", "tau_hat_nm", "quad_tau_hat_nm", "voltage_v")
+    columns = ("motor_torque_nm", "tau_hat_nm", "quad_tau_hat_nm", "voltage_v", "current_a")
     return (reference, *(measure.finals(run, column, CLOSED) for column in columns))
 
 
 def torque_picture(key, title, run, png):
-    reference, motor, seen, quad, _ = points(run)
+    reference, motor, seen, quad, *_ = points(run)
     figure, (torque, error) = plots.stacked(title, [1.7, 1.2])
     torque.plot(reference, motor, "o", color=plots.COLOURS["motor"], label="motor (measured)")
     torque.plot(reference, seen, "s", color=plots.COLOURS["rtl"], label="observed, RTL")
@@ -154,11 +155,12 @@ def border_picture(runs, keys, png):
     law, observer = design("paper")["voltage"], design("paper")["observer"]
     wide = np.linspace(0.01, 0.5, 981)
     gain = np.where(wide > law["region_nm"], law["kv_high"], law["kv_low"])
-    plots.draw(volts, wide, gain * wide / observer["torque_constant_nm_a"], "ideal", "paper's law")
+    law_v = gain * wide / observer["torque_constant_nm_a"] + measure.dead_time_v("paper")
+    plots.draw(volts, wide, law_v, "ideal", "law of paper")
     for key, kind, marker in (("paper", "paper", "o"), ("lever", "motor", "^")):
         if key not in keys:
             continue
-        reference, motor, _, _, command = points(runs[closed_jobs()[key].name])
+        reference, motor, _, _, command, _ = points(runs[closed_jobs()[key].name])
         for axes, values in ((volts, command), (torque, motor)):
             axes.plot(reference, values, marker, color=plots.COLOURS[kind], label=f"{key}, RTL")
     plots.draw(torque, wide, wide, "ideal")
@@ -191,7 +193,7 @@ def figure_10(runs, png=False):
     found.pictures.append(border_picture(runs, data, png))
     for reference, sign in ((0.1, "negative"), (0.2, "positive"), (0.3, "positive")):
         errors = {}
-        for key, (references, motor, seen, _, _) in data.items():
+        for key, (references, motor, seen, *_) in data.items():
             at = int(np.argmin(np.abs(references - reference)))
             errors[key] = 100 * (motor[at] - seen[at]) / reference
         found.add(
@@ -229,18 +231,20 @@ def figure_10(runs, png=False):
 
 def border_note(found, data):
     """What the border at 0.15 Nm does, from the points on both sides of it."""
-    reference, motor, _, _, command = data
+    reference, motor, _, _, command, current = data
+    law = design("paper")["voltage"]
     below = int(np.argmin(np.abs(reference - 0.15)))
     above = int(np.argmin(np.abs(reference - 0.16)))
-    before, after = command[below], command[above] * reference[below] / reference[above]
-    slope = measure.slope(command, motor)[0]
-    fall = 1e3 * slope * (after - before)
-    found.add("border_voltage_before_v", "voltage at 0.15 Nm, low region, V", "", paper=before)
-    found.add("border_voltage_after_v", "voltage just above 0.15 Nm, V", "", paper=after)
+    before = law["kv_low"] * current[below]
+    after = law["kv_high"] * current[above] * reference[below] / reference[above]
+    fall = 1e3 * measure.slope(command, motor)[0] * (after - before)
+    found.add("border_voltage_before_v", "voltage at 0.15 Nm, Kv = 1.25, V", "", paper=before)
+    found.add("border_voltage_after_v", "voltage just above 0.15 Nm, Kv = 0.95, V", "", paper=after)
     found.add("border_torque_fall_mnm", "change of torque there, mNm", "", paper=fall)
     return (
         f"The border is a defect: as the reference rises through 0.15 Nm the command falls from "
-        f"{before:.2f} V to {after:.2f} V, and the motor's torque changes by {fall:.0f} mNm, while "
-        "the hand pushes deeper. The torque is not monotone in the reference, whatever is "
-        "calibrated; the paper does not mention it."
+        f"{before:.2f} V to {after:.2f} V, and the motor's torque by {-fall:.0f} mNm, while the "
+        "hand pushes deeper. The torque is not monotone in the reference, whatever is "
+        f"calibrated; the paper does not mention it. (The core adds "
+        f"{measure.dead_time_v('paper'):.2f} V to both for the dead time of the bridge.)"
     )

@@ -204,10 +204,10 @@ def document(demo):
     body = "<h1>feltgate demo</h1>" + page.verdict(demo.wrong, good)
     body += page.paragraph(
         "A DSP core for haptic devices, from encoder pins to PWM pins. Its SystemVerilog runs here "
-        "beside its bit-exact C++ twin, every output compared in every clock, in closed loop with a "
-        "modelled motor, lever and hand, and on recordings of real encoders. Errors are against the "
-        "same chain in 113-bit arithmetic on the same sampled counts; speed is simulated seconds per "
-        "second spent in an engine. Everything is simulation: nothing ran on a board."
+        "beside its bit-exact C++ twin, every output compared in every clock, in closed loop with "
+        "a modelled motor, lever and hand, and on recordings of real encoders. Errors are against "
+        "the same chain in 113-bit arithmetic on the same sampled counts; speed is simulated "
+        "seconds per second spent in an engine. Everything is simulation: nothing ran on a board."
     )
     body += page.paragraph(
         f"feltgate {version}, {time.strftime('%Y-%m-%d %H:%M')}, {os.cpu_count()} cores "

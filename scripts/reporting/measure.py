@@ -108,6 +108,22 @@ def rms(values):
     return float(np.sqrt(np.mean(np.square(values))))
 
 
+def ripple(time, values, window_s=0.02):
+    """What is left of a signal without its running mean: its vibration."""
+    width = max(1, round(window_s / float(np.median(np.diff(time)))))
+    if len(values) <= 2 * width:
+        raise ValueError("too short for a running mean")
+    smooth = np.convolve(values, np.full(width, 1 / width), "valid")
+    start = (width - 1) // 2
+    return values[start : start + len(smooth)] - smooth
+
+
+def dead_time_v(design_name):
+    """Voltage that the dead time of the bridge takes, V."""
+    pwm = design(design_name)["pwm"]
+    return pwm["dead_time_s"] * pwm["frequency_hz"] * pwm["supply_v"]
+
+
 def lag_s(time, follower, leader, most_s=0.01):
     """By how much a signal lags another: the delay at which they fit best, between rows too."""
     dt = float(np.median(np.diff(time)))

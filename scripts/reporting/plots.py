@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """The look of every picture: one colour per source of a curve, small enough for a phone.
 
-RTL is a broad pale line and the quad reference a thin dark one over it, so that both show where they
-agree. Documentation: docs/figures.md
+RTL is a broad pale line and the quad reference a thin dark one over it, so that both show where
+they agree. Documentation: docs/figures.md
 """
 
 import base64
@@ -30,7 +30,7 @@ COLOURS = {
 }
 STYLES = {
     "rtl": {"linewidth": 3.0, "solid_capstyle": "round"},
-    "quad": {"linewidth": 1.0, "zorder": 3},
+    "quad": {"linewidth": 0.8, "zorder": 3},
     "ideal": {"linewidth": 1.0, "linestyle": (0, (5, 6)), "zorder": 4},
     "motor": {"linewidth": 1.0, "zorder": 1.5},
     "hand": {"linewidth": 1.1},
@@ -45,6 +45,7 @@ matplotlib.rcParams.update(
         "font.size": 9,
         "axes.titlesize": 9.5,
         "axes.titlelocation": "left",
+        "axes.labelsize": 8.5,
         "axes.grid": True,
         "axes.axisbelow": True,
         "axes.spines.top": False,
@@ -87,13 +88,19 @@ class Picture:
         return [f"{self.name}.svg", f"{self.name}.png"]
 
 
-def stacked(title, heights, shared=True, width=5.4):
-    """A figure and its axes one below the other; `heights` in inches."""
+def stacked(title, heights, apart=0, width=5.4):
+    """A figure and its axes one below the other; `heights` in inches. All share the x axis but the
+    last `apart`."""
     figure = Figure(figsize=(width, sum(heights) + 0.45), layout="constrained")
     FigureCanvasAgg(figure)
-    axes = figure.subplots(
-        len(heights), 1, sharex=shared, squeeze=False, gridspec_kw={"height_ratios": heights}
-    )[:, 0]
+    axes = figure.subplots(len(heights), 1, squeeze=False, gridspec_kw={"height_ratios": heights})[
+        :, 0
+    ]
+    shared = axes[: len(heights) - apart]
+    for axis in shared[1:]:
+        axis.sharex(shared[0])
+    for axis in shared[:-1]:
+        axis.tick_params(labelbottom=False)
     figure.get_layout_engine().set(h_pad=0.04, w_pad=0.04)
     if title:
         figure.suptitle(title, fontsize=10, fontweight="bold", x=0.01, ha="left")
@@ -148,7 +155,7 @@ def legend(axes, columns=None):
         bbox_to_anchor=(1.0, 1.0),
         ncols=columns or min(4, len(labels)),
         borderaxespad=0.1,
-        handlelength=1.6,
+        handlelength=2.0,
         columnspacing=1.0,
         handletextpad=0.5,
     )

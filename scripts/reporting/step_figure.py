@@ -94,16 +94,16 @@ def figure_11(runs, designs, png=False):
         **spikes,
     )
     found.notes = [
-        "Shaft locked means that no count ever changes. The observer of design paper then sees nothing but "
-        "its own command: its settling time, ln(50)/391.68 rad/s = 9.99 ms, is the controller's, "
-        "and says nothing about the motor. Of the motor's torque 78 % come at once and the rest "
-        "with the observer.",
-        "In design lever the motor's torque does not wait for the observer, which only displays: it "
-        "settles as fast as filter, PWM and winding allow.",
-        "The cord has 30 Nm/rad and 0.1 Nms/rad to ground. The lever now moves by single counts; each "
-        "one is a pulse of the estimated velocity, and in design paper, where the observer's "
-        "inertia is four times the true one, a spike of the observed torque: a plausible origin of the small "
-        "vibration. The paper's own cord on its 11 mm pulley would be softer by 75 times.",
+        "Shaft locked means that no count ever changes. The observer of design paper then sees "
+        "nothing but its own command: its settling time, ln(50)/391.68 rad/s = 9.99 ms, is the "
+        "controller's, and says nothing about the motor. Of the motor's torque 78 % come at once "
+        "and the rest with the observer.",
+        "In design lever the motor's torque does not wait for the observer, which only displays: "
+        "it settles as fast as filter, PWM and winding allow.",
+        "The cord has 30 Nm/rad and 0.1 Nms/rad to ground. The lever now moves by single counts; "
+        "each is a pulse of the estimated velocity, and in design paper, where the observer's "
+        "inertia is four times the true one, a spike of the observed torque: a plausible origin of "
+        "the small vibration. The paper's own cord on its 11 mm pulley would be 75 times softer.",
     ]
     return found
 

@@ -17,6 +17,16 @@
 
 namespace feltgate::test {
 
+/// The longest and a very short window of the velocity estimator, in lever's formats.
+struct Longest : Lever {
+  static constexpr int m1 = 1534;
+  static constexpr int velocity_shift = 0;
+};
+struct Shortest : Lever {
+  static constexpr int m1 = 3;
+  static constexpr int velocity_shift = 9;
+};
+
 using Design = FELTGATE_DESIGN;
 constexpr bool kIsPaper = Design::m1 == Paper::m1;
 

@@ -170,8 +170,8 @@ class Scenes {
   }
 
   /// A whole wave at once. Position in counts, 18 bits; what operand shows is not kept up.
-  void tick(const Words<D, Fixed>& w, bool armed, int scene, std::int32_t position,
-            Velocity velocity) {
+  template <class W>
+  void tick(const W& w, bool armed, int scene, std::int32_t position, Velocity velocity) {
     law_.tick(w, armed, scene, position, velocity);
     membrane_.set_side(law_.side());
     scene_ = scene;

@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Area and speed of the core and its blocks on ECP5, and their cells on Cyclone IV E.
+
+Yosys and nextpnr only: nothing here ran on a chip. Recipe, figures and goals: docs/synthesis.md.
+Exit status: 0 within the budget (scripts/synth_budget.toml), 1 when a figure has grown past it,
+2 when a tool or an argument is wrong.
+"""
+
+import argparse
+import json
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+import synth_budget
+import synth_measure
+import synth_report
+from synth_tools import ToolError, Tools, version
+
+SCHEMA = "feltgate-synth/1"
+
+
+def arguments():
+    parser = argparse.ArgumentParser(
+        prog="feltgate synth",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--design", action="append", help="a design point; default: lever, paper")
+    parser.add_argument("--block", action="append", help="a block, or 'core'; default: all")
+    parser.add_argument("--seeds", default="1,2,3", help="of nextpnr; default 1,2,3")
+    parser.add_argument("--json", type=Path, help="write the figures here")
+    parser.add_argument("--update", action="store_true", help="write budget and documentation")
+    parser.add_argument("--no-route", action="store_true", help="area only, without nextpnr")
+    return parser.parse_args()
+
+
+def chosen(root, blocks):
+    rows = synth_measure.targets(root)
+    if not blocks:
+        return rows
+    wanted = {synth_measure.CORE if block == "core" else block for block in blocks}
+    unknown = wanted - {row.module for row in rows}
+    if unknown:
+        names = ", ".join(sorted({row.module for row in rows} - {synth_measure.CORE}))
+        raise ToolError(f"no block {', '.join(sorted(unknown))}; there are core, {names}")
+    return [row for row in rows if row.module in wanted]
+
+
+def progress(text):
+    if sys.stderr.isatty():
+        print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)
+
+
+def check_designs(root, designs):
+    for design in designs:
+        if not (root / f"rtl/generated/{design}/feltgate_pkg.sv").exists():
+            raise ToolError(f"no design {design} in rtl/generated; ./feltgate generate makes it")
+
+
+def run(options, root):
+    designs = options.design or ["lever", "paper"]
+    check_designs(root, designs)
+    rows = chosen(root, options.block)
+    seeds = [int(seed) for seed in options.seeds.split(",")]
+    keep = os.environ.get("FELTGATE_BUILD")
+    measured = {}
+    with tempfile.TemporaryDirectory(prefix="feltgate-synth-") as temporary:
+        for design in designs:
+            folder = Path(keep or temporary, "synth", design)
+            folder.mkdir(parents=True, exist_ok=True)
+            tools = Tools(folder)
+            if options.no_route or tools.nextpnr is None:
+                if not options.no_route:
+                    print("synth: no nextpnr-ecp5, so no speed", file=sys.stderr)
+                seeds = []
+            measured[design] = {}
+            for index, row in enumerate(rows):
+                progress(f"{design}: {row.name} ({index + 1} of {len(rows)})")
+                figures = synth_measure.measure(tools, root, design, row, seeds)
+                measured[design][row.name] = figures
+            progress("")
+            print(synth_report.text_table(design, measured[design]))
+            print()
+    used = {"yosys": version(tools.yosys), "nextpnr": version(tools.nextpnr)}
+    return measured, used
+
+
+def main():
+    options = arguments()
+    root = Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[1]))
+    try:
+        measured, tools = run(options, root)
+    except (ToolError, ValueError) as error:
+        print(f"synth: {error}", file=sys.stderr)
+        return 2
+    if options.json:
+        result = {"schema": SCHEMA, "tools": tools, "designs": measured}
+        options.json.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
+    path = root / "scripts/synth_budget.toml"
+    budget = synth_budget.read(path)
+    if options.update:
+        synth_budget.write(path, synth_budget.merge(budget, measured, tools))
+        synth_report.write_page(root / "docs/synthesis.md", synth_budget.read(path))
+        print("synth: wrote scripts/synth_budget.toml and docs/synthesis.md")
+        return 0
+    grown = synth_budget.compare(budget, measured, tools)
+    print("\n".join(grown) if grown else "synth: within the budget")
+    return 1 if grown else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

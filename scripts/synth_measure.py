@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""What `feltgate synth` measures: blocks and variants of the core, their wrappers, the figures."""
+
+import re
+import shutil
+import statistics
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import synth_path
+
+CORE = "feltgate_core"
+CELL_WRAPPER = "mult18_ecp5"
+# On a board nobody looks at these: they are there for simulation, or repeat what the register port
+# reads. Everything that only they need is left out of the core's figures.
+SNAPSHOT_PORTS = (
+    "snapshot_valid_o tick_count_o position_o velocity_o tau_hat_o tau_ref_o current_ref_o "
+    "voltage_o duty_o duty_active_o"
+).split()
+# Parameters that the core sets and a block alone would not have.
+BLOCK_PARAMETERS = {
+    "pwm": {"Period": "feltgate_pkg::PWM_PERIOD", "DeadClocks": "feltgate_pkg::DEAD_CLOCKS"},
+    "sequencer": {"ClocksPerTick": "feltgate_pkg::CLOCKS_PER_TICK"},
+}
+
+
+@dataclass(frozen=True)
+class Target:
+    """One row of the table."""
+
+    name: str
+    module: str
+    parameters: dict = field(default_factory=dict)
+    registered: bool = False  # MULT18X18D with its own registers
+    open_ports: tuple = ()
+
+
+def core_sources(root):
+    """File names of the core's RTL, in order."""
+    lines = (root / "rtl/feltgate_core.f").read_text(encoding="utf-8").splitlines()
+    return [line for line in lines if line and not line.startswith("//")]
+
+
+def targets(root):
+    rows = []
+    for source in core_sources(root):
+        name = Path(source).stem
+        if name == CORE:
+            continue
+        if name == "mult":
+            rows.append(Target("mult, registered", name, registered=True))
+            rows.append(Target("mult, inferred", name))
+        else:
+            rows.append(Target(name, name, BLOCK_PARAMETERS.get(name, {})))
+    for read_back, how in ((0, "without read-back"), (1, "with read-back")):
+        for registered, which in ((True, "registered"), (False, "inferred")):
+            rows.append(
+                Target(
+                    f"core {how}, {which}",
+                    CORE,
+                    {"ReadBack": str(read_back)},
+                    registered,
+                    tuple(SNAPSHOT_PORTS),
+                )
+            )
+    return rows
+
+
+def copy_sources(root, design, folder):
+    """Copies package and RTL into the working folder, in reading order."""
+    package = root / f"rtl/generated/{design}/feltgate_pkg.sv"
+    names = [f"{CELL_WRAPPER}.sv", *core_sources(root)]
+    shutil.copy(package, folder / "feltgate_pkg.sv")
+    for name in names:
+        shutil.copy(root / "rtl" / name, folder / name)
+    return ["feltgate_pkg.sv", *names]
+
+
+def read_commands(sources, target):
+    define = "-DFELTGATE_ECP5 " if target.registered else ""
+    wanted = [s for s in sources if target.registered or s != f"{CELL_WRAPPER}.sv"]
+    return [f"read_verilog -sv {define}{name}" for name in wanted]
+
+
+def instance(target, connections):
+    parameters = ", ".join(f".{n}({v})" for n, v in target.parameters.items())
+    pins = ", ".join(f".{port}({net})" for port, net in connections)
+    return f"{target.module} #({parameters}) u_dut ({pins});"
+
+
+def area_top(target, ports):
+    """The block as it is counted: its ports, without those that stay open."""
+    kept = [p for p in ports if p[0] not in target.open_ports]
+    pins = ", ".join(f"{way} logic [{width - 1}:0] {name}" for name, way, width in kept)
+    connections = [(name, "" if name in target.open_ports else name) for name, _, _ in ports]
+    return f"module area_top ({pins});\n  {instance(target, connections)}\nendmodule\n"
+
+
+def speed_top(target, ports):
+    """The block between registers that are shifted in and out, so that no pin limits it."""
+    clocks = ("clk_i", "rst_ni")
+    ins = [p for p in ports if p[1] == "input" and p[0] not in clocks]
+    outs = [p for p in ports if p[1] == "output" and p[0] not in target.open_ports]
+    connections = [(name, name) for name, _, _ in ports if name in clocks]
+    connections += [(name, "") for name in target.open_ports]
+    for prefix, list_of_ports in (("in_q2", ins), ("out", outs)):
+        start = 0
+        for name, _, width in list_of_ports:
+            connections.append((name, f"{prefix}[{start}+:{width}]"))
+            start += width
+    n_in, n_out = sum(p[2] for p in ins), sum(p[2] for p in outs)
+    return f"""module speed_top (input logic clk_i, rst_ni, in_i, load_i, output logic out_o);
+  logic [{n_in - 1}:0] in_q, in_q2;
+  logic [{n_out - 1}:0] out, out_q, shift_q;
+  logic load_q;
+  always_ff @(posedge clk_i) begin
+    in_q <= {n_in}'({{in_q, in_i}});
+    in_q2 <= in_q;
+    load_q <= load_i;
+    out_q <= out;
+    shift_q <= load_q ? out_q : {n_out}'({{shift_q, 1'b0}});
+    out_o <= shift_q[{n_out - 1}];
+  end
+  {instance(target, connections)}
+endmodule
+"""
+
+
+def file_name(target):
+    return re.sub(r"[^a-z0-9_]+", "_", target.name)
+
+
+def ecp5_figures(cells):
+    lut4, ccu2c = cells.get("LUT4", 0), cells.get("CCU2C", 0)
+    return {
+        "lut4": lut4,
+        "ccu2c": ccu2c,
+        "lut4_equivalents": lut4 + 2 * ccu2c,
+        "ff": cells.get("TRELLIS_FF", 0),
+        "mult18": cells.get("MULT18X18D", 0),
+        "bram": cells.get("DP16KD", 0),
+    }
+
+
+def cyclone_figures(cells):
+    return {
+        "cyclone_cells": cells.get("cycloneive_lcell_comb", 0) + cells.get("$not", 0),
+        "cyclone_ff": cells.get("dffeas", 0),
+    }
+
+
+def measure(tools, root, design, target, seeds):
+    """Figures of one target: a dictionary whose keys are those of docs/synthesis.md's JSON."""
+    name = file_name(target)
+    read = read_commands(copy_sources(root, design, tools.folder), target)
+    ports = tools.ports(target.module, read)
+    for kind, text in (("area", area_top(target, ports)), ("speed", speed_top(target, ports))):
+        (tools.folder / f"{name}_{kind}.sv").write_text(text, encoding="utf-8")
+    area = [*read, f"read_verilog -sv {name}_area.sv"]
+    figures = ecp5_figures(tools.synthesize_ecp5(f"{name}_area", "area_top", area))
+    if not target.registered:  # the cell is an ECP5's
+        figures |= cyclone_figures(tools.synthesize_cyclone(f"{name}_c4e", "area_top", area))
+    if seeds:
+        figures |= measure_speed(tools, name, read, seeds)
+    return figures
+
+
+def measure_speed(tools, name, read, seeds):
+    speed = [*read, f"read_verilog -sv {name}_speed.sv"]
+    tools.synthesize_ecp5(f"{name}_speed", "speed_top", speed)
+    tools.write_netlist(f"{name}_speed")
+    with ThreadPoolExecutor(max_workers=2) as pool:
+        reports = list(pool.map(lambda seed: tools.route(f"{name}_speed", seed), seeds))
+    reports.sort(key=synth_path.fmax)
+    speeds = [round(synth_path.fmax(report), 1) for report in reports]
+    middle = reports[(len(reports) - 1) // 2]
+    return {
+        "fmax_mhz": round(statistics.median_low(speeds), 1),
+        "fmax_min_mhz": speeds[0],
+        "fmax_max_mhz": speeds[-1],
+        "critical_path": synth_path.describe(middle, tools.folder / f"{name}_speed.json"),
+    }

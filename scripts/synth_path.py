@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""nextpnr's critical path in the names of the RTL: from which register, through what, to which."""
+
+import json
+import re
+
+# Yosys' autoname builds a name from a neighbour's by such suffixes.
+MADE_UP = re.compile(r"_(?:TRELLIS_FF|LUT4|CCU2C|MULT18X18D|DP16KD|PFUMX|L6MUX21)(?:_|$)|\$")
+OUTPUTS = {"TRELLIS_FF": r"Q$", "MULT18X18D": r"P\d+$", "DP16KD": r"DO[AB]\d+$"}
+
+
+def fmax(report):
+    """MHz of the one clock."""
+    return next(iter(report["fmax"].values()))["achieved"]
+
+
+def signal_names(netlist):
+    """For every bit the best name that the RTL has for it, if any."""
+    names = {}
+    for name, net in netlist["netnames"].items():
+        if MADE_UP.search(name) or not name.startswith("u_dut."):
+            continue
+        for index, bit in enumerate(net["bits"]):
+            label = f"{name}[{index}]" if len(net["bits"]) > 1 else name
+            # Deepest in the hierarchy says most; among those, a register by its own name.
+            rank = (name.count("."), name.endswith("_q"), -len(name))
+            if bit not in names or rank > names[bit][0]:
+                names[bit] = (rank, label)
+    return {bit: label for bit, (_, label) in names.items()}
+
+
+def cell_label(cell, netlist, names):
+    """What a cell drives, else the cell's name up to the first made-up suffix."""
+    base = re.split(r"\$", cell)[0]
+    found = netlist["cells"].get(cell) or netlist["cells"].get(base)
+    if found:
+        kind = re.sub(r".*\\", "", found["type"])
+        pattern = OUTPUTS.get(kind)
+        for port, bits in found["connections"].items() if pattern else ():
+            if re.match(pattern, port) and bits and bits[0] in names:
+                return clean(names[bits[0]])
+    return clean(MADE_UP.split(cell)[0])
+
+
+def clean(label):
+    label = re.sub(r"^u_dut\.", "", label)
+    return re.sub(r"^(in_q2?|out_q)\b.*", r"wrapper", label)
+
+
+def describe(report, netlist_path):
+    """One line: start -> end, its time, how it divides, what it passes."""
+    netlist = json.loads(netlist_path.read_text(encoding="utf-8"))["modules"]["speed_top"]
+    names = signal_names(netlist)
+    steps = report["critical_paths"][0]["path"]
+    routing = sum(step["delay"] for step in steps if step["type"] == "routing")
+    total = sum(step["delay"] for step in steps)
+    cells = [step["from"]["cell"] for step in steps if step["type"] == "logic"]
+    carries = [cell for cell in cells if "$CCU2_COMB" in cell]
+    start, end = (
+        cell_label(step[way]["cell"], netlist, names)
+        for step, way in ((steps[0], "from"), (steps[-1], "to"))
+    )
+    through = [f"{len(cells) - len(carries)} LUT" if len(cells) > len(carries) else ""]
+    through += [f"{len(carries)} carry bits" if carries else ""]
+    how = ", ".join([t for t in through if t] or ["no logic"])
+    return f"{start} -> {end}: {total:.2f} ns, {routing:.2f} of it routing, {how}"

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Tables of `feltgate synth`: on the terminal, and the generated part of docs/synthesis.md."""
+
+BEGIN = "<!-- written by feltgate synth --update: do not edit from here -->"
+END = "<!-- end of what feltgate synth wrote -->"
+
+# (repository, module, LUT4 equivalents, FF, MULT18, BRAM, Fmax [min-max]); measured for this
+# project's planning with Yosys 0.52 and nextpnr 0.7 from the repositories' public sources.
+PEERS = (
+    ("jhu-cisst/mechatronics-firmware", "decoder with period estimator", 287, 240, 0, 0, "126 [125-132]"),
+    ("jhu-cisst/mechatronics-firmware", "PI current controller (HLS)", 711, 454, 5, 0, "82 [82-90]"),
+    ("jhu-cisst/mechatronics-firmware", "MotorChannelDRAC: current loop, PWM, faults", 1090, 774, 5, 0, "88 [88-88]"),
+    ("WangXuan95/FPGA-FOC", "foc_top: the whole core", 2717, 1391, 19, 6, "52 [52-55]"),
+    ("WangXuan95/FPGA-FOC", "pi_controller", 667, 275, 6, 0, "56 [56-56]"),
+    ("f32c/f32c", "ctrlpid (and 32 DPR16X4)", 2977, 19, 0, 0, "44 [43-45]"),
+    ("f32c/f32c", "rotary_decoder, 24 bits", 120, 30, 0, 0, "177 [175-184]"),
+    ("multigcs/riocore", "quadencoder, 32 bits", 97, 38, 0, 0, "199 [198-205]"),
+    ("multigcs/riocore", "pwmout, 32 bits", 142, 47, 0, 0, "187 [170-194]"),
+    ("RAPcores/rapcores", "quad_enc, 32 bits, with period", 196, 103, 0, 0, "197 [195-197]"),
+)
+
+# (what, row, figure, bound, is a least value)
+GOALS = (
+    ("LUT4 equivalents without read-back", "core without read-back, registered", "lut4_equivalents", 1400, False),
+    ("LUT4 equivalents with read-back", "core with read-back, registered", "lut4_equivalents", 2700, False),
+    ("MULT18X18D", "core with read-back, registered", "mult18", 4, False),
+    ("MHz, registered multiplier, without read-back", "core without read-back, registered", "fmax_mhz", 150, True),
+    ("MHz, registered multiplier, with read-back", "core with read-back, registered", "fmax_mhz", 150, True),
+    ("MHz, inferred multiplier, without read-back", "core without read-back, inferred", "fmax_mhz", 100, True),
+    ("MHz, inferred multiplier, with read-back", "core with read-back, inferred", "fmax_mhz", 100, True),
+)
+
+HEADS = ("", "LUT4", "CCU2C", "LUT4 eq", "FF", "MULT18", "BRAM", "Fmax MHz", "C4E cells", "C4E FF")
+
+
+def speed(row):
+    if "fmax_mhz" not in row:
+        return "-"
+    return f"{row['fmax_mhz']:.0f} [{row['fmax_min_mhz']:.0f}-{row['fmax_max_mhz']:.0f}]"
+
+
+def cells(name, row):
+    keys = ("lut4", "ccu2c", "lut4_equivalents", "ff", "mult18", "bram")
+    late = ("cyclone_cells", "cyclone_ff")
+    return [name, *(str(row[k]) for k in keys), speed(row), *(str(row.get(k, "-")) for k in late)]
+
+
+def text_table(design, rows):
+    lines = [[f"design {design}", *HEADS[1:]], *(cells(n, r) for n, r in rows.items())]
+    widths = [max(len(line[k]) for line in lines) for k in range(len(HEADS))]
+    table = [
+        "  ".join(
+            [line[0].ljust(widths[0]), *(c.rjust(w) for c, w in zip(line[1:], widths[1:]))]
+        )
+        for line in lines
+    ]
+    paths = [f"  {n}: {r['critical_path']}" for n, r in rows.items() if "critical_path" in r]
+    return "\n".join(table + (["critical paths:", *paths] if paths else []))
+
+
+def markdown(heads, rows):
+    rule = "|---|" + "---:|" * (len(heads) - 1)
+    return [f"| {' | '.join(heads)} |", rule, *(f"| {' | '.join(row)} |" for row in rows)]
+
+
+def goal_rows(design, rows):
+    for what, name, key, bound, at_least in GOALS:
+        value = rows.get(name, {}).get(key)
+        if value is None:
+            yield [f"{design}: {what}", f"{'>=' if at_least else '<='} {bound}", "-", "not measured"]
+            continue
+        met = value >= bound if at_least else value <= bound
+        short = abs(value - bound) / bound
+        verdict = "met" if met else f"**missed** by {short:.0%}"
+        yield [f"{design}: {what}", f"{'>=' if at_least else '<='} {bound}", f"{value:g}", verdict]
+
+
+def generated(budget):
+    how = budget["measured"]
+    lines = [
+        BEGIN,
+        "",
+        f"Measured on {how['date']} with {how['yosys']} and {how['nextpnr']} ({how['machine']}).",
+    ]
+    for design, rows in budget["figures"].items():
+        lines += ["", f"### Design `{design}`", ""]
+        lines += markdown(HEADS, [cells(name, row) for name, row in rows.items()])
+        lines += ["", "Critical paths of the median seed:", ""]
+        lines += [f"- {n}: `{r['critical_path']}`" for n, r in rows.items() if "critical_path" in r]
+    lines += ["", "### Goals", ""]
+    goals = [g for design, rows in budget["figures"].items() for g in goal_rows(design, rows)]
+    lines += markdown(("goal", "bound", "measured", ""), goals)
+    lines += ["", "### Peers", ""]
+    peers = [[f"`{r}`", m, *(str(x) for x in rest)] for r, m, *rest in PEERS]
+    heads = ("repository", "module", "LUT4 eq", "FF", "MULT18", "BRAM", "Fmax MHz")
+    lines += markdown(heads, peers)
+    return "\n".join([*lines, "", END])
+
+
+def write_page(path, budget):
+    page = path.read_text(encoding="utf-8")
+    if BEGIN not in page or END not in page:
+        raise ValueError(f"{path}: the lines '{BEGIN}' and '{END}' are missing; put them back")
+    before, rest = page.split(BEGIN, 1)
+    path.write_text(before + generated(budget) + rest.split(END, 1)[1], encoding="utf-8")

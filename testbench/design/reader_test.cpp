@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Every message about a design file or the register map says file, line, what and mend.
+// Documentation: docs/designs.md
+#include <vector>
+
+#include "design_fixture.hpp"
+
+using namespace feltgate;
+using namespace feltgate::design;
+
+namespace {
+
+/// One change of the text of paper.toml and the error that it must cause.
+struct Case {
+  std::string from, to;
+  std::string at;       ///< the error names the line of this text in the changed file
+  std::string message;  ///< "what; mend", from its beginning
+};
+
+void check_cases(const std::string& text, const std::vector<Case>& cases) {
+  for (const Case& c : cases) {
+    const std::string bad = replaced(text, c.from, c.to);
+    const std::string error = design_error(bad);
+    const std::string expected =
+        "changed.toml:" + std::to_string(line_of(bad, c.at)) + ": " + c.message;
+    INFO("error:    " << error);
+    INFO("expected: " << expected);
+    CHECK(error.rfind(expected, 0) == 0);
+    CHECK(error.find("; ") != std::string::npos);
+  }
+}
+
+std::string read_error(const std::string& path) {
+  try {
+    (void)read_design(path);
+  } catch (const config::ConfigError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string registers_error(const std::string& from, const std::string& to) {
+  const std::string text = replaced(file_text(root_path("rtl/registers.toml")), from, to);
+  try {
+    const RegisterMap map = read_registers(written("registers.toml", text));
+    (void)elaborate(shipped_design("paper"), map);
+  } catch (const config::ConfigError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("an unchanged design has no error", "[reader]") {
+  CHECK(design_error(file_text(design_path("paper"))) == "no error");
+  CHECK(design_error(file_text(design_path("lever"))) == "no error");
+}
+
+TEST_CASE("keys: missing, unknown, mistyped, out of range", "[reader]") {
+  check_cases(
+      file_text(design_path("paper")),
+      {{"tick_hz = 1_000_000\n", "", "[clock]", "key \"tick_hz\" is missing in [clock]; add it"},
+       {"m1 = 386", "m1 = 386\nm2 = 5", "m2 = 5",
+        "key \"m2\" is unknown in [velocity]; remove it or use one of: cutoff_rad_s, m1, n"},
+       {"[pwm]", "[pvm]", "#", "key \"pwm\" is missing in the design; add it"},
+       {"[clock]", "speed = 1\n[clock]", "speed = 1",
+        "key \"speed\" is unknown in the design; remove it or use one of: "},
+       {"n = 2 ", "n = 2.0 ", "n = 2.0",
+        "\"n\" is not an integer of its range; it must be from 0 to 12"},
+       {"m1 = 386", "m1 = 1535", "m1 = 1535",
+        "\"m1\" is not an integer of its range; it must be from 1 to 1534"},
+       {"torque_limit_nm = 0.5", "torque_limit_nm = \"0.5\"", "torque_limit_nm = \"",
+        "\"torque_limit_nm\" is not a number; write a number in the unit that the key names"},
+       {"torque_limit_nm = 0.5", "torque_limit_nm = nan", "torque_limit_nm = nan",
+        "\"torque_limit_nm\" = nan is out of range; it must be from 0 to 15"},
+       {"supply_v = 24.0", "supply_v = 36.0", "supply_v = 36",
+        "\"supply_v\" = 36 is out of range; it must be from 1 to 31.9"},
+       {"membrane_upper_rad = 0.7", "membrane_upper_rad = 0.3", "membrane_upper_rad = 0.3",
+        "\"membrane_upper_rad\" = 0.3 is out of range; it must be from 0.5 to 200"},
+       {"mode = \"sign_magnitude\"", "mode = \"unipolar\"", "mode = \"unipolar\"",
+        "\"mode\" = \"unipolar\" is not known; it must be one of sign_magnitude, "
+        "locked_antiphase"},
+       {"law = \"regions\"", "law = \"linear\"", "law = \"linear\"",
+        "\"law\" = \"linear\" is not known; it must be one of regions, motor_model"},
+       {"law = \"regions\"", "law = 5", "law = 5", "\"law\" is not a text; write it in quotes"},
+       {"include = [", "include = [3, ", "include",
+        "\"include\" is not a text; write it in quotes"},
+       {"include = [\"free\",", "include = \"free\" #", "include",
+        "\"include\" is not an array; write [a, b, ...]"},
+       {"include = [\"free\",", "include = [\"fre\",", "include",
+        "scene \"fre\" is unknown; choose among free, setpoint, "},
+       {"[clock]\n", "clock = 5\n[clock2]\n", "clock = 5",
+        "\"clock\" is not a table; write [clock]"}});
+}
+
+TEST_CASE("syntax, name and place of the file", "[reader]") {
+  const std::string good = file_text(design_path("paper"));
+  const std::string error = design_error(replaced(good, "m1 = 386", "m1 == 386"));
+  CHECK(error.rfind("changed.toml:" + std::to_string(line_of(good, "m1 = 386")) + ": not TOML (",
+                    0) == 0);
+  CHECK(contains(error, "; mend the syntax of this line"));
+  CHECK(read_error("/nonexistent/paper.toml") ==
+        "/nonexistent/paper.toml:0: cannot be read; give the path of a readable TOML file");
+  for (const char* name : {"Paper.toml", "2nd.toml", "my-design.toml", "_x.toml"}) {
+    const std::string path = written(name, good);
+    const std::string stem = std::string(name).substr(0, std::string(name).find('.'));
+    CHECK(read_error(path) == path + ":0: a design cannot be called \"" + stem +
+                                  "\"; use a to z, 0 to 9 and _, a letter first");
+  }
+}
+
+TEST_CASE("values that do not belong together", "[reader]") {
+  check_cases(
+      file_text(design_path("paper")),
+      {{"tick_hz = 1_000_000", "tick_hz = 999_999", "tick_hz = 999_999",
+        "clock_hz is not a multiple of tick_hz; choose a divisor of the clock"},
+       {"frequency_hz = 20_000 ", "frequency_hz = 12_000 ", "frequency_hz = 12_000",
+        "the PWM period is not a whole number of clocks up to 4095; choose another frequency"},
+       {"frequency_hz = 20_000 ", "frequency_hz = 30_000 ", "frequency_hz = 30_000",
+        "the PWM period is not a whole number of clocks up to 4095; choose another frequency"},
+       {"kp_1_kg_m2 = 1600.0", "kp = \"1/inertia\"\nkp_1_kg_m2 = 1600.0", "kp_1_kg_m2 = 1600",
+        "Kp is given twice; keep one of kp and kp_1_kg_m2"},
+       {"kp_1_kg_m2 = 1600.0", "kp = \"2/inertia\"",
+        "kp = ", "\"kp\" = \"2/inertia\" is not known; it must be one of 1/inertia"},
+       {"torque = [1, 4, 16]", "torque = [1, 4]", "torque = [1, 4]",
+        "\"torque\" is no format of a signed signal; write [1, I, F]"},
+       {"torque = [1, 4, 16]", "torque = [0, 5, 16]", "torque = [0, 5",
+        "\"torque\" is no format of a signed signal; write [1, I, F]"},
+       {"torque = [1, 4, 16]", "torque = [1, -20, 16]", "torque = [1, -20",
+        "\"torque\" has less than two bits; raise I or F"},
+       {"torque = [1, 4, 16]", "torque = [1, 4, 99]", "torque = [1, 4, 99",
+        "\"torque\" is not an integer of its range; it must be from -64 to 64"}});
+}
+
+TEST_CASE("the register map is read as strictly", "[reader]") {
+  const auto place = [](const std::string& error) {
+    const std::string path = std::string(FELTGATE_TEST_FOLDER) + "/registers.toml:";
+    return error.rfind(path, 0) == 0 && error[path.size()] != '0' && contains(error, "; ");
+  };
+  const struct {
+    const char *from, *to, *message;
+  } cases[] = {
+      {"kind = \"coefficient\"", "kind = \"fraction\"",
+       "\"kind\" = \"fraction\" is not known; it must be one of coefficient, signed, signal"},
+      {"slot = 5\n", "slot = 4\n",
+       "inverse_resistance shares its address with another parameter; choose a free slot"},
+      {"slot = 5\n", "slot = 64\n",
+       "\"slot\" is not an integer of its range; it must be from 0 to"},
+      {"slot = 5\n", "slot = 5\nspeed = 1\n", "key \"speed\" is unknown"},
+      {"unit = \"1/ohm\"\n", "", "key \"unit\" is missing"},
+      {"scene = \"damper\"\nslot", "scene = \"dampr\"\nslot",
+       "scene \"dampr\" has no bank; list it under [[scene]]"},
+      {"name = \"free\"\nnumber = 0", "name = \"free\"\nnumber = 16",
+       "\"number\" is not an integer of its range; it must be from 0 to 15"},
+      {"bit = 2, width = 4", "bit = 30, width = 4",
+       "the field ends beyond bit 31; make it narrower"},
+      {"format = \"velocity\"", "format = \"speed\"",
+       "signal format \"speed\" is unknown; use that of a signal of the chain"},
+      {"name = \"watchdog_ticks\"", "name = \"watchdog\"",
+       "no design gives a value to \"watchdog\"; add it to"},
+      {"same_format_as = \"voltage_gain\"", "same_format_as = \"voltage_gein\"",
+       "no design gives a value to \"voltage_gein\"; add it to"}};
+  for (const auto& c : cases) {
+    const std::string error = registers_error(c.from, c.to);
+    INFO(error);
+    CHECK(place(error));
+    CHECK(contains(error, c.message));
+  }
+}

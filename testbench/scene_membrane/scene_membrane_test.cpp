@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// scene_membrane: RTL against twin on every clock, clock() against tick(), entries from every side,
+// and its energy balance. Documentation: docs/blocks/scene_membrane.md
+#include <Vscene_membrane.h>
+
+#include <vector>
+
+#include "../scenes/scene_wave.hpp"
+#include "catch.hpp"
+#include "feltgate/scene_membrane.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+using Twin = SceneMembrane<Design>;
+constexpr int kMembrane = Design::S::membrane;
+
+struct Block {
+  static Twin::In in(const Wave& wave, const Bus& bus) {
+    return {wave.scene == kMembrane, bus.start, wave.position, bus.param};
+  }
+  static std::int64_t operand(const Twin::Out&) { return 0; }
+  static void drive(Vscene_membrane& rtl, const Twin::In& in) {
+    rtl.select_i = in.select;
+    rtl.start_i = in.start;
+    rtl.position_i = port_bits<18>(in.position);
+    rtl.param_i = in.param;
+  }
+  template <class Check>
+  static void compare(Check& check, const Vscene_membrane& rtl, const Twin::Out& out) {
+    check("tau", sign_extend<kTorque.width()>(rtl.tau_o), out.tau);
+  }
+};
+
+struct Tally {
+  std::int64_t waves = 0, up = 0, down = 0, unknown = 0;
+};
+
+struct TickBeside {
+  Tally* tally;
+  Twin beside{};
+  void forget() { beside.reset(); }
+  const char* operator()(const Probe& p, const Vscene_membrane&, const Twin& twin) {
+    const bool selected = p.wave.scene == kMembrane;
+    beside.tick(p.memory.words(), selected, p.wave.position);
+    ++tally->waves;
+    tally->up += twin.out().tau > 0;
+    tally->down += twin.out().tau < 0;
+    tally->unknown += selected && twin.side() == MembraneSide::unknown;
+    return beside.out().tau == twin.out().tau ? nullptr : "tick() differs from clock()";
+  }
+};
+
+/// Faces and torque at random, a shaft that walks or jumps around them.
+struct Next {
+  Random random;
+  Wave wave{};
+  Wave operator()(Memory& memory, std::int64_t number) {
+    if (number == 0 || random.one_in(40)) {
+      const std::int64_t lower = random.between(-40000, 40000);
+      memory.write(Design::A::membrane_lower, lower);
+      memory.write(Design::A::membrane_upper, lower + random.between(-300, 256 * 60));
+      memory.write(Design::A::membrane_torque, random.one_in(4) ? any_word(random) : random.below(65536));
+      if (random.one_in(16)) memory.write(Design::A::membrane_lower, any_word(random));
+    }
+    if (random.one_in(20)) wave.scene = random.coin() ? kMembrane : static_cast<int>(random.below(9));
+    if (number == 0) wave.scene = kMembrane;
+    if (random.one_in(12)) {
+      wave.position = any_position(random, memory, kMembrane);
+    } else {
+      wave.position += static_cast<std::int32_t>(random.between(-12, 12));
+      if (wave.position > 131071 || wave.position < -131072) wave.position = 0;
+    }
+    wave.length = static_cast<int>(random.between(30, 34));
+    return wave;
+  }
+};
+
+constexpr std::int32_t kLower = 100, kUpper = 110;
+constexpr std::int64_t kNm = 20000;
+
+/// A membrane over [100, 110] of torque kNm, both faces with the fraction given in 1/256 count.
+Memory membrane(int lower_fraction = 0, int upper_fraction = 0) {
+  Memory memory;
+  memory.write(Design::A::membrane_lower, kLower * 256 + lower_fraction);
+  memory.write(Design::A::membrane_upper, kUpper * 256 + upper_fraction);
+  memory.write(Design::A::membrane_torque, kNm);
+  return memory;
+}
+
+/// Torques along a path.
+std::vector<std::int64_t> felt(const Memory& memory, const std::vector<std::int32_t>& path) {
+  Twin twin;
+  std::vector<std::int64_t> tau;
+  for (const std::int32_t position : path) {
+    twin.tick(memory.words(), true, position);
+    tau.push_back(twin.out().tau);
+  }
+  return tau;
+}
+
+using Torques = std::vector<std::int64_t>;
+
+}  // namespace
+
+TEST_CASE("scene_membrane: random faces, motions, scenes and resets") {
+  Tally tally;
+  const auto probe = std::make_shared<Probe>();
+  LockStep<Vscene_membrane, Twin, Block> bench("scene_membrane", 1);
+  bench.run(Waves<Block, Next>(2, Next{Random(3)}, probe), scaled_clocks(1500000), {5000},
+            AfterWave<TickBeside>(probe, {&tally}));
+  INFO("waves " << tally.waves << ", up " << tally.up << ", down " << tally.down << ", unknown "
+                << tally.unknown);
+  REQUIRE(tally.up > 1000);
+  REQUIRE(tally.down > 1000);
+  REQUIRE(tally.unknown > 200);
+}
+
+TEST_CASE("scene_membrane: the sign is that of the side of entry until it is left") {
+  const Memory m = membrane();
+  REQUIRE(felt(m, {99, 100, 105, 103, 110, 111, 110, 104, 100, 99}) ==
+          Torques{0, -kNm, -kNm, -kNm, -kNm, 0, kNm, kNm, kNm, 0});
+  REQUIRE(felt(m, {111, 110, 111, 100, 99, 100}) == Torques{0, kNm, 0, kNm, 0, -kNm});
+  // Selected inside: nothing until it is left and entered again.
+  REQUIRE(felt(m, {105, 100, 110, 105, 99, 100}) == Torques{0, 0, 0, 0, 0, -kNm});
+  // Jumped across within one tick: nothing.
+  REQUIRE(felt(m, {90, 120, 90}) == Torques{0, 0, 0});
+  // Jumped in from afar and back.
+  REQUIRE(felt(m, {-5000, 109, 101, 5000, 101}) == Torques{0, -kNm, -kNm, 0, kNm});
+}
+
+TEST_CASE("scene_membrane: faces are compared with their fraction") {
+  REQUIRE(felt(membrane(1, 0), {99, 100, 101}) == Torques{0, 0, -kNm});
+  REQUIRE(felt(membrane(255, 255), {99, 100, 101, 110, 111}) == Torques{0, 0, -kNm, -kNm, 0});
+  REQUIRE(felt(membrane(0, 255), {112, 111, 110}) == Torques{0, 0, kNm});
+  REQUIRE(felt(membrane(-1, -1), {98, 99, 100, 109, 110}) == Torques{0, 0, -kNm, -kNm, 0});
+}
+
+TEST_CASE("scene_membrane: a negative torque word counts as 0") {
+  Memory memory = membrane();
+  memory.write(Design::A::membrane_torque, -1);
+  REQUIRE(felt(memory, {99, 105}) == Torques{0, 0});
+}
+
+TEST_CASE("scene_membrane: absorbs energy over any motion of at most a count per tick") {
+  // A count per tick is 1534 rad/s. Turning points lie in the middle of a count.
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Random random(seed);
+    const Memory memory = membrane(static_cast<int>(random.below(256)), static_cast<int>(random.below(256)));
+    Twin twin;
+    std::int32_t position = static_cast<std::int32_t>(random.between(80, 130));
+    std::int64_t tau = 0, twice_work = 0, crossings = 0;
+    std::int32_t direction = 1;
+    for (int k = 0; k < 20000; ++k) {
+      if (random.one_in(12)) direction = static_cast<std::int32_t>(random.between(-1, 1));
+      if (position < 70) direction = 1;
+      if (position > 140) direction = -1;
+      position += direction;
+      twin.tick(memory.words(), true, position);
+      twice_work += (tau + twin.out().tau) * direction;
+      crossings += tau == 0 && twin.out().tau != 0;
+      tau = twin.out().tau;
+      REQUIRE(twice_work <= 0);
+    }
+    REQUIRE(crossings > 50);
+    REQUIRE(twice_work < -100 * kNm);
+  }
+}

@@ -10,7 +10,10 @@
 `default_nettype none
 
 module scene_charge #(
-    parameter int Defect = 0  // 1: divider one iteration short, 2: x = 0 not saturated, 3: sign at x = 0, 4: core border inclusive on one side, 5: core repels when it attracts, 6: distance wraps, 7: quotient wraps
+    // 1: divider one iteration short, 2: x = 0 not saturated, 3: sign at x = 0,
+    // 4: core border inclusive on one side, 5: core repels when it attracts, 6: distance wraps,
+    // 7: quotient wraps
+    parameter int Defect = 0
 ) (
     input  logic                                             clk_i,
     input  logic                                             rst_ni,
@@ -74,7 +77,11 @@ module scene_charge #(
   logic [30:0] remainder_q;
   logic [34:0] square_q;
   logic [32:0] difference;
-  logic        bring, huge, fits, saturated_q, quotient_bit;
+  logic        busy_q, bring, huge, fits, saturated_q, quotient_bit;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) busy_q <= 1'b0;  // clocks 8 to 24
+    else busy_q <= stage_q[5] || (busy_q && !stage_q[22]);
+  end
   always_comb begin
     bring = 1'b0;
     for (int k = 0; k < 17; k++) bring = bring | (rest_q[16-k] & stage_q[6+k]);
@@ -89,7 +96,7 @@ module scene_charge #(
     if (stage_q[0]) rest_q <= param_i[16:0];
     if (stage_q[5]) square_q <= product_i[34:0];
     if (stage_q[0]) remainder_q <= '0;
-    else if (stage_q[1] || stage_q[22:6] != '0) begin
+    else if (stage_q[1] || busy_q) begin
       remainder_q <= (fits ? difference[30:0] : {remainder_q[29:0], bring}) | 31'(preset_q);
     end
     if (stage_q[6]) saturated_q <= fits && Defect != 7;
@@ -100,7 +107,7 @@ module scene_charge #(
   logic signed [ForceW-1:0] outside_q;
   logic                     near_q, keep, shift;
   assign keep  = select_i && !near_q && !stage_q[6];
-  assign shift = stage_q[21:6] != '0 || (stage_q[22] && Defect != 1);
+  assign shift = busy_q && !(Defect == 1 && stage_q[22]);
   always_ff @(posedge clk_i) begin
     if (stage_q[6]) quotient_q <= '0;
     else if (shift) quotient_q <= {quotient_q[14:0], quotient_bit};

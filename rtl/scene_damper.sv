@@ -31,15 +31,15 @@ module scene_damper #(
     else stage_q <= {stage_q[15:0], start_i};
   end
 
-  // -(p + half) = ~p + !half: the bit below the last one decides whether a step is added.
+  // -(p + half) = -half - p, -half being all ones or none: one subtraction.
   logic signed [  PartW-1:0] part_q;
   logic signed [TorqueW  :0] rounded_q;
-  logic                      part_over_q, negative_q, carry;
-  assign carry = (Defect == 2) || !part_q[0];
+  logic                      part_over_q, negative_q, half;
+  assign half = part_q[0] && Defect != 2;
   always_ff @(posedge clk_i) begin
     if (stage_q[12]) part_q <= PartW'(product_i >>> (Drop - 1));
     rounded_q   <= (Defect == 1) ? part_q[TorqueW+1:1] + (TorqueW + 1)'({1'b0, part_q[0]})
-                                 : ~part_q[TorqueW+1:1] + (TorqueW + 1)'({1'b0, carry});
+                                 : {(TorqueW + 1) {half}} - part_q[TorqueW+1:1];
     part_over_q <= part_q[PartW-1:TorqueW+1] != {(PartW - TorqueW - 1) {part_q[PartW-1]}};
     negative_q  <= part_q[PartW-1] == (Defect == 1);
   end

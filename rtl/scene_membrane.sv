@@ -9,7 +9,9 @@
 `default_nettype none
 
 module scene_membrane #(
-    parameter int Defect = 0  // 1: sign by direction of motion, 2: upper face outside, 3: fraction of the lower face dropped, 4: acts when selected inside
+    // 1: sign by direction of motion, 2: upper face outside,
+    // 3: fraction of the lower face dropped, 4: acts when selected inside
+    parameter int Defect = 0
 ) (
     input  logic                                             clk_i,
     input  logic                                             rst_ni,

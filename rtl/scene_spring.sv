@@ -9,7 +9,9 @@
 `default_nettype none
 
 module scene_spring #(
-    parameter int Defect = 0  // 1: compression pushes on the wrong side, 2: wrong sign beyond the rest position, 3: truncates, 4: distance wraps, 5: torque wraps
+    // 1: compression pushes on the wrong side, 2: wrong sign beyond the rest position,
+    // 3: truncates, 4: distance wraps, 5: torque wraps
+    parameter int Defect = 0
 ) (
     input  logic                                             clk_i,
     input  logic                                             rst_ni,

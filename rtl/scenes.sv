@@ -9,8 +9,11 @@
 `default_nettype none
 
 module scenes #(
-    parameter int Mask   = feltgate_pkg::SCENE_MASK,  // bit n: scene n is built
-    parameter int Defect = 0  // 1: no ramp on a change of scene, 2: limit on one side only, 3: disarming keeps the torque, 4: ramp never ends, 5: ramp twice as fast downward, 6: a step whatever the distance
+    parameter int Mask = feltgate_pkg::SCENE_MASK,  // bit n: scene n is built
+    // 1: no ramp on a change of scene, 2: limit on one side only,
+    // 3: disarming keeps the torque, 4: ramp never ends, 5: ramp twice as fast downward,
+    // 6: a step whatever the distance
+    parameter int Defect = 0
 ) (
     input  logic                                             clk_i,
     input  logic                                             rst_ni,
@@ -195,7 +198,8 @@ module scenes #(
   assign tau_ref_o = ramp_q[RampW-1:Fine];
 
   logic unused;
-  assign unused = ^{param_i[31:RampW], upper_gap[TorqueW-1:0], lower_gap[TorqueW-1:0], beyond[RampW-1:0]};
+  assign unused = ^{param_i[31:RampW], upper_gap[TorqueW-1:0], lower_gap[TorqueW-1:0],
+                    beyond[RampW-1:0]};
 endmodule
 
 `default_nettype wire

@@ -116,6 +116,7 @@ def main(argv=None):
     arguments = arguments_of(argv)
     folder = (arguments.out or runs.build_folder() / "demo").resolve()
     began = time.monotonic()
+    runs.end_on_terminate()
     try:
         folder.mkdir(parents=True, exist_ok=True)
         found, unreadable, where = find_recordings(arguments.traces)
@@ -140,7 +141,9 @@ def main(argv=None):
         drawn = [] if arguments.no_figures else all_figures.draw(done, DESIGNS)
         shown = [job.name for job in scenes + replays if done[job.name].ran]
         with ProcessPoolExecutor(arguments.jobs) as pool:
-            pictures = dict(zip(shown, pool.map(draw_run, [done[name] for name in shown])))
+            pictures = dict(
+                zip(shown, pool.map(draw_run, [done[name] for name in shown]), strict=True)
+            )
         demo = demo_page.Demo(
             runs=done,
             scenes=[job.name for job in scenes],

@@ -13,7 +13,7 @@ import json
 import sys
 from pathlib import Path
 
-from reporting import all_figures, page, runs, run_section
+from reporting import all_figures, page, run_section, runs
 from reporting.progress import Progress
 
 SCHEMA = "feltgate-figures-1"
@@ -82,6 +82,7 @@ def main():
     folder = (arguments.out or runs.build_folder() / "figures").resolve()
     designs = (arguments.design,) if arguments.design else DESIGNS
     jobs = all_figures.jobs(designs)
+    runs.end_on_terminate()
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with Progress(jobs) as progress:
@@ -92,6 +93,7 @@ def main():
         print(f"figures: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
+        print("figures: interrupted", file=sys.stderr)
         return 130
     wrong = faults(found)
     for line in wrong:

@@ -105,7 +105,7 @@ class Tools:
         cells = "lattice/cells_sim_ecp5.v" if self.is_wasm() else "ecp5/cells_sim.v"
         script = [f"read_verilog +/{cells}", *(f"read_verilog -overwrite -sv {m}" for m in models)]
         script += ["read_verilog mapped.v", f"hierarchy -check -top {top}_netlist", "proc"]
-        script += ["flatten", "opt_clean", "write_verilog -noattr netlist.v"]
+        script += ["flatten", "opt -fast", "opt_clean -purge", "write_verilog -noattr netlist.v"]
         self.run_yosys("netlist", script, ["netlist.v"])
 
     def route(self, name, seed):

@@ -60,8 +60,8 @@ struct Word {
   Parameter parameter;
   std::string key;  ///< "section.key" of the design file that decides the value
   Format format{};
-  double si = 0;          ///< exact value, in the parameter's unit
-  std::int64_t raw = 0;   ///< the integer in the parameter RAM
+  double si = 0;         ///< exact value, in the parameter's unit
+  std::int64_t raw = 0;  ///< the integer in the parameter RAM
   double quantised() const;
   double relative_error() const;  ///< (quantised-si)/si, 0 where si is 0
 };
@@ -77,7 +77,8 @@ struct Elaborated {
   const Word& word(const std::string& name) const;
 };
 
-/// Reads a design file. Throws config::ConfigError: unknown or missing key, wrong type, value out of range.
+/// Reads a design file. Throws config::ConfigError: unknown or missing key, wrong type, value out
+/// of range.
 Design read_design(const std::string& path);
 
 /// Quantises the design against a register map and checks it. Throws config::ConfigError where a

@@ -28,9 +28,11 @@ std::string hex(int v) {
 std::string register_page(const Elaborated& e) {
   std::ostringstream s;
   s << "# Registers\n\nGenerated from `rtl/registers.toml` by `feltgate generate`: do not edit.\n"
-    << "Formats and values are those of the design `" << e.design.name << "`; another design's are\n"
+    << "Formats and values are those of the design `" << e.design.name
+    << "`; another design's are\n"
     << "printed by `feltgate design NAME`. A write takes effect at the end of the running tick.\n\n"
-    << "## Parameters\n\nRead and written by the host. Slot: the clock of the wave in which the word "
+    << "## Parameters\n\nRead and written by the host. Slot: the clock of the wave in which the "
+       "word "
        "is on the\nparameter bus.\n\n"
     << "| address | name | scene | slot | format | unit | value | meaning |\n"
     << "|---|---|---|---|---|---|---|---|\n";
@@ -38,8 +40,8 @@ std::string register_page(const Elaborated& e) {
     char value[40];
     std::snprintf(value, sizeof value, "%.7g", w.si);
     s << "| " << hex(w.parameter.address) << " | `" << w.parameter.name << "` | "
-      << (w.parameter.scene.empty() ? "all" : w.parameter.scene) << " | " << w.parameter.slot << " | "
-      << format_text(w.format) << " | " << w.parameter.unit << " | " << value << " | "
+      << (w.parameter.scene.empty() ? "all" : w.parameter.scene) << " | " << w.parameter.slot
+      << " | " << format_text(w.format) << " | " << w.parameter.unit << " | " << value << " | "
       << w.parameter.doc << " |\n";
   }
   s << "\n## Control\n\n| address | name | bits | meaning |\n|---|---|---|---|\n";
@@ -67,8 +69,8 @@ std::string design_table(const Elaborated& e) {
   std::ostringstream s;
   char line[200];
   s << "design " << e.design.name << ": " << e.design.description << "\n\n";
-  std::snprintf(line, sizeof line, "%-24s %14s %-13s %-13s %11s %10s %11s %8s\n", "parameter", "value",
-                "unit", "format", "integer", "error", "largest", "headroom");
+  std::snprintf(line, sizeof line, "%-24s %14s %-13s %-13s %11s %10s %11s %8s\n", "parameter",
+                "value", "unit", "format", "integer", "error", "largest", "headroom");
   s << line;
   for (const Word& w : e.words) {
     const double largest = std::ldexp(1.0, w.format.integer);
@@ -81,8 +83,8 @@ std::string design_table(const Elaborated& e) {
     s << line;
   }
   s << "\n";
-  std::snprintf(line, sizeof line, "%-24s %-13s %6s %14s %12s\n", "signal", "format", "bits", "range",
-                "LSB");
+  std::snprintf(line, sizeof line, "%-24s %-13s %6s %14s %12s\n", "signal", "format", "bits",
+                "range", "LSB");
   s << line;
   for (const auto& [name, f] : named_formats(e.formats)) {
     std::snprintf(line, sizeof line, "%-24s %-13s %6d %14.6g %12.4g\n", name.c_str(),

@@ -60,8 +60,8 @@ struct RegisterMap {
 /// First address of the snapshot words in the register port's address space.
 constexpr int snapshot_base = 0x300;
 
-/// Reads the map. Throws config::ConfigError with file and line on a malformed entry, a slot used twice or
-/// an unknown scene.
+/// Reads the map. Throws config::ConfigError with file and line on a malformed entry, a slot used
+/// twice or an unknown scene.
 RegisterMap read_registers(const std::string& path);
 
 }  // namespace feltgate::design

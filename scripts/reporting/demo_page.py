@@ -226,9 +226,9 @@ def document(demo):
             "figures",
             "The paper's figures, redrawn from RTL",
             page.paragraph(
-                "Broad pale blue is the RTL, thin dark red the same chain in 113-bit floating point, "
-                "dashed black the ideal, green the modelled motor. Design paper has the published "
-                "numbers, lever those of the motor that is really there."
+                "Broad pale blue is the RTL, thin dark red the same chain in 113-bit floating "
+                "point, dashed black the ideal, green the modelled motor. Design paper has the "
+                "published numbers, lever those of the motor that is really there."
             ),
         )
         body += "".join(figure.html() for figure in demo.figures)

@@ -227,8 +227,8 @@ def damper(found, views):
     found.notes.append(
         "The paper gives neither damping nor speed; 0.03 Nm s/rad is ours, and so is the motion "
         "(0.15 rad in 80 ms; the paper's about 0.1 rad). Only the shape can be compared: the "
-        "torque follows the velocity and opposes it. The estimated velocity is late, and the slope is "
-        "taken against the true one, so it is a little below 0.03."
+        "torque follows the velocity and opposes it. The slope is taken against the true velocity, "
+        "and the estimated one comes late."
     )
 
 

@@ -127,7 +127,7 @@ def thinned(x, y, points=POINTS):
         return x, y
     edges = np.linspace(0, len(x), points + 1).astype(int)
     keep = {0, len(x) - 1}
-    for low, high in zip(edges[:-1], edges[1:]):
+    for low, high in zip(edges[:-1], edges[1:], strict=True):
         part = y[low:high]
         keep.add(low + int(part.argmin()))
         keep.add(low + int(part.argmax()))

@@ -96,7 +96,7 @@ def difference_picture(name, summary, csv):
         ("torque", csv["tau_hat_nm"] - csv["quad_tau_hat_nm"]),
         ("current", csv["current_a"] - csv["quad_current_a"]),
     )
-    for axis, (signal, error) in zip(axes, rows):
+    for axis, (signal, error) in zip(axes, rows, strict=True):
         unit = lsb(summary["design"], signal)
         plots.draw(axis, time, error / unit, "rtl", "", linewidth=0.7, color="#2f7fb8")
         axis.set_ylabel({"torque": "observed\ntorque"}.get(signal, signal))

@@ -7,6 +7,7 @@ Documentation: docs/json.md, docs/figures.md
 
 import json
 import os
+import signal
 import subprocess
 import threading
 import time
@@ -63,13 +64,16 @@ def read_csv(path, most_rows=None):
             length = max(1, len(file.readline()))
             stride = 1 + int(os.path.getsize(path) / length / most_rows)
             file.seek(start)
+        if not file.readline():
+            raise ValueError(f"{path}:2: no rows; run it again")
+        file.seek(start)
         try:
             rows = np.loadtxt(islice(file, 0, None, stride), delimiter=",", ndmin=2)
         except ValueError as error:
             raise ValueError(f"{path}: {error}") from None
-    if rows.shape[0] == 0 or rows.shape[1] != len(names):
-        raise ValueError(f"{path}: no rows, or not {len(names)} columns; run it again")
-    return dict(zip(names, rows.T))
+    if rows.shape[1] != len(names):
+        raise ValueError(f"{path}: rows are not {len(names)} columns wide; run it again")
+    return dict(zip(names, rows.T, strict=True))
 
 
 @dataclass(frozen=True)
@@ -150,6 +154,15 @@ def start(job, folder, children):
     elif not run.complaint:
         run.complaint = f"feltgate ended with status {child.returncode} and wrote no result"
     return run
+
+
+def end_on_terminate():
+    """A polite kill ends as an interrupt does: with the programs that were started."""
+
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    signal.signal(signal.SIGTERM, interrupt)
 
 
 def run_all(jobs, folder, progress, workers=None):

@@ -24,7 +24,7 @@ def picture(run, scene, design_name, png):
     figure, axes = plots.stacked(f"Design {design_name}, {SCENES[scene]}", [1.25] * 3)
     pole = measure.observer_pole(design_name)
     csv = run.csv
-    for axis, (begin, _, event) in zip(axes, measure.steps(scene)):
+    for axis, (begin, _, event) in zip(axes, measure.steps(scene), strict=True):
         ms = 1e3 * (csv["time_s"] - begin)
         shown = (ms >= SPAN_MS[0]) & (ms <= SPAN_MS[1])
         ms, goal = ms[shown], event["step_nm"]

@@ -181,13 +181,16 @@ void check_observer() {
   }
 }
 
-/// Every parameter at the upper end of its word, the observer's signed gain at either.
+/// Every parameter at the upper end of its word, the observer's signed gain at either, and the duty
+/// limited to what its port holds.
 template <class D>
 struct CornerWords {
   bool observer_low;
   template <int Key>
   fixed_of<Key> get(int address) const {
     if (address == D::A::observer_gain && observer_low) return fixed_of<Key>::min();
+    if (address == D::A::duty_limit)
+      return fixed_of<Key>::from_raw(fixed_of<D::f.duty.key()>::max_raw());
     return fixed_of<Key>::max();
   }
 };
@@ -214,13 +217,10 @@ void check_control_at(const CornerWords<D>& words,
                           clamped(slope, limit) +
                           real(step.current) * real(words.template get<P::voltage_gain.key()>(0));
   const double duty = clamped(wanted_v, limit) * real(words.template get<P::duty_gain.key()>(0));
-  // The duty's own limit is its port's end here: only its low bits and sign are left to compare.
-  const double port = real(fixed_of<D::f.duty.key()>::max());
-  if (std::abs(duty) <= port) {
-    check_value(
-        step.duty, duty,
-        3 + static_cast<int>(std::ldexp(3.0, P::duty_gain.integer - D::f.voltage.fraction)));
-  }
+  // What the truncated parts of the voltage lose, and the rounding of the duty.
+  const int last_bits = 2 + static_cast<int>(std::ldexp(
+                                3.0, P::duty_gain.integer - Law::LimitedVoltage::format.fraction));
+  check_value(step.duty, clamped(duty, real(fixed_of<D::f.duty.key()>::max())), last_bits);
 }
 
 template <class D>

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# cmake -DGENERATE=program -DROOT=repository -DCOPY=folder -P stale_files.cmake: in a copy, the check
-# of generated files passes, fails after a change of a design, and a bad design ends with code 2.
+# cmake -DGENERATE=program -DROOT=repository -DCOPY=folder -P stale_files.cmake: in a copy, the
+# check of generated files passes, fails after a change of a design, and a bad design ends with 2.
 file(REMOVE_RECURSE "${COPY}")
 foreach(folder rtl/designs rtl/generated model/include/feltgate/generated)
   file(COPY "${ROOT}/${folder}/" DESTINATION "${COPY}/${folder}")

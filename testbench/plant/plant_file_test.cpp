@@ -9,6 +9,7 @@
 #include "plant/hand_file.hpp"
 #include "plant_fixture.hpp"
 
+using namespace feltgate;
 using namespace feltgate::plant;
 
 namespace {

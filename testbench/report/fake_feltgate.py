@@ -16,11 +16,11 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 COUNT_RAD = 2 * np.pi / 4096
-COLUMNS = (
-    "time_s theta_rad omega_rad_s motor_torque_nm hand_torque_nm position_rad velocity_rad_s "
-    "tau_ref_nm tau_hat_nm current_a voltage_v duty quad_velocity_rad_s quad_tau_hat_nm "
-    "quad_current_a limits faults"
-).split()
+COLUMNS = [
+    *("time_s", "theta_rad", "omega_rad_s", "motor_torque_nm", "hand_torque_nm", "position_rad"),
+    *("velocity_rad_s", "tau_ref_nm", "tau_hat_nm", "current_a", "voltage_v", "duty"),
+    *("quad_velocity_rad_s", "quad_tau_hat_nm", "quad_current_a", "limits", "faults"),
+]
 
 
 def profile(segments, time, start):

@@ -21,8 +21,12 @@ constexpr int kRepel = Design::S::charge_repel;
 
 struct Block {
   static Twin::In in(const Wave& wave, const Bus& bus) {
-    return {wave.scene == kAttract || wave.scene == kRepel, wave.scene == kAttract, bus.start,
-            wave.position, bus.param, bus.product};
+    return {wave.scene == kAttract || wave.scene == kRepel,
+            wave.scene == kAttract,
+            bus.start,
+            wave.position,
+            bus.param,
+            bus.product};
   }
   static std::int64_t operand(const Twin::Out& out) { return out.operand; }
   static void drive(Vscene_charge& rtl, const Twin::In& in) {
@@ -59,7 +63,8 @@ std::int64_t oracle(const Memory& memory, bool attract, std::int32_t position, T
   std::int64_t away = 0;
   if (magnitude(x) < core) {
     const std::int64_t slope = memory.word(bank + 6) & 0x1ffff;
-    const int drop = (attract ? Design::P::attract_core_slope : Design::P::repel_core_slope).fraction - 16;
+    const int drop =
+        (attract ? Design::P::attract_core_slope : Design::P::repel_core_slope).fraction - 16;
     // Half up on the pull towards the centre.
     const std::int64_t half = drop > 0 ? std::int64_t{1} << (drop - 1) : 0;
     const std::int64_t pull = (-x * slope + half) >> drop;
@@ -103,20 +108,27 @@ struct Next {
   Random random;
   Wave operator()(Memory& memory, std::int64_t) {
     Wave wave;
-    wave.scene = random.one_in(10) ? static_cast<int>(random.below(16)) : random.coin() ? kAttract : kRepel;
+    wave.scene = random.one_in(10) ? static_cast<int>(random.below(16))
+                 : random.coin()   ? kAttract
+                                   : kRepel;
     const int bank = wave.scene * 32;
-    if (random.one_in(4)) memory.write(bank + 1, random.one_in(4) ? any_word(random) : random.between(-400000, 400000));
+    if (random.one_in(4))
+      memory.write(bank + 1, random.one_in(4) ? any_word(random) : random.between(-400000, 400000));
     if (random.one_in(4)) memory.write(bank + 2, any_word(random));
-    if (random.one_in(4)) memory.write(bank + 6, random.coin() ? any_word(random) : random.below(131072));
-    if (random.one_in(4)) memory.write(bank + 12, random.coin() ? any_word(random) : random.below(2048));
+    if (random.one_in(4))
+      memory.write(bank + 6, random.below(std::uint64_t{1} << random.below(18)));
+    if (random.one_in(4))
+      memory.write(bank + 12, random.coin() ? any_word(random) : random.below(2048));
     wave.position = any_position(random, memory, wave.scene);
     const std::int64_t centre = decode_word(Design::f.scene_offset, memory.word(bank + 1)) >> 8;
     const std::int64_t core = memory.word(bank + 12) & 0x7fffffff;
     if (random.one_in(3)) wave.position = static_cast<std::int32_t>(random.between(-30, 30));
     if (random.one_in(4) && core < 100000 && centre > -30000 && centre < 30000) {
-      wave.position = static_cast<std::int32_t>(centre + (random.coin() ? core : -core) + random.between(-1, 1));
+      wave.position = static_cast<std::int32_t>(centre + (random.coin() ? core : -core) +
+                                                random.between(-1, 1));
     }
-    if (random.one_in(20)) wave.position = static_cast<std::int32_t>(centre > 131071 ? 131071 : centre);
+    if (random.one_in(20))
+      wave.position = static_cast<std::int32_t>(centre > 131071 ? 131071 : centre);
     wave.length = static_cast<int>(random.between(30, 36));
     return wave;
   }
@@ -195,7 +207,9 @@ TEST_CASE("scene_charge: sign table") {
   for (std::int32_t x = 1; x < 20000; x += x < 300 ? 1 : 77) {
     const std::int64_t size = tau(false, x);
     REQUIRE(size >= 0);
-    REQUIRE(size == (std::int64_t{65536000} / (std::int64_t{x} * x) > 65535 ? 65535 : std::int64_t{65536000} / (std::int64_t{x} * x)));
+    REQUIRE(size == (std::int64_t{65536000} / (std::int64_t{x} * x) > 65535
+                         ? 65535
+                         : std::int64_t{65536000} / (std::int64_t{x} * x)));
     REQUIRE(tau(false, -x) == -size);
     REQUIRE(tau(true, x) == -size);
     REQUIRE(tau(true, -x) == size);

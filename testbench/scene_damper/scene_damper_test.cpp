@@ -38,7 +38,8 @@ struct Tally {
   std::int64_t waves = 0, up = 0, down = 0, saturated = 0, ties = 0;
 };
 
-constexpr int kDrop = Design::f.velocity.fraction + Design::P::damper_damping.fraction - kTorque.fraction;
+constexpr int kDrop =
+    Design::f.velocity.fraction + Design::P::damper_damping.fraction - kTorque.fraction;
 constexpr std::int64_t kMost = (std::int64_t{1} << (kTorque.width() - 1)) - 1;
 
 /// The torque by its definition: -half_up(b * velocity), saturated.
@@ -60,12 +61,15 @@ struct TickBeside {
     tally->up += tau > 0;
     tally->down += tau < 0;
     tally->saturated += tau == kMost || tau == -kMost - 1;
-    const std::int64_t product = p.wave.velocity * (p.memory.word(Design::A::damper_damping) & 0x1ffff);
+    const std::int64_t product =
+        p.wave.velocity * (p.memory.word(Design::A::damper_damping) & 0x1ffff);
     constexpr std::int64_t half = std::int64_t{1} << (kDrop - 1);
     tally->ties += selected && (product & (2 * half - 1)) == half;
     if (beside.out().tau != twin.out().tau) return "tick() differs from clock()";
-    if (tau != (selected ? oracle(p.memory, p.wave.velocity) : 0)) return "torque is not -half_up(b*w)";
-    return (tau > 0 && p.wave.velocity > 0) || (tau < 0 && p.wave.velocity < 0) ? "drives" : nullptr;
+    if (tau != (selected ? oracle(p.memory, p.wave.velocity) : 0))
+      return "torque is not -half_up(b*w)";
+    return (tau > 0 && p.wave.velocity > 0) || (tau < 0 && p.wave.velocity < 0) ? "drives"
+                                                                                : nullptr;
   }
 };
 
@@ -129,7 +133,8 @@ TEST_CASE("scene_damper: absorbs energy over random motions") {
     double velocity = 0, work = 0;
     for (int k = 0; k < 20000; ++k) {
       velocity += (static_cast<double>(random.below(20001)) - 10000.0) * 1e-4 - 0.001 * velocity;
-      twin.tick(memory.words(), true, Velocity::from_raw(static_cast<std::int64_t>(velocity * rad_s)));
+      twin.tick(memory.words(), true,
+                Velocity::from_raw(static_cast<std::int64_t>(velocity * rad_s)));
       const double power = static_cast<double>(twin.out().tau) * velocity;
       REQUIRE(power <= 0);
       work += power;

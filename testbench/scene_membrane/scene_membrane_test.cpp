@@ -64,10 +64,12 @@ struct Next {
       const std::int64_t lower = random.between(-40000, 40000);
       memory.write(Design::A::membrane_lower, lower);
       memory.write(Design::A::membrane_upper, lower + random.between(-300, 256 * 60));
-      memory.write(Design::A::membrane_torque, random.one_in(4) ? any_word(random) : random.below(65536));
+      memory.write(Design::A::membrane_torque,
+                   random.one_in(4) ? any_word(random) : random.below(65536));
       if (random.one_in(16)) memory.write(Design::A::membrane_lower, any_word(random));
     }
-    if (random.one_in(20)) wave.scene = random.coin() ? kMembrane : static_cast<int>(random.below(9));
+    if (random.one_in(20))
+      wave.scene = random.coin() ? kMembrane : static_cast<int>(random.below(9));
     if (number == 0) wave.scene = kMembrane;
     if (random.one_in(12)) {
       wave.position = any_position(random, memory, kMembrane);
@@ -150,7 +152,8 @@ TEST_CASE("scene_membrane: absorbs energy over any motion of at most a count per
   // A count per tick is 1534 rad/s. Turning points lie in the middle of a count.
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Random random(seed);
-    const Memory memory = membrane(static_cast<int>(random.below(256)), static_cast<int>(random.below(256)));
+    const Memory memory =
+        membrane(static_cast<int>(random.below(256)), static_cast<int>(random.below(256)));
     Twin twin;
     std::int32_t position = static_cast<std::int32_t>(random.between(80, 130));
     std::int64_t tau = 0, twice_work = 0, crossings = 0;

@@ -21,8 +21,12 @@ constexpr int kCompression = Design::S::spring_compression;
 
 struct Block {
   static Twin::In in(const Wave& wave, const Bus& bus) {
-    return {wave.scene == kTension || wave.scene == kCompression, wave.scene == kTension, bus.start,
-            wave.position, bus.param, bus.product};
+    return {wave.scene == kTension || wave.scene == kCompression,
+            wave.scene == kTension,
+            bus.start,
+            wave.position,
+            bus.param,
+            bus.product};
   }
   static std::int64_t operand(const Twin::Out& out) { return out.operand; }
   static void drive(Vscene_spring& rtl, const Twin::In& in) {
@@ -48,9 +52,11 @@ struct Tally {
 std::int64_t oracle(const Memory& memory, bool tension, std::int32_t position, Tally* tally) {
   const std::int64_t reference = decode_word(
       Design::f.scene_offset, memory.word(tension ? A::tension_rest : A::compression_contact));
-  const std::int64_t k = memory.word(tension ? A::tension_stiffness : A::compression_stiffness) & 0x1ffff;
-  const int drop = (tension ? Design::P::tension_stiffness : Design::P::compression_stiffness).fraction +
-                   8 - kTorque.fraction;
+  const std::int64_t k =
+      memory.word(tension ? A::tension_stiffness : A::compression_stiffness) & 0x1ffff;
+  const int drop =
+      (tension ? Design::P::tension_stiffness : Design::P::compression_stiffness).fraction + 8 -
+      kTorque.fraction;
   std::int64_t x = reference - std::int64_t{256} * position;
   constexpr std::int64_t end = (std::int64_t{1} << 25) - 1;
   tally->far += x > end || x < -end - 1;
@@ -89,7 +95,9 @@ struct Next {
   Random random;
   Wave operator()(Memory& memory, std::int64_t) {
     Wave wave;
-    wave.scene = random.one_in(10) ? static_cast<int>(random.below(16)) : random.coin() ? kTension : kCompression;
+    wave.scene = random.one_in(10) ? static_cast<int>(random.below(16))
+                 : random.coin()   ? kTension
+                                   : kCompression;
     if (random.one_in(10)) {
       for (const int a : {A::compression_contact, A::tension_rest}) {
         memory.write(a, random.coin() ? any_word(random) : random.between(-200000, 200000));

@@ -25,8 +25,8 @@ class Comparison {
   }
   void at(std::int32_t position, std::int64_t velocity) {
     fixed_.tick(fixed_words_, true, scene_, position, Twin::Velocity::from_raw(velocity));
-    const Quad exact_velocity =
-        static_cast<Quad>(velocity) / static_cast<Quad>(std::int64_t{1} << Design::f.velocity.fraction);
+    const Quad exact_velocity = static_cast<Quad>(velocity) /
+                                static_cast<Quad>(std::int64_t{1} << Design::f.velocity.fraction);
     real_.tick(real_words_, true, scene_, position, exact_velocity);
     const Quad lsb = Quad{1} / static_cast<Quad>(std::int64_t{1} << kTorque.fraction);
     const Quad error = real_.tau_ref() / lsb - static_cast<Quad>(fixed_.tau_ref().raw());

@@ -140,12 +140,18 @@ class AfterWave {
 /// A number with the low bits of `low` and, now and then, an extreme one.
 inline std::int64_t any_word(Random& random) {
   switch (random.below(8)) {
-    case 0: return 0;
-    case 1: return static_cast<std::int64_t>(random.bits() & 0xffffffff);
-    case 2: return 0xffffffff;
-    case 3: return std::int64_t{1} << random.below(32);
-    case 4: return (std::int64_t{1} << random.below(32)) - 1;
-    default: return static_cast<std::int64_t>(random.bits() & 0xffffffff) >> random.below(32);
+    case 0:
+      return 0;
+    case 1:
+      return static_cast<std::int64_t>(random.bits() & 0xffffffff);
+    case 2:
+      return 0xffffffff;
+    case 3:
+      return std::int64_t{1} << random.below(32);
+    case 4:
+      return (std::int64_t{1} << random.below(32)) - 1;
+    default:
+      return static_cast<std::int64_t>(random.bits() & 0xffffffff) >> random.below(32);
   }
 }
 

@@ -88,8 +88,11 @@ struct TickBeside {
     if (beside.limit_torque() != (rtl.limit_torque_o != 0)) return "tick() gives another limit";
     if (beside.limit_ramp() != ramped) return "tick() gives another ramp";
     if (!w.armed && tau != 0) return "a torque while disarmed";
-    if (!ramped && (tau > std::max<std::int64_t>(limit, 0) || tau < -std::max<std::int64_t>(limit, 0))) return "beyond the limit";
-    if (ramped && moved > (std::max<std::int64_t>(step, 0) + 255) / 256) return "faster than the ramp";
+    if (!ramped &&
+        (tau > std::max<std::int64_t>(limit, 0) || tau < -std::max<std::int64_t>(limit, 0)))
+      return "beyond the limit";
+    if (ramped && moved > (std::max<std::int64_t>(step, 0) + 255) / 256)
+      return "faster than the ramp";
     return nullptr;
   }
 };

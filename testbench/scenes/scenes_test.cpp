@@ -25,7 +25,8 @@ struct Next {
     if (random.one_in(3)) {
       wave.position = any_position(random, memory, wave.scene);
     } else {
-      wave.position = std::clamp(wave.position + static_cast<std::int32_t>(random.between(-40, 40)), -131072, 131071);
+      wave.position = std::clamp(wave.position + static_cast<std::int32_t>(random.between(-40, 40)),
+                                 -131072, 131071);
     }
     wave.velocity = static_cast<std::int32_t>(random.bits()) >> random.below(16);
     wave.length = random.one_in(50) ? 50 : static_cast<int>(random.between(30, 33));
@@ -33,7 +34,9 @@ struct Next {
   }
   void write(Memory& memory) {
     memory.write(A::torque_limit, random.one_in(8) ? any_word(random) : random.below(80000));
-    memory.write(A::ramp_step, random.one_in(8) ? any_word(random) : random.below(std::uint64_t{1} << random.below(25)));
+    memory.write(A::ramp_step, random.one_in(8)
+                                   ? any_word(random)
+                                   : random.below(std::uint64_t{1} << random.below(25)));
     memory.write(A::setpoint_torque, random.between(-60000, 60000));
     memory.write(A::membrane_torque, random.below(60000));
     memory.write(A::tension_rest, random.between(-300000, 300000));
@@ -95,7 +98,8 @@ TEST_CASE("scenes: everything at random") {
   bench.run(Waves<Block, Next>(2, Next{Random(3)}, probe), scaled_clocks(4000000), {10000},
             AfterWave<TickBeside>(probe, {&tally}));
   INFO("waves " << tally.waves << ", disarmed " << tally.disarmed << ", limited " << tally.limited
-                << ", ramping " << tally.ramping << ", free " << tally.free << ", ends " << tally.ends);
+                << ", ramping " << tally.ramping << ", free " << tally.free << ", ends "
+                << tally.ends);
   REQUIRE(tally.waves > 100000);
   REQUIRE(tally.disarmed > tally.waves / 10);
   REQUIRE(tally.ramping > tally.waves / 10);
@@ -111,11 +115,13 @@ TEST_CASE("scenes: everything at random") {
 
 TEST_CASE("scenes: arming inside a scene ramps at the set rate, then nothing is slowed") {
   constexpr std::int64_t step = 1000;  // of 2^-24 Nm
-  const auto seen = play([](Memory& memory, std::int64_t k) {
-    memory.write(A::ramp_step, step);
-    memory.write(A::tension_rest, 0);
-    return wave(S::spring_tension, k < 2000 ? -50 : (k % 2 != 0 ? -300 : 300), k >= 10);
-  }, 2020);
+  const auto seen = play(
+      [](Memory& memory, std::int64_t k) {
+        memory.write(A::ramp_step, step);
+        memory.write(A::tension_rest, 0);
+        return wave(S::spring_tension, k < 2000 ? -50 : (k % 2 != 0 ? -300 : 300), k >= 10);
+      },
+      2020);
   REQUIRE(seen.size() >= 2019);
   Memory memory;
   const std::int64_t k = memory.word(A::tension_stiffness) & 0x1ffff;
@@ -143,11 +149,13 @@ TEST_CASE("scenes: arming inside a scene ramps at the set rate, then nothing is 
 
 TEST_CASE("scenes: a change of scene ramps from where the torque is") {
   constexpr std::int64_t step = 256 * 100;
-  const auto seen = play([](Memory& memory, std::int64_t k) {
-    memory.write(A::ramp_step, step);
-    memory.write(A::torque_limit, 30000);
-    return wave(k < 400 || k >= 600 ? S::spring_tension : S::free, -2000);
-  }, 800);
+  const auto seen = play(
+      [](Memory& memory, std::int64_t k) {
+        memory.write(A::ramp_step, step);
+        memory.write(A::torque_limit, 30000);
+        return wave(k < 400 || k >= 600 ? S::spring_tension : S::free, -2000);
+      },
+      800);
   REQUIRE(seen[399].tau == 30000);
   REQUIRE(seen[399].limit);
   REQUIRE_FALSE(seen[399].ramp);
@@ -161,21 +169,25 @@ TEST_CASE("scenes: a change of scene ramps from where the torque is") {
 }
 
 TEST_CASE("scenes: disarming takes the torque away at once") {
-  const auto seen = play([](Memory& memory, std::int64_t k) {
-    memory.write(A::ramp_step, 256 * 5000);
-    return wave(S::spring_tension, -2000, k < 50);
-  }, 60);
+  const auto seen = play(
+      [](Memory& memory, std::int64_t k) {
+        memory.write(A::ramp_step, 256 * 5000);
+        return wave(S::spring_tension, -2000, k < 50);
+      },
+      60);
   REQUIRE(seen[49].tau == 32768);
   for (std::size_t n = 50; n < seen.size(); ++n) REQUIRE(seen[n].tau == 0);
 }
 
 TEST_CASE("scenes: both limits are the same size; a negative limit or step counts as 0") {
   for (const int sign : {1, -1}) {
-    const auto seen = play([sign](Memory& memory, std::int64_t k) {
-      memory.write(A::ramp_step, k < 100 ? 256 * 30000 : -1);
-      memory.write(A::torque_limit, k < 50 ? 12345 : -5);
-      return wave(k < 70 || k > 90 ? S::spring_tension : S::free, -2000 * sign);
-    }, 200);
+    const auto seen = play(
+        [sign](Memory& memory, std::int64_t k) {
+          memory.write(A::ramp_step, k < 100 ? 256 * 30000 : -1);
+          memory.write(A::torque_limit, k < 50 ? 12345 : -5);
+          return wave(k < 70 || k > 90 ? S::spring_tension : S::free, -2000 * sign);
+        },
+        200);
     REQUIRE(seen[40].tau == 12345 * sign);
     REQUIRE(seen[40].limit);
     REQUIRE(seen[60].tau == 0);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Behaviour of the ECP5 block RAM DP16KD as this project uses it: 9 or 18 bits wide, no output
-// register, no reset. After Lattice FPGA-TN-02204 (ECP5 memory usage guide); contents as Yosys
+// Behaviour of the ECP5 block RAM DP16KD as this project uses it: 9 or 18 bits wide, or 36 (A
+// writes, B reads), no output register, no reset. After Lattice FPGA-TN-02204 (ECP5 memory usage guide); contents as Yosys
 // writes them: 16 words of 18 bits in the 320 bits of an INITVAL. docs/synthesis.md
 
 `default_nettype none
@@ -78,6 +78,7 @@ module DP16KD #(
   assign {DOB17, DOB16, DOB15, DOB14, DOB13, DOB12, DOB11, DOB10, DOB9,
                     DOB8, DOB7, DOB6, DOB5, DOB4, DOB3, DOB2, DOB1, DOB0} = do_b;
 
+  localparam WIDE = DATA_WIDTH_A == 36;
   reg [17:0] memory [0:1023];
   localparam [20479:0] CONTENTS = {
     INITVAL_3F, INITVAL_3E, INITVAL_3D, INITVAL_3C, INITVAL_3B, INITVAL_3A,
@@ -98,22 +99,36 @@ module DP16KD #(
   wire [17:0] word_a = memory[ad_a[13:4]];
   wire [17:0] read_a = (DATA_WIDTH_A == 18) ? word_a :
                        {9'd0, ad_a[3] ? word_a[17:9] : word_a[8:0]};
+  wire [17:0] wide_a = memory[{ad_b[13:5], 1'b0}];
   wire [1:0] bytes_a = (DATA_WIDTH_A == 18) ? ad_a[1:0] : {ad_a[3], !ad_a[3]};
   wire [8:0] upper_a = (DATA_WIDTH_A == 18) ? di_a[17:9] : di_a[8:0];
   always @(posedge CLKA) begin
-    if (CEA && (!WEA || WRITEMODE_A == "READBEFOREWRITE")) do_a <= read_a;
-    if (CEA && WEA && bytes_a[0]) memory[ad_a[13:4]][8:0] <= di_a[8:0];
-    if (CEA && WEA && bytes_a[1]) memory[ad_a[13:4]][17:9] <= upper_a;
+    if (WIDE) begin
+      if (CEB) do_a <= wide_a;
+      if (CEA && WEA && ad_a[0]) memory[{ad_a[13:5], 1'b0}][8:0] <= di_a[8:0];
+      if (CEA && WEA && ad_a[1]) memory[{ad_a[13:5], 1'b0}][17:9] <= di_a[17:9];
+    end else begin
+      if (CEA && (!WEA || WRITEMODE_A == "READBEFOREWRITE")) do_a <= read_a;
+      if (CEA && WEA && bytes_a[0]) memory[ad_a[13:4]][8:0] <= di_a[8:0];
+      if (CEA && WEA && bytes_a[1]) memory[ad_a[13:4]][17:9] <= upper_a;
+    end
   end
   wire [17:0] word_b = memory[ad_b[13:4]];
   wire [17:0] read_b = (DATA_WIDTH_B == 18) ? word_b :
                        {9'd0, ad_b[3] ? word_b[17:9] : word_b[8:0]};
+  wire [17:0] wide_b = memory[{ad_b[13:5], 1'b1}];
   wire [1:0] bytes_b = (DATA_WIDTH_B == 18) ? ad_b[1:0] : {ad_b[3], !ad_b[3]};
   wire [8:0] upper_b = (DATA_WIDTH_B == 18) ? di_b[17:9] : di_b[8:0];
   always @(posedge CLKB) begin
-    if (CEB && (!WEB || WRITEMODE_B == "READBEFOREWRITE")) do_b <= read_b;
-    if (CEB && WEB && bytes_b[0]) memory[ad_b[13:4]][8:0] <= di_b[8:0];
-    if (CEB && WEB && bytes_b[1]) memory[ad_b[13:4]][17:9] <= upper_b;
+    if (WIDE) begin
+      if (CEB) do_b <= wide_b;
+      if (CEA && WEA && ad_a[2]) memory[{ad_a[13:5], 1'b1}][8:0] <= di_b[8:0];
+      if (CEA && WEA && ad_a[3]) memory[{ad_a[13:5], 1'b1}][17:9] <= di_b[17:9];
+    end else begin
+      if (CEB && (!WEB || WRITEMODE_B == "READBEFOREWRITE")) do_b <= read_b;
+      if (CEB && WEB && bytes_b[0]) memory[ad_b[13:4]][8:0] <= di_b[8:0];
+      if (CEB && WEB && bytes_b[1]) memory[ad_b[13:4]][17:9] <= upper_b;
+    end
   end
 endmodule
 

@@ -37,8 +37,7 @@ unsigned bit(const Port& port, int n) {
 template <class Port>
 void set(Port& port, const std::array<std::uint64_t, kWords>& words) {
   if constexpr (std::is_integral_v<Port>) {
-    const std::uint64_t mask = kInputBits == 64 ? ~0ULL : (1ULL << kInputBits) - 1;
-    port = static_cast<Port>(words[0] & mask);
+    port = static_cast<Port>(words[0] >> (64 * kWords - kInputBits));
   } else {
     for (int n = 0; n < (kInputBits + 31) / 32; ++n) {
       const int left = kInputBits - 32 * n;

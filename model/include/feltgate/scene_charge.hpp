@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/scene_charge.sv: a point charge, strength * sgn(x) / x^2 outside a linear core and
-// slope * x inside it, away from the charge or towards it. Documentation: docs/blocks/scene_charge.md
+// slope * x inside it, away from the charge or towards it. Documentation:
+// docs/blocks/scene_charge.md
 #pragma once
 
 #include <cstdint>
@@ -54,8 +55,7 @@ struct SceneChargeLaw {
   template <class Product>
   static Force inside(Product slope_times_distance, bool attract) {
     constexpr int steps = Format{1, 40, force_format.fraction}.key();
-    const auto rounded =
-        quantise<N, steps, Round::half_up, Overflow::wrap>(slope_times_distance);
+    const auto rounded = quantise<N, steps, Round::half_up, Overflow::wrap>(slope_times_distance);
     if (attract) return saturated(rounded);
     return saturated(-rounded);
   }
@@ -72,13 +72,12 @@ struct SceneChargeLaw {
         distance(position, w.template get<offset>(attract ? A::attract_centre : A::repel_centre));
     if (!near(d, w.template get<core>(attract ? A::attract_core : A::repel_core))) {
       return torque(outside(
-          d,
-          w.template get<D::f.charge.key()>(attract ? A::attract_strength : A::repel_strength),
+          d, w.template get<D::f.charge.key()>(attract ? A::attract_strength : A::repel_strength),
           attract));
     }
     if (attract) {
-      return torque(inside(
-          d * w.template get<P::attract_core_slope.key()>(A::attract_core_slope), true));
+      return torque(
+          inside(d * w.template get<P::attract_core_slope.key()>(A::attract_core_slope), true));
     }
     return torque(
         inside(d * w.template get<P::repel_core_slope.key()>(A::repel_core_slope), false));
@@ -155,8 +154,12 @@ class SceneCharge {
         out_.operand = distance_.raw() * (std::int64_t{1} << D::f.scene_offset.fraction);
         strength_ = decode_word(D::f.charge, in.param);
         break;
-      case 7: quotient_ = charge_quotient(strength_, in.product); break;
-      case 8: outside_ = 0; break;
+      case 7:
+        quotient_ = charge_quotient(strength_, in.product);
+        break;
+      case 8:
+        outside_ = 0;
+        break;
       case 10:
         core_ = in.attract ? Law::inside(Attract::from_raw(in.product), true).raw()
                            : Law::inside(Repel::from_raw(in.product), false).raw();
@@ -164,8 +167,11 @@ class SceneCharge {
       case 12:
         core_width_ = decltype(core_width_)::from_raw(decode_word(D::P::attract_core, in.param));
         break;
-      case 16: inside_ = in.select && near_ ? core_ : 0; break;
-      default: break;
+      case 16:
+        inside_ = in.select && near_ ? core_ : 0;
+        break;
+      default:
+        break;
     }
     if (t >= 9) {
       const std::int64_t so_far = quotient_ >> (24 - t);

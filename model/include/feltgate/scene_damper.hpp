@@ -30,8 +30,7 @@ struct SceneDamperLaw {
   /// One tick.
   template <class W>
   static Torque torque(const W& w, Velocity velocity) {
-    return torque(velocity *
-                  w.template get<D::P::damper_damping.key()>(D::A::damper_damping));
+    return torque(velocity * w.template get<D::P::damper_damping.key()>(D::A::damper_damping));
   }
 };
 

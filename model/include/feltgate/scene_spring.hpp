@@ -39,8 +39,8 @@ struct SceneSpringLaw {
     if (tension) {
       return torque(x, x * w.template get<P::tension_stiffness.key()>(A::tension_stiffness), true);
     }
-    return torque(
-        x, x * w.template get<P::compression_stiffness.key()>(A::compression_stiffness), false);
+    return torque(x, x * w.template get<P::compression_stiffness.key()>(A::compression_stiffness),
+                  false);
   }
 };
 

@@ -110,14 +110,22 @@ class ScenesLaw {
     if (scene != S::membrane) side_ = MembraneSide::unknown;
     if (!scene_built<D>(scene)) return Torque{};
     switch (scene) {
-      case S::setpoint: return SceneSetpointLaw<D, N>::torque(w);
-      case S::membrane: return SceneMembraneLaw<D, N>::torque(w, position, &side_);
-      case S::spring_compression: return SceneSpringLaw<D, N>::torque(w, false, position);
-      case S::spring_tension: return SceneSpringLaw<D, N>::torque(w, true, position);
-      case S::damper: return SceneDamperLaw<D, N>::torque(w, velocity);
-      case S::charge_attract: return SceneChargeLaw<D, N>::torque(w, true, position);
-      case S::charge_repel: return SceneChargeLaw<D, N>::torque(w, false, position);
-      default: return Torque{};
+      case S::setpoint:
+        return SceneSetpointLaw<D, N>::torque(w);
+      case S::membrane:
+        return SceneMembraneLaw<D, N>::torque(w, position, &side_);
+      case S::spring_compression:
+        return SceneSpringLaw<D, N>::torque(w, false, position);
+      case S::spring_tension:
+        return SceneSpringLaw<D, N>::torque(w, true, position);
+      case S::damper:
+        return SceneDamperLaw<D, N>::torque(w, velocity);
+      case S::charge_attract:
+        return SceneChargeLaw<D, N>::torque(w, true, position);
+      case S::charge_repel:
+        return SceneChargeLaw<D, N>::torque(w, false, position);
+      default:
+        return Torque{};
     }
   }
 
@@ -194,7 +202,8 @@ class Scenes {
   }
 
   Out show(int scene) const {
-    constexpr bool spring = scene_built<D>(S::spring_compression) || scene_built<D>(S::spring_tension);
+    constexpr bool spring =
+        scene_built<D>(S::spring_compression) || scene_built<D>(S::spring_tension);
     Out o;
     o.square = charge(scene);
     o.operand = o.square ? charge_.out().operand : spring ? spring_.out().operand : 0;

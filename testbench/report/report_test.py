@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""report.py, figures.py and demo.py whole, with a stand-in for the program.
+
+Documentation: docs/figures.md
+"""
+
+import json
+import os
+import subprocess
+import sys
+import time
+import unittest
+
+from bench import ROOT, SCRIPTS, Bench
+
+
+class Report(Bench):
+    def report(self, scene="damper", change=None):
+        run, csv = self.folder / "run.json", self.folder / "run.csv"
+        self.fake("run", scene, "--json", run, "--csv", csv, "--every", 200)
+        if change:
+            summary = json.loads(run.read_text())
+            change(summary)
+            run.write_text(json.dumps(summary))
+        return self.script("report.py", self.folder / "out", run, csv)
+
+    def page(self):
+        return (self.folder / "out" / "report.html").read_text()
+
+    def test_page_of_a_good_run(self):
+        done = self.report()
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(done.stdout.strip(), str(self.folder / "out" / "report.html"))
+        self.assert_self_contained(self.page())
+        self.assertIn('class="verdict good"', self.page())
+        self.assertEqual(self.page().count("<figure>"), 4)
+
+    def test_steps_have_a_table(self):
+        self.report("torque_step")
+        self.assertIn("motor settles, ms", self.page())
+
+    def test_mismatches_are_red(self):
+        self.report(change=lambda s: s.update(mismatches=3, first_mismatch="clock 5: duty"))
+        self.assertIn('class="verdict bad"', self.page())
+        self.assertIn("clock 5: duty", self.page())
+
+    def test_a_run_without_comparison_claims_none(self):
+        self.report(change=lambda s: s.pop("mismatches"))
+        self.assertIn("were not compared", self.page())
+
+    def test_wrong_files_give_one_line(self):
+        for change in (lambda s: s.update(schema="other"), lambda s: s.clear()):
+            done = self.report(change=change)
+            self.assertEqual(done.returncode, 2)
+            self.assertRegex(done.stderr, r"^report: .*run.json: schema .*\n$")
+        done = self.script("report.py", self.folder, "none.json")
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1))
+
+
+class Figures(Bench):
+    def test_all_figures(self):
+        out = self.folder / "out"
+        done = self.script("figures.py", "--out", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.strip(), str(out / "figures.html"))
+        self.assert_self_contained((out / "figures.html").read_text())
+        summary = json.loads((out / "figures.json").read_text())
+        self.assertEqual(summary["schema"], "feltgate-figures-1")
+        numbers = {f["figure"]: f["numbers"] for f in summary["figures"]}
+        self.assertEqual(list(numbers), [7, 10, 11, 14, 16, 17, 19, 21, 22])
+        for figure in summary["figures"]:
+            for name in figure["pictures"]:
+                self.assertTrue((out / f"{name}.svg").stat().st_size)
+                self.assertTrue((out / f"{name}.png").stat().st_size)
+        # The stand-in is a closed form, so these are known.
+        self.assertAlmostEqual(numbers[7]["measured_slope_nm_v"]["paper"], 0.0719, places=4)
+        self.assertAlmostEqual(numbers[7]["observed_slope_nm_v"]["paper"], 0.0605, places=4)
+        self.assertAlmostEqual(numbers[10]["border_voltage_before_v"]["paper"], 3.10, places=2)
+        self.assertAlmostEqual(numbers[10]["border_voltage_after_v"]["paper"], 2.36, places=2)
+        self.assertLess(numbers[10]["error_at_0.1_nm_pct"]["unit"], 0)
+        self.assertGreater(numbers[10]["error_at_0.2_nm_pct"]["unit"], 0)
+        self.assertAlmostEqual(numbers[16]["stiffness_nm_rad"]["lever"], 1.0, places=2)
+        self.assertAlmostEqual(numbers[17]["saturates_rad"]["lever"], 1.0, places=2)
+        self.assertAlmostEqual(numbers[21]["exponent"]["paper"], -2.0, places=2)
+
+    def test_unknown_design(self):
+        done = self.script("figures.py", "--design", "other")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("'other'", done.stderr)
+
+
+class Demo(Bench):
+    SCENES = {"damper", "torque_step"}
+
+    def root(self):
+        """A repository with two scenes, to be quick."""
+        root = self.folder / "root"
+        (root / "vectors" / "scenes").mkdir(parents=True, exist_ok=True)
+        for name in ("rtl", "vectors/plants", *(f"vectors/scenes/{s}.toml" for s in self.SCENES)):
+            if not (root / name).exists():
+                (root / name).symlink_to(ROOT / name)
+        return str(root)
+
+    def demo(self, *arguments, traces=None, **environment):
+        out = self.folder / "out"
+        environment["FELTGATE_ROOT"] = self.root()
+        folder = traces or self.folder / "no-traces"
+        environment["FELTGATE_TRACES"] = str(folder)
+        done = self.script("demo.py", "--out", out, *arguments, **environment)
+        summary = json.loads((out / "demo.json").read_text())
+        return done, summary, (out / "demo.html").read_text()
+
+    def test_scenes_recordings_and_what_cannot_be_read(self):
+        traces = self.folder / "traces"
+        traces.mkdir()
+        (traces / "hand.csv").write_text("t,count\n0,0\n0.5,3\n")
+        (traces / "empty.csv").write_text("t,A,B\n")
+        done, summary, page = self.demo("--no-figures", traces=traces)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.splitlines()[-1], str(self.folder / "out" / "demo.html"))
+        self.assert_self_contained(page)
+        ran = {run["scene"] for run in summary["runs"].values() if "scene" in run}
+        self.assertEqual(ran, self.SCENES)
+        self.assertTrue(any(run.get("trace") == "hand.csv" for run in summary["runs"].values()))
+        self.assertIn("empty.csv", done.stderr)
+        self.assertEqual(len(summary["unreadable"]), 1)
+
+    def test_mismatches_end_with_1_and_a_list(self):
+        done, summary, page = self.demo("--no-figures", FAKE_MISMATCHES="2")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("2 mismatches", done.stderr)
+        self.assertIn("sigrok-dumps", done.stderr)  # no recordings: where to get them
+        self.assertGreaterEqual(len(summary["broken"]), len(summary["runs"]))
+        self.assertIn('class="verdict bad"', page)
+
+    def test_interrupt_leaves_nothing_running(self):
+        endless = self.folder / "feltgate"
+        endless.write_text(f'#!/bin/sh\necho $$ >> "{self.folder}/pids"\nexec sleep 300\n')
+        demo = subprocess.Popen(
+            [sys.executable, "-B", SCRIPTS / "demo.py", "--out", self.folder / "out"],
+            env=self.environment(FELTGATE_ROOT=self.root(), FELTGATE_TRACES=str(self.folder)),
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        pids = self.folder / "pids"
+        deadline = time.monotonic() + 60
+        while not pids.exists() and time.monotonic() < deadline:
+            time.sleep(0.1)
+        time.sleep(0.5)
+        demo.terminate()
+        self.assertEqual(demo.wait(timeout=60), 130)
+        for pid in pids.read_text().split():
+            with self.assertRaises(ProcessLookupError):
+                os.kill(int(pid), 0)
+
+    def test_options_that_cannot_be(self):
+        done = self.script("demo.py", "--traces", self.folder / "nowhere")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no such folder", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

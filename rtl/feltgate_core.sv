@@ -294,52 +294,81 @@ module feltgate_core #(
   end else begin : gen_fresh
     assign tau_hat_bus = tau_hat;
   end
-  logic [3:0] select;
-  always_comb begin
-    select = 4'd0;
-    if (wave[7] || wave[9] || wave[10] || wave[22]) select = 4'd0;
-    if (wave[4]) select = 4'd1;
-    if (wave[3]) select = (scene_square && Defect != 2) ? 4'd3 : 4'd2;
-    if (wave[6]) select = 4'd2;
-    if (wave[5] || wave[27]) select = 4'd4;
-    if (wave[8]) select = 4'd5;
-    if (wave[13]) select = 4'd6;
-    if (wave[15]) select = 4'd7;
-    if (wave[23]) select = 4'd8;
-    if (wave[28] || wave[29]) select = 4'd9;
-    if (wave[34] || wave[40]) select = 4'd10;
-    if (wave[0]) select = 4'd11;
-    if (wave[1]) select = 4'd12;
-    if (wave[2]) select = 4'd13;
-    if (wave[14] || wave[11]) select = 4'd14;
-    if (wave[46]) select = 4'd15;
+  // Selects are registered one clock ahead. Words that are narrow share one sign extension.
+  logic take_velocity_q, take_velocity_operand_q, take_scene_q, take_square_q, take_voltage_q;
+  logic take_control_q;
+  logic take_current_q, take_estimate_q, take_dob_q, take_tau_hat_q, take_tau_ref_q;
+  logic take_tick_q, take_position_q, take_status_q, take_index_q, take_errors_q, take_duty_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      take_velocity_q         <= 1'b0;
+      take_velocity_operand_q <= 1'b0;
+      take_scene_q            <= 1'b0;
+      take_square_q           <= 1'b0;
+      take_voltage_q          <= 1'b0;
+      take_control_q          <= 1'b0;
+      take_current_q          <= 1'b0;
+      take_estimate_q         <= 1'b0;
+      take_dob_q              <= 1'b0;
+      take_tau_hat_q          <= 1'b0;
+      take_tau_ref_q          <= 1'b0;
+      take_tick_q             <= 1'b0;
+      take_position_q         <= 1'b0;
+      take_status_q           <= 1'b0;
+      take_index_q            <= 1'b0;
+      take_errors_q           <= 1'b0;
+      take_duty_q             <= 1'b0;
+    end else begin
+      take_velocity_q         <= wave[6] || wave[8] || wave[9] || wave[21];
+      take_velocity_operand_q <= wave[3];
+      take_scene_q            <= (wave[2] && !(scene_square && Defect != 2)) || wave[5];
+      take_square_q           <= wave[2] && scene_square;
+      take_voltage_q          <= wave[4] || wave[26];
+      take_control_q          <= wave[39];
+      take_current_q          <= wave[7] || wave[33];
+      take_estimate_q         <= wave[12];
+      take_dob_q              <= wave[14];
+      take_tau_hat_q          <= wave[22];
+      take_tau_ref_q          <= wave[27] || wave[28];
+      take_tick_q             <= ReadBack != 0 && slot_fetch == 6'd1;  // before wave clock 0
+      take_position_q         <= ReadBack != 0 && wave[0];
+      take_status_q           <= ReadBack != 0 && wave[1];
+      take_index_q            <= ReadBack != 0 && wave[10];
+      take_errors_q           <= ReadBack != 0 && wave[13];
+      take_duty_q             <= ReadBack != 0 && wave[45];
+    end
   end
-  always_comb begin
-    case (select)
-      4'd0:    operand = OperandW'(velocity_o);
-      4'd1:    operand = OperandW'(velocity_operand);
-      4'd2:    operand = OperandW'(scene_operand);
-      4'd3:    operand = OperandW'(scene_operand) >>> feltgate_pkg::SCENE_OFFSET_F;
-      4'd4:    operand = OperandW'(voltage_o);
-      4'd5:    operand = OperandW'(current_ref_o);
-      4'd6:    operand = OperandW'(current_estimate);
-      4'd7:    operand = OperandW'(dob_operand);
-      4'd8:    operand = OperandW'(tau_hat_bus);
-      4'd9:    operand = OperandW'(tau_ref_o);
-      4'd10:   operand = OperandW'(control_operand);
-      4'd11:   operand = (ReadBack != 0) ? OperandW'($signed(tick_count_o)) : '0;
-      4'd12:   operand = (ReadBack != 0) ? OperandW'(position_o) : '0;
-      4'd13:   operand = (ReadBack != 0) ? OperandW'($signed(status)) : '0;
-      4'd14:   operand = (ReadBack == 0) ? '0
-                       : wave[11] ? OperandW'(index_position)
-                       : OperandW'($signed({rejected_count, error_count}));
-      default: operand = (ReadBack != 0) ? OperandW'(duty_o) : '0;
-    endcase
-  end
-  // A square takes its own operand as the factor; a coefficient has no sign but in slot 23.
-  logic square;
-  assign square = (wave[3] && scene_square) || wave[13];
-  assign factor = square ? operand[17:0] : {param[17] && wave[23], param[16:0]};
+
+  localparam int NarrowW = 24;  // holds each of these
+  logic signed [NarrowW-1:0] narrow;
+  assign narrow =
+      ({NarrowW{take_square_q && Defect != 2}} &
+       NarrowW'($signed(scene_operand[feltgate_pkg::SCENE_OFFSET_W-1:feltgate_pkg::SCENE_OFFSET_F]))) |
+      ({NarrowW{take_voltage_q}} & NarrowW'(voltage_o)) |
+      ({NarrowW{take_control_q}} & NarrowW'(control_operand)) |
+      ({NarrowW{take_current_q}} & NarrowW'(current_ref_o)) |
+      ({NarrowW{take_estimate_q}} & NarrowW'(current_estimate)) |
+      ({NarrowW{take_tau_hat_q}} & NarrowW'(tau_hat_bus)) |
+      ({NarrowW{take_tau_ref_q}} & NarrowW'(tau_ref_o)) |
+      ({NarrowW{take_duty_q}} & NarrowW'(duty_o));
+  assign operand =
+      OperandW'(narrow) |
+      ({OperandW{take_velocity_q}} & OperandW'(velocity_o)) |
+      ({OperandW{take_velocity_operand_q}} & OperandW'(velocity_operand)) |
+      ({OperandW{take_scene_q}} & OperandW'(scene_operand)) |
+      ({OperandW{take_dob_q}} & OperandW'(dob_operand)) |
+      ({OperandW{take_tick_q}} & OperandW'($signed(tick_count_o))) |
+      ({OperandW{take_position_q}} & OperandW'(position_o)) |
+      ({OperandW{take_status_q}} & OperandW'($signed(status))) |
+      ({OperandW{take_index_q}} & OperandW'(index_position)) |
+      ({OperandW{take_errors_q}} & OperandW'($signed({rejected_count, error_count})));
+
+  // A square takes its own operand as the factor, past the operand bus; a coefficient has no sign
+  // but in slot 23.
+  assign factor =
+      ({18{take_square_q}} & scene_operand[feltgate_pkg::SCENE_OFFSET_F+:18]) |
+      ({18{take_estimate_q}} & 18'(current_estimate)) |
+      ({18{!take_square_q && !take_estimate_q}} & {param[17] && take_tau_hat_q, param[16:0]});
 
   logic snap_valid;
   assign snap_valid = wave[0] || wave[1] || wave[2] || wave[9] || wave[11] || wave[14] ||

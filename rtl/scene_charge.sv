@@ -75,29 +75,31 @@ module scene_charge #(
   logic [14:0] preset_q;
   logic [16:0] rest_q;
   logic [30:0] remainder_q;
-  logic [34:0] square_q;
+  logic [31:0] square_q;
   logic [32:0] difference;
-  logic        busy_q, bring, huge, fits, saturated_q, quotient_bit;
+  logic        busy_q, bring, bring_q, huge_q, fits, saturated_q, quotient_bit;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) busy_q <= 1'b0;  // clocks 8 to 24
     else busy_q <= stage_q[5] || (busy_q && !stage_q[22]);
   end
+  // The next bit of the strength, chosen a clock ahead.
   always_comb begin
     bring = 1'b0;
-    for (int k = 0; k < 17; k++) bring = bring | (rest_q[16-k] & stage_q[6+k]);
+    for (int k = 0; k < 17; k++) bring = bring | (rest_q[16-k] & stage_q[5+k]);
   end
-  assign huge         = square_q[34:32] != '0;
-  assign difference   = {1'b0, remainder_q, bring} - {1'b0, square_q[31:0]};
-  assign fits         = !difference[32] && !huge && !(Defect == 2 && square_q == '0);
+  always_ff @(posedge clk_i) bring_q <= bring;
+  assign difference   = {1'b0, remainder_q, bring_q} - {1'b0, square_q};
+  assign fits         = !difference[32] && !huge_q && !(Defect == 2 && square_q == '0);
   assign quotient_bit = fits || saturated_q;
   always_ff @(posedge clk_i) begin
     if (stage_q[0]) preset_q <= param_i[31:17];
     else preset_q <= '0;
     if (stage_q[0]) rest_q <= param_i[16:0];
-    if (stage_q[5]) square_q <= product_i[34:0];
+    if (stage_q[5]) square_q <= product_i[31:0];
+    if (stage_q[5]) huge_q <= product_i[34:32] != '0;
     if (stage_q[0]) remainder_q <= '0;
     else if (stage_q[1] || busy_q) begin
-      remainder_q <= (fits ? difference[30:0] : {remainder_q[29:0], bring}) | 31'(preset_q);
+      remainder_q <= (fits ? difference[30:0] : {remainder_q[29:0], bring_q}) | 31'(preset_q);
     end
     if (stage_q[6]) saturated_q <= fits && Defect != 7;
   end

@@ -42,6 +42,7 @@ module torque_control #(
   localparam int DutyW = feltgate_pkg::DUTY_W;
   localparam int PartA = feltgate_pkg::CURRENT_SUM_W;
   localparam int PartV = feltgate_pkg::VOLTAGE_SUM_W;
+  localparam int DutyPart = feltgate_pkg::DUTY_SUM_W;
   localparam int Wide = (PartA > PartV) ? PartA : PartV;
   // Fraction bits that each product has and its sum has not.
   localparam int TauRefDrop = TorqueF + feltgate_pkg::P_TORQUE_GAIN_F - CurrentF;
@@ -58,50 +59,63 @@ module torque_control #(
   logic direct;
   assign direct = (mode_i == Voltage);
 
-  // Adder: one product, cut to the sum's binary point, plus what has been kept. Clock 29 passes
-  // tau_ref on, so that the limiter compares it with the border in 30.
-  logic signed [    Wide-1:0] kept_q, offset_q, sum_q, term, addend;
+  // Terms, each 0 outside its clock, so that the limiter's input is but an or: clearing a register
+  // costs no logic, selecting does. What has a clock to spare is ored ahead in early_q. Disarmed,
+  // current and voltage are 0 before they reach the limiter.
+  logic signed [    Wide-1:0] kept_q, offset_q, current_q, border_q, direct_q, dead_q;
+  logic signed [    Wide-1:0] fixed_q, set_q, voltage_q, early_q, sum;
+  logic signed [DutyPart-1:0] duty_q;
   logic signed [CurrentW-1:0] limited_q;
-  logic                       carry, add;
-  assign term = (Wide'(tau_ref_i) & {Wide{wave_i[29]}}) |
-                (Wide'(product_i >>> DirectDrop) & {Wide{wave_i[31]}}) |
-                (Wide'(product_i >>> TauRefDrop) & {Wide{wave_i[32]}}) |
-                (Wide'(product_i >>> DeadDrop) & {Wide{wave_i[33]}}) |
-                (Wide'(limited_q) & {Wide{wave_i[36]}}) |
-                (Wide'(product_i >>> GainDrop) & {Wide{wave_i[38]}}) |
-                (Wide'(product_i >>> DutyDrop) & {Wide{wave_i[44]}});
-  assign addend = (kept_q & {Wide{wave_i[32]}}) | (offset_q & {Wide{wave_i[36]}}) |
-                  (sum_q & {Wide{wave_i[38]}});
-  assign carry = wave_i[44] && product_i[DutyDrop-1] && Defect != 6;
-  assign add = wave_i[29] || wave_i[31] || wave_i[33] || wave_i[36] || wave_i[44] ||
-               (!direct && (wave_i[32] || wave_i[38]));
+  logic                       lively, carry;
+  assign lively = armed_i || Defect == 5;
+  assign carry  = product_i[DutyDrop-1] && Defect != 6;
   always_ff @(posedge clk_i) begin
     if (wave_i[26]) begin
       if (direct) offset_q <= Wide'(voltage_o);
       else offset_q <= (Defect == 7) ? -Wide'(product_i >>> EmfDrop) : Wide'(product_i >>> EmfDrop);
     end
     if (wave_i[27]) begin
-      kept_q <= (mode_i == Open && Defect != 4) ? '0 : Wide'(product_i >>> TauHatDrop);
+      if (mode_i == Open && Defect != 4) kept_q <= '0;
+      else kept_q <= Wide'(product_i >>> TauHatDrop);
     end
-    if (wave_i[33] && direct) sum_q <= '0;
-    else if (add) sum_q <= term + addend + Wide'({1'b0, carry});
+    if (!wave_i[28]) border_q <= '0;
+    else border_q <= Wide'(tau_ref_i);
+    if (!(wave_i[31] && direct && armed_i)) direct_q <= '0;
+    else direct_q <= Wide'(product_i >>> DirectDrop);
+    if (!(wave_i[32] && !direct && armed_i)) current_q <= '0;
+    else current_q <= Wide'(product_i >>> TauRefDrop) + kept_q;
+    if (!(wave_i[33] && !direct)) dead_q <= '0;
+    else dead_q <= Wide'(product_i >>> DeadDrop);
+    fixed_q <= Wide'(limited_q) + offset_q;  // seen in 37 and 38
+    if (!(wave_i[37] && direct && lively)) set_q <= '0;
+    else set_q <= fixed_q;
+    if (!(wave_i[38] && !direct && lively)) voltage_q <= '0;
+    else voltage_q <= Wide'(product_i >>> GainDrop) + fixed_q;
+    if (!wave_i[44]) duty_q <= '0;
+    else duty_q <= DutyPart'(product_i >>> DutyDrop) + DutyPart'({1'b0, carry});
+    early_q <= border_q | direct_q | dead_q | set_q;
   end
+  assign sum = early_q | current_q | voltage_q | Wide'(duty_q);
 
-  // Limiter: sum_q to [-limit, limit], limit being the word on the bus.
-  logic signed [    Wide-1:0] limit, upper_gap, lower_gap;
-  logic                       above, below;
-  assign limit     = Wide'($signed(param_i[CurrentW-1:0]));
-  assign upper_gap = limit - sum_q;
-  assign lower_gap = limit + sum_q;
-  assign above     = upper_gap[Wide-1];
-  assign below     = lower_gap[Wide-1] && Defect != 2;
+  // Limiter: sum to [-limit, limit], limit being the word on the bus. Only as many bits are compared
+  // as a limit has: a sum that needs more is beyond any limit.
+  logic signed [CurrentW-1:0] limit, low;
+  logic signed [CurrentW  :0] upper_gap, lower_gap;
+  logic                       too_high, too_low, above, below, silent;
+  assign limit     = param_i[CurrentW-1:0];
+  assign low       = sum[CurrentW-1:0];
+  assign too_high  = !sum[Wide-1] && sum[Wide-2:CurrentW-1] != '0;
+  assign too_low   = sum[Wide-1] && sum[Wide-2:CurrentW-1] != '1;
+  assign upper_gap = (CurrentW + 1)'(limit) - (CurrentW + 1)'(low);
+  assign lower_gap = (CurrentW + 1)'(limit) + (CurrentW + 1)'(low);
+  assign silent    = !lively && (wave_i[33] || wave_i[39]);
+  assign above     = (too_high || (upper_gap[CurrentW] && !too_low)) && !silent;
+  assign below     = (too_low || (lower_gap[CurrentW] && !too_high)) && !silent && Defect != 2;
   logic signed [CurrentW-1:0] limited;
-  assign limited = above ? CurrentW'(limit) : below ? CurrentW'(-limit) : CurrentW'(sum_q);
+  assign limited = above ? limit : below ? -limit : low;
 
   assign operand_o = limited_q;
 
-  logic silent;  // disarmed: neither current nor voltage
-  assign silent = !armed_i && (wave_i[33] || wave_i[39]);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       region_high_o   <= 1'b0;
@@ -113,18 +127,16 @@ module torque_control #(
       limit_voltage_o <= 1'b0;
       limit_duty_o    <= 1'b0;
     end else begin
-      if (wave_i[33] || wave_i[35] || wave_i[39]) limited_q <= silent ? '0 : limited;
+      if (wave_i[33] || wave_i[35] || wave_i[39]) limited_q <= limited;
       if (wave_i[33]) begin
-        current_ref_o   <= !armed_i ? '0 : (Defect == 1) ? CurrentW'(sum_q) : limited;
-        limit_current_o <= armed_i && (above || below);
+        current_ref_o   <= (Defect == 1) ? low : limited;
+        limit_current_o <= above || below;
       end
       // The region of the voltage gain, decided before its word is fetched.
       if (wave_i[30]) region_high_o <= above || below || (Defect == 3 && upper_gap == '0);
       if (wave_i[24] && direct) voltage_o <= param_i[VoltageW-1:0];
-      if (wave_i[39]) begin
-        voltage_o       <= (!armed_i && Defect != 5) ? '0 : VoltageW'(limited);
-        limit_voltage_o <= armed_i && (above || below);
-      end
+      else if (wave_i[39]) voltage_o <= VoltageW'(limited);
+      if (wave_i[39]) limit_voltage_o <= above || below;
       if (wave_i[45]) begin
         duty_o       <= DutyW'(limited);
         limit_duty_o <= above || below;
@@ -133,8 +145,8 @@ module torque_control #(
   end
 
   logic unused_wave;
-  assign unused_wave = &{wave_i[49:46], wave_i[43:40], wave_i[37], wave_i[34], wave_i[28],
-                         wave_i[25], wave_i[23:0], param_i[31:CurrentW]};
+  assign unused_wave = &{wave_i[49:46], wave_i[43:40], wave_i[36], wave_i[34], wave_i[29],
+                         wave_i[25], wave_i[23:0], param_i[31:CurrentW], upper_gap[0], lower_gap[0]};
 endmodule
 
 `default_nettype wire

@@ -8,9 +8,33 @@ END = "<!-- end of what feltgate synth wrote -->"
 # (repository, module, LUT4 equivalents, FF, MULT18, BRAM, Fmax [min-max]); measured for this
 # project's planning with Yosys 0.52 and nextpnr 0.7 from the repositories' public sources.
 PEERS = (
-    ("jhu-cisst/mechatronics-firmware", "decoder with period estimator", 287, 240, 0, 0, "126 [125-132]"),
-    ("jhu-cisst/mechatronics-firmware", "PI current controller (HLS)", 711, 454, 5, 0, "82 [82-90]"),
-    ("jhu-cisst/mechatronics-firmware", "MotorChannelDRAC: current loop, PWM, faults", 1090, 774, 5, 0, "88 [88-88]"),
+    (
+        "jhu-cisst/mechatronics-firmware",
+        "decoder with period estimator",
+        287,
+        240,
+        0,
+        0,
+        "126 [125-132]",
+    ),
+    (
+        "jhu-cisst/mechatronics-firmware",
+        "PI current controller (HLS)",
+        711,
+        454,
+        5,
+        0,
+        "82 [82-90]",
+    ),
+    (
+        "jhu-cisst/mechatronics-firmware",
+        "MotorChannelDRAC: current loop, PWM, faults",
+        1090,
+        774,
+        5,
+        0,
+        "88 [88-88]",
+    ),
     ("WangXuan95/FPGA-FOC", "foc_top: the whole core", 2717, 1391, 19, 6, "52 [52-55]"),
     ("WangXuan95/FPGA-FOC", "pi_controller", 667, 275, 6, 0, "56 [56-56]"),
     ("f32c/f32c", "ctrlpid (and 32 DPR16X4)", 2977, 19, 0, 0, "44 [43-45]"),
@@ -22,13 +46,49 @@ PEERS = (
 
 # (what, row, figure, bound, is a least value)
 GOALS = (
-    ("LUT4 equivalents without read-back", "core without read-back, registered", "lut4_equivalents", 1400, False),
-    ("LUT4 equivalents with read-back", "core with read-back, registered", "lut4_equivalents", 2700, False),
+    (
+        "LUT4 equivalents without read-back",
+        "core without read-back, registered",
+        "lut4_equivalents",
+        1400,
+        False,
+    ),
+    (
+        "LUT4 equivalents with read-back",
+        "core with read-back, registered",
+        "lut4_equivalents",
+        2700,
+        False,
+    ),
     ("MULT18X18D", "core with read-back, registered", "mult18", 4, False),
-    ("MHz, registered multiplier, without read-back", "core without read-back, registered", "fmax_mhz", 150, True),
-    ("MHz, registered multiplier, with read-back", "core with read-back, registered", "fmax_mhz", 150, True),
-    ("MHz, inferred multiplier, without read-back", "core without read-back, inferred", "fmax_mhz", 100, True),
-    ("MHz, inferred multiplier, with read-back", "core with read-back, inferred", "fmax_mhz", 100, True),
+    (
+        "MHz, registered multiplier, without read-back",
+        "core without read-back, registered",
+        "fmax_mhz",
+        150,
+        True,
+    ),
+    (
+        "MHz, registered multiplier, with read-back",
+        "core with read-back, registered",
+        "fmax_mhz",
+        150,
+        True,
+    ),
+    (
+        "MHz, inferred multiplier, without read-back",
+        "core without read-back, inferred",
+        "fmax_mhz",
+        100,
+        True,
+    ),
+    (
+        "MHz, inferred multiplier, with read-back",
+        "core with read-back, inferred",
+        "fmax_mhz",
+        100,
+        True,
+    ),
 )
 
 HEADS = ("", "LUT4", "CCU2C", "LUT4 eq", "FF", "MULT18", "BRAM", "Fmax MHz", "C4E cells", "C4E FF")
@@ -50,9 +110,7 @@ def text_table(design, rows):
     lines = [[f"design {design}", *HEADS[1:]], *(cells(n, r) for n, r in rows.items())]
     widths = [max(len(line[k]) for line in lines) for k in range(len(HEADS))]
     table = [
-        "  ".join(
-            [line[0].ljust(widths[0]), *(c.rjust(w) for c, w in zip(line[1:], widths[1:]))]
-        )
+        "  ".join([line[0].ljust(widths[0]), *(c.rjust(w) for c, w in zip(line[1:], widths[1:]))])
         for line in lines
     ]
     paths = [f"  {n}: {r['critical_path']}" for n, r in rows.items() if "critical_path" in r]
@@ -68,7 +126,12 @@ def goal_rows(design, rows):
     for what, name, key, bound, at_least in GOALS:
         value = rows.get(name, {}).get(key)
         if value is None:
-            yield [f"{design}: {what}", f"{'>=' if at_least else '<='} {bound}", "-", "not measured"]
+            yield [
+                f"{design}: {what}",
+                f"{'>=' if at_least else '<='} {bound}",
+                "-",
+                "not measured",
+            ]
             continue
         met = value >= bound if at_least else value <= bound
         short = abs(value - bound) / bound

@@ -46,6 +46,7 @@ struct RunResult {
   std::string first_mismatch;
   bool lock_step = false;
   PositionFigures position;
+  std::int32_t last_position = 0;  ///< counts, by an independent count of the pins; wraps
   std::vector<EngineFigures> engines;
   std::map<std::string, double> figures;  ///< what scene files put bounds on
   int expectations_checked = 0;

@@ -80,12 +80,15 @@ RunResult run_replay(EncoderSource& source, const std::string& subject,
     }
     if (options.progress) options.progress(core.lead().now());
   }
+  // Two ticks more, so that the last edge is sampled too.
+  core.advance(2 * d.clocks_per_tick, nullptr, nullptr, tick);
   out.clocks = core.lead().now();
   out.simulated_s = static_cast<double>(out.clocks) / static_cast<double>(d.clock_hz);
   out.lock_step = choose_engines(options.engine).lead == "lockstep";
   out.mismatches = core.lead().mismatches();
   out.first_mismatch = core.lead().first_mismatch();
   out.position = {counter.result().steps, counter.result().illegal, counter.result().reversals};
+  out.last_position = static_cast<std::int32_t>(counter.result().position);
   out.engines = core.figures();
   return out;
 }

@@ -115,7 +115,8 @@ def figure_7(runs, png=False):
         "0.0605 Nm/V in design paper, whatever the motor does.",
         "No single motor gives both published slopes. 0.072 is the 24 V winding (Kt/R = "
         "0.0302/0.42 ohm); the observer then shows 0.0605. 0.051 is the published Kt over 1.186 "
-        "ohm, near the 48 V winding with the true current; but then the measured slope is the same.",
+        "ohm, near the 48 V winding with the true current; but then the measured slope is the "
+        "same.",
         "In design lever the observer's constants are the motor's own, so both lines are parallel; "
         "the space between them is what brushes and dead time take, which nothing gives back in "
         "this mode.",

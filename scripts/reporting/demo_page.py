@@ -44,11 +44,11 @@ class Demo:
 
 
 ERROR_HEAD = [
-    "velocity error max, µrad/s",
+    "velocity error, max, µrad/s",
     "rms",
-    "observed torque error max, µNm",
+    "observed torque, max, µNm",
     "rms",
-    "torque error max, µNm",
+    "torque, max, µNm",
     "rms",
 ]
 SPEED_HEAD = ["RTL, s/s", "twin", "double", "quad"]
@@ -196,9 +196,10 @@ def runs_section(demo):
 
 
 def document(demo):
+    ran = sum(run.ran for run in demo.runs.values())
     good = (
         f"0 mismatches between RTL and twin in {demo.clocks:,} clocks "
-        f"({demo.simulated_s:.1f} s of device time, {len(demo.runs)} runs)"
+        f"({demo.simulated_s:.1f} s of device time, {ran} runs)"
     )
     version = next((r.summary.get("version", "") for r in demo.runs.values() if r.ran), "")
     body = "<h1>feltgate demo</h1>" + page.verdict(demo.wrong, good)

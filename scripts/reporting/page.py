@@ -10,7 +10,7 @@ STYLE = """
 @media(prefers-color-scheme:dark){:root{--back:#15191e;--text:#e4e9ee;--soft:#9aa6b2;--line:#343c45;
 --tint:#1e242b;--good:#6fdd8b;--good-back:#12301c;--bad:#ff9492;--bad-back:#3d1418;--link:#6cb6ff}}
 *{box-sizing:border-box}
-body{margin:0 auto;max-width:72rem;padding:1rem;background:var(--back);color:var(--text);
+body{margin:0 auto;max-width:84rem;padding:1rem;background:var(--back);color:var(--text);
 font:16px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,"Liberation Sans",sans-serif}
 h1{font-size:1.7rem;line-height:1.2;margin:.5rem 0}
 h2{font-size:1.3rem;margin:2.2rem 0 .6rem;border-bottom:1px solid var(--line);padding-bottom:.2rem}
@@ -25,7 +25,8 @@ p,ul{max-width:46rem}
 .scroll{overflow-x:auto;margin:.6rem 0}
 table{border-collapse:collapse;font-size:.85rem;font-variant-numeric:tabular-nums}
 th,td{padding:.25rem .5rem;border-bottom:1px solid var(--line);text-align:right;white-space:nowrap}
-th{background:var(--tint);font-weight:600;vertical-align:bottom;white-space:normal;line-height:1.25}
+th{background:var(--tint);font-weight:600;vertical-align:bottom;white-space:normal;line-height:1.25;
+min-width:3.2rem}
 th:first-child,td:first-child,th.words,td.words{text-align:left}
 td:first-child{position:sticky;left:0;background:var(--back)}
 td.words,th.words{white-space:normal;min-width:9rem}
@@ -93,7 +94,8 @@ def table(head, rows, words=()):
             yield f"<{tag}{' class=words' if i in words else ''}>{inner}</{tag}>"
 
     lines = ["<tr>" + "".join(cells(head, "th")) + "</tr>"]
-    lines += ["<tr>" + "".join(cells(row, "td")) + "</tr>" for row in rows]
+    full = [[*row, *[""] * (len(head) - len(row))] for row in rows]
+    lines += ["<tr>" + "".join(cells(row, "td")) + "</tr>" for row in full]
     return '<div class="scroll"><table>\n' + "\n".join(lines) + "\n</table></div>"
 
 
@@ -137,7 +139,7 @@ def number(value, digits=3):
     if size >= 1000:
         text = f"{size:,.0f}"
     elif size < 1e-6:
-        text = f"{size:.{digits - 1}e}"
+        return "≈ 0"
     elif size < 1e-4:  # where 'g' would turn to an exponent
         text = f"{size:.8f}".rstrip("0")
     else:

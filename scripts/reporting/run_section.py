@@ -8,6 +8,7 @@ from reporting import page, plots
 from reporting.runs import design
 
 ENGINES = ("rtl", "twin", "double", "quad")
+QUAD = {"linewidth": 0.6, "alpha": 0.5}  # lets the RTL through where both swing too fast
 
 
 def lsb(design_name, signal):
@@ -53,7 +54,7 @@ def motion_picture(name, summary, csv):
         plots.draw(position, time, csv["theta_rad"], "ideal", "lever of the plant")
         plots.draw(velocity, time, csv["omega_rad_s"], "ideal", "lever of the plant")
     plots.draw(velocity, time, csv["velocity_rad_s"], "rtl")
-    plots.draw(velocity, time, csv["quad_velocity_rad_s"], "quad")
+    plots.draw(velocity, time, csv["quad_velocity_rad_s"], "quad", **QUAD)
     position.set_ylabel("position, rad")
     velocity.set_ylabel("velocity, rad/s")
     velocity.set_xlabel(label)
@@ -72,13 +73,13 @@ def torque_picture(name, summary, csv):
     constant = torque_constant(summary["design"])
     if constant:
         plots.draw(command, time, constant * csv["current_a"], "rtl", "commanded, RTL")
-        plots.draw(command, time, constant * csv["quad_current_a"], "quad")
+        plots.draw(command, time, constant * csv["quad_current_a"], "quad", **QUAD)
     if closed_loop(summary):
         plots.draw(command, time, csv["motor_torque_nm"], "motor")
     plots.draw(observed, time, csv["tau_hat_nm"], "rtl", "observed, RTL")
-    plots.draw(observed, time, csv["quad_tau_hat_nm"], "quad")
+    plots.draw(observed, time, csv["quad_tau_hat_nm"], "quad", **QUAD)
     command.set_ylabel("torque, Nm")
-    observed.set_ylabel("observed torque, Nm")
+    observed.set_ylabel("observed, Nm")
     observed.set_xlabel(label)
     for axes in (command, observed):
         plots.at_least(axes, 0.01)

@@ -144,7 +144,8 @@ def start(job, folder, children):
     children.add(child)
     stderr = child.communicate()[1].decode(errors="replace").strip()
     children.discard(child)
-    run = Run(job, child.returncode, stderr.splitlines()[-1] if stderr else "")
+    complaint = stderr.splitlines()[-1].removeprefix("feltgate: ") if stderr else ""
+    run = Run(job, child.returncode, complaint)
     run.took_s, run.csv_path = time.monotonic() - began, csv_path
     if child.returncode in (0, 1) and json_path.exists() and csv_path.exists():
         try:

@@ -67,7 +67,7 @@ inline int line_of(const std::string& text, const std::string& what) {
 
 /// Writes a file into the folder of this test and returns its path.
 inline std::string written(const std::string& name, const std::string& text) {
-  const std::string path = std::string(FELTGATE_TEST_FOLDER) + "/" + name;
+  std::string path = std::string(FELTGATE_TEST_FOLDER) + "/" + name;
   std::ofstream(path, std::ios::binary) << text;
   return path;
 }

@@ -42,7 +42,8 @@ TEST_CASE("a coefficient uses the top bit of its mantissa", "[coefficient]") {
   CHECK(coefficient_format(-1.0, true) == Format{1, 1, 16});
   CHECK(coefficient_format(5e-4, false) == Format{0, -10, 27});
   CHECK(coefficient_format(104.1, false) == Format{0, 7, 10});
-  for (double v = 1e-9; v < 1e5; v *= 1.37) {
+  for (int i = 0; i < 100; ++i) {
+    const double v = 1e-9 * std::pow(1.37, i);
     INFO(v);
     CHECK(mantissa(v) >= 1 << 16);
     CHECK(mantissa(v) < 1 << 17);

@@ -34,29 +34,33 @@ Interval range(Format f) {
   return {-f.sign * power(f.integer), power(f.integer) - power(-f.fraction)};
 }
 
-Interval operator+(Interval a, Interval b) { return {a.low + b.low, a.high + b.high}; }
-Interval operator-(Interval a, Interval b) { return {a.low - b.high, a.high - b.low}; }
-Interval operator*(Interval a, Interval b) {
+Interval operator+(const Interval& a, const Interval& b) {
+  return {a.low + b.low, a.high + b.high};
+}
+Interval operator-(const Interval& a, const Interval& b) {
+  return {a.low - b.high, a.high - b.low};
+}
+Interval operator*(const Interval& a, const Interval& b) {
   const auto [low, high] = std::minmax({Real113(a.low * b.low), Real113(a.low * b.high),
                                         Real113(a.high * b.low), Real113(a.high * b.high)});
   return {low, high};
 }
 
 /// Bits below 2^-fraction dropped.
-Interval truncated(Interval x, int fraction) {
+Interval truncated(const Interval& x, int fraction) {
   return {floor(x.low * power(fraction)) * power(-fraction),
           floor(x.high * power(fraction)) * power(-fraction)};
 }
 
-Interval rounded(Interval x, int fraction) {
+Interval rounded(const Interval& x, int fraction) {
   const Real113 half = power(-fraction - 1);
   return truncated({x.low + half, x.high + half}, fraction);
 }
 
-bool fits(Interval x, Format f) { return x.low >= range(f).low && x.high <= range(f).high; }
+bool fits(const Interval& x, Format f) { return x.low >= range(f).low && x.high <= range(f).high; }
 
 /// Fits, and would not with one integer bit less.
-bool fits_tightly(Interval x, Format f) {
+bool fits_tightly(const Interval& x, Format f) {
   return fits(x, f) && !fits(x, {f.sign, f.integer - 1, f.fraction});
 }
 

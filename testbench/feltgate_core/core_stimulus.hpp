@@ -36,8 +36,9 @@ class CoreStimulus {
       const std::uint32_t kind = random_.below(16);
       spacing_ = kind < 3 ? 0 : kind < 13 ? 600 + random_.below(30'000) : kind < 15 ? 30 + random_.below(200) : 1 + random_.below(8);
       up_ = random_.one_in(2);
+      bad_cable_ = random_.one_in(12);
     }
-    if (random_.one_in(400'000)) phase_ += 2;  // both channels at once
+    if (random_.one_in(bad_cable_ ? 3'000 : 400'000)) phase_ += 2;  // both channels at once
     if (spacing_ > 0 && --wait_ <= 0) {
       wait_ = spacing_;
       phase_ += up_ ? 1u : 3u;
@@ -98,14 +99,14 @@ class CoreStimulus {
     if (random_.one_in(50'000)) in_.arm = !in_.arm;
     if (random_.one_in(100'000)) in_.scene = static_cast<std::uint8_t>(random_.below(16));
     in_.set_zero = random_.one_in(100'000);
-    if (in_.stop ? random_.one_in(2'000) : random_.one_in(600'000)) in_.stop = !in_.stop;
+    if (in_.stop ? random_.one_in(2'000) : random_.one_in(200'000)) in_.stop = !in_.stop;
   }
 
   Random random_;
   CoreIn in_;
   std::int64_t left_ = 0;
   std::int64_t spacing_ = 0, wait_ = 0;
-  bool up_ = true;
+  bool up_ = true, bad_cable_ = false;
   std::uint32_t phase_ = 0;
 };
 

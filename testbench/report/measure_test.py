@@ -79,7 +79,7 @@ class Text(unittest.TestCase):
             (-1.5, "−1.50"),
             (12345.6, "12,346"),
             (2.5e-5, "0.000025"),
-            (3.2e-9, "3.20e-09"),
+            (-3.2e-9, "≈ 0"),
             (None, "–"),
         ):
             self.assertEqual(page.number(value), text)

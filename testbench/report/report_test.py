@@ -139,7 +139,14 @@ class Demo(Bench):
         endless = self.folder / "feltgate"
         endless.write_text(f'#!/bin/sh\necho $$ >> "{self.folder}/pids"\nexec sleep 300\n')
         demo = subprocess.Popen(
-            [sys.executable, "-B", SCRIPTS / "demo.py", "--out", self.folder / "out"],
+            [
+                sys.executable,
+                "-B",
+                SCRIPTS / "demo.py",
+                "--no-figures",
+                "--out",
+                self.folder / "out",
+            ],
             env=self.environment(FELTGATE_ROOT=self.root(), FELTGATE_TRACES=str(self.folder)),
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,

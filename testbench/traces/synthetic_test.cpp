@@ -160,7 +160,7 @@ TEST_CASE("cut sources end where they are cut, and events come as given", "[trac
   CHECK(found.length == 55);
   CHECK(counted(cut(fast_run(3, 10), 1000)).length == 31);
   const Statistics given = counted(from_events(
-      {true, false, false}, {{4, {true, true, false}}, {9, {false, false, false}}}, 10));
+      {false, true, false}, {{4, {true, true, false}}, {9, {false, false, false}}}, 10));
   CHECK(given.steps == 2);
   CHECK(given.illegal == 1);
   CHECK(given.position == 1);

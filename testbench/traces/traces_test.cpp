@@ -163,7 +163,7 @@ TEST_CASE("STEP and DIR become quadrature", "[traces]") {
   const auto file = folder.file(
       "s.csv",
       "time_us,S,D\n0,1,1\n1,0,1\n2,1,1\n3,0,1\n4,1,1\n5,0,0\n6,1,0\n7,0,0\n8,1,0\n9,1,1\n");
-  CHECK(told(file, options) == "0:00 100:10 200:11 300:10 400:00 end:450");
+  CHECK(told(file, options) == "0:00 100:01 200:11 300:01 400:00 end:450");
   options.dir.clear();
   CHECK(told(file, options).find("STEP, DIR and probes do not go together") != std::string::npos);
 }
@@ -171,7 +171,7 @@ TEST_CASE("STEP and DIR become quadrature", "[traces]") {
 TEST_CASE("columns of counts and of angles are spread evenly", "[traces]") {
   const Folder folder;
   const auto counts = folder.file("c.csv", "t,count\n0,1\n1e-6,5\n2e-6,5\n3e-6,3.4\n");
-  CHECK(told(counts, plain()) == "0:10 12:11 25:01 37:00 50:10 125:00 150:01 end:151");
+  CHECK(told(counts, plain()) == "0:01 12:11 25:10 37:00 50:01 125:00 150:10 end:151");
   Options jittered;
   const std::vector<std::pair<Clock, Clock>> slots = {{0, 12},  {12, 25},   {25, 37},
                                                       {37, 50}, {100, 125}, {125, 150}};
@@ -191,7 +191,7 @@ TEST_CASE("columns of counts and of angles are spread evenly", "[traces]") {
   options.scale = parse_scale("2048/2pi");
   CHECK(std::fabs(*options.scale - 325.949323452) < 1e-8);
   CHECK(told(folder.file("r.csv", "t,theta\n0,0\n1e-6,0.0031\n2e-6,-0.0016\n"), options) ==
-        "0:00 50:10 75:00 100:01 end:101");
+        "0:00 50:01 75:00 100:10 end:101");
   CHECK(told(folder.file("f.csv", "t,count\n0,0\n1e-6,50\n"), plain()).size() > 200);
   CHECK(told(folder.file("f.csv", "t,count\n0,0\n1e-6,51\n"), plain())
             .find("f.csv:3: 51 counts in 50 clocks: more than one state per clock; ") !=

@@ -86,6 +86,7 @@ class FeltgateCore {
     writes_ = 0;
     gate_clocks_ = {};
     out_ = Out{};
+    show_limits();
   }
 
   void clock(const In& in) {
@@ -371,6 +372,7 @@ class FeltgateCore {
     out_.faults = supervisor_.out().faults;
     out_.first_fault = supervisor_.out().first_fault;
     out_.gates_enable = enabled && fell < 0;
+    out_.duty_active = pwm_.out().duty_active;
     show_limits();
     out_.snapshot_valid = true;
     on_snapshot();

@@ -2,12 +2,13 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The parameter words of a design as numbers, by address: raw integers in fixed point, exact values
-// in real arithmetic. A word is decoded once, when it is set. Documentation: docs/registers.md
+// in real arithmetic. A word is decoded when it is read, by the format its reader names. Documentation: docs/registers.md
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "feltgate/numbers.hpp"
 #include "feltgate/parameter.hpp"
@@ -26,8 +27,8 @@ template <class D, class N>
 class Words {
  public:
   static constexpr int count = 512;
-  /// What is stored: the raw integer in Fixed, the value in the parameter's unit in Real.
-  using Stored = typename N::template num<Format{1, 63, 0}.key()>;
+  /// What is stored: the 32-bit word in Fixed, the value in the parameter's unit in Real.
+  using Stored = std::conditional_t<N::is_fixed, std::uint32_t, typename N::template num<Format{1, 31, 0}.key()>>;
 
   Words() { reset(); }
 
@@ -43,46 +44,33 @@ class Words {
     }
   }
 
-  /// The parameter at `address` in format Key, which must be the parameter's own.
+  /// The parameter at `address` in format Key. In Fixed the low bits of the word that the format
+  /// has, as a block takes them off the bus.
   template <int Key>
   typename N::template num<Key> get(int address) const {
     if constexpr (N::is_fixed) {
-      return fixed_of<Key>::from_raw(at(address).raw());
+      using To = fixed_of<Key>;
+      return To::from_raw(static_cast<typename To::raw_type>(
+          decode_word(Format::from_key(Key), stored_[index(address)])));
     } else {
-      return at(address);
+      return stored_[index(address)];
     }
   }
 
   /// Fixed only: a 32-bit word as the host writes it (its low 32 bits count).
   void set_raw(int address, std::int64_t raw) {
     static_assert(N::is_fixed, "real parameters are set by value");
-    at(address) = Stored::from_raw(
-        decode_word(formats()[index(address)], static_cast<std::uint32_t>(raw & 0xffffffff)));
+    stored_[index(address)] = static_cast<Stored>(raw & 0xffffffff);
   }
 
   /// Real only: a value in the parameter's unit.
   void set_value(int address, Stored value) {
     static_assert(!N::is_fixed, "fixed-point parameters are set by word");
-    at(address) = value;
+    stored_[index(address)] = value;
   }
 
  private:
-  using Formats = std::array<Format, count>;
-
   static std::size_t index(int address) { return static_cast<std::size_t>(address) % count; }
-  Stored& at(int address) { return stored_[index(address)]; }
-  const Stored& at(int address) const { return stored_[index(address)]; }
-
-  /// Format of every word; 32 plain bits where there is no parameter.
-  static const Formats& formats() {
-    static const Formats table = [] {
-      Formats f;
-      f.fill(Format{0, 32, 0});
-      for (const ParameterInfo& p : D::parameters) f[index(p.address)] = p.format;
-      return f;
-    }();
-    return table;
-  }
 
   std::array<Stored, count> stored_;
 };

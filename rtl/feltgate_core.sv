@@ -343,7 +343,7 @@ module feltgate_core #(
   logic signed [NarrowW-1:0] narrow;
   assign narrow =
       ({NarrowW{take_square_q && Defect != 2}} &
-       NarrowW'($signed(scene_operand[feltgate_pkg::SCENE_OFFSET_W-1:feltgate_pkg::SCENE_OFFSET_F]))) |
+       NarrowW'(scene_operand >>> feltgate_pkg::SCENE_OFFSET_F)) |
       ({NarrowW{take_voltage_q}} & NarrowW'(voltage_o)) |
       ({NarrowW{take_control_q}} & NarrowW'(control_operand)) |
       ({NarrowW{take_current_q}} & NarrowW'(current_ref_o)) |

@@ -72,7 +72,8 @@ module torque_control #(
   always_ff @(posedge clk_i) begin
     if (wave_i[26]) begin
       if (direct) offset_q <= Wide'(voltage_o);
-      else offset_q <= (Defect == 7) ? -Wide'(product_i >>> EmfDrop) : Wide'(product_i >>> EmfDrop);
+      else if (Defect == 7) offset_q <= -Wide'(product_i >>> EmfDrop);
+      else offset_q <= Wide'(product_i >>> EmfDrop);
     end
     if (wave_i[27]) begin
       if (mode_i == Open && Defect != 4) kept_q <= '0;
@@ -97,8 +98,8 @@ module torque_control #(
   end
   assign sum = early_q | current_q | voltage_q | Wide'(duty_q);
 
-  // Limiter: sum to [-limit, limit], limit being the word on the bus. Only as many bits are compared
-  // as a limit has: a sum that needs more is beyond any limit.
+  // Limiter: sum to [-limit, limit], limit being the word on the bus. Only as many bits are
+  // compared as a limit has: a sum that needs more is beyond any limit.
   logic signed [CurrentW-1:0] limit, low;
   logic signed [CurrentW  :0] upper_gap, lower_gap;
   logic                       too_high, too_low, above, below, silent;
@@ -146,7 +147,8 @@ module torque_control #(
 
   logic unused_wave;
   assign unused_wave = &{wave_i[49:46], wave_i[43:40], wave_i[36], wave_i[34], wave_i[29],
-                         wave_i[25], wave_i[23:0], param_i[31:CurrentW], upper_gap[0], lower_gap[0]};
+                         wave_i[25], wave_i[23:0], param_i[31:CurrentW],
+                         upper_gap[0], lower_gap[0]};
 endmodule
 
 `default_nettype wire

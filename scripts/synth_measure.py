@@ -110,7 +110,7 @@ def speed_top(target, ports):
         for name, _, width in list_of_ports:
             connections.append((name, f"{prefix}[{start}+:{width}]"))
             start += width
-    n_in, n_out = sum(p[2] for p in ins), sum(p[2] for p in outs)
+    n_in, n_out = max(1, sum(p[2] for p in ins)), sum(p[2] for p in outs)
     return f"""module speed_top (input logic clk_i, rst_ni, in_i, load_i, output logic out_o);
   logic [{n_in - 1}:0] in_q, in_q2;
   logic [{n_out - 1}:0] out, out_q, shift_q;

@@ -62,8 +62,11 @@ std::uint32_t control_reset(const Design& d) {
 std::string banner(const Elaborated& e, const char* what) {
   return "// SPDX-License-Identifier: Apache-2.0\n"
          "// SPDX-FileCopyrightText: 2026 the feltgate authors\n//\n"
-         "// Generated from rtl/designs/" + e.design.name + ".toml and rtl/registers.toml by\n"
-         "// `feltgate generate`: do not edit. " + what + "\n";
+         "// Generated from rtl/designs/" +
+         e.design.name +
+         ".toml and rtl/registers.toml by\n"
+         "// `feltgate generate`: do not edit. " +
+         what + "\n";
 }
 
 /// Plain integers that RTL and twin share: name, value, meaning.
@@ -140,7 +143,8 @@ std::string systemverilog_package(const Elaborated& e) {
   s << "\n  // Fraction bits of the coefficients.\n";
   for (const Word& w : e.words) {
     if (w.parameter.kind == "coefficient" || w.parameter.kind == "signed") {
-      s << "  localparam int P_" << upper(w.parameter.name) << "_F = " << w.format.fraction << ";\n";
+      s << "  localparam int P_" << upper(w.parameter.name) << "_F = " << w.format.fraction
+        << ";\n";
     }
   }
   s << "\n  // Wave clocks in which a word is on the parameter bus.\n";
@@ -151,7 +155,8 @@ std::string systemverilog_package(const Elaborated& e) {
   }
   s << "\n  // Scene numbers.\n";
   for (const Scene& scene : e.registers.scenes) {
-    s << "  localparam logic [3:0] SCENE_" << upper(scene.name) << " = 4'd" << scene.number << ";\n";
+    s << "  localparam logic [3:0] SCENE_" << upper(scene.name) << " = 4'd" << scene.number
+      << ";\n";
   }
   s << "\n  // Addresses of control and snapshot words, and bits of the control words.\n";
   for (const Control& c : e.registers.controls) {
@@ -180,7 +185,9 @@ std::string cpp_header(const Elaborated& e) {
   const Design& d = e.design;
   const std::string type = camel(d.name);
   std::ostringstream s;
-  s << banner(e, "") << "#pragma once\n\n#include <cstdint>\n#include <string_view>\n\n#include \"feltgate/chain_formats.hpp\"\n"
+  s << banner(e, "")
+    << "#pragma once\n\n#include <cstdint>\n#include <string_view>\n\n#include "
+       "\"feltgate/chain_formats.hpp\"\n"
     << "#include \"feltgate/parameter.hpp\"\n\nnamespace feltgate {\n\n"
     << "/// " << d.description << ".\nstruct " << type << " {\n"
     << "  static constexpr const char* name = \"" << d.name << "\";\n"
@@ -221,8 +228,8 @@ std::string cpp_header(const Elaborated& e) {
     s << "    static constexpr int read_" << n.name << " = " << snapshot_base + n.slot << ";\n";
   }
   s << "  };\n\n  static constexpr BaseFormats base{\n"
-    << "      " << triple(d.velocity) << ", " << triple(d.torque) << ", " << triple(d.current) << ", "
-    << triple(d.voltage) << ",\n      " << d.observer_fraction << ", velocity_shift,\n"
+    << "      " << triple(d.velocity) << ", " << triple(d.torque) << ", " << triple(d.current)
+    << ", " << triple(d.voltage) << ",\n      " << d.observer_fraction << ", velocity_shift,\n"
     << "      P::velocity_a1, P::torque_constant, P::inertia_gain, P::observer_a1,\n"
     << "      P::torque_gain, P::observer_gain, P::voltage_gain, P::emf_constant,\n"
     << "      P::dead_voltage_slope, P::voltage_to_current, P::duty_gain,\n"
@@ -231,9 +238,9 @@ std::string cpp_header(const Elaborated& e) {
     << "  /// Parameters: name, unit, address, format, exact value, integer.\n"
     << "  static constexpr ParameterInfo parameters[] = {\n";
   for (const Word& w : e.words) {
-    s << "      {\"" << w.parameter.name << "\", \"" << w.parameter.unit << "\", A::"
-      << w.parameter.name << ", P::" << w.parameter.name << ",\n       " << exact(w.si) << ", "
-      << w.raw << "},\n";
+    s << "      {\"" << w.parameter.name << "\", \"" << w.parameter.unit
+      << "\", A::" << w.parameter.name << ", P::" << w.parameter.name << ",\n       " << exact(w.si)
+      << ", " << w.raw << "},\n";
   }
   s << "  };\n};\n\n}  // namespace feltgate\n";
   return s.str();

@@ -286,8 +286,7 @@ std::string loop_table(const ClosedLoop& loop) {
       loop.plant.c_str(), loop.damping_nm_s_rad);
   std::string text = line;
   for (const LoopRegion& r : loop.regions) {
-    std::snprintf(line, sizeof line, "  %s, gain %.4g ohm:", r.where.c_str(),
-                  r.voltage_gain_ohm);
+    std::snprintf(line, sizeof line, "  %s, gain %.4g ohm:", r.where.c_str(), r.voltage_gain_ohm);
     text += line;
     for (const auto& s : r.poles_rad_s) text += "  " + pole_text(s);
     text += r.unstable == 0 ? "  (stable)\n" : "  (UNSTABLE)\n";

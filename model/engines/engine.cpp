@@ -11,8 +11,8 @@
 
 namespace feltgate {
 
-#define FELTGATE_DESIGN(name)                                        \
-  std::unique_ptr<Engine> make_##name##_engine(const std::string&);  \
+#define FELTGATE_DESIGN(name)                                       \
+  std::unique_ptr<Engine> make_##name##_engine(const std::string&); \
   std::unique_ptr<RealChain> make_##name##_chain(const std::string&);
 #include "designs.inc"
 #undef FELTGATE_DESIGN
@@ -31,7 +31,8 @@ namespace {
   std::string list;
   for (const std::string& name : design_names()) list += (list.empty() ? "" : ", ") + name;
   throw std::invalid_argument("design \"" + design + "\" is not built in; choose one of " + list +
-                              ", or add rtl/designs/" + design + ".toml and run `feltgate generate`");
+                              ", or add rtl/designs/" + design +
+                              ".toml and run `feltgate generate`");
 }
 
 }  // namespace
@@ -69,9 +70,10 @@ std::int64_t quantise_parameter(const ParameterInfo& info, double value) {
   const double high = std::ldexp(1.0, info.format.width() - info.format.sign);
   const double low = info.format.sign == 1 ? -high : 0.0;
   if (!(scaled >= low && std::round(scaled) < high)) {
-    throw std::invalid_argument(std::string(info.name) + " = " + std::to_string(value) + " " + info.unit +
-                                " does not fit its register; choose a value from " +
-                                std::to_string(std::ldexp(low, -info.format.fraction)) + " to below " +
+    throw std::invalid_argument(std::string(info.name) + " = " + std::to_string(value) + " " +
+                                info.unit + " does not fit its register; choose a value from " +
+                                std::to_string(std::ldexp(low, -info.format.fraction)) +
+                                " to below " +
                                 std::to_string(std::ldexp(high, -info.format.fraction)));
   }
   return std::llround(scaled);

@@ -24,8 +24,8 @@ struct Snapshot {
   std::uint8_t scene = 0, limits = 0, faults = 0, first_fault = 0;
   bool armed = false;
   // Not shown by the RTL, hence not compared:
-  std::int16_t travel = 0;   ///< sampled free-running count
-  std::int64_t writes = 0;   ///< register writes carried out before this wave
+  std::int16_t travel = 0;  ///< sampled free-running count
+  std::int64_t writes = 0;  ///< register writes carried out before this wave
   bool operator==(const Snapshot& o) const {
     return tick == o.tick && position == o.position && velocity == o.velocity &&
            tau_hat == o.tau_hat && tau_ref == o.tau_ref && current_ref == o.current_ref &&
@@ -36,13 +36,13 @@ struct Snapshot {
 
 /// Bits of Snapshot::limits: which limit holds the torque now.
 namespace limit {
-constexpr unsigned torque = 1;         ///< torque reference at its limit
-constexpr unsigned ramp = 2;           ///< ramping after arming or a change of scene
+constexpr unsigned torque = 1;  ///< torque reference at its limit
+constexpr unsigned ramp = 2;    ///< ramping after arming or a change of scene
 constexpr unsigned current = 4;
 constexpr unsigned voltage = 8;
 constexpr unsigned duty = 16;
-constexpr unsigned velocity = 32;      ///< the raw velocity saturated its format
-constexpr unsigned tau_hat = 64;       ///< tau_hat saturated its format
+constexpr unsigned velocity = 32;  ///< the raw velocity saturated its format
+constexpr unsigned tau_hat = 64;   ///< tau_hat saturated its format
 constexpr unsigned gates_closed = 128;
 }  // namespace limit
 
@@ -105,8 +105,8 @@ class Engine {
   virtual int duty() const = 0;
   virtual bool gates_enabled() const = 0;
 
-  /// Writes a waveform of the clocks [from, to] of the next run (to < 0: to its end); before reset().
-  /// Throws std::invalid_argument where there is no RTL to look into.
+  /// Writes a waveform of the clocks [from, to] of the next run (to < 0: to its end); before
+  /// reset(). Throws std::invalid_argument where there is no RTL to look into.
   virtual void trace(const std::string& path, Clock from, Clock to);
 
   /// Lock-step engines: time spent in one half ("rtl" or "twin").

@@ -22,7 +22,9 @@ class RtlEngine : public ClockedEngine {
  public:
   RtlEngine() : ClockedEngine(design_info<D>()) {}
   const char* name() const override { return "rtl"; }
-  void trace(const std::string& path, Clock from, Clock to) override { core_.trace(path, from, to); }
+  void trace(const std::string& path, Clock from, Clock to) override {
+    core_.trace(path, from, to);
+  }
   void advance(Clock clocks, const EncoderEvent* first, const EncoderEvent* last) override {
     run(clocks, first, last, [this](const CoreIn& in) {
       core_.clock(in);
@@ -69,7 +71,8 @@ class TwinEngine : public ClockedEngine {
       now_ = until;
     }
     const auto& after = core_.gate_clocks();
-    gates_ = {after[0] - before[0], after[1] - before[1], after[2] - before[2], after[3] - before[3]};
+    gates_ = {after[0] - before[0], after[1] - before[1], after[2] - before[2],
+              after[3] - before[3]};
     last_ = core_.out();
   }
 
@@ -136,7 +139,8 @@ class LockStepEngine : public ClockedEngine {
       for (std::size_t k = from; k < to; ++k) {
         twin_.clock(inputs_[k]);
         const CoreOut& out = twin_.out();
-        if (!(outputs_[k - from] == out)) miss(begin + static_cast<Clock>(k), outputs_[k - from], out);
+        if (!(outputs_[k - from] == out))
+          miss(begin + static_cast<Clock>(k), outputs_[k - from], out);
         note(out);
         if (out.snapshot_valid) keep(out, twin_.sampled_travel(), twin_.writes());
       }
@@ -148,7 +152,8 @@ class LockStepEngine : public ClockedEngine {
  private:
   static constexpr std::size_t stretch = 1000;
   static double seconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
   }
   void reset_core(std::uint64_t seed, EncoderPins pins) override {
     rtl_.power_up(seed, pins);

@@ -114,7 +114,8 @@ class RtlCore {
   }
 
   void edge() {
-    const bool dumping = !trace_path_.empty() && now_ >= trace_from_ && (trace_to_ < 0 || now_ <= trace_to_);
+    const bool dumping =
+        !trace_path_.empty() && now_ >= trace_from_ && (trace_to_ < 0 || now_ <= trace_to_);
     if (dumping && !fst_) open_trace();
     rtl_->clk_i = 0;
     rtl_->eval();

@@ -42,8 +42,8 @@ struct StepResponse {
   double ripple_nm = 0;        ///< rms around the final value in the last tenth
 };
 
-/// Step response of `samples`, `sample_s` apart, the first one at the step; `before_nm` is the value
-/// the signal had before the step. Settling is measured on the 2 % band of the final value.
+/// Step response of `samples`, `sample_s` apart, the first one at the step; `before_nm` is the
+/// value the signal had before the step. Settling is measured on the 2 % band of the final value.
 StepResponse step_response(const std::vector<double>& samples, double sample_s, double before_nm,
                            double tau_ref_nm);
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
 #include "config/toml_reader.hpp"
@@ -13,6 +14,7 @@
 #include "plant/period_mean.hpp"
 #include "plant/plant.hpp"
 #include "traces/statistics.hpp"
+#include "traces/vector_file.hpp"
 
 namespace feltgate {
 
@@ -49,6 +51,11 @@ class ScenarioRun {
   RunResult run() {
     const DesignInfo& d = core_.design();
     const Clock end = std::llround(s_.duration_s * static_cast<double>(d.clock_hz));
+    if (!options_.record.empty()) {
+      recorder_ = std::make_unique<traces::VectorWriter>(
+          options_.record, traces::VectorHeader{d.name, d.clock_hz, {"A", "B", "Z"}},
+          plant_.encoder().pins());
+    }
     for (const auto& [name, value] : s_.parameters) core_.set_parameter(name, value);
     core_.set_control(scene_, mode_, false);
     std::size_t next_event = 0;
@@ -67,6 +74,7 @@ class ScenarioRun {
       }
     }
     if (options_.progress) options_.progress(1.0);
+    if (recorder_) recorder_->finish(end + 1);
     return result(end);
   }
 
@@ -128,14 +136,16 @@ class ScenarioRun {
     }
     if (s_.switched) {
       const double n = static_cast<double>(clocks);
-      return plant::Bridge::gates(static_cast<double>(gates.a_hi) / n, static_cast<double>(gates.a_lo) / n,
-                                  static_cast<double>(gates.b_hi) / n, static_cast<double>(gates.b_lo) / n);
+      return plant::Bridge::gates(
+          static_cast<double>(gates.a_hi) / n, static_cast<double>(gates.a_lo) / n,
+          static_cast<double>(gates.b_hi) / n, static_cast<double>(gates.b_lo) / n);
     }
     return plant::Bridge::averaged(static_cast<double>(lead.duty()) / core_.design().pwm_period,
                                    lead.gates_enabled());
   }
 
-  // The bridge of the last interval drives the motor in this one: no edge depends on its own future.
+  // The bridge of the last interval drives the motor in this one: no edge depends on its own
+  // future.
   void step(Clock clocks) {
     const plant::Bridge b = bridge(core_.lead().gates(), last_clocks_);
     plant_.advance(b, clocks);
@@ -146,7 +156,10 @@ class ScenarioRun {
     hand_energy_j_ += o.hand_torque_nm * o.omega_rad_s * dt;
     absorbed_j_ -= last_.tau_ref_nm * o.omega_rad_s * dt;
     const auto& events = plant_.events();
-    for (const EncoderEvent& e : events) counter_.add(e);
+    for (const EncoderEvent& e : events) {
+      counter_.add(e);
+      if (recorder_) recorder_->add(e);
+    }
     core_.advance(clocks, events.data(), events.data() + events.size(),
                   [this](const Snapshot& s) { tick(s); });
   }
@@ -263,7 +276,7 @@ class ScenarioRun {
     const auto it = out.figures.find(x.figure);
     if (it == out.figures.end()) {
       throw config::ConfigError(s_.path + ":" + std::to_string(x.line) + ": figure \"" + x.figure +
-                               "\" is not one of this run; see docs/scenes.md");
+                                "\" is not one of this run; see docs/scenes.md");
     }
     if (it->second >= x.low && it->second <= x.high) return;
     out.broken.push_back(s_.path + ":" + std::to_string(x.line) + ": " + x.figure + " = " +
@@ -278,6 +291,7 @@ class ScenarioRun {
   plant::PeriodMean mean_;
   int scene_, mode_;
   traces::StepCounter counter_;
+  std::unique_ptr<traces::VectorWriter> recorder_;
   bool armed_ = false, arm_done_ = false, recording_ = false;
   Clock last_clocks_ = 1;
   std::int64_t ticks_ = 0;

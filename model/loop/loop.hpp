@@ -50,7 +50,7 @@ struct RunResult {
   std::vector<EngineFigures> engines;
   std::map<std::string, double> figures;  ///< what scene files put bounds on
   int expectations_checked = 0;
-  std::vector<std::string> broken;        ///< expectations that do not hold, one line each
+  std::vector<std::string> broken;  ///< expectations that do not hold, one line each
   double simulated_s = 0;
 };
 
@@ -67,12 +67,14 @@ struct RunOptions {
   std::string design = "lever";
   std::string engine = "all";  ///< rtl, twin, double, quad or all
   std::uint64_t seed = 1;
-  std::string fst;             ///< waveform of the whole run; empty: none
-  std::function<void(const Row&)> row;              ///< called once per tick; may be empty
-  std::function<void(double done)> progress;        ///< called now and then with 0..1; may be empty
+  std::string fst;                            ///< waveform of the whole run; empty: none
+  std::string record;                         ///< encoder edges as a vector file; empty: none
+  std::function<void(const Row&)> row;        ///< called once per tick; may be empty
+  std::function<void(double done)> progress;  ///< called now and then with 0..1; may be empty
 };
 
-/// Runs a scene. Throws std::invalid_argument for a scene, parameter or engine that the design has not.
+/// Runs a scene. Throws std::invalid_argument for a scene, parameter or engine that the design has
+/// not.
 RunResult run_scenario(const Scenario& scenario, const plant::Parameters& plant,
                        const RunOptions& options);
 

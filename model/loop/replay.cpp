@@ -14,13 +14,16 @@ namespace feltgate {
 RunResult run_replay(EncoderSource& source, const std::string& subject,
                      const ReplayOptions& options) {
   if (options.engine == "double" || options.engine == "quad") {
-    throw std::invalid_argument("engine \"" + options.engine +
-                                "\" alone has nothing to be compared with here; choose rtl, twin or all");
+    throw std::invalid_argument(
+        "engine \"" + options.engine +
+        "\" alone has nothing to be compared with here; choose rtl, twin or all");
   }
-  Ensemble core(options.design, choose_engines(options.engine), options.seed, source.initial(), options.fst);
+  Ensemble core(options.design, choose_engines(options.engine), options.seed, source.initial(),
+                options.fst);
   const DesignInfo& d = core.design();
   const int scene = d.scene_number(options.scene);
-  if (scene < 0) throw std::invalid_argument("scene \"" + options.scene + "\" is not built in design " + d.name);
+  if (scene < 0)
+    throw std::invalid_argument("scene \"" + options.scene + "\" is not built in design " + d.name);
   core.set_control(scene, 0, options.arm);
 
   RunResult out;
@@ -69,7 +72,8 @@ RunResult run_replay(EncoderSource& source, const std::string& subject,
     }
     // The recording's length is known once its last event has been read; run to a whole tick.
     if (!pending && source.length() <= end) {
-      const Clock whole = (source.length() + d.clocks_per_tick - 1) / d.clocks_per_tick * d.clocks_per_tick;
+      const Clock whole =
+          (source.length() + d.clocks_per_tick - 1) / d.clocks_per_tick * d.clocks_per_tick;
       if (whole <= end) {
         end = whole;
         ended = true;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Open loop on an encoder recording: every engine sees the same edges. Documentation: docs/traces.md
+// Open loop on an encoder recording: every engine sees the same edges. Documentation:
+// docs/traces.md
 #pragma once
 
 #include "feltgate/encoder_source.hpp"
@@ -23,6 +24,7 @@ struct ReplayOptions {
 
 /// Replays a recording to its end. Memory does not grow with its length.
 /// Throws traces::TraceError where the recording is wrong.
-RunResult run_replay(EncoderSource& source, const std::string& subject, const ReplayOptions& options);
+RunResult run_replay(EncoderSource& source, const std::string& subject,
+                     const ReplayOptions& options);
 
 }  // namespace feltgate

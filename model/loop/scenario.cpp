@@ -69,7 +69,8 @@ Scenario read_scenario(const std::string& path) {
   s.about = top.text("about");
   s.duration_s = top.number("duration_s", {1e-5, 1e5});
   s.plant = top.has("plant") ? top.text("plant") : "p24";
-  s.step_clocks = top.has("step_clocks") ? static_cast<int>(top.integer("step_clocks", 1, 250)) : 25;
+  s.step_clocks =
+      top.has("step_clocks") ? static_cast<int>(top.integer("step_clocks", 1, 250)) : 25;
   if (top.has("bridge")) s.switched = top.choice("bridge", {"averaged", "switched"}) == 1;
   {
     config::TomlReader core = top.section("core");

@@ -37,9 +37,9 @@ struct Expectation {
 struct Scenario {
   std::string name, path, title, about;
   double duration_s = 0;
-  std::string plant;            ///< name of the plant file
-  int step_clocks = 25;         ///< plant step
-  bool switched = false;        ///< gates drive the plant instead of the mean duty
+  std::string plant;      ///< name of the plant file
+  int step_clocks = 25;   ///< plant step
+  bool switched = false;  ///< gates drive the plant instead of the mean duty
   std::string scene = "free";
   int mode = 0;
   double arm_s = 0;

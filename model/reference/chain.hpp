@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The real-arithmetic chain of one design: the laws of the twin, evaluated in double or in 113 bits.
-// Documentation: docs/architecture.md
+// The real-arithmetic chain of one design: the laws of the twin, evaluated in double or in 113
+// bits. Documentation: docs/architecture.md
 #pragma once
 
 #include "feltgate/dob.hpp"
@@ -47,14 +47,17 @@ class Chain : public RealChain {
     line_.push(in.travel);
     bool saturated = false;
     const T raw = Velocity::raw(counts, &saturated);
-    velocity_ = Velocity::Filter::next(
-        velocity_, words_.template get<P::velocity_a1.key()>(A::velocity_a1) *
-                       Velocity::Filter::operand(raw, velocity_));
+    velocity_ = Velocity::Filter::next(velocity_,
+                                       words_.template get<P::velocity_a1.key()>(A::velocity_a1) *
+                                           Velocity::Filter::operand(raw, velocity_));
 
-    const T drive = in.armed ? Observer::drive(control_.current *
-                                               words_.template get<P::torque_constant.key()>(A::torque_constant))
-                             : T{0};
-    const T inertia = Observer::inertia(velocity_ * words_.template get<P::inertia_gain.key()>(A::inertia_gain));
+    const T drive =
+        in.armed
+            ? Observer::drive(control_.current *
+                              words_.template get<P::torque_constant.key()>(A::torque_constant))
+            : T{0};
+    const T inertia =
+        Observer::inertia(velocity_ * words_.template get<P::inertia_gain.key()>(A::inertia_gain));
     const T input = Observer::input(drive, inertia);
     state_ = in.armed ? Observer::Filter::next(
                             state_, words_.template get<P::observer_a1.key()>(A::observer_a1) *

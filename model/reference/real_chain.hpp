@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The chain in real arithmetic, tick by tick: the same laws and the same sampled counts as the core,
-// so that the difference is quantisation and nothing else. Documentation: docs/architecture.md
+// The chain in real arithmetic, tick by tick: the same laws and the same sampled counts as the
+// core, so that the difference is quantisation and nothing else. Documentation:
+// docs/architecture.md
 #pragma once
 
 #include <cstdint>

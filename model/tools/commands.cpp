@@ -31,7 +31,8 @@ std::string repository() {
 
 std::string find_file(const std::string& name, const std::string& folder) {
   if (name.find('/') != std::string::npos || fs::path(name).extension() == ".toml") {
-    if (!fs::exists(name)) throw std::invalid_argument(name + ": there is no such file; check the path");
+    if (!fs::exists(name))
+      throw std::invalid_argument(name + ": there is no such file; check the path");
     return name;
   }
   const fs::path base = fs::path(repository()) / folder;

@@ -24,8 +24,8 @@ void add_scripts(CLI::App& app, int* exit_code);
 /// The repository: FELTGATE_ROOT, or where this program was built from.
 std::string repository();
 
-/// `name` itself when it is a path (has a slash or the suffix), else folder/name.toml of the repository.
-/// Throws std::invalid_argument listing what there is.
+/// `name` itself when it is a path (has a slash or the suffix), else folder/name.toml of the
+/// repository. Throws std::invalid_argument listing what there is.
 std::string find_file(const std::string& name, const std::string& folder);
 
 /// Progress with rate and time left on a terminal; silent elsewhere.

@@ -9,7 +9,8 @@
 
 int main(int argc, char** argv) {
   using namespace feltgate;
-  CLI::App app{"feltgate: an open fixed-point DSP core for haptic devices, with its bit-exact twin"};
+  CLI::App app{
+      "feltgate: an open fixed-point DSP core for haptic devices, with its bit-exact twin"};
   app.name("feltgate");
   app.set_version_flag("--version", std::string("feltgate ") + FELTGATE_VERSION);
   app.require_subcommand(1);

@@ -19,7 +19,8 @@ OutputFile::OutputFile(const std::string& path)
     : path_(path), part_(path + "." + std::to_string(getpid()) + ".part") {
   file_ = std::fopen(part_.c_str(), "w");
   if (file_ == nullptr) {
-    throw std::runtime_error(path + ": cannot be written; choose a folder that exists and is writable");
+    throw std::runtime_error(path +
+                             ": cannot be written; choose a folder that exists and is writable");
   }
 }
 
@@ -50,18 +51,17 @@ CsvWriter::CsvWriter(const std::string& path, int every) : file_(path), every_(e
 
 void CsvWriter::add(const Row& r) {
   if (count_++ % every_ != 0) return;
-  std::fprintf(file_.handle(),
-               "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.12g,%.12g,%.12g,%d,%d\n",
-               r.time_s, r.theta_rad, r.omega_rad_s, r.motor_torque_nm, r.hand_torque_nm, r.position_rad,
-               r.velocity_rad_s, r.tau_ref_nm, r.tau_hat_nm, r.current_a, r.voltage_v, r.duty,
-               r.quad_velocity_rad_s, r.quad_tau_hat_nm, r.quad_current_a, r.limits, r.faults);
+  std::fprintf(
+      file_.handle(),
+      "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.12g,%.12g,%.12g,%d,%d\n",
+      r.time_s, r.theta_rad, r.omega_rad_s, r.motor_torque_nm, r.hand_torque_nm, r.position_rad,
+      r.velocity_rad_s, r.tau_ref_nm, r.tau_hat_nm, r.current_a, r.voltage_v, r.duty,
+      r.quad_velocity_rad_s, r.quad_tau_hat_nm, r.quad_current_a, r.limits, r.faults);
 }
 
 namespace {
 
-Json error_json(const ErrorFigure& e) {
-  return {{"max_error", e.max()}, {"rms_error", e.rms()}};
-}
+Json error_json(const ErrorFigure& e) { return {{"max_error", e.max()}, {"rms_error", e.rms()}}; }
 
 Json engine_json(const EngineFigures& e, double simulated_s) {
   Json j = Json::object();
@@ -125,28 +125,31 @@ std::string run_text(const RunResult& r, const RunLabels& labels) {
   s << "\nencoder: " << r.position.steps << " steps, " << r.position.illegal << " illegal, "
     << r.position.reversals << " reversals\n";
   if (!r.first_mismatch.empty()) s << "first mismatch: " << r.first_mismatch << "\n";
-  std::snprintf(line, sizeof line, "\n%-8s %14s %12s %12s %12s %12s %12s %10s\n", "engine", "velocity max",
-                "rms rad/s", "tau_hat max", "rms Nm", "torque max", "rms Nm", "speed");
+  std::snprintf(line, sizeof line, "\n%-8s %14s %12s %12s %12s %12s %12s %10s\n", "engine",
+                "velocity max", "rms rad/s", "tau_hat max", "rms Nm", "torque max", "rms Nm",
+                "speed");
   s << line;
   for (const EngineFigures& e : r.engines) {
     const double speed = e.busy_s > 0 ? r.simulated_s / e.busy_s : 0;
     if (e.compared && e.name != "quad") {
-      std::snprintf(line, sizeof line, "%-8s %14.3g %12.3g %12.3g %12.3g %12.3g %12.3g %9.3gx\n", e.name.c_str(),
-                    e.velocity_rad_s.max(), e.velocity_rad_s.rms(), e.tau_hat_nm.max(), e.tau_hat_nm.rms(),
-                    e.torque_nm.max(), e.torque_nm.rms(), speed);
+      std::snprintf(line, sizeof line, "%-8s %14.3g %12.3g %12.3g %12.3g %12.3g %12.3g %9.3gx\n",
+                    e.name.c_str(), e.velocity_rad_s.max(), e.velocity_rad_s.rms(),
+                    e.tau_hat_nm.max(), e.tau_hat_nm.rms(), e.torque_nm.max(), e.torque_nm.rms(),
+                    speed);
     } else {
-      std::snprintf(line, sizeof line, "%-8s %14s %12s %12s %12s %12s %12s %9.3gx\n", e.name.c_str(), "-", "-",
-                    "-", "-", "-", "-", speed);
+      std::snprintf(line, sizeof line, "%-8s %14s %12s %12s %12s %12s %12s %9.3gx\n",
+                    e.name.c_str(), "-", "-", "-", "-", "-", "-", speed);
     }
     s << line;
   }
   for (const EngineFigures& e : r.engines) {
     if (e.steps.empty()) continue;
-    std::snprintf(line, sizeof line, "\n%-10s %16s %16s %12s %14s %16s\n", "step Nm", "tau_hat settles", "torque settles",
-                  "overshoot", "final error", "tau_hat error");
+    std::snprintf(line, sizeof line, "\n%-10s %16s %16s %12s %14s %16s\n", "step Nm",
+                  "tau_hat settles", "torque settles", "overshoot", "final error", "tau_hat error");
     s << line;
     for (const StepFigures& f : e.steps) {
-      std::snprintf(line, sizeof line, "%-10.4g %13.3f ms %13.3f ms %10.2f %% %12.3f %% %14.4f %%\n", f.tau_ref_nm,
+      std::snprintf(line, sizeof line,
+                    "%-10.4g %13.3f ms %13.3f ms %10.2f %% %12.3f %% %14.4f %%\n", f.tau_ref_nm,
                     f.tau_hat.settling_ms, f.torque.settling_ms, f.torque.overshoot_pct,
                     f.torque.final_error_pct, f.tau_hat.final_error_pct);
       s << line;

@@ -30,16 +30,21 @@ struct TraceArguments {
     return options;
   }
   void add_to(CLI::App* sub) {
-    sub->add_option("trace", path, "recording: .sr, VCD, CSV, or a vector of this project")->required()->type_name("TRACE");
+    sub->add_option("trace", path, "recording: .sr, VCD, CSV, or a vector of this project")
+        ->required()
+        ->type_name("TRACE");
     sub->add_option("--probes", probes, "names of the signals A,B[,Z]; default: guessed");
     sub->add_option("--step", options.step, "name of the STEP signal; with --dir");
     sub->add_option("--dir", options.dir, "name of the DIR signal");
     sub->add_option("--time-column", options.time_column, "column with the time");
     sub->add_option("--count-column", options.count_column, "column with counts or an angle");
     sub->add_option("--scale", scale, "counts per unit of that column, e.g. 2048/2pi for radians");
-    sub->add_option("--sample-hz", options.sample_hz, "rate of the capture, where the file does not say it");
-    sub->add_option("--format", format, "sigrok, vcd, saleae, levels, columns or vector; default: by content");
-    sub->add_flag("--no-jitter", no_jitter, "edges at the start of their sample instead of a seeded place inside");
+    sub->add_option("--sample-hz", options.sample_hz,
+                    "rate of the capture, where the file does not say it");
+    sub->add_option("--format", format,
+                    "sigrok, vcd, saleae, levels, columns or vector; default: by content");
+    sub->add_flag("--no-jitter", no_jitter,
+                  "edges at the start of their sample instead of a seeded place inside");
     sub->add_option("--seed", options.seed, "of that place")->capture_default_str();
   }
 };
@@ -110,7 +115,8 @@ int replay(ReplayArguments& a) {
 
 void add_replay(CLI::App& app, int* exit_code) {
   auto a = std::make_shared<ReplayArguments>();
-  CLI::App* sub = app.add_subcommand("replay", "open loop on an encoder recording, through every engine");
+  CLI::App* sub =
+      app.add_subcommand("replay", "open loop on an encoder recording, through every engine");
   sub->footer(
       "  feltgate replay hand.sr --probes XA,XB\n"
       "  feltgate replay axis.sr --step 5 --dir 6\n"
@@ -135,10 +141,12 @@ void add_import(CLI::App& app, int* exit_code) {
     std::string out, design = "lever";
   };
   auto a = std::make_shared<Arguments>();
-  CLI::App* sub = app.add_subcommand("import", "convert an encoder recording to this project's vector format");
+  CLI::App* sub =
+      app.add_subcommand("import", "convert an encoder recording to this project's vector format");
   a->trace.add_to(sub);
   sub->add_option("out", a->out, "vector file to write")->required()->type_name("OUT");
-  sub->add_option("--design", a->design, "design whose clock stamps the edges")->capture_default_str();
+  sub->add_option("--design", a->design, "design whose clock stamps the edges")
+      ->capture_default_str();
   sub->callback([a, exit_code] {
     traces::Options how = a->trace.read();
     how.clock_hz = make_engine(a->design, "twin")->design().clock_hz;

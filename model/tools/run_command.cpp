@@ -17,10 +17,10 @@ namespace feltgate {
 namespace {
 
 struct RunArguments {
-  std::string scene, design = "lever", plant, engine = "all", report, json, csv, fst;
+  std::string scene, design = "lever", plant, engine = "all", report, json, csv, fst, record;
   std::vector<std::string> set;
   std::uint64_t seed = 1;
-  int every = 1;
+  int every = 0;  ///< 0: every tick, or every 50th into a report
   bool quiet = false;
 };
 
@@ -31,7 +31,8 @@ void apply_settings(const std::vector<std::string>& set, Scenario& scenario) {
     char* end = nullptr;
     const double value = at == std::string::npos ? 0 : std::strtod(item.c_str() + at + 1, &end);
     if (end == nullptr || *end != '\0' || end == item.c_str() + at + 1) {
-      throw std::invalid_argument("--set " + item + " is not NAME=VALUE; write for example --set voltage_gain=1");
+      throw std::invalid_argument("--set " + item +
+                                  " is not NAME=VALUE; write for example --set voltage_gain=1");
     }
     scenario.parameters[item.substr(0, at)] = value;
   }
@@ -42,7 +43,8 @@ int run(const RunArguments& a) {
   Scenario scenario = read_scenario(scene_path);
   apply_settings(a.set, scenario);
   if (!a.plant.empty()) scenario.plant = a.plant;
-  const plant::Parameters plant = plant::read_plant_file(find_file(scenario.plant, "vectors/plants"));
+  const plant::Parameters plant =
+      plant::read_plant_file(find_file(scenario.plant, "vectors/plants"));
   resolve_effects(scenario, plant.effects);
 
   RunOptions options;
@@ -50,6 +52,7 @@ int run(const RunArguments& a) {
   options.engine = a.engine;
   options.seed = a.seed;
   options.fst = a.fst;
+  options.record = a.record;
   std::string json_path = a.json, csv_path = a.csv;
   if (!a.report.empty()) {
     std::filesystem::create_directories(a.report);
@@ -58,7 +61,8 @@ int run(const RunArguments& a) {
   }
   std::unique_ptr<CsvWriter> csv;
   if (!csv_path.empty()) {
-    csv = std::make_unique<CsvWriter>(csv_path, a.every);
+    const int every = a.every > 0 ? a.every : a.csv.empty() ? 50 : 1;
+    csv = std::make_unique<CsvWriter>(csv_path, every);
     options.row = [&csv](const Row& r) { csv->add(r); };
   }
   Progress progress(scenario.name + " on " + a.design, a.quiet);
@@ -77,13 +81,15 @@ int run(const RunArguments& a) {
   if (!a.report.empty()) {
     const char* python = std::getenv("FELTGATE_PYTHON");
     std::fflush(stdout);
-    const std::string command = std::string("'") + (python != nullptr ? python : "python3") + "' '" + repository() +
-                                "/scripts/report.py' '" + a.report + "' '" + json_path + "' '" + csv_path + "'";
+    const std::string command = std::string("'") + (python != nullptr ? python : "python3") +
+                                "' '" + repository() + "/scripts/report.py' '" + a.report + "' '" +
+                                json_path + "' '" + csv_path + "'";
     if (std::system(command.c_str()) != 0) return exit_unusable;
   }
   if (a.quiet) {
     for (const std::string& line : result.broken) std::fprintf(stderr, "%s\n", line.c_str());
-    if (!result.first_mismatch.empty()) std::fprintf(stderr, "first mismatch: %s\n", result.first_mismatch.c_str());
+    if (!result.first_mismatch.empty())
+      std::fprintf(stderr, "first mismatch: %s\n", result.first_mismatch.c_str());
   }
   return ok ? exit_ok : exit_failed;
 }
@@ -92,25 +98,32 @@ int run(const RunArguments& a) {
 
 void add_run(CLI::App& app, int* exit_code) {
   auto a = std::make_shared<RunArguments>();
-  CLI::App* sub = app.add_subcommand("run", "one scene in closed loop: core, motor, lever and hand");
+  CLI::App* sub =
+      app.add_subcommand("run", "one scene in closed loop: core, motor, lever and hand");
   sub->footer(
       "SCENE is a name in vectors/scenes or the path of a scene file (docs/scenes.md).\n"
-      "  feltgate run membrane                      RTL and twin in lock-step, double and quad beside\n"
+      "  feltgate run membrane                      RTL and twin in lock-step, double and quad "
+      "beside\n"
       "  feltgate run torque_step --design paper --report out\n"
       "  feltgate run damper --engine twin --csv damper.csv --every 10\n"
-      "Exit code: 0 no mismatch and every expectation of the scene holds, 1 otherwise, 2 unusable input.");
+      "Exit code: 0 no mismatch and every expectation of the scene holds, 1 otherwise, 2 unusable "
+      "input.");
   sub->add_option("scene", a->scene, "scene")->required()->type_name("SCENE");
   sub->add_option("--design", a->design, "design point in rtl/designs")->capture_default_str();
   sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's");
-  sub->add_option("--engine", a->engine, "rtl, twin, double, quad, or all: RTL and twin in lock-step, the others beside")
+  sub->add_option("--engine", a->engine,
+                  "rtl, twin, double, quad, or all: RTL and twin in lock-step, the others beside")
       ->capture_default_str();
-  sub->add_option("--set", a->set, "parameter to set before arming, NAME=VALUE in its unit; may be repeated");
+  sub->add_option("--set", a->set,
+                  "parameter to set before arming, NAME=VALUE in its unit; may be repeated");
   sub->add_option("--seed", a->seed, "of the RTL's state before reset")->capture_default_str();
   sub->add_option("--report", a->report, "folder for an HTML report with pictures, JSON and CSV");
   sub->add_option("--json", a->json, "figures as JSON (docs/json.md)");
   sub->add_option("--csv", a->csv, "one row per tick");
-  sub->add_option("--every", a->every, "CSV: only every n-th tick")->check(CLI::PositiveNumber);
+  sub->add_option("--every", a->every, "CSV: only every n-th tick; default 1, in a report 50")
+      ->check(CLI::PositiveNumber);
   sub->add_option("--fst", a->fst, "waveform of every clock of the RTL (large: short scenes only)");
+  sub->add_option("--record", a->record, "the encoder's edges as a vector file (docs/traces.md)");
   sub->add_flag("--quiet", a->quiet, "print only what went wrong");
   sub->callback([a, exit_code] { *exit_code = run(*a); });
 }

@@ -34,7 +34,10 @@ class CoreStimulus {
     if (left_-- <= 0) {
       left_ = 2'000 + random_.below(60'000);
       const std::uint32_t kind = random_.below(16);
-      spacing_ = kind < 3 ? 0 : kind < 13 ? 600 + random_.below(30'000) : kind < 15 ? 30 + random_.below(200) : 1 + random_.below(8);
+      spacing_ = kind < 3    ? 0
+                 : kind < 13 ? 600 + random_.below(30'000)
+                 : kind < 15 ? 30 + random_.below(200)
+                             : 1 + random_.below(8);
       up_ = random_.one_in(2);
       bad_cable_ = random_.one_in(12);
     }
@@ -66,17 +69,20 @@ class CoreStimulus {
 
   /// Mostly around the design's value, sometimes anywhere in the word's format.
   void write_parameter() {
-    const auto& p = D::parameters[random_.below(static_cast<std::uint32_t>(std::size(D::parameters)))];
+    const auto& p =
+        D::parameters[random_.below(static_cast<std::uint32_t>(std::size(D::parameters)))];
     in_.reg_addr = static_cast<std::uint16_t>(p.address);
     const std::int64_t high = (std::int64_t{1} << (p.format.width() - p.format.sign)) - 1;
     std::int64_t raw = p.raw < 0 ? -p.raw : p.raw;
     const std::uint32_t how = random_.below(8);
     if (how < 3) raw = random_.between(raw / 2, raw < high / 2 ? raw + raw / 2 : high);
-    if (how == 3) raw = static_cast<std::int64_t>(random_.bits() & static_cast<std::uint64_t>(high));
+    if (how == 3)
+      raw = static_cast<std::int64_t>(random_.bits() & static_cast<std::uint64_t>(high));
     if (raw > high) raw = high;
     // Limits and times are magnitudes; a set-point and an offset may be negative.
-    const bool may_be_negative = p.address == D::A::setpoint_torque || p.address == D::A::voltage_setpoint ||
-                                 p.address == D::A::observer_gain || p.address == D::A::tension_rest;
+    const bool may_be_negative =
+        p.address == D::A::setpoint_torque || p.address == D::A::voltage_setpoint ||
+        p.address == D::A::observer_gain || p.address == D::A::tension_rest;
     if (may_be_negative && random_.one_in(2)) raw = -raw;
     in_.reg_wdata = static_cast<std::uint32_t>(raw);
   }
@@ -84,7 +90,8 @@ class CoreStimulus {
   void write_control() {
     in_.reg_addr = static_cast<std::uint16_t>(D::C::control);
     const std::uint32_t scene = random_.below(9);
-    std::uint32_t word = static_cast<std::uint32_t>(D::control_reset) | scene << D::C::control_scene;
+    std::uint32_t word = static_cast<std::uint32_t>(D::control_reset) | scene
+                                                                            << D::C::control_scene;
     if (!random_.one_in(8)) word |= 1u << D::C::control_host;
     if (!random_.one_in(4)) word |= 1u << D::C::control_arm;
     if (random_.one_in(4)) word |= random_.below(3) << D::C::control_mode;
@@ -140,13 +147,16 @@ class Coverage {
   }
   int faults_seen() const { return static_cast<int>(faults_.size()); }
   std::string text() const {
-    return "armed " + std::to_string(armed_share()) + ", duty pinned " + std::to_string(duty_pinned_share()) +
-           ", tau_ref pinned " + std::to_string(tau_ref_pinned_share()) + ", scenes " +
-           std::to_string(scenes_seen()) + ", faults " + std::to_string(faults_seen());
+    return "armed " + std::to_string(armed_share()) + ", duty pinned " +
+           std::to_string(duty_pinned_share()) + ", tau_ref pinned " +
+           std::to_string(tau_ref_pinned_share()) + ", scenes " + std::to_string(scenes_seen()) +
+           ", faults " + std::to_string(faults_seen());
   }
 
  private:
-  double share(std::int64_t n) const { return clocks_ == 0 ? 0.0 : static_cast<double>(n) / static_cast<double>(clocks_); }
+  double share(std::int64_t n) const {
+    return clocks_ == 0 ? 0.0 : static_cast<double>(n) / static_cast<double>(clocks_);
+  }
   std::int64_t clocks_ = 0, armed_ = 0, duty_pinned_ = 0, tau_ref_pinned_ = 0;
   std::set<int> scenes_, faults_;
 };

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Behaviour of the ECP5 block RAM DP16KD as this project uses it: 9 or 18 bits wide, or 36 (A
-// writes, B reads), no output register, no reset. After Lattice FPGA-TN-02204 (ECP5 memory usage guide); contents as Yosys
-// writes them: 16 words of 18 bits in the 320 bits of an INITVAL. docs/synthesis.md
+// Behaviour of the ECP5 block RAM DP16KD as this project uses it: 9, 18 or 36 bits wide (36: A
+// writes, B reads), no output register, no reset. After Lattice FPGA-TN-02204 (ECP5 memory usage
+// guide); contents as Yosys writes them: 16 words of 18 bits in the 320 bits of an INITVAL.
+// docs/synthesis.md
 
 `default_nettype none
 

@@ -27,12 +27,16 @@ RunResult replayed(EncoderSource& source, const std::string& name, Clock most_cl
   options.most_clocks = most_clocks;
   std::int32_t last = 0;
   const double count_rad = make_engine("lever", "twin")->design().count_rad;
-  options.row = [&](const Row& r) { last = static_cast<std::int32_t>(std::lround(r.position_rad / count_rad)); };
+  options.row = [&](const Row& r) {
+    last = static_cast<std::int32_t>(std::lround(r.position_rad / count_rad));
+  };
   const RunResult r = run_replay(source, name, options);
-  INFO(name << ": " << r.clocks << " clocks, " << r.position.steps << " steps; " << r.first_mismatch);
+  INFO(name << ": " << r.clocks << " clocks, " << r.position.steps << " steps; "
+            << r.first_mismatch);
   CHECK(r.mismatches == 0);
   CHECK(last == r.last_position);
-  std::cout << name << ": " << r.clocks << " clocks in lock-step, " << r.mismatches << " mismatches\n";
+  std::cout << name << ": " << r.clocks << " clocks in lock-step, " << r.mismatches
+            << " mismatches\n";
   return r;
 }
 

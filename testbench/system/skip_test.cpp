@@ -37,12 +37,12 @@ struct Hash {
     }
   }
   void add(const CoreOut& o) {
-    for (const std::int64_t v : {std::int64_t{o.tick_count}, std::int64_t{o.position}, o.velocity,
-                                 std::int64_t{o.tau_hat}, std::int64_t{o.tau_ref},
-                                 std::int64_t{o.current_ref}, std::int64_t{o.voltage},
-                                 std::int64_t{o.duty}, std::int64_t{o.duty_active},
-                                 std::int64_t{o.limits}, std::int64_t{o.faults},
-                                 std::int64_t{o.first_fault}, std::int64_t{o.scene}, std::int64_t{o.armed}}) {
+    for (const std::int64_t v :
+         {std::int64_t{o.tick_count}, std::int64_t{o.position}, o.velocity, std::int64_t{o.tau_hat},
+          std::int64_t{o.tau_ref}, std::int64_t{o.current_ref}, std::int64_t{o.voltage},
+          std::int64_t{o.duty}, std::int64_t{o.duty_active}, std::int64_t{o.limits},
+          std::int64_t{o.faults}, std::int64_t{o.first_fault}, std::int64_t{o.scene},
+          std::int64_t{o.armed}}) {
       add(v);
     }
   }

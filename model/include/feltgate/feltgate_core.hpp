@@ -11,50 +11,15 @@
 #include <array>
 #include <cstdint>
 
-#include "feltgate/dob.hpp"
-#include "feltgate/encoder_source.hpp"
+#include "feltgate/core_ports.hpp"
+#include "feltgate/core_wave.hpp"
 #include "feltgate/pwm.hpp"
 #include "feltgate/quad_decoder.hpp"
 #include "feltgate/registers.hpp"
-#include "feltgate/scenes.hpp"
 #include "feltgate/sequencer.hpp"
 #include "feltgate/supervisor.hpp"
-#include "feltgate/torque_control.hpp"
-#include "feltgate/velocity_n.hpp"
-#include "feltgate/words.hpp"
 
 namespace feltgate {
-
-/// Inputs of the core in one clock.
-struct CoreIn {
-  EncoderPins encoder;
-  bool arm = false, stop = false, set_zero = false;
-  std::uint8_t scene = 0;
-  std::uint16_t reg_addr = 0;
-  std::uint32_t reg_wdata = 0;
-  bool reg_write = false;
-};
-
-/// Every output of the core after one clock.
-struct CoreOut {
-  std::int64_t velocity = 0;
-  std::uint32_t tick_count = 0, reg_rdata = 0;
-  std::int32_t position = 0, tau_hat = 0, tau_ref = 0, current_ref = 0, voltage = 0;
-  std::int16_t duty = 0, duty_active = 0;
-  std::uint8_t gates = 0;  ///< a_hi, a_lo, b_hi, b_lo from bit 0
-  std::uint8_t scene = 0, limits = 0, faults = 0, first_fault = 0;
-  bool armed = false, gates_enable = false, snapshot_valid = false, reg_busy = false;
-
-  bool operator==(const CoreOut& o) const {
-    return velocity == o.velocity && tick_count == o.tick_count && reg_rdata == o.reg_rdata &&
-           position == o.position && tau_hat == o.tau_hat && tau_ref == o.tau_ref &&
-           current_ref == o.current_ref && voltage == o.voltage && duty == o.duty &&
-           duty_active == o.duty_active && gates == o.gates && scene == o.scene &&
-           limits == o.limits && faults == o.faults && first_fault == o.first_fault &&
-           armed == o.armed && gates_enable == o.gates_enable &&
-           snapshot_valid == o.snapshot_valid && reg_busy == o.reg_busy;
-  }
-};
 
 template <class D>
 class FeltgateCore {
@@ -72,17 +37,11 @@ class FeltgateCore {
     sequencer_.reset();
     registers_.reset();
     decoder_.reset();
-    velocity_.reset();
-    dob_.reset();
-    scenes_.reset();
-    control_ = {};
+    wave_.reset();
     supervisor_.reset();
     pwm_.reset();
     operand_v_ = operand_w_ = 0;
-    scene_position_ = 0;
-    sampled_travel_ = 0;
     zero_pending_ = false;
-    flags_ = {};
     writes_ = 0;
     gate_clocks_ = {};
     out_ = Out{};
@@ -130,7 +89,7 @@ class FeltgateCore {
     const QuadDecoder::In d = decoder_inputs(in, control, zero, clear);
     if (!decoder_.settled(d)) decoder_.clock(d);
 
-    wave_clock(t, position, travel);
+    wave_.clock(t, position, travel, mode(), out_);
 
     const bool committed = tick && registers_.out().reg_busy;
     registers_.clock(reg);
@@ -140,7 +99,7 @@ class FeltgateCore {
       if (committed) {
         ++writes_;
         if (pending_address_ < 512) {
-          words_.set_raw(pending_address_, registers_.parameter(pending_address_));
+          wave_.set_word(pending_address_, registers_.parameter(pending_address_));
           note_supervisor_words();
         }
       }
@@ -174,7 +133,7 @@ class FeltgateCore {
   /// Clocks since reset for which each gate was on: a_hi, a_lo, b_hi, b_lo.
   const std::array<std::int64_t, 4>& gate_clocks() const { return gate_clocks_; }
   /// Free-running count that the running wave started from.
-  std::int16_t sampled_travel() const { return sampled_travel_; }
+  std::int16_t sampled_travel() const { return wave_.sampled_travel(); }
   /// Register writes carried out so far.
   std::int64_t writes() const { return writes_; }
   /// The clock of the tick that comes next, 0 .. clocks_per_tick - 1.
@@ -187,63 +146,10 @@ class FeltgateCore {
   void note_supervisor_words() {
     using A = typename D::A;
     const auto word = [this](int address) { return registers_.parameter(address); };
-    supervisor_words_ = {word(A::inverse_resistance), word(A::emf_over_resistance),
-                         word(A::nominal_current_squared), word(A::overspeed), word(A::i2t_budget),
-                         word(A::polarity_speed), word(A::polarity_current), word(A::polarity_ticks),
-                         word(A::watchdog_ticks)};
-  }
-
-  /// The laws at the clocks in which the RTL shows their results.
-  void wave_clock(int t, std::int32_t position, std::int16_t travel) {
-    switch (t) {
-      case 0:
-        out_.position = position;
-        sampled_travel_ = travel;
-        scene_position_ = narrow<fixed_of<D::f.scene_position.key()>, Round::truncate, Overflow::saturate>(
-                              fixed_of<D::f.position.key()>::from_raw(position)).raw();
-        break;
-      case 2:
-        velocity_.tick(sampled_travel_, words_.template get<D::P::velocity_a1.key()>(D::A::velocity_a1));
-        flags_.velocity = velocity_.out().saturated;
-        break;
-      case 8: out_.velocity = velocity_.out().velocity; break;
-      case 22:
-        dob_.tick(out_.armed, fixed_of<D::f.current.key()>::from_raw(out_.current_ref), velocity_.velocity(),
-                  words_.template get<D::P::torque_constant.key()>(D::A::torque_constant),
-                  words_.template get<D::P::inertia_gain.key()>(D::A::inertia_gain),
-                  words_.template get<D::P::observer_a1.key()>(D::A::observer_a1));
-        out_.tau_hat = static_cast<std::int32_t>(dob_.out().tau_hat);
-        flags_.tau_hat = dob_.out().saturated;
-        break;
-      case 24:
-        if (mode() == Mode::voltage) {
-          out_.voltage = static_cast<std::int32_t>(
-              words_.template get<D::f.voltage.key()>(D::A::voltage_setpoint).raw());
-        }
-        break;
-      case 25:
-        scenes_.tick(words_, out_.armed, out_.scene, static_cast<std::int32_t>(scene_position_), velocity_.velocity());
-        flags_.torque = scenes_.limit_torque();
-        break;
-      case 27:
-        out_.tau_ref = static_cast<std::int32_t>(scenes_.tau_ref().raw());
-        flags_.ramp = scenes_.limit_ramp();
-        break;
-      case 33:
-        control_.tick(words_, out_.armed, mode(), scenes_.tau_ref(), dob_.tau_hat(), velocity_.velocity());
-        out_.current_ref = static_cast<std::int32_t>(control_.current.raw());
-        flags_.control.current = control_.limit.current;
-        break;
-      case 39:
-        out_.voltage = static_cast<std::int32_t>(control_.voltage.raw());
-        flags_.control.voltage = control_.limit.voltage;
-        break;
-      case 45:
-        out_.duty = static_cast<std::int16_t>(control_.duty.raw());
-        flags_.control.duty = control_.limit.duty;
-        break;
-      default: break;
-    }
+    supervisor_words_ = {
+        word(A::inverse_resistance), word(A::emf_over_resistance), word(A::nominal_current_squared),
+        word(A::overspeed),          word(A::i2t_budget),          word(A::polarity_speed),
+        word(A::polarity_current),   word(A::polarity_ticks),      word(A::watchdog_ticks)};
   }
 
   Mode mode() const {
@@ -260,9 +166,10 @@ class FeltgateCore {
     reg.slot_fetch = static_cast<std::uint8_t>(sequencer_.out().slot_fetch);
     reg.scene_slot_fetch = sequencer_.out().scene_slot_fetch;
     reg.scene = out_.scene;
-    reg.region_high = control_.region_high;
+    reg.region_high = wave_.region_high();
     constexpr std::uint64_t words = 1ull << 0 | 1ull << 1 | 1ull << 2 | 1ull << 9 | 1ull << 11 |
-                                    1ull << 14 | 1ull << 23 | 1ull << 28 | 1ull << 34 | 1ull << 40 | 1ull << 46;
+                                    1ull << 14 | 1ull << 23 | 1ull << 28 | 1ull << 34 | 1ull << 40 |
+                                    1ull << 46;
     if (t >= 0 && t < 50 && ((words >> t) & 1u) != 0) {
       reg.snap_valid = true;
       reg.snap_slot = static_cast<std::uint8_t>(t);
@@ -273,26 +180,38 @@ class FeltgateCore {
 
   std::uint32_t snapshot_word(int t) const {
     switch (t) {
-      case 0: return out_.tick_count;
-      case 1: return static_cast<std::uint32_t>(out_.position);
-      case 2: return status();
-      case 9: return static_cast<std::uint32_t>(out_.velocity);
-      case 11: return static_cast<std::uint32_t>(decoder_.out().index_position);
+      case 0:
+        return out_.tick_count;
+      case 1:
+        return static_cast<std::uint32_t>(out_.position);
+      case 2:
+        return status();
+      case 9:
+        return static_cast<std::uint32_t>(out_.velocity);
+      case 11:
+        return static_cast<std::uint32_t>(decoder_.out().index_position);
       case 14:
-        return static_cast<std::uint32_t>(decoder_.out().rejected_count) << 16 | decoder_.out().error_count;
-      case 23: return static_cast<std::uint32_t>(out_.tau_hat);
-      case 28: return static_cast<std::uint32_t>(out_.tau_ref);
-      case 34: return static_cast<std::uint32_t>(out_.current_ref);
-      case 40: return static_cast<std::uint32_t>(out_.voltage);
-      default: return static_cast<std::uint32_t>(static_cast<std::int32_t>(out_.duty));
+        return static_cast<std::uint32_t>(decoder_.out().rejected_count) << 16 |
+               decoder_.out().error_count;
+      case 23:
+        return static_cast<std::uint32_t>(out_.tau_hat);
+      case 28:
+        return static_cast<std::uint32_t>(out_.tau_ref);
+      case 34:
+        return static_cast<std::uint32_t>(out_.current_ref);
+      case 40:
+        return static_cast<std::uint32_t>(out_.voltage);
+      default:
+        return static_cast<std::uint32_t>(static_cast<std::int32_t>(out_.duty));
     }
   }
 
   std::uint32_t status() const {
-    return static_cast<std::uint32_t>(decoder_.out().error) << 27 | static_cast<std::uint32_t>(mode()) << 25 |
-           static_cast<std::uint32_t>(out_.armed) << 24 | static_cast<std::uint32_t>(out_.scene) << 20 |
-           static_cast<std::uint32_t>(out_.limits) << 12 | static_cast<std::uint32_t>(out_.first_fault) << 8 |
-           out_.faults;
+    return static_cast<std::uint32_t>(decoder_.out().error) << 27 |
+           static_cast<std::uint32_t>(mode()) << 25 | static_cast<std::uint32_t>(out_.armed) << 24 |
+           static_cast<std::uint32_t>(out_.scene) << 20 |
+           static_cast<std::uint32_t>(out_.limits) << 12 |
+           static_cast<std::uint32_t>(out_.first_fault) << 8 | out_.faults;
   }
 
   QuadDecoder::In decoder_inputs(const In& in, std::uint32_t control, bool zero, bool clear) const {
@@ -346,28 +265,30 @@ class FeltgateCore {
 
     out_.snapshot_valid = false;
     keep(0);
-    wave_clock(0, decoder_.out().position, static_cast<std::int16_t>(decoder_.out().travel));
+    wave_.clock(0, decoder_.out().position, static_cast<std::int16_t>(decoder_.out().travel),
+                mode(), out_);
     keep(1);
     keep(2);
-    wave_clock(2, 0, 0);
-    wave_clock(8, 0, 0);
+    wave_.clock(2, 0, 0, mode(), out_);
+    wave_.clock(8, 0, 0, mode(), out_);
     sup.velocity = static_cast<std::int32_t>(out_.velocity);
-    // Every cause is seen by wave clock 46, so the snapshot shows it; the gates fall in clock `fell`.
+    // Every cause is seen by wave clock 46, so the snapshot shows it; the gates fall in clock
+    // `fell`.
     const int fell = supervisor_.tick(supervisor_words_, sup);
     for (const int t : {9, 11, 14}) keep(t);
-    wave_clock(22, 0, 0);
+    wave_.clock(22, 0, 0, mode(), out_);
     keep(23);
-    wave_clock(24, 0, 0);
-    wave_clock(25, 0, 0);
-    wave_clock(27, 0, 0);
+    wave_.clock(24, 0, 0, mode(), out_);
+    wave_.clock(25, 0, 0, mode(), out_);
+    wave_.clock(27, 0, 0, mode(), out_);
     keep(28);
-    wave_clock(33, 0, 0);
+    wave_.clock(33, 0, 0, mode(), out_);
     keep(34);
-    wave_clock(39, 0, 0);
+    wave_.clock(39, 0, 0, mode(), out_);
     keep(40);
     const int open_clocks = !enabled ? 0 : fell < 0 ? D::clocks_per_tick : fell + 1;
     advance_pwm(0, 48, open_clocks, control);
-    wave_clock(45, 0, 0);
+    wave_.clock(45, 0, 0, mode(), out_);
     keep(46);
     out_.faults = supervisor_.out().faults;
     out_.first_fault = supervisor_.out().first_fault;
@@ -381,7 +302,8 @@ class FeltgateCore {
     // The last clock of the tick: arming, scene, counters.
     pwm_.clock(pwm_inputs(out_.gates_enable, control));
     registers_.skip_tick(in.reg_addr);
-    out_.scene = static_cast<std::uint8_t>(host ? (control >> D::C::control_scene) & 15u : in.scene);
+    out_.scene =
+        static_cast<std::uint8_t>(host ? (control >> D::C::control_scene) & 15u : in.scene);
     sequencer_.skip_ticks(1);
     show(D::clocks_per_tick - 3);
     count_gates(1);
@@ -412,14 +334,11 @@ class FeltgateCore {
     Pwm::In p;
     p.enable = enable;
     const Pwm::Out g = pwm_.peek(p);
-    return static_cast<std::uint8_t>(g.gate_a_hi | g.gate_a_lo << 1 | g.gate_b_hi << 2 | g.gate_b_lo << 3);
+    return static_cast<std::uint8_t>(g.gate_a_hi | g.gate_a_lo << 1 | g.gate_b_hi << 2 |
+                                     g.gate_b_lo << 3);
   }
 
-  void show_limits() {
-    out_.limits = static_cast<std::uint8_t>(
-        flags_.torque | flags_.ramp << 1 | flags_.control.current << 2 | flags_.control.voltage << 3 |
-        flags_.control.duty << 4 | flags_.velocity << 5 | flags_.tau_hat << 6 | !out_.gates_enable << 7);
-  }
+  void show_limits() { out_.limits = wave_.limits(out_.gates_enable); }
 
   /// Outputs after the edge; `t` was the clock of the wave before it.
   void show(int t) {
@@ -436,28 +355,16 @@ class FeltgateCore {
     show_limits();
   }
 
-  struct Flags {
-    bool torque = false, ramp = false, velocity = false, tau_hat = false;
-    ControlLimits control;
-  };
-
   Sequencer<D::clocks_per_tick> sequencer_;
   Registers<D> registers_;
   QuadDecoder decoder_;
-  VelocityN<D> velocity_;
-  Dob<D> dob_;
-  Scenes<D> scenes_;
-  TorqueControlStep<D, Fixed> control_;
+  CoreWave<D> wave_;
   Supervisor<D> supervisor_;
   typename Supervisor<D>::Words supervisor_words_;
   Pwm pwm_{D::pwm_period, D::dead_clocks};
-  Words<D, Fixed> words_;
   std::int64_t operand_v_ = 0, operand_w_ = 0;
-  std::int64_t scene_position_ = 0;
-  std::int16_t sampled_travel_ = 0;
   int pending_address_ = 0;
   bool zero_pending_ = false;
-  Flags flags_;
   std::int64_t writes_ = 0;
   std::array<std::int64_t, 4> gate_clocks_{};
   Out out_;

@@ -39,9 +39,9 @@ class QuadDecoder {
     bool index_seen = false;
     bool operator==(const Out& o) const {
       return position == o.position && travel == o.travel && step == o.step && error == o.error &&
-             illegal == o.illegal &&
-             error_count == o.error_count && rejected_count == o.rejected_count &&
-             index_position == o.index_position && index_seen == o.index_seen;
+             illegal == o.illegal && error_count == o.error_count &&
+             rejected_count == o.rejected_count && index_position == o.index_position &&
+             index_seen == o.index_seen;
     }
   };
 

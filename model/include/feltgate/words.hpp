@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The parameter words of a design as numbers, by address: raw integers in fixed point, exact values
-// in real arithmetic. A word is decoded when it is read, by the format its reader names. Documentation: docs/registers.md
+// in real arithmetic. A word is decoded when it is read, by the format its reader names.
+// Documentation: docs/registers.md
 #pragma once
 
 #include <array>
@@ -28,7 +29,8 @@ class Words {
  public:
   static constexpr int count = 512;
   /// What is stored: the 32-bit word in Fixed, the value in the parameter's unit in Real.
-  using Stored = std::conditional_t<N::is_fixed, std::uint32_t, typename N::template num<Format{1, 31, 0}.key()>>;
+  using Stored = std::conditional_t<N::is_fixed, std::uint32_t,
+                                    typename N::template num<Format{1, 31, 0}.key()>>;
 
   Words() { reset(); }
 

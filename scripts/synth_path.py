@@ -5,7 +5,7 @@
 import json
 import re
 
-# Yosys' autoname builds a name from a neighbour's by such suffixes.
+# Yosys' autoname builds a name from a neighbour's by such suffixes; it may be quite another signal.
 MADE_UP = re.compile(r"_(?:TRELLIS_FF|LUT4|CCU2C|MULT18X18D|DP16KD|PFUMX|L6MUX21)(?:_|$)|\$")
 OUTPUTS = {"TRELLIS_FF": r"Q$", "MULT18X18D": r"P\d+$", "DP16KD": r"DO[AB]\d+$"}
 
@@ -31,21 +31,20 @@ def signal_names(netlist):
 
 
 def cell_label(cell, netlist, names):
-    """What a cell drives, else the cell's name up to the first made-up suffix."""
-    base = re.split(r"\$", cell)[0]
-    found = netlist["cells"].get(cell) or netlist["cells"].get(base)
-    if found:
-        kind = re.sub(r".*\\", "", found["type"])
-        pattern = OUTPUTS.get(kind)
-        for port, bits in found["connections"].items() if pattern else ():
-            if re.match(pattern, port) and bits and bits[0] in names:
-                return clean(names[bits[0]])
-    return clean(MADE_UP.split(cell)[0])
-
-
-def clean(label):
-    label = re.sub(r"^u_dut\.", "", label)
-    return re.sub(r"^(in_q2?|out_q)\b.*", r"wrapper", label)
+    """What a register drives by its name in the RTL; where Yosys kept none, its always_ff block."""
+    found = netlist["cells"].get(cell) or netlist["cells"].get(cell.split("$")[0])
+    if not found:
+        return "?"
+    for port, bits in found["connections"].items():
+        if re.match(OUTPUTS.get(found["type"], "$."), port) and bits and bits[0] in names:
+            return names[bits[0]].removeprefix("u_dut.")
+    source = found.get("attributes", {}).get("src", "")
+    place = re.match(r"(\w+\.sv):(\d+)", source)
+    if place and place.group(1).endswith("_speed.sv"):
+        return "the wrapper"
+    if place and found["type"] == "TRELLIS_FF":
+        return f"{place.group(1)}:{place.group(2)}"
+    return cell.removeprefix("u_dut.")
 
 
 def describe(report, netlist_path):

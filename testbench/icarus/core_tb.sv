@@ -91,7 +91,7 @@ module core_tb;
       #10 clk = 1'b0;
     end
     rst_n = 1'b1;
-    got = $fscanf(file, "%h_%h", inputs, expected);
+    got = $fscanf(file, "%h %h", inputs, expected);
     while (got == 2) begin
       #10 clk = 1'b1;
       #1;
@@ -103,7 +103,7 @@ module core_tb;
       end
       clocks = clocks + 1;
       #9 clk = 1'b0;
-      got = $fscanf(file, "%h_%h", inputs, expected);
+      got = $fscanf(file, "%h %h", inputs, expected);
     end
     $display("%0d clocks in Icarus, %0d mismatches", clocks, mismatches);
     $finish;

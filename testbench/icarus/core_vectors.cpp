@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
     const unsigned flags = static_cast<unsigned>(
         o.armed | o.gates_enable << 1 | o.snapshot_valid << 2 | o.reg_busy << 3 | o.gates << 4);
     // One word per group of ports, each as wide as core_tb.sv reads it.
-    std::fprintf(out, "%02x%01x%03x%08x_%02x%08x%08x%08" PRIx64 "%06" PRIx64 "%06" PRIx64 "%06" PRIx64
+    std::fprintf(out, "%02x%01x%03x%08x %02x%08x%08x%08" PRIx64 "%06" PRIx64 "%06" PRIx64 "%06" PRIx64
                       "%05" PRIx64 "%04" PRIx64 "%04" PRIx64 "%01x%02x%02x%01x%08x\n",
                  pins, in.scene & 15u, in.reg_addr & 0xfffu, in.reg_wdata, flags, o.tick_count,
                  static_cast<std::uint32_t>(o.position), bits(o.velocity, 32), bits(o.tau_hat, 24),

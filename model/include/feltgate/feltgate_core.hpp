@@ -245,6 +245,7 @@ class FeltgateCore {
   bool can_skip(const In& in) const {
     return sequencer_.clock_of_tick() == 0 && sequencer_.out().tick_count != 0 &&
            !registers_.out().reg_busy && !zero_pending_ && supervisor_.steady(in.stop) &&
+           !(in.stop && supervisor_.out().gates_enable) &&
            decoder_.settled(decoder_inputs(in, registers_.out().control, false, false));
   }
 

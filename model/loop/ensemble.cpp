@@ -19,9 +19,9 @@ EngineChoice choose_engines(const std::string& engine) {
 }
 
 Ensemble::Ensemble(const std::string& design, const EngineChoice& choice, std::uint64_t seed,
-                   EncoderPins pins, const std::string& fst)
+                   EncoderPins pins, const Waveform& waveform)
     : choice_(choice), lead_(make_engine(design, choice.lead)) {
-  if (!fst.empty()) lead_->trace(fst, 0, -1);
+  if (!waveform.path.empty()) lead_->trace(waveform.path, waveform.from, waveform.to);
   lead_->reset(seed, pins);
   control_ = applied_control_ = lead_->design().control_reset;
   for (const std::string& kind : choice.riders) {

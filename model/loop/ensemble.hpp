@@ -14,10 +14,16 @@
 
 namespace feltgate {
 
+/// A waveform to be written: the clocks [from, to] into `path`; to < 0: to the end; no path: none.
+struct Waveform {
+  std::string path;
+  Clock from = 0, to = -1;
+};
+
 class Ensemble {
  public:
   Ensemble(const std::string& design, const EngineChoice& choice, std::uint64_t seed,
-           EncoderPins pins, const std::string& fst);
+           EncoderPins pins, const Waveform& waveform);
 
   Engine& lead() { return *lead_; }
   const Engine& lead_const() const { return *lead_; }

@@ -42,7 +42,8 @@ class ScenarioRun {
         options_(options),
         choice_(choose_engines(options.engine)),
         plant_(plant, scenario.effects, drive(options.design, choice_), scenario.hand),
-        core_(options.design, choice_, options.seed, plant_.encoder().pins(), options.fst),
+        core_(options.design, choice_, options.seed, plant_.encoder().pins(),
+              Waveform{options.fst, options.fst_from, options.fst_to}),
         mean_(core_.design().pwm_period),
         scene_(scene_number(scenario.scene)),
         mode_(scenario.mode),
@@ -221,6 +222,7 @@ class ScenarioRun {
     out.lock_step = choice_.lead == "lockstep";
     out.mismatches = core_.lead().mismatches();
     out.first_mismatch = core_.lead().first_mismatch();
+    out.first_mismatch_clock = core_.lead().first_mismatch_clock();
     const traces::Statistics& p = counter_.result();
     out.position = {p.steps, p.illegal, p.reversals};
     out.engines = core_.figures();

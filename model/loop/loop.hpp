@@ -44,6 +44,7 @@ struct RunResult {
   std::int64_t ticks = 0;
   std::int64_t mismatches = 0;
   std::string first_mismatch;
+  Clock first_mismatch_clock = 0;
   bool lock_step = false;
   PositionFigures position;
   std::int32_t last_position = 0;  ///< counts, by an independent count of the pins; wraps
@@ -67,9 +68,10 @@ struct RunOptions {
   std::string design = "lever";
   std::string engine = "all";  ///< rtl, twin, double, quad or all
   std::uint64_t seed = 1;
-  std::string fst;                            ///< waveform of the whole run; empty: none
-  std::string record;                         ///< encoder edges as a vector file; empty: none
-  std::function<void(const Row&)> row;        ///< called once per tick; may be empty
+  std::string fst;                      ///< waveform of the clocks fst_from to fst_to; empty: none
+  Clock fst_from = 0, fst_to = -1;      ///< fst_to < 0: to the end
+  std::string record;                   ///< encoder edges as a vector file; empty: none
+  std::function<void(const Row&)> row;  ///< called once per tick; may be empty
   std::function<void(double done)> progress;  ///< called now and then with 0..1; may be empty
 };
 

@@ -19,7 +19,7 @@ RunResult run_replay(EncoderSource& source, const std::string& subject,
         "\" alone has nothing to be compared with here; choose rtl, twin or all");
   }
   Ensemble core(options.design, choose_engines(options.engine), options.seed, source.initial(),
-                options.fst);
+                Waveform{options.fst, options.fst_from, options.fst_to});
   const DesignInfo& d = core.design();
   const int scene = d.scene_number(options.scene);
   if (scene < 0)
@@ -91,6 +91,7 @@ RunResult run_replay(EncoderSource& source, const std::string& subject,
   out.lock_step = choose_engines(options.engine).lead == "lockstep";
   out.mismatches = core.lead().mismatches();
   out.first_mismatch = core.lead().first_mismatch();
+  out.first_mismatch_clock = core.lead().first_mismatch_clock();
   out.position = {counter.result().steps, counter.result().illegal, counter.result().reversals};
   out.last_position = static_cast<std::int32_t>(counter.result().position);
   out.engines = core.figures();

@@ -17,6 +17,7 @@ struct ReplayOptions {
   bool arm = true;
   std::uint64_t seed = 1;
   std::string fst;
+  Clock fst_from = 0, fst_to = -1;
   Clock most_clocks = 0;  ///< stop there; 0: to the end of the recording
   std::function<void(const Row&)> row;
   std::function<void(Clock done)> progress;

@@ -48,6 +48,19 @@ std::string find_file(const std::string& name, const std::string& folder) {
                               " or give the path of a file");
 }
 
+std::string mismatch_path(const std::string& subject, const std::string& design) {
+  const char* build = std::getenv("FELTGATE_BUILD");
+  const fs::path folder = build != nullptr ? fs::path(build) / "mismatch" : fs::path("mismatch");
+  fs::create_directories(folder);
+  return (folder / (subject + "." + design + ".fst")).string();
+}
+
+void tell_mismatch(const std::string& first_mismatch, const std::string& path) {
+  std::fprintf(stderr,
+               "first mismatch: %s\nwaveform: gtkwave %s %s/scripts/gtkwave/feltgate_core.gtkw\n",
+               first_mismatch.c_str(), path.c_str(), repository().c_str());
+}
+
 Progress::Progress(std::string label, bool quiet)
     : label_(std::move(label)), on_(!quiet && isatty(STDERR_FILENO) == 1), start_s_(now_s()) {}
 

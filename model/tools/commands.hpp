@@ -28,6 +28,13 @@ std::string repository();
 /// repository. Throws std::invalid_argument listing what there is.
 std::string find_file(const std::string& name, const std::string& folder);
 
+/// Where the waveform around a mismatch goes: mismatch/ in the build folder, or in this one.
+std::string mismatch_path(const std::string& subject, const std::string& design);
+/// Says where it is and how to look at it.
+void tell_mismatch(const std::string& first_mismatch, const std::string& path);
+/// Clocks shown before and after the first mismatch.
+constexpr long long mismatch_before = 200, mismatch_after = 20;
+
 /// Progress with rate and time left on a terminal; silent elsewhere.
 class Progress {
  public:

@@ -105,8 +105,17 @@ int replay(ReplayArguments& a) {
     file.commit();
   }
   if (!a.quiet) std::fputs(run_text(result, labels).c_str(), stdout);
-  if (a.quiet && !result.first_mismatch.empty()) {
-    std::fprintf(stderr, "first mismatch: %s\n", result.first_mismatch.c_str());
+  if (result.mismatches > 0) {
+    // The replay is deterministic: once more, with the waveform on around the place.
+    options.row = nullptr;
+    options.progress = nullptr;
+    options.fst = mismatch_path(name, a.design);
+    options.fst_from = result.first_mismatch_clock - mismatch_before;
+    options.fst_to = result.first_mismatch_clock + mismatch_after;
+    options.most_clocks = options.fst_to + 1;
+    const auto again = traces::open(a.trace.path, how);
+    run_replay(*again, name, options);
+    tell_mismatch(result.first_mismatch, options.fst);
   }
   return result.mismatches == 0 ? exit_ok : exit_failed;
 }

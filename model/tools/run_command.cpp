@@ -88,8 +88,21 @@ int run(const RunArguments& a) {
   }
   if (a.quiet) {
     for (const std::string& line : result.broken) std::fprintf(stderr, "%s\n", line.c_str());
-    if (!result.first_mismatch.empty())
-      std::fprintf(stderr, "first mismatch: %s\n", result.first_mismatch.c_str());
+  }
+  if (result.mismatches > 0) {
+    // The run is deterministic: once more, with the waveform on around the place.
+    RunOptions again;
+    again.design = a.design;
+    again.engine = a.engine;
+    again.seed = a.seed;
+    again.fst = mismatch_path(scenario.name, a.design);
+    again.fst_from = result.first_mismatch_clock - mismatch_before;
+    again.fst_to = result.first_mismatch_clock + mismatch_after;
+    scenario.duration_s *=
+        static_cast<double>(again.fst_to + 1) / static_cast<double>(result.clocks);
+    scenario.expectations.clear();
+    run_scenario(scenario, plant, again);
+    tell_mismatch(result.first_mismatch, again.fst);
   }
   return ok ? exit_ok : exit_failed;
 }

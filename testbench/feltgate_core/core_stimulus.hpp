@@ -53,6 +53,13 @@ class CoreStimulus {
   void host() {
     in_.reg_write = random_.one_in(700);
     if (!in_.reg_write) return;
+    // At the design's ramp a run of some thousand ticks would see nothing but ramps.
+    if (!ramp_written_ || random_.one_in(20)) {
+      ramp_written_ = true;
+      in_.reg_addr = static_cast<std::uint16_t>(D::A::ramp_step);
+      in_.reg_wdata = random_.below(1u << 24);
+      return;
+    }
     const std::uint32_t what = random_.below(10);
     if (what < 5) {
       write_parameter();
@@ -113,7 +120,7 @@ class CoreStimulus {
   CoreIn in_;
   std::int64_t left_ = 0;
   std::int64_t spacing_ = 0, wait_ = 0;
-  bool up_ = true, bad_cable_ = false;
+  bool up_ = true, bad_cable_ = false, ramp_written_ = false;
   std::uint32_t phase_ = 0;
 };
 

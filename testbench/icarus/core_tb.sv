@@ -7,9 +7,11 @@
 `timescale 1ns / 1ps
 `default_nettype none
 
-module core_tb;
+module core_tb #(
+    parameter int Defect = 0  // of the core
+);
   localparam int InputBits = 56;
-  localparam int OutputBits = 276;
+  localparam int OutputBits = 284;
 
   logic clk = 1'b0;
   logic rst_n = 1'b1;
@@ -27,7 +29,9 @@ module core_tb;
   wire [7:0] limits, faults;
   wire a_hi, a_lo, b_hi, b_lo, armed, gates_enable, snapshot_valid, busy;
 
-  feltgate_core dut (
+  feltgate_core #(
+      .Defect(Defect)
+  ) dut (
       .clk_i(clk),
       .rst_ni(rst_n),
       .enc_a_i(inputs[48]),

@@ -82,6 +82,8 @@ int replay(ReplayArguments& a) {
     csv = std::make_unique<CsvWriter>(a.csv, a.every);
     options.row = [&csv](const Row& r) { csv->add(r); };
   }
+  std::unique_ptr<OutputFile> json;
+  if (!a.json.empty()) json = std::make_unique<OutputFile>(a.json);
   // The length is not known before the end; a first pass over the file finds it.
   Clock length = 0;
   if (options.most_clocks > 0) {
@@ -99,10 +101,9 @@ int replay(ReplayArguments& a) {
   const RunResult result = run_replay(*source, name, options);
   const RunLabels labels{"trace", "", probe_text(how), false, 0};
   if (csv) csv->commit();
-  if (!a.json.empty()) {
-    OutputFile file(a.json);
-    std::fputs(run_json(result, labels).c_str(), file.handle());
-    file.commit();
+  if (json) {
+    std::fputs(run_json(result, labels).c_str(), json->handle());
+    json->commit();
   }
   if (!a.quiet) std::fputs(run_text(result, labels).c_str(), stdout);
   if (result.mismatches > 0) {

@@ -65,16 +65,18 @@ int run(const RunArguments& a) {
     csv = std::make_unique<CsvWriter>(csv_path, every);
     options.row = [&csv](const Row& r) { csv->add(r); };
   }
+  // Opened before the run: a name that cannot be written must not cost it.
+  std::unique_ptr<OutputFile> json;
+  if (!json_path.empty()) json = std::make_unique<OutputFile>(json_path);
   Progress progress(scenario.name + " on " + a.design, a.quiet);
   options.progress = [&progress](double done) { progress.update(done); };
   const RunResult result = run_scenario(scenario, plant, options);
 
   RunLabels labels{"scene", plant.name, "", true, result.expectations_checked};
   if (csv) csv->commit();
-  if (!json_path.empty()) {
-    OutputFile file(json_path);
-    std::fputs(run_json(result, labels).c_str(), file.handle());
-    file.commit();
+  if (json) {
+    std::fputs(run_json(result, labels).c_str(), json->handle());
+    json->commit();
   }
   if (!a.quiet) std::fputs(run_text(result, labels).c_str(), stdout);
   const bool ok = result.mismatches == 0 && result.broken.empty();

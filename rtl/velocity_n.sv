@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// N-method velocity: 2^n times the counts of the last m1 ticks, saturated, through a low-pass.
+// N-method velocity: 2^n (or a quantised gain) times the counts of the last m1 ticks, saturated,
+// through a low-pass.
 // Latency: travel sampled in clock 0 (valid_i), operand in 4, product in 8, velocity in 9.
 // Formats: travel [1,15,0] wrapping, velocity as the design says. docs/blocks/velocity_n.md
 
@@ -10,6 +11,8 @@
 module velocity_n #(
     parameter int M1     = feltgate_pkg::M1,
     parameter int Shift  = feltgate_pkg::VELOCITY_SHIFT,
+    parameter int Gain   = feltgate_pkg::VELOCITY_GAIN,   // 0: 2^Shift; else Gain * 2^-GainF
+    parameter int GainF  = feltgate_pkg::VELOCITY_GAIN_F,
     // 1: line one entry long, 2: unfilled line is read, 3: wraps instead of saturating, 4: counter
     // wrap taken for a glitch
     parameter int Defect = 0
@@ -26,8 +29,6 @@ module velocity_n #(
   localparam int T = feltgate_pkg::TRAVEL_BITS;
   localparam int W = feltgate_pkg::VELOCITY_W;
   localparam int F = feltgate_pkg::VELOCITY_F;
-  localparam int Low = F + Shift;        // weight of one count in bits of the velocity
-  localparam int Room = W - Low;         // bits of a count that fit, sign included
   localparam int AddressW = 11;
   localparam int Last = (Defect == 1) ? M1 : M1 - 1;
 
@@ -77,18 +78,34 @@ module velocity_n #(
     end
   end
 
-  // Counts to rad/s: a shift, saturated where the counts need more bits than are above it.
+  // Counts to rad/s, saturated where the velocity has too few integer bits for them.
   logic                over;
-  logic signed [W-1:0] raw_q;
-  assign over = (Defect != 3) && (difference_q[T-1:Room-1] != {(T - Room + 1) {difference_q[T-1]}});
+  logic signed [W-1:0] raw, raw_q;
+  if (Gain == 0) begin : gen_shift
+    localparam int Low  = F + Shift;  // weight of one count in bits of the velocity
+    localparam int Room = W - Low;    // bits of a count that fit, sign included
+    assign over = difference_q[T-1:Room-1] != {(T - Room + 1) {difference_q[T-1]}};
+    assign raw  = {difference_q[Room-1:0], {Low{1'b0}}};
+  end else begin : gen_gain
+    // A quantised gain where no power of two comes near; truncated below the velocity's last bit.
+    localparam int Up      = (F > GainF) ? F - GainF : 0;
+    localparam int Down    = (GainF > F) ? GainF - F : 0;
+    localparam int ScaledW = T + 18 + Up;
+    logic signed [T+17:0]      product;
+    logic signed [ScaledW-1:0] scaled;
+    assign product = difference_q * $signed({1'b0, 17'(Gain)});
+    assign scaled  = (ScaledW'(product) <<< Up) >>> Down;
+    assign over    = scaled[ScaledW-1:W-1] != {(ScaledW - W + 1) {scaled[ScaledW-1]}};
+    assign raw     = scaled[W-1:0];
+  end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       raw_q       <= '0;
       saturated_o <= 1'b0;
     end else if (stage_q[1]) begin
-      raw_q       <= over ? {difference_q[T-1], {(W - 1) {~difference_q[T-1]}}}
-                          : {difference_q[Room-1:0], {Low{1'b0}}};
-      saturated_o <= over;
+      raw_q       <= (over && Defect != 3) ? {difference_q[T-1], {(W - 1) {~difference_q[T-1]}}}
+                                           : raw;
+      saturated_o <= over && Defect != 3;
     end
   end
 

@@ -21,6 +21,7 @@ struct Design {
   std::int64_t clock_hz = 0, tick_hz = 0;
   int lines = 0, filter_samples = 0, encoder_polarity = 0;
   int m1 = 0, n = 0;
+  bool exact_gain = false;  ///< the exact factor, quantised, stands for 2^n
   double velocity_cutoff_rad_s = 0;
   double observer_cutoff_rad_s = 0, torque_constant_nm_a = 0, inertia_kg_m2 = 0;
   double kp_1_kg_m2 = 0, torque_limit_nm = 0, current_limit_a = 0, ramp_nm_s = 0;
@@ -50,6 +51,8 @@ struct Design {
   double tick_s() const { return 1.0 / static_cast<double>(tick_hz); }
   /// One count in radians.
   double count_rad() const;
+  /// The exact factor of the N-method, 2*pi/(Er*Tp*m1) in rad/s per count.
+  double velocity_gain_rad_s() const;
   /// Throws config::ConfigError at the line of "section.key".
   [[noreturn]] void fail(const std::string& key, const std::string& what,
                          const std::string& mend) const;
@@ -71,10 +74,13 @@ struct Elaborated {
   Design design;
   RegisterMap registers;
   std::vector<Word> words;
+  std::int64_t velocity_gain = 0;  ///< mantissa of the quantised gain, 0 where 2^n serves
   BaseFormats base{};
   Formats formats{};
 
   const Word& word(const std::string& name) const;
+  /// What the core multiplies a count of m1 ticks with, rad/s.
+  double rad_s_per_count() const;
 };
 
 /// Reads a design file. Throws config::ConfigError: unknown or missing key, wrong type, value out

@@ -250,6 +250,12 @@ double Word::quantised() const { return std::ldexp(static_cast<double>(raw), -fo
 
 double Word::relative_error() const { return si == 0 ? 0.0 : (quantised() - si) / si; }
 
+double Elaborated::rad_s_per_count() const {
+  return velocity_gain == 0
+             ? std::ldexp(1.0, design.n)
+             : std::ldexp(static_cast<double>(velocity_gain), -base.velocity_gain.fraction);
+}
+
 const Word& Elaborated::word(const std::string& name) const {
   for (const Word& w : words) {
     if (w.parameter.name == name) return w;
@@ -298,9 +304,15 @@ Elaborated elaborate(const Design& design, const RegisterMap& registers) {
     e.words.push_back(w);
   }
   const auto f = [&](const char* name) { return e.word(name).format; };
+  Format gain{0, 0, 17};
+  if (design.exact_gain) {
+    gain = coefficient_format(design.velocity_gain_rad_s(), false);
+    e.velocity_gain = std::llround(std::ldexp(design.velocity_gain_rad_s(), gain.fraction));
+  }
   e.base = {design.velocity,          design.torque,
             design.current,           design.voltage,
             design.observer_fraction, design.n,
+            design.exact_gain,        gain,
             f("velocity_a1"),         f("torque_constant"),
             f("inertia_gain"),        f("observer_a1"),
             f("torque_gain"),         f("observer_gain"),

@@ -82,6 +82,8 @@ std::vector<Constant> constants(const Elaborated& e) {
       {"clocks_per_tick", d.clocks_per_tick(), "clocks"},
       {"m1", d.m1, "ticks between the two positions of the velocity estimator"},
       {"velocity_shift", d.n, "raw velocity = 2^n * counts"},
+      {"velocity_gain", e.velocity_gain, "mantissa of the gain that stands for 2^n; 0: none"},
+      {"velocity_gain_f", e.base.velocity_gain.fraction, "its fraction bits"},
       {"pwm_period", d.pwm_period_clocks(), "clocks"},
       {"dead_clocks", d.dead_clocks(), "clocks"},
       {"scene_mask", scene_mask(e), "bit n: scene n is built"},
@@ -194,6 +196,8 @@ std::string cpp_header(const Elaborated& e) {
     << "  static constexpr std::int64_t clock_hz = " << d.clock_hz << ";\n"
     << "  static constexpr std::int64_t tick_hz = " << d.tick_hz << ";\n"
     << "  static constexpr double count_rad = " << exact(d.count_rad()) << ";\n"
+    << "  static constexpr double velocity_gain_rad_s = "
+    << exact(d.exact_gain ? d.velocity_gain_rad_s() : 0.0) << ";\n"
     << "  static constexpr double supply_v = " << exact(d.supply_v) << ";\n";
   for (const Constant& c : constants(e)) {
     s << "  static constexpr int " << c.name << " = " << c.value << ";  // " << c.doc << "\n";
@@ -229,7 +233,8 @@ std::string cpp_header(const Elaborated& e) {
   }
   s << "  };\n\n  static constexpr BaseFormats base{\n"
     << "      " << triple(d.velocity) << ", " << triple(d.torque) << ", " << triple(d.current)
-    << ", " << triple(d.voltage) << ",\n      " << d.observer_fraction << ", velocity_shift,\n"
+    << ", " << triple(d.voltage) << ",\n      " << d.observer_fraction
+    << ", velocity_shift, velocity_gain != 0, " << triple(e.base.velocity_gain) << ",\n"
     << "      P::velocity_a1, P::torque_constant, P::inertia_gain, P::observer_a1,\n"
     << "      P::torque_gain, P::observer_gain, P::voltage_gain, P::emf_constant,\n"
     << "      P::dead_voltage_slope, P::voltage_to_current, P::duty_gain,\n"

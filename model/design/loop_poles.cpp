@@ -165,7 +165,7 @@ LoopCoefficients coefficients(const Elaborated& e, const plant::Parameters& p) {
   c.tick = tick_of(p, c.tick_s);
   c.m1 = e.design.m1;
   const double two_pi = 6.283185307179586;
-  c.raw_per_rad = std::ldexp(4.0 * p.encoder.lines / two_pi, e.design.n);
+  c.raw_per_rad = 4.0 * p.encoder.lines / two_pi * e.rad_s_per_count();
   c.velocity_a1 = word("velocity_a1");
   c.observer_a1 = word("observer_a1");
   c.torque_constant = word("torque_constant");

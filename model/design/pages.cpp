@@ -93,10 +93,10 @@ std::string design_table(const Elaborated& e) {
     s << line;
   }
   const double two_pi = 6.283185307179586;
-  const double gain = std::ldexp(1.0, e.design.n) * e.design.m1 * 4.0 * e.design.lines /
+  const double gain = e.rad_s_per_count() * e.design.m1 * 4.0 * e.design.lines /
                       (two_pi * static_cast<double>(e.design.tick_hz));
   std::snprintf(line, sizeof line,
-                "\nvelocity gain error (2^n against 2 pi/(Er Tp m1)): %+.4f %%\n"
+                "\nvelocity gain error (against 2 pi/(Er Tp m1)): %+.4f %%\n"
                 "latency, sampled position to duty register: %d of %d clocks per tick\n",
                 100.0 * (gain - 1.0), latency_clocks, e.design.clocks_per_tick());
   s << line;

@@ -121,6 +121,10 @@ void Design::fail(const std::string& key, const std::string& what, const std::st
   throw config::ConfigError(path + ":" + std::to_string(line) + ": " + what + "; " + mend);
 }
 
+double Design::velocity_gain_rad_s() const {
+  return count_rad() * static_cast<double>(tick_hz) / m1;
+}
+
 double Design::count_rad() const { return 2.0 * pi / (4.0 * lines); }
 
 Design read_design(const std::string& path) {
@@ -150,7 +154,15 @@ Design read_design(const std::string& path) {
   });
   section("velocity", [&](config::TomlReader& r) {
     d.m1 = static_cast<int>(r.integer("m1", 1, 1534));
-    d.n = static_cast<int>(r.integer("n", 0, 12));
+    // Where the tick is not near 1 MHz no power of two is near the exact factor.
+    d.exact_gain = r.has("gain");
+    if (d.exact_gain) {
+      if (r.has("n")) r.fail("n", "velocity.n and velocity.gain exclude each other", "keep one");
+      if (r.text("gain") != "exact")
+        r.fail("gain", "velocity.gain takes only \"exact\"", "write gain = \"exact\", or n");
+    } else {
+      d.n = static_cast<int>(r.integer("n", 0, 12));
+    }
     d.velocity_cutoff_rad_s = r.number("cutoff_rad_s", kCutoff);
   });
   section("observer", [&](config::TomlReader& r) {

@@ -67,8 +67,10 @@ TEST_CASE("keys: missing, unknown, mistyped, out of range", "[reader]") {
   check_cases(
       file_text(design_path("paper")),
       {{"tick_hz = 1_000_000\n", "", "[clock]", "key \"tick_hz\" is missing in [clock]; add it"},
+       {"n = 2 ", "gain = \"exact\"\nn = 2 ", "n = 2 ",
+        "velocity.n and velocity.gain exclude each other; keep one"},
        {"m1 = 386", "m1 = 386\nm2 = 5", "m2 = 5",
-        "key \"m2\" is unknown in [velocity]; remove it or use one of: cutoff_rad_s, m1, n"},
+        "key \"m2\" is unknown in [velocity]; remove it or use one of: cutoff_rad_s, gain, m1, n"},
        {"[pwm]", "[pvm]", "#", "key \"pwm\" is missing in the design; add it"},
        {"[clock]", "speed = 1\n[clock]", "speed = 1",
         "key \"speed\" is unknown in the design; remove it or use one of: "},

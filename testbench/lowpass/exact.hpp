@@ -27,7 +27,23 @@ struct Shortest : Lever {
   static constexpr int velocity_shift = 9;
 };
 
+/// lever with the exact factor, 1.999975 rad/s per count, quantised, instead of 2^n.
+struct Gained : Lever {
+  static constexpr int velocity_gain = 131070;
+  static constexpr double velocity_gain_rad_s = count_rad * 1e6 / m1;
+  static constexpr BaseFormats base = [] {
+    BaseFormats b = Lever::base;
+    b.has_velocity_gain = true;
+    b.velocity_gain = {0, 1, 16};
+    return b;
+  }();
+};
+
 using Design = FELTGATE_DESIGN;
+/// rad/s per count of m1 ticks
+constexpr double kRadSPerCount = Design::velocity_gain == 0
+                                     ? static_cast<double>(1 << Design::velocity_shift)
+                                     : static_cast<double>(Design::velocity_gain) / 65536.0;
 constexpr bool kIsPaper = Design::m1 == Paper::m1;
 
 #ifdef __SIZEOF_FLOAT128__

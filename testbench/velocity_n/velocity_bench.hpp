@@ -157,7 +157,9 @@ struct Reference {
       ++tally->wrapped;
     }
     constexpr std::int64_t limit = std::int64_t{1} << (Design::f.velocity.width() - 1);
-    std::int64_t raw = difference * (std::int64_t{1} << (Design::velocity_shift + 21));
+    std::int64_t raw = Design::velocity_gain != 0
+                           ? difference * Design::velocity_gain * 32  // 16 to 21 fraction bits
+                           : difference * (std::int64_t{1} << (Design::velocity_shift + 21));
     ++tally->ticks;
     if (!filled) ++tally->unfilled;
     if (raw >= limit || raw < -limit) {

@@ -27,7 +27,9 @@ struct BaseFormats {
   Format current;         ///< A
   Format voltage;         ///< V
   int observer_fraction;  ///< fraction bits of the observer's state
-  int velocity_shift;     ///< n of the N-method: raw = 2^n * counts
+  int velocity_shift;        ///< n of the N-method: raw = 2^n * counts
+  bool has_velocity_gain;    ///< a quantised gain stands for 2^n
+  Format velocity_gain;      ///< rad/s per count
   Format velocity_a1;
   Format torque_constant;
   Format inertia_gain;
@@ -94,7 +96,8 @@ constexpr Formats derive(const BaseFormats& b) {
   f.scene_position = {1, 17, 0};
   f.scene_offset = {1, 17, 8};
   f.travel_difference = {1, fabric::travel_bits - 1, 0};
-  f.velocity_raw = growth::scaled(f.travel_difference, b.velocity_shift);
+  f.velocity_raw = b.has_velocity_gain ? growth::product(f.travel_difference, b.velocity_gain)
+                                       : growth::scaled(f.travel_difference, b.velocity_shift);
   f.velocity = b.velocity;
   f.velocity_difference =
       growth::fit(growth::difference(b.velocity, b.velocity), fabric::multiplier_a_bits);

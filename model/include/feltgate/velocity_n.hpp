@@ -45,11 +45,19 @@ struct VelocityLaw {
   using Velocity = typename N::template num<D::f.velocity.key()>;
   using Filter = LowpassLaw<N, D::f.velocity.key(), D::f.velocity_difference.key()>;
 
-  /// Counts of m1 ticks as rad/s: exact, saturated to the velocity format.
+  /// Counts of m1 ticks as rad/s, saturated to the velocity format. 2^n times them is exact; a
+  /// quantised gain truncates below the last bit.
   static constexpr Velocity raw(std::int16_t counts, bool* saturated) {
     const auto travel = from_integer<N, D::f.travel_difference.key()>(counts);
-    return quantise<N, D::f.velocity.key(), Round::truncate, Overflow::saturate>(
-        times_power_of_two<N, D::velocity_shift>(travel), saturated);
+    if constexpr (D::velocity_gain == 0) {
+      return quantise<N, D::f.velocity.key(), Round::truncate, Overflow::saturate>(
+          times_power_of_two<N, D::velocity_shift>(travel), saturated);
+    } else if constexpr (N::is_fixed) {
+      constexpr auto gain = fixed_of<D::base.velocity_gain.key()>::from_raw(D::velocity_gain);
+      return narrow<Velocity, Round::truncate, Overflow::saturate>(travel * gain, saturated);
+    } else {
+      return travel * static_cast<Velocity>(D::velocity_gain_rad_s);
+    }
   }
 };
 

@@ -11,6 +11,8 @@ package feltgate_pkg;
   localparam int CLOCKS_PER_TICK = 50;  // clocks
   localparam int M1 = 386;  // ticks between the two positions of the velocity estimator
   localparam int VELOCITY_SHIFT = 2;  // raw velocity = 2^n * counts
+  localparam int VELOCITY_GAIN = 0;  // mantissa of the gain that stands for 2^n; 0: none
+  localparam int VELOCITY_GAIN_F = 17;  // its fraction bits
   localparam int PWM_PERIOD = 2500;  // clocks
   localparam int DEAD_CLOCKS = 25;  // clocks
   localparam int SCENE_MASK = 509;  // bit n: scene n is built

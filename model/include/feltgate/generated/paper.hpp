@@ -19,10 +19,13 @@ struct Paper {
   static constexpr std::int64_t clock_hz = 50000000;
   static constexpr std::int64_t tick_hz = 1000000;
   static constexpr double count_rad = 0.0015339807878856412;
+  static constexpr double velocity_gain_rad_s = 0.0;
   static constexpr double supply_v = 24.0;
   static constexpr int clocks_per_tick = 50;  // clocks
   static constexpr int m1 = 386;  // ticks between the two positions of the velocity estimator
   static constexpr int velocity_shift = 2;  // raw velocity = 2^n * counts
+  static constexpr int velocity_gain = 0;  // mantissa of the gain that stands for 2^n; 0: none
+  static constexpr int velocity_gain_f = 17;  // its fraction bits
   static constexpr int pwm_period = 2500;  // clocks
   static constexpr int dead_clocks = 25;  // clocks
   static constexpr int scene_mask = 509;  // bit n: scene n is built
@@ -189,7 +192,7 @@ struct Paper {
 
   static constexpr BaseFormats base{
       {1, 10, 21}, {1, 4, 16}, {1, 5, 16}, {1, 5, 14},
-      30, velocity_shift,
+      30, velocity_shift, velocity_gain != 0, {0, 0, 17},
       P::velocity_a1, P::torque_constant, P::inertia_gain, P::observer_a1,
       P::torque_gain, P::observer_gain, P::voltage_gain, P::emf_constant,
       P::dead_voltage_slope, P::voltage_to_current, P::duty_gain,

@@ -23,7 +23,7 @@ Ensemble::Ensemble(const std::string& design, const EngineChoice& choice, std::u
     : choice_(choice), lead_(make_engine(design, choice.lead)) {
   if (!waveform.path.empty()) lead_->trace(waveform.path, waveform.from, waveform.to);
   lead_->reset(seed, pins);
-  control_ = applied_control_ = lead_->design().control_reset;
+  applied_control_ = lead_->design().control_reset;
   for (const std::string& kind : choice.riders) {
     Rider r;
     r.chain = make_real_chain(design, kind);

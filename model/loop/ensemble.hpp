@@ -82,7 +82,7 @@ class Ensemble {
   std::vector<Rider> riders_;
   const RealChain* quad_ = nullptr;
   std::deque<Write> pending_;
-  std::uint32_t control_ = 0, applied_control_ = 0;
+  std::uint32_t applied_control_ = 0;
   std::int64_t writes_applied_ = 0;
   EngineFigures lead_figures_;
   double lead_busy_s_ = 0;

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // core_vectors CLOCKS SEED OUT: inputs of the core and the twin's outputs, one clock a line in hex,
-// for core_tb.sv in Icarus. The stimulus is that of the lock-step test. Documentation: docs/testing.md
+// for core_tb.sv in Icarus. The stimulus is that of the lock-step test. Documentation:
+// docs/testing.md
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
@@ -34,19 +35,20 @@ int main(int argc, char** argv) {
     const CoreIn in = stimulus(k);
     twin.clock(in);
     const CoreOut& o = twin.out();
-    const unsigned pins = static_cast<unsigned>(
-        in.encoder.a | in.encoder.b << 1 | in.encoder.z << 2 | in.arm << 3 | in.stop << 4 |
-        in.set_zero << 5 | in.reg_write << 6);
+    const unsigned pins =
+        static_cast<unsigned>(in.encoder.a | in.encoder.b << 1 | in.encoder.z << 2 | in.arm << 3 |
+                              in.stop << 4 | in.set_zero << 5 | in.reg_write << 6);
     const unsigned flags = static_cast<unsigned>(
         o.armed | o.gates_enable << 1 | o.snapshot_valid << 2 | o.reg_busy << 3 | o.gates << 4);
     // One word per group of ports, each as wide as core_tb.sv reads it.
-    std::fprintf(out, "%02x%01x%03x%08x %02x%08x%08x%08" PRIx64 "%06" PRIx64 "%06" PRIx64 "%06" PRIx64
-                      "%05" PRIx64 "%04" PRIx64 "%04" PRIx64 "%01x%02x%02x%01x%08x\n",
+    std::fprintf(out,
+                 "%02x%01x%03x%08x %02x%08x%08x%08" PRIx64 "%06" PRIx64 "%06" PRIx64 "%06" PRIx64
+                 "%05" PRIx64 "%04" PRIx64 "%04" PRIx64 "%01x%02x%02x%01x%08x\n",
                  pins, in.scene & 15u, in.reg_addr & 0xfffu, in.reg_wdata, flags, o.tick_count,
                  static_cast<std::uint32_t>(o.position), bits(o.velocity, 32), bits(o.tau_hat, 24),
-                 bits(o.tau_ref, 24), bits(o.current_ref, 24), bits(o.voltage, 20), bits(o.duty, 16),
-                 bits(o.duty_active, 16), o.scene & 15u, o.limits, o.faults, o.first_fault & 15u,
-                 o.reg_rdata);
+                 bits(o.tau_ref, 24), bits(o.current_ref, 24), bits(o.voltage, 20),
+                 bits(o.duty, 16), bits(o.duty_active, 16), o.scene & 15u, o.limits, o.faults,
+                 o.first_fault & 15u, o.reg_rdata);
   }
   return std::fclose(out) == 0 ? 0 : 2;
 }

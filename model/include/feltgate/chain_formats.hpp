@@ -22,14 +22,14 @@ constexpr int multiplier_latency = 4;  ///< clocks from operands on the bus to t
 
 /// What a design states (signals) and what its values imply (coefficients).
 struct BaseFormats {
-  Format velocity;        ///< rad/s
-  Format torque;          ///< Nm
-  Format current;         ///< A
-  Format voltage;         ///< V
-  int observer_fraction;  ///< fraction bits of the observer's state
-  int velocity_shift;        ///< n of the N-method: raw = 2^n * counts
-  bool has_velocity_gain;    ///< a quantised gain stands for 2^n
-  Format velocity_gain;      ///< rad/s per count
+  Format velocity;         ///< rad/s
+  Format torque;           ///< Nm
+  Format current;          ///< A
+  Format voltage;          ///< V
+  int observer_fraction;   ///< fraction bits of the observer's state
+  int velocity_shift;      ///< n of the N-method: raw = 2^n * counts
+  bool has_velocity_gain;  ///< a quantised gain stands for 2^n
+  Format velocity_gain;    ///< rad/s per count
   Format velocity_a1;
   Format torque_constant;
   Format inertia_gain;

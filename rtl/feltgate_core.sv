@@ -371,8 +371,12 @@ module feltgate_core #(
       ({18{!take_square_q && !take_estimate_q}} & {param[17] && take_tau_hat_q, param[16:0]});
 
   logic snap_valid;
-  assign snap_valid = wave[0] || wave[1] || wave[2] || wave[9] || wave[11] || wave[14] ||
-                      wave[23] || wave[28] || wave[34] || wave[40] || wave[46];
+  assign snap_valid =
+      wave[feltgate_pkg::R_TICK] || wave[feltgate_pkg::R_POSITION] || wave[feltgate_pkg::R_STATUS] ||
+      wave[feltgate_pkg::R_ENCODER] || wave[feltgate_pkg::R_INDEX] ||
+      wave[feltgate_pkg::R_VELOCITY] || wave[feltgate_pkg::R_TAU_HAT] ||
+      wave[feltgate_pkg::R_TAU_REF] || wave[feltgate_pkg::R_CURRENT_REF] ||
+      wave[feltgate_pkg::R_VOLTAGE] || wave[feltgate_pkg::R_DUTY];
 
   assign scene_o          = scene_q;
   assign gates_enable_o   = gates_enable;

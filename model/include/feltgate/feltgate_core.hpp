@@ -28,6 +28,7 @@ class FeltgateCore {
   using Out = CoreOut;
 
   FeltgateCore() {
+    static_assert(map_fits_sequencer(), "rtl/registers.toml: a slot lies in the wrong bank");
     reset();
     note_supervisor_words();
   }
@@ -140,6 +141,26 @@ class FeltgateCore {
   int clock_of_tick() const { return sequencer_.clock_of_tick(); }
 
  private:
+  static constexpr std::uint64_t slot_bit(int read_address) {
+    return std::uint64_t{1} << (read_address & 63);
+  }
+  /// Wave clocks in which a word of the snapshot passes by.
+  static constexpr std::uint64_t kSnapshotSlots =
+      slot_bit(D::C::read_tick) | slot_bit(D::C::read_position) | slot_bit(D::C::read_status) |
+      slot_bit(D::C::read_encoder) | slot_bit(D::C::read_index) | slot_bit(D::C::read_velocity) |
+      slot_bit(D::C::read_tau_hat) | slot_bit(D::C::read_tau_ref) |
+      slot_bit(D::C::read_current_ref) | slot_bit(D::C::read_voltage) | slot_bit(D::C::read_duty);
+  /// The register map keeps to the sequencer: a scene's words in the scene's slots, others outside.
+  static constexpr bool map_fits_sequencer() {
+    for (const ParameterInfo& p : D::parameters) {
+      const bool of_scene = p.address >= 64;
+      const int slot = of_scene ? p.address % 32 : p.address;
+      const bool in_bank = ((Sequencer<D::clocks_per_tick>::kSceneSlots >> slot) & 1u) != 0;
+      if (in_bank != of_scene) return false;
+    }
+    return true;
+  }
+
   static bool bit(std::uint32_t word, int n) { return ((word >> n) & 1u) != 0; }
   static std::int64_t factor(std::uint32_t param) { return param & 0x1ffffu; }
 
@@ -167,10 +188,7 @@ class FeltgateCore {
     reg.scene_slot_fetch = sequencer_.out().scene_slot_fetch;
     reg.scene = out_.scene;
     reg.region_high = wave_.region_high();
-    constexpr std::uint64_t words = 1ull << 0 | 1ull << 1 | 1ull << 2 | 1ull << 9 | 1ull << 11 |
-                                    1ull << 14 | 1ull << 23 | 1ull << 28 | 1ull << 34 | 1ull << 40 |
-                                    1ull << 46;
-    if (t >= 0 && t < 50 && ((words >> t) & 1u) != 0) {
+    if (t >= 0 && t < 50 && ((kSnapshotSlots >> t) & 1u) != 0) {
       reg.snap_valid = true;
       reg.snap_slot = static_cast<std::uint8_t>(t);
       reg.snap_data = snapshot_word(t);

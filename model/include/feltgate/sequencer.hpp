@@ -22,6 +22,9 @@ class Sequencer {
     std::uint32_t tick_count = 0;   ///< ticks since reset, wraps
   };
 
+  /// Slots of the scene bank: 1, 2, 3, 6, 10, 11, 12, 14.
+  static constexpr std::uint64_t kSceneSlots = 0x5c4e;
+
   Sequencer() { reset(); }
 
   void reset() {
@@ -58,7 +61,6 @@ class Sequencer {
   static_assert(ClocksPerTick >= kWaveLength, "a wave must end before the next one starts");
   static constexpr int kFirstWaveClock = 2;  // wave clock 0
   static constexpr std::uint64_t kWaveMask = (std::uint64_t{1} << kWaveLength) - 1;
-  static constexpr std::uint64_t kSceneSlots = 0x5c4e;  // 1, 2, 3, 6, 10, 11, 12, 14
 
   int clock_ = 0;
   Out out_;

@@ -9,7 +9,7 @@ tests_usage() {
 Usage: ./feltgate test [NAME] [--long]
 
   NAME    only the tests whose name matches this regular expression, such as quad_decoder
-  --long  also the long runs (1e9 lock-step clocks and more; hours)
+  --long  also the long runs (1e9 lock-step clocks of the core and more)
 
 The last line is "N passed, N failed", with ", N skipped" where tests could not run here; the exit
 status is 0 when none failed. Results for machines: $BUILD/test-results.xml (JUnit).

@@ -29,11 +29,31 @@ struct Negated<fixed<S, I, F>> {
 
 }  // namespace detail
 
-/// Fixed point: a number of format Key is a fixed<S,I,F>.
+/// Fixed point: a number of format Key is a fixed<S,I,F>. Another fixed-point type takes part in
+/// the laws by a policy with the same members (model/bench/systemc_numbers.hpp is one).
 struct Fixed {
   static constexpr bool is_fixed = true;
   template <int Key>
   using num = fixed_of<Key>;
+
+  /// The number raw * 2^-F. Precondition: it lies in the format.
+  template <int Key>
+  static constexpr fixed_of<Key> from_raw(std::int64_t raw) {
+    return fixed_of<Key>::from_raw(static_cast<typename fixed_of<Key>::raw_type>(raw));
+  }
+  /// The integer of a number of at most 64 bits.
+  template <class X>
+  static constexpr std::int64_t raw(X x) {
+    return static_cast<std::int64_t>(x.raw());
+  }
+  template <int Key, Round R, Overflow O, class X>
+  static constexpr fixed_of<Key> narrowed(X x, bool* saturated) {
+    return narrow<fixed_of<Key>, R, O>(x, saturated);
+  }
+  template <int K, class X>
+  static constexpr auto scaled(X x) {
+    return scale_by_power_of_two<K>(x);
+  }
 };
 
 /// Real arithmetic in T (double, __float128): every number is a T and nothing is ever rounded off.
@@ -44,11 +64,11 @@ struct Real {
   using num = T;
 };
 
-/// x narrowed to the format Key in Fixed; x itself in Real.
+/// x narrowed to the format Key in fixed point; x itself in Real.
 template <class N, int Key, Round R, Overflow O, class X>
 constexpr typename N::template num<Key> quantise(X x, bool* saturated = nullptr) {
   if constexpr (N::is_fixed) {
-    return narrow<fixed_of<Key>, R, O>(x, saturated);
+    return N::template narrowed<Key, R, O>(x, saturated);
   } else {
     (void)saturated;
     return x;
@@ -61,7 +81,7 @@ template <class N, int Key>
 constexpr typename N::template num<Key> from_integer(std::int64_t v) {
   if constexpr (N::is_fixed) {
     static_assert(Format::from_key(Key).fraction == 0, "an integer format has no fraction");
-    return fixed_of<Key>::from_raw(static_cast<typename fixed_of<Key>::raw_type>(v));
+    return N::template from_raw<Key>(v);
   } else {
     return static_cast<typename N::template num<Key>>(v);
   }
@@ -71,7 +91,7 @@ constexpr typename N::template num<Key> from_integer(std::int64_t v) {
 template <class N, int K, class X>
 constexpr auto times_power_of_two(X x) {
   if constexpr (N::is_fixed) {
-    return scale_by_power_of_two<K>(x);
+    return N::template scaled<K>(x);
   } else {
     return static_cast<X>(x * static_cast<X>(1 << K));
   }

@@ -43,8 +43,9 @@ struct SceneChargeLaw {
   static Force outside(Distance distance, Strength strength, bool attract) {
     const bool minus = attract != (distance > Distance{});
     if constexpr (N::is_fixed) {
-      const std::int64_t q = charge_quotient(strength.raw(), distance.raw() * distance.raw());
-      return Force::from_raw(minus ? -q : q);
+      const std::int64_t d = N::raw(distance);
+      const std::int64_t q = charge_quotient(N::raw(strength), d * d);
+      return N::template from_raw<force_format.key()>(minus ? -q : q);
     } else {
       const Force endless = static_cast<Force>(1e30);
       const Force q = distance == Distance{} ? endless : strength / (distance * distance);
@@ -91,7 +92,7 @@ struct SceneChargeLaw {
   /// The whole counts of a position, downward.
   static Distance whole(Offset x) {
     if constexpr (N::is_fixed) {
-      return narrow<Distance, Round::truncate, Overflow::wrap>(x);
+      return quantise<N, D::f.scene_position.key(), Round::truncate, Overflow::wrap>(x);
     } else {
       const auto toward_zero = static_cast<Distance>(static_cast<std::int64_t>(x));
       return toward_zero > x ? toward_zero - 1 : toward_zero;

@@ -53,8 +53,8 @@ struct VelocityLaw {
       return quantise<N, D::f.velocity.key(), Round::truncate, Overflow::saturate>(
           times_power_of_two<N, D::velocity_shift>(travel), saturated);
     } else if constexpr (N::is_fixed) {
-      constexpr auto gain = fixed_of<D::base.velocity_gain.key()>::from_raw(D::velocity_gain);
-      return narrow<Velocity, Round::truncate, Overflow::saturate>(travel * gain, saturated);
+      return quantise<N, D::f.velocity.key(), Round::truncate, Overflow::saturate>(
+          travel * N::template from_raw<D::base.velocity_gain.key()>(D::velocity_gain), saturated);
     } else {
       return travel * static_cast<Velocity>(D::velocity_gain_rad_s);
     }

@@ -28,7 +28,7 @@ template <class D, class N>
 class Words {
  public:
   static constexpr int count = 512;
-  /// What is stored: the 32-bit word in Fixed, the value in the parameter's unit in Real.
+  /// What is stored: the 32-bit word in fixed point, the value in the parameter's unit in Real.
   using Stored = std::conditional_t<N::is_fixed, std::uint32_t,
                                     typename N::template num<Format{1, 31, 0}.key()>>;
 
@@ -46,14 +46,12 @@ class Words {
     }
   }
 
-  /// The parameter at `address` in format Key. In Fixed the low bits of the word that the format
-  /// has, as a block takes them off the bus.
+  /// The parameter at `address` in format Key. In fixed point the low bits of the word that the
+  /// format has, as a block takes them off the bus.
   template <int Key>
   typename N::template num<Key> get(int address) const {
     if constexpr (N::is_fixed) {
-      using To = fixed_of<Key>;
-      return To::from_raw(static_cast<typename To::raw_type>(
-          decode_word(Format::from_key(Key), stored_[index(address)])));
+      return N::template from_raw<Key>(decode_word(Format::from_key(Key), stored_[index(address)]));
     } else {
       return stored_[index(address)];
     }

@@ -45,7 +45,9 @@ double Ensemble::seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-void Ensemble::write(const Write& w) {
+void Ensemble::write(HostWrite w) {
+  w.clock = lead_->now();
+  if (log_ != nullptr) log_->push_back(w);
   lead_->write(w.address, w.data);
   pending_.push_back(w);
 }
@@ -56,7 +58,7 @@ void Ensemble::set_parameter(const std::string& name, double value) {
     throw std::invalid_argument("parameter \"" + name + "\" is unknown; `feltgate design " +
                                 design().name + "` lists them");
   }
-  write({info->address, static_cast<std::uint32_t>(quantise_parameter(*info, value)), value});
+  write({0, info->address, static_cast<std::uint32_t>(quantise_parameter(*info, value)), value});
 }
 
 void Ensemble::set_control(int scene, int mode, bool arm) {
@@ -66,15 +68,15 @@ void Ensemble::set_control(int scene, int mode, bool arm) {
   if (arm) word |= 1u << bits.arm;
   word |= static_cast<std::uint32_t>(scene) << bits.scene;
   word |= static_cast<std::uint32_t>(mode) << bits.mode;
-  write({design().control_address, word, 0});
+  write({0, design().control_address, word, 0});
 }
 
-void Ensemble::command(std::uint32_t bits) { write({design().command_address, bits, 0}); }
+void Ensemble::command(std::uint32_t bits) { write({0, design().command_address, bits, 0}); }
 
 void Ensemble::ride(const Snapshot& s) {
   // Writes that the core has carried out by now hold for the riders' tick too.
   for (; writes_applied_ < s.writes && !pending_.empty(); ++writes_applied_) {
-    const Write w = pending_.front();
+    const HostWrite w = pending_.front();
     pending_.pop_front();
     if (w.address == design().control_address) {
       applied_control_ = w.data;

@@ -34,6 +34,8 @@ class Ensemble {
   void set_parameter(const std::string& name, double value);
   void set_control(int scene, int mode, bool arm);
   void command(std::uint32_t bits);
+  /// Appends every later write to `log`.
+  void note_writes(std::vector<HostWrite>* log) { log_ = log; }
   void set_panel(const Panel& panel) { lead_->set_panel(panel); }
 
   /// Runs the core, then the riders on each new snapshot; `each` sees every snapshot.
@@ -62,11 +64,6 @@ class Ensemble {
   std::vector<EngineFigures> figures() const;
 
  private:
-  struct Write {
-    int address = 0;
-    std::uint32_t data = 0;
-    double value = 0;
-  };
   struct Rider {
     std::unique_ptr<RealChain> chain;
     EngineFigures figures;
@@ -74,14 +71,15 @@ class Ensemble {
 
   static double scaled(std::int64_t raw, Format f);
   static double seconds();
-  void write(const Write& w);
+  void write(HostWrite w);
   void ride(const Snapshot& s);
 
   EngineChoice choice_;
   std::unique_ptr<Engine> lead_;
   std::vector<Rider> riders_;
   const RealChain* quad_ = nullptr;
-  std::deque<Write> pending_;
+  std::deque<HostWrite> pending_;
+  std::vector<HostWrite>* log_ = nullptr;
   std::uint32_t applied_control_ = 0;
   std::int64_t writes_applied_ = 0;
   EngineFigures lead_figures_;

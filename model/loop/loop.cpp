@@ -57,6 +57,10 @@ class ScenarioRun {
           options_.record, traces::VectorHeader{d.name, d.clock_hz, {"A", "B", "Z"}},
           plant_.encoder().pins());
     }
+    if (options_.inputs != nullptr) {
+      *options_.inputs = {end, plant_.encoder().pins(), {}, {}};
+      core_.note_writes(&options_.inputs->writes);
+    }
     for (const auto& [name, value] : s_.parameters) core_.set_parameter(name, value);
     core_.set_control(scene_, mode_, false);
     std::size_t next_event = 0;
@@ -113,6 +117,10 @@ class ScenarioRun {
   void apply(const Event& e) {
     for (const auto& [name, value] : e.set) core_.set_parameter(name, value);
     if (e.stop) {
+      if (options_.inputs != nullptr) {
+        throw std::invalid_argument("scene " + s_.name +
+                                    " uses the stop pin, which recorded inputs do not hold");
+      }
       Panel panel;
       panel.stop = *e.stop;
       core_.set_panel(panel);
@@ -157,6 +165,10 @@ class ScenarioRun {
     hand_energy_j_ += o.hand_torque_nm * o.omega_rad_s * dt;
     absorbed_j_ -= last_.tau_ref_nm * o.omega_rad_s * dt;
     const auto& events = plant_.events();
+    if (options_.inputs != nullptr) {
+      auto& edges = options_.inputs->edges;
+      edges.insert(edges.end(), events.begin(), events.end());
+    }
     for (const EncoderEvent& e : events) {
       counter_.add(e);
       if (recorder_) recorder_->add(e);

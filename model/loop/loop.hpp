@@ -64,14 +64,31 @@ struct Row {
   int limits = 0, faults = 0;
 };
 
+/// A register write of the host: the word for fixed point, the value for real arithmetic.
+struct HostWrite {
+  Clock clock = 0;  ///< when it was queued; one is carried out per tick
+  int address = 0;
+  std::uint32_t data = 0;
+  double value = 0;  ///< in the parameter's unit; 0 for control and command words
+};
+
+/// All that reached the core during a run: enough to repeat it without the plant.
+struct RunInputs {
+  Clock clocks = 0;
+  EncoderPins pins;  ///< at reset
+  std::vector<EncoderEvent> edges;
+  std::vector<HostWrite> writes;
+};
+
 struct RunOptions {
   std::string design = "lever";
   std::string engine = "all";  ///< rtl, twin, double, quad or all
   std::uint64_t seed = 1;
-  std::string fst;                      ///< waveform of the clocks fst_from to fst_to; empty: none
-  Clock fst_from = 0, fst_to = -1;      ///< fst_to < 0: to the end
-  std::string record;                   ///< encoder edges as a vector file; empty: none
-  std::function<void(const Row&)> row;  ///< called once per tick; may be empty
+  std::string fst;                  ///< waveform of the clocks fst_from to fst_to; empty: none
+  Clock fst_from = 0, fst_to = -1;  ///< fst_to < 0: to the end
+  std::string record;               ///< encoder edges as a vector file; empty: none
+  RunInputs* inputs = nullptr;      ///< filled when given; a scene that uses the stop pin throws
+  std::function<void(const Row&)> row;        ///< called once per tick; may be empty
   std::function<void(double done)> progress;  ///< called now and then with 0..1; may be empty
 };
 

@@ -187,9 +187,12 @@ std::unique_ptr<Engine> make_design_engine(const std::string& kind) {
 
 template <class D>
 std::unique_ptr<RealChain> make_design_chain(const std::string& kind) {
-  if (kind == "double") return std::make_unique<Chain<D, double>>("double");
-  if (kind == "quad") return std::make_unique<Chain<D, Quad>>("quad");
-  throw std::invalid_argument("chain \"" + kind + "\" is unknown; choose double or quad");
+  if (kind == "fixed") return std::make_unique<Chain<D, Fixed>>("fixed");
+  if (kind == "float") return std::make_unique<Chain<D, Real<float>>>("float");
+  if (kind == "double") return std::make_unique<Chain<D, Real<double>>>("double");
+  if (kind == "quad") return std::make_unique<Chain<D, Real<Quad>>>("quad");
+  throw std::invalid_argument("chain \"" + kind +
+                              "\" is unknown; choose fixed, float, double or quad");
 }
 
 }  // namespace feltgate

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The real-arithmetic chain of one design: the laws of the twin, evaluated in double or in 113
-// bits. Documentation: docs/architecture.md
+// The chain of one design behind the interface RealChain, in a number policy N: Fixed, or Real<T>
+// with T float, double or 113 bits. Documentation: docs/engines.md
 #pragma once
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "reference/control_chain.hpp"
 
@@ -12,7 +16,11 @@ namespace feltgate {
 /// IEEE binary128 of the compiler: 113 bits of mantissa.
 __extension__ typedef __float128 Quad;
 
-template <class D, class T>
+/// Integer of a parameter for a value in its unit, rounded to nearest.
+/// Throws std::invalid_argument when it does not fit, with the range.
+std::int64_t quantise_parameter(const ParameterInfo& info, double value);
+
+template <class D, class N>
 class Chain : public RealChain {
  public:
   explicit Chain(const char* name) : name_(name) { reset(); }
@@ -21,28 +29,75 @@ class Chain : public RealChain {
   void reset() override {
     chain_.reset();
     out_ = {};
+    raw_ = {};
   }
 
   void set_parameter(int address, double value) override {
-    chain_.words().set_value(address, static_cast<T>(value));
+    if constexpr (N::is_fixed) {
+      chain_.words().set_raw(address, quantise_parameter(info(address), value));
+    } else {
+      chain_.words().set_value(address, static_cast<Stored>(value));
+    }
+  }
+
+  void set_word(int address, std::uint32_t word) override {
+    if constexpr (N::is_fixed) {
+      chain_.words().set_raw(address, word);
+    } else {
+      const Format f = info(address).format;
+      const auto integer = static_cast<double>(decode_word(f, word));
+      chain_.words().set_value(address, static_cast<Stored>(std::ldexp(integer, -f.fraction)));
+    }
   }
 
   void tick(const ChainIn& in) override {
     chain_.tick(in);
-    out_.velocity_rad_s = static_cast<double>(chain_.velocity());
-    out_.tau_hat_nm = static_cast<double>(chain_.tau_hat());
-    out_.tau_ref_nm = static_cast<double>(chain_.tau_ref());
-    out_.current_a = static_cast<double>(chain_.control().current);
-    out_.voltage_v = static_cast<double>(chain_.control().voltage);
-    out_.duty_clocks = static_cast<double>(chain_.control().duty);
+    if constexpr (N::is_fixed) {
+      raw_.velocity = N::raw(chain_.velocity());
+      raw_.tau_hat = static_cast<std::int32_t>(N::raw(chain_.tau_hat()));
+      raw_.tau_ref = static_cast<std::int32_t>(N::raw(chain_.tau_ref()));
+      raw_.current_ref = static_cast<std::int32_t>(N::raw(chain_.control().current));
+      raw_.voltage = static_cast<std::int32_t>(N::raw(chain_.control().voltage));
+      raw_.duty = static_cast<std::int16_t>(N::raw(chain_.control().duty));
+      raw_.limits = chain_.limits();
+    }
   }
 
-  const ChainOut& out() const override { return out_; }
+  const ChainOut& out() const override {
+    out_.velocity_rad_s = number(chain_.velocity());
+    out_.tau_hat_nm = number(chain_.tau_hat());
+    out_.tau_ref_nm = number(chain_.tau_ref());
+    out_.current_a = number(chain_.control().current);
+    out_.voltage_v = number(chain_.control().voltage);
+    out_.duty_clocks = number(chain_.control().duty);
+    return out_;
+  }
+
+  const ChainRaw* raw() const override { return N::is_fixed ? &raw_ : nullptr; }
 
  private:
+  using Stored = typename Words<D, N>::Stored;
+
+  template <class X>
+  static double number(X x) {
+    if constexpr (N::is_fixed) {
+      return x.to_double();
+    } else {
+      return static_cast<double>(x);
+    }
+  }
+  static const ParameterInfo& info(int address) {
+    for (const ParameterInfo& p : D::parameters) {
+      if (p.address == address) return p;
+    }
+    throw std::invalid_argument("design " + std::string(D::name) + " has no parameter at address " +
+                                std::to_string(address) + "; docs/registers.md lists them");
+  }
+
   const char* name_;
-  ControlChain<D, Real<T>> chain_;
-  ChainOut out_;
+  ControlChain<D, N> chain_;
+  mutable ChainOut out_;  // made from the chain when asked for
+  ChainRaw raw_;
 };
 
 }  // namespace feltgate

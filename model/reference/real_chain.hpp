@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The chain in real arithmetic, tick by tick: the same laws and the same sampled counts as the
-// core, so that the difference is quantisation and nothing else. Documentation:
-// docs/architecture.md
+// The chain tick by tick behind one interface, in fixed point and in real arithmetic: the same laws
+// and the same sampled counts as the core, so that the difference is quantisation and nothing
+// else. Documentation: docs/engines.md
 #pragma once
 
 #include <cstdint>
@@ -26,18 +26,34 @@ struct ChainOut {
   double duty_clocks = 0;
 };
 
+/// The integers of a tick in fixed point, as in a snapshot of the core.
+struct ChainRaw {
+  std::int64_t velocity = 0;
+  std::int32_t tau_hat = 0, tau_ref = 0, current_ref = 0, voltage = 0;
+  std::int16_t duty = 0;
+  std::uint8_t limits = 0;  ///< Snapshot::limits without gates_closed
+};
+
 class RealChain {
  public:
   virtual ~RealChain() = default;
   virtual const char* name() const = 0;
+  /// The state after a reset and the parameters of the design.
   virtual void reset() = 0;
-  /// Exact value of the parameter at `address`, in its unit.
+  /// Exact value of the parameter at `address`, in its unit; "fixed" rounds it to its word and
+  /// throws std::invalid_argument when it does not fit.
   virtual void set_parameter(int address, double value) = 0;
+  /// The same as a word of the parameter RAM: real arithmetic takes the value that the word means.
+  virtual void set_word(int address, std::uint32_t word) = 0;
   virtual void tick(const ChainIn& in) = 0;
+  /// Signals of the last tick in their units; "fixed" scales its integers, which is exact.
   virtual const ChainOut& out() const = 0;
+  /// Integers of the last tick; nullptr in real arithmetic.
+  virtual const ChainRaw* raw() const { return nullptr; }
 };
 
-/// Kinds: "double", "quad" (113 bits). Throws std::invalid_argument naming what there is.
+/// Kinds: "fixed" (the core's integers), "float", "double", "quad" (113 bits).
+/// Throws std::invalid_argument naming what there is.
 std::unique_ptr<RealChain> make_real_chain(const std::string& design, const std::string& kind);
 
 }  // namespace feltgate

@@ -8,12 +8,8 @@
 
 #include <cstdint>
 
+#include "feltgate/chain_tick.hpp"
 #include "feltgate/core_ports.hpp"
-#include "feltgate/dob.hpp"
-#include "feltgate/scenes.hpp"
-#include "feltgate/torque_control.hpp"
-#include "feltgate/velocity_n.hpp"
-#include "feltgate/words.hpp"
 
 namespace feltgate {
 
@@ -22,16 +18,12 @@ class CoreWave {
  public:
   /// The parameter words stay, as in the RTL.
   void reset() {
-    velocity_.reset();
-    dob_.reset();
-    scenes_.reset();
-    control_ = {};
-    scene_position_ = 0;
+    chain_.reset();
     sampled_travel_ = 0;
     flags_ = {};
   }
 
-  void set_word(int address, std::uint32_t word) { words_.set_raw(address, word); }
+  void set_word(int address, std::uint32_t word) { chain_.words().set_raw(address, word); }
 
   /// The laws at the clocks in which the RTL shows their results.
   void clock(int t, std::int32_t position, std::int16_t travel, Mode mode, CoreOut& out) {
@@ -39,56 +31,45 @@ class CoreWave {
       case 0:
         out.position = position;
         sampled_travel_ = travel;
-        scene_position_ =
-            narrow<fixed_of<D::f.scene_position.key()>, Round::truncate, Overflow::saturate>(
-                fixed_of<D::f.position.key()>::from_raw(position))
-                .raw();
         break;
       case 2:
-        velocity_.tick(sampled_travel_,
-                       words_.template get<D::P::velocity_a1.key()>(D::A::velocity_a1));
-        flags_.velocity = velocity_.out().saturated;
+        chain_.estimate(sampled_travel_);
+        flags_.velocity = chain_.limit_velocity();
         break;
       case 8:
-        out.velocity = velocity_.out().velocity;
+        out.velocity = chain_.velocity().raw();
         break;
       case 22:
-        dob_.tick(out.armed, fixed_of<D::f.current.key()>::from_raw(out.current_ref),
-                  velocity_.velocity(),
-                  words_.template get<D::P::torque_constant.key()>(D::A::torque_constant),
-                  words_.template get<D::P::inertia_gain.key()>(D::A::inertia_gain),
-                  words_.template get<D::P::observer_a1.key()>(D::A::observer_a1));
-        out.tau_hat = static_cast<std::int32_t>(dob_.out().tau_hat);
-        flags_.tau_hat = dob_.out().saturated;
+        chain_.observe(out.armed);
+        out.tau_hat = static_cast<std::int32_t>(chain_.tau_hat().raw());
+        flags_.tau_hat = chain_.limit_tau_hat();
         break;
       case 24:
         if (mode == Mode::voltage) {
           out.voltage = static_cast<std::int32_t>(
-              words_.template get<D::f.voltage.key()>(D::A::voltage_setpoint).raw());
+              chain_.words().template get<D::f.voltage.key()>(D::A::voltage_setpoint).raw());
         }
         break;
       case 25:
-        scenes_.tick(words_, out.armed, out.scene, static_cast<std::int32_t>(scene_position_),
-                     velocity_.velocity());
-        flags_.torque = scenes_.limit_torque();
+        chain_.render(out.armed, out.scene, out.position);
+        flags_.torque = chain_.limit_torque();
         break;
       case 27:
-        out.tau_ref = static_cast<std::int32_t>(scenes_.tau_ref().raw());
-        flags_.ramp = scenes_.limit_ramp();
+        out.tau_ref = static_cast<std::int32_t>(chain_.tau_ref().raw());
+        flags_.ramp = chain_.limit_ramp();
         break;
       case 33:
-        control_.tick(words_, out.armed, mode, scenes_.tau_ref(), dob_.tau_hat(),
-                      velocity_.velocity());
-        out.current_ref = static_cast<std::int32_t>(control_.current.raw());
-        flags_.control.current = control_.limit.current;
+        chain_.drive(out.armed, mode);
+        out.current_ref = static_cast<std::int32_t>(chain_.control().current.raw());
+        flags_.control.current = chain_.control().limit.current;
         break;
       case 39:
-        out.voltage = static_cast<std::int32_t>(control_.voltage.raw());
-        flags_.control.voltage = control_.limit.voltage;
+        out.voltage = static_cast<std::int32_t>(chain_.control().voltage.raw());
+        flags_.control.voltage = chain_.control().limit.voltage;
         break;
       case 45:
-        out.duty = static_cast<std::int16_t>(control_.duty.raw());
-        flags_.control.duty = control_.limit.duty;
+        out.duty = static_cast<std::int16_t>(chain_.control().duty.raw());
+        flags_.control.duty = chain_.control().limit.duty;
         break;
       default:
         break;
@@ -96,7 +77,7 @@ class CoreWave {
   }
 
   /// The region of the voltage gain that the last torque reference fell into.
-  bool region_high() const { return control_.region_high; }
+  bool region_high() const { return chain_.control().region_high; }
   /// Free-running count that the running wave started from.
   std::int16_t sampled_travel() const { return sampled_travel_; }
 
@@ -114,12 +95,7 @@ class CoreWave {
     ControlLimits control;
   };
 
-  VelocityN<D> velocity_;
-  Dob<D> dob_;
-  Scenes<D> scenes_;
-  TorqueControlStep<D, Fixed> control_;
-  Words<D, Fixed> words_;
-  std::int64_t scene_position_ = 0;
+  ChainTick<D, Fixed> chain_;
   std::int16_t sampled_travel_ = 0;
   Flags flags_;
 };

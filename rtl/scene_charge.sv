@@ -83,10 +83,7 @@ module scene_charge #(
     else busy_q <= stage_q[5] || (busy_q && !stage_q[22]);
   end
   // The next bit of the strength, chosen a clock ahead.
-  always_comb begin
-    bring = 1'b0;
-    for (int k = 0; k < 17; k++) bring = bring | (rest_q[16-k] & stage_q[5+k]);
-  end
+  assign bring = (rest_q & stage_q[21:5]) != '0;
   always_ff @(posedge clk_i) bring_q <= bring;
   assign difference   = {1'b0, remainder_q, bring_q} - {1'b0, square_q};
   assign fits         = !difference[32] && !huge_q && !(Defect == 2 && square_q == '0);
@@ -94,7 +91,9 @@ module scene_charge #(
   always_ff @(posedge clk_i) begin
     if (stage_q[0]) preset_q <= param_i[31:17];
     else preset_q <= '0;
-    if (stage_q[0]) rest_q <= param_i[16:0];
+    if (stage_q[0]) begin
+      for (int k = 0; k < 17; k++) rest_q[k] <= param_i[16-k];  // the highest comes first
+    end
     if (stage_q[5]) square_q <= product_i[31:0];
     if (stage_q[5]) huge_q <= product_i[34:32] != '0;
     if (stage_q[0]) remainder_q <= '0;
@@ -117,10 +116,8 @@ module scene_charge #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) outside_q <= '0;
     else if (shift) begin
-      outside_q[0] <= keep && quotient_bit;
-      for (int k = 0; k < 16; k++) begin
-        outside_q[k+1] <= keep && ((quotient_bit && minus) ? !quotient_q[k] : outside_q[k]);
-      end
+      if (!keep) outside_q <= '0;
+      else outside_q <= {(quotient_bit && minus) ? ~quotient_q : outside_q[ForceW-2:0], quotient_bit};
     end
   end
 
@@ -151,10 +148,12 @@ module scene_charge #(
       part_q <= attract_i ? PartW'(product_i >>> (AttractDrop - 1))
                           : PartW'(product_i >>> (RepelDrop - 1));
     end
-    rounded_q   <= (part_q[ForceW+1:1] ^ {(ForceW + 1) {invert}}) +
-                   (ForceW + 1)'({1'b0, part_q[0] != invert});
-    part_over_q <= part_q[PartW-1:ForceW+1] != {(PartW - ForceW - 1) {part_q[PartW-1]}};
-    negative_q  <= part_q[PartW-1] != invert;
+    if (stage_q[9]) begin
+      rounded_q   <= (part_q[ForceW+1:1] ^ {(ForceW + 1) {invert}}) +
+                     (ForceW + 1)'({1'b0, part_q[0] != invert});
+      part_over_q <= part_q[PartW-1:ForceW+1] != {(PartW - ForceW - 1) {part_q[PartW-1]}};
+      negative_q  <= part_q[PartW-1] != invert;
+    end
   end
 
   // Saturation, one end per clock: clearing and setting registers costs no logic.

@@ -160,6 +160,7 @@ class ScenarioRun {
     plant_.advance(b, clocks);
     last_clocks_ = clocks;
     const plant::Observables& o = plant_.observables();
+    if (options_.plant_step) options_.plant_step(clocks, o);
     mean_.add(clocks, o.motor_torque_mean_nm);
     const double dt = static_cast<double>(clocks) / static_cast<double>(core_.design().clock_hz);
     hand_energy_j_ += o.hand_torque_nm * o.omega_rad_s * dt;
@@ -231,6 +232,8 @@ class ScenarioRun {
     out.clocks = clocks;
     out.ticks = ticks_;
     out.simulated_s = static_cast<double>(clocks) / static_cast<double>(d.clock_hz);
+    out.plant_states = plant_.state_size();
+    out.evaluations = plant_.evaluations();
     out.lock_step = choice_.lead == "lockstep";
     out.mismatches = core_.lead().mismatches();
     out.first_mismatch = core_.lead().first_mismatch();

@@ -18,6 +18,10 @@
 
 namespace feltgate {
 
+namespace plant {
+struct Observables;
+}
+
 struct StepFigures {
   double tau_ref_nm = 0;
   StepResponse tau_hat;  ///< of the observed torque
@@ -53,6 +57,8 @@ struct RunResult {
   int expectations_checked = 0;
   std::vector<std::string> broken;  ///< expectations that do not hold, one line each
   double simulated_s = 0;
+  std::size_t plant_states = 0;    ///< continuous states of the plant at the end
+  plant::Evaluations evaluations;  ///< of the plant's effects
 };
 
 /// One row per tick, for CSV and pictures.
@@ -88,7 +94,9 @@ struct RunOptions {
   Clock fst_from = 0, fst_to = -1;  ///< fst_to < 0: to the end
   std::string record;               ///< encoder edges as a vector file; empty: none
   RunInputs* inputs = nullptr;      ///< filled when given; a scene that uses the stop pin throws
-  std::function<void(const Row&)> row;        ///< called once per tick; may be empty
+  std::function<void(const Row&)> row;  ///< called once per tick; may be empty
+  /// called after each step of the plant, which took `clocks`; may be empty
+  std::function<void(Clock clocks, const plant::Observables&)> plant_step;
   std::function<void(double done)> progress;  ///< called now and then with 0..1; may be empty
 };
 

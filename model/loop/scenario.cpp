@@ -99,6 +99,20 @@ Scenario read_scenario(const std::string& path) {
   return s;
 }
 
+std::vector<std::string> effects_off(const Scenario& scenario) {
+  const auto& phases = scenario.hand.phases;
+  const bool mass = std::any_of(phases.begin(), phases.end(), [](const plant::HandPhase& p) {
+    return p.kind == plant::HandPhase::Kind::kImpedance;
+  });
+  std::vector<std::string> off;
+  if (!scenario.switched) off.emplace_back("gates");
+  for (const plant::EffectName& e : plant::effect_names) {
+    if (e.flag == &plant::Effects::hand_dynamics && !mass) continue;
+    if (!(scenario.effects.*e.flag)) off.emplace_back(e.name);
+  }
+  return off;
+}
+
 void resolve_effects(Scenario& scenario, const plant::Effects& of_plant) {
   const toml::table root = config::parse_toml_file(scenario.path);
   config::TomlReader top(root, scenario.path, "the scene");

@@ -53,6 +53,10 @@ struct Scenario {
 /// Reads vectors/scenes/NAME.toml. Throws config::ConfigError: "file:line: what; mend".
 Scenario read_scenario(const std::string& path);
 
+/// What the plant of a scene leaves out, by the names of the file: the effects that are off,
+/// "gates" where the bridge is averaged; hand_dynamics only where the scene has a hand with a mass.
+std::vector<std::string> effects_off(const Scenario& scenario);
+
 /// Fills scenario.effects: the plant's defaults with the scene's overrides.
 void resolve_effects(Scenario& scenario, const plant::Effects& of_plant);
 

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plant/random.hpp"
+
 namespace feltgate::plant {
 namespace {
 
@@ -17,25 +19,6 @@ std::int64_t wrapped(std::int64_t value, std::int64_t modulus) {
   return rest < 0 ? rest + modulus : rest;
 }
 
-// SplitMix64 (Steele, Lea, Flood 2014): the same numbers with every compiler and library.
-std::uint64_t next_random(std::uint64_t& state) {
-  state += 0x9e3779b97f4a7c15ULL;
-  std::uint64_t z = state;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return z ^ (z >> 31);
-}
-
-double uniform(std::uint64_t& state) {
-  return (static_cast<double>(next_random(state) >> 11) + 0.5) * 0x1p-53;
-}
-
-// Box-Muller, cut at 4 sigma so that edges keep their order.
-double gaussian(std::uint64_t& state) {
-  const double radius = std::sqrt(-2.0 * std::log(uniform(state)));
-  return std::clamp(radius * std::cos(kTwoPi * uniform(state)), -4.0, 4.0);
-}
-
 }  // namespace
 
 Encoder::Encoder(const EncoderParameters& parameters, bool imperfect, double start_rad)
@@ -43,9 +26,9 @@ Encoder::Encoder(const EncoderParameters& parameters, bool imperfect, double sta
       count_rad_(kTwoPi / static_cast<double>(counts_per_rev_)),
       theta_rad_(start_rad) {
   if (imperfect) {
-    std::uint64_t state = parameters.seed;
+    Random random(parameters.seed);
     for (int line = 0; line < parameters.lines; ++line) {
-      const double jitter = parameters.line_jitter_counts_rms * gaussian(state);
+      const double jitter = parameters.line_jitter_counts_rms * random.gaussian();
       for (const double offset : parameters.edge_offset_counts) {
         offset_counts_.push_back(offset + jitter);
       }

@@ -11,9 +11,12 @@ namespace feltgate::plant {
 
 using Kind = HandPhase::Kind;
 
-HandRun::HandRun(Hand hand, double radius_m, double clock_hz)
+HandRun::HandRun(Hand hand, double radius_m, double clock_hz, bool dynamics)
     : hand_(std::move(hand)), radius_m_(radius_m), clock_hz_(clock_hz) {
   if (hand_.phases.empty()) hand_.phases.emplace_back();
+  for (HandPhase& phase : hand_.phases) {
+    if (phase.kind == Kind::kImpedance && !dynamics) phase.kind = Kind::kPrescribed;
+  }
 }
 
 Clock HandRun::end_of(std::size_t index) const {

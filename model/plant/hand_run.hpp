@@ -14,7 +14,8 @@ namespace feltgate::plant {
 
 class HandRun {
  public:
-  HandRun(Hand hand, double radius_m, double clock_hz);
+  /// Without `dynamics` an impedance hand imposes its motion on the lever.
+  HandRun(Hand hand, double radius_m, double clock_hz, bool dynamics = true);
 
   /// Prepares the step of dt_s from clock `now` with the lever at `lever`. A phase begins with the
   /// first step at or after its time; profiles run from the time itself, so nothing drifts.

@@ -59,7 +59,23 @@ struct Effects {
   bool supply_limit = false;  ///< current limit of the source, bus voltage as a state
   bool dead_time = true;      ///< what dead time takes away in averaged mode
   bool encoder_imperfect = false;
+  bool hand_dynamics = true;  ///< off: an impedance hand imposes its motion, without mass or grip
 };
+
+/// Every effect by the name that files use.
+struct EffectName {
+  const char* name;
+  bool Effects::*flag;
+};
+inline constexpr EffectName effect_names[] = {{"inductance", &Effects::inductance},
+                                              {"back_emf", &Effects::back_emf},
+                                              {"dead_voltage", &Effects::dead_voltage},
+                                              {"lugre", &Effects::lugre},
+                                              {"viscous", &Effects::viscous},
+                                              {"supply_limit", &Effects::supply_limit},
+                                              {"dead_time", &Effects::dead_time},
+                                              {"encoder_imperfect", &Effects::encoder_imperfect},
+                                              {"hand_dynamics", &Effects::hand_dynamics}};
 
 struct Parameters {
   std::string name;
@@ -82,6 +98,7 @@ struct Evaluations {
   std::uint64_t dead_time = 0;
   std::uint64_t encoder_imperfect = 0;  ///< edges placed with an offset
   std::uint64_t hand = 0;
+  std::uint64_t hand_dynamics = 0;  ///< steps of a hand with a mass of its own
 };
 
 }  // namespace feltgate::plant

@@ -21,7 +21,8 @@ Plant::Plant(const Parameters& parameters, const Effects& effects, const Drive& 
       lugre_(parameters.lugre),
       supply_(parameters.supply),
       mechanics_(parameters.lever.inertia_kg_m2),
-      hand_(hand, hand.radius_m.value_or(parameters.lever.radius_m), drive.clock_hz),
+      hand_(hand, hand.radius_m.value_or(parameters.lever.radius_m), drive.clock_hz,
+            effects.hand_dynamics),
       shaft_{hand.initial_rad(), 0.0},
       encoder_(parameters.encoder, effects.encoder_imperfect, hand.initial_rad()) {
   events_.reserve(16);
@@ -90,6 +91,7 @@ void Plant::advance_shaft(double motor_nm, double friction_nm, double omega_mid_
   torque.constant_nm += motor_nm - friction_nm;
   torque.omega_nm_s_rad -= smooth_nm_s_rad_;
   if (hand_.has_mass()) {
+    ++evaluations_.hand_dynamics;
     mechanics_.step(shaft_, hand_.mass(), torque, hand_.dynamics(), dt_s_);
   } else {
     mechanics_.step(shaft_, torque, dt_s_);

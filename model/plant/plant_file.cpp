@@ -80,17 +80,11 @@ EncoderParameters read_encoder(config::TomlReader table) {
 // Without a base every flag is required.
 Effects read_flags(config::TomlReader table, const Effects* base) {
   Effects effects = base != nullptr ? *base : Effects{};
-  const auto read = [&](const char* key, bool& flag) {
-    flag = base != nullptr ? table.flag_or(key, flag) : table.flag(key);
-  };
-  read("inductance", effects.inductance);
-  read("back_emf", effects.back_emf);
-  read("dead_voltage", effects.dead_voltage);
-  read("lugre", effects.lugre);
-  read("viscous", effects.viscous);
-  read("supply_limit", effects.supply_limit);
-  read("dead_time", effects.dead_time);
-  read("encoder_imperfect", effects.encoder_imperfect);
+  for (const EffectName& e : effect_names) {
+    // The dynamics of a hand belong to scenes; a plant file need not name them.
+    const bool optional = base != nullptr || e.flag == &Effects::hand_dynamics;
+    effects.*e.flag = optional ? table.flag_or(e.name, effects.*e.flag) : table.flag(e.name);
+  }
   table.finish();
   return effects;
 }

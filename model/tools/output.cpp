@@ -107,6 +107,8 @@ std::string run_json(const RunResult& r, const RunLabels& labels) {
                    {"reversals", r.position.reversals}};
   for (const EngineFigures& e : r.engines) j["engines"][e.name] = engine_json(e, r.simulated_s);
   if (labels.closed_loop) {
+    j["plant_step_clocks"] = labels.step_clocks;
+    j["effects_off"] = labels.effects_off;
     j["figures"] = r.figures;
     j["expectations"] = {{"checked", labels.expectations}, {"broken", r.broken}};
   }
@@ -124,6 +126,11 @@ std::string run_text(const RunResult& r, const RunLabels& labels) {
   if (r.lock_step) s << "; mismatches between RTL and twin: " << r.mismatches;
   s << "\nencoder: " << r.position.steps << " steps, " << r.position.illegal << " illegal, "
     << r.position.reversals << " reversals\n";
+  if (labels.closed_loop) {
+    s << "plant: steps of " << labels.step_clocks << " clocks; effects off:";
+    for (const std::string& name : labels.effects_off) s << " " << name;
+    s << (labels.effects_off.empty() ? " none\n" : "\n");
+  }
   if (!r.first_mismatch.empty()) s << "first mismatch: " << r.first_mismatch << "\n";
   std::snprintf(line, sizeof line, "\n%-8s %14s %12s %12s %12s %12s %12s %10s\n", "engine",
                 "velocity max", "rms rad/s", "tau_hat max", "rms Nm", "torque max", "rms Nm",

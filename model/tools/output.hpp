@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "loop/loop.hpp"
 
@@ -50,6 +51,8 @@ struct RunLabels {
   std::string plant, probes;
   bool closed_loop = false;
   int expectations = 0;
+  int step_clocks = 0;                        ///< of the plant
+  std::vector<std::string> effects_off = {};  ///< of the plant
 };
 
 /// The JSON object, pretty-printed.

@@ -72,7 +72,13 @@ int run(const RunArguments& a) {
   options.progress = [&progress](double done) { progress.update(done); };
   const RunResult result = run_scenario(scenario, plant, options);
 
-  RunLabels labels{"scene", plant.name, "", true, result.expectations_checked};
+  RunLabels labels{"scene",
+                   plant.name,
+                   "",
+                   true,
+                   result.expectations_checked,
+                   scenario.step_clocks,
+                   effects_off(scenario)};
   if (csv) csv->commit();
   if (json) {
     std::fputs(run_json(result, labels).c_str(), json->handle());

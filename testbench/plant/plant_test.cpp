@@ -243,6 +243,14 @@ TEST_CASE("what is off is neither evaluated nor a state", "[plant]") {
   CHECK(locked.state_size() == 0);
   Plant held(p, kNoEffects, Drive{}, hand_of(HandPhase::Kind::kImpedance));
   CHECK(held.state_size() == 4);
+  run(held, Bridge::averaged(0.2), 1e-3);
+  CHECK(held.evaluations().hand_dynamics == 2000);
+  Effects stiff = kNoEffects;
+  stiff.hand_dynamics = false;
+  Plant imposed(p, stiff, Drive{}, hand_of(HandPhase::Kind::kImpedance));
+  CHECK(imposed.state_size() == 0);
+  run(imposed, Bridge::averaged(0.2), 1e-3);
+  CHECK(imposed.evaluations().hand_dynamics == 0);
   Plant full(p, Effects{true, true, true, true, true, true, true, true}, Drive{},
              hand_of(HandPhase::Kind::kImpedance));
   CHECK(full.state_size() == 7);

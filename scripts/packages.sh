@@ -25,6 +25,7 @@ PACKAGES=(
   "test|yosys|checks that the RTL is synthesizable"
   "synth|python3-venv|holds the pinned Yosys and nextpnr of scripts/requirements.txt"
   "synth|ca-certificates|lets pip fetch them over https"
+  "dask|python3-distributed|sends the chunks of a sweep to many machines"
 )
 
 # Missing ones among the named packages, one a line.

@@ -84,6 +84,7 @@ void add_scripts(CLI::App& app, int* exit_code) {
     const char* about;
   } scripts[] = {{"demo", "the main job: every scene and recording, one HTML report"},
                  {"figures", "the paper's figures redrawn from the RTL"},
+                 {"explore", "sweeps over designs, their Pareto front as a page"},
                  {"synth", "area and speed of the RTL on ECP5 and Cyclone IV E"}};
   for (const auto& s : scripts) {
     CLI::App* sub = app.add_subcommand(s.name, s.about);

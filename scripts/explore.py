@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Sweeps over design points: error, delay, area and speed of each, the front, a page.
+
+Documentation: docs/explore.md
+"""
+
+import argparse
+import importlib
+import os
+import signal
+import sys
+from pathlib import Path
+
+from exploring import chunks, engines, meter, space
+from exploring import plan as plans
+
+VERBS = ("plan", "run", "merge", "page", "point")
+EXAMPLES = """examples:
+  feltgate explore smoke                          plan, run, merge, route, page in one go
+  feltgate explore plan trade -o /data/trade      then, here or on many machines:
+  feltgate explore run /data/trade --chunk 3/16   one of 16 parts; --chunk left out: all of them
+  feltgate explore run /data/trade --engine dask --scheduler tcp://head:8786
+  feltgate explore merge /data/trade              refuses gaps and duplicates
+  feltgate explore page /data/trade               explore.html: hover a dot, get its design file
+  feltgate explore point my_point.toml            one design point alone
+
+A run that was stopped is continued by the same command. Exit status: 0 done, 1 a point's RTL
+differs from its twin, 2 wrong use.
+"""
+
+
+def root():
+    return Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[1]))
+
+
+def find_space(name):
+    shipped = root() / "vectors/spaces" / f"{name}.toml"
+    return shipped if "/" not in name and shipped.is_file() else Path(name)
+
+
+def default_folder(name):
+    build = Path(os.environ.get("FELTGATE_BUILD", root() / "build"))
+    return build / "explore" / Path(name).stem
+
+
+def add_engine(parser):
+    parser.add_argument("--jobs", type=int, metavar="N", help="chunks at a time; default: all cores")
+    parser.add_argument("--engine", choices=("local", "dask"), default="local")
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="of dask; default: a local cluster")
+
+
+def parser_of_verbs():
+    parser = argparse.ArgumentParser(
+        prog="feltgate explore",
+        description=__doc__.splitlines()[0],
+        epilog=EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    verbs = parser.add_subparsers(dest="verb", required=True, metavar="SPACE.toml | VERB")
+    everything = verbs.add_parser("all", help="SPACE.toml alone: all of the below, one after another")
+    make = verbs.add_parser("plan", help="write the points of a space into a folder")
+    for one in (everything, make):
+        one.add_argument("space", help="a file, or a name in vectors/spaces")
+        one.add_argument("-o", "--out", type=Path, metavar="DIR", help="default: explore/ in build")
+    run = verbs.add_parser("run", help="evaluate a plan, or one chunk of it")
+    run.add_argument("--chunk", metavar="I/N", help="only part I of N; default: all, in parallel")
+    merge = verbs.add_parser("merge", help="join the chunks into points.jsonl")
+    page = verbs.add_parser("page", help="write explore.html")
+    for one in (run, merge, page):
+        one.add_argument("folder", type=Path, metavar="DIR")
+    for one in (everything, run):
+        add_engine(one)
+    verbs.add_parser("point", help="evaluate one design point", add_help=False)
+    return parser
+
+
+def run_all(plan, options):
+    sources = plans.sources_digest(root(), {point["base"] for point in plan.points})
+    jobs = options.jobs or os.cpu_count() or 1
+    count = max(1, len(plan.groups()))
+    with meter.Meter(plan.folder, len(plan.points)) as shown:
+        if options.engine == "dask":
+            engines.dask(plan, count, sources, options.scheduler, jobs, shown)
+        else:
+            engines.local(plan, count, sources, jobs, shown)
+
+
+def run_chunk(plan, text):
+    index, count = plans.parse_chunk(text)
+    sources = plans.sources_digest(root(), {point["base"] for point in plan.points})
+    parent = os.environ.get("FELTGATE_EXPLORE_PARENT")
+    print(chunks.run(plan, index, count, sources, int(parent) if parent else None))
+
+
+def make_plan(options):
+    found = space.read_space(root(), find_space(options.space))
+    plan = plans.make(found, options.out or default_folder(options.space))
+    print(
+        f"explore: {len(plan.points)} points of {len(plan.groups())} structures in {plan.folder}",
+        file=sys.stderr,
+    )
+    return plan
+
+
+def act(options):
+    if options.verb == "plan":
+        print(make_plan(options).folder)
+        return 0
+    plan = make_plan(options) if options.verb == "all" else plans.load(options.folder)
+    if options.verb == "run" and options.chunk:
+        run_chunk(plan, options.chunk)
+        return 0
+    if options.verb in ("run", "all"):
+        run_all(plan, options)
+    if options.verb in ("merge", "all"):
+        print(chunks.merge(plan))
+    return 0
+
+
+def end_on_terminate():
+    """SIGTERM ends as Ctrl-C does, so that chunks under way are stopped."""
+    signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
+
+
+def main():
+    words = sys.argv[1:]
+    if words[:1] == ["point"]:
+        return importlib.import_module("exploring.point").main(words[1:])
+    if words and words[0] not in VERBS and not words[0].startswith("-"):
+        words.insert(0, "all")
+    options = parser_of_verbs().parse_args(words)
+    end_on_terminate()
+    try:
+        return act(options)
+    except (space.SpaceError, plans.PlanError, chunks.ChunkError, engines.EngineError) as error:
+        print(f"explore: {error}", file=sys.stderr)
+    except (chunks.Orphaned, OSError) as error:
+        print(f"explore: {error}", file=sys.stderr)
+    except KeyboardInterrupt:
+        print("explore: interrupted; the same command goes on from here", file=sys.stderr)
+        return 130
+    return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -45,7 +45,13 @@ module dob #(
   logic signed [        W-1:0] input_q, state;
   logic signed [ObservedW-1:0] observed_q;
   logic signed [ RoundedW-1:0] rounded_q;
+  logic                        beyond_half, up;
   assign inertia = InertiaW'(product_i >>> InertiaDrop);
+  localparam logic [ObservedW-1:0] Below = (ObservedW'(1) << (TorqueDrop - 1)) - ObservedW'(1);
+  assign beyond_half = (observed_q & Below) != '0;
+  assign up = (feltgate_pkg::ROUNDING == 0 ||
+               (feltgate_pkg::ROUNDING == 2 && (beyond_half || observed_q[TorqueDrop]))) &&
+              Defect != 5;
 
   always_ff @(posedge clk_i) begin
     if (valid_i) drive_q <= (armed_i || Defect == 3) ? DriveW'(product_i >>> DriveDrop) : '0;
@@ -57,10 +63,10 @@ module dob #(
       observed_q <= (Defect == 1) ? ObservedW'(state) + ObservedW'(inertia_q)
                                   : ObservedW'(state) - ObservedW'(inertia_q);
     end
-    // Half up: the bit below the last one is the carry.
+    // The bit below the last one is the carry, as far as the design rounds up.
     if (stage_q[8]) begin
       rounded_q <= RoundedW'(observed_q >>> TorqueDrop) +
-                   RoundedW'({1'b0, observed_q[TorqueDrop-1] && Defect != 5});
+                   RoundedW'({1'b0, observed_q[TorqueDrop-1] && up});
     end
   end
 

@@ -2,8 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The whole core: encoder pins to gate pins. Once per tick a wave runs through quad_decoder,
-// velocity_n, dob, scenes and torque_control; all of them share one multiplier and one parameter
-// bus, each in its own clock of the wave. Sampled position (clock 0) to duty register: 46 clocks.
+// velocity_n, dob, scenes and torque_control; all of them share one parameter bus and, unless the
+// design gives each its own, one multiplier, each in its own clock of the wave. Sampled position
+// (clock 0) to duty register: 46 clocks.
 // docs/blocks/feltgate_core.md, docs/architecture.md
 
 `default_nettype none
@@ -66,8 +67,9 @@ module feltgate_core #(
   logic [               49:0] wave;
   logic [               31:0] param;
   logic signed [OperandW-1:0] operand;
-  logic signed [        17:0] factor;
-  logic signed [ProductW-1:0] product;
+  // Products as the blocks see them: one and the same where they share the multiplier.
+  logic signed [ProductW-1:0] velocity_product, dob_product, scene_product, control_product;
+  logic signed [ProductW-1:0] supervisor_product;
 
   // What the registers and the panel ask for.
   logic [14:0] control;
@@ -125,13 +127,6 @@ module feltgate_core #(
       .snap_data_i(operand[31:0])
   );
 
-  mult u_mult (
-      .clk_i(clk_i),
-      .a_i(operand),
-      .b_i(factor),
-      .product_o(product)
-  );
-
   // Encoder to position; the sample that the wave carries.
   logic signed [31:0] position, index_position;
   logic signed [feltgate_pkg::TRAVEL_BITS-1:0] travel;
@@ -181,7 +176,7 @@ module feltgate_core #(
       .valid_i(wave[0]),
       .travel_i(travel),
       .operand_o(velocity_operand),
-      .product_i(product),
+      .product_i(velocity_product),
       .velocity_o(velocity_o),
       .saturated_o(velocity_saturated)
   );
@@ -194,7 +189,7 @@ module feltgate_core #(
       .rst_ni(rst_ni),
       .armed_i(armed_o),
       .valid_i(wave[12]),
-      .product_i(product),
+      .product_i(dob_product),
       .operand_o(dob_operand),
       .tau_hat_o(tau_hat),
       .saturated_o(tau_hat_saturated)
@@ -211,7 +206,7 @@ module feltgate_core #(
       .start_i(wave[1]),
       .position_i(scene_position_q),
       .param_i(param),
-      .product_i(product),
+      .product_i(scene_product),
       .operand_o(scene_operand),
       .square_o(scene_square),
       .tau_ref_o(tau_ref_o),
@@ -228,7 +223,7 @@ module feltgate_core #(
       .mode_i(mode),
       .wave_i(wave),
       .param_i(param),
-      .product_i(product),
+      .product_i(control_product),
       .tau_ref_i(tau_ref_o),
       .region_high_o(region_high),
       .operand_o(control_operand),
@@ -255,7 +250,7 @@ module feltgate_core #(
       .current_ref_i(current_ref_o),
       .wave_i(wave),
       .param_i(param),
-      .product_i(product),
+      .product_i(supervisor_product),
       .current_estimate_o(current_estimate),
       .armed_o(armed_o),
       .gates_enable_o(gates_enable),
@@ -339,7 +334,13 @@ module feltgate_core #(
     end
   end
 
-  localparam int NarrowW = 24;  // holds each of these
+  function automatic int wider(input int a, input int b);
+    wider = (a > b) ? a : b;
+  endfunction
+  // Holds each of these.
+  localparam int NarrowW = wider(
+      wider(feltgate_pkg::CURRENT_W, feltgate_pkg::TORQUE_W),
+      wider(wider(feltgate_pkg::VOLTAGE_W, feltgate_pkg::CURRENT_ESTIMATE_W), SceneW));
   logic signed [NarrowW-1:0] narrow;
   assign narrow =
       ({NarrowW{take_square_q && Defect != 2}} &
@@ -363,12 +364,55 @@ module feltgate_core #(
       ({OperandW{take_index_q}} & OperandW'(index_position)) |
       ({OperandW{take_errors_q}} & OperandW'($signed({rejected_count, error_count})));
 
-  // A square takes its own operand as the factor, past the operand bus; a coefficient has no sign
-  // but in slot 23.
-  assign factor =
-      ({18{take_square_q}} & scene_operand[feltgate_pkg::SCENE_OFFSET_F+:18]) |
-      ({18{take_estimate_q}} & 18'(current_estimate)) |
-      ({18{!take_square_q && !take_estimate_q}} & {param[17] && take_tau_hat_q, param[16:0]});
+  // A coefficient has no sign but in slot 23.
+  localparam int CoefficientW = feltgate_pkg::COEFFICIENT_BITS;
+  logic signed [17:0] coefficient;
+  assign coefficient = 18'($signed({param[CoefficientW] && take_tau_hat_q,
+                                    param[CoefficientW-1:0]}));
+  // A square takes its own operand as the factor, past the operand bus.
+  logic signed [17:0] scene_factor, supervisor_factor;
+  assign scene_factor = scene_operand[feltgate_pkg::SCENE_OFFSET_F+:18];
+  assign supervisor_factor = 18'(current_estimate);
+  if (feltgate_pkg::PARALLEL_MULTIPLIERS == 0) begin : gen_shared
+    logic signed [        17:0] factor;
+    logic signed [ProductW-1:0] product;
+    assign factor = ({18{take_square_q}} & scene_factor) |
+                    ({18{take_estimate_q}} & supervisor_factor) |
+                    ({18{!take_square_q && !take_estimate_q}} & coefficient);
+    mult u_mult (.clk_i(clk_i), .a_i(operand), .b_i(factor), .product_o(product));
+    assign velocity_product   = product;
+    assign dob_product        = product;
+    assign scene_product      = product;
+    assign control_product    = product;
+    assign supervisor_product = product;
+  end else begin : gen_parallel
+    // Each block its own, in the same clocks: no operand passes through a mux of the whole core.
+    logic signed [OperandW-1:0] of_dob, of_scene, of_control, of_supervisor;
+    assign of_dob = ({OperandW{take_current_q}} & OperandW'(current_ref_o)) |
+                    ({OperandW{take_velocity_q}} & OperandW'(velocity_o)) |
+                    ({OperandW{take_dob_q}} & OperandW'(dob_operand));
+    assign of_scene = take_velocity_q ? OperandW'(velocity_o) :
+                      take_square_q   ? OperandW'(scene_factor) : OperandW'(scene_operand);
+    assign of_control = ({OperandW{take_velocity_q}} & OperandW'(velocity_o)) |
+                        OperandW'(({NarrowW{take_tau_hat_q}} & NarrowW'(tau_hat_bus)) |
+                                  ({NarrowW{take_voltage_q}} & NarrowW'(voltage_o)) |
+                                  ({NarrowW{take_tau_ref_q}} & NarrowW'(tau_ref_o)) |
+                                  ({NarrowW{take_current_q}} & NarrowW'(current_ref_o)) |
+                                  ({NarrowW{take_control_q}} & NarrowW'(control_operand)));
+    assign of_supervisor = take_velocity_q ? OperandW'(velocity_o) :
+                           OperandW'(take_estimate_q ? NarrowW'(current_estimate)
+                                                     : NarrowW'(voltage_o));
+    mult u_velocity (.clk_i(clk_i), .a_i(OperandW'(velocity_operand)), .b_i(coefficient),
+                     .product_o(velocity_product));
+    mult u_dob (.clk_i(clk_i), .a_i(of_dob), .b_i(coefficient), .product_o(dob_product));
+    mult u_scene (.clk_i(clk_i), .a_i(of_scene), .b_i(take_square_q ? scene_factor : coefficient),
+                  .product_o(scene_product));
+    mult u_control (.clk_i(clk_i), .a_i(of_control), .b_i(coefficient),
+                    .product_o(control_product));
+    mult u_supervisor (.clk_i(clk_i), .a_i(of_supervisor),
+                       .b_i(take_estimate_q ? supervisor_factor : coefficient),
+                       .product_o(supervisor_product));
+  end
 
   logic snap_valid;
   assign snap_valid =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// One-pole low-pass y += round(a1 * (x - y)), round half up, on the shared multiplier.
+// One-pole low-pass y += round(a1 * (x - y)), rounded as the design says, on the multiplier's bus.
 // Latency: x in clock v, operand in v + 1, product in v + 5, new y in v + 6. The difference gives
 // up low bits where it is wider than the multiplier. docs/blocks/lowpass.md
 
@@ -12,6 +12,7 @@ module lowpass #(
     parameter int OperandW    = 33,  // of the difference on the multiplier
     parameter int ProductDrop = 27,  // fraction bits of the product below those of y
     parameter int ProductW    = 53,
+    parameter int Rounding    = feltgate_pkg::ROUNDING,  // 0 half up, 1 floor, 2 convergent
     // 1: truncates, 2: guard bits lost, 3: difference without its growth bit, 4: product a clock
     // early
     parameter int Defect      = 0
@@ -40,11 +41,17 @@ module lowpass #(
   end
   assign operand_o = difference_q[Width-:OperandW];
 
-  // {y,1} + {p,r} carries exactly when the rounding bit r is set: round half up without an adder.
+  // {y,up} + {p,r} carries exactly when the rounding bit r and up are set: rounding without an adder
+  // of its own. To even, a tie goes up only from an odd sum.
   logic signed [Width-1:0] y_q;
   logic        [  Width:0] increment, sum;
+  logic                    beyond_half, odd, up;
   assign increment = (Width + 1)'(product_i >>> (ProductDrop - 1));
-  assign sum       = {y_q, (Defect == 1) ? 1'b0 : 1'b1} + increment;
+  localparam logic [ProductW-1:0] Below = (ProductW'(1) << (ProductDrop - 1)) - ProductW'(1);
+  assign beyond_half = (product_i & Below) != '0;
+  assign odd         = y_q[0] ^ increment[1];
+  assign up          = (Rounding == 0 || (Rounding == 2 && (beyond_half || odd))) && Defect != 1;
+  assign sum         = {y_q, up} + increment;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

@@ -26,6 +26,7 @@ module scene_charge #(
     output logic signed [  feltgate_pkg::SCENE_OFFSET_W-1:0] operand_o,
     output logic signed [        feltgate_pkg::TORQUE_W-1:0] tau_o
 );
+  localparam int ProductW = feltgate_pkg::PRODUCT_BITS;
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int TorqueF = feltgate_pkg::TORQUE_F;
   localparam int ChargeF = feltgate_pkg::CHARGE_F;
@@ -138,19 +139,25 @@ module scene_charge #(
     end
   end
 
-  // slope * -x, rounded half up; negated when the charge repels: -(p + half) = ~p + !half.
+  // slope * -x, rounded; negated when the charge repels: -(p + half) = ~p + !half.
   logic signed [ PartW-1:0] part_q;
   logic signed [ForceW  :0] rounded_q;
-  logic                     part_over_q, negative_q, invert;
+  logic                     part_over_q, negative_q, beyond_half_q, invert, half;
+  localparam logic [ProductW-1:0] AttractBelow =
+      (ProductW'(1) << (AttractDrop - 1)) - ProductW'(1);
+  localparam logic [ProductW-1:0] RepelBelow = (ProductW'(1) << (RepelDrop - 1)) - ProductW'(1);
+  assign half = part_q[0] && (feltgate_pkg::ROUNDING == 0 ||
+                              (feltgate_pkg::ROUNDING == 2 && (beyond_half_q || part_q[1])));
   assign invert = !attract_i && Defect != 5;
   always_ff @(posedge clk_i) begin
     if (stage_q[8]) begin
       part_q <= attract_i ? PartW'(product_i >>> (AttractDrop - 1))
                           : PartW'(product_i >>> (RepelDrop - 1));
+      beyond_half_q <= (product_i & (attract_i ? AttractBelow : RepelBelow)) != '0;
     end
     if (stage_q[9]) begin
       rounded_q   <= (part_q[ForceW+1:1] ^ {(ForceW + 1) {invert}}) +
-                     (ForceW + 1)'({1'b0, part_q[0] != invert});
+                     (ForceW + 1)'({1'b0, half != invert});
       part_over_q <= part_q[PartW-1:ForceW+1] != {(PartW - ForceW - 1) {part_q[PartW-1]}};
       negative_q  <= part_q[PartW-1] != invert;
     end

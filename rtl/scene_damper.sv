@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Scene: a damper, tau = -b * velocity; the product is rounded half up, then negated, then
-// saturated. The core puts the velocity on the multiplier's bus in clock 10 of the wave.
+// Scene: a damper, tau = -b * velocity; the product is rounded, then negated, then saturated. The
+// core puts the velocity on the multiplier's bus in clock 10 of the wave.
 // Latency: start in wave clock 1, product in 14, torque in 19 and held; 0 while the scene is not
 // selected. docs/blocks/scene_damper.md
 
@@ -18,6 +18,7 @@ module scene_damper #(
     input  logic signed [feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     output logic signed [    feltgate_pkg::TORQUE_W-1:0] tau_o
 );
+  localparam int ProductW = feltgate_pkg::PRODUCT_BITS;
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int Drop = feltgate_pkg::VELOCITY_F + feltgate_pkg::P_DAMPER_DAMPING_F -
                         feltgate_pkg::TORQUE_F;
@@ -34,11 +35,17 @@ module scene_damper #(
   // -(p + half) = -half - p, -half being all ones or none: one subtraction.
   logic signed [  PartW-1:0] part_q;
   logic signed [TorqueW  :0] rounded_q;
-  logic                      part_over_q, negative_q, half;
-  assign half = part_q[0] && Defect != 2;
+  logic                      part_over_q, negative_q, beyond_half_q, up, half;
+  localparam logic [ProductW-1:0] Below = (ProductW'(1) << (Drop - 1)) - ProductW'(1);
+  assign up   = feltgate_pkg::ROUNDING == 0 ||
+                (feltgate_pkg::ROUNDING == 2 && (beyond_half_q || part_q[1]));
+  assign half = part_q[0] && up && Defect != 2;
   always_ff @(posedge clk_i) begin
-    if (stage_q[12]) part_q <= PartW'(product_i >>> (Drop - 1));
-    rounded_q   <= (Defect == 1) ? part_q[TorqueW+1:1] + (TorqueW + 1)'({1'b0, part_q[0]})
+    if (stage_q[12]) begin
+      part_q        <= PartW'(product_i >>> (Drop - 1));
+      beyond_half_q <= (product_i & Below) != '0;
+    end
+    rounded_q   <= (Defect == 1) ? part_q[TorqueW+1:1] + (TorqueW + 1)'({1'b0, part_q[0] && up})
                                  : {(TorqueW + 1) {half}} - part_q[TorqueW+1:1];
     part_over_q <= part_q[PartW-1:TorqueW+1] != {(PartW - TorqueW - 1) {part_q[PartW-1]}};
     negative_q  <= part_q[PartW-1] == (Defect == 1);

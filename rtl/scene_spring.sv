@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Scene: a spring, tau = k * (reference - position), rounded half up and saturated. Tension: both
+// Scene: a spring, tau = k * (reference - position), rounded and saturated. Tension: both
 // ways from the rest position. Compression: only below the contact.
 // Latency: start in wave clock 1, operand in 3, product in 7, torque in 12 and held; 0 while the
 // scene is not selected. docs/blocks/scene_spring.md
@@ -28,6 +28,7 @@ module scene_spring #(
   localparam int TorqueF = feltgate_pkg::TORQUE_F;
   localparam int OffsetW = feltgate_pkg::SCENE_OFFSET_W;
   localparam int OffsetF = feltgate_pkg::SCENE_OFFSET_F;
+  localparam int ProductW = feltgate_pkg::PRODUCT_BITS;
   localparam int GapW = feltgate_pkg::SCENE_POSITION_W + 1;
   localparam int CompressionDrop = OffsetF + feltgate_pkg::P_COMPRESSION_STIFFNESS_F - TorqueF;
   localparam int TensionDrop = OffsetF + feltgate_pkg::P_TENSION_STIFFNESS_F - TorqueF;
@@ -61,15 +62,22 @@ module scene_spring #(
     end
   end
 
-  // Half up: the bit below the last one is the carry.
+  // The bit below the last one is the carry, as far as the design rounds up.
   logic signed [  PartW-1:0] part_q;
   logic signed [TorqueW  :0] rounded_q;
-  logic                      part_over_q, negative_q, carry;
-  assign carry = part_q[0] && Defect != 3;
+  logic                      part_over_q, negative_q, beyond_half_q, carry;
+  localparam logic [ProductW-1:0] CompressionBelow =
+      (ProductW'(1) << (CompressionDrop - 1)) - ProductW'(1);
+  localparam logic [ProductW-1:0] TensionBelow =
+      (ProductW'(1) << (TensionDrop - 1)) - ProductW'(1);
+  assign carry = part_q[0] && Defect != 3 &&
+                 (feltgate_pkg::ROUNDING == 0 ||
+                  (feltgate_pkg::ROUNDING == 2 && (beyond_half_q || part_q[1])));
   always_ff @(posedge clk_i) begin
     if (stage_q[5]) begin
       part_q <= tension_i ? PartW'(product_i >>> (TensionDrop - 1))
                           : PartW'(product_i >>> (CompressionDrop - 1));
+      beyond_half_q <= (product_i & (tension_i ? TensionBelow : CompressionBelow)) != '0;
     end
     rounded_q   <= part_q[TorqueW+1:1] + (TorqueW + 1)'({1'b0, carry});
     part_over_q <= part_q[PartW-1:TorqueW+1] != {(PartW - TorqueW - 1) {part_q[PartW-1]}};

@@ -66,9 +66,14 @@ module torque_control #(
   logic signed [    Wide-1:0] fixed_q, set_q, voltage_q, early_q, sum;
   logic signed [DutyPart-1:0] duty_q;
   logic signed [CurrentW-1:0] limited_q;
-  logic                       lively, carry;
+  logic                       lively, beyond_half, carry;
   assign lively = armed_i || Defect == 5;
-  assign carry  = product_i[DutyDrop-1] && Defect != 6;
+  localparam int ProductW = feltgate_pkg::PRODUCT_BITS;
+  localparam logic [ProductW-1:0] Below = (ProductW'(1) << (DutyDrop - 1)) - ProductW'(1);
+  assign beyond_half = (product_i & Below) != '0;
+  assign carry       = product_i[DutyDrop-1] && Defect != 6 &&
+                       (feltgate_pkg::ROUNDING == 0 ||
+                        (feltgate_pkg::ROUNDING == 2 && (beyond_half || product_i[DutyDrop])));
   always_ff @(posedge clk_i) begin
     if (wave_i[26]) begin
       if (direct) offset_q <= Wide'(voltage_o);

@@ -29,8 +29,8 @@ module velocity_n #(
   localparam int T = feltgate_pkg::TRAVEL_BITS;
   localparam int W = feltgate_pkg::VELOCITY_W;
   localparam int F = feltgate_pkg::VELOCITY_F;
-  localparam int AddressW = 11;
   localparam int Last = (Defect == 1) ? M1 : M1 - 1;
+  localparam int AddressW = (M1 > 1) ? $clog2(M1 + 1) : 1;
 
   logic [2:0] stage_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin

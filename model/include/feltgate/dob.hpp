@@ -20,7 +20,7 @@ struct DobLaw {
   using Drive = typename N::template num<D::f.drive_torque.key()>;
   using Inertia = typename N::template num<D::f.inertia_torque.key()>;
   using Torque = typename N::template num<D::f.torque.key()>;
-  using Filter = LowpassLaw<N, D::f.observer.key(), D::f.observer_difference.key()>;
+  using Filter = LowpassLaw<N, D::f.observer.key(), D::f.observer_difference.key(), D::rounding>;
 
   /// Ktn*I, truncated below the observer's last bit.
   template <class Product>
@@ -37,9 +37,9 @@ struct DobLaw {
   static constexpr State input(Drive drive, Inertia inertia) {
     return quantise<N, D::f.observer.key(), Round::truncate, Overflow::wrap>(drive + inertia);
   }
-  /// tau_hat, rounded half up and saturated to the torque format.
+  /// tau_hat, rounded and saturated to the torque format.
   static constexpr Torque tau_hat(State state, Inertia inertia, bool* saturated) {
-    return quantise<N, D::f.torque.key(), Round::half_up, Overflow::saturate>(state - inertia,
+    return quantise<N, D::f.torque.key(), D::rounding, Overflow::saturate>(state - inertia,
                                                                               saturated);
   }
 };
@@ -112,7 +112,7 @@ class Dob {
     out_.tau_hat = tau_hat_.raw();
   }
 
-  Lowpass<D::f.observer.key(), D::f.observer_difference.key(), D::P::observer_a1.key()> filter_;
+  Lowpass<D::f.observer.key(), D::f.observer_difference.key(), D::P::observer_a1.key(), D::rounding> filter_;
   unsigned stage_ = 0;
   typename Law::Drive drive_{};
   typename Law::Inertia inertia_{};

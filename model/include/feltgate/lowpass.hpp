@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/lowpass.sv: one-pole low-pass y += round(a1 * (x - y)), round half up.
+// Twin of rtl/lowpass.sv: one-pole low-pass y += round(a1 * (x - y)), rounded as the design says.
 // With 0 <= a1 < 1 the state stays between its old value and the input, so it cannot overflow.
 // Documentation: docs/blocks/lowpass.md
 #pragma once
@@ -12,8 +12,8 @@
 
 namespace feltgate {
 
-/// The arithmetic, in number policy N; formats as packed keys.
-template <class N, int StateKey, int OperandKey>
+/// The arithmetic, in number policy N; formats as packed keys. R rounds the product.
+template <class N, int StateKey, int OperandKey, Round R = Round::half_up>
 struct LowpassLaw {
   using State = typename N::template num<StateKey>;
   using Operand = typename N::template num<OperandKey>;
@@ -26,15 +26,15 @@ struct LowpassLaw {
   /// The new state from the old one and a1 * operand.
   template <class Product>
   static constexpr State next(State y, Product a1_times_operand) {
-    return quantise<N, StateKey, Round::half_up, Overflow::wrap>(y + a1_times_operand);
+    return quantise<N, StateKey, R, Overflow::wrap>(y + a1_times_operand);
   }
 };
 
 /// Clocked twin. CoefficientKey is the format of a1.
-template <int StateKey, int OperandKey, int CoefficientKey>
+template <int StateKey, int OperandKey, int CoefficientKey, Round R = Round::half_up>
 class Lowpass {
  public:
-  using Law = LowpassLaw<Fixed, StateKey, OperandKey>;
+  using Law = LowpassLaw<Fixed, StateKey, OperandKey, R>;
   using State = typename Law::State;
   using Product = decltype(typename Law::Operand{} * fixed_of<CoefficientKey>{});
 

@@ -52,11 +52,11 @@ struct SceneChargeLaw {
       return minus ? -q : q;
     }
   }
-  /// Inside the core: slope * distance rounded half up, negated where it repels, saturated.
+  /// Inside the core: slope * distance rounded, negated where it repels, saturated.
   template <class Product>
   static Force inside(Product slope_times_distance, bool attract) {
     constexpr int steps = Format{1, 40, force_format.fraction}.key();
-    const auto rounded = quantise<N, steps, Round::half_up, Overflow::wrap>(slope_times_distance);
+    const auto rounded = quantise<N, steps, D::rounding, Overflow::wrap>(slope_times_distance);
     if (attract) return saturated(rounded);
     return saturated(-rounded);
   }

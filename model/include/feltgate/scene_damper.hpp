@@ -21,11 +21,11 @@ struct SceneDamperLaw {
       growth::sum(growth::product(D::f.velocity, D::P::damper_damping), Format{1, 0, 0}),
       D::f.torque.fraction);
 
-  /// Rounded half up, then negated, then saturated: no torque below half a step on either side.
+  /// Rounded, then negated, then saturated: no torque below half a step on either side.
   template <class Product>
   static Torque torque(Product damping_times_velocity) {
     return quantise<N, D::f.torque.key(), Round::truncate, Overflow::saturate>(
-        -quantise<N, steps.key(), Round::half_up, Overflow::wrap>(damping_times_velocity));
+        -quantise<N, steps.key(), D::rounding, Overflow::wrap>(damping_times_velocity));
   }
   /// One tick.
   template <class W>

@@ -22,11 +22,11 @@ struct SceneSpringLaw {
     return quantise<N, D::f.scene_offset.key(), Round::truncate, Overflow::saturate>(
         reference - from_integer<N, D::f.scene_position.key()>(position));
   }
-  /// k * operand, rounded half up and saturated; a compressed spring only pushes.
+  /// k * operand, rounded and saturated; a compressed spring only pushes.
   template <class Product>
   static Torque torque(Offset operand, Product k_times_operand, bool tension) {
     if (!tension && operand < Offset{}) return Torque{};
-    return quantise<N, D::f.torque.key(), Round::half_up, Overflow::saturate>(k_times_operand);
+    return quantise<N, D::f.torque.key(), D::rounding, Overflow::saturate>(k_times_operand);
   }
   /// One tick.
   template <class W>

@@ -52,10 +52,10 @@ struct TorqueControlLaw {
   static constexpr VoltageSum voltage_part(Product p) {
     return quantise<N, D::f.voltage_sum.key(), Round::truncate, Overflow::wrap>(p);
   }
-  /// Clocks of on-time, rounded half up.
+  /// Clocks of on-time, rounded.
   template <class Product>
   static constexpr DutySum duty_sum(Product p) {
-    return quantise<N, D::f.duty_sum.key(), Round::half_up, Overflow::wrap>(p);
+    return quantise<N, D::f.duty_sum.key(), D::rounding, Overflow::wrap>(p);
   }
   /// Sums of parts; they fit by construction of the formats.
   template <class A, class B>

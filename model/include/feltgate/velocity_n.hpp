@@ -43,7 +43,7 @@ class DelayLine {
 template <class D, class N>
 struct VelocityLaw {
   using Velocity = typename N::template num<D::f.velocity.key()>;
-  using Filter = LowpassLaw<N, D::f.velocity.key(), D::f.velocity_difference.key()>;
+  using Filter = LowpassLaw<N, D::f.velocity.key(), D::f.velocity_difference.key(), D::rounding>;
 
   /// Counts of m1 ticks as rad/s, saturated to the velocity format. 2^n times them is exact; a
   /// quantised gain truncates below the last bit.
@@ -128,7 +128,7 @@ class VelocityN {
 
  private:
   DelayLine<D::m1> line_;
-  Lowpass<D::f.velocity.key(), D::f.velocity_difference.key(), D::P::velocity_a1.key()> filter_;
+  Lowpass<D::f.velocity.key(), D::f.velocity_difference.key(), D::P::velocity_a1.key(), D::rounding> filter_;
   unsigned stage_ = 0;
   std::int16_t travel_ = 0, oldest_ = 0, difference_ = 0;
   Velocity raw_{};

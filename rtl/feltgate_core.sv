@@ -387,21 +387,23 @@ module feltgate_core #(
     assign supervisor_product = product;
   end else begin : gen_parallel
     // Each block its own, in the same clocks: no operand passes through a mux of the whole core.
+    logic unused_operand;
+    assign unused_operand = ^operand[OperandW-1:32];
     logic signed [OperandW-1:0] of_dob, of_scene, of_control, of_supervisor;
     assign of_dob = ({OperandW{take_current_q}} & OperandW'(current_ref_o)) |
                     ({OperandW{take_velocity_q}} & OperandW'(velocity_o)) |
                     ({OperandW{take_dob_q}} & OperandW'(dob_operand));
     assign of_scene = take_velocity_q ? OperandW'(velocity_o) :
                       take_square_q   ? OperandW'(scene_factor) : OperandW'(scene_operand);
-    assign of_control = ({OperandW{take_velocity_q}} & OperandW'(velocity_o)) |
-                        OperandW'(({NarrowW{take_tau_hat_q}} & NarrowW'(tau_hat_bus)) |
-                                  ({NarrowW{take_voltage_q}} & NarrowW'(voltage_o)) |
-                                  ({NarrowW{take_tau_ref_q}} & NarrowW'(tau_ref_o)) |
-                                  ({NarrowW{take_current_q}} & NarrowW'(current_ref_o)) |
-                                  ({NarrowW{take_control_q}} & NarrowW'(control_operand)));
-    assign of_supervisor = take_velocity_q ? OperandW'(velocity_o) :
-                           OperandW'(take_estimate_q ? NarrowW'(current_estimate)
-                                                     : NarrowW'(voltage_o));
+    logic signed [NarrowW-1:0] control_narrow, supervisor_narrow;
+    assign control_narrow = ({NarrowW{take_tau_hat_q}} & NarrowW'(tau_hat_bus)) |
+                            ({NarrowW{take_voltage_q}} & NarrowW'(voltage_o)) |
+                            ({NarrowW{take_tau_ref_q}} & NarrowW'(tau_ref_o)) |
+                            ({NarrowW{take_current_q}} & NarrowW'(current_ref_o)) |
+                            ({NarrowW{take_control_q}} & NarrowW'(control_operand));
+    assign of_control = take_velocity_q ? OperandW'(velocity_o) : OperandW'(control_narrow);
+    assign supervisor_narrow = take_estimate_q ? NarrowW'(current_estimate) : NarrowW'(voltage_o);
+    assign of_supervisor = take_velocity_q ? OperandW'(velocity_o) : OperandW'(supervisor_narrow);
     mult u_velocity (.clk_i(clk_i), .a_i(OperandW'(velocity_operand)), .b_i(coefficient),
                      .product_o(velocity_product));
     mult u_dob (.clk_i(clk_i), .a_i(of_dob), .b_i(coefficient), .product_o(dob_product));

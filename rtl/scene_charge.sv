@@ -178,16 +178,19 @@ module scene_charge #(
     if (high_q) low_q2 <= '1;
     else low_q2 <= low_q;
   end
-  logic signed [ForceW-1:0] inside_q, either;
+  logic signed [ForceW-1:0] inside_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) inside_q <= '0;
     else if (stage_q[14]) inside_q <= {sign_q2, low_q2};
   end
-  assign either = outside_q | inside_q;
-  assign tau_o = (TorqueW'(either) <<< Up) >>> Down;
+  localparam int WideW = (TorqueW > ForceW) ? TorqueW : ForceW;
+  logic signed [WideW-1:0] either, torque;
+  assign either = WideW'($signed(outside_q | inside_q));
+  assign torque = (either <<< Up) >>> Down;
+  assign tau_o  = torque[TorqueW-1:0];
 
   logic unused;
-  assign unused = ^{param_i[31], difference[31], product_i[feltgate_pkg::PRODUCT_BITS-1:35]};
+  assign unused = ^{param_i[31], difference[31], torque, product_i[feltgate_pkg::PRODUCT_BITS-1:35]};
 endmodule
 
 `default_nettype wire

@@ -12,6 +12,7 @@
 
 #include "design/registers.hpp"
 #include "feltgate/chain_formats.hpp"
+#include "feltgate/fixed.hpp"
 
 namespace feltgate::design {
 
@@ -43,6 +44,10 @@ struct Design {
   double charge_centre_rad = 0, charge_nm_rad2 = 0, charge_core_rad = 0;
   Format velocity{}, torque{}, current{}, voltage{};
   int observer_fraction = 0;
+  int coefficient_bits = fabric::multiplier_b_bits - 1;  ///< of a mantissa, without its sign
+  Round rounding = Round::half_up;                       ///< where the chain rounds
+  bool parallel_multipliers = false;  ///< each block its own instead of one for all
+  bool allow_coarse = false;  ///< not of the file: a resolution coarser than promised is let pass
   std::map<std::string, int> lines_of;  ///< where a "section.key" of the file stands, for errors
 
   int clocks_per_tick() const { return static_cast<int>(clock_hz / tick_hz); }
@@ -87,15 +92,16 @@ struct Elaborated {
 /// of range.
 Design read_design(const std::string& path);
 
-/// Quantises the design against a register map and checks it. Throws config::ConfigError where a
+/// Quantises the design against a register map and checks it; design.allow_coarse lets a resolution
+/// pass that is coarser than promised, for exploration. Throws config::ConfigError where a
 /// coefficient quantises to 0, a width exceeds the fabric, a parameter does not fit its word, the
 /// latency exceeds the tick, or a resolution is coarser than promised.
 Elaborated elaborate(const Design& design, const RegisterMap& registers);
 
-/// The format of an unsigned (or signed) 17-bit mantissa for `value`: the binary point lies so that
-/// the value uses the top bit, so a register can raise it to just under the next power of two.
-/// Below 2^-32 the point stays and the mantissa loses bits; 0 gets [S,0,17].
-Format coefficient_format(double value, bool is_signed);
+/// The format of an unsigned (or signed) mantissa of `bits` bits for `value`: the binary point lies
+/// so that the value uses the top bit, so a register can raise it to just under the next power of
+/// two. Below 2^(bits-49) the point stays and the mantissa loses bits; 0 gets [S,0,bits].
+Format coefficient_format(double value, bool is_signed, int bits = fabric::multiplier_b_bits - 1);
 
 /// The most fraction bits that a coefficient may have.
 constexpr int coefficient_fraction_max = 48;

@@ -167,7 +167,7 @@ void check_widths(const Elaborated& e) {
   };
   fits("formats.velocity", "the velocity", d.velocity.width(), fabric::word_bits);
   fits("formats.torque", "the ramped torque", f.ramp.width(), fabric::word_bits);
-  fits("formats.current", "the current", d.current.width(), fabric::word_bits);
+  fits("formats.current", "the current", d.current.width(), fabric::word_bits - 1);
   fits("formats.voltage", "the voltage", d.voltage.width(), fabric::word_bits);
   fits("formats.observer_fraction", "the observer's state", f.observer.width(), 62);
   fits("motor.resistance_ohm", "the current estimate", f.current_estimate.width(),
@@ -183,7 +183,30 @@ void check_widths(const Elaborated& e) {
                " bits, and the " + what + " has " + std::to_string(format.width()),
            "add bits to the current");
   }
-  // Narrowing drops bits, it never invents them.
+  if (d.torque.fraction >= f.ramp.fraction) {
+    d.fail("formats.torque",
+           "the torque has " + std::to_string(d.torque.fraction) +
+               " fraction bits and the ramp moves in steps of 2^-" +
+               std::to_string(f.ramp.fraction),
+           "use at most " + std::to_string(f.ramp.fraction - 1));
+  }
+  if (d.torque.integer < 0) {
+    d.fail("formats.torque", "a charge pushes with up to 1 Nm", "use at least 0 integer bits");
+  }
+  if (d.velocity.integer - (d.exact_gain ? 0 : d.n) > fabric::travel_bits - 1) {
+    d.fail("formats.velocity", "no count reaches the velocity's top bits",
+           "use fewer integer bits");
+  }
+  if (f.observed.integer + 1 < d.torque.integer) {
+    d.fail("formats.torque", "nothing that is observed reaches the torque's top bits",
+           "use fewer integer bits of torque");
+  }
+}
+
+/// Narrowing drops bits, it never invents them.
+void check_drops(const Elaborated& e) {
+  const Design& d = e.design;
+  const Formats& f = e.formats;
   const auto drops = [&](const char* key, Format a, const Word& b, int wanted) {
     const int fraction = a.fraction + b.format.fraction;
     if (fraction >= wanted) return;
@@ -199,6 +222,29 @@ void check_widths(const Elaborated& e) {
   drops("formats.voltage", d.current, e.word("voltage_gain"), d.voltage.fraction);
   drops("formats.voltage", d.velocity, e.word("emf_constant"), d.voltage.fraction);
   drops("formats.voltage", d.torque, e.word("dead_voltage_slope"), d.voltage.fraction);
+  drops("formats.current", d.voltage, e.word("voltage_to_current"), d.current.fraction);
+  drops("formats.voltage", d.voltage, e.word("inverse_resistance"),
+        f.current_estimate_part.fraction);
+  drops("formats.velocity", d.velocity, e.word("emf_over_resistance"),
+        f.current_estimate_part.fraction);
+  // Where it rounds, there is a bit to round off.
+  drops("formats.observer_fraction", f.observer_difference, e.word("observer_a1"),
+        d.observer_fraction + 1);
+  drops("formats.velocity", f.velocity_difference, e.word("velocity_a1"), d.velocity.fraction + 1);
+  drops("formats.voltage", d.voltage, e.word("duty_gain"), 1);
+  drops("formats.torque", f.scene_offset, e.word("compression_stiffness"), d.torque.fraction + 1);
+  drops("formats.torque", f.scene_offset, e.word("tension_stiffness"), d.torque.fraction + 1);
+  drops("formats.torque", d.velocity, e.word("damper_damping"), d.torque.fraction + 1);
+  drops("formats.coefficient_bits", f.scene_offset, e.word("attract_core_slope"),
+        f.charge.fraction + 1);
+  drops("formats.coefficient_bits", f.scene_offset, e.word("repel_core_slope"),
+        f.charge.fraction + 1);
+  if (d.observer_fraction <= d.torque.fraction) {
+    d.fail("formats.observer_fraction",
+           "the observer has " + std::to_string(d.observer_fraction) +
+               " fraction bits and its torque takes " + std::to_string(d.torque.fraction),
+           "add fraction bits");
+  }
 }
 
 void check_word(const Design& d, const Word& w) {
@@ -229,15 +275,16 @@ void check(const Elaborated& e) {
                std::to_string(d.clocks_per_tick()),
            "lower tick_hz or raise clock_hz");
   }
-  check_resolution(e);
+  if (!d.allow_coarse) check_resolution(e);
   check_widths(e);
+  check_drops(e);
 }
 
 }  // namespace
 
-Format coefficient_format(double value, bool is_signed) {
-  constexpr int mantissa = fabric::multiplier_b_bits - 1;
-  constexpr int least_integer = mantissa - coefficient_fraction_max;
+Format coefficient_format(double value, bool is_signed, int bits) {
+  const int mantissa = bits;
+  const int least_integer = mantissa - coefficient_fraction_max;
   const double magnitude = std::abs(value);
   if (magnitude == 0) return {is_signed ? 1 : 0, 0, mantissa};
   int integer = std::max(least_integer, std::ilogb(magnitude) + 1);
@@ -292,7 +339,7 @@ Elaborated elaborate(const Design& design, const RegisterMap& registers) {
       for (const Parameter& o : registers.parameters) {
         if (o.same_format_as == p.name) largest = std::max(largest, value_of(o, o.name).si);
       }
-      w.format = coefficient_format(largest, p.kind == "signed");
+      w.format = coefficient_format(largest, p.kind == "signed", design.coefficient_bits);
     } else if (p.kind == "signal") {
       w.format = signal_format(design, p);
     } else if (p.kind == "counts") {
@@ -304,9 +351,9 @@ Elaborated elaborate(const Design& design, const RegisterMap& registers) {
     e.words.push_back(w);
   }
   const auto f = [&](const char* name) { return e.word(name).format; };
-  Format gain{0, 0, 17};
+  Format gain{0, 0, design.coefficient_bits};
   if (design.exact_gain) {
-    gain = coefficient_format(design.velocity_gain_rad_s(), false);
+    gain = coefficient_format(design.velocity_gain_rad_s(), false, design.coefficient_bits);
     e.velocity_gain = std::llround(std::ldexp(design.velocity_gain_rad_s(), gain.fraction));
   }
   e.base = {design.velocity,          design.torque,

@@ -59,6 +59,17 @@ std::uint32_t control_reset(const Design& d) {
          (static_cast<std::uint32_t>(d.filter_samples) << 11);
 }
 
+/// How RTL and twin call a rounding mode.
+struct RoundingName {
+  int number;
+  const char* name;
+};
+RoundingName rounding(Round mode) {
+  if (mode == Round::truncate) return {1, "truncate"};
+  if (mode == Round::convergent) return {2, "convergent"};
+  return {0, "half_up"};
+}
+
 std::string banner(const Elaborated& e, const char* what) {
   return "// SPDX-License-Identifier: Apache-2.0\n"
          "// SPDX-FileCopyrightText: 2026 the feltgate authors\n//\n"
@@ -88,6 +99,9 @@ std::vector<Constant> constants(const Elaborated& e) {
       {"dead_clocks", d.dead_clocks(), "clocks"},
       {"scene_mask", scene_mask(e), "bit n: scene n is built"},
       {"control_reset", control_reset(d), "control word after reset"},
+      {"coefficient_bits", d.coefficient_bits,
+       "bits of a coefficient's mantissa, without its sign"},
+      {"parallel_multipliers", d.parallel_multipliers ? 1 : 0, "1: each block has its own"},
       {"multiplier_a_bits", fabric::multiplier_a_bits, "bits"},
       {"multiplier_b_bits", fabric::multiplier_b_bits, "bits"},
       {"product_bits", fabric::product_bits, "bits"},
@@ -136,6 +150,8 @@ std::string systemverilog_package(const Elaborated& e) {
   for (const Constant& c : constants(e)) {
     s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
   }
+  s << "  localparam int ROUNDING = " << rounding(e.design.rounding).number
+    << ";  // where the chain rounds: 0 half up, 1 floor, 2 convergent\n";
   s << "\n  // Widths (W) and fraction bits (F) of the signals.\n";
   for (const auto& [name, f] : named_formats(e.formats)) {
     s << "  localparam int " << upper(name) << "_W = " << f.width() << ";  // [" << f.sign << ","
@@ -190,7 +206,8 @@ std::string cpp_header(const Elaborated& e) {
   s << banner(e, "")
     << "#pragma once\n\n#include <cstdint>\n#include <string_view>\n\n#include "
        "\"feltgate/chain_formats.hpp\"\n"
-    << "#include \"feltgate/parameter.hpp\"\n\nnamespace feltgate {\n\n"
+    << "#include \"feltgate/fixed.hpp\"\n#include \"feltgate/parameter.hpp\"\n\nnamespace feltgate "
+       "{\n\n"
     << "/// " << d.description << ".\nstruct " << type << " {\n"
     << "  static constexpr const char* name = \"" << d.name << "\";\n"
     << "  static constexpr std::int64_t clock_hz = " << d.clock_hz << ";\n"
@@ -202,6 +219,8 @@ std::string cpp_header(const Elaborated& e) {
   for (const Constant& c : constants(e)) {
     s << "  static constexpr int " << c.name << " = " << c.value << ";  // " << c.doc << "\n";
   }
+  s << "  static constexpr Round rounding = Round::" << rounding(d.rounding).name
+    << ";  // where the chain rounds\n";
   s << "\n  /// Formats of the parameters.\n  struct P {\n";
   for (const Word& w : e.words) {
     s << "    static constexpr Format " << w.parameter.name << triple(w.format) << ";\n";
@@ -248,6 +267,15 @@ std::string cpp_header(const Elaborated& e) {
       << ", " << w.raw << "},\n";
   }
   s << "  };\n};\n\n}  // namespace feltgate\n";
+  return s.str();
+}
+
+std::string values_text(const Elaborated& e) {
+  std::ostringstream s;
+  for (const Word& w : e.words) {
+    s << w.parameter.name << " " << w.parameter.address << " " << w.raw << " " << exact(w.si)
+      << "\n";
+  }
   return s.str();
 }
 

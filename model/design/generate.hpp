@@ -17,6 +17,9 @@ std::string systemverilog_package(const Elaborated& e);
 /// Text of model/include/feltgate/generated/NAME.hpp.
 std::string cpp_header(const Elaborated& e);
 
+/// A line per parameter: name, address, integer, exact value in its unit.
+std::string values_text(const Elaborated& e);
+
 /// Text of docs/registers.md; the formats shown are those of `e`.
 std::string register_page(const Elaborated& e);
 

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate_generate ROOT [--check]: writes everything that follows from rtl/registers.toml and
-// rtl/designs/*.toml; with --check it only compares and fails on a stale file.
+// rtl/designs/*.toml; with --check it only compares and fails on a stale file. With --design FILE
+// --output DIR it writes what follows from one design, anywhere. Documentation: docs/designs.md
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -35,38 +36,89 @@ bool update(const fs::path& path, const std::string& text, bool check_only) {
 
 constexpr const char* usage =
     "usage: feltgate generate [--check]\n"
+    "       feltgate generate --design FILE.toml --output DIR [--allow-coarse]\n"
     "Writes what follows from rtl/registers.toml and rtl/designs/*.toml: the SystemVerilog "
     "packages in\n"
     "rtl/generated, the C++ headers in model/include/feltgate/generated, and docs/registers.md.\n"
-    "--check only compares; exit code 1 when a file is stale.\n";
+    "--check only compares; exit code 1 when a file is stale.\n"
+    "With --design one design, which may lie anywhere: DIR/feltgate_pkg.sv, DIR/NAME.hpp and "
+    "DIR/values.txt,\n"
+    "a line per parameter: name, address, integer, exact value. --allow-coarse lets a resolution "
+    "pass that\n"
+    "is coarser than a design for use must have; what cannot work is refused all the same.\n";
+
+struct Options {
+  fs::path root, design, output;
+  bool check_only = false, allow_coarse = false, help = false;
+};
+
+/// False where the arguments make no sense.
+bool parse(int argc, char** argv, Options* o) {
+  if (argc < 2) return false;
+  o->root = argv[1];
+  for (int i = 2; i < argc; ++i) {
+    const std::string option = argv[i];
+    if (option == "--help" || option == "-h") {
+      o->help = true;
+    } else if (option == "--check") {
+      o->check_only = true;
+    } else if (option == "--allow-coarse") {
+      o->allow_coarse = true;
+    } else if ((option == "--design" || option == "--output") && i + 1 < argc) {
+      (option == "--design" ? o->design : o->output) = argv[++i];
+    } else {
+      return false;
+    }
+  }
+  return o->help ||
+         (o->design.empty() == o->output.empty() && !(o->check_only && !o->design.empty()) &&
+          !(o->allow_coarse && o->design.empty()));
+}
+
+void generate_one(const Options& o, const feltgate::design::RegisterMap& registers) {
+  auto design = feltgate::design::read_design(o.design.string());
+  design.allow_coarse = o.allow_coarse;
+  const auto e = elaborate(design, registers);
+  update(o.output / "feltgate_pkg.sv", systemverilog_package(e), false);
+  update(o.output / (e.design.name + ".hpp"), cpp_header(e), false);
+  update(o.output / "values.txt", values_text(e), false);
+}
+
+/// Whether a file was stale.
+bool generate_all(const Options& o, const feltgate::design::RegisterMap& registers) {
+  bool stale = false;
+  for (const auto& entry : fs::directory_iterator(o.root / "rtl/designs")) {
+    if (entry.path().extension() != ".toml") continue;
+    const auto e = elaborate(feltgate::design::read_design(entry.path().string()), registers);
+    const std::string& name = e.design.name;
+    stale |= update(o.root / "rtl/generated" / name / "feltgate_pkg.sv", systemverilog_package(e),
+                    o.check_only);
+    stale |= update(o.root / "model/include/feltgate/generated" / (name + ".hpp"), cpp_header(e),
+                    o.check_only);
+    if (name == "lever")
+      stale |= update(o.root / "docs/registers.md", register_page(e), o.check_only);
+  }
+  return stale;
+}
 
 int main(int argc, char** argv) {
-  const std::string option = argc == 3 ? argv[2] : "";
-  const bool check_only = option == "--check";
-  if (option == "--help" || option == "-h") {
-    std::cout << usage;
-    return 0;
-  }
-  if (argc < 2 || argc > 3 || (argc == 3 && !check_only)) {
+  Options o;
+  if (!parse(argc, argv, &o)) {
     std::cerr << usage;
     return 2;
   }
+  if (o.help) {
+    std::cout << usage;
+    return 0;
+  }
   try {
-    const fs::path root = argv[1];
-    const auto registers = feltgate::design::read_registers((root / "rtl/registers.toml").string());
-    bool stale = false;
-    for (const auto& entry : fs::directory_iterator(root / "rtl/designs")) {
-      if (entry.path().extension() != ".toml") continue;
-      const auto e = elaborate(feltgate::design::read_design(entry.path().string()), registers);
-      const std::string& name = e.design.name;
-      stale |= update(root / "rtl/generated" / name / "feltgate_pkg.sv", systemverilog_package(e),
-                      check_only);
-      stale |= update(root / "model/include/feltgate/generated" / (name + ".hpp"), cpp_header(e),
-                      check_only);
-      if (name == "lever")
-        stale |= update(root / "docs/registers.md", register_page(e), check_only);
+    const auto registers =
+        feltgate::design::read_registers((o.root / "rtl/registers.toml").string());
+    if (!o.design.empty()) {
+      generate_one(o, registers);
+      return 0;
     }
-    return check_only && stale ? 1 : 0;
+    return generate_all(o, registers) && o.check_only ? 1 : 0;
   } catch (const ConfigError& error) {
     std::cerr << error.what() << "\n";
     return 2;

@@ -40,7 +40,7 @@ struct DobLaw {
   /// tau_hat, rounded and saturated to the torque format.
   static constexpr Torque tau_hat(State state, Inertia inertia, bool* saturated) {
     return quantise<N, D::f.torque.key(), D::rounding, Overflow::saturate>(state - inertia,
-                                                                              saturated);
+                                                                           saturated);
   }
 };
 
@@ -112,7 +112,8 @@ class Dob {
     out_.tau_hat = tau_hat_.raw();
   }
 
-  Lowpass<D::f.observer.key(), D::f.observer_difference.key(), D::P::observer_a1.key(), D::rounding> filter_;
+  Lowpass<D::f.observer.key(), D::f.observer_difference.key(), D::P::observer_a1.key(), D::rounding>
+      filter_;
   unsigned stage_ = 0;
   typename Law::Drive drive_{};
   typename Law::Inertia inertia_{};

@@ -162,7 +162,9 @@ class FeltgateCore {
   }
 
   static bool bit(std::uint32_t word, int n) { return ((word >> n) & 1u) != 0; }
-  static std::int64_t factor(std::uint32_t param) { return param & 0x1ffffu; }
+  static std::int64_t factor(std::uint32_t param) {
+    return param & ((1u << D::coefficient_bits) - 1);
+  }
 
   void note_supervisor_words() {
     using A = typename D::A;

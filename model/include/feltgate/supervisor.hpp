@@ -142,7 +142,7 @@ class Supervisor {
       out_.gates_enable = false;
     };
     const auto coefficient = [](std::uint32_t word) {
-      return static_cast<std::int64_t>(word & 0x1ffffU);
+      return static_cast<std::int64_t>(word & ((1U << D::coefficient_bits) - 1));
     };
     const std::int64_t estimate =
         estimate_of(in.voltage_before * coefficient(words.inverse_resistance),

@@ -128,7 +128,8 @@ class VelocityN {
 
  private:
   DelayLine<D::m1> line_;
-  Lowpass<D::f.velocity.key(), D::f.velocity_difference.key(), D::P::velocity_a1.key(), D::rounding> filter_;
+  Lowpass<D::f.velocity.key(), D::f.velocity_difference.key(), D::P::velocity_a1.key(), D::rounding>
+      filter_;
   unsigned stage_ = 0;
   std::int16_t travel_ = 0, oldest_ = 0, difference_ = 0;
   Velocity raw_{};

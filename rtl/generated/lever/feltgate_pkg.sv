@@ -17,11 +17,14 @@ package feltgate_pkg;
   localparam int DEAD_CLOCKS = 25;  // clocks
   localparam int SCENE_MASK = 509;  // bit n: scene n is built
   localparam int CONTROL_RESET = 0;  // control word after reset
+  localparam int COEFFICIENT_BITS = 17;  // bits of a coefficient's mantissa, without its sign
+  localparam int PARALLEL_MULTIPLIERS = 0;  // 1: each block has its own
   localparam int MULTIPLIER_A_BITS = 35;  // bits
   localparam int MULTIPLIER_B_BITS = 18;  // bits
   localparam int PRODUCT_BITS = 53;  // bits
   localparam int TRAVEL_BITS = 16;  // bits
   localparam int MULTIPLIER_LATENCY = 4;  // clocks from the operands to the product
+  localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
 
   // Widths (W) and fraction bits (F) of the signals.
   localparam int POSITION_W = 32;  // [1,31,0]

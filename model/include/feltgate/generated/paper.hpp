@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "feltgate/chain_formats.hpp"
+#include "feltgate/fixed.hpp"
 #include "feltgate/parameter.hpp"
 
 namespace feltgate {
@@ -30,11 +31,14 @@ struct Paper {
   static constexpr int dead_clocks = 25;  // clocks
   static constexpr int scene_mask = 509;  // bit n: scene n is built
   static constexpr int control_reset = 0;  // control word after reset
+  static constexpr int coefficient_bits = 17;  // bits of a coefficient's mantissa, without its sign
+  static constexpr int parallel_multipliers = 0;  // 1: each block has its own
   static constexpr int multiplier_a_bits = 35;  // bits
   static constexpr int multiplier_b_bits = 18;  // bits
   static constexpr int product_bits = 53;  // bits
   static constexpr int travel_bits = 16;  // bits
   static constexpr int multiplier_latency = 4;  // clocks from the operands to the product
+  static constexpr Round rounding = Round::half_up;  // where the chain rounds
 
   /// Formats of the parameters.
   struct P {

@@ -152,7 +152,7 @@ module torque_control #(
 
   logic unused_wave;
   assign unused_wave = &{wave_i[49:46], wave_i[43:40], wave_i[36], wave_i[34], wave_i[29],
-                         wave_i[25], wave_i[23:0], param_i[31:CurrentW],
+                         wave_i[25], wave_i[23:0], param_i,
                          upper_gap[0], lower_gap[0]};
 endmodule
 

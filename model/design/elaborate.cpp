@@ -167,7 +167,7 @@ void check_widths(const Elaborated& e) {
   };
   fits("formats.velocity", "the velocity", d.velocity.width(), fabric::word_bits);
   fits("formats.torque", "the ramped torque", f.ramp.width(), fabric::word_bits);
-  fits("formats.current", "the current", d.current.width(), fabric::word_bits - 1);
+  fits("formats.current", "the current", d.current.width(), fabric::word_bits);
   fits("formats.voltage", "the voltage", d.voltage.width(), fabric::word_bits);
   fits("formats.observer_fraction", "the observer's state", f.observer.width(), 62);
   fits("motor.resistance_ohm", "the current estimate", f.current_estimate.width(),

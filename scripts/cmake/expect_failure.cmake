@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# cmake -DTEST=executable -P expect_failure.cmake: succeeds when the Catch2 executable fails by an
-# assertion. A crash, a time-out, an exception or a pass is a failure. Used by block_test.cmake.
-execute_process(COMMAND "${TEST}" --abort TIMEOUT 3000
+# cmake -DTEST=executable[;argument...] -P expect_failure.cmake: succeeds when the Catch2 executable
+# fails by an assertion. A crash, a time-out, an exception or a pass is a failure. Used by block_test.cmake.
+execute_process(COMMAND ${TEST} --abort TIMEOUT 3000
   RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
 message("${output}")
 if(NOT code MATCHES "^[0-9]+$" OR output MATCHES "fatal error condition")

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A core on a bench: encoder edges and register writes go in, one sample per tick comes out, of the
+// core (RTL and twin in lock-step, or the twin alone) and of the same chain in double.
+// Documentation: docs/extremes.md
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "extremes/case.hpp"
+#include "loop/ensemble.hpp"
+
+namespace feltgate::extremes {
+
+enum class Cores { lock_step, twin };
+
+/// One set of signals, in SI units.
+struct Signals {
+  double velocity_rad_s = 0, tau_hat_nm = 0, tau_ref_nm = 0, current_a = 0, voltage_v = 0;
+};
+
+struct Sample {
+  std::int64_t tick = 0;  ///< ticks since the bench began
+  const Snapshot& raw;
+  Signals core, real;
+};
+
+class Bench {
+ public:
+  Bench(const std::string& design, Cores cores);
+
+  const DesignInfo& design() const { return ensemble_.design(); }
+  double tick_s() const { return 1.0 / static_cast<double>(design().tick_hz); }
+  Clock now() const { return ensemble_.lead_const().now(); }
+
+  /// A parameter in its unit. Writes are carried out one per tick, in order.
+  void set(const std::string& parameter, double value) {
+    ensemble_.set_parameter(parameter, value);
+  }
+  /// Asks to arm (or not) with this scene and mode; ramps are off.
+  void control(const std::string& scene, bool arm, int mode = 0);
+  /// Sets a scene's parameters first, arms, and runs until the core is armed.
+  void arm(const std::string& scene, int mode = 0);
+  void stop(bool pressed);
+
+  /// The count moves by `by` at this clock; beyond one in size the pins jump. Clocks must not fall.
+  void move(Clock at, int by);
+  /// Moves of one count at an even rate from `from` on, until `count` moves are made.
+  void turn(Clock from, double counts_per_s, std::int64_t count);
+  std::int64_t count() const { return count_; }  ///< where the pins are going, in counts
+
+  /// `ticks` ticks; each(sample) after each.
+  template <class Each>
+  void run(std::int64_t ticks, Each&& each) {
+    const Clock end = now() + ticks * design().clocks_per_tick;
+    ensemble_.advance(end - now(), edges_.data(), edges_.data() + edges_.size(),
+                      [&](const Snapshot& s) { each(sample(s)); });
+    edges_.clear();
+  }
+  void run(std::int64_t ticks) {
+    run(ticks, [](const Sample&) {});
+  }
+  std::int64_t ticks(double seconds) const;
+
+  /// Adds mismatches and device time to the outcome of a case.
+  void report(Outcome* outcome) const;
+  Ensemble& ensemble() { return ensemble_; }
+
+ private:
+  Sample sample(const Snapshot& s);
+
+  Cores cores_;
+  Ensemble ensemble_;
+  std::vector<EncoderEvent> edges_;
+  std::int64_t count_ = 0, ticks_ = 0;
+};
+
+/// Pins at a count: the Gray order 00, 01, 11, 10 of (A,B) counts up.
+EncoderPins pins_at(std::int64_t count);
+
+/// A row whose core column comes from a bench: RTL and twin where both ran (their outputs were
+/// compared on every clock), the twin alone otherwise.
+Finding finding(Cores cores, const std::string& what, const std::string& unit,
+                const Expected& expected, double core, std::optional<double> real = {});
+
+}  // namespace feltgate::extremes

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The extremes as named cases: each computes what must come out and measures it in RTL, twin and
+// floating point. One list serves the tests, `feltgate extremes` and docs/extremes.md.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace feltgate::extremes {
+
+/// What must come out: a value in [low, high], and where the bounds come from.
+struct Expected {
+  double low = 0, high = 0;
+  std::string text;  ///< as the table shows it
+};
+Expected exactly(double value);
+Expected near(double value, double tolerance);
+Expected between(double low, double high);
+Expected at_most(double value);
+Expected at_least(double value);
+
+/// One row of the table. A column without a value was not measured.
+struct Finding {
+  std::string what, unit;
+  Expected expected;
+  std::optional<double> rtl, twin, real;
+  bool real_may_differ = false;  ///< the row is about quantisation: the bounds are not for `real`
+  bool chaotic = false;          ///< digits depend on the last bit of the plant: not compared
+
+  bool holds() const;
+};
+
+struct Outcome {
+  std::vector<Finding> findings;
+  std::int64_t mismatches = 0;  ///< clocks in which RTL and twin showed different outputs
+  std::string first_mismatch;
+  double rtl_s = 0, twin_s = 0;  ///< device time simulated
+  std::string note;              ///< what each engine ran of the case
+
+  bool holds() const;
+};
+
+struct Settings {
+  std::string root;  ///< the repository
+  /// Seeded defect, 0 for none: some case of each group must then fail.
+  int defect = 0;
+  std::string progress_file;  ///< of the long case: where it notes how far it is; may be empty
+  std::function<void(double done)> progress;  ///< 0..1, may be empty
+};
+
+struct Case {
+  const char* group;
+  const char* name;
+  const char* about;  ///< one sentence for the page
+  bool long_only;     ///< minutes of CPU time: runs only with --long
+  Outcome (*run)(const Settings&);
+};
+
+/// Every case, in the order of the page.
+std::vector<Case> cases();
+
+// The groups, one source file each.
+std::vector<Case> encoder_cases();
+std::vector<Case> velocity_cases();
+std::vector<Case> filter_cases();
+std::vector<Case> observer_cases();
+std::vector<Case> scene_cases();
+std::vector<Case> loop_cases();
+
+}  // namespace feltgate::extremes

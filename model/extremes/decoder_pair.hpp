@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The decoder alone, RTL and twin in lock-step: cheap enough for a state on every clock, and its
+// count can start anywhere. Documentation: docs/extremes.md
+#pragma once
+
+#include <Vextremes_decoder.h>
+#include <verilated.h>
+
+#include <memory>
+#include <string>
+
+#include "extremes/bench.hpp"
+#include "feltgate/quad_decoder.hpp"
+
+namespace feltgate::extremes {
+
+class DecoderPair {
+ public:
+  /// The RTL was verilated with this ResetPosition.
+  static constexpr std::int32_t reset_position = 2147483000;
+
+  DecoderPair() : context_(new VerilatedContext), rtl_(new Vextremes_decoder(context_.get())) {
+    rtl_->clk_i = 0;
+    rtl_->rst_ni = 0;
+    rtl_->eval();
+    rtl_->clk_i = 1;
+    rtl_->eval();
+    rtl_->clk_i = 0;
+    rtl_->eval();
+    rtl_->rst_ni = 1;
+  }
+  ~DecoderPair() { rtl_->final(); }
+  DecoderPair(const DecoderPair&) = delete;
+  DecoderPair& operator=(const DecoderPair&) = delete;
+
+  void set_filter(int samples) { in_.filter = static_cast<std::uint8_t>(samples); }
+
+  /// One clock with the pins of this state.
+  void clock(std::int64_t state) {
+    const EncoderPins pins = pins_at(state);
+    in_.a = pins.a;
+    in_.b = pins.b;
+    rtl_->a_i = in_.a;
+    rtl_->b_i = in_.b;
+    rtl_->z_i = 0;
+    rtl_->filter_i = in_.filter;
+    rtl_->polarity_i = 0;
+    rtl_->set_zero_i = 0;
+    rtl_->clear_error_i = 0;
+    rtl_->clk_i = 1;
+    rtl_->eval();
+    rtl_->clk_i = 0;
+    rtl_->eval();
+    twin_.clock(in_);
+    ++clocks_;
+    rtl_flags_ += rtl_->illegal_o != 0 ? 1 : 0;
+    twin_flags_ += twin_.out().illegal ? 1 : 0;
+    const bool same = static_cast<std::int32_t>(rtl_->position_o) == twin_.out().position &&
+                      rtl_->travel_o == twin_.out().travel &&
+                      (rtl_->illegal_o != 0) == twin_.out().illegal &&
+                      (rtl_->error_o != 0) == twin_.out().error;
+    mismatches_ += same ? 0 : 1;
+  }
+  /// The state held, until every counter has seen it.
+  void settle(std::int64_t state) {
+    for (int k = 0; k < 40; ++k) clock(state);
+  }
+
+  /// Counts since reset, modulo 2^32, and clocks flagged as illegal.
+  std::int64_t rtl_moved() const { return moved(static_cast<std::int32_t>(rtl_->position_o)); }
+  std::int64_t twin_moved() const { return moved(twin_.out().position); }
+  std::int32_t rtl_position() const { return static_cast<std::int32_t>(rtl_->position_o); }
+  std::int32_t twin_position() const { return twin_.out().position; }
+  std::int64_t rtl_flags() const { return rtl_flags_; }
+  std::int64_t twin_flags() const { return twin_flags_; }
+
+  void report(Outcome* outcome) const {
+    outcome->rtl_s += static_cast<double>(clocks_) * 20e-9;
+    outcome->twin_s += static_cast<double>(clocks_) * 20e-9;
+    if (mismatches_ > 0 && outcome->mismatches == 0) outcome->first_mismatch = "decoder";
+    outcome->mismatches += mismatches_;
+  }
+
+ private:
+  static std::int64_t moved(std::int32_t position) {
+    const std::uint32_t d =
+        static_cast<std::uint32_t>(position) - static_cast<std::uint32_t>(reset_position);
+    return static_cast<std::int32_t>(d);
+  }
+
+  std::unique_ptr<VerilatedContext> context_;
+  std::unique_ptr<Vextremes_decoder> rtl_;
+  QuadDecoder twin_{reset_position};
+  QuadDecoder::In in_;
+  std::int64_t clocks_ = 0, mismatches_ = 0, rtl_flags_ = 0, twin_flags_ = 0;
+};
+
+}  // namespace feltgate::extremes

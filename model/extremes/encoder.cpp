@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Extremes of the position: the decoder at and beyond its clock, its filter, wraps of 16 and 32
+// bits. Documentation: docs/extremes.md
+#include <algorithm>
+#include <cmath>
+
+#include "extremes/decoder_pair.hpp"
+#include "extremes/table.hpp"
+
+namespace feltgate::extremes {
+
+namespace {
+
+constexpr double count_rad = 6.283185307179586 / 4096;
+constexpr double clock_hz = 50e6;
+
+void add(Outcome* o, const std::string& what, const std::string& unit, const Expected& expected,
+         double rtl, double twin, std::optional<double> real = {}) {
+  o->findings.push_back({what, unit, expected, rtl, twin, real});
+}
+
+/// States per clock at `quarters`/4; jumps of two are what a decoder can know to be lost.
+Outcome states_per_clock(const Settings& settings, const std::vector<int>& rates) {
+  Outcome o;
+  for (const int quarters : rates) {
+    DecoderPair d;
+    d.settle(0);
+    constexpr int clocks = 4000;
+    std::int64_t state = 0, singles = 0, doubles = 0, backs = 0;
+    for (int k = 1; k <= clocks; ++k) {
+      const std::int64_t next = static_cast<std::int64_t>(k) * quarters / 4;
+      const std::int64_t jump = next - state;
+      singles += jump == 1 ? 1 : 0;
+      doubles += jump == 2 ? 1 : 0;
+      backs += jump == 3 ? 1 : 0;  // three forward look like one back
+      state = next;
+      // The defect: every hundredth edge of the stimulus is lost.
+      d.clock(settings.defect == 1 && k % 100 == 0 ? state - 1 : state);
+    }
+    d.settle(state);
+    const std::string at = " at " + number(quarters / 4.0) + " states a clock";
+    add(&o, "counts" + at, "", exactly(static_cast<double>(singles - backs)),
+        static_cast<double>(d.rtl_moved()), static_cast<double>(d.twin_moved()),
+        static_cast<double>(state));
+    o.findings.back().real_may_differ = singles - backs != state;
+    add(&o, "clocks flagged" + at, "", exactly(static_cast<double>(doubles)),
+        static_cast<double>(d.rtl_flags()), static_cast<double>(d.twin_flags()));
+    if (quarters <= 8) {
+      add(&o, "counts lost and not flagged" + at, "", exactly(0),
+          static_cast<double>(state - d.rtl_moved() - 2 * d.rtl_flags()),
+          static_cast<double>(state - d.twin_moved() - 2 * d.twin_flags()));
+    }
+    d.report(&o);
+  }
+  return o;
+}
+
+Outcome decoder_limit(const Settings& s) {
+  Outcome o = states_per_clock(s, {4});
+  // One state a clock in radians.
+  const double limit = count_rad * clock_hz;
+  add(&o, "speed that this is, 1024 lines", "rad/s", near(76699, 0.5), limit, limit, limit);
+  o.note = "The float column is the motion itself.";
+  return o;
+}
+
+Outcome decoder_beyond(const Settings& s) {
+  Outcome o = states_per_clock(s, {5, 6, 7, 8});
+  o.note =
+      "A jump of two states is flagged and not counted, so true = counted + 2 x flagged. The float "
+      "column is the motion itself.";
+  return o;
+}
+
+Outcome decoder_aliasing(const Settings& s) {
+  Outcome o = states_per_clock(s, {10, 12, 14, 16});
+  o.note =
+      "Beyond two states a clock nothing can be known: a jump of three is counted as one back and "
+      "not flagged, a jump of four is invisible. The float column is the motion itself.";
+  return o;
+}
+
+/// Least clocks per state at which the filter of F samples still counts everything.
+std::pair<int, int> least_dwell(int filter) {
+  int rtl = 99, twin = 99;
+  for (int dwell = 16; dwell >= 1; --dwell) {
+    DecoderPair d;
+    d.set_filter(filter);
+    d.settle(0);
+    constexpr int states = 200;
+    for (int k = 1; k <= states; ++k) {
+      for (int c = 0; c < dwell; ++c) d.clock(k);
+    }
+    d.settle(states);
+    if (d.rtl_moved() == states) rtl = dwell;
+    if (d.twin_moved() == states) twin = dwell;
+    if (d.rtl_moved() != states && d.twin_moved() != states) break;
+  }
+  return {rtl, twin};
+}
+
+Outcome filter_limit(const Settings& s) {
+  Outcome o;
+  for (const int f : {0, 1, 4, 7, 8, 15}) {
+    // A channel keeps its level for two states and is believed after F + 1 samples.
+    const int expected = (f + 2) / 2;
+    const auto [rtl, twin] = least_dwell(s.defect == 2 ? std::max(0, f - 2) : f);
+    add(&o, "least clocks per state, filter " + number(f), "clock", exactly(expected), rtl, twin);
+    if (f == 15) {
+      add(&o, "speed that this is, 1024 lines", "rad/s", near(9587, 0.5),
+          count_rad * clock_hz / rtl, count_rad * clock_hz / twin);
+    }
+  }
+  o.note = "200 states per trial, the decoder alone.";
+  return o;
+}
+
+Outcome wrap_16(const Settings& s) {
+  // The velocity's 16-bit travel wraps at 613.6 rad/s; the difference of a window must not notice.
+  Outcome o;
+  for (const char* design : {"lever", "paper"}) {
+    Bench b(design, Cores::lock_step);
+    b.set("overspeed", 900);
+    // Most of the way at a state a clock, then the last thousands at the speed.
+    constexpr std::int64_t fast = 28000, slow = 8000;
+    b.run(4);
+    const Clock from = b.now() + 50;
+    for (std::int64_t k = 0; k < fast; ++k) b.move(from + k, 1);
+    b.run(b.ticks(28e-3));
+    const double speed = 613.6;
+    b.turn(b.now(), speed / count_rad * (s.defect == 3 ? 0.97 : 1.0), slow);
+    double low = 1e9, high = -1e9, real_low = 1e9, real_high = -1e9;
+    std::int64_t position = 0, travel = 0, wrapped = 0, widest = 0;
+    const std::int64_t settle = b.ticks(11e-3);
+    const std::int64_t length =
+        std::llround(static_cast<double>(slow) * count_rad / speed * 1e6) - 2;
+    std::int64_t k = 0;
+    b.run(length, [&](const Sample& x) {
+      if (x.raw.travel < travel - 30000) wrapped = x.raw.position;
+      travel = x.raw.travel;
+      position = x.raw.position;
+      widest = std::max<std::int64_t>(widest, std::abs(position));
+      if (++k < settle) return;
+      low = std::min(low, x.core.velocity_rad_s);
+      high = std::max(high, x.core.velocity_rad_s);
+      real_low = std::min(real_low, x.real.velocity_rad_s);
+      real_high = std::max(real_high, x.real.velocity_rad_s);
+    });
+    const std::string in = std::string(" (") + design + ")";
+    // 2^n counts of the window, whose number moves by one; the start has decayed by exp(-5.5).
+    const double gain = std::string(design) == "paper" ? 4 * 386e-6 : 2 * 767e-6;
+    const double exact = speed / count_rad * gain;
+    const double start = exact * std::exp(-500 * 10.2e-3);
+    const double step = std::string(design) == "paper" ? 4 : 2;
+    o.findings.push_back(finding(Cores::lock_step, "position at which travel wraps" + in, "count",
+                                 near(32768, 1), static_cast<double>(wrapped)));
+    o.findings.push_back(finding(Cores::lock_step, "lowest velocity over the wrap" + in, "rad/s",
+                                 between(exact - start - step, exact + step), low, real_low));
+    o.findings.push_back(finding(Cores::lock_step, "highest velocity over the wrap" + in, "rad/s",
+                                 between(exact - start - step, exact + step), high, real_high));
+    b.report(&o);
+  }
+  return o;
+}
+
+Outcome wrap_32(const Settings& s) {
+  Outcome o;
+  DecoderPair d;
+  d.settle(0);
+  // Over 2^31 and back, one state a clock; counts modulo 2^32 stay exact.
+  constexpr std::int64_t over = 2147483648LL - DecoderPair::reset_position;  // counts to the wrap
+  for (std::int64_t k = 1; k <= over; ++k) d.clock(k);
+  d.settle(s.defect == 1 ? over + 1 : over);
+  add(&o, "position after 2^31 counts", "count", exactly(-2147483648.0), d.rtl_position(),
+      d.twin_position());
+  for (std::int64_t k = over; k <= 3 * over; ++k) d.clock(k);
+  d.settle(3 * over);
+  add(&o, "counts from start across the wrap", "count", exactly(3 * over),
+      static_cast<double>(d.rtl_moved()), static_cast<double>(d.twin_moved()));
+  for (std::int64_t k = 3 * over; k >= 0; --k) d.clock(k);
+  d.settle(0);
+  add(&o, "back at the start", "count", exactly(DecoderPair::reset_position), d.rtl_position(),
+      d.twin_position());
+  const double hours = 2147483648.0 * count_rad / 613.6 / 3600;
+  add(&o, "time to the wrap at 613.6 rad/s, one way", "h", near(1.49, 0.005), hours, hours, hours);
+  d.report(&o);
+  o.note = "The decoder alone; its count starts 648 below the wrap.";
+  return o;
+}
+
+}  // namespace
+
+std::vector<Case> encoder_cases() {
+  return {
+      {"Encoder", "decoder_limit", "One state on every clock: nothing is lost and nothing flagged.",
+       false, decoder_limit},
+      {"Encoder", "decoder_beyond",
+       "Between one and two states a clock: everything that is not counted is flagged.", false,
+       decoder_beyond},
+      {"Encoder", "decoder_aliasing",
+       "From two to four states a clock: jumps of three count backwards, jumps of four vanish, "
+       "without a flag.",
+       false, decoder_aliasing},
+      {"Encoder", "filter_limit",
+       "With the glitch filter on, a state must last ceil((F+1)/2) clocks.", false, filter_limit},
+      {"Encoder", "wrap_16",
+       "The 16-bit travel wraps in the middle of a turn at 613.6 rad/s; the velocity does not see "
+       "it.",
+       false, wrap_16},
+      {"Encoder", "wrap_32", "The 32-bit position wraps forth and back; nothing is lost.", false,
+       wrap_32},
+  };
+}
+
+}  // namespace feltgate::extremes

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate extremes. Documentation: docs/extremes.md
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+
+#include "extremes/table.hpp"
+#include "tools/commands.hpp"
+#include "tools/output.hpp"
+
+namespace feltgate {
+
+namespace {
+
+struct ExtremesArguments {
+  std::vector<std::string> names;
+  std::string json;
+  bool long_too = false, markdown = false, list = false;
+};
+
+std::vector<extremes::Case> chosen(const ExtremesArguments& a) {
+  std::vector<extremes::Case> out;
+  std::string known;
+  for (const extremes::Case& c : extremes::cases()) {
+    known += (known.empty() ? "" : ", ") + std::string(c.name);
+    const bool named = std::find(a.names.begin(), a.names.end(), c.name) != a.names.end();
+    if (!named && !a.names.empty()) continue;
+    if (c.long_only && !a.long_too) {
+      if (named) {
+        throw std::invalid_argument(std::string(c.name) + " takes minutes of CPU time; add --long");
+      }
+      continue;
+    }
+    out.push_back(c);
+  }
+  for (const std::string& name : a.names) {
+    if (std::none_of(out.begin(), out.end(), [&](const auto& c) { return name == c.name; })) {
+      throw std::invalid_argument("case \"" + name + "\" is unknown; choose among " + known);
+    }
+  }
+  return out;
+}
+
+int run(const ExtremesArguments& a) {
+  const auto cases = chosen(a);
+  if (a.list) {
+    for (const auto& c : cases) std::printf("%-10s %-22s %s\n", c.group, c.name, c.about);
+    return exit_ok;
+  }
+  std::unique_ptr<OutputFile> json;
+  if (!a.json.empty()) json = std::make_unique<OutputFile>(a.json);
+  std::vector<extremes::Result> results;
+  std::string broken;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    Progress progress(std::string("extremes: ") + cases[i].name, false);
+    extremes::Settings settings;
+    settings.root = repository();
+    settings.progress = [&](double done) { progress.update(done); };
+    progress.update(static_cast<double>(i) / static_cast<double>(cases.size()));
+    results.push_back({cases[i], cases[i].run(settings)});
+    if (!results.back().outcome.holds()) broken += std::string(" ") + cases[i].name;
+    if (!a.markdown) std::fputs(extremes::text(results.back()).c_str(), stdout);
+  }
+  if (a.markdown) {
+    std::fputs((a.names.empty() ? extremes::page(results) : [&] {
+                 std::string some;
+                 for (const auto& r : results) some += extremes::markdown(r) + "\n";
+                 return some;
+               }()).c_str(),
+               stdout);
+  } else {
+    std::printf("%zu cases%s%s\n", results.size(),
+                broken.empty() ? ", all hold" : ", broken:", broken.c_str());
+  }
+  if (json) {
+    std::fputs(extremes::json(results).c_str(), json->handle());
+    json->commit();
+  }
+  return broken.empty() ? exit_ok : exit_failed;
+}
+
+}  // namespace
+
+void add_extremes(CLI::App& app, int* exit_code) {
+  auto a = std::make_shared<ExtremesArguments>();
+  CLI::App* sub = app.add_subcommand(
+      "extremes", "the core at its limits: expected, RTL, twin, float and a verdict for each case");
+  sub->footer(
+      "  feltgate extremes                      every short case (a minute or two)\n"
+      "  feltgate extremes --list               names and what they are about\n"
+      "  feltgate extremes wrap_32 decoder_limit\n"
+      "  feltgate extremes day --long           24 hours of device time in the twin\n"
+      "  feltgate extremes --markdown > docs/extremes.md\n"
+      "Exit code: 0 every case holds, 1 one does not, 2 unusable input.");
+  sub->add_option("case", a->names, "cases; all short ones when none is named")->type_name("CASE");
+  sub->add_option("--json", a->json, "the table as JSON");
+  sub->add_flag("--markdown", a->markdown, "print the page docs/extremes.md instead");
+  sub->add_flag("--long", a->long_too, "also cases that take minutes of CPU time");
+  sub->add_flag("--list", a->list, "only name the cases");
+  sub->callback([a, exit_code] { *exit_code = run(*a); });
+}
+
+}  // namespace feltgate

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Proven worst-case bounds on |core - real arithmetic| for velocity, tau_hat, torque reference and
+// current reference of a design. Theorem, assumptions and proof: docs/error-bounds.md
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bounds/chain_numbers.hpp"
+#include "bounds/interval.hpp"
+
+namespace feltgate::bounds {
+
+/// The inputs for which a bound is asked.
+struct InputRegion {
+  /// Largest |N-method velocity| before the low-pass, rad/s; 0: all that the format holds.
+  double velocity_rad_s = 0;
+  std::string scene;  ///< what is rendered; empty: the worst of all scenes that are built in
+  int mode = 0;       ///< of the control word: 0 closed loop, 1 open loop, 2 voltage
+};
+
+/// Bounds of one signal against three references. Infinity where nothing can be promised.
+struct ErrorBound {
+  double against_quantised = 0;  ///< real arithmetic with the core's own, quantised coefficients
+  double against_reference =
+      0;                     ///< the reference chain: coefficients exact, 2^n as the design says
+  double against_exact = 0;  ///< also the factor of the N-method exact, 2*pi/(Er*Tp*m1)
+};
+
+/// Where nothing saturates. Each is a condition for all of the motion.
+struct SaturationFree {
+  int counts_per_window = 0;   ///< |counts in m1 ticks| at most: raw velocity and travel hold it
+  double velocity_rad_s = 0;   ///< the same as a velocity
+  double tau_hat_rad_s = 0;    ///< up to this |velocity| tau_hat cannot reach its format's end
+  double current_rad_s = 0;    ///< up to this one the current limit cannot act; 0: it may always
+  double position_counts = 0;  ///< |position| at most, for the scenes
+};
+
+struct ErrorBounds {
+  InputRegion region;  ///< with the velocity filled in
+  SaturationFree free;
+  ErrorBound velocity_rad_s, tau_hat_nm, tau_ref_nm, current_a, torque_nm;
+  /// Sharper where the feedback of tau_hat acts, but only while the current limit does not.
+  ErrorBound unlimited_tau_hat_nm, unlimited_current_a;
+};
+
+/// The bounds hold from reset on, through arming and disarming, while neither the raw velocity nor
+/// tau_hat saturates and no ramp runs; limits of torque and current may act.
+/// Throws std::invalid_argument for a scene that is not built in.
+ErrorBounds error_bounds(const ChainNumbers& numbers, const InputRegion& region = {});
+ErrorBounds error_bounds(const design::Elaborated& e, const InputRegion& region = {});
+
+/// The bounds against the reference chain by the names of the tables: bound_velocity_rad_s,
+/// bound_tau_hat_nm, bound_tau_ref_nm, bound_current_a, bound_torque_nm.
+std::vector<std::pair<std::string, double>> bound_fields(const ErrorBounds& b);
+
+/// The bounds as text, as `feltgate design` and `feltgate budget` print them.
+std::string bound_table(const ErrorBounds& b);
+
+namespace detail {
+
+/// What the reference is: the level of the three columns.
+enum class Level { quantised, reference, exact };
+
+/// A coefficient in the core and in the reference of `level`.
+struct Pair {
+  Interval used, real;
+  Interval change() const { return boost::numeric::abs(used - real); }
+};
+Pair pair_of(const Number& n, Level level);
+
+/// What rounding to `f` by the design's mode adds.
+Interval rounding_error(const ChainNumbers& c, Format f);
+/// What dropping bits below `f` of a number with `fraction` bits adds; 0 when there are none.
+Interval truncation_error(int fraction, Format f);
+
+/// Bound of |tau_ref - tau_ref of the reference| [Nm] off the ramp, given one of the velocity.
+double scene_error(const ChainNumbers& c, const std::string& scene, Level level,
+                   double velocity_error_rad_s, double velocity_rad_s);
+
+}  // namespace detail
+
+}  // namespace feltgate::bounds

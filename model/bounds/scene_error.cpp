@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// How far the torque reference of each scene can be off. The position is the same integer in core
+// and reference. Documentation: docs/error-bounds.md
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "bounds/error_bounds.hpp"
+
+namespace feltgate::bounds::detail {
+
+namespace {
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+constexpr double anything = 1e100;  ///< larger than any signal
+
+/// The scene laws of one design against one reference.
+class Scenes {
+ public:
+  Scenes(const ChainNumbers& c, Level level) : c_(c), level_(level), limit_(of("torque_limit")) {}
+
+  Interval error(const std::string& scene, const Interval& velocity_error,
+                 const Interval& velocity) const {
+    if (scene == "free") return Interval(0.0);
+    if (scene == "setpoint") return limits() + word("setpoint_torque");
+    if (scene == "membrane") return limits() + membrane();
+    if (scene == "spring_tension") return limits() + spring("tension_stiffness", "tension_rest");
+    if (scene == "spring_compression") {
+      return limits() + spring("compression_stiffness", "compression_contact");
+    }
+    if (scene == "damper") {
+      const Pair b = of("damper_damping");
+      return limits() + b.used * velocity_error + slope_change(b, velocity) + rounding();
+    }
+    if (scene == "charge_attract") return limits() + charge("attract");
+    if (scene == "charge_repel") return limits() + charge("repel");
+    return {endless, endless};
+  }
+
+ private:
+  Pair of(const std::string& name) const { return pair_of(c_.at(name), level_); }
+  Interval limits() const { return limit_.change(); }
+  Interval rounding() const { return Interval(magnitude(rounding_error(c_, c_.formats.torque))); }
+
+  /// A word in the torque's format: half a bit whatever the host writes.
+  Interval word(const std::string& name) const {
+    if (level_ == Level::quantised) return Interval(0.0);
+    const double half = std::ldexp(0.5, -c_.formats.torque.fraction);
+    return Interval(std::max(half, of(name).change().upper()));
+  }
+
+  /// |clamp(k*x) - clamp(k'*x)| for any x, and at most |k - k'| * largest.
+  Interval slope_change(const Pair& k, const Interval& largest = Interval(anything)) const {
+    const double top = std::max(k.used.lower(), k.real.lower());
+    if (top <= 0) return Interval(0.0);
+    const double limited = (limit_.real * k.change() / Interval(top)).upper();
+    return Interval(std::min(limited, (k.change() * largest).upper()));
+  }
+
+  Interval membrane() const {
+    // The faces part the same integers in core and reference, or a count lies between.
+    const Number &lower = c_.at("membrane_lower"), &upper = c_.at("membrane_upper");
+    const bool same =
+        level_ == Level::quantised || (std::ceil(lower.used()) == std::ceil(lower.si) &&
+                                       std::floor(upper.used()) == std::floor(upper.si));
+    return same ? word("membrane_torque") : Interval(2.0) * of("membrane_torque").used;
+  }
+
+  Interval spring(const std::string& stiffness, const std::string& reference) const {
+    const Pair k = of(stiffness);
+    return k.used * of(reference).change() + slope_change(k) + rounding();
+  }
+
+  Interval charge(const std::string& name) const {
+    const Number &core = c_.at(name + "_core"), &centre = c_.at(name + "_centre");
+    const bool same =
+        level_ == Level::quantised ||
+        (core.used() == core.si && std::floor(centre.used()) == std::floor(centre.si));
+    if (!same) return {endless, endless};
+    const Format force{1, 0, c_.formats.charge.fraction};
+    const Interval narrowed(magnitude(truncation_error(force.fraction, c_.formats.torque)));
+    // The quotient is floored, and ends a step below 1 Nm.
+    const Interval step(std::ldexp(1.0, -force.fraction));
+    const Interval outside = slope_change(of(name + "_strength")) + step;
+    const Interval inside =
+        slope_change(of(name + "_core_slope")) + Interval(magnitude(rounding_error(c_, force)));
+    const double beyond = (limit_.real - (Interval(1.0) - step)).upper();
+    return boost::numeric::max(outside, core.raw > 0 ? inside : Interval(0.0)) + narrowed +
+           Interval(std::max(0.0, beyond));
+  }
+
+  const ChainNumbers& c_;
+  Level level_;
+  Pair limit_;
+};
+
+}  // namespace
+
+double scene_error(const ChainNumbers& c, const std::string& scene, Level level,
+                   double velocity_error_rad_s, double velocity_rad_s) {
+  const Scenes scenes(c, level);
+  const Interval error(velocity_error_rad_s), velocity(velocity_rad_s);
+  if (!scene.empty()) {
+    if (!c.built(scene)) {
+      throw std::invalid_argument("scene \"" + scene + "\" is not built in design " + c.design);
+    }
+    return scenes.error(scene, error, velocity).upper();
+  }
+  double worst = 0;
+  for (const std::string& s : c.scenes) {
+    worst = std::max(worst, scenes.error(s, error, velocity).upper());
+  }
+  return worst;
+}
+
+}  // namespace feltgate::bounds::detail

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The bounds of a design: closed forms where there are some, how they move with a design, what is
+// promised to hold without saturation. Documentation: docs/error-bounds.md
+#include "bounds/error_bounds.hpp"
+
+#include <cmath>
+
+#include "catch.hpp"
+
+namespace feltgate::bounds {
+
+namespace {
+
+using design::Design;
+using design::Elaborated;
+
+const design::RegisterMap& registers() {
+  static const design::RegisterMap map =
+      design::read_registers(FELTGATE_ROOT "/rtl/registers.toml");
+  return map;
+}
+
+Design file(const std::string& name) {
+  return design::read_design(FELTGATE_ROOT "/rtl/designs/" + name + ".toml");
+}
+
+Elaborated shipped(const std::string& name) { return elaborate(file(name), registers()); }
+
+bool finite(const ErrorBound& b) {
+  return std::isfinite(b.against_quantised) && std::isfinite(b.against_reference) &&
+         std::isfinite(b.against_exact);
+}
+
+}  // namespace
+
+TEST_CASE("the velocity's bound is half a bit over a1 with the core's own coefficients") {
+  for (const char* name : {"lever", "paper"}) {
+    const Elaborated e = shipped(name);
+    const ErrorBounds b = error_bounds(e);
+    const double closed =
+        std::ldexp(0.5, -e.formats.velocity.fraction) / e.word("velocity_a1").quantised();
+    CHECK(b.velocity_rad_s.against_quantised >= closed);
+    CHECK(b.velocity_rad_s.against_quantised <= closed * (1 + 1e-12));
+  }
+}
+
+TEST_CASE("every signal of the shipped designs has a bound, each reference adds to it") {
+  for (const char* name : {"lever", "paper"}) {
+    const ErrorBounds b = error_bounds(shipped(name));
+    for (const ErrorBound* s : {&b.velocity_rad_s, &b.tau_hat_nm, &b.tau_ref_nm, &b.current_a,
+                                &b.torque_nm, &b.unlimited_tau_hat_nm, &b.unlimited_current_a}) {
+      CHECK(finite(*s));
+      CHECK(s->against_quantised > 0);
+      CHECK(s->against_reference > s->against_quantised);
+      CHECK(s->against_exact > s->against_reference);
+    }
+    CHECK(b.unlimited_tau_hat_nm.against_quantised <= b.tau_hat_nm.against_quantised * (1 + 1e-9));
+    CHECK(bound_fields(b).size() == 5);
+  }
+}
+
+TEST_CASE("a smaller region has a smaller bound, except what rounding alone does") {
+  const Elaborated e = shipped("lever");
+  InputRegion region;
+  region.velocity_rad_s = 10;
+  const ErrorBounds slow = error_bounds(e, region), any = error_bounds(e);
+  CHECK(slow.velocity_rad_s.against_quantised == any.velocity_rad_s.against_quantised);
+  CHECK(slow.velocity_rad_s.against_reference < any.velocity_rad_s.against_reference);
+  CHECK(slow.tau_hat_nm.against_reference < any.tau_hat_nm.against_reference);
+  region.scene = "free";
+  CHECK(error_bounds(e, region).tau_ref_nm.against_exact == 0);
+  region.scene = "nowhere";
+  CHECK_THROWS_AS(error_bounds(e, region), std::invalid_argument);
+}
+
+TEST_CASE("nothing saturates in the region that is stated") {
+  const ErrorBounds lever = error_bounds(shipped("lever")), paper = error_bounds(shipped("paper"));
+  // 2 rad/s per count in [1,10,21]; 4 rad/s per count.
+  CHECK(lever.free.counts_per_window == 511);
+  CHECK(lever.free.velocity_rad_s == 1022);
+  CHECK(paper.free.counts_per_window == 255);
+  CHECK(lever.free.tau_hat_rad_s > 300);
+  // tau_ref alone takes 16.56 of 16.6 A in lever; in paper the observer may ask for more.
+  CHECK(lever.free.current_rad_s == lever.free.velocity_rad_s);
+  CHECK(paper.free.current_rad_s == 0);
+}
+
+TEST_CASE("the more tau_hat is fed back, the larger its bound, up to none at all") {
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  Design d = file("paper");
+  double before = 0;
+  for (const double kp : {2042.0, 1600.0, 800.0}) {
+    d.kp_1_kg_m2 = kp;
+    const ErrorBounds b = error_bounds(elaborate(d, registers()));
+    CHECK(b.tau_hat_nm.against_quantised > before);
+    before = b.tau_hat_nm.against_quantised;
+  }
+  // Fed back whole it is an integrator but for the quantised constants: a bound nobody can use.
+  d.kp_1_kg_m2 = 0;
+  CHECK(error_bounds(elaborate(d, registers())).tau_hat_nm.against_quantised > 1);
+  // Above 1 with either sign the argument through the limit fails; the closed section still holds.
+  d.kp_1_kg_m2 = 5000;
+  const ErrorBounds n = error_bounds(elaborate(d, registers()));
+  CHECK(n.tau_hat_nm.against_quantised == endless);
+  CHECK(n.unlimited_tau_hat_nm.against_quantised < 1e-3);
+  CHECK(std::isfinite(n.velocity_rad_s.against_reference));
+}
+
+}  // namespace feltgate::bounds

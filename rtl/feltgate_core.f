@@ -11,6 +11,7 @@ scene_membrane.sv
 scene_spring.sv
 scene_damper.sv
 scene_charge.sv
+scene_wall.sv
 scenes.sv
 torque_control.sv
 supervisor.sv

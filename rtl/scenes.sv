@@ -34,8 +34,9 @@ module scenes #(
   localparam int Fine = feltgate_pkg::RAMP_F - feltgate_pkg::TORQUE_F;
 
   // The scenes. A torque is 0 unless its scene is selected, so that they may be ored.
-  logic signed [feltgate_pkg::SCENE_OFFSET_W-1:0] spring_operand, charge_operand;
-  logic signed [TorqueW-1:0] setpoint_tau, membrane_tau, spring_tau, damper_tau, charge_tau;
+  logic signed [feltgate_pkg::SCENE_OFFSET_W-1:0] spring_operand, charge_operand, wall_operand;
+  logic signed [TorqueW-1:0] setpoint_tau, membrane_tau, spring_tau, damper_tau, charge_tau,
+                             wall_tau;
   logic tension, attract, spring, charge;
   assign tension   = scene_i == feltgate_pkg::SCENE_SPRING_TENSION;
   assign spring    = (Mask[{1'b0, feltgate_pkg::SCENE_SPRING_TENSION}] && tension) ||
@@ -90,7 +91,7 @@ module scenes #(
         .tau_o(spring_tau)
     );
   end else begin : gen_no_spring
-    assign spring_operand = '0;
+    assign spring_operand = wall_operand;  // both are reference - position
     assign spring_tau     = '0;
   end
 
@@ -126,10 +127,27 @@ module scenes #(
     assign charge_tau     = '0;
   end
 
+  if (Mask[{1'b0, feltgate_pkg::SCENE_WALL}]) begin : gen_wall
+    scene_wall u_wall (
+        .clk_i(clk_i),
+        .rst_ni(rst_ni),
+        .select_i(scene_i == feltgate_pkg::SCENE_WALL),
+        .start_i(start_i),
+        .position_i(position_i),
+        .param_i(param_i),
+        .product_i(product_i),
+        .operand_o(wall_operand),
+        .tau_o(wall_tau)
+    );
+  end else begin : gen_no_wall
+    assign wall_operand = '0;
+    assign wall_tau     = '0;
+  end
+
   logic signed [TorqueW-1:0] tau;
   // All but the divider are ready long before clock 25: one level of logic less on its way.
   logic signed [TorqueW-1:0] early_tau_q;
-  always_ff @(posedge clk_i) early_tau_q <= setpoint_tau | membrane_tau | spring_tau | damper_tau;
+  always_ff @(posedge clk_i) early_tau_q <= setpoint_tau | membrane_tau | spring_tau | damper_tau | wall_tau;
   assign tau = early_tau_q | charge_tau;
 
   logic [25:0] stage_q;  // stage_q[k]: wave clock k + 2
@@ -202,7 +220,7 @@ module scenes #(
 
   logic unused;
   assign unused = ^{param_i[31:RampW], upper_gap[TorqueW-1:0], lower_gap[TorqueW-1:0],
-                    beyond[RampW-1:0]};
+                    beyond[RampW-1:0], wall_operand};
 endmodule
 
 `default_nettype wire

@@ -42,6 +42,7 @@ struct Design {
   double compression_contact_rad = 0, compression_nm_rad = 0;
   double tension_rest_rad = 0, tension_nm_rad = 0, damper_nm_s_rad = 0;
   double charge_centre_rad = 0, charge_nm_rad2 = 0, charge_core_rad = 0;
+  double wall_contact_rad = 0, wall_nm_rad = 0, wall_nm_s_rad = 0;
   Format velocity{}, torque{}, current{}, voltage{};
   int observer_fraction = 0;
   int coefficient_bits = fabric::multiplier_b_bits - 1;  ///< of a mantissa, without its sign

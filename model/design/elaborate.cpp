@@ -99,6 +99,9 @@ std::map<std::string, Value> parameter_values(const Design& d) {
       {"repel_strength", {charge, "scenes.charge_nm_rad2"}},
       {"repel_core", {core, "scenes.charge_core_rad"}},
       {"repel_core_slope", {core_slope, "scenes.charge_core_rad"}},
+      {"wall_contact", {d.wall_contact_rad / q, "scenes.wall_contact_rad"}},
+      {"wall_stiffness", {d.wall_nm_rad * q, "scenes.wall_nm_rad"}},
+      {"wall_damping", {d.wall_nm_s_rad, "scenes.wall_nm_s_rad"}},
   };
 }
 
@@ -235,6 +238,10 @@ void check_drops(const Elaborated& e) {
   drops("formats.torque", f.scene_offset, e.word("compression_stiffness"), d.torque.fraction + 1);
   drops("formats.torque", f.scene_offset, e.word("tension_stiffness"), d.torque.fraction + 1);
   drops("formats.torque", d.velocity, e.word("damper_damping"), d.torque.fraction + 1);
+  constexpr int wall_guard_bits = 2;
+  drops("formats.torque", f.scene_offset, e.word("wall_stiffness"),
+        d.torque.fraction + wall_guard_bits);
+  drops("formats.torque", d.velocity, e.word("wall_damping"), d.torque.fraction + wall_guard_bits);
   drops("formats.coefficient_bits", f.scene_offset, e.word("attract_core_slope"),
         f.charge.fraction + 1);
   drops("formats.coefficient_bits", f.scene_offset, e.word("repel_core_slope"),
@@ -339,7 +346,8 @@ Elaborated elaborate(const Design& design, const RegisterMap& registers) {
       for (const Parameter& o : registers.parameters) {
         if (o.same_format_as == p.name) largest = std::max(largest, value_of(o, o.name).si);
       }
-      w.format = coefficient_format(largest, p.kind == "signed", design.coefficient_bits);
+      w.format = coefficient_format(std::ldexp(largest, p.headroom_bits), p.kind == "signed",
+                                    design.coefficient_bits);
     } else if (p.kind == "signal") {
       w.format = signal_format(design, p);
     } else if (p.kind == "counts") {

@@ -96,6 +96,9 @@ void read_scenes(config::TomlReader& r, Design& d) {
   d.charge_centre_rad = r.number("charge_centre_rad", {-200.0, 200.0});
   d.charge_nm_rad2 = r.number("charge_nm_rad2", {0.0, 0.15});
   d.charge_core_rad = r.number("charge_core_rad", {0.0, 10.0});
+  d.wall_contact_rad = r.number("wall_contact_rad", {-200.0, 200.0});
+  d.wall_nm_rad = r.number("wall_nm_rad", {0.0, 1000.0});
+  d.wall_nm_s_rad = r.number("wall_nm_s_rad", {0.0, 100.0});
 }
 
 void read_supervisor(config::TomlReader& r, Design& d) {

@@ -34,6 +34,7 @@ Parameter read_parameter(config::TomlReader r, const RegisterMap& map, std::set<
   p.kind = kinds[r.choice("kind", kinds)];
   if (p.kind == "signal") p.signal = r.text("format");
   if (r.has("same_format_as")) p.same_format_as = r.text("same_format_as");
+  if (r.has("headroom_bits")) p.headroom_bits = small(r, "headroom_bits", 8);
   p.unit = r.text("unit");
   p.doc = r.text("doc");
   p.address = p.slot;

@@ -17,6 +17,7 @@ struct Parameter {
   std::string kind;            ///< coefficient, signed, signal, counts or integer
   std::string signal;          ///< format of a word of kind signal
   std::string same_format_as;  ///< takes the format of another coefficient
+  int headroom_bits = 0;       ///< doublings above the design's value that a coefficient can take
   std::string unit;
   std::string doc;
   int address = 0;    ///< slot, or slot within the scene's bank of 32

@@ -79,7 +79,7 @@ TEST_CASE("shipped designs quantise to better than 2^-16", "[design]") {
       const bool coefficient = w.parameter.kind == "coefficient" || w.parameter.kind == "signed";
       if (!coefficient || w.si == 0 || !w.parameter.same_format_as.empty()) continue;
       INFO(name << " " << w.parameter.name);
-      CHECK(std::abs(w.relative_error()) < std::ldexp(1.0, -16));
+      CHECK(std::abs(w.relative_error()) < std::ldexp(1.0, w.parameter.headroom_bits - 16));
       ++coefficients;
     }
     CHECK(coefficients >= 15);

@@ -21,6 +21,9 @@ class Comparison {
     real_words_.set_value(A::ramp_step, 8);
     fixed_words_.set_raw(A::setpoint_torque, 13371);
     real_words_.set_value(A::setpoint_torque, Quad{13371} / 65536);
+    // In a wall, two large products may cancel: what is left shows every bit of its coefficients.
+    use_quantised(A::wall_stiffness, Design::P::wall_stiffness);
+    use_quantised(A::wall_damping, Design::P::wall_damping);
     at(0, 0);
   }
   void at(std::int32_t position, std::int64_t velocity) {
@@ -39,6 +42,14 @@ class Comparison {
   std::int64_t acting = 0, limited = 0;
 
  private:
+  void use_quantised(int address, Format format) {
+    for (const ParameterInfo& p : Design::parameters) {
+      if (p.address != address) continue;
+      real_words_.set_value(address, static_cast<Quad>(p.raw) /
+                                         static_cast<Quad>(std::int64_t{1} << format.fraction));
+    }
+  }
+
   int scene_;
   Words<Design, Fixed> fixed_words_;
   Words<Design, Real<Quad>> real_words_;
@@ -49,8 +60,9 @@ class Comparison {
 }  // namespace feltgate::test
 
 TEST_CASE("scenes: within one step of torque of the exact laws, given position and velocity") {
-  for (const int scene : {S::free, S::setpoint, S::membrane, S::spring_compression,
-                          S::spring_tension, S::damper, S::charge_attract, S::charge_repel}) {
+  for (const int scene :
+       {S::free, S::setpoint, S::membrane, S::spring_compression, S::spring_tension, S::damper,
+        S::charge_attract, S::charge_repel, S::wall}) {
     Comparison c(scene);
     Random random(11);
     for (std::int32_t p = -2500; p <= 2500; ++p) c.at(p, p * 20011);

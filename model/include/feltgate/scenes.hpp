@@ -12,6 +12,7 @@
 #include "feltgate/scene_membrane.hpp"
 #include "feltgate/scene_setpoint.hpp"
 #include "feltgate/scene_spring.hpp"
+#include "feltgate/scene_wall.hpp"
 #include "feltgate/words.hpp"
 
 namespace feltgate {
@@ -124,6 +125,8 @@ class ScenesLaw {
         return SceneChargeLaw<D, N>::torque(w, true, position);
       case S::charge_repel:
         return SceneChargeLaw<D, N>::torque(w, false, position);
+      case S::wall:
+        return SceneWallLaw<D, N>::torque(w, position, velocity);
       default:
         return Torque{};
     }
@@ -167,7 +170,7 @@ class Scenes {
     }
     if ((stage_ & stage(25)) != 0) {
       const std::int64_t tau = setpoint_.out().tau + membrane_.out().tau + spring_.out().tau +
-                               damper_.out().tau + charge_.out().tau;
+                               damper_.out().tau + charge_.out().tau + wall_.out().tau;
       port.limit(Torque::from_raw(tau), Torque::from_raw(decode_word(D::f.torque, in.param)));
     }
     if (in.start) port.begin(in.armed, in.scene);
@@ -206,7 +209,10 @@ class Scenes {
         scene_built<D>(S::spring_compression) || scene_built<D>(S::spring_tension);
     Out o;
     o.square = charge(scene);
-    o.operand = o.square ? charge_.out().operand : spring ? spring_.out().operand : 0;
+    o.operand = o.square                  ? charge_.out().operand
+                : spring                  ? spring_.out().operand
+                : scene_built<D>(S::wall) ? wall_.out().operand
+                                          : 0;
     o.tau_ref = tau_ref().raw();
     o.limit_torque = limit_torque();
     o.limit_ramp = limit_ramp();
@@ -222,6 +228,7 @@ class Scenes {
     spring_.clock({spring, tension, in.start, in.position, in.param, in.product});
     damper_.clock({runs(in.scene, S::damper), in.start, in.product});
     charge_.clock({charge(in.scene), attract, in.start, in.position, in.param, in.product});
+    wall_.clock({runs(in.scene, S::wall), in.start, in.position, in.param, in.product});
   }
 
   SceneSetpoint<D> setpoint_;
@@ -229,6 +236,7 @@ class Scenes {
   SceneSpring<D> spring_;
   SceneDamper<D> damper_;
   SceneCharge<D> charge_;
+  SceneWall<D> wall_;
   ScenesLaw<D, Fixed> law_;
   fixed_of<D::f.ramp.key()> step_{};
   std::uint32_t stage_ = 0;

@@ -15,7 +15,7 @@ package feltgate_pkg;
   localparam int VELOCITY_GAIN_F = 17;  // its fraction bits
   localparam int PWM_PERIOD = 2500;  // clocks
   localparam int DEAD_CLOCKS = 25;  // clocks
-  localparam int SCENE_MASK = 509;  // bit n: scene n is built
+  localparam int SCENE_MASK = 1021;  // bit n: scene n is built
   localparam int CONTROL_RESET = 0;  // control word after reset
   localparam int COEFFICIENT_BITS = 17;  // bits of a coefficient's mantissa, without its sign
   localparam int PARALLEL_MULTIPLIERS = 0;  // 1: each block has its own
@@ -102,6 +102,8 @@ package feltgate_pkg;
   localparam int P_DAMPER_DAMPING_F = 22;
   localparam int P_ATTRACT_CORE_SLOPE_F = 17;
   localparam int P_REPEL_CORE_SLOPE_F = 17;
+  localparam int P_WALL_STIFFNESS_F = 22;
+  localparam int P_WALL_DAMPING_F = 20;
 
   // Wave clocks in which a word is on the parameter bus.
   localparam int S_VELOCITY_A1 = 4;
@@ -143,6 +145,7 @@ package feltgate_pkg;
   localparam logic [3:0] SCENE_DAMPER = 4'd6;
   localparam logic [3:0] SCENE_CHARGE_ATTRACT = 4'd7;
   localparam logic [3:0] SCENE_CHARGE_REPEL = 4'd8;
+  localparam logic [3:0] SCENE_WALL = 4'd9;
 
   // Addresses of control and snapshot words, and bits of the control words.
   localparam logic [11:0] A_CONTROL = 12'h200;
@@ -221,6 +224,9 @@ package feltgate_pkg;
       9'd258: parameter_reset = 32'd557019098;  // repel_strength
       9'd268: parameter_reset = 32'd0;  // repel_core
       9'd262: parameter_reset = 32'd0;  // repel_core_slope
+      9'd289: parameter_reset = 32'd83443;  // wall_contact
+      9'd291: parameter_reset = 32'd25736;  // wall_stiffness
+      9'd298: parameter_reset = 32'd5243;  // wall_damping
       default: parameter_reset = 32'd0;
     endcase
   endfunction

@@ -29,7 +29,7 @@ struct Lever {
   static constexpr int velocity_gain_f = 17;  // its fraction bits
   static constexpr int pwm_period = 1000;  // clocks
   static constexpr int dead_clocks = 25;  // clocks
-  static constexpr int scene_mask = 509;  // bit n: scene n is built
+  static constexpr int scene_mask = 1021;  // bit n: scene n is built
   static constexpr int control_reset = 0;  // control word after reset
   static constexpr int coefficient_bits = 17;  // bits of a coefficient's mantissa, without its sign
   static constexpr int parallel_multipliers = 0;  // 1: each block has its own
@@ -88,6 +88,9 @@ struct Lever {
     static constexpr Format repel_strength{0, 16, 16};
     static constexpr Format repel_core{0, 31, 0};
     static constexpr Format repel_core_slope{0, -8, 25};
+    static constexpr Format wall_contact{1, 17, 8};
+    static constexpr Format wall_stiffness{0, -5, 22};
+    static constexpr Format wall_damping{0, -3, 20};
   };
 
   /// Addresses of the parameters.
@@ -138,6 +141,9 @@ struct Lever {
     static constexpr int repel_strength = 258;
     static constexpr int repel_core = 268;
     static constexpr int repel_core_slope = 262;
+    static constexpr int wall_contact = 289;
+    static constexpr int wall_stiffness = 291;
+    static constexpr int wall_damping = 298;
   };
 
   /// Scene numbers.
@@ -150,6 +156,7 @@ struct Lever {
     static constexpr int damper = 6;
     static constexpr int charge_attract = 7;
     static constexpr int charge_repel = 8;
+    static constexpr int wall = 9;
   };
   /// Number of a scene by name, -1 when there is none.
   static constexpr int scene_number(std::string_view scene) {
@@ -161,6 +168,7 @@ struct Lever {
     if (scene == "damper") return 6;
     if (scene == "charge_attract") return 7;
     if (scene == "charge_repel") return 8;
+    if (scene == "wall") return 9;
     return -1;
   }
 
@@ -297,6 +305,12 @@ struct Lever {
        131.0, 131},
       {"repel_core_slope", "Nm/count", A::repel_core_slope, P::repel_core_slope,
        0.0038349519697141021, 128680},
+      {"wall_contact", "count", A::wall_contact, P::wall_contact,
+       325.94932345220167, 83443},
+      {"wall_stiffness", "Nm/count", A::wall_stiffness, P::wall_stiffness,
+       0.0061359231515425647, 25736},
+      {"wall_damping", "Nm s/rad", A::wall_damping, P::wall_damping,
+       0.0050000000000000001, 5243},
   };
 };
 

@@ -13,16 +13,17 @@ import signal
 import sys
 from pathlib import Path
 
-from exploring import chunks, engines, meter, space
+from exploring import chunks, engines, explore_page, front, merge, meter, routes, space
 from exploring import plan as plans
 
-VERBS = ("plan", "run", "merge", "page", "point")
+VERBS = ("plan", "run", "merge", "route", "page", "point")
 EXAMPLES = """examples:
   feltgate explore smoke                          plan, run, merge, route, page in one go
   feltgate explore plan trade -o /data/trade      then, here or on many machines:
   feltgate explore run /data/trade --chunk 3/16   one of 16 parts; --chunk left out: all of them
   feltgate explore run /data/trade --engine dask --scheduler tcp://head:8786
   feltgate explore merge /data/trade              refuses gaps and duplicates
+  feltgate explore route /data/trade              Fmax of the points on the front
   feltgate explore page /data/trade               explore.html: hover a dot, get its design file
   feltgate explore point my_point.toml            one design point alone
 
@@ -64,34 +65,67 @@ def parser_of_verbs():
     for one in (everything, make):
         one.add_argument("space", help="a file, or a name in vectors/spaces")
         one.add_argument("-o", "--out", type=Path, metavar="DIR", help="default: explore/ in build")
+    everything.add_argument("--no-route", action="store_true", help="leave out place and route")
     run = verbs.add_parser("run", help="evaluate a plan, or one chunk of it")
     run.add_argument("--chunk", metavar="I/N", help="only part I of N; default: all, in parallel")
     merge = verbs.add_parser("merge", help="join the chunks into points.jsonl")
+    route = verbs.add_parser("route", help="place and route the points of the front, and merge")
+    route.add_argument("--point", metavar="ID", help="only this point, and no merge")
     page = verbs.add_parser("page", help="write explore.html")
-    for one in (run, merge, page):
+    for one in (run, merge, route, page):
         one.add_argument("folder", type=Path, metavar="DIR")
-    for one in (everything, run):
+    for one in (everything, run, route):
         add_engine(one)
     verbs.add_parser("point", help="evaluate one design point", add_help=False)
     return parser
 
 
-def run_all(plan, options):
-    sources = plans.sources_digest(root(), {point["base"] for point in plan.points})
+def sources_of(plan):
+    return plans.sources_digest(root(), {point["base"] for point in plan.points})
+
+
+def execute(options, parts, finished):
     jobs = options.jobs or os.cpu_count() or 1
+    if options.engine == "dask":
+        engines.dask(parts, options.scheduler, jobs, finished)
+    else:
+        engines.local(parts, jobs, finished)
+
+
+def run_all(plan, options):
+    """Every chunk that is not there yet."""
     count = max(1, len(plan.groups()))
+    missing = chunks.missing(plan, count, sources_of(plan))
+    parts = [
+        engines.Part(
+            ("run", str(plan.folder), "--chunk", f"{index}/{count}"),
+            len(plan.chunk(index, count)),
+        )
+        for index in missing
+    ]
     with meter.Meter(plan.folder, len(plan.points)) as shown:
-        if options.engine == "dask":
-            engines.dask(plan, count, sources, options.scheduler, jobs, shown)
-        else:
-            engines.local(plan, count, sources, jobs, shown)
+        shown.skip(len(plan.points) - sum(part.points for part in parts))
+        execute(options, parts, shown.finish)
+
+
+def route_all(plan, options):
+    """Every point of the front that is not routed yet."""
+    done = routes.read(plan.folder, sources_of(plan))
+    names = [row["id"] for row in front.find(merge.read(plan.folder))]
+    parts = [
+        engines.Part(("route", str(plan.folder), "--point", name), 1)
+        for name in names
+        if name not in done
+    ]
+    with meter.Meter(plan.folder, len(names), "routed") as shown:
+        shown.skip(len(names) - len(parts))
+        execute(options, parts, shown.finish)
 
 
 def run_chunk(plan, text):
     index, count = plans.parse_chunk(text)
-    sources = plans.sources_digest(root(), {point["base"] for point in plan.points})
-    parent = os.environ.get("FELTGATE_EXPLORE_PARENT")
-    print(chunks.run(plan, index, count, sources, int(parent) if parent else None))
+    parent = os.environ.get(engines.PARENT)
+    print(chunks.run(plan, index, count, sources_of(plan), int(parent) if parent else None))
 
 
 def make_plan(options):
@@ -104,18 +138,46 @@ def make_plan(options):
     return plan
 
 
+def report_mismatches(rows):
+    """Exit status: 1 when the RTL of a point is not its twin."""
+    wrong = [row["id"] for row in rows if row["result"].get("mismatches")]
+    if wrong:
+        print(f"explore: RTL and twin differ at {', '.join(wrong)}", file=sys.stderr)
+    return 1 if wrong else 0
+
+
+def act_all(options):
+    plan = make_plan(options)
+    run_all(plan, options)
+    print(merge.merge(plan))
+    if not options.no_route:
+        route_all(plan, options)
+        merge.merge(plan)
+    rows = merge.read(plan.folder)
+    print(explore_page.write(plan, rows, root()))
+    return report_mismatches(rows)
+
+
 def act(options):
+    if options.verb == "all":
+        return act_all(options)
     if options.verb == "plan":
         print(make_plan(options).folder)
         return 0
-    plan = make_plan(options) if options.verb == "all" else plans.load(options.folder)
+    plan = plans.load(options.folder)
     if options.verb == "run" and options.chunk:
         run_chunk(plan, options.chunk)
-        return 0
-    if options.verb in ("run", "all"):
+    elif options.verb == "run":
         run_all(plan, options)
-    if options.verb in ("merge", "all"):
-        print(chunks.merge(plan))
+    elif options.verb == "route" and options.point:
+        print(routes.run(plan, options.point, sources_of(plan)))
+    elif options.verb == "page":
+        print(explore_page.write(plan, merge.read(plan.folder), root()))
+    else:
+        if options.verb == "route":
+            route_all(plan, options)
+        print(merge.merge(plan))
+        return report_mismatches(merge.read(plan.folder))
     return 0
 
 

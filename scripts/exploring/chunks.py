@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Chunk files: run one, and merge all of them.
+"""Chunk files: what is evaluated, in parts that any process of any machine may take.
 
 A chunk file is a line that says what it is and one line per point. It grows under a name of its own
 and appears under its name when it is whole. Documentation: docs/explore.md
@@ -9,7 +9,6 @@ and appears under its name when it is whole. Documentation: docs/explore.md
 import importlib
 import json
 import os
-import re
 import socket
 from pathlib import Path
 
@@ -18,12 +17,11 @@ from exploring import space
 
 FOLDER = "chunks"
 WORK = "work"
-MERGED = "points.jsonl"
 EVALUATOR = "FELTGATE_EXPLORE_POINT"  # tests put their own module here
 
 
 class ChunkError(Exception):
-    """Chunks that do not make a whole, or an evaluation that failed."""
+    """An evaluation that failed, or chunks that do not make a whole."""
 
 
 class Orphaned(Exception):
@@ -61,9 +59,10 @@ def line_of(point, result):
     return space.canonical({"id": space.point_id(point), **point, "result": result})
 
 
-def one(evaluate, point, plan):
+def one(evaluate, point, plan, **more):
+    """A point's result. Raises ChunkError that names the point."""
     try:
-        return evaluate(point, plan.folder / WORK)
+        return evaluate(point, plan.folder / WORK, **more)
     except Exception as error:  # whatever it is, the point must be named
         raise ChunkError(
             f"point {space.canonical(point['set'])} of {point['base']}: "
@@ -107,6 +106,12 @@ def sweep_up(plan):
             continue
 
 
+def missing(plan, count, sources):
+    """Numbers of the chunks that are not there yet, or stale."""
+    sweep_up(plan)
+    return [i for i in range(1, count + 1) if not is_done(plan, i, count, sources)]
+
+
 def points_under_way(folder):
     """Points that chunks under way have finished; for the progress line only."""
     lines = 0
@@ -116,61 +121,3 @@ def points_under_way(folder):
         except OSError:
             continue  # renamed meanwhile
     return lines
-
-
-def collect(plan):
-    """{id: line} of all chunk files. Raises ChunkError on gaps, duplicates and strangers."""
-    lines, come_from, sources = {}, {}, {}
-    paths = sorted((plan.folder / FOLDER).glob("*.jsonl"))
-    wanted = {space.point_id(point) for point in plan.points}
-    for path in paths:
-        if not re.fullmatch(r"\d{5}-of-\d{5}\.jsonl", path.name):
-            raise ChunkError(f"{path}: no chunk file; take it away")
-        head, *rest = path.read_text(encoding="utf-8").splitlines()
-        head = json.loads(head)
-        if head.get("plan") != plan.digest:
-            raise ChunkError(f"{path}: a chunk of another plan; take it away")
-        sources.setdefault(head.get("sources"), path)
-        for line in rest:
-            name = json.loads(line)["id"]
-            if name in lines:
-                raise ChunkError(
-                    f"{path}: point {name} is in {come_from[name].name} too; chunks of two counts "
-                    "overlap: keep those of one"
-                )
-            if name not in wanted:
-                raise ChunkError(f"{path}: point {name} is not in the plan; take the file away")
-            lines[name], come_from[name] = line, path
-    if len(sources) > 1:
-        names = ", ".join(path.name for path in sources.values())
-        raise ChunkError(f"chunks of different sources ({names}); run again, which renews them")
-    gaps = [name for name in wanted if name not in lines]
-    if gaps:
-        counts = sorted({int(path.stem.rsplit("-", 1)[1]) for path in paths})
-        if len(counts) == 1:
-            there = {int(path.name[:5]) for path in paths}
-            absent = [str(i) for i in range(1, counts[0] + 1) if i not in there]
-            missing = f"; missing chunks of {counts[0]}: {', '.join(absent[:20])}"
-        else:
-            missing = ""
-        raise ChunkError(
-            f"{plan.folder}: {len(gaps)} of {len(wanted)} points have no result{missing}; run them"
-        )
-    return lines
-
-
-def merge(plan):
-    """Writes points.jsonl, sorted by the plan; its path. The same bytes whatever ran when."""
-    lines = collect(plan)
-    path = plan.folder / MERGED
-    text = "".join(lines[space.point_id(point)] + "\n" for point in plan.points)
-    plans.write_durably(path, text)
-    return path
-
-
-def read_merged(folder):
-    path = Path(folder) / MERGED
-    try:
-        return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
-    except OSError as error:
-        raise ChunkError(f"{path}: {error.strerror}; 'explore merge DIR' first") from None

@@ -14,8 +14,8 @@ from exploring import chunks
 class Meter:
     """Counts the points of finished chunks and looks into those under way."""
 
-    def __init__(self, folder, total, stream=None):
-        self.folder, self.total = folder, total
+    def __init__(self, folder, total, what="points", stream=None):
+        self.folder, self.total, self.what = folder, total, what
         self.stream = stream or sys.stderr
         self.done = self.skipped = 0
         self.began = time.monotonic()
@@ -50,7 +50,7 @@ class Meter:
         left = clock_text(spent * (self.total - done) / fresh) if fresh > 0 else "?"
         share = 100 * done / max(1, self.total)
         return (
-            f"explore: {share:3.0f} %  {done}/{self.total} points  {60 * fresh / spent:.1f}/min  "
+            f"explore: {share:3.0f} %  {done}/{self.total} {self.what}  {60 * fresh / spent:.1f}/min  "
             f"{clock_text(spent)}, {left} left"
         )
 

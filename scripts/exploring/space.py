@@ -15,8 +15,13 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-# Keys that a design may leave out, with the value that stands for "left out".
-OPTIONAL = {"velocity.gain": None}
+# Keys that a design may leave out, with what it then means.
+OPTIONAL = {
+    "velocity.gain": None,
+    "formats.coefficient_bits": 17,
+    "formats.rounding": "half_up",
+    "fabric.multipliers": "shared",
+}
 # A register carries these: points that differ in nothing else can share one built structure.
 CARRIED = ("velocity.cutoff_rad_s", "observer.cutoff_rad_s")
 MAX_POINTS = 100_000

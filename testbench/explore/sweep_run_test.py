@@ -28,7 +28,7 @@ class Merge(Bench):
     def test_all_at_once_is_the_same(self):
         wanted = self.whole()
         folder = self.folder / "all"
-        self.good(self.space, "-o", folder, "--jobs", 3)
+        self.good(self.space, "-o", folder, "--jobs", 3, "--no-route")
         self.assertEqual((folder / "points.jsonl").read_bytes(), wanted)
 
     def test_gaps_are_refused(self):

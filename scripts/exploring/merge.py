@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Joins chunk files: refuses gaps and duplicates, gives the same bytes whatever ran when.
+
+points.jsonl has all that is known of every point; points.csv the figures as a small table.
+Documentation: docs/explore.md
+"""
+
+import csv
+import io
+import json
+import re
+from pathlib import Path
+
+from exploring import chunks, front, routes, space
+from exploring import plan as plans
+
+LINES, TABLE = "points.jsonl", "points.csv"
+
+
+def read_chunk(plan, path):
+    """(sources, [(id, line)])"""
+    if not re.fullmatch(r"\d{5}-of-\d{5}\.jsonl", path.name):
+        raise chunks.ChunkError(f"{path}: no chunk file; take it away")
+    head, *rest = path.read_text(encoding="utf-8").splitlines()
+    head = json.loads(head)
+    if head.get("plan") != plan.digest:
+        raise chunks.ChunkError(f"{path}: a chunk of another plan; take it away")
+    return head.get("sources"), [(json.loads(line)["id"], line) for line in rest]
+
+
+def collect(plan):
+    """(sources, {id: line}) of all chunk files."""
+    lines, come_from, sources = {}, {}, {}
+    paths = sorted((plan.folder / chunks.FOLDER).glob("*.jsonl"))
+    wanted = {space.point_id(point) for point in plan.points}
+    for path in paths:
+        source, rows = read_chunk(plan, path)
+        sources.setdefault(source, path)
+        for name, line in rows:
+            if name in lines:
+                raise chunks.ChunkError(
+                    f"{path}: point {name} is in {come_from[name].name} too; chunks of two counts "
+                    "overlap: keep those of one"
+                )
+            if name not in wanted:
+                raise chunks.ChunkError(
+                    f"{path}: point {name} is not in the plan; take the file away"
+                )
+            lines[name], come_from[name] = line, path
+    if len(sources) > 1:
+        names = ", ".join(path.name for path in sources.values())
+        raise chunks.ChunkError(
+            f"chunks of different sources ({names}); run again, which renews them"
+        )
+    refuse_gaps(plan, paths, sum(name not in lines for name in wanted))
+    return next(iter(sources), None), lines
+
+
+def refuse_gaps(plan, paths, gaps):
+    if not gaps:
+        return
+    text = f"{plan.folder}: {gaps} of {len(plan.points)} points have no result"
+    counts = {int(path.stem.rsplit("-", 1)[1]) for path in paths}
+    if len(counts) == 1:
+        there = {int(path.name[:5]) for path in paths}
+        absent = [i for i in range(1, max(counts) + 1) if i not in there]
+        text += f"; missing chunks of {max(counts)}: {', '.join(map(str, absent[:20]))}"
+    raise chunks.ChunkError(text + "; run them")
+
+
+def merge(plan):
+    """Writes points.jsonl and points.csv in the order of the plan; the path of the former."""
+    sources, lines = collect(plan)
+    routed = routes.read(plan.folder, sources)
+    rows = []
+    for point in plan.points:
+        row = json.loads(lines[space.point_id(point)])
+        row["result"] |= routed.get(row["id"], {})
+        rows.append(row)
+    path = plan.folder / LINES
+    plans.write_durably(path, "".join(space.canonical(row) + "\n" for row in rows))
+    plans.write_durably(plan.folder / TABLE, table(rows))
+    return path
+
+
+def shown(value):
+    """Six digits are more than any figure here deserves."""
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    return value if isinstance(value, (int, str)) else space.canonical(value)
+
+
+def table(rows):
+    """CSV: id, f where the point is on the front, what is set, the figures."""
+    on_front = {row["id"] for row in front.find(rows)}
+    keys = sorted({key for row in rows for key in row["set"]})
+    figures = sorted(
+        {k for r in rows for k, v in r["result"].items() if isinstance(v, (int, float, str))}
+    )
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["id", "front", *keys, *figures])
+    for row in rows:
+        values = [row["set"].get(key, "") for key in keys]
+        values += [row["result"].get(key, "") for key in figures]
+        flag = "f" if row["id"] in on_front else ""
+        writer.writerow([row["id"], flag, *map(shown, values)])
+    return text.getvalue()
+
+
+def read(folder):
+    """The rows of points.jsonl."""
+    path = Path(folder) / LINES
+    try:
+        return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+    except OSError as error:
+        raise chunks.ChunkError(f"{path}: {error.strerror}; 'explore merge DIR' first") from None

@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""The front, its routed figures, design files of points, and the page.
+
+Documentation: docs/explore.md
+"""
+
+import json
+import re
+import tomllib
+import unittest
+
+from bench import ROOT, Bench
+from exploring import design_text, explore_page, front, space
+
+
+def row(name, error, area, delay, **keys):
+    result = {"torque_error_max_nm": error, "lut4_equivalents": area, "delay_s": delay}
+    return {"id": name, "base": "lever", "set": keys, "result": result}
+
+
+class Front(unittest.TestCase):
+    def names(self, *rows):
+        return [r["id"] for r in front.find(rows)]
+
+    def test_who_is_beaten(self):
+        best, worse, other = row("a", 1, 9, 5), row("b", 2, 9, 5), row("c", 3, 8, 5)
+        self.assertEqual(self.names(worse, best, other), ["a", "c"])
+
+    def test_equals_stay(self):
+        self.assertEqual(self.names(row("a", 1, 1, 1), row("b", 1, 1, 1)), ["a", "b"])
+
+    def test_fewer_scenes_beat_nobody_with_more(self):
+        small = row("a", 1, 1, 1, **{"scenes.include": ["free"]})
+        self.assertEqual(self.names(small, row("b", 2, 2, 2)), ["a", "b"])
+
+    def test_refused_points_are_out(self):
+        refused = row("a", 1, 1, 1) | {"result": {"refused": "too narrow"}}
+        self.assertEqual(self.names(refused, row("b", 2, 2, 2)), ["b"])
+
+    def test_presets_are_three(self):
+        rows = [row("a", 1e-6, 3000, 9e-4), row("b", 1e-3, 2000, 1e-4), row("c", 1e-5, 2100, 2e-4)]
+        found = {name: r["id"] for name, r in front.presets(rows).items()}
+        self.assertEqual(found, {"exact": "a", "fast": "b", "balanced": "c"})
+
+
+class DesignFiles(unittest.TestCase):
+    def parsed(self, **keys):
+        changed = {key.replace("__", "."): value for key, value in keys.items()}
+        text = design_text.design_text(ROOT, {"base": "lever", "set": changed})
+        return space.flattened(tomllib.loads(text))
+
+    def test_only_what_is_set_changes(self):
+        base = self.parsed()
+        changed = self.parsed(velocity__m1=384, formats__torque=[1, 3, 17])
+        differing = {k for k in base if base[k] != changed[k]}
+        self.assertEqual(differing, {"velocity.m1", "formats.torque"})
+
+    def test_new_keys_and_sections(self):
+        found = self.parsed(formats__rounding="floor", fabric__multipliers="parallel")
+        self.assertEqual(found["formats.rounding"], "floor")
+        self.assertEqual(found["fabric.multipliers"], "parallel")
+
+    def test_a_gain_takes_the_place_of_n(self):
+        found = self.parsed(velocity__gain="exact")
+        self.assertNotIn("velocity.n", found)
+        self.assertEqual(found["velocity.gain"], "exact")
+
+
+class Page(Bench):
+    def test_whole(self):
+        folder = self.folder / "out"
+        printed = self.good(self.space, "-o", folder, "--jobs", 2).splitlines()
+        self.assertEqual(printed[-1], str(folder / "explore.html"))
+        rows = [json.loads(line) for line in (folder / "points.jsonl").read_text().splitlines()]
+        on_front = {r["id"] for r in front.find(rows)}
+        self.assertEqual({r["id"] for r in rows if "fmax_mhz" in r["result"]}, on_front)
+        page = (folder / "explore.html").read_text()
+        self.assertNotRegex(page, r'(?:src|href)="(?!#)|@import|url\(|https?://(?!www\.w3\.org)')
+        data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.S)[1])
+        self.assertEqual(len(data["dots"]), 24)
+        self.assertEqual({d["preset"] for d in data["dots"]}, {"", "fast", "balanced", "exact"})
+        for dot, found in zip(data["dots"], rows, strict=True):
+            lines = data["bases"]["lever"].split("\n")
+            for first, away, instead in reversed(dot["text"]):
+                lines[first : first + away] = instead
+            self.assertEqual("\n".join(lines), design_text.design_text(ROOT, found))
+        table = (folder / "points.csv").read_text().splitlines()
+        self.assertEqual(len(table), 1 + 24)
+        self.assertEqual(sum(line.split(",")[1] == "f" for line in table), len(on_front))
+
+    def test_routing_is_not_done_twice(self):
+        folder = self.folder / "out"
+        self.good(self.space, "-o", folder, "--jobs", 2)
+        before = len(self.evaluations())
+        merged = (folder / "points.jsonl").read_bytes()
+        self.good("route", folder)
+        self.assertEqual(len(self.evaluations()), before)
+        self.assertEqual((folder / "points.jsonl").read_bytes(), merged)
+
+    def test_words_say_what_is_changed(self):
+        self.assertEqual(explore_page.words({"base": "lever", "set": {}}), "lever as it is")
+        text = explore_page.words({"base": "lever", "set": {"velocity.m1": 96}})
+        self.assertEqual(text, "velocity.m1 96")
+
+
+if __name__ == "__main__":
+    unittest.main()

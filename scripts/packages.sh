@@ -23,6 +23,7 @@ PACKAGES=(
   "test|libsystemc-dev|sc_fixed, the independent oracle of the fixed-point type"
   "test|iverilog|second simulator, with unknown values (X)"
   "test|yosys|checks that the RTL is synthesizable"
+  "bench|libsystemc-dev|sc_fixed, one of the engines of the benchmark"
   "synth|python3-venv|holds the pinned Yosys and nextpnr of scripts/requirements.txt"
   "synth|ca-certificates|lets pip fetch them over https"
   "dask|python3-distributed|sends the chunks of a sweep to many machines"

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// An engine as the benchmark sees it: it runs a work as fast as it can, or shows every tick of it.
+// Documentation: docs/bench.md
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/work.hpp"
+
+namespace feltgate::bench {
+
+/// What a tick of an integer engine shows, in the order of `raw_names`.
+constexpr std::size_t raw_signals = 7;
+using RawTick = std::array<std::int64_t, raw_signals>;
+constexpr std::array<const char*, raw_signals> raw_names = {
+    "velocity", "tau_hat", "tau_ref", "current_ref", "voltage", "duty", "limits"};
+
+/// One tick of any engine.
+struct TickResult {
+  double velocity_rad_s = 0, tau_hat_nm = 0;
+  double torque_nm = 0;  ///< commanded: nominal torque constant times current reference
+  RawTick raw{};         ///< of integer engines
+};
+using Inspector = std::function<void(const TickResult&)>;
+
+enum class Arithmetic { integer, real };
+
+class Runner {
+ public:
+  Runner(std::string name, Arithmetic arithmetic)
+      : name_(std::move(name)), arithmetic_(arithmetic) {}
+  virtual ~Runner() = default;
+  const std::string& name() const { return name_; }
+  bool integer() const { return arithmetic_ == Arithmetic::integer; }
+  /// Whether it works clock by clock, so that clocks per second mean something.
+  virtual bool has_clocks() const { return false; }
+  /// Runs the work so often in one go: a batch has several lanes.
+  virtual int lanes() const { return 1; }
+
+  /// Reset; not timed.
+  virtual void prepare(const Work& work) = 0;
+  /// All of the work after prepare(); timed.
+  virtual void run(const Work& work) = 0;
+  /// All of the work once more, slowly, every tick shown.
+  virtual void inspect(const Work& work, const Inspector& each) = 0;
+
+ private:
+  std::string name_;
+  Arithmetic arithmetic_;
+};
+
+/// Every engine of the benchmark, in the order of its table.
+std::vector<std::string> runner_names();
+/// Throws std::invalid_argument naming what there is.
+std::unique_ptr<Runner> make_runner(const std::string& name);
+
+}  // namespace feltgate::bench

@@ -53,6 +53,9 @@ void ShiftChain::set_word(int address, std::uint32_t word) {
       {A::repel_strength, &M::repel_strength, 32, false},
       {A::repel_core, &M::repel_core, 31, false},
       {A::repel_core_slope, &M::repel_core_slope, 17, false},
+      {A::wall_contact, &M::wall_contact, 26, true},
+      {A::wall_stiffness, &M::wall_stiffness, 17, false},
+      {A::wall_damping, &M::wall_damping, 17, false},
   };
   for (const Entry& e : entries) {
     if (e.address != address) continue;

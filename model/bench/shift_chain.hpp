@@ -67,7 +67,8 @@ class ShiftChain {
         dead_voltage, voltage_limit, duty_gain, duty_limit, setpoint_torque, membrane_lower,
         membrane_upper, membrane_torque, compression_contact, compression_stiffness, tension_rest,
         tension_stiffness, damper_damping, attract_centre, attract_strength, attract_core,
-        attract_core_slope, repel_centre, repel_strength, repel_core, repel_core_slope;
+        attract_core_slope, repel_centre, repel_strength, repel_core, repel_core_slope,
+        wall_contact, wall_stiffness, wall_damping;
   };
 
   static Word half_up(Word x, int k) { return (x + (Word{1} << (k - 1))) >> k; }
@@ -115,9 +116,19 @@ class ShiftChain {
         return charge(saturated((p_.attract_centre >> 8) - theta, 17), true);
       case Lever::S::charge_repel:
         return charge(saturated((p_.repel_centre >> 8) - theta, 17), false);
+      case Lever::S::wall:
+        return wall(saturated(p_.wall_contact - theta * 256, 25));
       default:
         return 0;
     }
+  }
+
+  Word wall(Word x) const {
+    if (x >= 0) return 0;
+    // .30 and .41 to .18, two bits below the torque
+    const Word tau =
+        half_up(((x * p_.wall_stiffness) >> 12) - ((velocity * p_.wall_damping) >> 23), 2);
+    return tau < 0 ? saturated(tau, 20) : 0;
   }
 
   Word membrane(Word theta) {

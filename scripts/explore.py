@@ -47,7 +47,9 @@ def default_folder(name):
 
 
 def add_engine(parser):
-    parser.add_argument("--jobs", type=int, metavar="N", help="chunks at a time; default: all cores")
+    parser.add_argument(
+        "--jobs", type=int, metavar="N", help="chunks at a time; default: all cores"
+    )
     parser.add_argument("--engine", choices=("local", "dask"), default="local")
     parser.add_argument("--scheduler", metavar="ADDRESS", help="of dask; default: a local cluster")
 
@@ -60,7 +62,9 @@ def parser_of_verbs():
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="SPACE.toml | VERB")
-    everything = verbs.add_parser("all", help="SPACE.toml alone: all of the below, one after another")
+    everything = verbs.add_parser(
+        "all", help="SPACE.toml alone: all of the below, one after another"
+    )
     make = verbs.add_parser("plan", help="write the points of a space into a folder")
     for one in (everything, make):
         one.add_argument("space", help="a file, or a name in vectors/spaces")

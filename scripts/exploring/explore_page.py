@@ -36,9 +36,7 @@ def changes(base, text):
     """[(first line, lines away, lines instead)] that make `text` of `base`."""
     old, new = base.split("\n"), text.split("\n")
     matcher = difflib.SequenceMatcher(None, old, new, autojunk=False)
-    return [
-        [a, b - a, new[c:d]] for tag, a, b, c, d in matcher.get_opcodes() if tag != "equal"
-    ]
+    return [[a, b - a, new[c:d]] for tag, a, b, c, d in matcher.get_opcodes() if tag != "equal"]
 
 
 def words(point):
@@ -110,12 +108,12 @@ def body(plan, rows, root):
 
 
 INTRODUCTION = (
-    "{points} designs, each built, run beside its twin and found equal to it bit for bit, or refused "
-    "({refused}). Filled dots are on the front: no other design with the same scenes is at least as "
-    "good in worst torque error, area and delay and better in one. Errors are against the same chain "
-    "in 113-bit floating point on the same encoder counts. Hover a dot, or go to it with Tab, and "
-    "its figures and its design file appear; a click keeps them. Simulation and synthesis: nothing "
-    "ran on a board."
+    "{points} designs, each built, run beside its twin and found equal to it bit for bit, or "
+    "refused ({refused}). Filled dots are on the front: no other design with the same scenes is at "
+    "least as good in worst torque error, area and delay and better in one. Errors are against the "
+    "same chain in 113-bit floating point on the same encoder counts. Hover a dot, or go to it with "
+    "Tab, and its figures and its design file appear; a click keeps them. Simulation and "
+    "synthesis: nothing ran on a board."
 )
 
 

@@ -47,7 +47,11 @@ def find(rows):
 
 def candidates(rows):
     """Rows of the front that may be named: all scenes of the base, and a design that is shipped."""
-    return [row for row in find(rows) if SCENES not in row["set"] and row["result"].get("shippable", True)]
+    return [
+        row
+        for row in find(rows)
+        if SCENES not in row["set"] and row["result"].get("shippable", True)
+    ]
 
 
 def knee_distance(row, rows):

@@ -50,8 +50,8 @@ class Meter:
         left = clock_text(spent * (self.total - done) / fresh) if fresh > 0 else "?"
         share = 100 * done / max(1, self.total)
         return (
-            f"explore: {share:3.0f} %  {done}/{self.total} {self.what}  {60 * fresh / spent:.1f}/min  "
-            f"{clock_text(spent)}, {left} left"
+            f"explore: {share:3.0f} %  {done}/{self.total} {self.what}  "
+            f"{60 * fresh / spent:.1f}/min  {clock_text(spent)}, {left} left"
         )
 
     def _redraw(self):

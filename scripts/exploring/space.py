@@ -94,9 +94,13 @@ class Reader:
         starts = [i for i, line in enumerate(lines) if re.match(r"\s*\[\[\s*sweep\s*\]\]", line)]
         first = starts[sweep] if sweep is not None and sweep < len(starts) else 0
         last = word.rsplit(".", 1)[-1]
-        places = [i for i in range(first, len(lines)) if re.search(rf"\b{re.escape(word)}\b", lines[i])]
+        places = [
+            i for i in range(first, len(lines)) if re.search(rf"\b{re.escape(word)}\b", lines[i])
+        ]
         places += [
-            i for i in range(first, len(lines)) if re.match(rf'\s*"?([\w.]+\.)?{last}"?\s*=', lines[i])
+            i
+            for i in range(first, len(lines))
+            if re.match(rf'\s*"?([\w.]+\.)?{last}"?\s*=', lines[i])
         ]
         line = (places[0] if places else first) + 1
         raise SpaceError(f"{self.path}:{line}: {what}; {mend}")

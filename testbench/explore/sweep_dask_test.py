@@ -35,15 +35,29 @@ class Dask(Bench):
     def start_cluster(self):
         file = self.folder / "scheduler.json"
         self.start(
-            "dask_scheduler", "--host", "127.0.0.1", "--port", 0, "--no-dashboard",
-            "--scheduler-file", file,
+            "dask_scheduler",
+            "--host",
+            "127.0.0.1",
+            "--port",
+            0,
+            "--no-dashboard",
+            "--scheduler-file",
+            file,
         )
         self.wait_until(file.exists)
         address = json.loads(file.read_text())["address"]
         workers = [
             self.start(
-                "dask_worker", address, "--nthreads", 1, "--no-nanny", "--no-dashboard",
-                "--host", "127.0.0.1", "--name", f"w{i}",
+                "dask_worker",
+                address,
+                "--nthreads",
+                1,
+                "--no-nanny",
+                "--no-dashboard",
+                "--host",
+                "127.0.0.1",
+                "--name",
+                f"w{i}",
             )
             for i in (1, 2)
         ]

@@ -33,8 +33,13 @@ class Reading(Bench):
     def test_base_values_leave_no_trace(self):
         points = self.read().points
         self.assertIn({"base": "lever", "set": {}}, points)
-        self.assertTrue(all("formats.observer_fraction" not in p["set"] or
-                            p["set"]["formats.observer_fraction"] == 32 for p in points))
+        self.assertTrue(
+            all(
+                "formats.observer_fraction" not in p["set"]
+                or p["set"]["formats.observer_fraction"] == 32
+                for p in points
+            )
+        )
 
     def test_order_of_the_file_does_not_matter(self):
         head, first, second = SPACE.split("[[sweep]]")

@@ -46,19 +46,24 @@ lock_build() {
   flock 9
 }
 
-# configure TESTS: once per build folder, again when tests are wanted or the repository moved.
+# configure TESTS: once per build folder, again when tests or another preset are wanted or the
+# repository moved. PRESETS are those that a command names; once built they stay.
 configure() {
-  local tests=$1 had_tests='' had_root='' fresh=()
+  local tests=$1 had_tests='' had_root='' had_presets='' presets preset fresh=()
   if [[ -f $BUILD/build.ninja && -f $STATE/configured ]]; then
-    { read -r had_tests && read -r had_root; } <"$STATE/configured" || true
+    { read -r had_tests && read -r had_root && read -r had_presets; } <"$STATE/configured" || true
   fi
   if [[ $had_tests == ON ]]; then tests=ON; fi
-  [[ $had_tests == "$tests" && $had_root == "$ROOT" ]] && return
+  presets=$had_presets
+  for preset in ${PRESETS-}; do
+    if [[ ";$presets;" != *";$preset;"* ]]; then presets+=${presets:+;}$preset; fi
+  done
+  [[ $had_tests == "$tests" && $had_root == "$ROOT" && $had_presets == "$presets" ]] && return
   if [[ $had_root && $had_root != "$ROOT" ]]; then fresh=(--fresh); fi
   run_logged "configuring" "$STATE/configure.log" cmake "${fresh[@]}" -S "$ROOT" -B "$BUILD" \
     -G Ninja -DCMAKE_BUILD_TYPE=Release -DFELTGATE_TESTS="$tests" \
-    -DPython3_EXECUTABLE="$FELTGATE_PYTHON" || return
-  printf '%s\n%s\n' "$tests" "$ROOT" >"$STATE/configured"
+    -DPython3_EXECUTABLE="$FELTGATE_PYTHON" -DFELTGATE_PRESETS="$presets" || return
+  printf '%s\n%s\n%s\n' "$tests" "$ROOT" "$presets" >"$STATE/configured"
 }
 
 # build TESTS TARGET: ends the launcher with the build's own status when it fails.

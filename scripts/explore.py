@@ -13,10 +13,10 @@ import signal
 import sys
 from pathlib import Path
 
-from exploring import chunks, engines, explore_page, front, merge, meter, routes, space
+from exploring import chunks, engines, explore_page, front, merge, meter, presets, routes, space
 from exploring import plan as plans
 
-VERBS = ("plan", "run", "merge", "route", "page", "point")
+VERBS = ("plan", "run", "merge", "route", "page", "presets", "point")
 EXAMPLES = """examples:
   feltgate explore smoke                          plan, run, merge, route, page in one go
   feltgate explore plan trade -o /data/trade      then, here or on many machines:
@@ -25,6 +25,7 @@ EXAMPLES = """examples:
   feltgate explore merge /data/trade              refuses gaps and duplicates
   feltgate explore route /data/trade              Fmax of the points on the front
   feltgate explore page /data/trade               explore.html: hover a dot, get its design file
+  feltgate explore presets /data/trade            fast.toml, balanced.toml, exact.toml
   feltgate explore point my_point.toml            one design point alone
 
 A run that was stopped is continued by the same command. Exit status: 0 done, 1 a point's RTL
@@ -76,7 +77,9 @@ def parser_of_verbs():
     route = verbs.add_parser("route", help="place and route the points of the front, and merge")
     route.add_argument("--point", metavar="ID", help="only this point, and no merge")
     page = verbs.add_parser("page", help="write explore.html")
-    for one in (run, merge, route, page):
+    three = verbs.add_parser("presets", help="write fast, balanced and exact as design files")
+    three.add_argument("-o", "--out", type=Path, metavar="DIR", help="default: the plan's folder")
+    for one in (run, merge, route, page, three):
         one.add_argument("folder", type=Path, metavar="DIR")
     for one in (everything, run, route):
         add_engine(one)
@@ -153,10 +156,10 @@ def report_mismatches(rows):
 def act_all(options):
     plan = make_plan(options)
     run_all(plan, options)
-    print(merge.merge(plan))
+    print(merge.merge(plan, root()))
     if not options.no_route:
         route_all(plan, options)
-        merge.merge(plan)
+        merge.merge(plan, root())
     rows = merge.read(plan.folder)
     print(explore_page.write(plan, rows, root()))
     return report_mismatches(rows)
@@ -175,12 +178,15 @@ def act(options):
         run_all(plan, options)
     elif options.verb == "route" and options.point:
         print(routes.run(plan, options.point, sources_of(plan)))
+    elif options.verb == "presets":
+        for path in presets.write(plan, merge.read(plan.folder), root(), options.out):
+            print(path)
     elif options.verb == "page":
         print(explore_page.write(plan, merge.read(plan.folder), root()))
     else:
         if options.verb == "route":
             route_all(plan, options)
-        print(merge.merge(plan))
+        print(merge.merge(plan, root()))
         return report_mismatches(merge.read(plan.folder))
     return 0
 

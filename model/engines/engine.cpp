@@ -31,8 +31,9 @@ namespace {
   std::string list;
   for (const std::string& name : design_names()) list += (list.empty() ? "" : ", ") + name;
   throw std::invalid_argument("design \"" + design + "\" is not built in; choose one of " + list +
-                              ", or add rtl/designs/" + design +
-                              ".toml and run `feltgate generate`");
+                              ", a preset (fast, balanced, exact) by way of ./feltgate, which "
+                              "builds it, or add rtl/designs/" +
+                              design + ".toml and run `feltgate generate`");
 }
 
 }  // namespace

@@ -9,6 +9,13 @@ file(STRINGS "${FELTGATE_ROOT}/rtl/feltgate_core.f" FELTGATE_CORE_SOURCES REGEX 
 list(TRANSFORM FELTGATE_CORE_SOURCES PREPEND "${FELTGATE_ROOT}/rtl/")
 
 file(GLOB designs CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/designs/*.toml")
+# The engine of a preset costs a minute to build, so it is built when somebody asks for it.
+set(FELTGATE_PRESETS "" CACHE STRING "Of fast, balanced and exact those whose engines are built")
+foreach(preset fast balanced exact)
+  if(NOT preset IN_LIST FELTGATE_PRESETS)
+    list(REMOVE_ITEM designs "${FELTGATE_ROOT}/rtl/designs/${preset}.toml")
+  endif()
+endforeach()
 add_library(feltgate_engines STATIC
   "${FELTGATE_ROOT}/model/engines/engine.cpp")
 set(registrations "")

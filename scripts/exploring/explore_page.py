@@ -12,7 +12,7 @@ from pathlib import Path
 
 from reporting import page
 
-from exploring import design_text, front, space
+from exploring import design_text, front, presets, space
 from exploring import plan as plans
 
 NAME = "explore.html"
@@ -24,7 +24,11 @@ FIGURES = (
     ("torque_error_rms_nm", "rms torque error", "µNm", 1e6),
     ("velocity_error_max_rad_s", "worst velocity error", "mrad/s", 1e3),
     ("velocity_error_rms_rad_s", "rms velocity error", "mrad/s", 1e3),
+    ("tau_hat_error_max_nm", "worst error of the observed torque", "µNm", 1e6),
     ("delay_s", "estimator delay", "ms", 1e3),
+    ("latency_us", "latency", "µs", 1),
+    ("count_ripple_rad_s", "velocity ripple of one count", "rad/s", 1),
+    ("torque_settling_s", "torque settling", "ms", 1e3),
     ("ff", "flip-flops", "", 1),
     ("mult18", "MULT18", "", 1),
     ("bram", "block RAM", "", 1),
@@ -49,7 +53,7 @@ def words(point):
 def data_of(rows, root):
     """What the script of the page needs."""
     on_front = {row["id"] for row in front.find(rows)}
-    named = {row["id"]: name for name, row in front.presets(front.candidates(rows)).items()}
+    named = {row["id"]: name for name, row in presets.choose(rows).items()}
     bases = {row["base"]: "" for row in rows}
     for base in bases:
         bases[base] = design_text.design_text(root, {"base": base, "set": {}})

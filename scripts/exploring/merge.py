@@ -9,10 +9,12 @@ Documentation: docs/explore.md
 import csv
 import io
 import json
+import math
 import re
+import tomllib
 from pathlib import Path
 
-from exploring import chunks, front, routes, space
+from exploring import chunks, design_text, front, routes, space
 from exploring import plan as plans
 
 LINES, TABLE = "points.jsonl", "points.csv"
@@ -69,7 +71,23 @@ def refuse_gaps(plan, paths, gaps):
     raise chunks.ChunkError(text + "; run them")
 
 
-def merge(plan):
+def count_ripple_rad_s(design):
+    """How far one encoder count that enters and leaves the window moves the filtered velocity."""
+    window_s = design["velocity.m1"] / design["clock.tick_hz"]
+    step_rad_s = 2 * math.pi / (4 * design["encoder.lines"]) / window_s
+    return step_rad_s * -math.expm1(-design["velocity.cutoff_rad_s"] * window_s)
+
+
+def finished(root, row):
+    """A row with what follows from its design alone."""
+    if front.good(row):
+        text = design_text.design_text(root, row)
+        design = space.flattened(tomllib.loads(text))
+        row["result"]["count_ripple_rad_s"] = count_ripple_rad_s(design)
+    return row
+
+
+def merge(plan, root):
     """Writes points.jsonl and points.csv in the order of the plan; the path of the former."""
     sources, lines = collect(plan)
     routed = routes.read(plan.folder, sources)
@@ -77,7 +95,7 @@ def merge(plan):
     for point in plan.points:
         row = json.loads(lines[space.point_id(point)])
         row["result"] |= routed.get(row["id"], {})
-        rows.append(row)
+        rows.append(finished(root, row))
     path = plan.folder / LINES
     plans.write_durably(path, "".join(space.canonical(row) + "\n" for row in rows))
     plans.write_durably(plan.folder / TABLE, table(rows))

@@ -18,7 +18,10 @@ from exploring import space
 
 SCHEMA = "feltgate-explore-plan/1"
 # What decides a point's figures: a change of these makes chunks of before stale.
-SOURCES = ("rtl/*.sv", "rtl/*.f", "rtl/*.toml", "model/**/*.hpp", "model/**/*.cpp")
+SOURCES = (
+    *("rtl/*.sv", "rtl/*.f", "rtl/*.toml", "vectors/plants/linear.toml"),
+    *("model/include/feltgate/*.hpp", "model/reference/*", "model/explore/*", "model/design/*"),
+)
 EVALUATOR = "scripts/exploring/point*.py"
 GENERATED = "/generated/"
 

@@ -10,9 +10,10 @@ import json
 import re
 import tomllib
 import unittest
+from pathlib import Path
 
 from bench import ROOT, Bench
-from exploring import design_text, explore_page, front, space
+from exploring import design_text, explore_page, front, presets, space
 
 
 def row(name, error, area, delay, **keys):
@@ -41,7 +42,7 @@ class Front(unittest.TestCase):
 
     def test_presets_are_three(self):
         rows = [row("a", 1e-6, 3000, 9e-4), row("b", 1e-3, 2000, 1e-4), row("c", 1e-5, 2100, 2e-4)]
-        found = {name: r["id"] for name, r in front.presets(rows).items()}
+        found = {name: r["id"] for name, r in presets.choose(rows).items()}
         self.assertEqual(found, {"exact": "a", "fast": "b", "balanced": "c"})
 
 
@@ -98,6 +99,17 @@ class Page(Bench):
         self.good("route", folder)
         self.assertEqual(len(self.evaluations()), before)
         self.assertEqual((folder / "points.jsonl").read_bytes(), merged)
+
+    def test_presets_are_designs(self):
+        folder = self.folder / "out"
+        self.good(self.space, "-o", folder, "--jobs", 2, "--no-route")
+        paths = self.good("presets", folder, "-o", self.folder / "three").splitlines()
+        names = [Path(path).stem for path in paths]
+        self.assertEqual(names, ["fast", "balanced", "exact"])
+        for path in paths:
+            design = tomllib.loads(Path(path).read_text())
+            self.assertIn("gives up", design["description"])
+            self.assertEqual(design["clock"]["clock_hz"], 50_000_000)
 
     def test_words_say_what_is_changed(self):
         self.assertEqual(explore_page.words({"base": "lever", "set": {}}), "lever as it is")

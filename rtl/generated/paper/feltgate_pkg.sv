@@ -102,7 +102,7 @@ package feltgate_pkg;
   localparam int P_DAMPER_DAMPING_F = 22;
   localparam int P_ATTRACT_CORE_SLOPE_F = 17;
   localparam int P_REPEL_CORE_SLOPE_F = 17;
-  localparam int P_WALL_STIFFNESS_F = 22;
+  localparam int P_WALL_STIFFNESS_F = 20;
   localparam int P_WALL_DAMPING_F = 20;
 
   // Wave clocks in which a word is on the parameter bus.
@@ -225,7 +225,7 @@ package feltgate_pkg;
       9'd268: parameter_reset = 32'd0;  // repel_core
       9'd262: parameter_reset = 32'd0;  // repel_core_slope
       9'd289: parameter_reset = 32'd83443;  // wall_contact
-      9'd291: parameter_reset = 32'd25736;  // wall_stiffness
+      9'd291: parameter_reset = 32'd6434;  // wall_stiffness
       9'd298: parameter_reset = 32'd5243;  // wall_damping
       default: parameter_reset = 32'd0;
     endcase

@@ -89,7 +89,7 @@ struct Paper {
     static constexpr Format repel_core{0, 31, 0};
     static constexpr Format repel_core_slope{0, 0, 17};
     static constexpr Format wall_contact{1, 17, 8};
-    static constexpr Format wall_stiffness{0, -5, 22};
+    static constexpr Format wall_stiffness{0, -3, 20};
     static constexpr Format wall_damping{0, -3, 20};
   };
 
@@ -308,7 +308,7 @@ struct Paper {
       {"wall_contact", "count", A::wall_contact, P::wall_contact,
        325.94932345220167, 83443},
       {"wall_stiffness", "Nm/count", A::wall_stiffness, P::wall_stiffness,
-       0.0061359231515425647, 25736},
+       0.0061359231515425647, 6434},
       {"wall_damping", "Nm s/rad", A::wall_damping, P::wall_damping,
        0.0050000000000000001, 5243},
   };

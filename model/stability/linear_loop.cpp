@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The linear loop and its eigenvalues. Documentation: docs/stability.md
+#include "stability/linear_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <unsupported/Eigen/MatrixFunctions>
+
+namespace feltgate::stability {
+
+namespace {
+
+/// Everything that one tick hands to the next.
+struct State {
+  // Plant: current, speed, angle. Chain: velocity, observer, current reference.
+  double current = 0, speed = 0, angle = 0, velocity = 0, observer = 0, reference = 0;
+  double volts_new = 0, volts = 0;     ///< newest, and in force in this PWM period
+  double torque = 0, torque_next = 0;  ///< of the host: in force, and under way
+  std::vector<double> window;          ///< angles of the last m1 ticks, a ring
+  std::size_t oldest = 0;
+};
+
+constexpr int kScalars = 10;
+
+/// The tick `k` of the loop.
+void tick(const LoopModel& m, const Wall& wall, long k, State& s) {
+  if (k % m.pwm_ticks == 0) s.volts = s.volts_new;
+  if (wall.scene_ticks > 1 && (k - host_ticks) % wall.scene_ticks == 0) s.torque = s.torque_next;
+  const double travel = s.angle - s.window[s.oldest];
+  s.window[s.oldest] = s.angle;
+  if (++s.oldest == s.window.size()) s.oldest = 0;
+  s.velocity += m.velocity_a1 * (m.raw_rad_s_rad * travel - s.velocity);
+  const double inertia = m.inertia_gain * s.velocity;
+  s.observer += m.observer_a1 * (m.torque_constant * s.reference + inertia - s.observer);
+  const double asked = -wall.stiffness_nm_rad * s.angle - wall.damping_nm_s_rad * s.velocity;
+  if (wall.scene_ticks == 1) {
+    s.torque = asked;
+  } else if (k % wall.scene_ticks == 0) {
+    s.torque_next = asked;
+  }
+  s.reference = m.torque_gain * s.torque + m.observer_gain * (s.observer - inertia);
+  s.volts_new = m.applied * (m.voltage_gain * s.reference + m.emf_constant * s.velocity);
+  const Eigen::Vector3d next = m.plant * Eigen::Vector4d(s.current, s.speed, s.angle, s.volts);
+  s.current = next[0];
+  s.speed = next[1];
+  s.angle = next[2];
+}
+
+State unpack(const LoopModel& m, const Eigen::VectorXd& v) {
+  State s;
+  s.current = v[0];
+  s.speed = v[1];
+  s.angle = v[2];
+  s.velocity = v[3];
+  s.observer = v[4];
+  s.reference = v[5];
+  s.volts_new = v[6];
+  s.volts = v[7];
+  s.torque = v[8];
+  s.torque_next = v[9];
+  s.window.assign(v.data() + kScalars, v.data() + kScalars + m.m1);
+  return s;
+}
+
+Eigen::VectorXd pack(const State& s) {
+  Eigen::VectorXd v(kScalars + static_cast<Eigen::Index>(s.window.size()));
+  v.head(kScalars) << s.current, s.speed, s.angle, s.velocity, s.observer, s.reference, s.volts_new,
+      s.volts, s.torque, s.torque_next;
+  const std::size_t n = s.window.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    v[kScalars + static_cast<Eigen::Index>(i)] = s.window[(s.oldest + i) % n];
+  }
+  return v;
+}
+
+Eigen::VectorXd after(const LoopModel& m, const Wall& wall, const Eigen::VectorXd& v, int ticks) {
+  State s = unpack(m, v);
+  for (int k = 0; k < ticks; ++k) tick(m, wall, k, s);
+  return pack(s);
+}
+
+int period_ticks(const LoopModel& m, const Wall& wall) {
+  return std::lcm(m.pwm_ticks, wall.scene_ticks);
+}
+
+}  // namespace
+
+LoopModel make_model(const design::Elaborated& e, const plant::Parameters& p) {
+  const design::Design& d = e.design;
+  const auto word = [&](const char* name) { return e.word(name).quantised(); };
+  LoopModel m;
+  m.tick_s = d.tick_s();
+  m.m1 = d.m1;
+  m.pwm_ticks = d.pwm_period_clocks() / d.clocks_per_tick();
+  const double r = p.motor.resistance_ohm, kt = p.motor.torque_constant_nm_a;
+  const double ke = p.effects.back_emf ? p.motor.back_emf_constant_v_s_rad : 0.0;
+  const double l = p.effects.inductance ? p.motor.inductance_h : 1e-3 * r * m.tick_s;
+  m.inertia_kg_m2 = p.lever.inertia_kg_m2;
+  m.viscous_nm_s_rad = p.effects.viscous ? p.lever.viscous_nm_s_rad : 0.0;
+  m.motor_damping_nm_s_rad = kt * ke / r;
+  m.electrical_s = p.effects.inductance ? l / r : 0.0;
+  const double j = m.inertia_kg_m2;
+  Eigen::Matrix4d rate = Eigen::Matrix4d::Zero();
+  rate.row(0) << -r / l, -ke / l, 0, 1 / l;
+  rate.row(1) << kt / j, -m.viscous_nm_s_rad / j, 0, 0;
+  rate(2, 1) = 1;
+  m.plant = Eigen::Matrix4d((rate * m.tick_s).exp()).topRows<3>();
+  const double two_pi = 6.283185307179586;
+  m.raw_rad_s_rad = 4.0 * p.encoder.lines / two_pi * e.rad_s_per_count();
+  m.velocity_a1 = word("velocity_a1");
+  m.observer_a1 = word("observer_a1");
+  m.torque_constant = word("torque_constant");
+  m.inertia_gain = word("inertia_gain");
+  m.torque_gain = word("torque_gain");
+  m.observer_gain = word("observer_gain");
+  m.voltage_gain = word("voltage_gain");
+  m.emf_constant = word("emf_constant");
+  m.applied = p.supply.voltage_v / d.supply_v;
+  m.compensated = ke == 0 ? 0.0 : m.emf_constant * m.applied / ke;
+  // The estimator: a window of m1 ticks, then one pole.
+  const double window_s = m.m1 * m.tick_s, pole_s = m.tick_s / m.velocity_a1;
+  m.velocity_delay_s = window_s / 2 + pole_s;
+  m.velocity_moment_s2 = window_s * window_s / 6 + window_s / 2 * pole_s + pole_s * pole_s;
+  return m;
+}
+
+Eigen::MatrixXd monodromy(const LoopModel& m, const Wall& wall, int* ticks) {
+  *ticks = period_ticks(m, wall);
+  const Eigen::Index n = kScalars + m.m1;
+  Eigen::MatrixXd out(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    out.col(i) = after(m, wall, Eigen::VectorXd::Unit(n, i), *ticks);
+  }
+  return out;
+}
+
+// Arnoldi: the matrix is known by what it does to a vector, its largest eigenvalues are wanted and
+// most of the others are 0 (the window forgets). Short periods are repeated to about 1 ms, so that
+// the wanted ones stand apart; up to 500 Hz no turn is lost by that.
+std::vector<Pole> poles(const LoopModel& m, const Wall& wall) {
+  const int period = period_ticks(m, wall);
+  const int repeats = std::max(1, static_cast<int>(std::lround(1e-3 / (period * m.tick_s))));
+  const int ticks = period * repeats;
+  const Eigen::Index n = kScalars + m.m1, most = std::min<Eigen::Index>(24, n);
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(n, most + 1);
+  Eigen::MatrixXd h = Eigen::MatrixXd::Zero(most + 1, most);
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(n);
+  start[1] = start[3] = 1;
+  start[2] = 0.01;
+  start.tail(m.m1).setConstant(0.01);
+  basis.col(0) = start.normalized();
+  Eigen::Index size = 0;
+  while (size < most) {
+    Eigen::VectorXd w = after(m, wall, basis.col(size), ticks);
+    const double scale = w.norm();
+    for (int pass = 0; pass < 2; ++pass) {
+      for (Eigen::Index i = 0; i <= size; ++i) {
+        const double part = basis.col(i).dot(w);
+        h(i, size) += part;
+        w -= part * basis.col(i);
+      }
+    }
+    h(size + 1, size) = w.norm();
+    ++size;
+    if (w.norm() <= 1e-13 * scale) break;
+    basis.col(size) = w / w.norm();
+  }
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(h.topLeftCorner(size, size), false);
+  std::vector<Pole> out;
+  const double seconds = ticks * m.tick_s;
+  for (const Pole& z : solver.eigenvalues()) {
+    if (std::abs(z) > 1e-6 && z.imag() >= 0) out.push_back(std::log(z) / seconds);
+  }
+  std::sort(out.begin(), out.end(),
+            [](const Pole& a, const Pole& b) { return a.real() > b.real(); });
+  return out;
+}
+
+Border border(const LoopModel& m, double damping_nm_s_rad, int scene_ticks) {
+  const auto top = [&](double k) {
+    return poles(m, Wall{k, damping_nm_s_rad, scene_ticks}).front();
+  };
+  // The wall of a device is stable from 0 up to its border; below 1e-3 Nm/rad it is no wall.
+  double low = 1e-3;
+  if (top(low).real() > 0) return {};
+  double high = std::max(2 * low, closed_form(m, damping_nm_s_rad, scene_ticks) / 4);
+  for (; top(high).real() < 0; high *= 1.3) low = high;
+  for (int i = 0; i < 24 && high - low > 1e-6 * high; ++i) {
+    const double middle = (low + high) / 2;
+    (top(middle).real() < 0 ? low : high) = middle;
+  }
+  return {low, std::abs(top(low).imag())};
+}
+
+double actuator_delay_s(const LoopModel& m, int scene_ticks) {
+  const double host = scene_ticks > 1 ? host_ticks * m.tick_s : 0.0;
+  // The newest duty waits for a PWM period: half of one on average, and the tick that computed it.
+  return m.electrical_s + (m.pwm_ticks + 1) / 2.0 * m.tick_s + host;
+}
+
+namespace {
+
+double left_of_motor(const LoopModel& m) {
+  return m.motor_damping_nm_s_rad * (1 - m.compensated) + m.viscous_nm_s_rad;
+}
+
+double time_s(const LoopModel& m, int scene_ticks) {
+  return scene_ticks * m.tick_s / 2 + actuator_delay_s(m, scene_ticks);
+}
+
+}  // namespace
+
+double closed_form(const LoopModel& m, double damping_nm_s_rad, int scene_ticks) {
+  return (left_of_motor(m) + damping_nm_s_rad) / time_s(m, scene_ticks);
+}
+
+double closed_form_with_estimator(const LoopModel& m, double damping_nm_s_rad, int scene_ticks) {
+  const double fed_back = damping_nm_s_rad - m.motor_damping_nm_s_rad * m.compensated;
+  const double inertia = m.inertia_kg_m2 - fed_back * m.velocity_delay_s;
+  return (left_of_motor(m) + damping_nm_s_rad) /
+         (time_s(m, scene_ticks) + fed_back * m.velocity_moment_s2 / inertia);
+}
+
+double free_impedance_nm_rad(const LoopModel& m, double rad_s) {
+  const Pole s{0, rad_s};
+  const double window_s = m.m1 * m.tick_s;
+  const Pole estimator =
+      (1.0 - std::exp(-s * window_s)) / (s * window_s) / (1.0 + s * (m.tick_s / m.velocity_a1));
+  const Pole motor = m.motor_damping_nm_s_rad * (1.0 - m.compensated * estimator);
+  return std::abs(s * (s * m.inertia_kg_m2 + m.viscous_nm_s_rad + motor));
+}
+
+}  // namespace feltgate::stability

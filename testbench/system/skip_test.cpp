@@ -48,9 +48,11 @@ struct Hash {
   }
 };
 
+/// Stretches end with the inputs, or after `longest` clocks at most.
 template <class D>
-void compare(std::uint64_t seed, std::int64_t clocks) {
+void compare(std::uint64_t seed, std::int64_t clocks, std::uint32_t longest = 40'000) {
   test::CoreStimulus<D> stimulus(seed);
+  test::Random cut(seed);
   FeltgateCore<D> by_clock, by_event;
   Hash clock_hash, event_hash;
   std::int64_t done = 0, stretches = 0;
@@ -58,10 +60,11 @@ void compare(std::uint64_t seed, std::int64_t clocks) {
   while (done < clocks) {
     // As long as the inputs hold; a strobe lasts one clock.
     Stretch s{in, 0};
+    const auto limit = static_cast<std::int64_t>(1 + cut.below(longest));
     do {
       ++s.clocks;
       in = stimulus(done + s.clocks);
-    } while (same(in, s.in) && !s.in.reg_write && !s.in.set_zero && s.clocks < 40'000);
+    } while (same(in, s.in) && !s.in.reg_write && !s.in.set_zero && s.clocks < limit);
     for (std::int64_t k = 0; k < s.clocks; ++k) {
       by_clock.clock(s.in);
       if (by_clock.out().snapshot_valid) clock_hash.add(by_clock.out());
@@ -97,5 +100,12 @@ TEST_CASE("skipping from event to event changes nothing") {
   for (const std::uint64_t seed : {21u, 22u, 23u}) {
     compare<Lever>(seed, test::scaled_clocks(8'000'000));
     compare<Paper>(seed + 100, test::scaled_clocks(8'000'000));
+  }
+}
+
+TEST_CASE("nor does stopping anywhere in a tick") {
+  for (const std::uint32_t longest : {7u, 40u, 120u}) {
+    compare<Lever>(longest, test::scaled_clocks(3'000'000), longest);
+    compare<Paper>(longest + 1, test::scaled_clocks(3'000'000), longest);
   }
 }

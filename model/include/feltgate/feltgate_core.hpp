@@ -3,17 +3,16 @@
 //
 // Twin of rtl/feltgate_core.sv: the whole core, every output pin and register on every clock.
 // The wave is computed in a few steps and each result shown in the clock in which the RTL shows it.
-// clock() advances one clock, skip() a stretch in which no input changes, with identical results.
+// clock() advances one clock, run() a stretch in which no input changes, with identical results.
 // Documentation: docs/blocks/feltgate_core.md
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 
+#include "feltgate/core_gates.hpp"
 #include "feltgate/core_ports.hpp"
 #include "feltgate/core_wave.hpp"
-#include "feltgate/pwm.hpp"
 #include "feltgate/quad_decoder.hpp"
 #include "feltgate/registers.hpp"
 #include "feltgate/sequencer.hpp"
@@ -40,54 +39,43 @@ class FeltgateCore {
     decoder_.reset();
     wave_.reset();
     supervisor_.reset();
-    pwm_.reset();
+    gates_.reset();
     operand_v_ = operand_w_ = 0;
+    passed_to_ = -1;
     zero_pending_ = false;
     writes_ = 0;
-    gate_clocks_ = {};
     out_ = Out{};
-    show_limits();
+    show();
   }
 
   void clock(const In& in) {
     const int c = sequencer_.clock_of_tick();
+    catch_up(c);
     const bool tick = c == D::clocks_per_tick - 1;
-    const int t = c - 2;  // clock of the wave
+    const int t = c - kWave;  // clock of the wave
     const std::uint32_t control = registers_.out().control;
     const bool host = bit(control, D::C::control_host);
 
     // What the rest of the core sees of the registers in this clock, before the edge.
-    typename Registers<D>::In reg = register_inputs(in, c, tick);
+    const typename Registers<D>::In reg = register_inputs(in, t, tick);
     const bool zero = tick && (registers_.commands(D::C::command_set_zero) || zero_pending_);
     const bool clear = tick && registers_.commands(D::C::command_clear_faults);
-    const bool kick = tick && registers_.commands(D::C::command_kick);
     const std::int16_t travel = static_cast<std::int16_t>(decoder_.out().travel);
     const std::int32_t position = decoder_.out().position;
 
     // Supervisor and PWM see the registers of the clock before.
-    typename Supervisor<D>::In sup;
+    if (t == 5) operand_v_ = out_.voltage * factor(supervisor_words_.inverse_resistance);
+    if (t == 7) operand_w_ = out_.velocity * factor(supervisor_words_.emf_over_resistance);
+    typename Supervisor<D>::In sup = supervisor_inputs(t);
     sup.tick = tick;
     sup.arm = host ? bit(control, D::C::control_arm) : in.arm;
     sup.stop = in.stop;
     sup.clear_faults = clear;
-    sup.kick = kick;
+    sup.kick = tick && registers_.commands(D::C::command_kick);
     sup.encoder_error = decoder_.out().illegal;
-    sup.velocity = static_cast<std::int32_t>(out_.velocity);
-    sup.current_ref = out_.current_ref;
-    sup.wave = sequencer_.out().wave;
-    sup.param = registers_.out().param;
-    if (t == 5) operand_v_ = out_.voltage * factor(registers_.out().param);
-    if (t == 7) operand_w_ = out_.velocity * factor(registers_.out().param);
-    if (t == 9) sup.product = operand_v_;
-    if (t == 11) sup.product = operand_w_;
-    if (t == 17) {
-      const std::int64_t estimate = supervisor_.out().current_estimate;
-      sup.product = estimate * estimate;
-    }
-    const bool gates_before = supervisor_.out().gates_enable;
-    pwm_.clock(pwm_inputs(gates_before, control));
+    gates_.clock(pwm_inputs(supervisor_.out().gates_enable));
     supervisor_.clock(sup);
-    const QuadDecoder::In d = decoder_inputs(in, control, zero, clear);
+    const QuadDecoder::In d = decoder_inputs(in, zero, clear);
     if (!decoder_.settled(d)) decoder_.clock(d);
 
     wave_.clock(t, position, travel, mode(), out_);
@@ -108,31 +96,20 @@ class FeltgateCore {
     if (in.reg_write && !out_.reg_busy) pending_address_ = in.reg_addr;
     zero_pending_ = in.set_zero || (zero_pending_ && !tick);
     sequencer_.clock({});
-    show(t);
-    count_gates(1);
+    gates_.show(supervisor_.out().gates_enable);
+    show();
+    out_.snapshot_valid = t == 46;
   }
 
   /// `clocks` clocks with the inputs held; reg_write and set_zero must be low. The same as so many
-  /// calls of clock(), a whole tick at a time where nothing but the tick itself happens.
+  /// calls of clock(), from event to event where nothing but the wave itself happens.
   /// `on_snapshot()` is called whenever out() holds a valid snapshot.
   template <class OnSnapshot>
-  void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
-    while (clocks > 0) {
-      if (clocks >= D::clocks_per_tick && can_skip(in)) {
-        clocks -= D::clocks_per_tick;
-        // Only the last snapshots of a stretch can ever be read back.
-        skip_tick(in, clocks < 3 * D::clocks_per_tick, on_snapshot);
-      } else {
-        clock(in);
-        if (out_.snapshot_valid) on_snapshot();
-        --clocks;
-      }
-    }
-  }
+  void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot);
 
   const Out& out() const { return out_; }
   /// Clocks since reset for which each gate was on: a_hi, a_lo, b_hi, b_lo.
-  const std::array<std::int64_t, 4>& gate_clocks() const { return gate_clocks_; }
+  std::array<std::int64_t, 4> gate_clocks() const { return gates_.on_clocks(); }
   /// Free-running count that the running wave started from.
   std::int16_t sampled_travel() const { return wave_.sampled_travel(); }
   /// Register writes carried out so far.
@@ -141,6 +118,9 @@ class FeltgateCore {
   int clock_of_tick() const { return sequencer_.clock_of_tick(); }
 
  private:
+  static constexpr int kWave = 2;            // clock of the tick that is wave clock 0
+  static constexpr int kSupervisorWave = 9;  // first wave clock of the supervisor
+
   static constexpr std::uint64_t slot_bit(int read_address) {
     return std::uint64_t{1} << (read_address & 63);
   }
@@ -179,40 +159,52 @@ class FeltgateCore {
     return static_cast<Mode>((registers_.out().control >> D::C::control_mode) & 3u);
   }
 
-  typename Registers<D>::In register_inputs(const In& in, int c, bool tick) const {
+  /// What the wave brings to the supervisor in its clock t; its words come from the RAM as the bus
+  /// would bring them.
+  typename Supervisor<D>::In supervisor_inputs(int t) const {
+    typename Supervisor<D>::In sup;
+    if (t < 0 || t >= 50) return sup;
+    sup.wave = std::uint64_t{1} << t;
+    sup.param = registers_.parameter(t);
+    sup.velocity = static_cast<std::int32_t>(out_.velocity);
+    sup.current_ref = out_.current_ref;
+    if (t == 9) sup.product = operand_v_;
+    if (t == 11) sup.product = operand_w_;
+    if (t == 17) {
+      const std::int64_t estimate = supervisor_.out().current_estimate;
+      sup.product = estimate * estimate;
+    }
+    return sup;
+  }
+
+  typename Registers<D>::In register_inputs(const In& in, int t, bool tick) const {
     typename Registers<D>::In reg;
-    const int t = c - 2;
     reg.tick = tick;
     reg.reg_addr = in.reg_addr;
     reg.reg_wdata = in.reg_wdata;
     reg.reg_write = in.reg_write;
-    reg.slot_fetch = static_cast<std::uint8_t>(sequencer_.out().slot_fetch);
-    reg.scene_slot_fetch = sequencer_.out().scene_slot_fetch;
-    reg.scene = out_.scene;
-    reg.region_high = wave_.region_high();
     if (t >= 0 && t < 50 && ((kSnapshotSlots >> t) & 1u) != 0) {
       reg.snap_valid = true;
       reg.snap_slot = static_cast<std::uint8_t>(t);
-      reg.snap_data = snapshot_word(t);
+      reg.snap_data = snapshot_word(t, decoder_.out());
     }
     return reg;
   }
 
-  std::uint32_t snapshot_word(int t) const {
+  std::uint32_t snapshot_word(int t, const QuadDecoder::Out& decoded) const {
     switch (t) {
       case 0:
         return out_.tick_count;
       case 1:
         return static_cast<std::uint32_t>(out_.position);
       case 2:
-        return status();
+        return status(decoded.error);
       case 9:
         return static_cast<std::uint32_t>(out_.velocity);
       case 11:
-        return static_cast<std::uint32_t>(decoder_.out().index_position);
+        return static_cast<std::uint32_t>(decoded.index_position);
       case 14:
-        return static_cast<std::uint32_t>(decoder_.out().rejected_count) << 16 |
-               decoder_.out().error_count;
+        return static_cast<std::uint32_t>(decoded.rejected_count) << 16 | decoded.error_count;
       case 23:
         return static_cast<std::uint32_t>(out_.tau_hat);
       case 28:
@@ -226,15 +218,16 @@ class FeltgateCore {
     }
   }
 
-  std::uint32_t status() const {
-    return static_cast<std::uint32_t>(decoder_.out().error) << 27 |
+  std::uint32_t status(bool encoder_error) const {
+    return static_cast<std::uint32_t>(encoder_error) << 27 |
            static_cast<std::uint32_t>(mode()) << 25 | static_cast<std::uint32_t>(out_.armed) << 24 |
            static_cast<std::uint32_t>(out_.scene) << 20 |
            static_cast<std::uint32_t>(out_.limits) << 12 |
            static_cast<std::uint32_t>(out_.first_fault) << 8 | out_.faults;
   }
 
-  QuadDecoder::In decoder_inputs(const In& in, std::uint32_t control, bool zero, bool clear) const {
+  QuadDecoder::In decoder_inputs(const In& in, bool zero, bool clear) const {
+    const std::uint32_t control = registers_.out().control;
     QuadDecoder::In d;
     d.a = in.encoder.a;
     d.b = in.encoder.b;
@@ -246,7 +239,8 @@ class FeltgateCore {
     return d;
   }
 
-  Pwm::In pwm_inputs(bool enable, std::uint32_t control) const {
+  Pwm::In pwm_inputs(bool enable) const {
+    const std::uint32_t control = registers_.out().control;
     Pwm::In p;
     p.enable = enable;
     p.mode = bit(control, D::C::control_pwm_mode);
@@ -255,114 +249,20 @@ class FeltgateCore {
     return p;
   }
 
-  void count_gates(int clocks) {
-    for (std::size_t g = 0; g < gate_clocks_.size(); ++g) {
-      if (((out_.gates >> g) & 1u) != 0) gate_clocks_[g] += clocks;
-    }
+  /// Where the supervisor's registers hold what a step of it has not yet used up.
+  static constexpr bool in_supervisor_wave(int c) {
+    return c > kSupervisorWave + kWave && c <= 22 + kWave;
   }
+  bool can_pass(const In& in) const;
+  static int next_look_at_decoder(int from);
+  template <bool Whole, class OnSnapshot>
+  int pass(const In& in, int from, int to, bool keep_words, OnSnapshot&& on_snapshot);
+  int advance_decoder(const In& in, int from, int to);
+  int advance_gates(int from, int to, int open);
+  void catch_up(int c);
 
-  /// At the start of a tick with nothing under way that is not the tick's own.
-  bool can_skip(const In& in) const {
-    return sequencer_.clock_of_tick() == 0 && sequencer_.out().tick_count != 0 &&
-           !registers_.out().reg_busy && !zero_pending_ && supervisor_.steady(in.stop) &&
-           !(in.stop && supervisor_.out().gates_enable) &&
-           decoder_.settled(decoder_inputs(in, registers_.out().control, false, false));
-  }
-
-  /// One whole tick from its first clock.
-  template <class OnSnapshot>
-  void skip_tick(const In& in, bool keep_words, OnSnapshot&& on_snapshot) {
-    const std::uint32_t control = registers_.out().control;
-    const bool host = bit(control, D::C::control_host);
-    const bool enabled = out_.gates_enable;
-    const auto keep = [&](int t) {
-      if (keep_words) registers_.write_snapshot(t, snapshot_word(t));
-    };
-    typename Supervisor<D>::Tick sup;
-    sup.voltage_before = out_.voltage;
-    sup.velocity_before = static_cast<std::int32_t>(out_.velocity);
-    sup.current_ref = out_.current_ref;
-    sup.arm = host ? bit(control, D::C::control_arm) : in.arm;
-
-    out_.snapshot_valid = false;
-    keep(0);
-    wave_.clock(0, decoder_.out().position, static_cast<std::int16_t>(decoder_.out().travel),
-                mode(), out_);
-    keep(1);
-    keep(2);
-    wave_.clock(2, 0, 0, mode(), out_);
-    wave_.clock(8, 0, 0, mode(), out_);
-    sup.velocity = static_cast<std::int32_t>(out_.velocity);
-    // Every cause is seen by wave clock 46, so the snapshot shows it; the gates fall in clock
-    // `fell`.
-    const int fell = supervisor_.tick(supervisor_words_, sup);
-    for (const int t : {9, 11, 14}) keep(t);
-    wave_.clock(22, 0, 0, mode(), out_);
-    keep(23);
-    wave_.clock(24, 0, 0, mode(), out_);
-    wave_.clock(25, 0, 0, mode(), out_);
-    wave_.clock(27, 0, 0, mode(), out_);
-    keep(28);
-    wave_.clock(33, 0, 0, mode(), out_);
-    keep(34);
-    wave_.clock(39, 0, 0, mode(), out_);
-    keep(40);
-    const int open_clocks = !enabled ? 0 : fell < 0 ? D::clocks_per_tick : fell + 1;
-    advance_pwm(0, 48, open_clocks, control);
-    wave_.clock(45, 0, 0, mode(), out_);
-    keep(46);
-    out_.faults = supervisor_.out().faults;
-    out_.first_fault = supervisor_.out().first_fault;
-    out_.gates_enable = enabled && fell < 0;
-    out_.duty_active = pwm_.out().duty_active;
-    show_limits();
-    out_.snapshot_valid = true;
-    on_snapshot();
-    out_.snapshot_valid = false;
-    advance_pwm(48, D::clocks_per_tick - 1, open_clocks, control);
-    // The last clock of the tick: arming, scene, counters.
-    pwm_.clock(pwm_inputs(out_.gates_enable, control));
-    registers_.skip_tick(in.reg_addr);
-    out_.scene =
-        static_cast<std::uint8_t>(host ? (control >> D::C::control_scene) & 15u : in.scene);
-    sequencer_.skip_ticks(1);
-    show(D::clocks_per_tick - 3);
-    count_gates(1);
-  }
-
-  /// Clocks [from, to) of a tick whose gates are open in its first `open` clocks.
-  void advance_pwm(int from, int to, int open, std::uint32_t control) {
-    while (from < to) {
-      const Pwm::In p = pwm_inputs(from < open, control);
-      // Up to where the enable changes; what the gates show after a clock is the next one's enable.
-      const int end = from < open - 1 ? std::min(to, open - 1) : from < open ? from + 1 : to;
-      const int quiet = std::min(end - from, pwm_.quiet_clocks(p));
-      if (quiet > 0) {
-        pwm_.skip(quiet);
-        from += quiet;
-        out_.gates = gate_bits(from < open);
-        count_gates(quiet);
-      } else {
-        pwm_.clock(p);
-        ++from;
-        out_.gates = gate_bits(from < open);
-        count_gates(1);
-      }
-    }
-  }
-
-  std::uint8_t gate_bits(bool enable) const {
-    Pwm::In p;
-    p.enable = enable;
-    const Pwm::Out g = pwm_.peek(p);
-    return static_cast<std::uint8_t>(g.gate_a_hi | g.gate_a_lo << 1 | g.gate_b_hi << 2 |
-                                     g.gate_b_lo << 3);
-  }
-
-  void show_limits() { out_.limits = wave_.limits(out_.gates_enable); }
-
-  /// Outputs after the edge; `t` was the clock of the wave before it.
-  void show(int t) {
+  /// Outputs after the edge.
+  void show() {
     out_.armed = supervisor_.out().armed;
     out_.gates_enable = supervisor_.out().gates_enable;
     out_.faults = supervisor_.out().faults;
@@ -370,25 +270,26 @@ class FeltgateCore {
     out_.tick_count = sequencer_.out().tick_count;
     out_.reg_rdata = registers_.out().reg_rdata;
     out_.reg_busy = registers_.out().reg_busy;
-    out_.snapshot_valid = t == 46;
-    out_.duty_active = pwm_.out().duty_active;
-    out_.gates = gate_bits(out_.gates_enable);
-    show_limits();
+    out_.duty_active = gates_.duty_active();
+    out_.gates = gates_.bits();
+    out_.limits = wave_.limits(out_.gates_enable);
   }
 
   Sequencer<D::clocks_per_tick> sequencer_;
   Registers<D> registers_;
   QuadDecoder decoder_;
   CoreWave<D> wave_;
-  Supervisor<D> supervisor_;
+  Supervisor<D> supervisor_, before_wave_;
   typename Supervisor<D>::Words supervisor_words_;
-  Pwm pwm_{D::pwm_period, D::dead_clocks};
+  CoreGates gates_{D::pwm_period, D::dead_clocks};
   std::int64_t operand_v_ = 0, operand_w_ = 0;
   int pending_address_ = 0;
   bool zero_pending_ = false;
   std::int64_t writes_ = 0;
-  std::array<std::int64_t, 4> gate_clocks_{};
+  int passed_to_ = -1;  ///< the clock that a pass() has reached, -1 after a clock()
   Out out_;
 };
 
 }  // namespace feltgate
+
+#include "feltgate/core_run.hpp"  // IWYU pragma: export

@@ -114,7 +114,7 @@ class QuadDecoder {
     const std::uint32_t now = pins(in);
     const std::uint8_t wait = in.filter;
     return meta_q_ == now && sync_q_ == now && previous_q_ == now && level_q_ == now &&
-           wait_q_ == std::array<std::uint8_t, 3>{wait, wait, wait};
+           wait_q_[0] == wait && wait_q_[1] == wait && wait_q_[2] == wait;
   }
 
  private:

@@ -63,7 +63,7 @@ class Registers {
     const std::uint32_t fetched = parameters_[fetch_address(in)];
     if (warm_) out_.param = fetch_;
     fetch_ = fetched;
-    if constexpr (ReadBack) read(in);
+    if constexpr (ReadBack) read(in.reg_addr);
     if (in.snap_valid) write_snapshot(in.snap_slot, in.snap_data);
     warm_ = true;
     const bool accept = in.reg_write && target_ == Target::none;
@@ -104,22 +104,32 @@ class Registers {
   void write_snapshot(int slot, std::uint32_t word) {
     if constexpr (ReadBack) snapshot_[bank_index(write_bank_, slot)] = word;
   }
-  /// As a tick of clock() calls from tick to tick, at once: no write waiting or made, reg_addr
-  /// held, the words of the tick given to write_snapshot(), and at least one tick run since the
-  /// reset.
-  void skip_tick(std::uint16_t reg_addr) {
+  /// As `clocks` calls of clock() without the last one of a tick: no write made, reg_addr held, the
+  /// words of the snapshot given to write_snapshot(), at least one tick run since the reset. The
+  /// parameter bus is not kept up.
+  void skip(std::uint16_t reg_addr, int clocks) {
     if constexpr (ReadBack) {
-      parameter_ = parameter_2_ = parameters_[reg_addr & 0x1ffU];
-      snapshot_word_ = snapshot_2_ = snapshot_[bank_index(read_bank(), reg_addr & 63)];
-      source_ = source_2_ = source_of(reg_addr);
-      out_.reg_rdata = selected();
-      if (!frozen_) write_bank_ ^= 1;
+      if (clocks >= kReadClocks) {
+        read_steadily(reg_addr);
+      } else {
+        for (int k = 0; k < clocks; ++k) read(reg_addr);
+      }
     } else {
-      (void)reg_addr;
+      (void)reg_addr, (void)clocks;
     }
+  }
+  /// What the last clock of a tick does beside that, with no write waiting.
+  void skip_end_of_tick() {
+    if (ReadBack && !frozen_) write_bank_ ^= 1;
+  }
+  /// As a tick of clock() calls from tick to tick, at once; see skip().
+  void skip_tick(std::uint16_t reg_addr) {
+    skip(reg_addr, kReadClocks);
+    skip_end_of_tick();
   }
 
  private:
+  static constexpr int kReadClocks = 3;  // from an address to its word
   enum class Target : std::uint8_t { none, parameter, control, command };
   enum class Source : std::uint8_t { nowhere, parameter, snapshot, control };
 
@@ -143,16 +153,23 @@ class Registers {
   }
   int read_bank() const { return write_bank_ ^ 1; }
 
-  void read(const In& in) {
+  void read(std::uint16_t reg_addr) {
     out_.reg_rdata = selected();
     if (warm_) {
       parameter_2_ = parameter_;
       snapshot_2_ = snapshot_word_;
     }
-    parameter_ = parameters_[in.reg_addr & 0x1ffU];
-    snapshot_word_ = snapshot_[bank_index(read_bank(), in.reg_addr & 63)];
+    parameter_ = parameters_[reg_addr & 0x1ffU];
+    snapshot_word_ = snapshot_[bank_index(read_bank(), reg_addr & 63)];
     source_2_ = source_;
-    source_ = source_of(in.reg_addr);
+    source_ = source_of(reg_addr);
+  }
+  /// Three reads or more of one address.
+  void read_steadily(std::uint16_t reg_addr) {
+    parameter_ = parameter_2_ = parameters_[reg_addr & 0x1ffU];
+    snapshot_word_ = snapshot_2_ = snapshot_[bank_index(read_bank(), reg_addr & 63)];
+    source_ = source_2_ = source_of(reg_addr);
+    out_.reg_rdata = selected();
   }
   std::uint32_t selected() const {
     switch (source_2_) {

@@ -130,50 +130,63 @@ class Supervisor {
   /// The stop input has been at this level for two clocks: tick() may be used while it stays there.
   bool steady(bool stop) const { return stop_1_ == stop && stop_2_ == stop; }
 
-  /// A tick from its first to its last clock, as so many calls of clock() without encoder errors
-  /// and with steady(stop). Returns the clock of the tick after which the gates fell, or -1.
+  // A tick from its first to its last clock without encoder errors and with steady(stop), in the
+  // steps that change something; each stands for all clocks up to its own. The first four return
+  // whether the gates fell with it.
+
+  /// Wave clock 17; the products are those of voltage and velocity of the tick before.
+  bool at_speed(const Words& words, std::int64_t v_product, std::int64_t w_product,
+                std::int32_t velocity) {
+    out_.current_estimate = static_cast<std::int32_t>(estimate_of(v_product, w_product));
+    return magnitude_over(velocity, words.overspeed) && trip(Fault::speed);
+  }
+  /// Wave clock 19.
+  bool at_heat(const Words& words) {
+    const Sum before = sum_;
+    const std::int64_t estimate = out_.current_estimate;
+    sum_ = Law::heated(Law::cooled(before, nominal_of(words.nominal_current_squared)),
+                       square_of(estimate * estimate, before));
+    return before.raw() >= static_cast<std::int64_t>(words.i2t_budget) && trip(Fault::i2t);
+  }
+  /// Wave clock 22; the current is that of the tick before.
+  bool at_polarity(const Words& words, std::int32_t velocity, std::int32_t current_ref) {
+    runs_away_ = magnitude_over(velocity, words.polarity_speed) &&
+                 magnitude_over(current_ref, words.polarity_current) &&
+                 (velocity < 0) != (current_ref < 0);
+    const bool trips = out_.gates_enable && runs_away_ &&
+                       (polarity_ >= words.polarity_ticks || polarity_ > kLongestPolarity);
+    polarity_ = runs_away_ ? polarity_ + 1 : 1;
+    return trips && trip(Fault::polarity);
+  }
+  /// Wave clock 47, where that is not the last clock of the tick.
+  bool at_watchdog(const Words& words) {
+    return !kWatchdogLast && silent(words) && trip(Fault::watchdog);
+  }
+  /// The last clock; returns whether the watchdog closed the gates in it.
+  bool at_end(const Words& words, bool arm, bool clear_faults = false, bool kick = false) {
+    const bool live = out_.gates_enable;
+    const bool trips = kWatchdogLast && silent(words);
+    leak(true);
+    end_tick(arm, clear_faults, kick, trips ? bit(Fault::watchdog) : std::uint8_t{0});
+    if (!live) rest_timers();
+    warm_ = true;
+    return trips;
+  }
+
+  /// All five. Returns the clock of the tick after which the gates fell, or -1.
   int tick(const Words& words, const Tick& in) {
-    const bool was_live = out_.gates_enable;
-    int fell = -1;
-    const auto seen = [this, was_live, &fell](bool over, Fault cause, int wave_clock) {
-      if (!over) return;
-      if (was_live && fell < 0) fell = wave_clock + kFirstWaveClock;
-      latch(bit(cause));
-      out_.gates_enable = false;
-    };
     const auto coefficient = [](std::uint32_t word) {
       return static_cast<std::int64_t>(word & ((1U << D::coefficient_bits) - 1));
     };
-    const std::int64_t estimate =
-        estimate_of(in.voltage_before * coefficient(words.inverse_resistance),
-                    in.velocity_before * coefficient(words.emf_over_resistance));
-    out_.current_estimate = static_cast<std::int32_t>(estimate);
-    const Sum before = sum_;
-    seen(magnitude_over(in.velocity, words.overspeed), Fault::speed, 17);
-    const Sum cooled = Law::cooled(before, nominal_of(words.nominal_current_squared));
-    seen(before.raw() >= static_cast<std::int64_t>(words.i2t_budget), Fault::i2t, 19);
-    sum_ = Law::heated(cooled, square_of(estimate * estimate, before));
-    runs_away_ = magnitude_over(in.velocity, words.polarity_speed) &&
-                 magnitude_over(in.current_ref, words.polarity_current) &&
-                 (in.velocity < 0) != (in.current_ref < 0);
-    const bool polarity = out_.gates_enable && runs_away_ &&
-                          (polarity_ >= words.polarity_ticks || polarity_ > kLongestPolarity);
-    seen(polarity, Fault::polarity, 22);
-    polarity_ = runs_away_ ? polarity_ + 1 : 1;
-    const bool silent = out_.gates_enable && awake_ &&
-                        (watchdog_ >= words.watchdog_ticks || watchdog_ > kLongestWatchdog);
-    std::uint8_t last_trip = 0;
-    if (kWatchdogClock == D::clocks_per_tick - 1) {
-      if (silent) fell = kWatchdogClock;
-      last_trip = silent ? bit(Fault::watchdog) : 0;
-    } else {
-      seen(silent, Fault::watchdog, kWatchdogClock - kFirstWaveClock);
+    int fell = -1;
+    if (at_speed(words, in.voltage_before * coefficient(words.inverse_resistance),
+                 in.velocity_before * coefficient(words.emf_over_resistance), in.velocity)) {
+      fell = 17 + kFirstWaveClock;
     }
-    const bool live = out_.gates_enable;
-    leak(true);
-    end_tick(in.arm, in.clear_faults, in.kick, last_trip);
-    if (!live) rest_timers();
-    warm_ = true;
+    if (at_heat(words)) fell = 19 + kFirstWaveClock;
+    if (at_polarity(words, in.velocity, in.current_ref)) fell = 22 + kFirstWaveClock;
+    if (at_watchdog(words)) fell = kWatchdogClock;
+    if (at_end(words, in.arm, in.clear_faults, in.kick)) fell = kWatchdogClock;
     return fell;
   }
 
@@ -182,6 +195,7 @@ class Supervisor {
   using Squared = fixed_of<Law::squared_key>;
   static constexpr int kFirstWaveClock = 2;  // clock of the tick that is wave clock 0
   static constexpr int kWatchdogClock = 47 + kFirstWaveClock;
+  static constexpr bool kWatchdogLast = kWatchdogClock == D::clocks_per_tick - 1;
   static constexpr int kBucket = 7;  // encoder errors that are borne
   static constexpr std::uint32_t kLeakTicks = 1024;
   static constexpr std::uint32_t kLongestPolarity = 0xffff;    // ticks
@@ -219,6 +233,18 @@ class Supervisor {
   static bool magnitude_over(std::int32_t x, std::uint32_t limit) {
     const std::int64_t wide = x;
     return (wide < 0 ? -wide : wide) > static_cast<std::int32_t>(limit);
+  }
+
+  /// A cause seen before the last clock of a tick; returns whether it closed the gates.
+  bool trip(Fault cause) {
+    const bool live = out_.gates_enable;
+    latch(bit(cause));
+    out_.gates_enable = false;
+    return live;
+  }
+  bool silent(const Words& words) const {
+    return out_.gates_enable && awake_ &&
+           (watchdog_ >= words.watchdog_ticks || watchdog_ > kLongestWatchdog);
   }
 
   /// Operands are taken over one clock before they are compared, the result is used one after.

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The PWM inside the core's twin, from event to event, and how long each gate has been on.
+// Documentation: docs/blocks/feltgate_core.md
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "feltgate/pwm.hpp"
+
+namespace feltgate {
+
+class CoreGates {
+ public:
+  CoreGates(int period, int dead_clocks) : pwm_(period, dead_clocks) {}
+
+  void reset() {
+    pwm_.reset();
+    bits_ = 0;
+    held_ = quiet_ = 0;
+    clocks_ = {};
+  }
+
+  /// One clock of the PWM; show() follows.
+  void clock(const Pwm::In& in) {
+    pwm_.clock(in);
+    quiet_ = 0;
+  }
+  /// The gates after that clock, with the enable of the next one.
+  void show(bool enable) {
+    take(bits(enable));
+    ++held_;
+  }
+
+  /// `clocks` clocks with `in` held; in the last of them the gates show `enable_after`.
+  void advance(const Pwm::In& in, int clocks, bool enable_after) {
+    if (in.enable != enable_) quiet_ = 0;
+    enable_ = in.enable;
+    while (clocks > 0) {
+      if (quiet_ == 0) quiet_ = pwm_.quiet_clocks(in);
+      const int step = quiet_ > 0 ? std::min(clocks, quiet_) : 1;
+      if (quiet_ > 0) {
+        pwm_.skip(step);
+        quiet_ -= step;
+      } else {
+        pwm_.clock(in);
+      }
+      clocks -= step;
+      take(bits(in.enable));
+      held_ += step;
+    }
+    if (enable_after != in.enable) {
+      --held_;
+      show(enable_after);
+    }
+  }
+
+  /// a_hi, a_lo, b_hi, b_lo from bit 0.
+  std::uint8_t bits() const { return bits_; }
+  std::int16_t duty_active() const { return pwm_.out().duty_active; }
+  /// Clocks since reset for which each gate was on, in the same order.
+  std::array<std::int64_t, 4> on_clocks() const {
+    std::array<std::int64_t, 4> all = clocks_;
+    for (std::size_t g = 0; g < all.size(); ++g) all[g] += ((bits_ >> g) & 1u) * held_;
+    return all;
+  }
+
+ private:
+  std::uint8_t bits(bool enable) const {
+    Pwm::In in;
+    in.enable = enable;
+    const Pwm::Out g = pwm_.peek(in);
+    return static_cast<std::uint8_t>(g.gate_a_hi | g.gate_a_lo << 1 | g.gate_b_hi << 2 |
+                                     g.gate_b_lo << 3);
+  }
+  void take(std::uint8_t now) {
+    if (now == bits_) return;
+    clocks_ = on_clocks();
+    held_ = 0;
+    bits_ = now;
+  }
+
+  Pwm pwm_;
+  std::uint8_t bits_ = 0;
+  std::int64_t held_ = 0;  ///< clocks since the gates changed
+  int quiet_ = 0;          ///< clocks that still change nothing as long as the enable is enable_
+  bool enable_ = false;
+  std::array<std::int64_t, 4> clocks_{};
+};
+
+}  // namespace feltgate

@@ -21,12 +21,13 @@ class CoreGates {
   void reset() {
     pwm_.reset();
     bits_ = 0;
-    held_ = quiet_ = 0;
+    held_ = quiet_ = passed_ = 0;
     clocks_ = {};
   }
 
   /// One clock of the PWM; show() follows.
   void clock(const Pwm::In& in) {
+    settle();
     pwm_.clock(in);
     quiet_ = 0;
   }
@@ -38,25 +39,19 @@ class CoreGates {
 
   /// `clocks` clocks with `in` held; in the last of them the gates show `enable_after`.
   void advance(const Pwm::In& in, int clocks, bool enable_after) {
-    if (in.enable != enable_) quiet_ = 0;
-    enable_ = in.enable;
-    while (clocks > 0) {
-      if (quiet_ == 0) quiet_ = pwm_.quiet_clocks(in);
-      const int step = quiet_ > 0 ? std::min(clocks, quiet_) : 1;
-      if (quiet_ > 0) {
-        pwm_.skip(step);
-        quiet_ -= step;
-      } else {
-        pwm_.clock(in);
-      }
-      clocks -= step;
-      take(bits(in.enable));
-      held_ += step;
+    if (quiet_for(clocks, in.enable) && enable_after == in.enable) {
+      pass(clocks);
+    } else {
+      advance_to_events(in, clocks, enable_after);
     }
-    if (enable_after != in.enable) {
-      --held_;
-      show(enable_after);
-    }
+  }
+  /// Whether nothing changes in the next `clocks` clocks with this enable, as far as is known, so
+  /// that pass() may stand for advance().
+  bool quiet_for(int clocks, bool enable) const { return quiet_ >= clocks && enable == enable_; }
+  void pass(int clocks) {
+    quiet_ -= clocks;
+    passed_ += clocks;
+    held_ += clocks;
   }
 
   /// a_hi, a_lo, b_hi, b_lo from bit 0.
@@ -70,6 +65,35 @@ class CoreGates {
   }
 
  private:
+  void advance_to_events(const Pwm::In& in, int clocks, bool enable_after) {
+    settle();
+    if (in.enable != enable_) quiet_ = 0;
+    enable_ = in.enable;
+    while (clocks > 0) {
+      if (quiet_ == 0) quiet_ = pwm_.quiet_clocks(in);
+      const int step = std::min(clocks, std::max(quiet_, 1));
+      if (quiet_ > 0) {
+        pass(step);
+        settle();
+      } else {
+        pwm_.clock(in);
+        take(bits(in.enable));
+        held_ += step;
+      }
+      clocks -= step;
+    }
+    take_last(enable_after);
+  }
+  /// The PWM itself follows the clocks that pass() has counted.
+  void settle() {
+    if (passed_ > 0) pwm_.skip(passed_);
+    passed_ = 0;
+  }
+  /// The last clock shows another enable than those before it.
+  void take_last(bool enable) {
+    --held_;
+    show(enable);
+  }
   std::uint8_t bits(bool enable) const {
     Pwm::In in;
     in.enable = enable;
@@ -88,6 +112,7 @@ class CoreGates {
   std::uint8_t bits_ = 0;
   std::int64_t held_ = 0;  ///< clocks since the gates changed
   int quiet_ = 0;          ///< clocks that still change nothing as long as the enable is enable_
+  int passed_ = 0;         ///< clocks that the PWM has yet to follow
   bool enable_ = false;
   std::array<std::int64_t, 4> clocks_{};
 };

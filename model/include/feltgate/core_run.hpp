@@ -8,7 +8,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
+#include <initializer_list>
 
 #include "feltgate/feltgate_core.hpp"
 
@@ -32,13 +32,13 @@ void FeltgateCore<D>::run(const In& in, std::int64_t clocks, OnSnapshot&& on_sna
     if (!settled) settled = decoder_.settled(decoder_inputs(in, false, false));
     if (settled && from == 0 && clocks >= tick && at_rest) {
       // Only the last snapshots of a stretch can ever be read back.
-      pass<true>(in, 0, tick, clocks < 3 * tick, on_snapshot);
+      pass_tick(in, clocks < 3 * tick, on_snapshot);
       clocks -= tick;
     } else {
       const int end = at_rest ? tick : tick - 1;
       int to = static_cast<int>(std::min<std::int64_t>(end, from + clocks));
       if (!settled) to = std::min(to, next_look_at_decoder(from));
-      to = pass<false>(in, from, to, true, on_snapshot);
+      to = pass(in, from, to, on_snapshot);
       clocks -= to - from;
     }
   }
@@ -62,29 +62,77 @@ int FeltgateCore<D>::next_look_at_decoder(int from) {
   return D::clocks_per_tick;
 }
 
-/// Clocks [from, to) of a tick, from < to. `Whole`: all of them, the decoder at rest. Returns the
-/// clock that was reached: it is before `to` where an encoder error comes up.
+/// A whole tick, the decoder at rest.
 template <class D>
-template <bool Whole, class OnSnapshot>
-int FeltgateCore<D>::pass(const In& in, int from, int to, bool keep_words,
-                          OnSnapshot&& on_snapshot) {
+template <class OnSnapshot>
+void FeltgateCore<D>::pass_tick(const In& in, bool keep_words, OnSnapshot&& on_snapshot) {
+  constexpr int tick = D::clocks_per_tick;
+  const QuadDecoder::Out& decoded = decoder_.out();
+  const auto keep = [&](std::initializer_list<int> clocks) {
+    if (!keep_words) return;
+    for (const int t : clocks) registers_.write_snapshot(t, snapshot_word(t, decoded));
+  };
+  keep({0, 2});  // the status before this tick's limits
+  operand_v_ = out_.voltage * factor(supervisor_words_.inverse_resistance);
+  operand_w_ = out_.velocity * factor(supervisor_words_.emf_over_resistance);
+  const std::int32_t current_before = out_.current_ref;
+  const std::int16_t duty_before = out_.duty;
+  wave_.tick(decoded.position, static_cast<std::int16_t>(decoded.travel), mode(), out_);
+  keep({1, 9, 11, 14, 23, 28, 34, 40, 46});
+
+  const auto velocity = static_cast<std::int32_t>(out_.velocity);
+  const bool enabled = out_.gates_enable;
+  int open = enabled ? kNever : 0;  // the gates are open before this clock
+  if (supervisor_.at_speed(supervisor_words_, operand_v_, operand_w_, velocity)) open = kSpeed;
+  if (supervisor_.at_heat(supervisor_words_)) open = kHeat;
+  if (supervisor_.at_polarity(supervisor_words_, velocity, current_before)) open = kPolarity;
+  const bool quiet = (open == kNever || !enabled) && gates_.quiet_for(tick, enabled);
+  if (quiet) {
+    gates_.pass(tick - 1);
+  } else {
+    advance_gates(0, kDuty, open, duty_before);
+    advance_gates(kDuty, kSnapshot, open, out_.duty);
+  }
+  show_state();
+  out_.snapshot_valid = true;
+  on_snapshot();
+  out_.snapshot_valid = false;
+  if (supervisor_.at_watchdog(supervisor_words_)) open = kWatchdog;
+  if (!quiet) advance_gates(kSnapshot, tick - 1, open, out_.duty);
+  end_tick(in, open);
+  registers_.skip_tick(in.reg_addr);
+  sequencer_.skip_ticks(1);
+  show();
+}
+
+/// The last clock of a tick but for registers and sequencer; the gates are open before `open`.
+template <class D>
+void FeltgateCore<D>::end_tick(const In& in, int open) {
+  const std::uint32_t control = registers_.out().control;
+  const bool host = bit(control, D::C::control_host);
+  supervisor_.at_end(supervisor_words_, host ? bit(control, D::C::control_arm) : in.arm);
+  gates_.advance(pwm_inputs(D::clocks_per_tick - 1 < open, out_.duty), 1,
+                 supervisor_.out().gates_enable);
+  out_.scene = static_cast<std::uint8_t>(host ? (control >> D::C::control_scene) & 15u : in.scene);
+}
+
+/// Clocks [from, to) of a tick, from < to. Returns the clock that was reached: it is before `to`
+/// where an encoder error comes up.
+template <class D>
+template <class OnSnapshot>
+int FeltgateCore<D>::pass(const In& in, int from, int to, OnSnapshot&& on_snapshot) {
   const QuadDecoder::Out decoded = decoder_.out();
-  if (!Whole) to = advance_decoder(in, from, to);
-  const auto has = [from, to](int t) { return Whole || (from <= t + kWave && t + kWave < to); };
+  to = advance_decoder(in, from, to);
+  const auto has = [from, to](int t) { return from <= t + kWave && t + kWave < to; };
   const auto keep = [&](int t) {
-    if (keep_words && has(t)) registers_.write_snapshot(t, snapshot_word(t, decoded));
+    if (has(t)) registers_.write_snapshot(t, snapshot_word(t, decoded));
   };
   const auto wave = [&](int t) {
     if (has(t)) {
       wave_.clock(t, decoded.position, static_cast<std::int16_t>(decoded.travel), mode(), out_);
     }
   };
-  // The gates are open before this clock.
-  int open = supervisor_.out().gates_enable ? std::numeric_limits<int>::max() : 0;
-  const auto watch = [&](int t, bool fell) {
-    if (fell) open = t + kWave + 1;
-  };
-
+  int open = supervisor_.out().gates_enable ? kNever : 0;  // the gates are open before this clock
   out_.snapshot_valid = false;
   keep(0);
   wave(0);
@@ -97,12 +145,12 @@ int FeltgateCore<D>::pass(const In& in, int from, int to, bool keep_words,
   for (const int t : {9, 11, 14}) keep(t);
   const auto velocity = static_cast<std::int32_t>(out_.velocity);
   if (has(17)) {
-    if (!Whole) before_wave_ = supervisor_;
-    watch(17, supervisor_.at_speed(supervisor_words_, operand_v_, operand_w_, velocity));
+    before_wave_ = supervisor_;
+    if (supervisor_.at_speed(supervisor_words_, operand_v_, operand_w_, velocity)) open = kSpeed;
   }
-  if (has(19)) watch(19, supervisor_.at_heat(supervisor_words_));
-  if (has(22)) {
-    watch(22, supervisor_.at_polarity(supervisor_words_, velocity, out_.current_ref));
+  if (has(19) && supervisor_.at_heat(supervisor_words_)) open = kHeat;
+  if (has(22) && supervisor_.at_polarity(supervisor_words_, velocity, out_.current_ref)) {
+    open = kPolarity;
   }
   wave(22);
   keep(23);
@@ -112,39 +160,28 @@ int FeltgateCore<D>::pass(const In& in, int from, int to, bool keep_words,
   keep(34);
   wave(39);
   keep(40);
-  int gates_at = advance_gates(from, std::min(to, 45 + kWave + 1), open);
+  const std::int16_t duty_before = out_.duty;
   wave(45);
   keep(46);
+  int gates_at = advance_gates(from, std::min(to, kDuty), open, duty_before);
   if (has(46)) {
-    gates_at = advance_gates(gates_at, 46 + kWave + 1, open);
-    show();
+    gates_at = advance_gates(gates_at, kSnapshot, open, out_.duty);
+    show_state();
     out_.snapshot_valid = true;
     on_snapshot();
-    out_.snapshot_valid = Whole ? false : to == 46 + kWave + 1;
+    out_.snapshot_valid = to == kSnapshot;
   }
-  constexpr int last = D::clocks_per_tick - 1;
-  if (has(47)) watch(47, supervisor_.at_watchdog(supervisor_words_));
-  if (Whole || to > last) {
-    gates_at = advance_gates(gates_at, last, open);
-    const bool enabled = last < open;
-    const bool host = bit(registers_.out().control, D::C::control_host);
-    const unsigned wanted = registers_.out().control >> D::C::control_scene & 15u;
-    supervisor_.at_end(supervisor_words_,
-                       host ? bit(registers_.out().control, D::C::control_arm) : in.arm);
-    gates_.advance(pwm_inputs(enabled), 1, supervisor_.out().gates_enable);
-    out_.scene = static_cast<std::uint8_t>(host ? wanted : in.scene);
+  if (has(47) && supervisor_.at_watchdog(supervisor_words_)) open = kWatchdog;
+  registers_.skip(in.reg_addr, to - from);
+  if (to == D::clocks_per_tick) {
+    advance_gates(gates_at, to - 1, open, out_.duty);
+    end_tick(in, open);
+    registers_.skip_end_of_tick();
   } else {
-    advance_gates(gates_at, to, open);
+    advance_gates(gates_at, to, open, out_.duty);
   }
-  if (Whole) {
-    registers_.skip_tick(in.reg_addr);
-    sequencer_.skip_ticks(1);
-  } else {
-    registers_.skip(in.reg_addr, to - from);
-    if (to > last) registers_.skip_end_of_tick();
-    sequencer_.skip(to - from);
-    passed_to_ = sequencer_.clock_of_tick();
-  }
+  sequencer_.skip(to - from);
+  passed_to_ = sequencer_.clock_of_tick();
   show();
   return to;
 }
@@ -164,11 +201,11 @@ int FeltgateCore<D>::advance_decoder(const In& in, int from, int to) {
 /// Gates of the clocks [from, to), open before the clock `open`; returns the clock reached. A fall
 /// shows in the outputs with the clock that makes it.
 template <class D>
-int FeltgateCore<D>::advance_gates(int from, int to, int open) {
+int FeltgateCore<D>::advance_gates(int from, int to, int open, std::int16_t duty) {
   const int end = std::min(to, open);
-  if (from < end) gates_.advance(pwm_inputs(true), end - from, end < open);
+  if (from < end) gates_.advance(pwm_inputs(true, duty), end - from, end < open);
   from = std::max(from, end);
-  if (from < to) gates_.advance(pwm_inputs(false), to - from, false);
+  if (from < to) gates_.advance(pwm_inputs(false, duty), to - from, false);
   return std::max(from, to);
 }
 

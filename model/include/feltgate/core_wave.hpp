@@ -76,6 +76,21 @@ class CoreWave {
     }
   }
 
+  /// All of them at once.
+  void tick(std::int32_t position, std::int16_t travel, Mode mode, CoreOut& out) {
+    out.position = position;
+    sampled_travel_ = travel;
+    chain_.tick(position, travel, out.armed, out.scene, mode);
+    out.velocity = chain_.velocity().raw();
+    out.tau_hat = static_cast<std::int32_t>(chain_.tau_hat().raw());
+    out.tau_ref = static_cast<std::int32_t>(chain_.tau_ref().raw());
+    out.current_ref = static_cast<std::int32_t>(chain_.control().current.raw());
+    out.voltage = static_cast<std::int32_t>(chain_.control().voltage.raw());
+    out.duty = static_cast<std::int16_t>(chain_.control().duty.raw());
+    flags_ = {chain_.limit_torque(), chain_.limit_ramp(), chain_.limit_velocity(),
+              chain_.limit_tau_hat(), chain_.control().limit};
+  }
+
   /// The region of the voltage gain that the last torque reference fell into.
   bool region_high() const { return chain_.control().region_high; }
   /// Free-running count that the running wave started from.

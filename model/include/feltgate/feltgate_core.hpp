@@ -73,7 +73,7 @@ class FeltgateCore {
     sup.clear_faults = clear;
     sup.kick = tick && registers_.commands(D::C::command_kick);
     sup.encoder_error = decoder_.out().illegal;
-    gates_.clock(pwm_inputs(supervisor_.out().gates_enable));
+    gates_.clock(pwm_inputs(supervisor_.out().gates_enable, out_.duty));
     supervisor_.clock(sup);
     const QuadDecoder::In d = decoder_inputs(in, zero, clear);
     if (!decoder_.settled(d)) decoder_.clock(d);
@@ -120,6 +120,10 @@ class FeltgateCore {
  private:
   static constexpr int kWave = 2;            // clock of the tick that is wave clock 0
   static constexpr int kSupervisorWave = 9;  // first wave clock of the supervisor
+  // Clocks of the tick by which something has come up.
+  static constexpr int kSpeed = 17 + kWave + 1, kHeat = 19 + kWave + 1, kPolarity = 22 + kWave + 1;
+  static constexpr int kDuty = 45 + kWave + 1, kSnapshot = 46 + kWave + 1;
+  static constexpr int kWatchdog = 47 + kWave + 1, kNever = 1 << 30;
 
   static constexpr std::uint64_t slot_bit(int read_address) {
     return std::uint64_t{1} << (read_address & 63);
@@ -239,13 +243,13 @@ class FeltgateCore {
     return d;
   }
 
-  Pwm::In pwm_inputs(bool enable) const {
+  Pwm::In pwm_inputs(bool enable, std::int16_t duty) const {
     const std::uint32_t control = registers_.out().control;
     Pwm::In p;
     p.enable = enable;
     p.mode = bit(control, D::C::control_pwm_mode);
     p.polarity = bit(control, D::C::control_motor_polarity);
-    p.duty = out_.duty;
+    p.duty = duty;
     return p;
   }
 
@@ -255,21 +259,27 @@ class FeltgateCore {
   }
   bool can_pass(const In& in) const;
   static int next_look_at_decoder(int from);
-  template <bool Whole, class OnSnapshot>
-  int pass(const In& in, int from, int to, bool keep_words, OnSnapshot&& on_snapshot);
+  template <class OnSnapshot>
+  void pass_tick(const In& in, bool keep_words, OnSnapshot&& on_snapshot);
+  template <class OnSnapshot>
+  int pass(const In& in, int from, int to, OnSnapshot&& on_snapshot);
+  void end_tick(const In& in, int open);
   int advance_decoder(const In& in, int from, int to);
-  int advance_gates(int from, int to, int open);
+  int advance_gates(int from, int to, int open, std::int16_t duty);
   void catch_up(int c);
 
   /// Outputs after the edge.
   void show() {
+    show_state();
+    out_.tick_count = sequencer_.out().tick_count;
+    out_.reg_rdata = registers_.out().reg_rdata;
+    out_.reg_busy = registers_.out().reg_busy;
+  }
+  void show_state() {
     out_.armed = supervisor_.out().armed;
     out_.gates_enable = supervisor_.out().gates_enable;
     out_.faults = supervisor_.out().faults;
     out_.first_fault = supervisor_.out().first_fault;
-    out_.tick_count = sequencer_.out().tick_count;
-    out_.reg_rdata = registers_.out().reg_rdata;
-    out_.reg_busy = registers_.out().reg_busy;
     out_.duty_active = gates_.duty_active();
     out_.gates = gates_.bits();
     out_.limits = wave_.limits(out_.gates_enable);

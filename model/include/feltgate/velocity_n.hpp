@@ -22,21 +22,16 @@ class DelayLine {
   void reset() {
     line_.fill(0);
     pointer_ = 0;
-    filled_ = false;
   }
-  std::int16_t oldest() const { return filled_ ? line_[pointer_] : std::int16_t{0}; }
+  std::int16_t oldest() const { return line_[pointer_]; }
   void push(std::int16_t travel) {
     line_[pointer_] = travel;
-    if (++pointer_ == M1) {
-      pointer_ = 0;
-      filled_ = true;
-    }
+    pointer_ = pointer_ == M1 - 1 ? 0 : pointer_ + 1;
   }
 
  private:
   std::array<std::int16_t, M1> line_{};
   std::size_t pointer_ = 0;
-  bool filled_ = false;
 };
 
 /// The arithmetic, in number policy N, for design D.

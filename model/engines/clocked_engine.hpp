@@ -135,7 +135,7 @@ class ClockedEngine : public Engine {
     last_ = out;
   }
   void keep(const CoreOut& out, std::int16_t travel, std::int64_t writes) {
-    Snapshot s;
+    Snapshot& s = snapshots_.emplace_back();
     s.tick = out.tick_count;
     s.position = out.position;
     s.velocity = out.velocity;
@@ -151,7 +151,6 @@ class ClockedEngine : public Engine {
     s.armed = out.armed;
     s.travel = travel;
     s.writes = writes;
-    snapshots_.push_back(s);
   }
 
   DesignInfo info_;

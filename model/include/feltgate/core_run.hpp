@@ -31,9 +31,15 @@ void FeltgateCore<D>::run(const In& in, std::int64_t clocks, OnSnapshot&& on_sna
     }
     if (!settled) settled = decoder_.settled(decoder_inputs(in, false, false));
     if (settled && from == 0 && clocks >= tick && at_rest) {
-      // Only the last snapshots of a stretch can ever be read back.
-      pass_tick(in, clocks < 3 * tick, on_snapshot);
-      clocks -= tick;
+      // Only the last two snapshots of a stretch can ever be read back.
+      const auto unread = static_cast<std::uint32_t>(std::max<std::int64_t>(clocks / tick - 2, 0));
+      for (std::uint32_t k = 0; k < unread; ++k) pass_tick<false>(in, on_snapshot);
+      registers_.skip_unread_ticks(unread);
+      pass_tick<true>(in, on_snapshot);
+      registers_.skip_tick(in.reg_addr);
+      sequencer_.skip_ticks(unread + 1);
+      show();
+      clocks -= (unread + 1) * std::int64_t{tick};
     } else {
       const int end = at_rest ? tick : tick - 1;
       int to = static_cast<int>(std::min<std::int64_t>(end, from + clocks));
@@ -62,14 +68,15 @@ int FeltgateCore<D>::next_look_at_decoder(int from) {
   return D::clocks_per_tick;
 }
 
-/// A whole tick, the decoder at rest.
+/// A whole tick but for registers and sequencer, the decoder at rest. `Read`: the host may see its
+/// words.
 template <class D>
-template <class OnSnapshot>
-void FeltgateCore<D>::pass_tick(const In& in, bool keep_words, OnSnapshot&& on_snapshot) {
+template <bool Read, class OnSnapshot>
+void FeltgateCore<D>::pass_tick(const In& in, OnSnapshot&& on_snapshot) {
   constexpr int tick = D::clocks_per_tick;
   const QuadDecoder::Out& decoded = decoder_.out();
   const auto keep = [&](std::initializer_list<int> clocks) {
-    if (!keep_words) return;
+    if (!Read) return;
     for (const int t : clocks) registers_.write_snapshot(t, snapshot_word(t, decoded));
   };
   keep({0, 2});  // the status before this tick's limits
@@ -87,9 +94,7 @@ void FeltgateCore<D>::pass_tick(const In& in, bool keep_words, OnSnapshot&& on_s
   if (supervisor_.at_heat(supervisor_words_)) open = kHeat;
   if (supervisor_.at_polarity(supervisor_words_, velocity, current_before)) open = kPolarity;
   const bool quiet = (open == kNever || !enabled) && gates_.quiet_for(tick, enabled);
-  if (quiet) {
-    gates_.pass(tick - 1);
-  } else {
+  if (!quiet) {
     advance_gates(0, kDuty, open, duty_before);
     advance_gates(kDuty, kSnapshot, open, out_.duty);
   }
@@ -99,20 +104,24 @@ void FeltgateCore<D>::pass_tick(const In& in, bool keep_words, OnSnapshot&& on_s
   out_.snapshot_valid = false;
   if (supervisor_.at_watchdog(supervisor_words_)) open = kWatchdog;
   if (!quiet) advance_gates(kSnapshot, tick - 1, open, out_.duty);
-  end_tick(in, open);
-  registers_.skip_tick(in.reg_addr);
-  sequencer_.skip_ticks(1);
-  show();
+  end_of_tick(in);
+  const bool live = supervisor_.out().gates_enable;
+  if (quiet && live == enabled) {
+    gates_.pass(tick);
+  } else {
+    if (quiet) gates_.pass(tick - 1);
+    gates_.advance(pwm_inputs(tick - 1 < open, out_.duty), 1, live);
+  }
+  show_state();
+  ++out_.tick_count;
 }
 
-/// The last clock of a tick but for registers and sequencer; the gates are open before `open`.
+/// Arming and scene in the last clock of a tick.
 template <class D>
-void FeltgateCore<D>::end_tick(const In& in, int open) {
+void FeltgateCore<D>::end_of_tick(const In& in) {
   const std::uint32_t control = registers_.out().control;
   const bool host = bit(control, D::C::control_host);
   supervisor_.at_end(supervisor_words_, host ? bit(control, D::C::control_arm) : in.arm);
-  gates_.advance(pwm_inputs(D::clocks_per_tick - 1 < open, out_.duty), 1,
-                 supervisor_.out().gates_enable);
   out_.scene = static_cast<std::uint8_t>(host ? (control >> D::C::control_scene) & 15u : in.scene);
 }
 
@@ -175,7 +184,8 @@ int FeltgateCore<D>::pass(const In& in, int from, int to, OnSnapshot&& on_snapsh
   registers_.skip(in.reg_addr, to - from);
   if (to == D::clocks_per_tick) {
     advance_gates(gates_at, to - 1, open, out_.duty);
-    end_tick(in, open);
+    end_of_tick(in);
+    gates_.advance(pwm_inputs(to - 1 < open, out_.duty), 1, supervisor_.out().gates_enable);
     registers_.skip_end_of_tick();
   } else {
     advance_gates(gates_at, to, open, out_.duty);

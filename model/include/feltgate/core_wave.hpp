@@ -20,7 +20,7 @@ class CoreWave {
   void reset() {
     chain_.reset();
     sampled_travel_ = 0;
-    flags_ = {};
+    limits_ = 0;
   }
 
   void set_word(int address, std::uint32_t word) { chain_.words().set_raw(address, word); }
@@ -34,7 +34,7 @@ class CoreWave {
         break;
       case 2:
         chain_.estimate(sampled_travel_);
-        flags_.velocity = chain_.limit_velocity();
+        set(5, chain_.limit_velocity());
         break;
       case 8:
         out.velocity = chain_.velocity().raw();
@@ -42,7 +42,7 @@ class CoreWave {
       case 22:
         chain_.observe(out.armed);
         out.tau_hat = static_cast<std::int32_t>(chain_.tau_hat().raw());
-        flags_.tau_hat = chain_.limit_tau_hat();
+        set(6, chain_.limit_tau_hat());
         break;
       case 24:
         if (mode == Mode::voltage) {
@@ -52,24 +52,24 @@ class CoreWave {
         break;
       case 25:
         chain_.render(out.armed, out.scene, out.position);
-        flags_.torque = chain_.limit_torque();
+        set(0, chain_.limit_torque());
         break;
       case 27:
         out.tau_ref = static_cast<std::int32_t>(chain_.tau_ref().raw());
-        flags_.ramp = chain_.limit_ramp();
+        set(1, chain_.limit_ramp());
         break;
       case 33:
         chain_.drive(out.armed, mode);
         out.current_ref = static_cast<std::int32_t>(chain_.control().current.raw());
-        flags_.control.current = chain_.control().limit.current;
+        set(2, chain_.control().limit.current);
         break;
       case 39:
         out.voltage = static_cast<std::int32_t>(chain_.control().voltage.raw());
-        flags_.control.voltage = chain_.control().limit.voltage;
+        set(3, chain_.control().limit.voltage);
         break;
       case 45:
         out.duty = static_cast<std::int16_t>(chain_.control().duty.raw());
-        flags_.control.duty = chain_.control().limit.duty;
+        set(4, chain_.control().limit.duty);
         break;
       default:
         break;
@@ -87,8 +87,7 @@ class CoreWave {
     out.current_ref = static_cast<std::int32_t>(chain_.control().current.raw());
     out.voltage = static_cast<std::int32_t>(chain_.control().voltage.raw());
     out.duty = static_cast<std::int16_t>(chain_.control().duty.raw());
-    flags_ = {chain_.limit_torque(), chain_.limit_ramp(), chain_.limit_velocity(),
-              chain_.limit_tau_hat(), chain_.control().limit};
+    limits_ = chain_.limits();
   }
 
   /// The region of the voltage gain that the last torque reference fell into.
@@ -98,21 +97,17 @@ class CoreWave {
 
   /// The limits word.
   std::uint8_t limits(bool gates_enable) const {
-    return static_cast<std::uint8_t>(flags_.torque | flags_.ramp << 1 |
-                                     flags_.control.current << 2 | flags_.control.voltage << 3 |
-                                     flags_.control.duty << 4 | flags_.velocity << 5 |
-                                     flags_.tau_hat << 6 | !gates_enable << 7);
+    return static_cast<std::uint8_t>(limits_ | (gates_enable ? 0 : 128));
   }
 
  private:
-  struct Flags {
-    bool torque = false, ramp = false, velocity = false, tau_hat = false;
-    ControlLimits control;
-  };
+  void set(int bit, bool holds) {
+    limits_ = static_cast<std::uint8_t>((limits_ & ~(1 << bit)) | (holds << bit));
+  }
 
   ChainTick<D, Fixed> chain_;
   std::int16_t sampled_travel_ = 0;
-  Flags flags_;
+  std::uint8_t limits_ = 0;  ///< bits 0 to 6
 };
 
 }  // namespace feltgate

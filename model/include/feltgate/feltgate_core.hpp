@@ -259,11 +259,11 @@ class FeltgateCore {
   }
   bool can_pass(const In& in) const;
   static int next_look_at_decoder(int from);
-  template <class OnSnapshot>
-  void pass_tick(const In& in, bool keep_words, OnSnapshot&& on_snapshot);
+  template <bool Read, class OnSnapshot>
+  void pass_tick(const In& in, OnSnapshot&& on_snapshot);
   template <class OnSnapshot>
   int pass(const In& in, int from, int to, OnSnapshot&& on_snapshot);
-  void end_tick(const In& in, int open);
+  void end_of_tick(const In& in);
   int advance_decoder(const In& in, int from, int to);
   int advance_gates(int from, int to, int open, std::int16_t duty);
   void catch_up(int c);

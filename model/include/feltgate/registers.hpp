@@ -127,6 +127,10 @@ class Registers {
     skip(reg_addr, kReadClocks);
     skip_end_of_tick();
   }
+  /// As `ticks` of them, before a skip_tick(), where nobody can read the words of these ticks.
+  void skip_unread_ticks(std::uint32_t ticks) {
+    if (ReadBack && !frozen_) write_bank_ ^= static_cast<int>(ticks & 1U);
+  }
 
  private:
   static constexpr int kReadClocks = 3;  // from an address to its word

@@ -135,22 +135,7 @@ class ClockedEngine : public Engine {
     last_ = out;
   }
   void keep(const CoreOut& out, std::int16_t travel, std::int64_t writes) {
-    Snapshot& s = snapshots_.emplace_back();
-    s.tick = out.tick_count;
-    s.position = out.position;
-    s.velocity = out.velocity;
-    s.tau_hat = out.tau_hat;
-    s.tau_ref = out.tau_ref;
-    s.current_ref = out.current_ref;
-    s.voltage = out.voltage;
-    s.duty = out.duty;
-    s.scene = out.scene;
-    s.limits = out.limits;
-    s.faults = out.faults;
-    s.first_fault = out.first_fault;
-    s.armed = out.armed;
-    s.travel = travel;
-    s.writes = writes;
+    snapshots_.emplace_back(out, travel, writes);
   }
 
   DesignInfo info_;

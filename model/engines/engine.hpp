@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "feltgate/core_ports.hpp"
 #include "feltgate/encoder_source.hpp"
 #include "feltgate/parameter.hpp"
 
@@ -26,6 +27,24 @@ struct Snapshot {
   // Not shown by the RTL, hence not compared:
   std::int16_t travel = 0;  ///< sampled free-running count
   std::int64_t writes = 0;  ///< register writes carried out before this wave
+
+  Snapshot() = default;
+  Snapshot(const CoreOut& o, std::int16_t sampled_travel, std::int64_t writes_before)
+      : tick(o.tick_count),
+        position(o.position),
+        velocity(o.velocity),
+        tau_hat(o.tau_hat),
+        tau_ref(o.tau_ref),
+        current_ref(o.current_ref),
+        voltage(o.voltage),
+        duty(o.duty),
+        scene(o.scene),
+        limits(o.limits),
+        faults(o.faults),
+        first_fault(o.first_fault),
+        armed(o.armed),
+        travel(sampled_travel),
+        writes(writes_before) {}
   bool operator==(const Snapshot& o) const {
     return tick == o.tick && position == o.position && velocity == o.velocity &&
            tau_hat == o.tau_hat && tau_ref == o.tau_ref && current_ref == o.current_ref &&

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The ports of the Verilated core as the twin's types. Documentation: docs/architecture.md
+#pragma once
+
+#include <cstdint>
+
+#include "feltgate/core_ports.hpp"
+
+namespace feltgate {
+
+/// The low `width` bits of `word` as a signed number.
+constexpr std::int64_t sign_extend(std::uint64_t word, int width) {
+  const std::uint64_t sign = std::uint64_t{1} << (width - 1);
+  const std::uint64_t low = word & ((sign << 1) - 1);
+  return static_cast<std::int64_t>(low ^ sign) - static_cast<std::int64_t>(sign);
+}
+
+namespace detail {
+
+inline std::int32_t narrow_word(std::uint32_t word, int width) {
+  return static_cast<std::int32_t>(sign_extend(word, width));
+}
+
+}  // namespace detail
+
+/// Sets every input but clock and reset.
+template <class Rtl>
+void drive_inputs(Rtl& rtl, const CoreIn& in) {
+  rtl.enc_a_i = in.encoder.a;
+  rtl.enc_b_i = in.encoder.b;
+  rtl.enc_z_i = in.encoder.z;
+  rtl.arm_i = in.arm;
+  rtl.stop_i = in.stop;
+  rtl.set_zero_i = in.set_zero;
+  rtl.scene_i = in.scene;
+  rtl.reg_addr_i = in.reg_addr;
+  rtl.reg_wdata_i = in.reg_wdata;
+  rtl.reg_write_i = in.reg_write;
+}
+
+/// Every output after an edge, for design D.
+template <class D, class Rtl>
+CoreOut read_outputs(const Rtl& rtl) {
+  CoreOut o;
+  o.velocity = sign_extend(rtl.velocity_o, D::f.velocity.width());
+  o.tick_count = rtl.tick_count_o;
+  o.reg_rdata = rtl.reg_rdata_o;
+  o.position = static_cast<std::int32_t>(rtl.position_o);
+  o.tau_hat = detail::narrow_word(rtl.tau_hat_o, D::f.torque.width());
+  o.tau_ref = detail::narrow_word(rtl.tau_ref_o, D::f.torque.width());
+  o.current_ref = detail::narrow_word(rtl.current_ref_o, D::f.current.width());
+  o.voltage = detail::narrow_word(rtl.voltage_o, D::f.voltage.width());
+  o.duty = static_cast<std::int16_t>(detail::narrow_word(rtl.duty_o, D::f.duty.width()));
+  o.duty_active =
+      static_cast<std::int16_t>(detail::narrow_word(rtl.duty_active_o, D::f.duty.width()));
+  o.gates = static_cast<std::uint8_t>(rtl.gate_a_hi_o | rtl.gate_a_lo_o << 1 |
+                                      rtl.gate_b_hi_o << 2 | rtl.gate_b_lo_o << 3);
+  o.scene = rtl.scene_o;
+  o.limits = rtl.limits_o;
+  o.faults = rtl.faults_o;
+  o.first_fault = rtl.first_fault_o;
+  o.armed = rtl.armed_o != 0;
+  o.gates_enable = rtl.gates_enable_o != 0;
+  o.snapshot_valid = rtl.snapshot_valid_o != 0;
+  o.reg_busy = rtl.reg_busy_o != 0;
+  return o;
+}
+
+}  // namespace feltgate

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// RTL and twin of a design point in lock-step, every output on every clock, and the chain of a
+// tick beside them. Documentation: docs/explore.md
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engines/make_engines.hpp"
+#include "engines/rtl_ports.hpp"
+#include "explore/measurement.hpp"
+#include "explore/stimulus.hpp"
+#include "feltgate/feltgate_core.hpp"
+#include "reference/control_chain.hpp"
+
+namespace feltgate::explore {
+
+/// Rtl is Verilator's class of feltgate_core for design D, Context its context.
+template <class Rtl, class D, class Context>
+class LockStepRun {
+ public:
+  LockStepRun(const std::vector<Value>& values, Measurement* m) : values_(values), m_(m) {}
+
+  /// Loads the point's values through the register port, then plays a window of every motion, the
+  /// modes and disarming. The lever slews from one window to the next as fast as the encoder may,
+  /// so velocity and torque see their ends too.
+  void run() {
+    power_up();
+    for (const Value& v : values_) write(v.address, v.raw);
+    write(D::A::ramp_step, fixed_of<D::f.ramp.key()>::max_raw() / 2);
+    const auto window = static_cast<std::int64_t>(lock_step_s * static_cast<double>(D::clock_hz));
+    for (const Motion& motion : motions()) {
+      const int scene = D::scene_number(motion.scene);
+      if (!scene_built<D>(scene)) continue;
+      write(D::A::setpoint_torque,
+            std::llround(std::ldexp(motion.setpoint_nm, D::f.torque.fraction)));
+      control(scene, Mode::closed_loop, true);
+      play(motion, window);
+    }
+    const Motion& last = motions().back();
+    control(0, Mode::open_loop, true);
+    play(last, window / 8);
+    write(D::A::voltage_setpoint, std::int64_t{3} << D::f.voltage.fraction);
+    control(0, Mode::voltage, true);
+    play(last, window / 8);
+    control(0, Mode::closed_loop, false);
+    play(last, window / 8);
+  }
+
+ private:
+  void power_up() {
+    context_ = std::make_unique<Context>();
+    context_->randReset(2);
+    context_->randSeed(1);
+    rtl_ = std::make_unique<Rtl>(context_.get());
+    drive_inputs(*rtl_, in_);
+    rtl_->clk_i = 0;
+    rtl_->rst_ni = 1;
+    rtl_->eval();
+    rtl_->rst_ni = 0;
+    for (int k = 0; k < 4; ++k) edge();
+    rtl_->clk_i = 0;
+    rtl_->eval();
+    rtl_->rst_ni = 1;
+    chain_.reset();
+  }
+  void edge() {
+    rtl_->clk_i = 0;
+    rtl_->eval();
+    rtl_->clk_i = 1;
+    rtl_->eval();
+  }
+
+  /// One write, early in a tick, and the rest of that tick.
+  void write(int address, std::int64_t raw) {
+    while (twin_.clock_of_tick() != 5) clock();
+    in_.reg_addr = static_cast<std::uint16_t>(address);
+    in_.reg_wdata = static_cast<std::uint32_t>(raw);
+    in_.reg_write = true;
+    pending_ = {address, in_.reg_wdata};
+    clock();
+    in_.reg_write = false;
+    while (twin_.clock_of_tick() != 0) clock();
+    carry_out();
+  }
+  /// The write that the core has carried out, for the chain.
+  void carry_out() {
+    if (pending_.address < 512) {
+      chain_.words().set_raw(pending_.address, pending_.word);
+    } else {
+      mode_ = static_cast<int>((pending_.word >> D::C::control_mode) & 3u);
+    }
+  }
+  void control(int scene, Mode mode, bool arm) {
+    write(D::C::control, static_cast<std::int64_t>(D::control_reset) |
+                             std::int64_t{1} << D::C::control_host |
+                             std::int64_t{arm} << D::C::control_arm |
+                             static_cast<std::int64_t>(scene) << D::C::control_scene |
+                             static_cast<std::int64_t>(mode) << D::C::control_mode);
+  }
+
+  void play(const Motion& motion, std::int64_t clocks) {
+    for (std::int64_t k = 0; k < clocks || count_ != target(motion, k);) {
+      step_towards(target(motion, k));
+      clock();
+      if (k > 0 || count_ == target(motion, 0)) ++k;  // the window begins where its motion is
+    }
+  }
+  static std::int64_t target(const Motion& motion, std::int64_t clock) {
+    const double t_s = motion.window_s + static_cast<double>(clock) / D::clock_hz;
+    return static_cast<std::int64_t>(std::floor(motion.angle_rad(t_s) / D::count_rad));
+  }
+  void step_towards(std::int64_t target) {
+    if (++since_step_ < 2 || count_ == target) return;
+    since_step_ = 0;
+    count_ += count_ < target ? 1 : -1;
+    const bool a = (count_ & 2) != 0;
+    in_.encoder = {a, ((count_ & 1) != 0) != a, false};
+  }
+
+  void clock() {
+    drive_inputs(*rtl_, in_);
+    edge();
+    twin_.clock(in_);
+    const CoreOut rtl = read_outputs<D>(*rtl_);
+    const CoreOut& twin = twin_.out();
+    if (!(rtl == twin))
+      note("clock " + std::to_string(m_->clocks_compared) + ", " + difference(rtl, twin));
+    ++m_->clocks_compared;
+    if (twin.snapshot_valid) compare_chain(twin);
+  }
+  void compare_chain(const CoreOut& twin) {
+    chain_.tick({twin.position, twin_.sampled_travel(), twin.armed, twin.scene, mode_});
+    const bool same =
+        chain_.velocity().raw() == twin.velocity && chain_.tau_hat().raw() == twin.tau_hat &&
+        chain_.tau_ref().raw() == twin.tau_ref &&
+        chain_.control().current.raw() == twin.current_ref &&
+        chain_.control().voltage.raw() == twin.voltage && chain_.control().duty.raw() == twin.duty;
+    if (!same)
+      note("tick " + std::to_string(twin.tick_count) + ": the chain differs from the core");
+  }
+  void note(const std::string& what) {
+    if (m_->mismatches++ == 0) m_->first_mismatch = what;
+  }
+
+  struct Write {
+    int address = 0;
+    std::uint32_t word = 0;
+  };
+
+  const std::vector<Value>& values_;
+  Measurement* m_;
+  std::unique_ptr<Context> context_;
+  std::unique_ptr<Rtl> rtl_;
+  FeltgateCore<D> twin_;
+  ControlChain<D, Fixed> chain_;
+  CoreIn in_;
+  Write pending_;
+  int mode_ = 0;
+  std::int64_t count_ = 0;
+  int since_step_ = 0;
+};
+
+}  // namespace feltgate::explore

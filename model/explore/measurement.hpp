@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What is measured at a design point, as plain numbers. Documentation: docs/explore.md
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace feltgate::explore {
+
+/// A parameter of the point, a line of the generator's values.txt.
+struct Value {
+  std::string name;
+  int address = 0;
+  std::int64_t raw = 0;
+  double si = 0;
+};
+
+/// Throws std::runtime_error naming file and line.
+std::vector<Value> read_values(const std::string& path);
+/// Throws std::runtime_error where it is missing.
+const Value& value(const std::vector<Value>& values, const std::string& name);
+
+/// Deviation of one signal from the exact one.
+struct Error {
+  double worst = 0, sum_squares = 0;
+  std::int64_t count = 0;
+  const char* worst_in = "";  ///< name of the motion
+
+  void add(double deviation, const char* motion) {
+    const double size = std::abs(deviation);
+    if (size > worst) {
+      worst = size;
+      worst_in = motion;
+    }
+    sum_squares += size * size;
+    ++count;
+  }
+  double rms() const {
+    return count == 0 ? 0.0 : std::sqrt(sum_squares / static_cast<double>(count));
+  }
+};
+
+struct Measurement {
+  std::int64_t clocks_compared = 0, mismatches = 0;
+  std::string first_mismatch;
+  std::int64_t ticks = 0;                 ///< with an error noted
+  std::int64_t ticks_left_out = 0;        ///< of a motion after velocity or tau_hat left its format
+  std::array<std::int64_t, 7> limited{};  ///< ticks with each bit of the limits word
+  Error torque, tau_ref, tau_hat, velocity, voltage;
+  double torque_settling_s = -1;  ///< 2 % of a step at a locked shaft; negative: not measured
+  double estimator_delay_s = 0;
+  int latency_clocks = 0;
+  double clock_hz = 0;
+};
+
+/// The JSON object of a point; without the errors where RTL and twin differed.
+std::string measurement_json(const Measurement& m);
+
+}  // namespace feltgate::explore

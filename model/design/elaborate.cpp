@@ -242,6 +242,9 @@ void check_drops(const Elaborated& e) {
   drops("formats.torque", f.scene_offset, e.word("wall_stiffness"),
         d.torque.fraction + wall_guard_bits);
   drops("formats.torque", d.velocity, e.word("wall_damping"), d.torque.fraction + wall_guard_bits);
+  // The wall adds its two products with two bits more.
+  drops("formats.torque", f.scene_offset, e.word("wall_stiffness"), d.torque.fraction + 2);
+  drops("formats.torque", d.velocity, e.word("wall_damping"), d.torque.fraction + 2);
   drops("formats.coefficient_bits", f.scene_offset, e.word("attract_core_slope"),
         f.charge.fraction + 1);
   drops("formats.coefficient_bits", f.scene_offset, e.word("repel_core_slope"),

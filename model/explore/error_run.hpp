@@ -5,6 +5,7 @@
 // coefficients, its gain and its rounding all count. Documentation: docs/explore.md
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -45,6 +46,7 @@ class ErrorRun {
     const auto ticks =
         static_cast<std::int64_t>(std::ceil(motion.duration_s * static_cast<double>(D::tick_hz)));
     const std::int32_t start = counts(motion, 0);
+    note_speed(motion, ticks, m);
     for (std::int64_t k = 0; k < ticks; ++k) {
       ChainIn in;
       in.position = counts(motion, k);
@@ -71,6 +73,15 @@ class ErrorRun {
       m->tau_ref.add(off(fixed_.tau_ref(), exact_.tau_ref()), motion.name);
       m->torque.add(ktn * off(fixed_.control().current, exact_.control().current), motion.name);
       m->voltage.add(off(fixed_.control().voltage, exact_.control().voltage), motion.name);
+    }
+  }
+
+  /// The largest count of m1 ticks as a speed; what is asked of a bound.
+  static void note_speed(const Motion& motion, std::int64_t ticks, Measurement* m) {
+    for (std::int64_t k = 0; k < ticks; ++k) {
+      const auto before = counts(motion, k < D::m1 ? 0 : k - D::m1);
+      const double size = std::abs(counts(motion, k) - before) * ExactGain<D>::velocity_gain_rad_s;
+      m->raw_velocity_rad_s = std::max(m->raw_velocity_rad_s, size);
     }
   }
 

@@ -66,6 +66,7 @@ std::string measurement_json(const Measurement& m) {
   const char* const bits[] = {"torque", "ramp",     "current", "voltage",
                               "duty",   "velocity", "tau_hat"};
   for (std::size_t k = 0; k < m.limited.size(); ++k) j["ticks_limited"][bits[k]] = m.limited[k];
+  j["raw_velocity_max_rad_s"] = m.raw_velocity_rad_s;
   j["delay_s"] = m.estimator_delay_s;
   j["latency_clocks"] = m.latency_clocks;
   j["latency_us"] = 1e6 * m.latency_clocks / m.clock_hz;

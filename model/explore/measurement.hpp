@@ -54,6 +54,7 @@ struct Measurement {
   Error torque, tau_ref, tau_hat, velocity, voltage;
   double torque_settling_s = -1;  ///< 2 % of a step at a locked shaft; negative: not measured
   double estimator_delay_s = 0;
+  double raw_velocity_rad_s = 0;  ///< largest before the low-pass, of the exact chain
   int latency_clocks = 0;
   double clock_hz = 0;
 };

@@ -19,7 +19,8 @@ namespace feltgate::explore {
 
 constexpr double settling_step_nm = 0.2;
 
-/// Seconds from the register write until the torque stays within 2 % of its step around its end;
+/// Seconds from a register write, at worst a whole tick before it is carried out, until the torque
+/// stays within 2 % of its step around its end;
 /// -1 where the design has no scene "setpoint". The chain is the fixed-point one.
 template <class D>
 double torque_settling_s(const std::vector<Value>& values, const plant::MotorParameters& motor) {
@@ -61,7 +62,8 @@ double torque_settling_s(const std::vector<Value>& values, const plant::MotorPar
   while (last > 0 && std::abs(torque_nm[last - 1] - torque_nm.back()) <= 0.02 * settling_step_nm) {
     --last;
   }
-  return static_cast<double>((static_cast<std::int64_t>(last) + 1) * D::pwm_period) /
+  return static_cast<double>(D::clocks_per_tick +
+                             (static_cast<std::int64_t>(last) + 1) * D::pwm_period) /
          static_cast<double>(D::clock_hz);
 }
 

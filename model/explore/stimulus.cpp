@@ -41,6 +41,8 @@ const std::vector<Motion>& motions() {
        [](double t) { return there_and_back(t, scene_s, 0.55, 0.15); }, 0, 0.008},
       {"tension", "spring_tension", scene_s, [](double t) { return sine(t, 1.0 / scene_s, 0.45); },
        0, 0.058},
+      {"wall", "wall", scene_s, [](double t) { return there_and_back(t, scene_s, 0.4, 0.6); }, 0,
+       0.026},
       {"damper", "damper", scene_s, [](double t) { return sine(t, 20.0, 0.15); }, 0, 0.021},
       {"charge_attract", "charge_attract", scene_s,
        [](double t) { return there_and_back(t, scene_s, 1.0, 0.05); }, 0, 0.042},

@@ -32,6 +32,9 @@ LIBRARIES = ("explore", "plant", "config", "verilated")
 OPTIMISE = "-O1"  # measured: -O2 costs as much compiling as it saves running
 
 
+BOUNDED = ("torque_nm", "tau_ref_nm", "tau_hat_nm", "velocity_rad_s")
+
+
 class PointError(Exception):
     """A point that could not be evaluated; the message is for the user."""
 
@@ -241,6 +244,12 @@ class Structure:
         return json.loads(path.read_text(encoding="utf-8"))
 
 
+def measured(result, name):
+    """The measured error that bound_NAME bounds."""
+    signal, unit = re.fullmatch(r"(.*?)_(nm|rad_s)", name).groups()
+    return result[f"{signal}_error_max_{unit}"]
+
+
 def evaluate_design(text, workdir, route=False, defect=0):
     """What is measured at the design of a TOML text; docs/explore.md has the keys."""
     Path(workdir).mkdir(parents=True, exist_ok=True)
@@ -258,7 +267,13 @@ def evaluate_design(text, workdir, route=False, defect=0):
             raise PointError(f"structure {structure.key}: {done.stderr.strip()}")
         result = json.loads(done.stdout) | {"coarse": coarse, "structure": structure.key}
         if result["status"] == "ok":
-            result |= structure.area()
+            # A margin for the core's own factor, which may be the larger one.
+            speed = 1.01 * result["raw_velocity_max_rad_s"]
+            command = [BUILD / "feltgate_point_bounds", ROOT, design, str(speed)]
+            result |= json.loads(run(command)) | structure.area()
+            if not result["bound_without"]:
+                result["bound_holds"] = all(measured(result, name) <= result[f"bound_{name}"]
+                                            for name in BOUNDED)
             if route:
                 result |= structure.speed()
         return result

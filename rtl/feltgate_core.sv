@@ -2,9 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The whole core: encoder pins to gate pins. Once per tick a wave runs through quad_decoder,
-// velocity_n, dob, scenes and torque_control; all of them share one parameter bus and, unless the
-// design gives each its own, one multiplier, each in its own clock of the wave. Sampled position
-// (clock 0) to duty register: 46 clocks.
+// velocity_n, dob, scenes and torque_control. They share one parameter bus and, unless each has its
+// own, one multiplier, by clocks of the wave. Sampled position (clock 0) to duty: 46 clocks.
 // docs/blocks/feltgate_core.md, docs/architecture.md
 
 `default_nettype none
@@ -67,9 +66,8 @@ module feltgate_core #(
   logic [               49:0] wave;
   logic [               31:0] param;
   logic signed [OperandW-1:0] operand;
-  // Products as the blocks see them: one and the same where they share the multiplier.
   logic signed [ProductW-1:0] velocity_product, dob_product, scene_product, control_product;
-  logic signed [ProductW-1:0] supervisor_product;
+  logic signed [ProductW-1:0] supervisor_product;  // all the same where one multiplier is shared
 
   // What the registers and the panel ask for.
   logic [14:0] control;
@@ -278,9 +276,7 @@ module feltgate_core #(
 
   // Operand bus: who holds the wave drives it. Between the products pass the snapshot's words.
   logic [31:0] status;
-  assign status = {
-    4'd0, encoder_error, mode, armed_o, scene_q, limits_o, first_fault_o, faults_o
-  };
+  assign status = {4'd0, encoder_error, mode, armed_o, scene_q, limits_o, first_fault_o, faults_o};
   logic signed [feltgate_pkg::TORQUE_W-1:0] tau_hat_bus;
   if (Defect == 1) begin : gen_stale
     logic signed [feltgate_pkg::TORQUE_W-1:0] stale_q;
@@ -291,28 +287,14 @@ module feltgate_core #(
   end
   // Selects are registered one clock ahead. Words that are narrow share one sign extension.
   logic take_velocity_q, take_velocity_operand_q, take_scene_q, take_square_q, take_voltage_q;
-  logic take_control_q;
-  logic take_current_q, take_estimate_q, take_dob_q, take_tau_hat_q, take_tau_ref_q;
+  logic take_control_q, take_current_q, take_estimate_q, take_dob_q, take_tau_hat_q, take_tau_ref_q;
   logic take_tick_q, take_position_q, take_status_q, take_index_q, take_errors_q, take_duty_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      take_velocity_q         <= 1'b0;
-      take_velocity_operand_q <= 1'b0;
-      take_scene_q            <= 1'b0;
-      take_square_q           <= 1'b0;
-      take_voltage_q          <= 1'b0;
-      take_control_q          <= 1'b0;
-      take_current_q          <= 1'b0;
-      take_estimate_q         <= 1'b0;
-      take_dob_q              <= 1'b0;
-      take_tau_hat_q          <= 1'b0;
-      take_tau_ref_q          <= 1'b0;
-      take_tick_q             <= 1'b0;
-      take_position_q         <= 1'b0;
-      take_status_q           <= 1'b0;
-      take_index_q            <= 1'b0;
-      take_errors_q           <= 1'b0;
-      take_duty_q             <= 1'b0;
+      {take_velocity_q, take_velocity_operand_q, take_scene_q, take_square_q, take_voltage_q,
+       take_control_q, take_current_q, take_estimate_q, take_dob_q, take_tau_hat_q,
+       take_tau_ref_q, take_tick_q, take_position_q, take_status_q, take_index_q, take_errors_q,
+       take_duty_q} <= '0;
     end else begin
       take_velocity_q         <= wave[6] || wave[8] || wave[9] || wave[21];
       take_velocity_operand_q <= wave[3];
@@ -334,13 +316,7 @@ module feltgate_core #(
     end
   end
 
-  function automatic int wider(input int a, input int b);
-    wider = (a > b) ? a : b;
-  endfunction
-  // Holds each of these.
-  localparam int NarrowW = wider(
-      wider(feltgate_pkg::CURRENT_W, feltgate_pkg::TORQUE_W),
-      wider(wider(feltgate_pkg::VOLTAGE_W, feltgate_pkg::CURRENT_ESTIMATE_W), SceneW));
+  localparam int NarrowW = feltgate_pkg::NARROW_W;  // holds each of these
   logic signed [NarrowW-1:0] narrow;
   assign narrow =
       ({NarrowW{take_square_q && Defect != 2}} &
@@ -365,34 +341,26 @@ module feltgate_core #(
       ({OperandW{take_errors_q}} & OperandW'($signed({rejected_count, error_count})));
 
   // A coefficient has no sign but in slot 23.
-  localparam int CoefficientW = feltgate_pkg::COEFFICIENT_BITS;
   logic signed [17:0] coefficient;
-  assign coefficient = 18'($signed({param[CoefficientW] && take_tau_hat_q,
-                                    param[CoefficientW-1:0]}));
+  assign coefficient = 18'($signed({param[feltgate_pkg::COEFFICIENT_BITS] && take_tau_hat_q,
+                                    param[feltgate_pkg::COEFFICIENT_BITS-1:0]}));
   // A square takes its own operand as the factor, past the operand bus.
-  logic signed [17:0] scene_factor, supervisor_factor;
-  assign scene_factor = scene_operand[feltgate_pkg::SCENE_OFFSET_F+:18];
-  assign supervisor_factor = 18'(current_estimate);
+  logic signed [17:0] scene_factor, supervisor_factor, plain_factor;
+  assign scene_factor = {18{take_square_q}} & scene_operand[feltgate_pkg::SCENE_OFFSET_F+:18];
+  assign supervisor_factor = {18{take_estimate_q}} & 18'(current_estimate);
+  assign plain_factor = {18{!take_square_q && !take_estimate_q}} & coefficient;
   if (feltgate_pkg::PARALLEL_MULTIPLIERS == 0) begin : gen_shared
-    logic signed [        17:0] factor;
     logic signed [ProductW-1:0] product;
-    assign factor = ({18{take_square_q}} & scene_factor) |
-                    ({18{take_estimate_q}} & supervisor_factor) |
-                    ({18{!take_square_q && !take_estimate_q}} & coefficient);
-    mult u_mult (.clk_i(clk_i), .a_i(operand), .b_i(factor), .product_o(product));
-    assign velocity_product   = product;
-    assign dob_product        = product;
-    assign scene_product      = product;
-    assign control_product    = product;
-    assign supervisor_product = product;
+    mult u_mult (.clk_i(clk_i), .a_i(operand),
+                 .b_i(scene_factor | supervisor_factor | plain_factor), .product_o(product));
+    assign {velocity_product, dob_product, scene_product, control_product, supervisor_product} =
+        {5{product}};
   end else begin : gen_parallel
     // Each block its own, in the same clocks: no operand passes through a mux of the whole core.
-    logic unused_operand;
-    assign unused_operand = ^operand[OperandW-1:32];
-    logic signed [OperandW-1:0] of_dob, of_scene, of_control, of_supervisor;
-    assign of_dob = ({OperandW{take_current_q}} & OperandW'(current_ref_o)) |
-                    ({OperandW{take_velocity_q}} & OperandW'(velocity_o)) |
-                    ({OperandW{take_dob_q}} & OperandW'(dob_operand));
+    wire unused = ^operand[OperandW-1:32];  // the bus remains for the snapshot
+    logic signed [OperandW-1:0] of_dob, of_scene, of_torque, of_supervisor;
+    assign of_dob = take_velocity_q ? OperandW'(velocity_o) :
+                    take_current_q  ? OperandW'(current_ref_o) : OperandW'(dob_operand);
     assign of_scene = take_velocity_q ? OperandW'(velocity_o) :
                       take_square_q   ? OperandW'(scene_factor) : OperandW'(scene_operand);
     logic signed [NarrowW-1:0] control_narrow, supervisor_narrow;
@@ -401,18 +369,16 @@ module feltgate_core #(
                             ({NarrowW{take_tau_ref_q}} & NarrowW'(tau_ref_o)) |
                             ({NarrowW{take_current_q}} & NarrowW'(current_ref_o)) |
                             ({NarrowW{take_control_q}} & NarrowW'(control_operand));
-    assign of_control = take_velocity_q ? OperandW'(velocity_o) : OperandW'(control_narrow);
+    assign of_torque = take_velocity_q ? OperandW'(velocity_o) : OperandW'(control_narrow);
     assign supervisor_narrow = take_estimate_q ? NarrowW'(current_estimate) : NarrowW'(voltage_o);
     assign of_supervisor = take_velocity_q ? OperandW'(velocity_o) : OperandW'(supervisor_narrow);
     mult u_velocity (.clk_i(clk_i), .a_i(OperandW'(velocity_operand)), .b_i(coefficient),
                      .product_o(velocity_product));
     mult u_dob (.clk_i(clk_i), .a_i(of_dob), .b_i(coefficient), .product_o(dob_product));
-    mult u_scene (.clk_i(clk_i), .a_i(of_scene), .b_i(take_square_q ? scene_factor : coefficient),
+    mult u_scene (.clk_i(clk_i), .a_i(of_scene), .b_i(scene_factor | plain_factor),
                   .product_o(scene_product));
-    mult u_control (.clk_i(clk_i), .a_i(of_control), .b_i(coefficient),
-                    .product_o(control_product));
-    mult u_supervisor (.clk_i(clk_i), .a_i(of_supervisor),
-                       .b_i(take_estimate_q ? supervisor_factor : coefficient),
+    mult u_control (.clk_i(clk_i), .a_i(of_torque), .b_i(coefficient), .product_o(control_product));
+    mult u_supervisor (.clk_i(clk_i), .a_i(of_supervisor), .b_i(supervisor_factor | plain_factor),
                        .product_o(supervisor_product));
   end
 

@@ -41,8 +41,8 @@ module lowpass #(
   end
   assign operand_o = difference_q[Width-:OperandW];
 
-  // {y,up} + {p,r} carries exactly when the rounding bit r and up are set: rounding without an adder
-  // of its own. To even, a tie goes up only from an odd sum.
+  // {y,up} + {p,r} carries exactly when the rounding bit r and up are set: rounding without an
+  // adder of its own. To even, a tie goes up only from an odd sum.
   logic signed [Width-1:0] y_q;
   logic        [  Width:0] increment, sum;
   logic                    beyond_half, odd, up;

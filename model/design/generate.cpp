@@ -87,6 +87,17 @@ struct Constant {
   std::string doc;
 };
 
+/// What the core's bus of narrow words must hold.
+int narrow_width(const Elaborated& e) {
+  const Formats& f = e.formats;
+  int width = 0;
+  for (const Format& word :
+       {f.current, f.torque, f.voltage, f.current_estimate, f.scene_position}) {
+    width = std::max(width, word.width());
+  }
+  return width;
+}
+
 std::vector<Constant> constants(const Elaborated& e) {
   const Design& d = e.design;
   return {
@@ -105,6 +116,8 @@ std::vector<Constant> constants(const Elaborated& e) {
       {"multiplier_a_bits", fabric::multiplier_a_bits, "bits"},
       {"multiplier_b_bits", fabric::multiplier_b_bits, "bits"},
       {"product_bits", fabric::product_bits, "bits"},
+      {"narrow_w", narrow_width(e),
+       "bits of the widest of current, torque, voltage and a scene's distance"},
       {"travel_bits", fabric::travel_bits, "bits"},
       {"multiplier_latency", fabric::multiplier_latency, "clocks from the operands to the product"},
   };

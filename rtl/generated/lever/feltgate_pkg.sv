@@ -22,6 +22,7 @@ package feltgate_pkg;
   localparam int MULTIPLIER_A_BITS = 35;  // bits
   localparam int MULTIPLIER_B_BITS = 18;  // bits
   localparam int PRODUCT_BITS = 53;  // bits
+  localparam int NARROW_W = 22;  // bits of the widest of current, torque, voltage and a scene's distance
   localparam int TRAVEL_BITS = 16;  // bits
   localparam int MULTIPLIER_LATENCY = 4;  // clocks from the operands to the product
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent

@@ -36,6 +36,7 @@ struct Lever {
   static constexpr int multiplier_a_bits = 35;  // bits
   static constexpr int multiplier_b_bits = 18;  // bits
   static constexpr int product_bits = 53;  // bits
+  static constexpr int narrow_w = 22;  // bits of the widest of current, torque, voltage and a scene's distance
   static constexpr int travel_bits = 16;  // bits
   static constexpr int multiplier_latency = 4;  // clocks from the operands to the product
   static constexpr Round rounding = Round::half_up;  // where the chain rounds

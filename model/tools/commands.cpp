@@ -64,8 +64,11 @@ void tell_mismatch(const std::string& first_mismatch, const std::string& path) {
 Progress::Progress(std::string label, bool quiet)
     : label_(std::move(label)), on_(!quiet && isatty(STDERR_FILENO) == 1), start_s_(now_s()) {}
 
-Progress::~Progress() {
+Progress::~Progress() { finish(); }
+
+void Progress::finish() {
   if (on_ && last_s_ > 0) std::fputs("\r\033[K", stderr);
+  on_ = false;
 }
 
 void Progress::update(double done) {

@@ -18,6 +18,7 @@ void add_run(CLI::App& app, int* exit_code);
 void add_replay(CLI::App& app, int* exit_code);
 void add_import(CLI::App& app, int* exit_code);
 void add_design(CLI::App& app, int* exit_code);
+void add_trim(CLI::App& app, int* exit_code);
 void add_extremes(CLI::App& app, int* exit_code);
 /// demo, figures, explore and synth are orchestration: Python scripts that call this program.
 void add_scripts(CLI::App& app, int* exit_code);
@@ -43,6 +44,8 @@ class Progress {
   ~Progress();
   /// done in 0..1
   void update(double done);
+  /// Clears the line.
+  void finish();
 
  private:
   std::string label_;

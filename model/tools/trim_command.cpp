@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate trim. Documentation: docs/trim.md
+#include <cstdio>
+#include <ctime>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "plant/plant_file.hpp"
+#include "tools/commands.hpp"
+#include "tools/output.hpp"
+#include "trim/scene_file.hpp"
+#include "trim/trim.hpp"
+
+namespace feltgate {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct TrimArguments {
+  std::string scene, plant, output, json, tolerance = "1%";
+  double window_ms = 1.0, duration_s = 0;
+  bool quiet = false;
+  trim::Options options;
+};
+
+/// "1%" or "0.01".
+double share_of(const std::string& text) {
+  std::size_t end = 0;
+  double value = 0;
+  try {
+    value = std::stod(text, &end);
+  } catch (const std::exception&) {
+    end = 0;
+  }
+  const std::string unit = text.substr(end);
+  if (unit == "%") value /= 100;
+  if (end == 0 || !(unit.empty() || unit == "%") || !(value > 0 && value <= 1)) {
+    throw std::invalid_argument("--tolerance " + text +
+                                " is no share in (0, 1]; write for example 1% or 0.01");
+  }
+  return value;
+}
+
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  char text[20];
+  std::strftime(text, sizeof text, "%Y-%m-%d", std::localtime(&now));
+  return text;
+}
+
+template <class... T>
+std::string format(const char* pattern, T... values) {
+  char text[300];
+  std::snprintf(text, sizeof text, pattern, values...);
+  return text;
+}
+
+std::vector<std::string> off(const Scenario& scene, const trim::Model& model) {
+  Scenario s = scene;
+  s.effects = model.effects;
+  s.switched = model.gates;
+  return effects_off(s);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& w : words) text += (text.empty() ? "" : " ") + w;
+  return text.empty() ? "none" : text;
+}
+
+double cost(const trim::Felt& felt) { return felt.cpu_s / felt.simulated_s; }
+
+/// peak/rms in percent.
+std::string loss_text(const trim::Loss& l) {
+  return format("%7.2f %6.2f", 100 * l.peak, 100 * l.rms);
+}
+
+std::string difference_text(const trim::Difference& d) {
+  return loss_text(d.torque) + " " + loss_text(d.position) + " " + loss_text(d.force);
+}
+
+std::string verdict(const trim::PartReport& p) {
+  if (p.put_back) return "put back by the final check";
+  if (p.dropped) return format("off; all so far %.2f %%", 100 * p.so_far);
+  if (p.so_far > 0) return format("stays; the set would be %.2f %% off", 100 * p.so_far);
+  return "stays";
+}
+
+std::string text_of(const trim::Report& r, const Scenario& scene, const TrimArguments& a) {
+  std::ostringstream s;
+  s << "scene " << scene.name << ", design " << a.options.design << ", plant " << scene.plant
+    << "\n"
+    << format("tolerance %.3g %% of peak and of rms, means over %.3g ms\n",
+              100 * a.options.tolerance, a.window_ms)
+    << "full model: " << joined(trim::parts_of(scene, r.full))
+    << format(", %d clocks a step: %.3g s of CPU time per simulated second\n\n", r.full.step_clocks,
+              cost(r.full_run))
+    << "left out                torque %      position %         force %     saves\n"
+    << "alone                 peak    rms     peak    rms     peak    rms   of time\n";
+  for (const trim::PartReport& p : r.parts) {
+    s << format("%-18s", p.name.c_str()) << difference_text(p.alone)
+      << format("  %6.1f %%  ", 100 * p.saves) << verdict(p) << "\n";
+  }
+  s << "\neffects off: " << joined(off(scene, r.trimmed)) << "\n"
+    << format("step: %d clocks\n", r.trimmed.step_clocks) << "own motion        "
+    << difference_text(r.own) << "\n";
+  for (const trim::UnseenReport& u : r.unseen) {
+    s << (u.searched ? "searched too      " : "unseen motion     ") << difference_text(u.difference)
+      << format("  way x%.2f, speed x%.2f, seed %llu\n", u.amplitude, u.speed,
+                static_cast<unsigned long long>(u.seed));
+  }
+  s << format(
+      "states of the plant %zu -> %zu; CPU per simulated second %.3g -> %.3g s, %.3g times\n",
+      r.full_run.states, r.trimmed_run.states, cost(r.full_run), cost(r.trimmed_run),
+      cost(r.full_run) / cost(r.trimmed_run));
+  for (const std::string& b : r.trimmed_run.broken) s << "trimmed, not as expected: " << b << "\n";
+  if (!r.smaller()) s << "nothing can be left out within the tolerance\n";
+  s << format("search: %d runs, %.3g s of CPU time\n", r.runs, r.cpu_s);
+  return s.str();
+}
+
+Json difference_json(const trim::Difference& d) {
+  const auto loss = [](const trim::Loss& l) { return Json{{"peak", l.peak}, {"rms", l.rms}}; };
+  return {{"torque", loss(d.torque)}, {"position", loss(d.position)}, {"force", loss(d.force)}};
+}
+
+Json model_json(const Scenario& scene, const trim::Model& model, const trim::Felt& felt) {
+  return {{"effects_off", off(scene, model)},
+          {"step_clocks", model.step_clocks},
+          {"plant_states", felt.states},
+          {"cpu_s_per_s", cost(felt)}};
+}
+
+std::string json_of(const trim::Report& r, const Scenario& scene, const TrimArguments& a) {
+  Json j{{"schema", "feltgate-trim-1"},
+         {"version", FELTGATE_VERSION},
+         {"date", today()},
+         {"scene", scene.name},
+         {"design", a.options.design},
+         {"plant", scene.plant},
+         {"tolerance", a.options.tolerance},
+         {"window_s", a.options.window_s},
+         {"full", model_json(scene, r.full, r.full_run)},
+         {"trimmed", model_json(scene, r.trimmed, r.trimmed_run)},
+         {"own_motion", difference_json(r.own)},
+         {"parts", Json::array()},
+         {"unseen", Json::array()},
+         {"expectations_broken", r.trimmed_run.broken},
+         {"runs", r.runs},
+         {"search_cpu_s", r.cpu_s}};
+  for (const trim::PartReport& p : r.parts) {
+    j["parts"].push_back({{"name", p.name},
+                          {"alone", difference_json(p.alone)},
+                          {"saves", p.saves},
+                          {"off", p.dropped},
+                          {"put_back", p.put_back}});
+  }
+  for (const trim::UnseenReport& u : r.unseen) {
+    j["unseen"].push_back({{"seed", u.seed},
+                           {"amplitude", u.amplitude},
+                           {"speed", u.speed},
+                           {"searched", u.searched},
+                           {"difference", difference_json(u.difference)}});
+  }
+  return j.dump(2) + "\n";
+}
+
+std::string comment_of(const trim::Report& r, const Scenario& scene, const TrimArguments& a) {
+  std::ostringstream s;
+  double worst = r.own.worst();
+  for (const trim::UnseenReport& u : r.unseen) worst = std::max(worst, u.difference.worst());
+  s << "Written on " << today() << " by: feltgate trim " << scene.name << " --design "
+    << a.options.design << " --tolerance " << a.tolerance << "\n"
+    << "effects off: " << joined(off(scene, r.trimmed)) << "\n"
+    << format(
+           "Within %.3g %% of the full model on its own motion and on %zu others, %.3g times "
+           "faster.",
+           100 * worst, r.unseen.size(), cost(r.full_run) / cost(r.trimmed_run));
+  return s.str();
+}
+
+int run_trim(TrimArguments& a) {
+  a.options.tolerance = share_of(a.tolerance);
+  a.options.window_s = 1e-3 * a.window_ms;
+  Scenario scene = read_scenario(find_file(a.scene, "vectors/scenes"));
+  if (!a.plant.empty()) scene.plant = a.plant;
+  if (a.duration_s > 0 && a.duration_s < scene.duration_s) {
+    scene.duration_s = a.duration_s;
+    scene.expectations.clear();
+  }
+  const plant::Parameters plant = plant::read_plant_file(find_file(scene.plant, "vectors/plants"));
+  const auto open = [](const std::string& path) {
+    return path.empty() ? nullptr : std::make_unique<OutputFile>(path);
+  };
+  const auto output = open(a.output), json = open(a.json);
+  Progress progress("trim " + scene.name + " on " + a.options.design, a.quiet);
+  a.options.progress = [&progress](double done) { progress.update(done); };
+  const trim::Report report = trim::trim(scene, plant, a.options);
+  progress.finish();
+
+  if (json) {
+    std::fputs(json_of(report, scene, a).c_str(), json->handle());
+    json->commit();
+  }
+  if (!a.quiet) std::fputs(text_of(report, scene, a).c_str(), stdout);
+  if (!report.holds || !report.smaller()) return exit_failed;
+  if (output) {
+    std::fputs(trim::scene_text(scene, report.trimmed, comment_of(report, scene, a)).c_str(),
+               output->handle());
+    output->commit();
+  }
+  return exit_ok;
+}
+
+}  // namespace
+
+void add_trim(CLI::App& app, int* exit_code) {
+  auto a = std::make_shared<TrimArguments>();
+  a->options.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  CLI::App* sub = app.add_subcommand(
+      "trim", "which effects of the plant a scene needs: the least model within a tolerance");
+  sub->footer(
+      "SCENE is a name in vectors/scenes or the path of a scene file. The full model has every "
+      "effect and\nswitching gates. Torque, position and force at the hand, as means over 1 ms, "
+      "are "
+      "kept within the\ntolerance on the scene's own motion and on others (docs/trim.md).\n"
+      "  feltgate trim membrane                           one percent\n"
+      "  feltgate trim damper --tolerance 5% -o fast.toml && feltgate run fast.toml\n"
+      "Exit code: 0 a smaller model was found, 1 nothing can be left out, 2 unusable input.");
+  sub->add_option("scene", a->scene, "scene")->required()->type_name("SCENE");
+  sub->add_option("--tolerance", a->tolerance, "share of the full model's peak and of its rms")
+      ->capture_default_str();
+  sub->add_option("--design", a->options.design, "design point in rtl/designs")
+      ->capture_default_str();
+  sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's");
+  sub->add_option("-o,--output", a->output, "the trimmed scene as a file for feltgate run");
+  sub->add_option("--json", a->json, "the figures as JSON");
+  sub->add_option("--duration", a->duration_s, "seconds; default: the scene's")
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--window", a->window_ms, "length of the means, ms")
+      ->capture_default_str()
+      ->check(CLI::Range(0.01, 1000.0));
+  sub->add_option("--full-step", a->options.full_step_clocks, "step of the full model, clocks")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 5));
+  sub->add_option("--unseen", a->options.unseen, "motions of the final check")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100));
+  sub->add_option("--seed", a->options.seed, "of these motions")->capture_default_str();
+  sub->add_option("--threads", a->options.threads, "runs at a time")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 64));
+  sub->add_flag("--quiet", a->quiet, "print nothing");
+  sub->callback([a, exit_code] { *exit_code = run_trim(*a); });
+}
+
+}  // namespace feltgate

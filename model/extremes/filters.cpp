@@ -1,7 +1,372 @@
-#include "extremes/case.hpp"
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Extremes of the low-pass filters: dead bands per rounding mode, the dyadic trap, a pole of
+// 1 - 5e-6, coefficients at 0 and at their largest. Documentation: docs/extremes.md
+#include <cmath>
+
+#include "config/toml_reader.hpp"
+#include "design/design.hpp"
+#include "extremes/bench.hpp"
+#include "extremes/dead_band.hpp"
+#include "extremes/lowpass_rtl.hpp"
+#include "extremes/table.hpp"
+
 namespace feltgate::extremes {
-std::vector<Case> filter_cases() { return {}; }
-std::vector<Case> observer_cases() { return {}; }
-std::vector<Case> scene_cases() { return {}; }
-std::vector<Case> loop_cases() { return {}; }
+
+namespace {
+
+constexpr int fraction = LowpassRtl::coefficient_fraction;
+constexpr double one = 1 << fraction;
+
+/// y + round(a1*(x - y)) by the twin's type.
+template <Round R>
+std::int64_t next(std::int64_t y, std::int64_t x, std::int64_t a1) {
+  using Product = fixed<1, 60 - fraction, fraction>;
+  return y + narrow<fixed<1, 40, 0>, R, Overflow::wrap>(Product::from_raw(a1 * (x - y))).raw();
+}
+
+/// Where a filter comes to rest around an input, from above and from below.
+struct Rest {
+  std::int64_t low = 0, high = 0;
+};
+template <class Step>
+Rest rest(std::int64_t input, Step&& step) {
+  Rest r;
+  // Starts on both sides, some beyond the band and some inside it.
+  for (const std::int64_t offset : {-3000000, -1500, 1500, 3000000}) {
+    const std::int64_t y = step(input + offset, input);
+    r.low = std::min(r.low, y - input);
+    r.high = std::max(r.high, y - input);
+  }
+  return r;
+}
+
+template <Round R>
+Rest twin_rest(std::int64_t input, std::int64_t a1) {
+  return rest(input, [a1](std::int64_t y, std::int64_t x) {
+    for (std::int64_t before = y + 1; before != y;) {
+      before = y;
+      y = next<R>(y, x, a1);
+    }
+    return y;
+  });
+}
+
+template <class Rtl>
+Rest rtl_rest(Rtl& rtl, std::int64_t input, std::int64_t a1) {
+  return rest(input, [&](std::int64_t y, std::int64_t x) {
+    rtl.start(y);
+    for (std::int64_t before = y + 1; before != y;) {
+      before = y;
+      y = rtl.sample(x, a1);
+    }
+    return y;
+  });
+}
+
+/// Least guard bits for which the band is below half an output LSB.
+double guard_bits(const Rest& r) {
+  const auto widest = static_cast<double>(std::max(-r.low, r.high));
+  return std::floor(std::log2(2 * widest)) + 1;
+}
+
+struct Mode {
+  const char* name;
+  Round round;
+  Rest (*twin)(std::int64_t, std::int64_t);
+  double guard_bits;  ///< by the documentation's table
+};
+
+void add(Outcome* o, const std::string& what, const std::string& unit, const Expected& expected,
+         std::optional<double> rtl, double twin, std::optional<double> real) {
+  o->findings.push_back({what, unit, expected, rtl, twin, real});
+  o->findings.back().real_may_differ = true;
+}
+
+Outcome dead_bands(const Settings& s) {
+  Outcome o;
+  const std::int64_t a1 = std::llround(5e-4 * one);
+  const Mode modes[] = {{"truncate", Round::truncate, twin_rest<Round::truncate>, 12},
+                        {"half up", Round::half_up, twin_rest<Round::half_up>, 11},
+                        {"convergent", Round::convergent, twin_rest<Round::convergent>, 11},
+                        {"toward zero", Round::toward_zero, twin_rest<Round::toward_zero>, 12}};
+  LowpassRtl half_up;
+  LowpassAlone<Vextremes_lowpass_truncate> truncate;
+  LowpassAlone<Vextremes_lowpass_convergent> convergent;
+  for (const Mode& m : modes) {
+    const Band expected = dead_band(m.round, a1, fraction);
+    const Rest twin = m.twin(40000, s.defect == 4 ? a1 * 101 / 100 : a1);
+    std::optional<Rest> hardware;
+    if (m.round == Round::half_up) hardware = rtl_rest(half_up, 40000, a1);
+    if (m.round == Round::truncate) hardware = rtl_rest(truncate, 40000, a1);
+    if (m.round == Round::convergent) hardware = rtl_rest(convergent, 40000, a1);
+    const auto of = [&](std::int64_t Rest::*end) {
+      return hardware ? std::optional<double>(static_cast<double>((*hardware).*end)) : std::nullopt;
+    };
+    const std::string name = std::string(", ") + m.name;
+    add(&o, "lowest rest" + name, "state LSB", exactly(static_cast<double>(expected.low)),
+        of(&Rest::low), static_cast<double>(twin.low), 0);
+    add(&o, "highest rest" + name, "state LSB", exactly(static_cast<double>(expected.high)),
+        of(&Rest::high), static_cast<double>(twin.high), 0);
+    add(&o, "guard bits for less than half an output LSB" + name, "bit", exactly(m.guard_bits),
+        hardware ? std::optional<double>(guard_bits(*hardware)) : std::nullopt, guard_bits(twin),
+        {});
+  }
+  o.note =
+      "The filter alone, a1 = 5e-4 with 27 fraction bits; no RTL rounds toward zero. The band does "
+      "not depend on the guard bits: G of them make it 2^-G of it in output LSB.";
+  return o;
+}
+
+/// Output LSB by which a constant is missed with `g` guard bits, coming from 100 LSB above.
+template <Round R>
+double output_error(std::int64_t a1, int g) {
+  const std::int64_t lsb = std::int64_t{1} << g, x = 5 * lsb;
+  std::int64_t y = 105 * lsb;
+  for (std::int64_t before = y + 1; before != y;) {
+    before = y;
+    y = next<R>(y, x, a1);
+  }
+  return std::floor(static_cast<double>(y) / static_cast<double>(lsb) + 0.5) - 5;
+}
+template <class Rtl>
+double rtl_output_error(Rtl& rtl, std::int64_t a1, int g) {
+  const std::int64_t lsb = std::int64_t{1} << g, x = 5 * lsb;
+  std::int64_t y = 105 * lsb;
+  rtl.start(y);
+  for (std::int64_t before = y + 1; before != y;) {
+    before = y;
+    y = rtl.sample(x, a1);
+  }
+  return std::floor(static_cast<double>(y) / static_cast<double>(lsb) + 0.5) - 5;
+}
+
+Outcome dyadic_trap(const Settings& s) {
+  Outcome o;
+  // The defect: the neighbour of the dyadic coefficient, which does not fall into the trap.
+  const std::int64_t a1 = (std::int64_t{1} << (fraction - 11)) + (s.defect == 4 ? 70 : 0);
+  LowpassRtl rtl;
+  LowpassAlone<Vextremes_lowpass_convergent> convergent;
+  const Rest hardware = rtl_rest(rtl, 40000, a1), twin = twin_rest<Round::half_up>(40000, a1);
+  add(&o, "highest rest, a1 = 2^-11: exactly half of 2^11", "state LSB", exactly(1024),
+      static_cast<double>(hardware.high), static_cast<double>(twin.high), 0);
+  add(&o, "lowest rest", "state LSB", exactly(-1023), static_cast<double>(hardware.low),
+      static_cast<double>(twin.low), 0);
+  for (const int g : {11, 12}) {
+    add(&o, "output error for ever with " + number(g) + " guard bits", "output LSB",
+        exactly(g == 11 ? 1 : 0), rtl_output_error(rtl, a1, g), output_error<Round::half_up>(a1, g),
+        0);
+  }
+  add(&o, "the same, convergent, 11 guard bits", "output LSB", exactly(1),
+      rtl_output_error(convergent, a1, 11), output_error<Round::convergent>(a1, 11), 0);
+  const std::int64_t neighbour = std::llround(5e-4 * one);
+  add(&o, "not dyadic, a1 = 5e-4, 11 guard bits", "output LSB", exactly(0),
+      rtl_output_error(rtl, neighbour, 11), output_error<Round::half_up>(neighbour, 11), 0);
+  o.note = "The filter alone.";
+  return o;
+}
+
+Outcome slow_pole(const Settings& s) {
+  Outcome o;
+  const std::int64_t a1 = std::llround(5e-6 * one);
+  const double a = static_cast<double>(a1) / one;
+  LowpassRtl rtl;
+  const Rest hardware = rtl_rest(rtl, 40000, a1), twin = twin_rest<Round::half_up>(40000, a1);
+  const Band band = dead_band(Round::half_up, a1, fraction);
+  add(&o, "highest rest: 1/(2 a1)", "state LSB", exactly(static_cast<double>(band.high)),
+      static_cast<double>(hardware.high), static_cast<double>(twin.high), 0);
+  add(&o, "guard bits for less than half an output LSB", "bit", exactly(18), guard_bits(hardware),
+      guard_bits(twin), {});
+  add(&o, "a1 with 16 fraction bits", "", exactly(0), {},
+      static_cast<double>(std::llround(5e-6 * 65536)), 5e-6);
+  // Settling of the filter alone, sample by sample; float computes the same recurrence.
+  const std::int64_t step = 1'000'000'000;
+  rtl.start(0);
+  std::int64_t y = 0, settled = 0, rtl_settled = 0, real_settled = 0;
+  double real = 0;
+  for (std::int64_t k = 1; k <= 900'000; ++k) {
+    const std::int64_t h = rtl.sample(step, a1);
+    y = next<Round::half_up>(y, step, a1);
+    real += a * (static_cast<double>(step) - real);
+    if (h < step / 50 * 49) rtl_settled = k;
+    if (y < step / 50 * 49) settled = k;
+    if (real < static_cast<double>(step) * 0.98) real_settled = k;
+    o.mismatches += h == y ? 0 : 1;
+  }
+  const double samples = std::log(0.02) / std::log1p(-a);
+  o.findings.push_back({"2 % settling of a step: ln 50 / 5 rad/s at 1 MHz", "s",
+                        near(samples * 1e-6, 1e-5), static_cast<double>(rtl_settled) * 1e-6,
+                        static_cast<double>(settled) * 1e-6,
+                        static_cast<double>(real_settled) * 1e-6});
+  // The whole core with that coefficient in its register: a steady 20 rad/s.
+  Bench b("paper", Cores::twin);
+  b.set("velocity_a1", s.defect == 4 ? 5.1e-6 : 5e-6);
+  b.run(4);
+  const double rate = 20 / (6.283185307179586 / 4096);
+  const Clock begin = b.now();
+  b.turn(begin, rate, std::llround(rate * 1.0));
+  const double raw = rate * 4 * 386e-6;
+  double at = 0, real_at = 0;
+  const std::int64_t first = begin / b.design().clocks_per_tick;
+  b.run(b.ticks(0.95), [&](const Sample& x) {
+    const double t = static_cast<double>(x.tick - first) * 1e-6;
+    if (x.core.velocity_rad_s < 0.98 * raw) at = t;
+    if (x.real.velocity_rad_s < 0.98 * raw) real_at = t;
+  });
+  b.report(&o);
+  // Half a window later; a count in the window moves the raw velocity by 4 rad/s, filtered to 0.02.
+  o.findings.push_back(finding(Cores::twin, "2 % settling of the core's velocity", "s",
+                               near(samples * 1e-6 + 193e-6, 3e-3), at, real_at));
+  o.rtl_s += rtl.seconds();
+  o.note = "RTL: the filter alone, 0.9 million samples; the twin also as the whole core.";
+  return o;
+}
+
+Outcome coefficient_zero(const Settings& s) {
+  Outcome o;
+  Bench b("paper", Cores::lock_step);
+  for (int i = 0; i < b.design().parameter_count; ++i) {
+    const ParameterInfo& p = b.design().parameters[i];
+    // Every coefficient, and nothing else: limits and scene geometry stay.
+    if (std::string(p.unit).find('/') == std::string::npos && std::string(p.unit) != "1") continue;
+    if (s.defect == 5 && std::string(p.name) == "velocity_a1") continue;
+    if (std::string(p.name) != "ramp_step") b.set(p.name, 0);
+  }
+  b.set("ramp_step", 1);
+  b.set("setpoint_torque", 0.3);
+  b.run(60);
+  b.arm("setpoint");
+  b.turn(b.now(), 20000, 100);
+  double velocity = 0, current = 0, tau_hat = 0;
+  int faults = 0;
+  b.run(b.ticks(6e-3), [&](const Sample& x) {
+    velocity = std::max(velocity, std::abs(x.core.velocity_rad_s));
+    tau_hat = std::max(tau_hat, std::abs(x.core.tau_hat_nm));
+    current = std::max(current, std::abs(x.core.current_a));
+    faults |= x.raw.faults;
+  });
+  b.report(&o);
+  for (const auto& [what, unit, value] :
+       {std::tuple{"largest velocity with a1 = 0 while 100 counts pass", "rad/s", velocity},
+        {"largest tau_hat", "Nm", tau_hat},
+        {"largest current at a reference of 0.3 Nm with all gains 0", "A", current}}) {
+    o.findings.push_back(finding(Cores::lock_step, what, unit, exactly(0), value));
+  }
+  o.findings.push_back(finding(Cores::lock_step, "faults", "", exactly(0), faults));
+  return o;
+}
+
+Outcome coefficient_max(const Settings& s) {
+  Outcome o;
+  Bench b("paper", Cores::lock_step);
+  double a1_max = 0;
+  for (int i = 0; i < b.design().parameter_count; ++i) {
+    const ParameterInfo& p = b.design().parameters[i];
+    const int mantissa = p.format.width() - p.format.sign;
+    if (mantissa != 17 || p.address >= 64) continue;  // a coefficient
+    const double largest = std::ldexp(131071.0, -p.format.fraction);
+    if (std::string(p.name) == "velocity_a1") a1_max = largest;
+    if (s.defect == 5 && std::string(p.name) == "velocity_a1") continue;
+    b.set(p.name, largest);
+  }
+  b.set("setpoint_torque", 0.5);
+  b.run(60);
+  b.arm("setpoint");
+  b.run(b.ticks(2e-3));
+  const double current_limit = 8.264463, voltage_limit = 24;
+  b.move(b.now() + 10, 1);
+  double peak = 0, current = 0, voltage = 0;
+  std::int64_t at = 0, fallen = 0, duty = 0;
+  b.run(b.ticks(8e-3), [&](const Sample& x) {
+    if (x.core.velocity_rad_s > peak) {
+      peak = x.core.velocity_rad_s;
+      at = x.tick;
+    } else if (peak > 0 && fallen == 0 && x.core.velocity_rad_s <= peak * std::exp(-1)) {
+      fallen = x.tick - at;
+    }
+    current = std::max(current, std::abs(x.core.current_a));
+    voltage = std::max(voltage, std::abs(x.core.voltage_v));
+    duty = std::max<std::int64_t>(duty, std::abs(x.raw.duty));
+  });
+  b.report(&o);
+  o.findings.push_back(
+      finding(Cores::lock_step, "velocity falls to 1/e with the largest a1: -1/ln(1 - a1)", "ms",
+              near(-1e-3 / std::log1p(-a1_max), 2e-3), static_cast<double>(fallen) * 1e-3));
+  o.findings.push_back(finding(Cores::lock_step, "largest current, its limit", "A",
+                               near(current_limit, 1e-4), current));
+  o.findings.push_back(finding(Cores::lock_step, "largest voltage, its limit", "V",
+                               at_most(voltage_limit), voltage));
+  o.findings.push_back(finding(Cores::lock_step, "largest duty, its limit", "clock",
+                               at_most(b.design().pwm_period), static_cast<double>(duty)));
+  o.note = "Every coefficient word at 131071 at once.";
+  return o;
+}
+
+Outcome coefficient_bits(const Settings& s) {
+  Outcome o;
+  // How slow a filter a design may ask for: the fraction bits of the state decide.
+  const auto registers = design::read_registers(s.root + "/rtl/registers.toml");
+  const auto accepted = [&](double cutoff, int fraction_bits) {
+    design::Design d = design::read_design(s.root + "/rtl/designs/lever.toml");
+    d.observer_cutoff_rad_s = cutoff;
+    d.observer_fraction = fraction_bits;
+    try {
+      elaborate(d, registers);
+      return true;
+    } catch (const config::ConfigError&) {
+      return false;
+    }
+  };
+  const int torque_bits = 16;
+  for (const double cutoff : {500.0, 50.0}) {
+    const int need =
+        torque_bits + static_cast<int>(std::ceil(-std::log2(-std::expm1(-cutoff * 1e-6))));
+    int least = 99;
+    for (int f = 40; f >= 17; --f) {
+      if (accepted(cutoff, s.defect == 5 ? f + 1 : f)) least = f;
+    }
+    add(&o,
+        "least fraction bits of the observer's state at " + number(cutoff) +
+            " rad/s: 16 + ceil(log2(1/a1))",
+        "bit", exactly(need), {}, least, {});
+  }
+  // A coefficient of 17 bits with the binary point where it is best: the pole's error.
+  for (const double cutoff : {500.0, 5.0}) {
+    const double a1 = -std::expm1(-cutoff * 1e-6);
+    const Format f = design::coefficient_format(a1, false);
+    const double stored =
+        std::ldexp(static_cast<double>(std::llround(std::ldexp(a1, f.fraction))), -f.fraction);
+    add(&o, "relative error of the stored pole at " + number(cutoff) + " rad/s: 2^-17", "",
+        between(-std::exp2(-17), std::exp2(-17)), {}, (stored - a1) / a1, 0);
+  }
+  o.note = "What the generator accepts; nothing runs.";
+  return o;
+}
+
+}  // namespace
+
+std::vector<Case> filter_cases() {
+  return {
+      {"Filters", "dead_bands",
+       "Where y += round(a1 (x - y)) stops short of its input: |a1 d| rounds to 0. Float stops "
+       "nowhere.",
+       false, dead_bands},
+      {"Filters", "dyadic_trap",
+       "With a1 a power of two the band is exactly half an LSB, and one guard bit more is needed.",
+       false, dyadic_trap},
+      {"Filters", "slow_pole", "A pole of 1 - 5e-6: 18 guard bits, and 0.78 s to settle.", false,
+       slow_pole},
+      {"Filters", "coefficient_zero", "Every coefficient 0: filters that stand still, no torque.",
+       false, coefficient_zero},
+      {"Filters", "coefficient_max",
+       "Every coefficient at its largest word: the limits hold and the filter is as quick as the "
+       "word says.",
+       false, coefficient_max},
+      {"Filters", "coefficient_bits",
+       "Too few bits: what a design is refused for, and what 17 bits of mantissa cost.", false,
+       coefficient_bits},
+  };
+}
+
 }  // namespace feltgate::extremes

@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "catch.hpp"
+#include "extremes/dead_band.hpp"
 #include "feltgate/fixed.hpp"
 #include "seeded_defect.hpp"
 
@@ -90,31 +91,8 @@ Band rest_band(Coefficient a, long limit) {
   return band;
 }
 
-struct Expected {
-  std::int64_t low;
-  std::int64_t high;
-};
-
-/// The state rests at x-y = d when round(a*d) = 0, with a = numerator/2^fraction:
-/// truncate 0 <= a*d < 1, half_up -1/2 <= a*d < 1/2, convergent |a*d| <= 1/2, toward_zero |a*d|
-/// < 1.
-Expected expected_band(Round round, std::int64_t numerator, int fraction) {
-  const std::int64_t one = std::int64_t{1} << fraction;
-  const std::int64_t half_closed = one / 2 / numerator;  // largest d: a*d <= 1/2
-  const std::int64_t half_open = (one / 2 + numerator - 1) / numerator - 1;  // a*d < 1/2
-  const std::int64_t one_open = (one + numerator - 1) / numerator - 1;       // a*d < 1
-  switch (round) {
-    case Round::truncate:
-      return {-one_open, 0};
-    case Round::half_up:
-      return {-half_open, half_closed};
-    case Round::convergent:
-      return {-half_closed, half_closed};
-    case Round::toward_zero:
-      return {-one_open, one_open};
-  }
-  return {0, 0};
-}
+using extremes::dead_band;
+using Expected = extremes::Band;
 
 using Fine = fixed<0, -10, 28>;
 constexpr std::int64_t a_500 = 134218;  // 500 rad/s at 1 MHz: 5.0e-4 * 2^28
@@ -123,7 +101,7 @@ constexpr long patience = 200000;
 template <Round R, int G>
 void check_band() {
   const Band band = rest_band<R, G>(Fine::from_raw(a_500), patience);
-  const Expected want = expected_band(R, a_500, 28);
+  const Expected want = dead_band(R, a_500, 28);
   INFO("rounding " << static_cast<int>(R) << ", guard bits " << G);
   CHECK(band.low == want.low);
   CHECK(band.high == want.high);
@@ -156,10 +134,10 @@ TEST_CASE("the dead band is the computed one, whatever the guard bits", "[fixed]
 }
 
 TEST_CASE("the dead band table of the documentation", "[fixed]") {
-  const Expected truncate = expected_band(Round::truncate, a_500, 28);
-  const Expected half_up = expected_band(Round::half_up, a_500, 28);
-  const Expected convergent = expected_band(Round::convergent, a_500, 28);
-  const Expected toward_zero = expected_band(Round::toward_zero, a_500, 28);
+  const Expected truncate = dead_band(Round::truncate, a_500, 28);
+  const Expected half_up = dead_band(Round::half_up, a_500, 28);
+  const Expected convergent = dead_band(Round::convergent, a_500, 28);
+  const Expected toward_zero = dead_band(Round::toward_zero, a_500, 28);
   CHECK((truncate.low == -1999 && truncate.high == 0));
   CHECK((half_up.low == -999 && half_up.high == 999));
   CHECK((convergent.low == -999 && convergent.high == 999));
@@ -187,7 +165,7 @@ std::int64_t output_error(Coefficient a, std::int64_t input, std::int64_t start)
 TEST_CASE("dyadic trap: a pole of exactly 2^-11 needs one guard bit more", "[fixed]") {
   using Dyadic = fixed<0, -10, 11>;
   const Dyadic a = Dyadic::from_raw(1);
-  const Expected want = expected_band(Round::half_up, 1, 11);
+  const Expected want = dead_band(Round::half_up, 1, 11);
   CHECK((want.low == -1023 && want.high == 1024));
   const Band band = rest_band<Round::half_up, 11>(a, patience);
   CHECK(band.low == want.low);
@@ -213,7 +191,7 @@ TEST_CASE("a pole of 5 rad/s at 1 MHz: 18 guard bits and a fine coefficient", "[
   const std::int64_t numerator = std::llround(5e-6 * std::exp2(41));
   using Slow = fixed<0, -17, 41>;
   REQUIRE(numerator <= Slow::max_raw());
-  const Expected want = expected_band(Round::half_up, numerator, 41);
+  const Expected want = dead_band(Round::half_up, numerator, 41);
   CHECK(worst_lsb(want, 17) > 0.5);
   CHECK(worst_lsb(want, 18) < 0.5);
   CHECK(output_error<Round::half_up, 18>(Slow::from_raw(numerator), 1, 1) == 0);

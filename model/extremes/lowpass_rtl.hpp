@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The Verilated low-pass alone, one class per rounding mode, at its default widths: state of 32
+// bits, coefficient with 27 fraction bits; one sample takes six clocks. Documentation:
+// docs/extremes.md
+#pragma once
+
+#include <Vextremes_lowpass.h>
+#include <Vextremes_lowpass_convergent.h>
+#include <Vextremes_lowpass_truncate.h>
+#include <verilated.h>
+
+#include <cstdint>
+#include <memory>
+
+namespace feltgate::extremes {
+
+/// Rtl is Verilator's class of lowpass with one rounding mode.
+template <class Rtl>
+class LowpassAlone {
+ public:
+  static constexpr int coefficient_fraction = 27;
+
+  LowpassAlone() : context_(new VerilatedContext), rtl_(new Rtl(context_.get())) {
+    rtl_->rst_ni = 0;
+    edge();
+    rtl_->rst_ni = 1;
+  }
+  ~LowpassAlone() { rtl_->final(); }
+  LowpassAlone(const LowpassAlone&) = delete;
+  LowpassAlone& operator=(const LowpassAlone&) = delete;
+
+  /// The state is put to `y`.
+  void start(std::int64_t y) { sample(y, 0, true); }
+  /// One sample; returns the new state.
+  std::int64_t sample(std::int64_t x, std::int64_t a1, bool follow = false) {
+    rtl_->x_i = static_cast<std::uint32_t>(x);
+    rtl_->follow_i = follow;
+    rtl_->valid_i = 1;
+    edge();
+    rtl_->valid_i = 0;
+    // 33 bits of difference times the coefficient, as the shared multiplier gives it.
+    const std::int64_t operand = static_cast<std::int64_t>(rtl_->operand_o << 31) >> 31;
+    for (int k = 0; k < 4; ++k) edge();
+    rtl_->product_i = static_cast<std::uint64_t>(operand * a1) & ((std::uint64_t{1} << 53) - 1);
+    edge();
+    return static_cast<std::int32_t>(rtl_->y_o);
+  }
+  double seconds() const { return static_cast<double>(clocks_) * 20e-9; }
+
+ private:
+  void edge() {
+    rtl_->clk_i = 0;
+    rtl_->eval();
+    rtl_->clk_i = 1;
+    rtl_->eval();
+    ++clocks_;
+  }
+
+  std::unique_ptr<VerilatedContext> context_;
+  std::unique_ptr<Rtl> rtl_;
+  std::int64_t clocks_ = 0;
+};
+
+using LowpassRtl = LowpassAlone<Vextremes_lowpass>;  ///< half up, as in every shipped design
+
+}  // namespace feltgate::extremes

@@ -75,8 +75,8 @@ Outcome charge_through_zero(const Settings& s) {
 }
 
 /// A hand rests on an attracting charge whose linear core is this wide; the torque after a while.
-void hold_on_charge(const Settings& s, double core_rad, double seconds, Finding* f, Driver driver,
-                    Outcome* o) {
+void hold_on_charge(const Settings& s, double core_rad, double seconds, Finding* half, Finding* rms,
+                    Driver driver, Outcome* o) {
   Scenario scene;
   scene.name = "charge";
   scene.duration_s = seconds;
@@ -96,8 +96,8 @@ void hold_on_charge(const Settings& s, double core_rad, double seconds, Finding*
   run_loop(scene, shipped_plant(s, "p24"), "lever", driver, o, [&](const Row& r) {
     if (r.time_s > seconds / 2) torque.add(r.tau_ref_nm);
   });
-  // What the hand holds against is the mean; the cycle is what is left.
-  fill(f, driver, torque.range() / 2);
+  fill(half, driver, torque.range() / 2);
+  fill(rms, driver, torque.rms());
 }
 
 Outcome charge_limit_cycle(const Settings& s) {
@@ -109,12 +109,15 @@ Outcome charge_limit_cycle(const Settings& s) {
                {},
                {},
                {}};
-  raw.chaotic = core.chaotic = true;
+  // A square wave would have 0.5, a sine between the limits 0.35.
+  Finding raw_rms{"root mean square of it", "Nm", between(0.35, 0.5), {}, {}, {}};
+  Finding core_rms{"root mean square of it", "Nm", at_most(2.5 * count_rad * 3), {}, {}, {}};
+  for (Finding* f : {&raw, &core, &raw_rms, &core_rms}) f->chaotic = true;
   for (const Driver d : {Driver::lock_step, Driver::real}) {
-    hold_on_charge(s, s.defect == 8 ? 0.2 : 0.0, 0.2, &raw, d, &o);
-    hold_on_charge(s, 0.2, 0.2, &core, d, &o);
+    hold_on_charge(s, s.defect == 8 ? 0.2 : 0.0, 0.2, &raw, &raw_rms, d, &o);
+    hold_on_charge(s, 0.2, 0.2, &core, &core_rms, d, &o);
   }
-  o.findings = {raw, core};
+  o.findings = {raw, raw_rms, core, core_rms};
   return o;
 }
 

@@ -12,7 +12,6 @@ import os
 import socket
 from pathlib import Path
 
-from exploring import plan as plans
 from exploring import space
 
 FOLDER = "chunks"

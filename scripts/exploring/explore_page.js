@@ -21,7 +21,7 @@
   }
 
   const short = (v) => {
-    if (v === 0) return "0";
+    if (Number.isInteger(v) && Math.abs(v) < 1e6) return String(v);
     const size = Math.abs(v);
     if (size >= 1e5 || size < 1e-3) return v.toExponential(1);
     return String(Number(v.toPrecision(3)));
@@ -40,8 +40,9 @@
     const ticks = [];
     if (log) {
       const steps = b - a > 2.5 ? [1] : [1, 2, 5];
+      const inside = (v) => of(v) >= a && of(v) <= b;
       for (let e = Math.floor(a); e <= Math.ceil(b); e++)
-        for (const s of steps) if (of(s * 10 ** e) >= a && of(s * 10 ** e) <= b) ticks.push(s * 10 ** e);
+        ticks.push(...steps.map((s) => s * 10 ** e).filter(inside));
     } else {
       const raw = (b - a) / 6, unit = 10 ** Math.floor(Math.log10(raw));
       const step = [1, 2, 5, 10].map((s) => s * unit).find((s) => s >= raw);
@@ -67,17 +68,19 @@
     for (const t of across.ticks) {
       const at = across.place(t);
       element("line", { x1: at, x2: at, y1: edge.top, y2: height - edge.bottom }, chart);
-      element("text", { x: at, y: height - edge.bottom + 16, "text-anchor": "middle" }, chart, short(t));
+      const below = { x: at, y: height - edge.bottom + 16, "text-anchor": "middle" };
+      element("text", below, chart, short(t));
     }
     for (const t of up.ticks) {
       const at = up.place(t);
       element("line", { x1: edge.left, x2: width - edge.right, y1: at, y2: at }, chart);
       element("text", { x: edge.left - 6, y: at + 4, "text-anchor": "end" }, chart, short(t));
     }
-    element("text", { x: (edge.left + width) / 2, y: height - 8, "text-anchor": "middle", class: "label" },
-      chart, title(data.figures[x]));
-    element("text", { x: 14, y: height / 2, "text-anchor": "middle", class: "label",
-      transform: `rotate(-90 14 ${height / 2})` }, chart, title(data.figures[y]));
+    const middle = { "text-anchor": "middle", class: "label" };
+    element("text", { x: (edge.left + width) / 2, y: height - 8, ...middle }, chart,
+      title(data.figures[x]));
+    element("text", { x: 14, y: height / 2, transform: `rotate(-90 14 ${height / 2})`, ...middle },
+      chart, title(data.figures[y]));
     // The front last, so that it lies on top.
     dots.sort((a, b) => Boolean(a.preset) - Boolean(b.preset) || a.front - b.front);
     for (const dot of dots) {

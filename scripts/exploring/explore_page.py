@@ -104,7 +104,8 @@ def body(plan, rows, root):
 <p class="choice"><label>across <select id="across">{options}</select></label>
 <label>up <select id="up">{options}</select></label>
 <label><input type="checkbox" id="only"> the front only</label></p>
-<div class="sides"><svg id="chart" viewBox="0 0 640 460" role="img" aria-label="design points"></svg>
+<div class="sides">
+<svg id="chart" viewBox="0 0 640 460" role="img" aria-label="design points"></svg>
 <div id="told" aria-live="polite"></div></div>
 {page.section("front", "The front", front_table(rows))}
 <script type="application/json" id="data">{data.replace("</", "<" + chr(92) + "/")}</script>
@@ -114,9 +115,9 @@ def body(plan, rows, root):
 INTRODUCTION = (
     "{points} designs, each built, run beside its twin and found equal to it bit for bit, or "
     "refused ({refused}). Filled dots are on the front: no other design with the same scenes is at "
-    "least as good in worst torque error, area and delay and better in one. Errors are against the "
-    "same chain in 113-bit floating point on the same encoder counts. Hover a dot, or go to it with "
-    "Tab, and its figures and its design file appear; a click keeps them. Simulation and "
+    "least as good in worst torque error, area and delay and better in one. Errors are against "
+    "the same chain in 113-bit floating point on the same encoder counts. Hover a dot, or go to it "
+    "with Tab, and its figures and its design file appear; a click keeps them. Simulation and "
     "synthesis: nothing ran on a board."
 )
 

@@ -72,7 +72,9 @@ def preset_text(root, name, chosen, plan):
     text = design_text.design_text(root, chosen[name])
     text = re.sub(r"\A(#.*\n)*", "", text)
     told = sentence(name, chosen)
-    text = re.sub(r"^description = .*$", lambda _: f'description = "{told}"', text, 1, re.M)
+    text = re.sub(
+        r"^description = .*$", lambda _: f'description = "{told}"', text, count=1, flags=re.M
+    )
     where = f"vectors/spaces/{plan.name}.toml"
     head = f"# Preset {name}: a point of the front of {where}; docs/explore.md.\n"
     return head + text

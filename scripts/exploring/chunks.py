@@ -61,12 +61,14 @@ def line_of(point, result):
 def one(evaluate, point, plan, **more):
     """A point's result. Raises ChunkError that names the point."""
     try:
-        return evaluate(point, plan.folder / WORK, **more)
+        result = evaluate(point, plan.folder / WORK, **more)
     except Exception as error:  # whatever it is, the point must be named
         raise ChunkError(
             f"point {space.canonical(point['set'])} of {point['base']}: "
             f"{type(error).__name__}: {error}"
         ) from error
+    result.pop("structure", None)  # names a folder of this machine
+    return result
 
 
 def run(plan, index, count, sources, parent=None):

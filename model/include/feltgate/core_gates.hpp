@@ -39,7 +39,7 @@ class CoreGates {
 
   /// `clocks` clocks with `in` held; in the last of them the gates show `enable_after`.
   void advance(const Pwm::In& in, int clocks, bool enable_after) {
-    if (quiet_for(clocks, in.enable) && enable_after == in.enable) {
+    if (quiet_for(clocks, in.enable) && in.enable == enable_after) {
       pass(clocks);
     } else {
       advance_to_events(in, clocks, enable_after);
@@ -53,6 +53,8 @@ class CoreGates {
     passed_ += clocks;
     held_ += clocks;
   }
+  /// Coming clocks before the one that takes the duty.
+  int clocks_to_duty() const { return pwm_.clocks_to_duty() - passed_; }
 
   /// a_hi, a_lo, b_hi, b_lo from bit 0.
   std::uint8_t bits() const { return bits_; }

@@ -94,26 +94,36 @@ void FeltgateCore<D>::pass_tick(const In& in, OnSnapshot&& on_snapshot) {
   if (supervisor_.at_heat(supervisor_words_)) open = kHeat;
   if (supervisor_.at_polarity(supervisor_words_, velocity, current_before)) open = kPolarity;
   const bool quiet = (open == kNever || !enabled) && gates_.quiet_for(tick, enabled);
-  if (!quiet) {
-    advance_gates(0, kDuty, open, duty_before);
-    advance_gates(kDuty, kSnapshot, open, out_.duty);
-  }
+  if (!quiet) advance_gates_by_duty(open, duty_before);
   show_state();
   out_.snapshot_valid = true;
   on_snapshot();
   out_.snapshot_valid = false;
   if (supervisor_.at_watchdog(supervisor_words_)) open = kWatchdog;
-  if (!quiet) advance_gates(kSnapshot, tick - 1, open, out_.duty);
   end_of_tick(in);
   const bool live = supervisor_.out().gates_enable;
   if (quiet && live == enabled) {
     gates_.pass(tick);
   } else {
-    if (quiet) gates_.pass(tick - 1);
+    advance_gates(quiet ? 0 : kSnapshot, tick - 1, open, out_.duty);
     gates_.advance(pwm_inputs(tick - 1 < open, out_.duty), 1, live);
   }
-  show_state();
+  out_.armed = supervisor_.out().armed;
+  out_.gates_enable = live;
   ++out_.tick_count;
+}
+
+/// Gates of a tick up to the snapshot.
+template <class D>
+void FeltgateCore<D>::advance_gates_by_duty(int open, std::int16_t duty_before) {
+  // In most ticks no duty is taken after the new one has come.
+  const int taken = gates_.clocks_to_duty();
+  if (D::pwm_period >= kSnapshot && (taken < kDuty || taken >= kSnapshot)) {
+    advance_gates(0, kSnapshot, open, duty_before);
+  } else {
+    advance_gates(0, kDuty, open, duty_before);
+    advance_gates(kDuty, kSnapshot, open, out_.duty);
+  }
 }
 
 /// Arming and scene in the last clock of a tick.

@@ -263,6 +263,7 @@ class FeltgateCore {
   void pass_tick(const In& in, OnSnapshot&& on_snapshot);
   template <class OnSnapshot>
   int pass(const In& in, int from, int to, OnSnapshot&& on_snapshot);
+  void advance_gates_by_duty(int open, std::int16_t duty_before);
   void end_of_tick(const In& in);
   int advance_decoder(const In& in, int from, int to);
   int advance_gates(int from, int to, int open, std::int16_t duty);

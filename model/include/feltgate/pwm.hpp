@@ -82,6 +82,9 @@ class Pwm {
     return now;
   }
 
+  /// Coming clocks before the one that takes the duty.
+  int clocks_to_duty() const { return time_ > period_ - 2 ? period_ - 1 : period_ - 2 - time_; }
+
   /// Coming clocks, inputs held, in which no output changes and skip() may stand for clock(). At
   /// least one clock() is due when it is 0.
   int quiet_clocks(const In& in) const {

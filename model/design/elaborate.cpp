@@ -161,6 +161,24 @@ void check_resolution(const Elaborated& e) {
 void check_widths(const Elaborated& e) {
   const Design& d = e.design;
   const Formats& f = e.formats;
+  if (d.torque.fraction >= f.ramp.fraction) {
+    d.fail("formats.torque",
+           "the torque has " + std::to_string(d.torque.fraction) +
+               " fraction bits and the ramp moves in steps of 2^-" +
+               std::to_string(f.ramp.fraction),
+           "use at most " + std::to_string(f.ramp.fraction - 1));
+  }
+  if (d.torque.integer < 0) {
+    d.fail("formats.torque", "a charge pushes with up to 1 Nm", "use at least 0 integer bits");
+  }
+  if (d.velocity.integer - (d.exact_gain ? 0 : d.n) > fabric::travel_bits - 1) {
+    d.fail("formats.velocity", "no count reaches the velocity's top bits",
+           "use fewer integer bits");
+  }
+  if (f.observed.integer + 1 < d.torque.integer) {
+    d.fail("formats.torque", "nothing that is observed reaches the torque's top bits",
+           "use fewer integer bits of torque");
+  }
   const auto fits = [&](const char* key, const char* what, int width, int bits) {
     if (width <= bits) return;
     d.fail(key,
@@ -185,24 +203,6 @@ void check_widths(const Elaborated& e) {
            "the limiter is as wide as the current, " + std::to_string(d.current.width()) +
                " bits, and the " + what + " has " + std::to_string(format.width()),
            "add bits to the current");
-  }
-  if (d.torque.fraction >= f.ramp.fraction) {
-    d.fail("formats.torque",
-           "the torque has " + std::to_string(d.torque.fraction) +
-               " fraction bits and the ramp moves in steps of 2^-" +
-               std::to_string(f.ramp.fraction),
-           "use at most " + std::to_string(f.ramp.fraction - 1));
-  }
-  if (d.torque.integer < 0) {
-    d.fail("formats.torque", "a charge pushes with up to 1 Nm", "use at least 0 integer bits");
-  }
-  if (d.velocity.integer - (d.exact_gain ? 0 : d.n) > fabric::travel_bits - 1) {
-    d.fail("formats.velocity", "no count reaches the velocity's top bits",
-           "use fewer integer bits");
-  }
-  if (f.observed.integer + 1 < d.torque.integer) {
-    d.fail("formats.torque", "nothing that is observed reaches the torque's top bits",
-           "use fewer integer bits of torque");
   }
 }
 
@@ -242,9 +242,6 @@ void check_drops(const Elaborated& e) {
   drops("formats.torque", f.scene_offset, e.word("wall_stiffness"),
         d.torque.fraction + wall_guard_bits);
   drops("formats.torque", d.velocity, e.word("wall_damping"), d.torque.fraction + wall_guard_bits);
-  // The wall adds its two products with two bits more.
-  drops("formats.torque", f.scene_offset, e.word("wall_stiffness"), d.torque.fraction + 2);
-  drops("formats.torque", d.velocity, e.word("wall_damping"), d.torque.fraction + 2);
   drops("formats.coefficient_bits", f.scene_offset, e.word("attract_core_slope"),
         f.charge.fraction + 1);
   drops("formats.coefficient_bits", f.scene_offset, e.word("repel_core_slope"),

@@ -27,9 +27,9 @@ class LockStepRun {
  public:
   LockStepRun(const std::vector<Value>& values, Measurement* m) : values_(values), m_(m) {}
 
-  /// Loads the point's values through the register port, then plays a window of every motion, the
-  /// modes and disarming. The lever slews from one window to the next as fast as the encoder may,
-  /// so velocity and torque see their ends too.
+  /// Loads the point's values through the register port, then plays a window of every motion,
+  /// tau_hat fed back, the modes and disarming. The lever slews from one window to the next as fast
+  /// as the encoder may, so velocity and torque see their ends too.
   void run() {
     power_up();
     for (const Value& v : values_) write(v.address, v.raw);
@@ -43,7 +43,11 @@ class LockStepRun {
       control(scene, Mode::closed_loop, true);
       play(motion, window);
     }
+    // Where the design does not feed tau_hat back its path would go unseen.
     const Motion& last = motions().back();
+    write(D::A::observer_gain, fixed_of<D::P::observer_gain.key()>::max_raw() / 3);
+    control(D::scene_number("spring_tension"), Mode::closed_loop, true);
+    play(last, window / 2);
     control(0, Mode::open_loop, true);
     play(last, window / 8);
     write(D::A::voltage_setpoint, std::int64_t{3} << D::f.voltage.fraction);
@@ -108,9 +112,15 @@ class LockStepRun {
   void play(const Motion& motion, std::int64_t clocks) {
     for (std::int64_t k = 0; k < clocks || count_ != target(motion, k);) {
       step_towards(target(motion, k));
+      read_on();
       clock();
       if (k > 0 || count_ == target(motion, 0)) ++k;  // the window begins where its motion is
     }
+  }
+  /// Reads every word in turn, so that read-back is compared too.
+  void read_on() {
+    if (m_->clocks_compared % 8 == 0)
+      in_.reg_addr = static_cast<std::uint16_t>((in_.reg_addr + 1) % 0x340);
   }
   static std::int64_t target(const Motion& motion, std::int64_t clock) {
     const double t_s = motion.window_s + static_cast<double>(clock) / D::clock_hz;

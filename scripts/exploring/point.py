@@ -112,7 +112,7 @@ def sources_digest():
     global _sources
     if _sources is None:
         digest = hashlib.sha256(f"{OPTIMISE} {tool_version(compiler())}".encode())
-        digest.update(f"{tool_version('verilator')} {tool_version(yosys())}".encode())
+        digest.update(f"{tool_version('verilator')} {synth_tools.version(yosys())}".encode())
         paths = [*ROOT.glob("rtl/*.sv"), *ROOT.glob("model/**/*.hpp")]
         paths += [ROOT / "model/explore/point_main.cpp", Path(__file__)]
         paths += [BUILD / f"libfeltgate_{name}.a" for name in LIBRARIES]
@@ -250,7 +250,7 @@ def measured(result, name):
     return result[f"{signal}_error_max_{unit}"]
 
 
-def evaluate_design(text, workdir, route=False, defect=0):
+def evaluate_design(text, workdir, route=False, area=True, defect=0):
     """What is measured at the design of a TOML text; docs/explore.md has the keys."""
     Path(workdir).mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=".point-", dir=workdir) as temporary:
@@ -270,7 +270,9 @@ def evaluate_design(text, workdir, route=False, defect=0):
             # A margin for the core's own factor, which may be the larger one.
             speed = 1.01 * result["raw_velocity_max_rad_s"]
             command = [BUILD / "feltgate_point_bounds", ROOT, design, str(speed)]
-            result |= json.loads(run(command)) | structure.area()
+            result |= json.loads(run(command))
+            if area:
+                result |= structure.area()
             if not result["bound_without"]:
                 result["bound_holds"] = all(measured(result, name) <= result[f"bound_{name}"]
                                             for name in BOUNDED)

@@ -14,6 +14,8 @@
 #ifndef FELTGATE_DESIGN
 #define FELTGATE_DESIGN Lever
 #include "feltgate/generated/lever.hpp"
+#elif defined FELTGATE_DESIGN_HEADER
+#include FELTGATE_DESIGN_HEADER
 #else
 #include "feltgate/generated/paper.hpp"
 #endif

@@ -13,6 +13,7 @@ PACKAGES=(
   "build|python3|runs the build's small scripts"
   "build|verilator|turns the SystemVerilog core into a C++ simulation"
   "build|libboost-dev|Odeint and 128-bit floats for plant and reference (headers)"
+  "build|libeigen3-dev|eigenvalues of loops: feltgate stability (headers)"
   "build|libtomlplusplus-dev|reads designs, plants and scenes (TOML)"
   "build|libarchive-dev|reads sigrok recordings (zip)"
   "build|nlohmann-json3-dev|writes the JSON results"

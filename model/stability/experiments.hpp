@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What counts and noise do to a wall that is linearly stable, in the full plant. Documentation:
+// docs/stability.md
+#pragma once
+
+#include <vector>
+
+#include "stability/bit_loop.hpp"
+
+namespace feltgate::stability {
+
+/// A lever pressed into a wall by a hand of constant torque, over presses from one count's torque
+/// to the next.
+struct Rest {
+  double stiffness_nm_rad = 0;
+  int presses = 0;
+  int quiet = 0;             ///< presses after which position and torque stand still
+  int counts = 0;            ///< largest movement, in counts from lowest to highest
+  double torque_rms_nm = 0;  ///< of the reference around its mean, largest
+  double motor_torque_rms_nm = 0;
+};
+Rest rest_in_wall(const design::Elaborated& design, const plant::Parameters& plant,
+                  const Wall& wall, int presses);
+
+/// 2 f / q: below it friction can hold a lever between the torques of two counts.
+double encoder_rule_nm_rad(const design::Elaborated& design, const plant::Parameters& plant);
+
+/// A host that renders a wall from a position with Gaussian noise, through exponential smoothing.
+struct HostCase {
+  double rate_hz = 0;
+  double stiffness_nm_rad = 0;
+  double noise_rad = 0;    ///< standard deviation, drawn anew at each reading
+  double smoothing = 1.0;  ///< alpha of s += alpha * (x - s); 1 is none
+};
+struct HostFigures {
+  double rate_hz = 0;        ///< nearest whole number of ticks
+  double torque_rms_nm = 0;  ///< of the reference around its mean
+  double angle_rms_rad = 0;  ///< of the lever
+};
+/// A hand of impedance leans lightly on the wall's face.
+HostFigures host_wall(const design::Elaborated& design, const plant::Parameters& plant,
+                      const HostCase& c);
+
+/// Ticks of a scene period: the nearest; a multiple of the PWM period where that changes the rate
+/// by less than 1 %, so that the loop repeats after one of them.
+int scene_ticks(const design::Design& design, double rate_hz);
+
+}  // namespace feltgate::stability

@@ -18,6 +18,7 @@ void add_run(CLI::App& app, int* exit_code);
 void add_replay(CLI::App& app, int* exit_code);
 void add_import(CLI::App& app, int* exit_code);
 void add_design(CLI::App& app, int* exit_code);
+void add_stability(CLI::App& app, int* exit_code);
 void add_trim(CLI::App& app, int* exit_code);
 void add_extremes(CLI::App& app, int* exit_code);
 /// demo, figures, explore and synth are orchestration: Python scripts that call this program.

@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   add_design(app, &exit_code);
   add_extremes(app, &exit_code);
   add_trim(app, &exit_code);
+  add_stability(app, &exit_code);
   add_scripts(app, &exit_code);
   try {
     app.parse(argc, argv);

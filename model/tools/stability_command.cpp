@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate stability. Documentation: docs/stability.md
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+#include "plant/plant_file.hpp"
+#include "stability/report.hpp"
+#include "tools/commands.hpp"
+#include "tools/output.hpp"
+
+namespace feltgate {
+
+namespace {
+
+struct StabilityArguments {
+  std::string design = "lever", linear = "linear", plant = "p24", json, plot;
+  std::vector<double> rates, damping;
+  bool no_bits = false, no_experiments = false;
+};
+
+/// 1 when the chain's bits and the eigenvalues differ by more than 5 % where the swing spans enough
+/// counts for the two to mean the same.
+int verdict(const stability::Study& study) {
+  constexpr double enough_counts = 8, tolerance = 0.05;
+  int off = 0;
+  for (const auto& p : study.borders) {
+    if (p.exact.stiffness_nm_rad == 0 || p.swing_counts < enough_counts) continue;
+    const double ratio = p.bits_nm_rad / p.exact.stiffness_nm_rad;
+    if (ratio > 1 - tolerance && ratio < 1 + tolerance) continue;
+    std::printf("bits and eigenvalues differ by more than 5 %%: %g Hz, B = %g Nm s/rad\n",
+                p.rate_hz, p.damping_nm_s_rad);
+    ++off;
+  }
+  return off == 0 ? exit_ok : exit_failed;
+}
+
+int run(const StabilityArguments& a) {
+  const auto registers = design::read_registers(repository() + "/rtl/registers.toml");
+  const auto e = elaborate(design::read_design(find_file(a.design, "rtl/designs")), registers);
+  const auto linear = plant::read_plant_file(find_file(a.linear, "vectors/plants"));
+  const auto full = plant::read_plant_file(find_file(a.plant, "vectors/plants"));
+  std::string json_path = a.json;
+  if (!a.plot.empty()) {
+    std::filesystem::create_directories(a.plot);
+    if (json_path.empty()) json_path = a.plot + "/stability.json";
+  }
+  std::unique_ptr<OutputFile> json;
+  if (!json_path.empty()) json = std::make_unique<OutputFile>(json_path);
+  stability::StudyOptions options;
+  if (!a.rates.empty()) options.rates_hz = a.rates;
+  if (!a.damping.empty()) options.damping_nm_s_rad = a.damping;
+  options.bits = !a.no_bits;
+  options.experiments = !a.no_experiments;
+  Progress progress("stability of " + e.design.name, false);
+  options.progress = [&progress](double done) { progress.update(done); };
+  const auto study = run_study(e, linear, full, options);
+  std::fputs(stability::study_text(study).c_str(), stdout);
+  if (json) {
+    std::fputs(stability::study_json(study).c_str(), json->handle());
+    json->commit();
+  }
+  if (!a.plot.empty()) {
+    const char* python = std::getenv("FELTGATE_PYTHON");
+    std::fflush(stdout);
+    const std::string command = std::string("'") + (python != nullptr ? python : "python3") +
+                                "' '" + repository() + "/scripts/stability.py' '" + json_path +
+                                "' '" + a.plot + "'";
+    if (std::system(command.c_str()) != 0) return exit_unusable;
+  }
+  return options.bits ? verdict(study) : exit_ok;
+}
+
+}  // namespace
+
+void add_stability(CLI::App& app, int* exit_code) {
+  auto a = std::make_shared<StabilityArguments>();
+  CLI::App* sub = app.add_subcommand(
+      "stability", "how stiff a wall may be before it shakes, by damping and scene rate");
+  sub->footer(
+      "The border of a wall's stiffness three ways: by bisection on the chain's own bits around a\n"
+      "linear plant, by the eigenvalues of the loop, and by (b+B)/(T/2+td). Between two updates "
+      "of\n"
+      "the scene its torque is held: a host reads, computes and writes the setpoint; at the tick\n"
+      "rate it is the core's own wall. Then counts, friction and noise in the full plant.\n"
+      "  feltgate stability lever                          all of it, about 40 s\n"
+      "  feltgate stability lever --plot out               with pictures in out/\n"
+      "  feltgate stability lever --rate 500 --damping 0.003,0.004 --no-experiments\n"
+      "Exit code: 0 bits and eigenvalues agree within 5 % (where the swing spans 8 counts),\n"
+      "1 otherwise, 2 unusable input. docs/stability.md explains every column.");
+  sub->add_option("design", a->design, "design that was built in, by its name in rtl/designs")
+      ->capture_default_str()
+      ->type_name("DESIGN");
+  sub->add_option("--linear-plant", a->linear,
+                  "plant of the borders, in vectors/plants or a path: without friction, dead "
+                  "voltage and dead time")
+      ->capture_default_str();
+  sub->add_option("--plant", a->plant, "plant of counts, friction and noise")
+      ->capture_default_str();
+  sub->add_option("--rate", a->rates, "scene rates in Hz; default 144,490,1000,40000,1000000")
+      ->delimiter(',')
+      ->check(CLI::Range(1.0, 1e6));
+  sub->add_option("--damping", a->damping,
+                  "dampings B of the wall in Nm s/rad; default 0,0.001,0.002,0.005,0.01,0.02")
+      ->delimiter(',')
+      ->check(CLI::Range(0.0, 1.0));
+  sub->add_flag("--no-bits", a->no_bits, "eigenvalues and closed forms only: two seconds");
+  sub->add_flag("--no-experiments", a->no_experiments, "borders only");
+  sub->add_option("--json", a->json, "write all numbers to this file");
+  sub->add_option("--plot", a->plot, "draw the K-B plot and the eigenvalue locus into this folder");
+  sub->callback([a, exit_code] { *exit_code = run(*a); });
+}
+
+}  // namespace feltgate

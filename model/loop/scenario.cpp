@@ -113,6 +113,14 @@ std::vector<std::string> effects_off(const Scenario& scenario) {
   return off;
 }
 
+std::set<std::string> scenes_used(const Scenario& scenario) {
+  std::set<std::string> used{scenario.scene};
+  for (const Event& e : scenario.events) {
+    if (e.scene) used.insert(*e.scene);
+  }
+  return used;
+}
+
 void resolve_effects(Scenario& scenario, const plant::Effects& of_plant) {
   const toml::table root = config::parse_toml_file(scenario.path);
   config::TomlReader top(root, scenario.path, "the scene");

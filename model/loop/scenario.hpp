@@ -7,6 +7,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,9 @@ Scenario read_scenario(const std::string& path);
 /// What the plant of a scene leaves out, by the names of the file: the effects that are off,
 /// "gates" where the bridge is averaged; hand_dynamics only where the scene has a hand with a mass.
 std::vector<std::string> effects_off(const Scenario& scenario);
+
+/// The torque laws that a scene renders: its own and those that its events switch to.
+std::set<std::string> scenes_used(const Scenario& scenario);
 
 /// Fills scenario.effects: the plant's defaults with the scene's overrides.
 void resolve_effects(Scenario& scenario, const plant::Effects& of_plant);

@@ -3,37 +3,103 @@
 //
 // feltgate design. Documentation: docs/designs.md
 #include <cstdio>
+#include <filesystem>
+#include <memory>
 
+#include "design/for_scenes.hpp"
 #include "design/generate.hpp"
 #include "design/loop_poles.hpp"
+#include "loop/scenario.hpp"
 #include "plant/plant_file.hpp"
 #include "tools/commands.hpp"
+#include "tools/output.hpp"
 
 namespace feltgate {
 
+namespace {
+
+struct DesignArguments {
+  std::string name, plant, output;
+  std::vector<std::string> scenes;
+};
+
+/// Torque laws of what the user named: laws themselves, and scene files with all that they switch
+/// to.
+std::set<std::string> laws_of(const std::vector<std::string>& names,
+                              const design::RegisterMap& registers) {
+  std::set<std::string> laws;
+  for (const std::string& name : names) {
+    const bool law = registers.scene_number(name) >= 0;
+    if (law) laws.insert(name);
+    if (law && !std::filesystem::exists(repository() + "/vectors/scenes/" + name + ".toml")) {
+      continue;
+    }
+    laws.merge(scenes_used(read_scenario(find_file(name, "vectors/scenes"))));
+  }
+  return laws;
+}
+
+int design_for(const DesignArguments& a, const design::RegisterMap& registers) {
+  const std::set<std::string> laws = laws_of(a.scenes, registers);
+  std::string command = "feltgate design " + a.name + " --for";
+  for (const std::string& s : a.scenes) command += " " + s;
+  std::string left_out;
+  for (const std::string& block : blocks_left_out(laws, registers)) left_out += " " + block;
+  if (left_out.empty()) left_out = " none";
+  const std::string text =
+      design::text_for_scenes(find_file(a.name, "rtl/designs"), laws,
+                              "Written by: " + command + "\nBlocks left out:" + left_out);
+  if (a.output.empty()) {
+    std::fputs(text.c_str(), stdout);
+    return exit_ok;
+  }
+  OutputFile file(a.output);
+  std::fputs(text.c_str(), file.handle());
+  file.commit();
+  std::printf("%s: blocks left out:%s\n", a.output.c_str(), left_out.c_str());
+  return exit_ok;
+}
+
+int table_of(const DesignArguments& a, const design::RegisterMap& registers) {
+  const auto e = elaborate(design::read_design(find_file(a.name, "rtl/designs")), registers);
+  std::string text = design_table(e);
+  if (!a.plant.empty()) {
+    const auto p = plant::read_plant_file(find_file(a.plant, "vectors/plants"));
+    refuse_unstable(e, p);
+    text += loop_table(closed_loop(e, p));
+  }
+  std::fputs(text.c_str(), stdout);
+  return exit_ok;
+}
+
+}  // namespace
+
 void add_design(CLI::App& app, int* exit_code) {
-  auto name = std::make_shared<std::string>();
-  auto plant = std::make_shared<std::string>();
+  auto a = std::make_shared<DesignArguments>();
   CLI::App* sub = app.add_subcommand(
       "design", "the table of a design point: value, integer, error, range, headroom");
-  sub->add_option("design", *name, "name in rtl/designs or a path")
+  sub->footer(
+      "  feltgate design lever --plant p24                  the table and the poles of the loop\n"
+      "  feltgate design lever --for membrane               the design file with that scene alone\n"
+      "  feltgate design lever --for membrane torque_step -o rtl/designs/mine.toml\n"
+      "                                                     a design of its own: feltgate "
+      "generate");
+  sub->add_option("design", a->name, "name in rtl/designs or a path")
       ->required()
       ->type_name("DESIGN");
-  sub->add_option("--plant", *plant,
-                  "name in vectors/plants or a path: also the poles of the loop around it; an "
-                  "unstable one is refused")
-      ->type_name("PLANT");
-  sub->callback([name, plant, exit_code] {
+  auto* plant =
+      sub->add_option("--plant", a->plant,
+                      "name in vectors/plants or a path: also the poles of the loop around it; an "
+                      "unstable one is refused");
+  plant->type_name("PLANT");
+  auto* scenes = sub->add_option(
+      "--for", a->scenes,
+      "torque laws or scene files: print the design file that builds only what these need");
+  scenes->type_name("SCENE")->excludes(plant);
+  sub->add_option("-o,--output", a->output, "with --for: write it here")->needs(scenes);
+  sub->callback([a, exit_code] {
     const auto registers = design::read_registers(repository() + "/rtl/registers.toml");
-    const auto e = elaborate(design::read_design(find_file(*name, "rtl/designs")), registers);
-    std::string text = design_table(e);
-    if (!plant->empty()) {
-      const auto p = plant::read_plant_file(find_file(*plant, "vectors/plants"));
-      refuse_unstable(e, p);
-      text += loop_table(closed_loop(e, p));
-    }
-    std::fputs(text.c_str(), stdout);
-    *exit_code = exit_ok;
+    *exit_code = a->scenes.empty() ? table_of(*a, registers) : design_for(*a, registers);
   });
 }
 

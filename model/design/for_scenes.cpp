@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A design that builds only what some scenes need. Documentation: docs/designs.md
+#include "design/for_scenes.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "config/toml_reader.hpp"
+
+namespace feltgate::design {
+
+namespace {
+
+constexpr const char* always = "free";
+
+/// scene_spring serves both springs, scene_charge both charges; free has no block.
+std::string block_of(const std::string& law) {
+  if (law == always) return {};
+  const std::string kind = law.substr(0, law.find('_'));
+  return "scene_" + (kind == "spring" || kind == "charge" ? kind : law);
+}
+
+/// Where a position of the parser lies in the text.
+std::size_t offset_of(const std::string& text, const toml::source_position& at) {
+  std::size_t offset = 0;
+  for (auto line = at.line; line > 1; --line) offset = text.find('\n', offset) + 1;
+  return offset + at.column - 1;
+}
+
+}  // namespace
+
+std::string text_for_scenes(const std::string& path, const std::set<std::string>& laws,
+                            const std::string& comment) {
+  const toml::table root = config::parse_toml_file(path);
+  config::TomlReader scenes = config::TomlReader(root, path, "the design").section("scenes");
+  const std::vector<std::string> built = scenes.texts("include");
+  for (const std::string& law : laws) {
+    if (law != always && std::find(built.begin(), built.end(), law) == built.end()) {
+      scenes.fail("include", "the design does not build \"" + law + "\"",
+                  "take a design that includes it, or add it to the list");
+    }
+  }
+  std::string list = "[\"" + std::string(always) + "\"";
+  for (const std::string& law : built) {
+    if (law != always && laws.count(law) != 0) list += ", \"" + law + "\"";
+  }
+
+  std::ifstream in(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const toml::source_region& region = root["scenes"]["include"].node()->source();
+  const std::size_t begin = offset_of(text, region.begin);
+  text.replace(begin, offset_of(text, region.end) - begin, list + "]");
+
+  std::ostringstream out;
+  std::istringstream lines(comment);
+  for (std::string line; std::getline(lines, line);) out << "# " << line << "\n";
+  out << text;
+  return out.str();
+}
+
+std::vector<std::string> blocks_left_out(const std::set<std::string>& laws,
+                                         const RegisterMap& registers) {
+  std::set<std::string> kept, gone;
+  for (const std::string& law : laws) kept.insert(block_of(law));
+  for (const Scene& scene : registers.scenes) {
+    const std::string block = block_of(scene.name);
+    if (!block.empty() && kept.count(block) == 0) gone.insert(block);
+  }
+  return {gone.begin(), gone.end()};
+}
+
+}  // namespace feltgate::design

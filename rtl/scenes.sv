@@ -218,9 +218,11 @@ module scenes #(
   end
   assign tau_ref_o = ramp_q[RampW-1:Fine];
 
+  // The second line: what no scene uses where few are built.
   logic unused;
   assign unused = ^{param_i[31:RampW], upper_gap[TorqueW-1:0], lower_gap[TorqueW-1:0],
-                    beyond[RampW-1:0], wall_operand};
+                    position_i, product_i, tension, attract, spring, beyond[RampW-1:0],
+                    wall_operand};
 endmodule
 
 `default_nettype wire

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // One tick of the design `lever` as one would write it by hand: 64-bit integers, shifts, masks, the
-// binary points in the comments. The yardstick for the speed of `fixed`, and by its equal bits a
-// check of the laws that shares no code with them. Documentation: docs/bench.md
+// binary points of the signals in the numbers. The yardstick for the speed of `fixed`, and by its
+// equal bits a check of the laws that shares no code with them. Documentation: docs/bench.md
 #pragma once
 
 #include <array>
@@ -35,13 +35,15 @@ class ShiftChain {
     const Word doubled = Word{counts} * (1 << 22);  // .21
     const Word raw = saturated(doubled, 31);
     velocity_saturated = raw != doubled;
-    velocity += half_up((raw - velocity) * p_.velocity_a1, 27);
+    velocity += half_up((raw - velocity) * p_.velocity_a1, P::velocity_a1.fraction);
 
-    const Word drive = in.armed ? (current * p_.torque_constant) >> 8 : 0;  // .38 to .30
-    const Word inertia = (velocity * p_.inertia_gain) >> 12;                // .42 to .30
+    const Word drive =
+        in.armed ? (current * p_.torque_constant) >> drop(P::torque_constant, 16, 30) : 0;
+    const Word inertia = (velocity * p_.inertia_gain) >> drop(P::inertia_gain, 21, 30);
     const Word input = drive + inertia;
-    observer_ =
-        in.armed ? observer_ + half_up(((input - observer_) >> 4) * p_.observer_a1, 23) : input;
+    observer_ = in.armed ? observer_ + half_up(((input - observer_) >> 4) * p_.observer_a1,
+                                               drop(P::observer_a1, 26, 30))
+                         : input;
     const Word observed = half_up(observer_ - inertia, 14);  // .30 to .16
     tau_hat = saturated(observed, 20);
     tau_hat_saturated = tau_hat != observed;
@@ -71,6 +73,11 @@ class ShiftChain {
         wall_contact, wall_stiffness, wall_damping;
   };
 
+  using P = Lever::P;
+  /// Bits to drop from signal * coefficient, for a result with `to` bits after the point.
+  static constexpr int drop(Format coefficient, int signal, int to) {
+    return coefficient.fraction + signal - to;
+  }
   static Word half_up(Word x, int k) { return (x + (Word{1} << (k - 1))) >> k; }
   /// x in [-2^bits, 2^bits).
   static Word saturated(Word x, int bits) {
@@ -104,14 +111,18 @@ class ShiftChain {
         return membrane(theta * 256);
       case Lever::S::spring_compression: {
         const Word x = saturated(p_.compression_contact - theta * 256, 25);  // .8
-        return x < 0 ? 0 : saturated(half_up(x * p_.compression_stiffness, 18), 20);
+        return x < 0 ? 0
+                     : saturated(half_up(x * p_.compression_stiffness,
+                                         drop(P::compression_stiffness, 8, 16)),
+                                 20);
       }
       case Lever::S::spring_tension: {
         const Word x = saturated(p_.tension_rest - theta * 256, 25);
-        return saturated(half_up(x * p_.tension_stiffness, 19), 20);
+        return saturated(half_up(x * p_.tension_stiffness, drop(P::tension_stiffness, 8, 16)), 20);
       }
       case Lever::S::damper:
-        return saturated(-half_up(velocity * p_.damper_damping, 27), 20);
+        return saturated(-half_up(velocity * p_.damper_damping, drop(P::damper_damping, 21, 16)),
+                         20);
       case Lever::S::charge_attract:
         return charge(saturated((p_.attract_centre >> 8) - theta, 17), true);
       case Lever::S::charge_repel:
@@ -125,9 +136,10 @@ class ShiftChain {
 
   Word wall(Word x) const {
     if (x >= 0) return 0;
-    // .30 and .41 to .18, two bits below the torque
-    const Word tau =
-        half_up(((x * p_.wall_stiffness) >> 12) - ((velocity * p_.wall_damping) >> 23), 2);
+    // Both parts keep two bits below the torque.
+    const Word tau = half_up(((x * p_.wall_stiffness) >> drop(P::wall_stiffness, 8, 18)) -
+                                 ((velocity * p_.wall_damping) >> drop(P::wall_damping, 21, 18)),
+                             2);
     return tau < 0 ? saturated(tau, 20) : 0;
   }
 
@@ -143,8 +155,8 @@ class ShiftChain {
   Word charge(Word distance, bool attract) const {
     const Word core = attract ? p_.attract_core : p_.repel_core;
     if (distance < core && distance > -core) {
-      const Word pull =
-          half_up(distance * (attract ? p_.attract_core_slope : p_.repel_core_slope), 9);
+      const Word pull = half_up(distance * (attract ? p_.attract_core_slope : p_.repel_core_slope),
+                                drop(attract ? P::attract_core_slope : P::repel_core_slope, 0, 16));
       return saturated(attract ? pull : -pull, 16);
     }
     const Word strength = attract ? p_.attract_strength : p_.repel_strength;
@@ -179,13 +191,14 @@ class ShiftChain {
     const bool high = tau_ref > p_.region_torque || tau_ref < -p_.region_torque;
     Word sum = 0, offset = 0, slope = 0;
     if (direct) {
-      sum = (p_.voltage_setpoint * p_.voltage_to_current) >> 13;  // .29 to .16
+      sum = (p_.voltage_setpoint * p_.voltage_to_current) >> drop(P::voltage_to_current, 14, 16);
       offset = p_.voltage_setpoint;
     } else {
-      const Word by_hat = mode == 1 ? 0 : (tau_hat * p_.observer_gain) >> 17;  // .33 to .16
-      sum = ((tau_ref * p_.torque_gain) >> 11) + by_hat;                       // .27 to .16
-      offset = (velocity * p_.emf_constant) >> 29;                             // .43 to .14
-      slope = (tau_ref * p_.dead_voltage_slope) >> 12;                         // .26 to .14
+      const Word by_hat =
+          mode == 1 ? 0 : (tau_hat * p_.observer_gain) >> drop(P::observer_gain, 16, 16);
+      sum = ((tau_ref * p_.torque_gain) >> drop(P::torque_gain, 16, 16)) + by_hat;
+      offset = (velocity * p_.emf_constant) >> drop(P::emf_constant, 21, 14);
+      slope = (tau_ref * p_.dead_voltage_slope) >> drop(P::dead_voltage_slope, 16, 14);
     }
     const Word asked = wrapped(limited(sum, p_.current_limit, &limit_current), 22);
     current = armed ? asked : 0;
@@ -193,12 +206,16 @@ class ShiftChain {
 
     bool unused = false;
     Word volts = offset + wrapped(limited(slope, p_.dead_voltage, &unused), 22);
-    if (!direct) volts += (current * (high ? p_.voltage_gain_high : p_.voltage_gain)) >> 20;
+    if (!direct)
+      volts += (current * (high ? p_.voltage_gain_high : p_.voltage_gain)) >>
+               drop(P::voltage_gain, 16, 14);
     const Word limit = wrapped(limited(volts, p_.voltage_limit, &limit_voltage), 22);
     const Word applied = armed ? limit : 0;
     limit_voltage = limit_voltage && armed;
     voltage = wrapped(applied, 20);
-    duty = wrapped(limited(half_up(applied * p_.duty_gain, 25), p_.duty_limit, &limit_duty), 13);
+    duty = wrapped(limited(half_up(applied * p_.duty_gain, drop(P::duty_gain, 14, 0)),
+                           p_.duty_limit, &limit_duty),
+                   13);
   }
 
   Parameters p_{};

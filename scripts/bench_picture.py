@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Draws the picture of docs/bench.md, speed against error, from the JSON of feltgate bench.
+
+  feltgate bench --json docs/images/bench.json
+  scripts/bench_picture.py docs/images/bench.json docs/images/bench.svg
+"""
+
+import argparse
+import json
+import math
+import sys
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from reporting import plots
+
+# What a user takes each engine for, and where its label stands.
+PURPOSE = {
+    "rtl": "proof: every pin of the hardware",
+    "twin_clock": "pins, without Verilator",
+    "twin_event": "closed loops, recordings, days",
+    "twin_tick": "exact signals, parameter studies",
+    "twin_batch": "Monte Carlo, many lanes at once",
+    "double": "the law without quantisation",
+    "float": "what a microcontroller would do",
+    "quad": "the reference",
+    "sc_fixed": "an independent check",
+    "shifts": "a yardstick",
+}
+SENTENCE = (
+    "For the hardware's own bits use twin_event (closed loop) or twin_tick (signals); rtl proves that "
+    "they are the hardware's.\nFor the law without quantisation use double. sc_fixed, quad and shifts "
+    "check the others."
+)
+
+
+def engines(data):
+    """(name, times real time, max torque error or None), fastest first."""
+    rows = []
+    for name, engine in data["engines"].items():
+        error = engine.get("torque_error_nm", {}).get("max")
+        rows.append((name, engine["simulated_s_per_s"]["median"], error))
+    return sorted(rows, key=lambda row: -row[1])
+
+
+def colour(name, data):
+    if data["engines"][name]["arithmetic"] == "integer":
+        return plots.COLOURS["motor"]
+    return plots.COLOURS["quad"]
+
+
+def label_offsets(rows, floor):
+    """Engines of nearly the same error stand beside each other: their labels go up in turns."""
+    offsets, last = {}, {}
+    for name, speed, error in sorted(rows, key=lambda row: row[1]):
+        level = round(3 * math.log10(error or floor))
+        previous = last.get(level)
+        step = offsets[previous[0]] + 1 if previous and speed / previous[1] < 12 else 0
+        offsets[name] = step
+        last[level] = (name, speed)
+    return offsets
+
+
+def picture(data):
+    rows = engines(data)
+    errors = [error for _, _, error in rows if error]
+    floor = min(errors) / 300 if errors else 1e-18
+    figure = Figure(figsize=(8.6, 4.6), layout="constrained")
+    axes = figure.subplots()
+    offsets = label_offsets(rows, floor)
+    for name, speed, error in rows:
+        y = error or floor
+        spread = data["engines"][name]["simulated_s_per_s"]
+        axes.plot([spread["min"], spread["max"]], [y, y], color=colour(name, data), lw=2.5, alpha=0.35)
+        axes.plot([speed], [y], "o", color=colour(name, data), ms=7)
+        axes.annotate(
+            f"{name}\n{PURPOSE.get(name, '')}",
+            (speed, y),
+            xytext=(0, 9 + 24 * offsets[name]),
+            textcoords="offset points",
+            ha="center",
+            fontsize=7.5,
+            arrowprops={"arrowstyle": "-", "lw": 0.5, "color": plots.COLOURS["reference"]},
+        )
+    axes.axvline(1, color=plots.COLOURS["reference"], lw=0.8, ls=":")
+    axes.text(1, floor / 8, " real time", fontsize=7.5, color=plots.COLOURS["reference"])
+    axes.set(
+        xscale="log",
+        yscale="log",
+        xlabel="simulated seconds per second of one core",
+        ylabel="largest torque error against 113 bits, Nm",
+    )
+    axes.set_ylim(floor / 20, max(errors, default=1) * 1e6)
+    low, high = min(r[1] for r in rows), max(r[1] for r in rows)
+    axes.set_xlim(low / 4, high * 6)
+    axes.set_title(SENTENCE, fontsize=8.5)
+    for kind, text in (("motor", "the hardware's integers, all equal in every bit"), ("quad", "real arithmetic, the same laws")):
+        axes.plot([], [], "o", color=plots.COLOURS[kind], label=text)
+    axes.legend(loc="lower left", fontsize=8)
+    figure.text(
+        0.995,
+        0.005,
+        f"{data['machine']}, {data['compiler']}, {data['date']}, simulation",
+        ha="right",
+        fontsize=6.5,
+        color=plots.COLOURS["reference"],
+    )
+    return plots.finish(figure, "bench", SENTENCE).svg
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("json", type=Path, help="what feltgate bench --json wrote")
+    parser.add_argument("svg", type=Path, help="picture to be written")
+    arguments = parser.parse_args()
+    try:
+        data = json.loads(arguments.json.read_text(encoding="utf-8"))
+        if data.get("schema") != "feltgate-bench/1":
+            raise ValueError(f"schema is {data.get('schema')!r}, not 'feltgate-bench/1'")
+        arguments.svg.write_text(picture(data), encoding="utf-8")
+    except (OSError, ValueError, KeyError) as error:
+        print(f"bench_picture: {arguments.json}: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

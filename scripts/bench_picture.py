@@ -83,6 +83,7 @@ def picture(data):
             textcoords="offset points",
             ha="center",
             fontsize=7.5,
+            bbox={"boxstyle": "square,pad=0.1", "fc": "white", "ec": "none", "alpha": 0.85},
             arrowprops={"arrowstyle": "-", "lw": 0.5, "color": plots.COLOURS["reference"]},
         )
     axes.axvline(1, color=plots.COLOURS["reference"], lw=0.8, ls=":")

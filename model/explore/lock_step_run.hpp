@@ -28,12 +28,16 @@ class LockStepRun {
   LockStepRun(const std::vector<Value>& values, Measurement* m) : values_(values), m_(m) {}
 
   /// Loads the point's values through the register port, then plays a window of every motion,
-  /// tau_hat fed back, the modes and disarming. The lever slews from one window to the next as fast
-  /// as the encoder may, so velocity and torque see their ends too.
+  /// tau_hat fed back, the modes, disarming and a fault. The lever slews from one window to the
+  /// next as fast as the encoder may, so velocity and torque see their ends too.
   void run() {
     power_up();
     for (const Value& v : values_) write(v.address, v.raw);
     write(D::A::ramp_step, fixed_of<D::f.ramp.key()>::max_raw() / 2);
+    // The slews are no motion of a lever: they must not trip the supervisor before its turn.
+    write(D::A::overspeed, fixed_of<D::f.velocity.key()>::max_raw());
+    write(D::A::polarity_speed, fixed_of<D::f.velocity.key()>::max_raw());
+    write(D::A::i2t_budget, 0xffffffff);
     const auto window = static_cast<std::int64_t>(lock_step_s * static_cast<double>(D::clock_hz));
     for (const Motion& motion : motions()) {
       const int scene = D::scene_number(motion.scene);
@@ -54,6 +58,9 @@ class LockStepRun {
     control(0, Mode::voltage, true);
     play(last, window / 8);
     control(0, Mode::closed_loop, false);
+    play(last, window / 8);
+    control(0, Mode::closed_loop, true);
+    write(D::A::overspeed, 0);
     play(last, window / 8);
   }
 
@@ -143,6 +150,7 @@ class LockStepRun {
     if (!(rtl == twin))
       note("clock " + std::to_string(m_->clocks_compared) + ", " + difference(rtl, twin));
     ++m_->clocks_compared;
+    m_->clocks_armed += twin.armed ? 1 : 0;
     if (twin.snapshot_valid) compare_chain(twin);
   }
   void compare_chain(const CoreOut& twin) {

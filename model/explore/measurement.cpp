@@ -51,6 +51,7 @@ std::string measurement_json(const Measurement& m) {
   const bool equal = m.mismatches == 0;
   j["status"] = equal ? "ok" : "mismatch";
   j["clocks_compared"] = m.clocks_compared;
+  j["clocks_armed"] = m.clocks_armed;
   j["mismatches"] = m.mismatches;
   if (!equal) {
     j["first_mismatch"] = m.first_mismatch;

@@ -46,7 +46,7 @@ struct Error {
 };
 
 struct Measurement {
-  std::int64_t clocks_compared = 0, mismatches = 0;
+  std::int64_t clocks_compared = 0, clocks_armed = 0, mismatches = 0;
   std::string first_mismatch;
   std::int64_t ticks = 0;                 ///< with an error noted
   std::int64_t ticks_left_out = 0;        ///< of a motion after velocity or tau_hat left its format

@@ -60,6 +60,7 @@ class Evaluation(unittest.TestCase):
         self.assertTrue(result["coarse"])
         self.assertEqual(result["mismatches"], 0)
         self.assertGreater(result["clocks_compared"], 4_000_000)
+        self.assertGreater(result["clocks_armed"], 0.8 * result["clocks_compared"])
         self.assertGreater(result["ticks"], 10_000)
         self.assertEqual(result["ticks_left_out"], 0)
         # An LSB of torque is 0.98 mNm: the error is of that size, neither hidden nor wild.

@@ -27,6 +27,7 @@ ChainNumbers chain_numbers(const design::Elaborated& e) {
   ChainNumbers c;
   c.design = e.design.name;
   c.formats = e.formats;
+  c.rounding = e.design.rounding;
   c.used_gain = e.rad_s_per_count();
   c.exact_gain = e.design.velocity_gain_rad_s();
   c.quantised_gain = e.velocity_gain != 0;

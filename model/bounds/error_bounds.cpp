@@ -17,7 +17,9 @@ namespace detail {
 
 Pair pair_of(const Number& n, Level level) {
   const Interval used(n.used());
-  return {used, level == Level::quantised ? used : Interval(n.si)};
+  const Interval exact(n.si);
+  if (level == Level::gain) return {exact, exact};
+  return {used, level == Level::quantised ? used : exact};
 }
 
 Interval rounding_error(const ChainNumbers& c, Format f) {
@@ -36,6 +38,7 @@ namespace {
 using boost::numeric::abs;
 using detail::Level;
 using detail::Pair;
+using detail::Rounding;
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
@@ -64,10 +67,12 @@ struct Parts {
 
 class Chain {
  public:
-  Chain(const ChainNumbers& c, const InputRegion& region, Level level, Gains* gains)
+  Chain(const ChainNumbers& c, const InputRegion& region, Level level, Rounding rounds,
+        Gains* gains)
       : c_(c),
         region_(region),
         level_(level),
+        rounds_(rounds),
         gains_(*gains),
         a_(of("velocity_a1")),
         g_(of("inertia_gain")),
@@ -80,6 +85,7 @@ class Chain {
     // 2*pi has no double: one step on either side.
     real_gain_ =
         gain == c.exact_gain ? Interval(Outward::down(gain), Outward::up(gain)) : Interval(gain);
+    used_gain_ = Interval(level == Level::gain ? c.reference_gain : c.used_gain);
     counts_ = Interval(region.velocity_rad_s) / Interval(c.used_gain);
     real_velocity_ = from_above((counts_ * real_gain_).upper());
   }
@@ -87,7 +93,8 @@ class Chain {
   Parts parts() {
     Parts p;
     p.velocity = velocity().upper();
-    p.tau_ref = detail::scene_error(c_, region_.scene, level_, p.velocity, real_velocity_.upper());
+    p.tau_ref = detail::scene_error(c_, region_.scene, level_, rounds_.scenes, p.velocity,
+                                    real_velocity_.upper());
     const Interval one(1.0);
     const Interval observed_gain =
         g_.real * (one - alpha_.real) * a_.real * gains_(one - a_.real, one - alpha_.real);
@@ -103,22 +110,33 @@ class Chain {
   Pair of(const char* name) const { return detail::pair_of(c_.at(name), level_); }
   int fraction_of(const char* name) const { return c_.at(name).format.fraction; }
 
+  /// What rounding or truncation adds, in a block that rounds.
+  static Interval only(bool rounds, const Interval& error) {
+    return rounds ? error : Interval(0.0);
+  }
+
   /// The counts times the gain, truncated, against the reference's.
   Interval raw_error() const {
     const Interval dropped = c_.quantised_gain
                                  ? detail::truncation_error(c_.gain_fraction, c_.formats.velocity)
                                  : Interval(0.0);
-    return dropped + within(abs(Interval(c_.used_gain) - real_gain_) * counts_);
+    return dropped + within(abs(used_gain_ - real_gain_) * counts_);
   }
   /// What one tick of a low-pass adds to its state: rounding, and the operand's dropped bits.
-  Interval filter_error(const Interval& a, Format state, Format operand) const {
-    return detail::rounding_error(c_, state) +
-           a * detail::truncation_error(state.fraction, operand);
+  Interval filter_error(bool rounds, const Interval& a, Format state, Format operand) const {
+    return only(rounds, detail::rounding_error(c_, state) +
+                            a * detail::truncation_error(state.fraction, operand));
+  }
+  Interval velocity_filter() const {
+    return filter_error(rounds_.velocity_n, a_.used, c_.formats.velocity,
+                        c_.formats.velocity_difference);
+  }
+  Interval tau_hat_rounding() const {
+    return from_above(magnitude(only(rounds_.dob, detail::rounding_error(c_, c_.formats.torque))));
   }
 
   Interval velocity() {
-    const Interval own = filter_error(a_.used, c_.formats.velocity, c_.formats.velocity_difference);
-    const Interval error = own * one_pole_gain(Interval(1.0) - a_.used) + raw_error();
+    const Interval error = velocity_filter() * one_pole_gain(Interval(1.0) - a_.used) + raw_error();
     Interval sum = from_above(magnitude(error));
     if (a_.change().upper() > 0) {
       sum += from_above(lowpass_change_gain(a_.used, a_.real)) * real_velocity_;
@@ -130,22 +148,24 @@ class Chain {
   Interval inertia_error(const Interval& rho) {
     const Interval one(1.0);
     const Interval rest = one - alpha_.used;
-    const Interval source =
-        filter_error(a_.used, c_.formats.velocity, c_.formats.velocity_difference) +
-        a_.used * raw_error() + within(a_.change() * Interval(2.0) * real_velocity_);
+    const Interval source = velocity_filter() + a_.used * raw_error() +
+                            within(a_.change() * Interval(2.0) * real_velocity_);
     const Interval centre = from_above(std::abs(boost::numeric::median(source)));
     const Interval radius = from_above(boost::numeric::width(source) / 2);
     const Interval variation = gains_(one - a_.used, rho);
     const Interval by_velocity = g_.used * rest * variation * (radius + centre / Interval(2.0));
-    const Interval dropped = detail::truncation_error(
-        c_.formats.velocity.fraction + fraction_of("inertia_gain"), c_.formats.inertia_torque);
+    const Interval dropped =
+        only(rounds_.dob,
+             detail::truncation_error(c_.formats.velocity.fraction + fraction_of("inertia_gain"),
+                                      c_.formats.inertia_torque));
     const Interval by_gain =
         g_.change() * rest * a_.real * gains_(one - a_.real, rho) * real_velocity_;
     return by_velocity + rest * from_above(boost::numeric::width(dropped)) + by_gain;
   }
   /// What the observer's own filter adds per tick.
   Interval observer_filter() const {
-    return filter_error(alpha_.used, c_.formats.observer, c_.formats.observer_difference);
+    return filter_error(rounds_.dob, alpha_.used, c_.formats.observer,
+                        c_.formats.observer_difference);
   }
   Interval drive_dropped() const {
     return detail::truncation_error(c_.formats.current.fraction + fraction_of("torque_constant"),
@@ -169,7 +189,7 @@ class Chain {
           c_.formats.voltage.fraction + fraction_of("voltage_to_current"), c_.formats.current);
       return by.used * Interval(half) +
              by.change() * Interval(std::ldexp(1.0, c_.formats.voltage.integer)) +
-             from_above(magnitude(dropped));
+             from_above(magnitude(only(rounds_.torque_control, dropped)));
     }
     const Pair gain = of("torque_gain");
     const Pair limit = of("torque_limit");
@@ -183,7 +203,7 @@ class Chain {
       dropped +=
           detail::truncation_error(fraction + fraction_of("observer_gain"), c_.formats.current);
     }
-    return sum + from_above(magnitude(dropped));
+    return sum + from_above(magnitude(only(rounds_.torque_control, dropped)));
   }
 
   /// Through the limit, which changes no difference for the worse: a loop of gain K*Og < 1.
@@ -198,7 +218,7 @@ class Chain {
       open += from_above(lowpass_change_gain(alpha_.used, alpha_.real)) * k_.real * limit_.real +
               alpha_.change() / alpha_.used * inertia_step() * real_velocity_;
     }
-    const Interval rounding = from_above(magnitude(detail::rounding_error(c_, c_.formats.torque)));
+    const Interval rounding = tau_hat_rounding();
     const Interval loop = one - k_.used * back;
     if (loop.lower() <= 0) {
       p.tau_hat = p.current = endless;
@@ -223,7 +243,7 @@ class Chain {
       p.unlimited_tau_hat = p.unlimited_current = endless;
       return;
     }
-    const Interval rounding = from_above(magnitude(detail::rounding_error(c_, c_.formats.torque)));
+    const Interval rounding = tau_hat_rounding();
     Interval per_tick =
         from_above(magnitude(observer_filter() + alpha_.used * drive_dropped())) +
         alpha_.used * (k_.used * (sources + back * rounding) + k_.change() * limit_.real);
@@ -239,9 +259,10 @@ class Chain {
   const ChainNumbers& c_;
   const InputRegion& region_;
   Level level_;
+  Rounding rounds_;
   Gains& gains_;
   Pair a_, g_, k_, alpha_, limit_;
-  Interval real_gain_, counts_, real_velocity_, observed_;
+  Interval used_gain_, real_gain_, counts_, real_velocity_, observed_;
 };
 
 SaturationFree saturation_free(const ChainNumbers& c) {
@@ -277,17 +298,24 @@ void fill_torques(const ChainNumbers& c, const InputRegion& region, const Parts&
   }
 }
 
+/// The region with its velocity: at most what the format holds.
+InputRegion filled(InputRegion region, const SaturationFree& free) {
+  if (region.velocity_rad_s <= 0 || region.velocity_rad_s > free.velocity_rad_s) {
+    region.velocity_rad_s = free.velocity_rad_s;
+  }
+  return region;
+}
+
 }  // namespace
 
 ErrorBounds error_bounds(const ChainNumbers& numbers, const InputRegion& asked) {
   ErrorBounds b;
-  b.region = asked;
   b.free = saturation_free(numbers);
-  if (asked.velocity_rad_s <= 0 || asked.velocity_rad_s > b.free.velocity_rad_s) {
-    b.region.velocity_rad_s = b.free.velocity_rad_s;
-  }
+  b.region = filled(asked, b.free);
   Gains gains;
-  const auto at = [&](Level level) { return Chain(numbers, b.region, level, &gains).parts(); };
+  const auto at = [&](Level level) {
+    return Chain(numbers, b.region, level, Rounding{}, &gains).parts();
+  };
   const Parts q = at(Level::quantised), r = at(Level::reference), x = at(Level::exact);
   fill_torques(numbers, b.region, q, &b.free);
   const auto bound = [&](double Parts::*m) { return ErrorBound{q.*m, r.*m, x.*m}; };
@@ -301,6 +329,28 @@ ErrorBounds error_bounds(const ChainNumbers& numbers, const InputRegion& asked) 
   const auto torque = [&](double current) { return (ktn * Interval(current)).upper(); };
   b.torque_nm = {torque(q.current), torque(r.current), torque(x.current)};
   return b;
+}
+
+std::vector<SourceBound> source_bounds(const ChainNumbers& numbers, const InputRegion& asked) {
+  const InputRegion region = filled(asked, saturation_free(numbers));
+  constexpr Rounding none{false, false, false, false};
+  const struct {
+    const char* name;
+    Level level;
+    Rounding rounds;
+  } sources[] = {{"velocity_n", Level::quantised, {true, false, false, false}},
+                 {"dob", Level::quantised, {false, true, false, false}},
+                 {"scenes", Level::quantised, {false, false, true, false}},
+                 {"torque_control", Level::quantised, {false, false, false, true}},
+                 {"coefficients", Level::reference, none},
+                 {"gain", Level::gain, none}};
+  Gains gains;
+  std::vector<SourceBound> out;
+  for (const auto& s : sources) {
+    const Parts p = Chain(numbers, region, s.level, s.rounds, &gains).parts();
+    out.push_back({s.name, p.velocity, p.tau_hat, p.tau_ref, p.current});
+  }
+  return out;
 }
 
 ErrorBounds error_bounds(const design::Elaborated& e, const InputRegion& region) {

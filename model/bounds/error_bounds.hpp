@@ -53,6 +53,16 @@ struct ErrorBounds {
 ErrorBounds error_bounds(const ChainNumbers& numbers, const InputRegion& region = {});
 ErrorBounds error_bounds(const design::Elaborated& e, const InputRegion& region = {});
 
+/// What one source of error alone can do, the others being exact; the sources add up.
+struct SourceBound {
+  std::string name;  ///< velocity_n, dob, scenes, torque_control, coefficients, or gain
+  double velocity_rad_s = 0, tau_hat_nm = 0, tau_ref_nm = 0, current_a = 0;
+};
+
+/// Rounding of each block against real arithmetic with the core's coefficients; then their
+/// quantisation; then 2^n against the exact factor, which no other figure contains.
+std::vector<SourceBound> source_bounds(const ChainNumbers& numbers, const InputRegion& region = {});
+
 /// The bounds against the reference chain by the names of the tables: bound_velocity_rad_s,
 /// bound_tau_hat_nm, bound_tau_ref_nm, bound_current_a, bound_torque_nm.
 std::vector<std::pair<std::string, double>> bound_fields(const ErrorBounds& b);
@@ -62,8 +72,14 @@ std::string bound_table(const ErrorBounds& b);
 
 namespace detail {
 
-/// What the reference is: the level of the three columns.
-enum class Level { quantised, reference, exact };
+/// What the reference is: the level of the three columns; `gain` differs from the reference chain
+/// in the N-method's factor alone.
+enum class Level { quantised, reference, exact, gain };
+
+/// Blocks that round; the others are exact.
+struct Rounding {
+  bool velocity_n = true, dob = true, scenes = true, torque_control = true;
+};
 
 /// A coefficient in the core and in the reference of `level`.
 struct Pair {
@@ -78,7 +94,7 @@ Interval rounding_error(const ChainNumbers& c, Format f);
 Interval truncation_error(int fraction, Format f);
 
 /// Bound of |tau_ref - tau_ref of the reference| [Nm] off the ramp, given one of the velocity.
-double scene_error(const ChainNumbers& c, const std::string& scene, Level level,
+double scene_error(const ChainNumbers& c, const std::string& scene, Level level, bool rounds,
                    double velocity_error_rad_s, double velocity_rad_s);
 
 }  // namespace detail

@@ -79,8 +79,8 @@ struct TorqueControlLaw {
     return quantise<N, Key, Round::truncate, Overflow::wrap>(x);
   }
   /// Whether tau_ref lies in the high-torque region; at the border the low one holds.
-  template <class Border>
-  static constexpr bool region_high(Torque tau_ref, Border border) {
+  template <class X, class Border>
+  static constexpr bool region_high(X tau_ref, Border border) {
     return tau_ref > border || tau_ref < -border;
   }
 };
@@ -93,7 +93,8 @@ struct ControlLimits {
 };
 
 /// One tick of torque control. W gives the parameters: w.template get<Key>(address).
-/// Writes current, voltage and duty; in voltage mode the voltage set-point is limited too.
+/// Writes current, voltage and duty; in voltage mode the voltage set-point is limited too. Torques
+/// and velocity are the chain's, or fixed-point numbers with more fraction bits (error budgets).
 template <class D, class N>
 struct TorqueControlStep {
   using Law = TorqueControlLaw<D, N>;
@@ -105,9 +106,8 @@ struct TorqueControlStep {
   ControlLimits limit;
   bool region_high = false;
 
-  template <class W, class Velocity>
-  void tick(const W& w, bool armed, Mode mode, typename Law::Torque tau_ref,
-            typename Law::Torque tau_hat, Velocity velocity) {
+  template <class W, class TauRef, class TauHat, class Velocity>
+  void tick(const W& w, bool armed, Mode mode, TauRef tau_ref, TauHat tau_hat, Velocity velocity) {
     const bool direct = mode == Mode::voltage;
     typename Law::CurrentSum current_sum{};
     region_high = Law::region_high(tau_ref, w.template get<Law::kBorderKey>(A::region_torque));

@@ -5,6 +5,7 @@
 // reference, and what did so before is forgotten. Documentation: docs/error-bounds.md
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 

@@ -97,6 +97,7 @@ class MixedChain {
   Quad velocity() const { return to_quad(velocity_); }
   Quad tau_hat() const { return to_quad(tau_hat_); }
   Quad tau_ref() const { return to_quad(scenes_.tau_ref()); }
+  bool ramping() const { return scenes_.limit_ramp(); }
   Quad current() const { return to_quad(control_.current); }
 
  private:

@@ -19,6 +19,15 @@ const Number& ChainNumbers::at(const std::string& name) const {
   throw std::out_of_range("the design has no parameter " + name);
 }
 
+void ChainNumbers::set(const std::string& name, double value) {
+  (void)at(name);
+  for (Number& n : numbers) {
+    if (n.name != name) continue;
+    n.si = value;
+    n.raw = std::llround(std::ldexp(value, n.format.fraction));
+  }
+}
+
 bool ChainNumbers::built(const std::string& scene) const {
   return std::find(scenes.begin(), scenes.end(), scene) != scenes.end();
 }

@@ -39,6 +39,8 @@ struct ChainNumbers {
   /// Throws std::out_of_range where there is none.
   const Number& at(const std::string& name) const;
   bool built(const std::string& scene) const;
+  /// Another value, rounded to the parameter's word. Throws std::out_of_range as above.
+  void set(const std::string& name, double value);
 };
 
 ChainNumbers chain_numbers(const design::Elaborated& e);

@@ -69,6 +69,7 @@ class DesignBudget : public Budget {
   }
 
   const ChainOut& out() const override { return whole_.out(); }
+  bool ramping() const override { return whole_.ramping(); }
   const ChainRaw* raw() const override { return whole_.raw(); }
   void cover(const Coverage& coverage) override { coverage_ = coverage; }
   const Coverage& coverage() const override { return coverage_; }

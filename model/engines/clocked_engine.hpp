@@ -5,6 +5,7 @@
 // snapshots and gate times collected. Documentation: docs/architecture.md
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <deque>
 #include <utility>
@@ -160,6 +161,10 @@ DesignInfo design_info() {
   i.pwm_period = D::pwm_period;
   i.dead_clocks = D::dead_clocks;
   i.pwm_mode = (D::control_reset >> D::C::control_pwm_mode) & 1;
+  i.m1 = D::m1;
+  i.rad_s_per_count = D::velocity_gain == 0
+                          ? std::ldexp(1.0, D::velocity_shift)
+                          : std::ldexp(static_cast<double>(D::velocity_gain), -D::velocity_gain_f);
   i.count_rad = D::count_rad;
   i.supply_v = D::supply_v;
   i.velocity = D::f.velocity;

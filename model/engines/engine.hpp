@@ -87,6 +87,8 @@ struct DesignInfo {
   const char* name = "";
   std::int64_t clock_hz = 0, tick_hz = 0;
   int clocks_per_tick = 0, pwm_period = 0, dead_clocks = 0, pwm_mode = 0;
+  int m1 = 0;                  ///< ticks of the N-method's window
+  double rad_s_per_count = 0;  ///< what it makes of a count in that window
   double count_rad = 0, supply_v = 0;
   Format velocity{}, torque{}, current{}, voltage{};
   double torque_constant_nm_a = 0;

@@ -4,8 +4,10 @@
 // A core with its riders. Documentation: docs/architecture.md
 #include "loop/ensemble.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <stdexcept>
 
 namespace feltgate {
@@ -82,32 +84,66 @@ void Ensemble::ride(const Snapshot& s) {
       applied_control_ = w.data;
     } else if (w.address != design().command_address) {
       for (Rider& r : riders_) r.chain->set_parameter(w.address, w.value);
+      if (passenger_ != nullptr) passenger_->set_parameter(w.address, w.value);
     }
   }
   lead_figures_.saturations += (s.limits & ~(limit::ramp | limit::gates_closed)) != 0 ? 1 : 0;
-  if (riders_.empty()) return;
+  if (riders_.empty() && passenger_ == nullptr) return;
   const int mode = static_cast<int>((applied_control_ >> design().control.mode) & 3u);
   const ChainIn in{s.position, s.travel, s.armed, s.scene, mode};
+  watch_velocity(s.travel);
+  if (passenger_ != nullptr) passenger_->tick(in);
   for (Rider& r : riders_) {
     const double begin = seconds();
     r.chain->tick(in);
     r.figures.busy_s += seconds() - begin;
   }
   if (quad_ == nullptr) return;
-  const ChainOut& exact = quad_->out();
-  const double ktn = design().torque_constant_nm_a;
+  if (covers_) check_coverage(s);
   if (lead_figures_.compared) {
-    lead_figures_.velocity_rad_s.add(velocity_rad_s(s) - exact.velocity_rad_s);
-    lead_figures_.tau_hat_nm.add(torque_nm(s.tau_hat) - exact.tau_hat_nm);
-    lead_figures_.torque_nm.add(ktn * (current_a(s) - exact.current_a));
+    compare(lead_figures_, velocity_rad_s(s), torque_nm(s.tau_hat), current_a(s));
   }
   for (Rider& r : riders_) {
     const ChainOut& o = r.chain->out();
-    r.figures.velocity_rad_s.add(o.velocity_rad_s - exact.velocity_rad_s);
-    r.figures.tau_hat_nm.add(o.tau_hat_nm - exact.tau_hat_nm);
-    r.figures.torque_nm.add(ktn * (o.current_a - exact.current_a));
+    compare(r.figures, o.velocity_rad_s, o.tau_hat_nm, o.current_a);
     r.figures.compared = true;
   }
+}
+
+void Ensemble::watch_velocity(std::int16_t travel) {
+  const bool full = window_.size() == static_cast<std::size_t>(design().m1);
+  const std::int16_t oldest = full ? window_.front() : std::int16_t{0};
+  if (full) window_.pop_front();
+  window_.push_back(travel);
+  const int counts = static_cast<std::int16_t>(travel - oldest);
+  largest_counts_ = std::max(largest_counts_, std::abs(counts));
+}
+
+void Ensemble::check_coverage(const Snapshot& s) {
+  bounds::TickState t;
+  t.velocity_saturated = (s.limits & limit::velocity) != 0;
+  t.tau_hat_saturated = (s.limits & limit::tau_hat) != 0;
+  t.ramping = (s.limits & limit::ramp) != 0 || quad_->ramping();
+  t.tau_ref_error_nm = torque_nm(s.tau_ref) - quad_->out().tau_ref_nm;
+  coverage_.tick(t);
+}
+
+void Ensemble::compare(EngineFigures& f, double velocity_rad_s, double tau_hat_nm,
+                       double current_a) {
+  const ChainOut& exact = quad_->out();
+  const double velocity_error = velocity_rad_s - exact.velocity_rad_s;
+  const double tau_hat_error = tau_hat_nm - exact.tau_hat_nm;
+  const double torque_error = design().torque_constant_nm_a * (current_a - exact.current_a);
+  f.velocity_rad_s.add(velocity_error);
+  f.tau_hat_nm.add(tau_hat_error);
+  f.torque_nm.add(torque_error);
+  if (!covers_) return;
+  if (coverage_.velocity()) f.covered_velocity_rad_s.add(velocity_error);
+  if (coverage_.torque()) {
+    f.covered_tau_hat_nm.add(tau_hat_error);
+    f.covered_torque_nm.add(torque_error);
+  }
+  f.uncovered = coverage_.outside();
 }
 
 std::vector<EngineFigures> Ensemble::figures() const {

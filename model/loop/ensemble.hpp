@@ -36,6 +36,13 @@ class Ensemble {
   void command(std::uint32_t bits);
   /// Appends every later write to `log`.
   void note_writes(std::vector<HostWrite>* log) { log_ = log; }
+  /// From the next tick on errors are also collected apart for the ticks that this covers.
+  void cover(const bounds::Coverage* coverage) {
+    covers_ = coverage != nullptr;
+    if (covers_) coverage_ = *coverage;
+  }
+  /// A chain of the caller that sees the same samples and writes; none: nullptr.
+  void carry(RealChain* passenger) { passenger_ = passenger; }
   void set_panel(const Panel& panel) { lead_->set_panel(panel); }
 
   /// Runs the core, then the riders on each new snapshot; `each` sees every snapshot.
@@ -60,6 +67,9 @@ class Ensemble {
   double current_a(const Snapshot& s) const { return scaled(s.current_ref, design().current); }
   double voltage_v(const Snapshot& s) const { return scaled(s.voltage, design().voltage); }
 
+  /// Largest |N-method velocity| before its low-pass that the riders saw, rad/s.
+  double largest_velocity_rad_s() const { return largest_counts_ * design().rad_s_per_count; }
+
   /// Error and speed figures of all engines, steps left empty.
   std::vector<EngineFigures> figures() const;
 
@@ -73,11 +83,19 @@ class Ensemble {
   static double seconds();
   void write(HostWrite w);
   void ride(const Snapshot& s);
+  void watch_velocity(std::int16_t travel);
+  void check_coverage(const Snapshot& s);
+  void compare(EngineFigures& f, double velocity_rad_s, double tau_hat_nm, double current_a);
 
   EngineChoice choice_;
   std::unique_ptr<Engine> lead_;
   std::vector<Rider> riders_;
   const RealChain* quad_ = nullptr;
+  RealChain* passenger_ = nullptr;
+  bounds::Coverage coverage_;
+  bool covers_ = false;
+  std::deque<std::int16_t> window_;  ///< travel of the last m1 ticks
+  int largest_counts_ = 0;
   std::deque<HostWrite> pending_;
   std::vector<HostWrite>* log_ = nullptr;
   std::uint32_t applied_control_ = 0;

@@ -57,6 +57,8 @@ class ScenarioRun {
           options_.record, traces::VectorHeader{d.name, d.clock_hz, {"A", "B", "Z"}},
           plant_.encoder().pins());
     }
+    core_.cover(options_.coverage);
+    core_.carry(options_.passenger);
     if (options_.inputs != nullptr) {
       *options_.inputs = {end, plant_.encoder().pins(), {}, {}};
       core_.note_writes(&options_.inputs->writes);
@@ -240,6 +242,7 @@ class ScenarioRun {
     out.first_mismatch_clock = core_.lead().first_mismatch_clock();
     const traces::Statistics& p = counter_.result();
     out.position = {p.steps, p.illegal, p.reversals};
+    out.largest_velocity_rad_s = core_.largest_velocity_rad_s();
     out.engines = core_.figures();
     const double tick_s = 1.0 / static_cast<double>(d.tick_hz);
     std::vector<StepFigures> steps;

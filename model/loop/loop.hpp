@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "bounds/coverage.hpp"
 #include "engines/engine.hpp"
 #include "loop/figures.hpp"
 #include "loop/scenario.hpp"
@@ -33,6 +34,9 @@ struct EngineFigures {
   std::string name;
   bool compared = false;  ///< the error figures below were taken against the quad reference
   ErrorFigure velocity_rad_s, tau_hat_nm, torque_nm;
+  /// The same in the ticks for which error bounds hold; empty where none were given.
+  ErrorFigure covered_velocity_rad_s, covered_tau_hat_nm, covered_torque_nm;
+  std::int64_t uncovered = 0;  ///< ticks without bounds of the torques: ramps, saturation
   std::vector<StepFigures> steps;
   std::int64_t saturations = 0;  ///< ticks in which a limit held
   double busy_s = 0;             ///< time spent in the engine
@@ -51,7 +55,8 @@ struct RunResult {
   Clock first_mismatch_clock = 0;
   bool lock_step = false;
   PositionFigures position;
-  std::int32_t last_position = 0;  ///< counts, by an independent count of the pins; wraps
+  std::int32_t last_position = 0;     ///< counts, by an independent count of the pins; wraps
+  double largest_velocity_rad_s = 0;  ///< of the N-method before its low-pass; needs a rider
   std::vector<EngineFigures> engines;
   std::map<std::string, double> figures;  ///< what scene files put bounds on
   int expectations_checked = 0;
@@ -93,7 +98,9 @@ struct RunOptions {
   std::string fst;                  ///< waveform of the clocks fst_from to fst_to; empty: none
   Clock fst_from = 0, fst_to = -1;  ///< fst_to < 0: to the end
   std::string record;               ///< encoder edges as a vector file; empty: none
-  RunInputs* inputs = nullptr;      ///< filled when given; a scene that uses the stop pin throws
+  const bounds::Coverage* coverage = nullptr;  ///< of error bounds that are to be checked
+  RealChain* passenger = nullptr;  ///< rides along on the samples and writes, uncompared
+  RunInputs* inputs = nullptr;     ///< filled when given; a scene that uses the stop pin throws
   std::function<void(const Row&)> row;  ///< called once per tick; may be empty
   /// called after each step of the plant, which took `clocks`; may be empty
   std::function<void(Clock clocks, const plant::Observables&)> plant_step;

@@ -25,6 +25,7 @@ RunResult run_replay(EncoderSource& source, const std::string& subject,
   if (scene < 0)
     throw std::invalid_argument("scene \"" + options.scene + "\" is not built in design " + d.name);
   core.set_control(scene, 0, options.arm);
+  core.cover(options.coverage);
 
   RunResult out;
   out.design = d.name;
@@ -94,6 +95,7 @@ RunResult run_replay(EncoderSource& source, const std::string& subject,
   out.first_mismatch_clock = core.lead().first_mismatch_clock();
   out.position = {counter.result().steps, counter.result().illegal, counter.result().reversals};
   out.last_position = static_cast<std::int32_t>(counter.result().position);
+  out.largest_velocity_rad_s = core.largest_velocity_rad_s();
   out.engines = core.figures();
   return out;
 }

@@ -18,7 +18,8 @@ struct ReplayOptions {
   std::uint64_t seed = 1;
   std::string fst;
   Clock fst_from = 0, fst_to = -1;
-  Clock most_clocks = 0;  ///< stop there; 0: to the end of the recording
+  const bounds::Coverage* coverage = nullptr;  ///< of error bounds that are to be checked
+  Clock most_clocks = 0;                       ///< stop there; 0: to the end of the recording
   std::function<void(const Row&)> row;
   std::function<void(Clock done)> progress;
 };

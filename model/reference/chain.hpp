@@ -73,6 +73,7 @@ class Chain : public RealChain {
     return out_;
   }
 
+  bool ramping() const override { return chain_.limit_ramp(); }
   const ChainRaw* raw() const override { return N::is_fixed ? &raw_ : nullptr; }
 
  private:

@@ -48,6 +48,8 @@ class RealChain {
   virtual void tick(const ChainIn& in) = 0;
   /// Signals of the last tick in their units; "fixed" scales its integers, which is exact.
   virtual const ChainOut& out() const = 0;
+  /// Whether the torque reference ramped in the last tick.
+  virtual bool ramping() const = 0;
   /// Integers of the last tick; nullptr in real arithmetic.
   virtual const ChainRaw* raw() const { return nullptr; }
 };

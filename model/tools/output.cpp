@@ -63,12 +63,28 @@ namespace {
 
 Json error_json(const ErrorFigure& e) { return {{"max_error", e.max()}, {"rms_error", e.rms()}}; }
 
-Json engine_json(const EngineFigures& e, double simulated_s) {
+/// The engines in fixed point, whose errors have bounds.
+bool bounded(const EngineFigures& e) { return e.compared && (e.name == "rtl" || e.name == "twin"); }
+
+/// Infinity has no number in JSON.
+Json bound_json(double bound) { return std::isfinite(bound) ? Json(bound) : Json(nullptr); }
+
+Json engine_json(const EngineFigures& e, double simulated_s, const bounds::ErrorBounds* bounds) {
   Json j = Json::object();
   if (e.compared && e.name != "quad") {
     j["velocity_rad_s"] = error_json(e.velocity_rad_s);
     j["tau_hat_nm"] = error_json(e.tau_hat_nm);
     j["torque_nm"] = error_json(e.torque_nm);
+  }
+  if (bounds != nullptr && bounded(e)) {
+    const auto add = [&](const char* signal, const ErrorFigure& covered, double bound) {
+      j[signal]["bound"] = bound_json(bound);
+      j[signal]["max_error_in_bounds"] = covered.max();
+    };
+    add("velocity_rad_s", e.covered_velocity_rad_s, bounds->velocity_rad_s.against_reference);
+    add("tau_hat_nm", e.covered_tau_hat_nm, bounds->tau_hat_nm.against_reference);
+    add("torque_nm", e.covered_torque_nm, bounds->torque_nm.against_reference);
+    j["ticks_out_of_bounds"] = e.uncovered;
   }
   if (!e.steps.empty()) {
     for (const StepFigures& s : e.steps) {
@@ -90,7 +106,46 @@ Json engine_json(const EngineFigures& e, double simulated_s) {
   return j;
 }
 
+/// The bounds below the table of errors, and which ticks they are not for.
+std::string bound_lines(const RunResult& r, const bounds::ErrorBounds& b) {
+  for (const EngineFigures& e : r.engines) {
+    if (!bounded(e)) continue;
+    char line[240];
+    std::snprintf(line, sizeof line, "%-8s %14.3g %12s %12.3g %12s %12.3g %12s\n", "bound",
+                  b.velocity_rad_s.against_reference, "", b.tau_hat_nm.against_reference, "",
+                  b.torque_nm.against_reference, "");
+    std::string text = line;
+    if (e.uncovered > 0) {
+      std::snprintf(line, sizeof line, "%-8s %14.3g %12s %12.3g %12s %12.3g %12s\n", "in it",
+                    e.covered_velocity_rad_s.max(), "", e.covered_tau_hat_nm.max(), "",
+                    e.covered_torque_nm.max(), "");
+      text += line;
+      text += "the bound is not for " + std::to_string(e.uncovered) +
+              " ticks, of a ramp or saturation and what follows; \"in it\" leaves them out\n";
+    }
+    std::snprintf(line, sizeof line,
+                  "bound: proven for any motion up to this one's %.4g rad/s before the low-pass\n",
+                  r.largest_velocity_rad_s);
+    return text + line;  // RTL and twin show the same
+  }
+  return {};
+}
+
 }  // namespace
+
+void check_bounds(RunResult& result, const bounds::ErrorBounds& b) {
+  for (const EngineFigures& e : result.engines) {
+    if (!bounded(e)) continue;
+    const auto check = [&](const char* signal, const ErrorFigure& error, double bound) {
+      if (error.max() <= bound) return;
+      result.broken.push_back(e.name + ": " + signal + " is off by " + std::to_string(error.max()) +
+                              ", above its proven bound " + std::to_string(bound));
+    };
+    check("velocity", e.covered_velocity_rad_s, b.velocity_rad_s.against_reference);
+    check("tau_hat", e.covered_tau_hat_nm, b.tau_hat_nm.against_reference);
+    check("torque", e.covered_torque_nm, b.torque_nm.against_reference);
+  }
+}
 
 std::string run_json(const RunResult& r, const RunLabels& labels) {
   Json j{{"schema", "feltgate-run-1"}, {"version", FELTGATE_VERSION}, {"design", r.design}};
@@ -105,7 +160,9 @@ std::string run_json(const RunResult& r, const RunLabels& labels) {
   j["position"] = {{"steps", r.position.steps},
                    {"illegal", r.position.illegal},
                    {"reversals", r.position.reversals}};
-  for (const EngineFigures& e : r.engines) j["engines"][e.name] = engine_json(e, r.simulated_s);
+  for (const EngineFigures& e : r.engines) {
+    j["engines"][e.name] = engine_json(e, r.simulated_s, labels.bounds);
+  }
   if (labels.closed_loop) {
     j["plant_step_clocks"] = labels.step_clocks;
     j["effects_off"] = labels.effects_off;
@@ -149,6 +206,7 @@ std::string run_text(const RunResult& r, const RunLabels& labels) {
     }
     s << line;
   }
+  if (labels.bounds != nullptr) s << bound_lines(r, *labels.bounds);
   for (const EngineFigures& e : r.engines) {
     if (e.steps.empty()) continue;
     std::snprintf(line, sizeof line, "\n%-10s %16s %16s %12s %14s %16s\n", "step Nm",

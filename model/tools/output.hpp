@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bounds/error_bounds.hpp"
 #include "loop/loop.hpp"
 
 namespace feltgate {
@@ -51,9 +52,13 @@ struct RunLabels {
   std::string plant, probes;
   bool closed_loop = false;
   int expectations = 0;
-  int step_clocks = 0;                        ///< of the plant
-  std::vector<std::string> effects_off = {};  ///< of the plant
+  int step_clocks = 0;                          ///< of the plant
+  std::vector<std::string> effects_off = {};    ///< of the plant
+  const bounds::ErrorBounds* bounds = nullptr;  ///< shown beside the errors; may be none
 };
+
+/// Adds to result.broken where an error exceeds its bound in a tick for which the bound holds.
+void check_bounds(RunResult& result, const bounds::ErrorBounds& bounds);
 
 /// The JSON object, pretty-printed.
 std::string run_json(const RunResult& result, const RunLabels& labels);

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "loop/loop.hpp"
+#include "loop/scenario_bounds.hpp"
 #include "plant/plant_file.hpp"
 #include "tools/commands.hpp"
 #include "tools/output.hpp"
@@ -70,7 +71,19 @@ int run(const RunArguments& a) {
   if (!json_path.empty()) json = std::make_unique<OutputFile>(json_path);
   Progress progress(scenario.name + " on " + a.design, a.quiet);
   options.progress = [&progress](double done) { progress.update(done); };
-  const RunResult result = run_scenario(scenario, plant, options);
+  const auto elaborated =
+      design::elaborate(design::read_design(find_file(a.design, "rtl/designs")),
+                        design::read_registers(repository() + "/rtl/registers.toml"));
+  // Which ticks count is decided before, by the strictest bound; the bound follows the motion.
+  const bounds::Coverage coverage(scenario_bounds(elaborated, scenario, hardly_any_rad_s).worst(),
+                                  bounds::chain_numbers(elaborated));
+  options.coverage = &coverage;
+  RunResult result = run_scenario(scenario, plant, options);
+  const bounds::ErrorBounds bounds =
+      scenario_bounds(elaborated, scenario,
+                      std::max(result.largest_velocity_rad_s, hardly_any_rad_s))
+          .worst();
+  check_bounds(result, bounds);
 
   RunLabels labels{"scene",
                    plant.name,
@@ -78,7 +91,8 @@ int run(const RunArguments& a) {
                    true,
                    result.expectations_checked,
                    scenario.step_clocks,
-                   effects_off(scenario)};
+                   effects_off(scenario),
+                   &bounds};
   if (csv) csv->commit();
   if (json) {
     std::fputs(run_json(result, labels).c_str(), json->handle());

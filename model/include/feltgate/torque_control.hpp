@@ -26,9 +26,15 @@ template <class D, class N>
 struct TorqueControlLaw {
   using Torque = typename N::template num<D::f.torque.key()>;
   using Current = typename N::template num<D::f.current.key()>;
+  using CurrentPart = typename N::template num<D::f.current_part.key()>;
   using CurrentSum = typename N::template num<D::f.current_sum.key()>;
   using Voltage = typename N::template num<D::f.voltage.key()>;
+  using VoltagePart = typename N::template num<D::f.voltage_part.key()>;
   using VoltageSum = typename N::template num<D::f.voltage_sum.key()>;
+  /// What the voltage starts from: a part, or in voltage mode the set-point.
+  static constexpr Format offset_format{
+      1, growth::max_of(D::f.voltage_part.integer, D::f.voltage.integer), D::f.voltage.fraction};
+  using Offset = typename N::template num<offset_format.key()>;
   using Duty = typename N::template num<D::f.duty.key()>;
   using DutySum = typename N::template num<D::f.duty_sum.key()>;
 
@@ -44,27 +50,33 @@ struct TorqueControlLaw {
 
   /// One product of the current, truncated to the current's last bit.
   template <class Product>
-  static constexpr CurrentSum current_part(Product p) {
-    return quantise<N, D::f.current_sum.key(), Round::truncate, Overflow::wrap>(p);
+  static constexpr CurrentPart current_part(Product p) {
+    return quantise<N, D::f.current_part.key(), Round::truncate, Overflow::wrap>(p);
   }
   /// One product of the voltage, truncated to the voltage's last bit.
   template <class Product>
-  static constexpr VoltageSum voltage_part(Product p) {
-    return quantise<N, D::f.voltage_sum.key(), Round::truncate, Overflow::wrap>(p);
+  static constexpr VoltagePart voltage_part(Product p) {
+    return quantise<N, D::f.voltage_part.key(), Round::truncate, Overflow::wrap>(p);
   }
   /// Clocks of on-time, rounded.
   template <class Product>
   static constexpr DutySum duty_sum(Product p) {
     return quantise<N, D::f.duty_sum.key(), D::rounding, Overflow::wrap>(p);
   }
-  /// Sums of parts; they fit by construction of the formats.
-  template <class A, class B>
-  static constexpr CurrentSum add_current(A a, B b) {
-    return quantise<N, D::f.current_sum.key(), Round::truncate, Overflow::wrap>(a + b);
+  /// The set-point, or one product of the voltage truncated.
+  template <class X>
+  static constexpr Offset offset(X x) {
+    return quantise<N, offset_format.key(), Round::truncate, Overflow::wrap>(x);
   }
-  template <class A, class B>
-  static constexpr VoltageSum add_voltage(A a, B b) {
-    return quantise<N, D::f.voltage_sum.key(), Round::truncate, Overflow::wrap>(a + b);
+  /// A part, or the exact sum of parts, as the adder holds it; it fits by construction of the
+  /// formats.
+  template <class X>
+  static constexpr CurrentSum current_sum(X x) {
+    return quantise<N, D::f.current_sum.key(), Round::truncate, Overflow::wrap>(x);
+  }
+  template <class X>
+  static constexpr VoltageSum voltage_sum(X x) {
+    return quantise<N, D::f.voltage_sum.key(), Round::truncate, Overflow::wrap>(x);
   }
   /// The limited voltage as the port shows it; the same number while the limit is in its format.
   static constexpr Voltage port_voltage(LimitedVoltage v) {
@@ -113,16 +125,16 @@ struct TorqueControlStep {
     region_high = Law::region_high(tau_ref, w.template get<Law::kBorderKey>(A::region_torque));
     if (direct) {
       voltage = w.template get<D::f.voltage.key()>(A::voltage_setpoint);
-      current_sum = Law::current_part(
+      current_sum = Law::current_sum(
           voltage * w.template get<P::voltage_to_current.key()>(A::voltage_to_current));
     } else {
       const auto by_ref =
           Law::current_part(tau_ref * w.template get<P::torque_gain.key()>(A::torque_gain));
       const auto by_hat = mode == Mode::open_loop
-                              ? typename Law::CurrentSum{}
+                              ? typename Law::CurrentPart{}
                               : Law::current_part(tau_hat * w.template get<P::observer_gain.key()>(
                                                                 A::observer_gain));
-      current_sum = Law::add_current(by_ref, by_hat);
+      current_sum = Law::current_sum(by_ref + by_hat);
     }
     current = Law::template limited<D::f.current.key()>(
         current_sum, w.template get<D::f.current.key()>(A::current_limit), &limit.current);
@@ -130,23 +142,27 @@ struct TorqueControlStep {
       current = typename Law::Current{};
       limit.current = false;
     }
-    typename Law::VoltageSum offset{}, slope{};
+    typename Law::Offset offset{};
+    typename Law::VoltagePart slope{};
     if (direct) {
-      offset = Law::add_voltage(voltage, typename Law::VoltageSum{});
+      offset = Law::offset(voltage);
     } else {
-      offset = Law::voltage_part(velocity * w.template get<P::emf_constant.key()>(A::emf_constant));
+      offset = Law::offset(velocity * w.template get<P::emf_constant.key()>(A::emf_constant));
       slope = Law::voltage_part(tau_ref *
                                 w.template get<P::dead_voltage_slope.key()>(A::dead_voltage_slope));
     }
     bool linear = false;
     const auto dead = Law::template limited<Law::kVoltageKey>(
         slope, w.template get<Law::kVoltageKey>(A::dead_voltage), &linear);
-    auto voltage_sum = Law::add_voltage(offset, dead);
-    if (!direct) {
+    const auto pair = offset + dead;
+    typename Law::VoltageSum voltage_sum{};
+    if (direct) {
+      voltage_sum = Law::voltage_sum(pair);
+    } else {
       const int gain = region_high ? A::voltage_gain_high : A::voltage_gain;
       const auto resistive =
           Law::voltage_part(current * w.template get<P::voltage_gain.key()>(gain));
-      voltage_sum = Law::add_voltage(resistive, voltage_sum);
+      voltage_sum = Law::voltage_sum(resistive + pair);
     }
     auto applied = Law::template limited<Law::kVoltageKey>(
         voltage_sum, w.template get<Law::kVoltageKey>(A::voltage_limit), &limit.voltage);
@@ -196,13 +212,12 @@ class TorqueControl {
         if (direct) voltage_ = word<D::f.voltage.key()>(in.param);
         break;
       case 26:
-        offset_ = direct
-                      ? Law::add_voltage(voltage_, VoltageSum{})
-                      : Law::voltage_part(product<D::f.velocity.key(), P::emf_constant.key()>(in));
+        offset_ = direct ? Law::offset(voltage_)
+                         : Law::offset(product<D::f.velocity.key(), P::emf_constant.key()>(in));
         break;
       case 27:
         kept_ = in.mode == Mode::open_loop
-                    ? CurrentSum{}
+                    ? CurrentPart{}
                     : Law::current_part(product<D::f.torque.key(), P::observer_gain.key()>(in));
         break;
       case 30:
@@ -211,12 +226,12 @@ class TorqueControl {
         break;
       case 31:
         current_sum_ =
-            Law::current_part(product<D::f.voltage.key(), P::voltage_to_current.key()>(in));
+            Law::current_sum(product<D::f.voltage.key(), P::voltage_to_current.key()>(in));
         break;
       case 32:
         if (!direct) {
-          current_sum_ = Law::add_current(
-              Law::current_part(product<D::f.torque.key(), P::torque_gain.key()>(in)), kept_);
+          current_sum_ = Law::current_sum(
+              Law::current_part(product<D::f.torque.key(), P::torque_gain.key()>(in)) + kept_);
         }
         break;
       case 33:
@@ -227,12 +242,12 @@ class TorqueControl {
         out_.operand = dead_.raw();
         break;
       case 36:
-        voltage_sum_ = Law::add_voltage(offset_, dead_);
+        voltage_sum_ = Law::voltage_sum(offset_ + dead_);
         break;
       case 38:
         if (!direct) {
-          voltage_sum_ = Law::add_voltage(
-              Law::voltage_part(product<D::f.current.key(), P::voltage_gain.key()>(in)),
+          voltage_sum_ = Law::voltage_sum(
+              Law::voltage_part(product<D::f.current.key(), P::voltage_gain.key()>(in)) +
               voltage_sum_);
         }
         break;
@@ -256,6 +271,8 @@ class TorqueControl {
   const Out& out() const { return out_; }
 
  private:
+  using CurrentPart = typename Law::CurrentPart;
+  using Offset = typename Law::Offset;
   using CurrentSum = typename Law::CurrentSum;
   using VoltageSum = typename Law::VoltageSum;
   using DutySum = typename Law::DutySum;
@@ -288,10 +305,10 @@ class TorqueControl {
       out_.limit.current = false;
     }
     out_.current_ref = out_.operand = current.raw();
-    voltage_sum_ =
-        in.mode == Mode::voltage
-            ? VoltageSum{}
-            : Law::voltage_part(product<D::f.torque.key(), P::dead_voltage_slope.key()>(in));
+    voltage_sum_ = in.mode == Mode::voltage
+                       ? VoltageSum{}
+                       : Law::voltage_sum(Law::voltage_part(
+                             product<D::f.torque.key(), P::dead_voltage_slope.key()>(in)));
   }
 
   void limit_voltage(const In& in) {
@@ -306,8 +323,10 @@ class TorqueControl {
 
   typename Law::Voltage voltage_{};
   typename Law::LimitedVoltage dead_{};
-  CurrentSum current_sum_{}, kept_{};
-  VoltageSum voltage_sum_{}, offset_{};
+  CurrentSum current_sum_{};
+  CurrentPart kept_{};
+  VoltageSum voltage_sum_{};
+  Offset offset_{};
   DutySum duty_sum_{};
   Out out_;
 };

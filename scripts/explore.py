@@ -192,8 +192,13 @@ def act(options):
 
 
 def end_on_terminate():
-    """SIGTERM ends as Ctrl-C does, so that chunks under way are stopped."""
-    signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
+    """SIGTERM ends as Ctrl-C does, so that chunks under way are stopped. Not by way of SIGINT,
+    which a shell has its background jobs ignore."""
+
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    signal.signal(signal.SIGTERM, interrupt)
 
 
 def main():

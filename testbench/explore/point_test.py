@@ -38,7 +38,9 @@ class DesignText(unittest.TestCase):
         self.assertEqual(table["velocity"]["gain"], "exact")
         self.assertNotIn("n", table["velocity"])
         self.assertEqual(table["formats"]["torque"], [1, 4, 10])
-        self.assertNotIn("kp", tomllib.loads(point.design_text("lever", {"control.kp": None}))["control"])
+        self.assertNotIn(
+            "kp", tomllib.loads(point.design_text("lever", {"control.kp": None}))["control"]
+        )
 
 
 class Evaluation(unittest.TestCase):

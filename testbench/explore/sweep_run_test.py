@@ -15,6 +15,10 @@ import unittest
 from bench import Bench
 
 
+def ignore_interrupts():
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
 class Merge(Bench):
     def test_bytes_do_not_depend_on_order_or_count(self):
         wanted = self.whole()
@@ -76,11 +80,12 @@ class Merge(Bench):
 
 
 class Interrupted(Bench):
-    def start(self, folder, *words, delay="0.1"):
+    def start(self, folder, *words, delay="0.1", before=None):
         return subprocess.Popen(
             self.command("run", folder, *words),
             env=self.environment(FAKE_POINT_DELAY_S=delay),
             stderr=subprocess.DEVNULL,
+            preexec_fn=before,
         )
 
     def wait_for(self, count):
@@ -103,7 +108,11 @@ class Interrupted(Bench):
             with self.subTest(how.name):
                 folder = self.plan(how.name)
                 self.log.unlink()
-                process = self.start(folder, "--jobs", "1")
+                # As in a shell's background job, where SIGINT is ignored.
+                ignoring = how == signal.SIGTERM
+                process = self.start(
+                    folder, "--jobs", "1", before=ignore_interrupts if ignoring else None
+                )
                 self.wait_for(8)  # the first structure has six points
                 os.kill(process.pid, how)
                 self.assertNotEqual(process.wait(), 0)

@@ -38,10 +38,23 @@ Spread scaled_inverse(const Spread& s, double numerator) {
   return {numerator / s.median, numerator / s.high, numerator / s.low};
 }
 
-/// Median of the ratios of samples that were taken side by side: a busy machine slows both.
-Spread ratio(const std::vector<double>& a, const std::vector<double>& b) {
+/// Median of the ratios of samples that were taken side by side: a busy machine slows both. Where
+/// one side ran more passes, each repetition's median counts.
+Spread ratio(const EngineResult& a, const EngineResult& b, int repetitions) {
+  const auto n = static_cast<std::size_t>(repetitions);
   std::vector<double> ratios;
-  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) ratios.push_back(a[i] / b[i]);
+  if (a.samples.size() == b.samples.size()) {
+    for (std::size_t i = 0; i < a.samples.size(); ++i) {
+      ratios.push_back(a.samples[i] / b.samples[i]);
+    }
+    return spread(std::move(ratios));
+  }
+  const auto of_repetition = [n](const EngineResult& e, std::size_t k) {
+    const auto passes = static_cast<std::ptrdiff_t>(e.samples.size() / n);
+    const auto first = e.samples.begin() + static_cast<std::ptrdiff_t>(k) * passes;
+    return spread({first, first + passes}).median;
+  };
+  for (std::size_t k = 0; k < n; ++k) ratios.push_back(of_repetition(a, k) / of_repetition(b, k));
   return spread(std::move(ratios));
 }
 
@@ -198,7 +211,7 @@ class Measurement {
     auto& goals = result_.goals;
     if (event != nullptr && rtl != nullptr) {
       goals.push_back({"event_over_rtl", "twin_event, times as fast as rtl", 80, false,
-                       ratio(rtl->samples, event->samples)});
+                       ratio(*rtl, *event, options_.repetitions)});
     }
     if (event != nullptr) {
       goals.push_back(
@@ -206,7 +219,7 @@ class Measurement {
     }
     if (tick != nullptr && shifts != nullptr) {
       goals.push_back({"fixed_over_shifts", "fixed (twin_tick), time over hand-written shifts",
-                       1.15, true, ratio(tick->samples, shifts->samples)});
+                       1.15, true, ratio(*tick, *shifts, options_.repetitions)});
     }
     if (!loop_total_.empty()) {
       goals.push_back({"closed_loop_over_real_time",

@@ -124,7 +124,7 @@ class Search {
   }
 
  private:
-  bool fits(double loss) const { return loss <= options_.tolerance; }
+  bool fits(double loss) const { return loss <= options_.share * options_.tolerance; }
 
   void drop_gates() {
     Model averaged = out_.trimmed;
@@ -137,7 +137,10 @@ class Search {
     part.so_far = part.alone.worst();
     part.saves = 1 - felt.cpu_s / own_.full.cpu_s;
     part.dropped = fits(part.so_far);
-    if (part.dropped) out_.trimmed = averaged;
+    if (part.dropped) {
+      out_.trimmed = averaged;
+      sum_ = part.so_far;
+    }
     out_.parts.push_back(part);
   }
 
@@ -180,9 +183,14 @@ class Search {
       if (part.alone.worst() <= 2 * options_.tolerance) {
         Model without = out_.trimmed;
         set_part(without, part.name, false);
-        part.so_far = compare(own_.full, runner_.run(own_.motion, without)).worst();
+        // Errors that cancel on this motion need not on another: the sum of all alone counts too.
+        part.so_far = std::max(sum_ + part.alone.worst(),
+                               compare(own_.full, runner_.run(own_.motion, without)).worst());
         part.dropped = fits(part.so_far);
-        if (part.dropped) out_.trimmed = without;
+        if (part.dropped) {
+          out_.trimmed = without;
+          sum_ += part.alone.worst();
+        }
       }
       out_.parts.push_back(part);
     }
@@ -315,6 +323,7 @@ class Search {
   const Options& options_;
   Runner runner_;
   Reference own_;
+  double sum_ = 0;  ///< of the losses alone of what is dropped
   Report out_;
 };
 

@@ -16,10 +16,12 @@ namespace feltgate::trim {
 
 struct Options {
   std::string design = "lever";
-  double tolerance = 0.01;   ///< of the full model's peak and of its rms, in (0, 1]
+  double tolerance = 0.01;  ///< of the full model's peak and of its rms, in (0, 1]
+  /// What search and final check take of it, since motions that neither saw may lose more.
+  double share = 0.75;
   double window_s = 1e-3;    ///< length of the means that are compared
   int full_step_clocks = 5;  ///< of the full model
-  int unseen = 3;            ///< motions of the final check, 1 or more
+  int unseen = 4;            ///< motions of the final check, 1 or more
   std::uint64_t seed = 1;    ///< of these motions
   int threads = 2;
   std::function<void(double done)> progress;  ///< called now and then with 0..1; may be empty
@@ -28,9 +30,11 @@ struct Options {
 /// A part of the model that can be left out: "gates" or the name of an effect.
 struct PartReport {
   std::string name;
-  Difference alone;   ///< what leaving it out changes where everything else stays (see trim())
-  double saves = 0;   ///< share of the CPU time of the model that it was left out of
-  double so_far = 0;  ///< worst loss of the set with it left out too; 0 where that was not tried
+  Difference alone;  ///< what leaving it out changes where everything else stays (see trim())
+  double saves = 0;  ///< share of the CPU time of the model that it was left out of
+  /// Worst loss of the set with it left out too, or the sum of all alone if that is more; 0 where
+  /// that was not tried.
+  double so_far = 0;
   bool dropped = false;
   bool put_back = false;  ///< dropped by the search, back after the final check
 };
@@ -72,10 +76,10 @@ std::vector<UnseenReport> check_unseen(const Scenario& scene, const plant::Param
 
 /// Greedy removal. First the gates; then every effect alone, out of the model that is left; then,
 /// the most time saved per loss first, each is left out for good when the set stays within the
-/// tolerance on the scene's own motion; then the coarsest step that stays within it. The set is
-/// checked on unseen motions; while that fails, a finer step, an effect or the gates are put back:
-/// the first with which it holds, or what mends most. Then the check is repeated on fresh motions.
-/// Throws as run_scenario does.
+/// share of the tolerance on the scene's own motion; then the coarsest step that does. The set is
+/// checked on unseen motions against the same; while that fails, a finer step, an effect or the
+/// gates are put back: the first with which it holds, or what mends most. Then the check is
+/// repeated on fresh motions. Throws as run_scenario does.
 Report trim(const Scenario& scene, const plant::Parameters& plant, const Options& options);
 
 }  // namespace feltgate::trim

@@ -4,6 +4,7 @@
 // The engines of one design: RTL, twin, and both in lock-step. Documentation: docs/architecture.md
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <memory>
 #include <stdexcept>
@@ -47,13 +48,13 @@ class TwinEngine : public ClockedEngine {
   /// From event to event: pins, register writes and the end of the stretch.
   void advance(Clock clocks, const EncoderEvent* first, const EncoderEvent* last) override {
     snapshots_.clear();
-    events_.push(first, last);
-    const auto before = core_.gate_clocks();
+    if (first != last) events_.push(first, last);
+    gates_before_ = core_.gate_clocks();
     const auto tell = [this] { keep(core_.out(), core_.sampled_travel(), core_.writes()); };
     CoreIn in = inputs();
     for (const Clock end = now_ + clocks; now_ < end;) {
       in.encoder = events_.at(now_);
-      const int clock_of_tick = static_cast<int>(now_ % D::clocks_per_tick);
+      const int clock_of_tick = core_.clock_of_tick();
       if (!writes_.empty() && clock_of_tick == WriteQueue::issue_clock) {
         issue_write(&in);
         core_.clock(in);
@@ -70,15 +71,19 @@ class TwinEngine : public ClockedEngine {
       core_.run(in, until - now_, tell);
       now_ = until;
     }
-    const auto& after = core_.gate_clocks();
-    gates_ = {after[0] - before[0], after[1] - before[1], after[2] - before[2],
-              after[3] - before[3]};
-    last_ = core_.out();
   }
+  GateClocks gates() const override {
+    const auto after = core_.gate_clocks();
+    return {after[0] - gates_before_[0], after[1] - gates_before_[1], after[2] - gates_before_[2],
+            after[3] - gates_before_[3]};
+  }
+  int duty() const override { return core_.out().duty_active; }
+  bool gates_enabled() const override { return core_.out().gates_enable; }
 
  private:
   void reset_core(std::uint64_t, EncoderPins) override { core_ = FeltgateCore<D>(); }
   FeltgateCore<D> core_;
+  std::array<std::int64_t, 4> gates_before_{};
 };
 
 /// Name of the first output in which two cores differ, with both values.

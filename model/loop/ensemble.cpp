@@ -5,7 +5,6 @@
 #include "loop/ensemble.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
@@ -22,7 +21,10 @@ EngineChoice choose_engines(const std::string& engine) {
 
 Ensemble::Ensemble(const std::string& design, const EngineChoice& choice, std::uint64_t seed,
                    EncoderPins pins, const Waveform& waveform)
-    : choice_(choice), lead_(make_engine(design, choice.lead)) {
+    : choice_(choice), lead_(make_engine(design, choice.lead)), design_(&lead_->design()) {
+  const auto last_bit = [](Format f) { return std::ldexp(1.0, -f.fraction); };
+  unit_ = {last_bit(design_->velocity), last_bit(design_->torque), last_bit(design_->current),
+           last_bit(design_->voltage)};
   if (!waveform.path.empty()) lead_->trace(waveform.path, waveform.from, waveform.to);
   lead_->reset(seed, pins);
   applied_control_ = lead_->design().control_reset;
@@ -37,14 +39,6 @@ Ensemble::Ensemble(const std::string& design, const EngineChoice& choice, std::u
     if (r.figures.name == "quad") quad_ = r.chain.get();
   }
   lead_figures_.compared = quad_ != nullptr && !choice.rider_drives;
-}
-
-double Ensemble::scaled(std::int64_t raw, Format f) {
-  return std::ldexp(static_cast<double>(raw), -f.fraction);
-}
-
-double Ensemble::seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 void Ensemble::write(HostWrite w) {
@@ -94,9 +88,7 @@ void Ensemble::ride(const Snapshot& s) {
   watch_velocity(s.travel);
   if (passenger_ != nullptr) passenger_->tick(in);
   for (Rider& r : riders_) {
-    const double begin = seconds();
-    r.chain->tick(in);
-    r.figures.busy_s += seconds() - begin;
+    r.watch.time([&] { r.chain->tick(in); });
   }
   if (quad_ == nullptr) return;
   if (covers_) check_coverage(s);
@@ -159,10 +151,13 @@ std::vector<EngineFigures> Ensemble::figures() const {
   } else if (!choice_.rider_drives) {
     EngineFigures f = lead_figures_;
     f.name = choice_.lead;
-    f.busy_s = lead_busy_s_;
+    f.busy_s = lead_watch_.seconds();
     all.push_back(f);
   }
-  for (const Rider& r : riders_) all.push_back(r.figures);
+  for (const Rider& r : riders_) {
+    all.push_back(r.figures);
+    all.back().busy_s = r.watch.seconds();
+  }
   return all;
 }
 

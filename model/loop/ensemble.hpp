@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "loop/loop.hpp"
+#include "loop/sampled_watch.hpp"
 
 namespace feltgate {
 
@@ -27,7 +28,7 @@ class Ensemble {
 
   Engine& lead() { return *lead_; }
   const Engine& lead_const() const { return *lead_; }
-  const DesignInfo& design() const { return lead_->design(); }
+  const DesignInfo& design() const { return *design_; }
 
   /// A parameter in its unit, for every engine; takes effect with the same tick in all.
   /// Throws std::invalid_argument for an unknown name or a value that does not fit.
@@ -48,9 +49,7 @@ class Ensemble {
   /// Runs the core, then the riders on each new snapshot; `each` sees every snapshot.
   template <class Each>
   void advance(Clock clocks, const EncoderEvent* first, const EncoderEvent* last, Each&& each) {
-    const double begin = seconds();
-    lead_->advance(clocks, first, last);
-    lead_busy_s_ += seconds() - begin;
+    lead_watch_.time([&] { lead_->advance(clocks, first, last); });
     for (const Snapshot& s : lead_->snapshots()) {
       ride(s);
       each(s);
@@ -62,10 +61,16 @@ class Ensemble {
   const RealChain* rider(std::size_t i) const { return riders_[i].chain.get(); }
   std::size_t rider_count() const { return riders_.size(); }
 
-  double velocity_rad_s(const Snapshot& s) const { return scaled(s.velocity, design().velocity); }
-  double torque_nm(std::int64_t raw) const { return scaled(raw, design().torque); }
-  double current_a(const Snapshot& s) const { return scaled(s.current_ref, design().current); }
-  double voltage_v(const Snapshot& s) const { return scaled(s.voltage, design().voltage); }
+  double velocity_rad_s(const Snapshot& s) const {
+    return static_cast<double>(s.velocity) * unit_.velocity_rad_s;
+  }
+  double torque_nm(std::int64_t raw) const { return static_cast<double>(raw) * unit_.torque_nm; }
+  double current_a(const Snapshot& s) const {
+    return static_cast<double>(s.current_ref) * unit_.current_a;
+  }
+  double voltage_v(const Snapshot& s) const {
+    return static_cast<double>(s.voltage) * unit_.voltage_v;
+  }
 
   /// Largest |N-method velocity| before its low-pass that the riders saw, rad/s.
   double largest_velocity_rad_s() const { return largest_counts_ * design().rad_s_per_count; }
@@ -77,10 +82,13 @@ class Ensemble {
   struct Rider {
     std::unique_ptr<RealChain> chain;
     EngineFigures figures;
+    SampledWatch watch;
+  };
+  /// What the last bit of a signal means: powers of two, so that the product is exact.
+  struct Units {
+    double velocity_rad_s = 0, torque_nm = 0, current_a = 0, voltage_v = 0;
   };
 
-  static double scaled(std::int64_t raw, Format f);
-  static double seconds();
   void write(HostWrite w);
   void ride(const Snapshot& s);
   void watch_velocity(std::int16_t travel);
@@ -89,6 +97,8 @@ class Ensemble {
 
   EngineChoice choice_;
   std::unique_ptr<Engine> lead_;
+  const DesignInfo* design_;
+  Units unit_;
   std::vector<Rider> riders_;
   const RealChain* quad_ = nullptr;
   RealChain* passenger_ = nullptr;
@@ -101,7 +111,7 @@ class Ensemble {
   std::uint32_t applied_control_ = 0;
   std::int64_t writes_applied_ = 0;
   EngineFigures lead_figures_;
-  double lead_busy_s_ = 0;
+  SampledWatch lead_watch_;
 };
 
 }  // namespace feltgate

@@ -139,13 +139,14 @@ class ScenarioRun {
     }
   }
 
-  plant::Bridge bridge(const GateClocks& gates, Clock clocks) const {
+  plant::Bridge bridge(Clock clocks) const {
     const Engine& lead = core_.lead_const();
     if (choice_.rider_drives) {
       const double duty = core_.rider(0)->out().duty_clocks / core_.design().pwm_period;
       return plant::Bridge::averaged(std::clamp(duty, -1.0, 1.0), lead.gates_enabled());
     }
     if (s_.switched) {
+      const GateClocks gates = lead.gates();
       const double n = static_cast<double>(clocks);
       return plant::Bridge::gates(
           static_cast<double>(gates.a_hi) / n, static_cast<double>(gates.a_lo) / n,
@@ -158,15 +159,16 @@ class ScenarioRun {
   // The bridge of the last interval drives the motor in this one: no edge depends on its own
   // future.
   void step(Clock clocks) {
-    const plant::Bridge b = bridge(core_.lead().gates(), last_clocks_);
-    plant_.advance(b, clocks);
+    plant_.advance(bridge(last_clocks_), clocks);
+    if (clocks != last_clocks_) {
+      dt_s_ = static_cast<double>(clocks) / static_cast<double>(core_.design().clock_hz);
+    }
     last_clocks_ = clocks;
     const plant::Observables& o = plant_.observables();
     if (options_.plant_step) options_.plant_step(clocks, o);
     mean_.add(clocks, o.motor_torque_mean_nm);
-    const double dt = static_cast<double>(clocks) / static_cast<double>(core_.design().clock_hz);
-    hand_energy_j_ += o.hand_torque_nm * o.omega_rad_s * dt;
-    absorbed_j_ -= last_.tau_ref_nm * o.omega_rad_s * dt;
+    hand_energy_j_ += o.hand_torque_nm * o.omega_rad_s * dt_s_;
+    absorbed_j_ -= last_.tau_ref_nm * o.omega_rad_s * dt_s_;
     const auto& events = plant_.events();
     if (options_.inputs != nullptr) {
       auto& edges = options_.inputs->edges;
@@ -313,7 +315,8 @@ class ScenarioRun {
   traces::StepCounter counter_;
   std::unique_ptr<traces::VectorWriter> recorder_;
   bool armed_ = false, arm_done_ = false, recording_ = false;
-  Clock last_clocks_ = 1;
+  Clock last_clocks_ = 0;  ///< none yet
+  double dt_s_ = 0;
   std::int64_t ticks_ = 0;
   int faults_ = 0;
   double hand_energy_j_ = 0, absorbed_j_ = 0;

@@ -42,19 +42,18 @@ std::int64_t ticks_of(const design::Design& d, double seconds) {
 }  // namespace
 
 Rest rest_in_wall(const design::Elaborated& design, const plant::Parameters& plant,
-                  const Wall& wall, int presses) {
+                  const Wall& wall, double count, int presses) {
   const double count_nm = wall.stiffness_nm_rad * design.design.count_rad();
-  const double base = std::ceil(0.1 / count_nm);
   Rest out;
   out.stiffness_nm_rad = wall.stiffness_nm_rad;
+  out.first_count = count;
   out.presses = presses;
   for (int i = 0; i < presses; ++i) {
     BitLoopSetting s;
     s.linear = false;
     s.plant = plant;
     s.wall = wall;
-    s.hand.phases = {pressing(plant::HandPhase::Kind::kTorque,
-                              (base + static_cast<double>(i) / presses) * count_nm, 0.2)};
+    s.hand.phases = {pressing(plant::HandPhase::Kind::kTorque, (count + i) * count_nm, 0.2)};
     BitLoop loop(design, s);
     while (loop.ticks() < ticks_of(design.design, 0.5)) loop.tick();
     Spread torque, motor;

@@ -11,18 +11,20 @@
 
 namespace feltgate::stability {
 
-/// A lever pressed into a wall by a hand of constant torque, over presses from one count's torque
-/// to the next.
+/// A lever pressed into a wall by a hand of constant torque, several times.
 struct Rest {
   double stiffness_nm_rad = 0;
+  double first_count = 0;  ///< the first press, as counts of penetration
   int presses = 0;
   int quiet = 0;             ///< presses after which position and torque stand still
   int counts = 0;            ///< largest movement, in counts from lowest to highest
   double torque_rms_nm = 0;  ///< of the reference around its mean, largest
   double motor_torque_rms_nm = 0;
 };
+/// Presses with the torque of `count`, `count` + 1, ... counts of penetration. Half between two
+/// counts is the worst for friction: either count's torque is then K*q/2 away from the press.
 Rest rest_in_wall(const design::Elaborated& design, const plant::Parameters& plant,
-                  const Wall& wall, int presses);
+                  const Wall& wall, double count, int presses);
 
 /// 2 f / q: below it friction can hold a lever between the torques of two counts.
 double encoder_rule_nm_rad(const design::Elaborated& design, const plant::Parameters& plant);

@@ -37,7 +37,7 @@ void tick(const LoopModel& m, const Wall& wall, long k, State& s) {
   s.observer += m.observer_a1 * (m.torque_constant * s.reference + inertia - s.observer);
   const double asked = -wall.stiffness_nm_rad * s.angle - wall.damping_nm_s_rad * s.velocity;
   if (wall.scene_ticks == 1) {
-    s.torque = asked;
+    s.torque = s.torque_next = asked;
   } else if (k % wall.scene_ticks == 0) {
     s.torque_next = asked;
   }

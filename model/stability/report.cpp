@@ -81,13 +81,16 @@ void borders(std::string& out, const Study& s) {
 
 void experiments(std::string& out, const Study& s) {
   add(out,
-      "\ncounts and friction: the core's own wall, plant %s, B = %.3g Nm s/rad; friction holds the "
-      "lever below\n2f/q = %.3f Nm/rad\n\n"
-      "Nm/rad   presses quiet   counts   torque rms   K*q/2   motor torque rms, mNm\n",
+      "\ncounts and friction: the core's own wall, plant %s, B = %.3g Nm s/rad. A press half way "
+      "between the\ntorques of two counts is the worst: friction holds it below 2f/q = %.3f "
+      "Nm/rad. "
+      "A press of a whole\ncount leaves the lever anywhere in it, now and then on an edge\n\n"
+      "Nm/rad  press, counts   quiet   counts moved   torque rms   K*q/2   motor torque rms, mNm\n",
       s.full_plant.c_str(), s.rest_damping_nm_s_rad, s.rule_nm_rad);
   for (const Rest& r : s.rests) {
-    add(out, "%6.2f   %2d of %-2d   %11d  %11.2f  %6.2f  %17.2f\n", r.stiffness_nm_rad, r.quiet,
-        r.presses, r.counts, 1e3 * r.torque_rms_nm, 1e3 * r.stiffness_nm_rad * 1.533981e-3 / 2,
+    add(out, "%6.2f   %4.1f to %4.1f  %2d of %-2d   %11d  %11.2f  %6.2f  %17.2f\n",
+        r.stiffness_nm_rad, r.first_count, r.first_count + r.presses - 1, r.quiet, r.presses,
+        r.counts, 1e3 * r.torque_rms_nm, 1e3 * s.friction_nm * r.stiffness_nm_rad / s.rule_nm_rad,
         1e3 * r.motor_torque_rms_nm);
   }
   add(out,
@@ -157,6 +160,7 @@ std::string study_json(const Study& s) {
   out["rests"] = json::array();
   for (const Rest& r : s.rests) {
     out["rests"].push_back({{"stiffness_nm_rad", r.stiffness_nm_rad},
+                            {"first_count", r.first_count},
                             {"presses", r.presses},
                             {"quiet", r.quiet},
                             {"counts", r.counts},

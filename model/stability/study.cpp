@@ -105,7 +105,7 @@ Study run_study(const design::Elaborated& design, const plant::Parameters& linea
   s.linear_plant = linear.name;
   s.full_plant = full.name;
   s.model = make_model(design, linear);
-  const std::size_t all = o.rates_hz.size() * o.damping_nm_s_rad.size() + (o.experiments ? 12 : 0);
+  const std::size_t all = o.rates_hz.size() * o.damping_nm_s_rad.size() + (o.experiments ? 14 : 0);
   std::size_t done = 0;
   const auto step = [&] {
     if (o.progress) o.progress(static_cast<double>(++done) / static_cast<double>(all));
@@ -119,13 +119,17 @@ Study run_study(const design::Elaborated& design, const plant::Parameters& linea
   s.locus_damping_nm_s_rad = 0.005;
   s.locus = locus(s.model, s.locus_damping_nm_s_rad);
   s.known = known_numbers();
+  s.friction_nm = full.lugre.coulomb_nm;
   s.rule_nm_rad = encoder_rule_nm_rad(design, full);
   if (!o.experiments) return s;
   s.rest_damping_nm_s_rad = 0.005;
-  for (const double k : {2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0}) {
-    s.rests.push_back(rest_in_wall(design, full, {k, s.rest_damping_nm_s_rad, 1}, 4));
+  const auto rest = [&](double k, double count, int presses) {
+    const Wall wall{k, s.rest_damping_nm_s_rad, 1};
+    s.rests.push_back(rest_in_wall(design, full, wall, count, presses));
     step();
-  }
+  };
+  for (const double k : {2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0}) rest(k, 10.5, 6);
+  for (const double k : {3.0, 6.0}) rest(k, 10, 6);
   s.hosts = host_rows(design, full);
   for (int i = 0; i < 5; ++i) step();
   return s;

@@ -51,6 +51,7 @@ struct Study {
   double locus_damping_nm_s_rad = 0;
   std::vector<LocusPoint> locus;
   std::vector<KnownNumber> known;
+  double friction_nm = 0;  ///< f of the encoder rule
   double rule_nm_rad = 0;
   double rest_damping_nm_s_rad = 0;
   std::vector<Rest> rests;

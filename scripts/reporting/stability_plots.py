@@ -76,9 +76,12 @@ def locus(study, png=False):
         bar = figure.colorbar(dots, ax=axis, pad=0.02)
         bar.set_label("log10 of K, Nm/rad", fontsize=8)
     axis.axvline(0, color="#1d2329", linewidth=0.8)
-    axis.set_xlim(-1500, 200)
-    axis.set_ylim(bottom=-20, top=1000)
+    axis.set_xlim(-60, 40)
+    axis.set_ylim(bottom=-20, top=700)
     axis.set_xlabel("growth, rad/s")
     axis.set_ylabel("frequency, rad/s")
-    caption = "Each dot is an eigenvalue; right of the line the swing grows."
+    caption = (
+        "Each dot is an eigenvalue; right of the line the swing grows. The other slow one, the "
+        "low-pass of the velocity, stays near -500 rad/s and out of the picture."
+    )
     return plots.finish(figure, "stability_locus", caption, png)

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Stability of walls: published numbers, eigenvalues two ways, borders in the chain's own bits, and
+// what counts and noise do. Documentation: docs/stability.md
+#include <algorithm>
+#include <cmath>
+
+#include "catch.hpp"
+#include "plant/plant_file.hpp"
+#include "stability/report.hpp"
+
+using namespace feltgate;
+using namespace feltgate::stability;
+
+namespace {
+
+const std::string kRoot = FELTGATE_ROOT;
+
+design::Elaborated lever() {
+  return elaborate(design::read_design(kRoot + "/rtl/designs/lever.toml"),
+                   design::read_registers(kRoot + "/rtl/registers.toml"));
+}
+
+plant::Parameters plant_named(const std::string& name) {
+  return plant::read_plant_file(kRoot + "/vectors/plants/" + name + ".toml");
+}
+
+void within(double value, double of, double share) {
+  INFO(value << " against " << of);
+  CHECK(std::abs(value / of - 1) < share);
+}
+
+}  // namespace
+
+TEST_CASE("stability: the textbook loop gives the published numbers") {
+  const auto known = known_numbers();
+  REQUIRE(known.size() == 19);
+  for (const KnownNumber& k : known) {
+    CAPTURE(k.what, k.published, k.computed);
+    // Some are published with two digits.
+    CHECK(std::abs(k.computed - k.published) < std::max(0.005, 0.0005 * k.published));
+  }
+}
+
+TEST_CASE("stability: the textbook loop at its own borders") {
+  // Ideal actuator, lever's inertia: 2 B/T for BT/J much below 1, a quarter less at BT/J = 0.28.
+  const auto loop = [](double hz) { return MassLoop{1.22e-4, 0, 1 / hz, 0.005, 0, 0}; };
+  within(stiffest(loop(40e3)), 400, 0.002);
+  within(stiffest(loop(1e3)), 9.60, 0.002);
+  within(stiffest(loop(144)), 1.08, 0.002);
+  // A dead time of whole periods and one of a fraction meet.
+  MassLoop delayed{1.22e-4, 1e-3, 1e-3, 0, 0, 2e-3};
+  const double whole = stiffest(delayed);
+  delayed.dead_time_s = 2.000001e-3;
+  within(stiffest(delayed), whole, 1e-5);
+  within(whole, closed_form(delayed), 0.05);
+  // Damping so large that it shakes by itself: no stiffness is stable.
+  CHECK(stiffest(MassLoop{1.22e-4, 0, 1e-2, 0.05, 0, 0}) == 0);
+}
+
+TEST_CASE("stability: Arnoldi finds the largest eigenvalues of the whole monodromy matrix") {
+  LoopModel m = make_model(lever(), plant_named("linear"));
+  m.raw_rad_s_rad *= static_cast<double>(m.m1) / 40;  // a short window keeps the matrix small
+  m.m1 = 40;
+  for (const Wall& wall : {Wall{10, 0.005, 1}, Wall{5, 0.005, 1000}, Wall{8, 0.01, 25}}) {
+    int ticks = 0;
+    const Eigen::EigenSolver<Eigen::MatrixXd> dense(monodromy(m, wall, &ticks), false);
+    CHECK(ticks == (wall.scene_ticks == 1 ? 20 : wall.scene_ticks == 25 ? 100 : 1000));
+    double radius = 0;
+    for (const Pole& z : dense.eigenvalues()) radius = std::max(radius, std::abs(z));
+    const double growth = std::log(radius) / (ticks * m.tick_s);
+    INFO(wall.scene_ticks);
+    CHECK(std::abs(poles(m, wall).front().real() - growth) < 1e-5 * std::abs(growth));
+  }
+}
+
+TEST_CASE("stability: the closed form holds where theory says so") {
+  const LoopModel m = make_model(lever(), plant_named("linear"));
+  // Damping that replaces just what the back-EMF compensation takes: the estimator sees no net
+  // damping and its lag drops out. BT/J is at most 0.018.
+  const double b = m.motor_damping_nm_s_rad * m.compensated;
+  for (const int ticks : {1, 25, 1000}) {
+    within(closed_form(m, b, ticks), border(m, b, ticks).stiffness_nm_rad, 0.05);
+  }
+  within(closed_form(m, b, 1), border(m, b, 1).stiffness_nm_rad, 0.001);
+  // Off that point the lag counts: the plain form misses by 20 to 40 %, the longer one does not.
+  const double exact = border(m, 0.001, 1).stiffness_nm_rad;
+  CHECK(closed_form(m, 0.001, 1) < 0.85 * exact);
+  within(closed_form_with_estimator(m, 0.001, 1), exact, 0.03);
+  CHECK(closed_form(m, 0.005, 1) > 1.3 * border(m, 0.005, 1).stiffness_nm_rad);
+  // Without damping of its own the compensated motor holds no wall at all.
+  CHECK(border(m, 0, 1).stiffness_nm_rad == 0);
+  // A motor left its own damping, no estimator in the loop: the plain form again.
+  LoopModel bare = m;
+  bare.emf_constant = bare.compensated = 0;
+  for (const int ticks : {1, 25}) {
+    within(closed_form(bare, 0, ticks), border(bare, 0, ticks).stiffness_nm_rad, 0.05);
+  }
+}
+
+TEST_CASE("stability: 0.95 of the border decays and 1.05 grows, in bits as in double") {
+  const auto design = lever();
+  const auto plant = plant_named("linear");
+  const LoopModel m = make_model(design, plant);
+  struct Place {
+    double damping;
+    int ticks;
+  };
+  for (const Place& p : {Place{0.005, 1}, Place{0.002, 25}, Place{0.005, 1000}}) {
+    const Border b = border(m, p.damping, p.ticks);
+    for (const double share : {0.95, 1.05}) {
+      const Wall wall{share * b.stiffness_nm_rad, p.damping, p.ticks};
+      const Pole s = poles(m, wall).front();
+      const Growth bits = swing(design, plant, wall, "fixed", b.rad_s);
+      const Growth real = swing(design, plant, wall, "double", b.rad_s);
+      CAPTURE(p.damping, p.ticks, share, s.real(), bits.rate_1_s, real.rate_1_s, bits.swings);
+      CHECK(bits.swings > 8);
+      CHECK((bits.rate_1_s > 0) == (share > 1));
+      CHECK(std::abs(bits.rate_1_s - s.real()) < 0.2 * std::abs(s.real()));
+      CHECK(std::abs(bits.rate_1_s - real.rate_1_s) < 0.2 * std::abs(s.real()));
+      within(bits.rad_s, std::abs(s.imag()), 0.01);
+    }
+  }
+}
+
+TEST_CASE("stability: bisection in bits meets the eigenvalues") {
+  const auto design = lever();
+  const auto plant = plant_named("linear");
+  const LoopModel m = make_model(design, plant);
+  for (const auto& [damping, ticks] : {std::pair{0.002, 1}, {0.01, 1000}}) {
+    const Border b = border(m, damping, ticks);
+    const double bits = measured_border(design, plant, damping, ticks, b);
+    within(bits, b.stiffness_nm_rad, 0.02);
+    // A fifth more damping is told apart.
+    const double other = border(m, 1.2 * damping, ticks).stiffness_nm_rad;
+    CHECK(other / bits > 1.08);
+  }
+}
+
+TEST_CASE("stability: a wall is quiet under 2f/q and cycles by one count above it") {
+  const auto design = lever();
+  const auto plant = plant_named("p24");
+  const double rule = encoder_rule_nm_rad(design, plant);
+  CHECK(rule == Approx(4.563).epsilon(0.001));
+  const Rest below = rest_in_wall(design, plant, {0.85 * rule, 0.005, 1}, 10.5, 4);
+  CHECK(below.quiet == 4);
+  CHECK(below.torque_rms_nm == 0);
+  const Rest above = rest_in_wall(design, plant, {2 * rule, 0.005, 1}, 10.5, 4);
+  CHECK(above.quiet == 0);
+  CHECK(above.counts == 1);
+  const double half_step = above.stiffness_nm_rad * design.design.count_rad() / 2;
+  within(above.torque_rms_nm, half_step, 0.3);
+  CHECK(above.motor_torque_rms_nm < above.torque_rms_nm);
+}
+
+TEST_CASE("stability: noise shakes a slow host's wall, smoothing calms it") {
+  const auto design = lever();
+  const auto plant = plant_named("p24");
+  const double soft = 11.459, noise = 0.873e-3;
+  const auto quiet = host_wall(design, plant, {144, soft, 0, 1});
+  const auto noisy = host_wall(design, plant, {144, soft, noise, 1});
+  const auto smooth = host_wall(design, plant, {144, soft, noise, 0.5});
+  CHECK(quiet.torque_rms_nm < 1e-4);
+  CHECK(noisy.torque_rms_nm > 5e-3);
+  CHECK(smooth.torque_rms_nm < 0.8 * noisy.torque_rms_nm);
+}
+
+TEST_CASE("stability: a study as text and JSON") {
+  StudyOptions o;
+  o.rates_hz = {1e6};
+  o.damping_nm_s_rad = {0, 0.002};
+  o.bits = o.experiments = false;
+  const Study s = run_study(lever(), plant_named("linear"), plant_named("p24"), o);
+  REQUIRE(s.borders.size() == 2);
+  CHECK(s.borders[1].z_width > 10);
+  CHECK(s.locus.size() > 40);
+  const std::string text = study_text(s);
+  CHECK(text.find("none: the loop grows at any stiffness") != std::string::npos);
+  CHECK(study_json(s).find("\"bits_nm_rad\": null") != std::string::npos);
+}

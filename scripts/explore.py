@@ -16,7 +16,7 @@ from pathlib import Path
 from exploring import chunks, engines, explore_page, front, merge, meter, presets, routes, space
 from exploring import plan as plans
 
-VERBS = ("plan", "run", "merge", "route", "page", "presets", "point")
+VERBS = ("plan", "run", "merge", "route", "page", "picture", "presets", "point")
 EXAMPLES = """examples:
   feltgate explore smoke                          plan, run, merge, route, page in one go
   feltgate explore plan trade -o /data/trade      then, here or on many machines:
@@ -79,7 +79,8 @@ def parser_of_verbs():
     page = verbs.add_parser("page", help="write explore.html")
     three = verbs.add_parser("presets", help="write fast, balanced and exact as design files")
     three.add_argument("-o", "--out", type=Path, metavar="DIR", help="default: the plan's folder")
-    for one in (run, merge, route, page, three):
+    picture = verbs.add_parser("picture", help="write explore.svg; needs matplotlib")
+    for one in (run, merge, route, page, picture, three):
         one.add_argument("folder", type=Path, metavar="DIR")
     for one in (everything, run, route):
         add_engine(one)
@@ -181,6 +182,9 @@ def act(options):
     elif options.verb == "presets":
         for path in presets.write(plan, merge.read(plan.folder), root(), options.out):
             print(path)
+    elif options.verb == "picture":
+        picture = importlib.import_module("exploring.explore_picture")  # needs matplotlib
+        print(picture.write(plan, merge.read(plan.folder)))
     elif options.verb == "page":
         print(explore_page.write(plan, merge.read(plan.folder), root()))
     else:

@@ -10,8 +10,7 @@ from exploring import space
 
 # Key of a point's result, what it is, unit of the page, factor to that unit. Less is better.
 OBJECTIVES = (
-    ("torque_error_max_nm", "worst torque error", "µNm", 1e6),
-    ("velocity_error_max_rad_s", "worst velocity error", "mrad/s", 1e3),
+    ("torque_error_rms_nm", "rms torque error", "µNm", 1e6),
     ("lut4_equivalents", "LUT4 equivalents", "", 1),
     ("delay_s", "estimator delay", "ms", 1e3),
 )

@@ -124,7 +124,9 @@ def sources_digest():
 
 def structure_key(package, defect=0):
     """What RTL and program depend on: the package without the values that registers carry."""
-    text = re.sub(r"function automatic logic \[31:0\] parameter_reset.*?endfunction", "", package, flags=re.S)
+    text = re.sub(
+        r"function automatic logic \[31:0\] parameter_reset.*?endfunction", "", package, flags=re.S
+    )
     text = re.sub(r"^//.*$", "", text, flags=re.M)
     return hashlib.sha256(f"{sources_digest()} {defect} {text}".encode()).hexdigest()[:16]
 
@@ -152,7 +154,13 @@ def build_program(generated, folder, defect):
     flags = ["-std=c++17", OPTIMISE, "-w", "-I", rtl, "-isystem", include]
     flags += ["-isystem", include / "vltstd", "-I", ROOT / "model", "-I", ROOT / "model/include"]
     flags += ["-I", generated, '-DPOINT_HEADER="point.hpp"', "-DPOINT_TYPE=Point"]
-    flags += ["-DVM_COVERAGE=0", "-DVM_SC=0", "-DVM_TRACE=1", "-DVM_TRACE_FST=1", "-DVM_TRACE_VCD=0"]
+    flags += [
+        "-DVM_COVERAGE=0",
+        "-DVM_SC=0",
+        "-DVM_TRACE=1",
+        "-DVM_TRACE_FST=1",
+        "-DVM_TRACE_VCD=0",
+    ]
     objects = []
     for source in (joined, ROOT / "model/explore/point_main.cpp"):
         objects.append(folder / f"{source.stem}.o")
@@ -274,8 +282,9 @@ def evaluate_design(text, workdir, route=False, area=True, defect=0):
             if area:
                 result |= structure.area()
             if not result["bound_without"]:
-                result["bound_holds"] = all(measured(result, name) <= result[f"bound_{name}"]
-                                            for name in BOUNDED)
+                result["bound_holds"] = all(
+                    measured(result, name) <= result[f"bound_{name}"] for name in BOUNDED
+                )
             if route:
                 result |= structure.speed()
         return result
@@ -304,7 +313,9 @@ def report(result):
 
 def main(words):
     parser = argparse.ArgumentParser(
-        "feltgate explore point", description=HELP, formatter_class=argparse.RawDescriptionHelpFormatter
+        "feltgate explore point",
+        description=HELP,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("design", metavar="FILE.toml", help="a design file")
     parser.add_argument("--route", action="store_true", help="also Fmax, median of three seeds")

@@ -42,7 +42,7 @@ def choose(rows):
         order = [key, *(k for k, *_ in front.OBJECTIVES)]
         return min(rows, key=lambda row: [row["result"][k] for k in order])
 
-    fast, exact = least("delay_s"), least("torque_error_max_nm")
+    fast, exact = least("delay_s"), least("torque_error_rms_nm")
     rest = [row for row in rows if row["id"] not in (fast["id"], exact["id"])] or rows
     balanced = min(rest, key=lambda row: (distance(row, rows), row["id"]))
     return {"fast": fast, "balanced": balanced, "exact": exact}
@@ -51,18 +51,19 @@ def choose(rows):
 def sentence(name, chosen):
     """What a preset is best at, and what it gives up for that."""
     me = chosen[name]["result"]
-    figures = (
-        f"{1e3 * me['delay_s']:.2f} ms of delay, {1e6 * me['torque_error_max_nm']:.0f} uNm worst "
-        f"error, {me['lut4_equivalents']} LUT4"
-    )
     fast, exact = chosen["fast"]["result"], chosen["exact"]["result"]
+    figures = (
+        f"{1e3 * me['delay_s']:.2f} ms of delay, {1e6 * me['torque_error_rms_nm']:.1f} uNm rms "
+        f"torque error, {me['lut4_equivalents']} LUT4"
+    )
+    later_ms = 1e3 * (me["delay_s"] - fast["delay_s"])
+    worse_unm = 1e6 * (me["torque_error_rms_nm"] - exact["torque_error_rms_nm"])
+    more_lut4 = me["lut4_equivalents"] - fast["lut4_equivalents"]
     gives_up = {
         "fast": f"a quiet velocity: one encoder count moves it by {me['count_ripple_rad_s']:.2f} "
         f"rad/s, in exact by {exact['count_ripple_rad_s']:.2f}",
-        "balanced": f"{1e3 * (me['delay_s'] - fast['delay_s']):.2f} ms against fast and "
-        f"{1e6 * (me['torque_error_max_nm'] - exact['torque_error_max_nm']):.0f} uNm against exact",
-        "exact": f"{1e3 * (me['delay_s'] - fast['delay_s']):.2f} ms and "
-        f"{me['lut4_equivalents'] - fast['lut4_equivalents']} LUT4 against fast",
+        "balanced": f"{later_ms:.2f} ms against fast and {worse_unm:.1f} uNm against exact",
+        "exact": f"{later_ms:.2f} ms and {more_lut4} LUT4 against fast",
     }[name]
     return f"{figures}; gives up {gives_up}"
 

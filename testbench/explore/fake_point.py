@@ -22,8 +22,7 @@ def evaluate(point, workdir, route=False):
         raise RuntimeError(f"point {name} cannot be built")
     seed = int(name, 16)
     return {
-        "torque_error_max_nm": (1 + seed % 97) * 1e-6,
-        "velocity_error_max_rad_s": (1 + seed % 79) * 1e-4,
+        "torque_error_rms_nm": (1 + seed % 97) * 1e-6,
         "lut4_equivalents": 2000 + seed % 101,
         "delay_s": (1 + seed % 89) * 1e-5,
     } | ({"fmax_mhz": 50.0 + seed % 83} if route else {})

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "bench/batch_runner.hpp"
 #include "bench/pin_runner.hpp"
 #include "bench/shift_chain.hpp"
 #include "bench/systemc_numbers.hpp"
@@ -76,6 +77,18 @@ struct Shifts {
   }
 };
 
+struct Lanes {
+  using Design = Lever;
+  template <class Results>
+  static TickResult lane(const Results& b, std::size_t k) {
+    return of_integers({b.velocity[k], b.tau_hat[k], b.tau_ref[k], b.current[k], b.voltage[k],
+                        b.duty[k],
+                        b.limit_torque[k] | b.limit_ramp[k] << 1 | b.limit_current[k] << 2 |
+                            b.limit_voltage[k] << 3 | b.limit_duty[k] << 4 |
+                            b.limit_velocity[k] << 5 | b.limit_tau_hat[k] << 6});
+  }
+};
+
 template <class N>
 std::unique_ptr<Runner> laws(const char* name) {
   return std::make_unique<TickRunner<ControlChain<Lever, N>, Laws<N>>>(
@@ -88,6 +101,9 @@ struct Known {
 };
 
 std::unique_ptr<Runner> pins(const char* name) { return make_pin_runner(name); }
+std::unique_ptr<Runner> lanes(const char* name) {
+  return std::make_unique<BatchRunner<Lanes>>(name);
+}
 std::unique_ptr<Runner> shifts(const char* name) {
   return std::make_unique<TickRunner<ShiftChain, Shifts>>(name, Arithmetic::integer);
 }
@@ -97,6 +113,7 @@ constexpr Known known[] = {
     {"twin_clock", pins},
     {"twin_event", pins},
     {"twin_tick", laws<Fixed>},
+    {"twin_batch", lanes},
     {"double", laws<Real<double>>},
     {"float", laws<Real<float>>},
     {"quad", laws<Real<Quad>>},

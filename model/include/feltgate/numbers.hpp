@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 #include "feltgate/fixed.hpp"
 
@@ -56,6 +57,11 @@ struct Fixed {
   }
 };
 
+/// The same numbers in a loop over lanes (model/batch), which is only turned into vector
+/// instructions where both sides of a condition are computed. One chain alone is faster with
+/// branches.
+struct FixedLanes : Fixed {};
+
 /// Real arithmetic in T (double, __float128): every number is a T and nothing is ever rounded off.
 template <class T>
 struct Real {
@@ -101,6 +107,17 @@ constexpr auto times_power_of_two(X x) {
 template <class X>
 constexpr X negated(X x) {
   return detail::Negated<X>::of(x);
+}
+
+/// Whether x lies outside [-limit, limit].
+template <class N, class X, class Limit>
+constexpr bool beyond(X x, Limit limit) {
+  if constexpr (std::is_same_v<N, FixedLanes>) {
+    const bool above = x > limit, below = x < -limit;
+    return above | below;
+  } else {
+    return x > limit || x < -limit;
+  }
 }
 
 /// x limited to [-limit, limit]; sets *limited when that changed it.

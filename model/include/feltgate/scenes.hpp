@@ -38,7 +38,7 @@ class ScenesPort {
   }
   /// The scene's torque in [-limit, limit]; a negative limit counts as 0.
   void limit(Torque tau, Torque limit) {
-    limit_torque_ = armed_ && (tau > limit || tau < -limit);
+    limit_torque_ = armed_ && beyond<N>(tau, limit);
     const Torque bound = limit < Torque{} ? Torque{} : limit;
     bool unused = false;
     target_ = armed_ ? clamp_magnitude(tau, bound, &unused) : Torque{};
@@ -69,6 +69,15 @@ class ScenesPort {
   bool limit_torque() const { return limit_torque_; }
   bool limit_ramp() const { return limit_ramp_; }
 
+  /// What lasts from tick to tick beside the scene, for those who keep it elsewhere.
+  const Ramp& reference() const { return reference_; }
+  bool ramping() const { return ramping_; }
+  void resume(int scene, bool ramping, Ramp reference) {
+    scene_ = scene;
+    ramping_ = ramping;
+    reference_ = reference;
+  }
+
  private:
   int scene_ = 0;
   bool armed_ = false, ramping_ = true, limit_torque_ = false, limit_ramp_ = false;
@@ -90,7 +99,7 @@ class ScenesLaw {
   template <class W>
   void tick(const W& w, bool armed, int scene, std::int32_t position, Velocity velocity) {
     port_.begin(armed, scene);
-    port_.limit(torque(w, scene, position, velocity),
+    port_.limit(torque(w, scene, position, velocity, &side_),
                 w.template get<D::f.torque.key()>(D::A::torque_limit));
     port_.move(w.template get<D::f.ramp.key()>(D::A::ramp_step));
   }
@@ -105,16 +114,17 @@ class ScenesLaw {
   MembraneSide side() const { return side_; }
   void set_side(MembraneSide side) { side_ = side; }
 
- private:
+  /// The torque of one scene before limit and ramp; moves `side` on.
   template <class W>
-  Torque torque(const W& w, int scene, std::int32_t position, Velocity velocity) {
-    if (scene != S::membrane) side_ = MembraneSide::unknown;
+  static Torque torque(const W& w, int scene, std::int32_t position, Velocity velocity,
+                       MembraneSide* side) {
+    if (scene != S::membrane) *side = MembraneSide::unknown;
     if (!scene_built<D>(scene)) return Torque{};
     switch (scene) {
       case S::setpoint:
         return SceneSetpointLaw<D, N>::torque(w);
       case S::membrane:
-        return SceneMembraneLaw<D, N>::torque(w, position, &side_);
+        return SceneMembraneLaw<D, N>::torque(w, position, side);
       case S::spring_compression:
         return SceneSpringLaw<D, N>::torque(w, false, position);
       case S::spring_tension:
@@ -132,6 +142,7 @@ class ScenesLaw {
     }
   }
 
+ private:
   ScenesPort<D, N> port_;
   MembraneSide side_ = MembraneSide::unknown;
 };

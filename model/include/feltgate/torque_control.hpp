@@ -85,7 +85,7 @@ struct TorqueControlLaw {
   /// x in [-limit, limit] and in the format Key. A negative limit gives the limit itself.
   template <int Key, class X, class Limit>
   static constexpr typename N::template num<Key> limited(X x, Limit limit, bool* hit) {
-    *hit = x > limit || x < -limit;
+    *hit = beyond<N>(x, limit);
     if (x > limit) return quantise<N, Key, Round::truncate, Overflow::wrap>(limit);
     if (x < -limit) return quantise<N, Key, Round::truncate, Overflow::wrap>(-limit);
     return quantise<N, Key, Round::truncate, Overflow::wrap>(x);
@@ -93,7 +93,7 @@ struct TorqueControlLaw {
   /// Whether tau_ref lies in the high-torque region; at the border the low one holds.
   template <class X, class Border>
   static constexpr bool region_high(X tau_ref, Border border) {
-    return tau_ref > border || tau_ref < -border;
+    return beyond<N>(tau_ref, border);
   }
 };
 
@@ -159,9 +159,10 @@ struct TorqueControlStep {
     if (direct) {
       voltage_sum = Law::voltage_sum(pair);
     } else {
-      const int gain = region_high ? A::voltage_gain_high : A::voltage_gain;
-      const auto resistive =
-          Law::voltage_part(current * w.template get<P::voltage_gain.key()>(gain));
+      // Both are read: a choice between addresses would keep lanes from running side by side.
+      const auto gain = w.template get<P::voltage_gain.key()>(A::voltage_gain);
+      const auto gain_high = w.template get<P::voltage_gain.key()>(A::voltage_gain_high);
+      const auto resistive = Law::voltage_part(current * (region_high ? gain_high : gain));
       voltage_sum = Law::voltage_sum(resistive + pair);
     }
     auto applied = Law::template limited<Law::kVoltageKey>(

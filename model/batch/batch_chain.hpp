@@ -15,7 +15,7 @@
 // of vectors came with AVX-512. Elsewhere the lanes run one after the other.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && \
     !defined(__SANITIZE_ADDRESS__)
-#define FELTGATE_LANES __attribute__((target_clones("arch=x86-64-v4", "default")))
+#define FELTGATE_LANES __attribute__((flatten, target_clones("arch=x86-64-v4", "default")))
 #else
 #define FELTGATE_LANES
 #endif

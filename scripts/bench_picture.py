@@ -21,9 +21,9 @@ from reporting import plots
 PURPOSE = {
     "rtl": "proof: every pin of the hardware",
     "twin_clock": "pins, without Verilator",
-    "twin_event": "closed loops, recordings, days",
+    "twin_event": "closed loops, recordings",
     "twin_tick": "exact signals, parameter studies",
-    "twin_batch": "Monte Carlo, many lanes at once",
+    "twin_batch": "Monte Carlo",
     "double": "the law without quantisation",
     "float": "what a microcontroller would do",
     "quad": "the reference",
@@ -31,9 +31,9 @@ PURPOSE = {
     "shifts": "a yardstick",
 }
 SENTENCE = (
-    "For the hardware's own bits use twin_event (closed loop) or twin_tick (signals); rtl proves that "
-    "they are the hardware's.\nFor the law without quantisation use double. sc_fixed, quad and shifts "
-    "check the others."
+    "For the hardware's bits use twin_event (closed loop), twin_tick (signals) or twin_batch (many of "
+    "them);\nrtl proves that they are the hardware's. For the law without quantisation use double. "
+    "The others check these."
 )
 
 
@@ -53,14 +53,16 @@ def colour(name, data):
 
 
 def label_offsets(rows, floor):
-    """Engines of nearly the same error stand beside each other: their labels go up in turns."""
-    offsets, last = {}, {}
+    """Engines of the same error stand in one row: each label takes the lowest line above it that is
+    free for most of a decade to its left."""
+    offsets, taken = {}, {}
     for name, speed, error in sorted(rows, key=lambda row: row[1]):
-        level = round(3 * math.log10(error or floor))
-        previous = last.get(level)
-        step = offsets[previous[0]] + 1 if previous and speed / previous[1] < 12 else 0
+        row = round(3 * math.log10(error or floor))
+        step = 0
+        while speed / taken.get((row, step), 1e-30) < 8:
+            step += 1
+        taken[row, step] = speed
         offsets[name] = step
-        last[level] = (name, speed)
     return offsets
 
 
@@ -94,13 +96,13 @@ def picture(data):
         xlabel="simulated seconds per second of one core",
         ylabel="largest torque error against 113 bits, Nm",
     )
-    axes.set_ylim(floor / 20, max(errors, default=1) * 1e6)
+    axes.set_ylim(floor / 20, max(errors, default=1) * 1e7)
     low, high = min(r[1] for r in rows), max(r[1] for r in rows)
     axes.set_xlim(low / 4, high * 6)
     axes.set_title(SENTENCE, fontsize=8.5)
     for kind, text in (("motor", "the hardware's integers, all equal in every bit"), ("quad", "real arithmetic, the same laws")):
         axes.plot([], [], "o", color=plots.COLOURS[kind], label=text)
-    axes.legend(loc="lower left", fontsize=8)
+    axes.legend(loc="center left", fontsize=8)
     figure.text(
         0.995,
         0.005,

@@ -11,11 +11,13 @@ import io
 import json
 import math
 import re
+import tempfile
 import tomllib
 from pathlib import Path
 
 from exploring import chunks, design_text, front, routes, space
 from exploring import plan as plans
+from exploring.point import bounds as proven_bounds
 
 LINES, TABLE = "points.jsonl", "points.csv"
 
@@ -78,12 +80,22 @@ def count_ripple_rad_s(design):
     return step_rad_s * -math.expm1(-design["velocity.cutoff_rad_s"] * window_s)
 
 
+def bounds(text, result):
+    """The bounds as they are proven now, whenever the point was measured."""
+    with tempfile.TemporaryDirectory(prefix="feltgate-bounds-") as folder:
+        design = Path(folder) / "point.toml"
+        design.write_text(text, encoding="utf-8")
+        return proven_bounds(design, result)
+
+
 def finished(root, row):
     """A row with what follows from its design alone."""
     if front.good(row):
         text = design_text.design_text(root, row)
         design = space.flattened(tomllib.loads(text))
         row["result"]["count_ripple_rad_s"] = count_ripple_rad_s(design)
+        if "raw_velocity_max_rad_s" in row["result"]:
+            row["result"] |= bounds(text, row["result"])
     return row
 
 

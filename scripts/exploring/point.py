@@ -258,6 +258,17 @@ def measured(result, name):
     return result[f"{signal}_error_max_{unit}"]
 
 
+def bounds(design, result):
+    """The proven bounds of a design file at the speeds of `result`, and whether its errors keep them."""
+    # A margin for the core's own factor, which may be the larger one.
+    speed = 1.01 * result["raw_velocity_max_rad_s"]
+    found = json.loads(run([BUILD / "feltgate_point_bounds", ROOT, design, str(speed)]))
+    if not found["bound_without"]:
+        kept = (measured(result, name) <= found[f"bound_{name}"] for name in BOUNDED)
+        found["bound_holds"] = all(kept)
+    return found
+
+
 def evaluate_design(text, workdir, route=False, area=True, defect=0):
     """What is measured at the design of a TOML text; docs/explore.md has the keys."""
     Path(workdir).mkdir(parents=True, exist_ok=True)
@@ -275,16 +286,9 @@ def evaluate_design(text, workdir, route=False, area=True, defect=0):
             raise PointError(f"structure {structure.key}: {done.stderr.strip()}")
         result = json.loads(done.stdout) | {"coarse": coarse, "structure": structure.key}
         if result["status"] == "ok":
-            # A margin for the core's own factor, which may be the larger one.
-            speed = 1.01 * result["raw_velocity_max_rad_s"]
-            command = [BUILD / "feltgate_point_bounds", ROOT, design, str(speed)]
-            result |= json.loads(run(command))
+            result |= bounds(design, result)
             if area:
                 result |= structure.area()
-            if not result["bound_without"]:
-                result["bound_holds"] = all(
-                    measured(result, name) <= result[f"bound_{name}"] for name in BOUNDED
-                )
             if route:
                 result |= structure.speed()
         return result

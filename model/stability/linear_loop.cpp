@@ -100,6 +100,7 @@ LoopModel make_model(const design::Elaborated& e, const plant::Parameters& p) {
   const double l = p.effects.inductance ? p.motor.inductance_h : 1e-3 * r * m.tick_s;
   m.inertia_kg_m2 = p.lever.inertia_kg_m2;
   m.viscous_nm_s_rad = p.effects.viscous ? p.lever.viscous_nm_s_rad : 0.0;
+  m.torque_per_volt = kt / r;
   m.motor_damping_nm_s_rad = kt * ke / r;
   m.electrical_s = p.effects.inductance ? l / r : 0.0;
   const double j = m.inertia_kg_m2;
@@ -229,7 +230,12 @@ double free_impedance_nm_rad(const LoopModel& m, double rad_s) {
   const double window_s = m.m1 * m.tick_s;
   const Pole estimator =
       (1.0 - std::exp(-s * window_s)) / (s * window_s) / (1.0 + s * (m.tick_s / m.velocity_a1));
-  const Pole motor = m.motor_damping_nm_s_rad * (1.0 - m.compensated * estimator);
+  const Pole observer = 1.0 / (1.0 + s * (m.tick_s / m.observer_a1));
+  const Pole reference = m.observer_gain * m.inertia_gain * (observer - 1.0) /
+                         (1.0 - m.observer_gain * m.torque_constant * observer);
+  // The motor's torque per unit of speed, taken as a resistance.
+  const Pole motor = m.motor_damping_nm_s_rad - m.torque_per_volt * m.applied * estimator *
+                                                    (m.emf_constant + m.voltage_gain * reference);
   return std::abs(s * (s * m.inertia_kg_m2 + m.viscous_nm_s_rad + motor));
 }
 

@@ -39,6 +39,7 @@ struct LoopModel {
   double applied = 0;  ///< plant volts per commanded volt
   // For the closed forms:
   double inertia_kg_m2 = 0, viscous_nm_s_rad = 0;
+  double torque_per_volt = 0;         ///< Kt/R of the plant, Nm/V
   double motor_damping_nm_s_rad = 0;  ///< Kt*Ke/R of the plant
   double compensated = 0;             ///< share of it that the voltage law takes away at rest
   double electrical_s = 0;            ///< L/R
@@ -74,7 +75,8 @@ double closed_form_with_estimator(const LoopModel& model, double damping_nm_s_ra
 /// t_d: winding, half a PWM period, and what a host costs.
 double actuator_delay_s(const LoopModel& model, int scene_ticks);
 
-/// Impedance of the free lever at a frequency, as a stiffness: |torque / angle|, Nm/rad.
+/// Impedance of the armed lever without a scene at a frequency, as a stiffness: |torque / angle|,
+/// Nm/rad. Back-EMF compensation and observer are in it, the winding's lag is not.
 double free_impedance_nm_rad(const LoopModel& model, double rad_s);
 
 }  // namespace feltgate::stability

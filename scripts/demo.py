@@ -16,7 +16,7 @@ import time
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-from reporting import all_figures, demo_page, recordings, run_section, runs
+from reporting import all_figures, demo_page, recordings, run_section, runs, stability_section
 from reporting.progress import Progress, clock_text
 
 SCHEMA = "feltgate-demo-1"
@@ -139,6 +139,7 @@ def main(argv=None):
             if not r.ran and r.job.recording and not r.job.recording.sure
         ]
         drawn = [] if arguments.no_figures else all_figures.draw(done, DESIGNS)
+        walls, complaint = (None, "") if arguments.no_figures else stability_section.study(folder)
         shown = [job.name for job in scenes + replays if done[job.name].ran]
         with ProcessPoolExecutor(arguments.jobs) as pool:
             pictures = dict(
@@ -150,7 +151,8 @@ def main(argv=None):
             replays=[job.name for job in replays],
             pictures=pictures,
             figures=drawn,
-            wrong=faults(done),
+            stability=walls,
+            wrong=faults(done) + ([complaint] if complaint else []),
             unreadable=unreadable,
             where=where,
             own=where == recordings.OWN,

@@ -11,7 +11,7 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from reporting import page, recordings, run_section
+from reporting import page, recordings, run_section, stability_section
 from reporting.progress import clock_text
 
 
@@ -24,6 +24,7 @@ class Demo:
     replays: list
     pictures: dict = field(default_factory=dict)
     figures: list = field(default_factory=list)
+    stability: dict | None = None
     wrong: list = field(default_factory=list)
     unreadable: list = field(default_factory=list)
     where: Path = None
@@ -164,6 +165,8 @@ def contents(demo):
     parts = [("scenes", "scenes"), ("steps", "torque steps"), ("recordings", "recordings")]
     links = [page.link(anchor, text) for anchor, text in parts]
     links += [page.link(f.name(), f"figure {f.number}") for f in demo.figures]
+    if demo.stability:
+        links.append(page.link("stability", "walls"))
     links.append(page.link("runs", "each run"))
     return f"<p>{' · '.join(links)}</p>"
 
@@ -233,5 +236,7 @@ def document(demo):
             ),
         )
         body += "".join(figure.html() for figure in demo.figures)
+    if demo.stability:
+        body += stability_section.html(demo.stability)
     body += runs_section(demo)
     return page.document("feltgate demo", body)

@@ -39,8 +39,13 @@ def k_b(study, png=False):
     rule = study["encoder_rule_nm_rad"]
     axis.axhline(rule, color="#8c96a0", linewidth=0.9, linestyle="--")
     axis.annotate(
-        f"2f/q = {rule:.2f}", (0.99, rule), xycoords=("axes fraction", "data"), ha="right",
-        va="bottom", fontsize=8, color="#5c6670",
+        f"2f/q = {rule:.2f}",
+        (0.99, rule),
+        xycoords=("axes fraction", "data"),
+        ha="right",
+        va="bottom",
+        fontsize=8,
+        color="#5c6670",
     )
     axis.set_yscale("log")
     top = max((p["eigenvalues_nm_rad"] for p in study["borders"]), default=1)

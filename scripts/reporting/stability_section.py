@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""The demo's section on walls: a stability study, its pictures. Documentation: docs/stability.md"""
+
+import json
+import subprocess
+
+from reporting import page, runs, stability_plots
+
+DESIGN = "lever"
+
+
+def study(folder):
+    """(study, complaint): of the borders alone, written to folder/stability.json."""
+    path = folder / "stability.json"
+    done = subprocess.run(
+        [runs.program(), "stability", DESIGN, "--no-experiments", "--json", path],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    if done.returncode == 0:
+        return json.loads(path.read_text(encoding="utf-8")), ""
+    said = (done.stderr or done.stdout).strip().splitlines()
+    return None, f"stability {DESIGN}: {said[-1] if said else f'exit code {done.returncode}'}"
+
+
+def table(found):
+    head = [
+        "scene rate",
+        "B, Nm s/rad",
+        "chain's bits, Nm/rad",
+        "eigenvalues",
+        "closed form",
+        "Z-width",
+    ]
+    rows = []
+    for p in found["borders"]:
+        row = [stability_plots.rate_text(p["rate_hz"]), page.number(p["damping_nm_s_rad"])]
+        if p["eigenvalues_nm_rad"] == 0:
+            row.append("no stiffness is stable")
+        else:
+            row += [
+                page.number(p[key])
+                for key in ("bits_nm_rad", "eigenvalues_nm_rad", "closed_nm_rad", "z_width")
+            ]
+        rows.append(row)
+    return page.table(head, rows)
+
+
+def html(found):
+    text = page.paragraph(
+        "How stiff a wall may be before it shakes by itself, against its damping and the rate at "
+        "which it is computed: by bisection on the chain's own bits around a linear plant, by the "
+        "eigenvalues of the loop, and by (b+B)/(T/2+td). docs/stability.md says where the three "
+        "must agree and why they differ elsewhere."
+    )
+    text += page.pictures(stability_plots.pictures(found)) + table(found)
+    return page.section("stability", f"Walls: stability of {found['design']}", text)

@@ -38,8 +38,10 @@ class Coverage {
     parted_ = apart && (t.ramping || parted_);
     if (velocity_left_ > 0) --velocity_left_;
     if (torque_left_ > 0) --torque_left_;
-    if (t.velocity_saturated) velocity_left_ = velocity_memory_;
-    if (t.velocity_saturated) torque_left_ = velocity_memory_ + torque_memory_;
+    if (t.velocity_saturated) {
+      velocity_left_ = velocity_memory_;
+      torque_left_ = velocity_memory_ + torque_memory_;
+    }
     if (t.tau_hat_saturated || parted_) torque_left_ = std::max(torque_left_, torque_memory_);
     outside_ += torque_left_ > 0 ? 1 : 0;
   }

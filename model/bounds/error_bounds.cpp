@@ -298,6 +298,9 @@ void fill_torques(const ChainNumbers& c, const InputRegion& region, const Parts&
   }
 }
 
+/// Outward rounding makes a little of nothing; a source that is absent contributes nothing.
+double shown(double bound) { return bound < 1e-200 ? 0.0 : bound; }
+
 /// The region with its velocity: at most what the format holds.
 InputRegion filled(InputRegion region, const SaturationFree& free) {
   if (region.velocity_rad_s <= 0 || region.velocity_rad_s > free.velocity_rad_s) {
@@ -348,7 +351,8 @@ std::vector<SourceBound> source_bounds(const ChainNumbers& numbers, const InputR
   std::vector<SourceBound> out;
   for (const auto& s : sources) {
     const Parts p = Chain(numbers, region, s.level, s.rounds, &gains).parts();
-    out.push_back({s.name, p.velocity, p.tau_hat, p.tau_ref, p.current});
+    out.push_back({s.name, shown(p.velocity), shown(p.tau_hat), shown(p.tau_ref),
+                   shown(p.current)});
   }
   return out;
 }

@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   add_replay(app, &exit_code);
   add_import(app, &exit_code);
   add_design(app, &exit_code);
+  add_budget(app, &exit_code);
   add_extremes(app, &exit_code);
   add_trim(app, &exit_code);
   add_stability(app, &exit_code);

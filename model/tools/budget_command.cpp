@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate budget. Documentation: docs/error-bounds.md
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "budget/scene_budget.hpp"
+#include "plant/plant_file.hpp"
+#include "tools/commands.hpp"
+#include "tools/output.hpp"
+
+namespace feltgate {
+
+namespace {
+
+using bounds::BudgetLine;
+using bounds::SceneBudget;
+using bounds::SourceBound;
+using Json = nlohmann::ordered_json;
+
+struct BudgetArguments {
+  std::string scene, design = "lever", plant, json;
+  std::uint64_t seed = 1;
+  bool quiet = false;
+};
+
+/// A column: its heading, its name in JSON, where it is.
+struct Column {
+  const char* heading;
+  const char* name;
+  double SourceBound::*value;
+};
+
+constexpr Column columns[] = {{"velocity rad/s", "velocity_rad_s", &SourceBound::velocity_rad_s},
+                              {"tau_hat Nm", "tau_hat_nm", &SourceBound::tau_hat_nm},
+                              {"tau_ref Nm", "tau_ref_nm", &SourceBound::tau_ref_nm},
+                              {"current A", "current_a", &SourceBound::current_a}};
+
+std::string text(const SceneBudget& b, const std::string& scene, const std::string& design) {
+  std::ostringstream s;
+  char cell[64];
+  s << "scene " << scene << ", design " << design << ": largest error, and the proven bound\n\n";
+  std::snprintf(cell, sizeof cell, "%-16s", "source");
+  s << cell;
+  for (const Column& c : columns) {
+    std::snprintf(cell, sizeof cell, " %14s %9s", c.heading, "bound");
+    s << cell;
+  }
+  s << "\n";
+  const auto row = [&](const BudgetLine& l, const char* name) {
+    std::snprintf(cell, sizeof cell, "%-16s", name);
+    s << cell;
+    for (const Column& c : columns) {
+      std::snprintf(cell, sizeof cell, " %14.3g %9.3g", l.max.*c.value, l.bound.*c.value);
+      s << cell;
+    }
+    s << "\n";
+  };
+  for (const BudgetLine& l : b.sources) row(l, l.max.name.c_str());
+  row(b.sum, "sum");
+  row(b.whole, "whole");
+  row(b.gain, "2^n (not in it)");
+  std::snprintf(cell, sizeof cell, "\n%lld ticks", static_cast<long long>(b.ticks));
+  s << cell;
+  if (b.ticks_out_of_bounds > 0) {
+    s << ", of which " << b.ticks_out_of_bounds
+      << " in no row: a ramp or saturation and what follows";
+  }
+  std::snprintf(cell, sizeof cell, "%.4g rad/s", b.largest_velocity_rad_s);
+  s << "\nbounds are for any motion up to this one's " << cell << " before the low-pass\n";
+  if (!b.holds()) s << "an error exceeds its bound\n";
+  return s.str();
+}
+
+Json signals(const SourceBound& x) {
+  Json j;
+  for (const Column& c : columns) {
+    const double v = x.*c.value;
+    j[c.name] = std::isfinite(v) ? Json(v) : Json(nullptr);
+  }
+  return j;
+}
+
+Json line_json(const BudgetLine& l) {
+  return {
+      {"max_error", signals(l.max)}, {"rms_error", signals(l.rms)}, {"bound", signals(l.bound)}};
+}
+
+std::string json(const SceneBudget& b, const std::string& scene, const std::string& design) {
+  Json j{{"schema", "feltgate-budget-1"}, {"version", FELTGATE_VERSION}};
+  j["design"] = design;
+  j["scene"] = scene;
+  j["ticks"] = b.ticks;
+  j["ticks_out_of_bounds"] = b.ticks_out_of_bounds;
+  j["largest_velocity_rad_s"] = b.largest_velocity_rad_s;
+  for (const BudgetLine& l : b.sources) j["sources"][l.max.name] = line_json(l);
+  j["sum"] = {{"max_error", signals(b.sum.max)}, {"bound", signals(b.sum.bound)}};
+  j["whole"] = line_json(b.whole);
+  j["gain"] = line_json(b.gain);
+  j["holds"] = b.holds();
+  return j.dump(2) + "\n";
+}
+
+int run(const BudgetArguments& a) {
+  Scenario scenario = read_scenario(find_file(a.scene, "vectors/scenes"));
+  if (!a.plant.empty()) scenario.plant = a.plant;
+  const plant::Parameters plant =
+      plant::read_plant_file(find_file(scenario.plant, "vectors/plants"));
+  resolve_effects(scenario, plant.effects);
+  const auto e = elaborate(design::read_design(find_file(a.design, "rtl/designs")),
+                           design::read_registers(repository() + "/rtl/registers.toml"));
+  std::unique_ptr<OutputFile> file;
+  if (!a.json.empty()) file = std::make_unique<OutputFile>(a.json);
+  SceneBudget b;
+  {
+    Progress progress(scenario.name + " on " + e.design.name, a.quiet);
+    b = bounds::scene_budget(e, scenario, plant, a.seed, [&](double done) { progress.update(done); });
+  }
+  if (file) {
+    std::fputs(json(b, scenario.name, e.design.name).c_str(), file->handle());
+    file->commit();
+  }
+  if (!a.quiet) std::fputs(text(b, scenario.name, e.design.name).c_str(), stdout);
+  return b.holds() ? exit_ok : exit_failed;
+}
+
+}  // namespace
+
+void add_budget(CLI::App& app, int* exit_code) {
+  auto a = std::make_shared<BudgetArguments>();
+  CLI::App* sub = app.add_subcommand(
+      "budget", "where the error of a scene comes from, block by block, and its proven bound");
+  sub->footer(
+      "The scene runs once in closed loop on the twin; then chains in which one block alone is in\n"
+      "fixed point, the others in 113 bits, see the same counts (docs/error-bounds.md).\n"
+      "  feltgate budget spring_compression\n"
+      "  feltgate budget membrane --design paper --json budget.json\n"
+      "Exit code: 0 every error is within its bound, 1 one is not, 2 unusable input.");
+  sub->add_option("scene", a->scene, "name in vectors/scenes, or a path")
+      ->required()
+      ->type_name("SCENE");
+  sub->add_option("--design", a->design, "design point in rtl/designs")->capture_default_str();
+  sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's");
+  sub->add_option("--json", a->json, "the same as JSON (docs/json.md)");
+  sub->add_option("--seed", a->seed, "of the run")->capture_default_str();
+  sub->add_flag("--quiet", a->quiet, "print nothing");
+  sub->callback([a, exit_code] { *exit_code = run(*a); });
+}
+
+}  // namespace feltgate

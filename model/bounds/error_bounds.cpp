@@ -351,8 +351,8 @@ std::vector<SourceBound> source_bounds(const ChainNumbers& numbers, const InputR
   std::vector<SourceBound> out;
   for (const auto& s : sources) {
     const Parts p = Chain(numbers, region, s.level, s.rounds, &gains).parts();
-    out.push_back({s.name, shown(p.velocity), shown(p.tau_hat), shown(p.tau_ref),
-                   shown(p.current)});
+    out.push_back(
+        {s.name, shown(p.velocity), shown(p.tau_hat), shown(p.tau_ref), shown(p.current)});
   }
   return out;
 }

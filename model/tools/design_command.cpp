@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "bounds/error_bounds.hpp"
 #include "design/for_scenes.hpp"
 #include "design/generate.hpp"
 #include "design/loop_poles.hpp"
@@ -62,7 +63,7 @@ int design_for(const DesignArguments& a, const design::RegisterMap& registers) {
 
 int table_of(const DesignArguments& a, const design::RegisterMap& registers) {
   const auto e = elaborate(design::read_design(find_file(a.name, "rtl/designs")), registers);
-  std::string text = design_table(e);
+  std::string text = design_table(e) + "\n" + bound_table(bounds::error_bounds(e));
   if (!a.plant.empty()) {
     const auto p = plant::read_plant_file(find_file(a.plant, "vectors/plants"));
     refuse_unstable(e, p);

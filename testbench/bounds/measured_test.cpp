@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Measured errors against their bounds: slow, small, swept, random and adversarial motions over all
-// scenes of both designs, and how nearly the bounds are reached. Documentation: docs/error-bounds.md
+// scenes of both designs, and how nearly the bounds are reached. Documentation:
+// docs/error-bounds.md
 #include <cmath>
 #include <functional>
 
@@ -44,7 +45,7 @@ struct Stimulus {
 
 std::vector<Stimulus> stimuli(std::uint64_t seed) {
   return {
-      {"slow", [](int k) { return k / 20'000; }},
+      {"slow", [](int k) { return k / 25'000; }},
       {"small square wave", [](int k) { return (k / 7'000) % 2 == 0 ? 0 : 3; }},
       {"one count back and forth", [](int k) { return (k / 400) % 2; }},
       {"chirp",
@@ -52,7 +53,7 @@ std::vector<Stimulus> stimuli(std::uint64_t seed) {
          const double t = k * 1e-6;
          return whole(500 * std::sin(2 * 3.14159265358979 * (1 + 300 * t) * t));
        }},
-      {"across every border", [](int k) { return whole(600 * std::sin(k * 4e-5)); }},
+      {"across every border", [](int k) { return whole(600 * std::sin(k * 1.3e-4)); }},
       {"random", random_walk(seed)},
   };
 }
@@ -72,9 +73,11 @@ void check(const std::string& design, int scene, const Stimulus& stimulus, int t
   }
   const auto budget = make_budget(design);
   budget->cover(Coverage(error_bounds(numbers, {1e-9, name, 0}), numbers));
+  // The ramp after arming is over at once: what it does is no matter of rounding.
+  budget->set_parameter(e.word("ramp_step").parameter.address, 15.0);
   for (int k = 0; k < ticks; ++k) {
     ChainIn in;
-    in.armed = k > 2000 && (k / 50'000) % 3 != 2;
+    in.armed = k > 2000 && (k / 10'000) % 3 != 2;
     in.scene = scene;
     in.position = stimulus.motion(k);
     in.travel = static_cast<std::int16_t>(in.position & 0xffff);
@@ -111,12 +114,12 @@ TEST_CASE("no error exceeds its bound, in any scene, whatever the lever does") {
     const design::Elaborated e = shipped(design);
     std::uint64_t seed = 1;
     for (const design::Scene& s : e.registers.scenes) {
-      for (const Stimulus& stimulus : stimuli(seed++)) check(design, s.number, stimulus, 200'000, &held);
+      for (const Stimulus& stimulus : stimuli(seed++))
+        check(design, s.number, stimulus, 50'000, &held);
     }
     INFO(design << ": " << held.covered << " of " << held.ticks << " ticks, velocity "
                 << held.velocity_share << " of its bound");
-    // Ramps and what follows of them leave the theorem; most ticks must not.
-    CHECK(held.covered > held.ticks / 2);
+    CHECK(held.covered > held.ticks * 9 / 10);
     CHECK(held.velocity_share > 0.9);
   }
 }

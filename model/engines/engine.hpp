@@ -122,6 +122,9 @@ class Engine {
   /// Snapshots that became valid during the last advance().
   virtual const std::vector<Snapshot>& snapshots() const = 0;
   virtual GateClocks gates() const = 0;
+  /// false: nobody will ask for gates(), which then need not be kept up; before the first
+  /// advance().
+  virtual void keep_gate_times(bool) {}
   /// Duty in force in the bridge, in clocks of the PWM period, and whether the gates are open.
   virtual int duty() const = 0;
   virtual bool gates_enabled() const = 0;

@@ -45,14 +45,26 @@ class TwinEngine : public ClockedEngine {
   TwinEngine() : ClockedEngine(design_info<D>()) {}
   const char* name() const override { return "twin"; }
 
-  /// From event to event: pins, register writes and the end of the stretch.
+  /// From event to event: pins, register writes and the end of the stretch. Clocks in which nothing
+  /// happens that could be asked for wait for those that follow.
   void advance(Clock clocks, const EncoderEvent* first, const EncoderEvent* last) override {
     snapshots_.clear();
     if (first != last) events_.push(first, last);
-    gates_before_ = core_.gate_clocks();
-    const auto tell = [this] { keep(core_.out(), core_.sampled_travel(), core_.writes()); };
     CoreIn in = inputs();
-    for (const Clock end = now_ + clocks; now_ < end;) {
+    const Clock end = now_ + clocks;
+    if (!gate_times_ && writes_.empty() && events_.next(end) >= end) {
+      in.encoder = events_.pins();
+      if (core_.calm(in, waiting_ + clocks)) {
+        waiting_ += clocks;
+        now_ = end;
+        return;
+      }
+    }
+    if (gate_times_) gates_before_ = core_.gate_clocks();
+    now_ -= waiting_;
+    waiting_ = 0;
+    const auto tell = [this] { keep(core_.out(), core_.sampled_travel(), core_.writes()); };
+    while (now_ < end) {
       in.encoder = events_.at(now_);
       const int clock_of_tick = core_.clock_of_tick();
       if (!writes_.empty() && clock_of_tick == WriteQueue::issue_clock) {
@@ -72,6 +84,15 @@ class TwinEngine : public ClockedEngine {
       now_ = until;
     }
   }
+  void set_panel(const Panel& panel) override {
+    settle();
+    ClockedEngine::set_panel(panel);
+  }
+  void write(int address, std::uint32_t data) override {
+    settle();
+    ClockedEngine::write(address, data);
+  }
+  void keep_gate_times(bool keep) override { gate_times_ = keep; }
   GateClocks gates() const override {
     const auto after = core_.gate_clocks();
     return {after[0] - gates_before_[0], after[1] - gates_before_[1], after[2] - gates_before_[2],
@@ -81,8 +102,23 @@ class TwinEngine : public ClockedEngine {
   bool gates_enabled() const override { return core_.out().gates_enable; }
 
  private:
-  void reset_core(std::uint64_t, EncoderPins) override { core_ = FeltgateCore<D>(); }
-  FeltgateCore<D> core_;
+  using Core = FeltgateCore<D, false>;  // nobody reads registers through an engine
+
+  /// Before the inputs change: the clocks that wait.
+  void settle() {
+    CoreIn in = inputs();
+    in.encoder = events_.pins();
+    core_.run(in, waiting_, [] {});
+    waiting_ = 0;
+  }
+  void reset_core(std::uint64_t, EncoderPins) override {
+    core_ = Core();
+    waiting_ = 0;
+    gates_before_ = {};
+  }
+  Core core_;
+  Clock waiting_ = 0;  ///< clocks before now() that the core has yet to run
+  bool gate_times_ = true;
   std::array<std::int64_t, 4> gates_before_{};
 };
 

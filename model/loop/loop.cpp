@@ -65,6 +65,7 @@ class ScenarioRun {
     }
     for (const auto& [name, value] : s_.parameters) core_.set_parameter(name, value);
     core_.set_control(scene_, mode_, false);
+    core_.lead().keep_gate_times(s_.switched);
     std::size_t next_event = 0;
     const Clock arm_at = clock_of(s_.arm_s);
     Clock next_report = 0;

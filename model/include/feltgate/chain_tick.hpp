@@ -109,6 +109,11 @@ class ChainTick {
     line_.push(travel);
     estimator_.tick(words_, counts);
   }
+  /// Fixed only: input of the velocity's low-pass in a tick with this travel, raw.
+  std::int64_t velocity_input(std::int16_t travel) const {
+    bool unused = false;
+    return N::raw(VelocityLaw<D, N>::raw(travel_difference(travel, line_.oldest()), &unused));
+  }
   /// tau_hat from the velocity and the current of the tick before.
   void observe(bool armed) { observer_.tick(words_, armed, control_.current, velocity()); }
   /// tau_ref from the position, and the velocity in a damper.

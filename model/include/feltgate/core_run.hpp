@@ -14,9 +14,9 @@
 
 namespace feltgate {
 
-template <class D>
+template <class D, bool ReadBack>
 template <class OnSnapshot>
-void FeltgateCore<D>::run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
+void FeltgateCore<D, ReadBack>::run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
   constexpr int tick = D::clocks_per_tick;
   bool settled = false;  // as far as known; holds until a clock() changes the decoder's inputs
   while (clocks > 0) {
@@ -32,14 +32,17 @@ void FeltgateCore<D>::run(const In& in, std::int64_t clocks, OnSnapshot&& on_sna
     if (!settled) settled = decoder_.settled(decoder_inputs(in, false, false));
     if (settled && from == 0 && clocks >= tick && at_rest) {
       // Only the last two snapshots of a stretch can ever be read back.
-      const auto unread = static_cast<std::uint32_t>(std::max<std::int64_t>(clocks / tick - 2, 0));
+      const auto ticks = static_cast<std::uint32_t>(clocks / tick);
+      const std::uint32_t unread = !ReadBack ? ticks : ticks > 2 ? ticks - 2 : 0;
       for (std::uint32_t k = 0; k < unread; ++k) pass_tick<false>(in, on_snapshot);
       registers_.skip_unread_ticks(unread);
-      pass_tick<true>(in, on_snapshot);
-      registers_.skip_tick(in.reg_addr);
-      sequencer_.skip_ticks(unread + 1);
+      for (std::uint32_t k = unread; k < ticks; ++k) {
+        pass_tick<true>(in, on_snapshot);
+        registers_.skip_tick(in.reg_addr);
+      }
+      sequencer_.skip_ticks(ticks);
       show();
-      clocks -= (unread + 1) * std::int64_t{tick};
+      clocks -= std::int64_t{ticks} * tick;
     } else {
       const int end = at_rest ? tick : tick - 1;
       int to = static_cast<int>(std::min<std::int64_t>(end, from + clocks));
@@ -51,17 +54,35 @@ void FeltgateCore<D>::run(const In& in, std::int64_t clocks, OnSnapshot&& on_sna
 }
 
 /// Nothing is under way that asks for clock(): an error or a stop, or the first tick.
-template <class D>
-bool FeltgateCore<D>::can_pass(const In& in) const {
+template <class D, bool ReadBack>
+bool FeltgateCore<D, ReadBack>::can_pass(const In& in) const {
   return sequencer_.out().tick_count != 0 && supervisor_.steady(in.stop) &&
          !(in.stop && supervisor_.out().gates_enable) && !decoder_.out().illegal &&
          !(in_supervisor_wave(sequencer_.clock_of_tick()) &&
            passed_to_ != sequencer_.clock_of_tick());
 }
 
+/// As long as the inputs hold, `clocks` clocks from now change neither the duty in force nor the
+/// enable of the gates, and bring no snapshot: whoever wants no more may ask for them later. False
+/// is always right.
+template <class D, bool ReadBack>
+bool FeltgateCore<D, ReadBack>::calm(const In& in, std::int64_t clocks) const {
+  if (sequencer_.clock_of_tick() != 0 || clocks >= kSnapshot || gates_.clocks_to_duty() < clocks ||
+      registers_.out().reg_busy || zero_pending_ || !can_pass(in) ||
+      !decoder_.settled(decoder_inputs(in, false, false))) {
+    return false;
+  }
+  // What can close the gates is over-speed, over-current and a wrong polarity.
+  const auto limit = static_cast<std::int32_t>(supervisor_words_.overspeed);
+  const auto slow = [limit](std::int64_t w) { return w <= limit && -w <= limit; };
+  return !out_.gates_enable ||
+         (!supervisor_.near_trip(supervisor_words_) && slow(out_.velocity) &&
+          slow(wave_.velocity_input(static_cast<std::int16_t>(decoder_.out().travel))));
+}
+
 /// The next clock after `from` in which the wave looks at the decoder.
-template <class D>
-int FeltgateCore<D>::next_look_at_decoder(int from) {
+template <class D, bool ReadBack>
+int FeltgateCore<D, ReadBack>::next_look_at_decoder(int from) {
   for (const int t : {0, 2, 11, 14}) {
     if (from < t + kWave) return t + kWave;
   }
@@ -70,9 +91,9 @@ int FeltgateCore<D>::next_look_at_decoder(int from) {
 
 /// A whole tick but for registers and sequencer, the decoder at rest. `Read`: the host may see its
 /// words.
-template <class D>
+template <class D, bool ReadBack>
 template <bool Read, class OnSnapshot>
-void FeltgateCore<D>::pass_tick(const In& in, OnSnapshot&& on_snapshot) {
+void FeltgateCore<D, ReadBack>::pass_tick(const In& in, OnSnapshot&& on_snapshot) {
   constexpr int tick = D::clocks_per_tick;
   const QuadDecoder::Out& decoded = decoder_.out();
   const auto keep = [&](std::initializer_list<int> clocks) {
@@ -114,8 +135,8 @@ void FeltgateCore<D>::pass_tick(const In& in, OnSnapshot&& on_snapshot) {
 }
 
 /// Gates of a tick up to the snapshot.
-template <class D>
-void FeltgateCore<D>::advance_gates_by_duty(int open, std::int16_t duty_before) {
+template <class D, bool ReadBack>
+void FeltgateCore<D, ReadBack>::advance_gates_by_duty(int open, std::int16_t duty_before) {
   // In most ticks no duty is taken after the new one has come.
   const int taken = gates_.clocks_to_duty();
   if (D::pwm_period >= kSnapshot && (taken < kDuty || taken >= kSnapshot)) {
@@ -127,8 +148,8 @@ void FeltgateCore<D>::advance_gates_by_duty(int open, std::int16_t duty_before) 
 }
 
 /// Arming and scene in the last clock of a tick.
-template <class D>
-void FeltgateCore<D>::end_of_tick(const In& in) {
+template <class D, bool ReadBack>
+void FeltgateCore<D, ReadBack>::end_of_tick(const In& in) {
   const std::uint32_t control = registers_.out().control;
   const bool host = bit(control, D::C::control_host);
   supervisor_.at_end(supervisor_words_, host ? bit(control, D::C::control_arm) : in.arm);
@@ -137,14 +158,14 @@ void FeltgateCore<D>::end_of_tick(const In& in) {
 
 /// Clocks [from, to) of a tick, from < to. Returns the clock that was reached: it is before `to`
 /// where an encoder error comes up.
-template <class D>
+template <class D, bool ReadBack>
 template <class OnSnapshot>
-int FeltgateCore<D>::pass(const In& in, int from, int to, OnSnapshot&& on_snapshot) {
+int FeltgateCore<D, ReadBack>::pass(const In& in, int from, int to, OnSnapshot&& on_snapshot) {
   const QuadDecoder::Out decoded = decoder_.out();
   to = advance_decoder(in, from, to);
   const auto has = [from, to](int t) { return from <= t + kWave && t + kWave < to; };
   const auto keep = [&](int t) {
-    if (has(t)) registers_.write_snapshot(t, snapshot_word(t, decoded));
+    if (ReadBack && has(t)) registers_.write_snapshot(t, snapshot_word(t, decoded));
   };
   const auto wave = [&](int t) {
     if (has(t)) {
@@ -207,8 +228,8 @@ int FeltgateCore<D>::pass(const In& in, int from, int to, OnSnapshot&& on_snapsh
 }
 
 /// Clocks [from, to) of the decoder, or fewer: to the clock that sees an encoder error.
-template <class D>
-int FeltgateCore<D>::advance_decoder(const In& in, int from, int to) {
+template <class D, bool ReadBack>
+int FeltgateCore<D, ReadBack>::advance_decoder(const In& in, int from, int to) {
   const QuadDecoder::In d = decoder_inputs(in, false, false);
   for (int c = from; c < to; ++c) {
     if (decoder_.settled(d)) return to;
@@ -220,8 +241,8 @@ int FeltgateCore<D>::advance_decoder(const In& in, int from, int to) {
 
 /// Gates of the clocks [from, to), open before the clock `open`; returns the clock reached. A fall
 /// shows in the outputs with the clock that makes it.
-template <class D>
-int FeltgateCore<D>::advance_gates(int from, int to, int open, std::int16_t duty) {
+template <class D, bool ReadBack>
+int FeltgateCore<D, ReadBack>::advance_gates(int from, int to, int open, std::int16_t duty) {
   const int end = std::min(to, open);
   if (from < end) gates_.advance(pwm_inputs(true, duty), end - from, end < open);
   from = std::max(from, end);
@@ -231,8 +252,8 @@ int FeltgateCore<D>::advance_gates(int from, int to, int open, std::int16_t duty
 
 /// Before a clock() that follows a pass(): the supervisor's registers between its steps, by its own
 /// clocks, whose inputs have not changed since.
-template <class D>
-void FeltgateCore<D>::catch_up(int c) {
+template <class D, bool ReadBack>
+void FeltgateCore<D, ReadBack>::catch_up(int c) {
   if (passed_to_ != c) return;
   passed_to_ = -1;
   const bool watchdog = c > 45 + kWave;

@@ -90,6 +90,9 @@ class CoreWave {
     limits_ = chain_.limits();
   }
 
+  /// What the velocity's low-pass would take in now, raw: the next velocity lies between it and the
+  /// last.
+  std::int64_t velocity_input(std::int16_t travel) const { return chain_.velocity_input(travel); }
   /// The region of the voltage gain that the last torque reference fell into.
   bool region_high() const { return chain_.control().region_high; }
   /// Free-running count that the running wave started from.

@@ -20,7 +20,8 @@
 
 namespace feltgate {
 
-template <class D>
+/// ReadBack = false: no snapshot in the registers, every read gives 0 (parameter of the RTL).
+template <class D, bool ReadBack = true>
 class FeltgateCore {
  public:
   using In = CoreIn;
@@ -57,7 +58,7 @@ class FeltgateCore {
     const bool host = bit(control, D::C::control_host);
 
     // What the rest of the core sees of the registers in this clock, before the edge.
-    const typename Registers<D>::In reg = register_inputs(in, t, tick);
+    const typename Registers<D, ReadBack>::In reg = register_inputs(in, t, tick);
     const bool zero = tick && (registers_.commands(D::C::command_set_zero) || zero_pending_);
     const bool clear = tick && registers_.commands(D::C::command_clear_faults);
     const std::int16_t travel = static_cast<std::int16_t>(decoder_.out().travel);
@@ -106,6 +107,8 @@ class FeltgateCore {
   /// `on_snapshot()` is called whenever out() holds a valid snapshot.
   template <class OnSnapshot>
   void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot);
+
+  bool calm(const In& in, std::int64_t clocks) const;
 
   const Out& out() const { return out_; }
   /// Clocks since reset for which each gate was on: a_hi, a_lo, b_hi, b_lo.
@@ -181,13 +184,13 @@ class FeltgateCore {
     return sup;
   }
 
-  typename Registers<D>::In register_inputs(const In& in, int t, bool tick) const {
-    typename Registers<D>::In reg;
+  typename Registers<D, ReadBack>::In register_inputs(const In& in, int t, bool tick) const {
+    typename Registers<D, ReadBack>::In reg;
     reg.tick = tick;
     reg.reg_addr = in.reg_addr;
     reg.reg_wdata = in.reg_wdata;
     reg.reg_write = in.reg_write;
-    if (t >= 0 && t < 50 && ((kSnapshotSlots >> t) & 1u) != 0) {
+    if (ReadBack && t >= 0 && t < 50 && ((kSnapshotSlots >> t) & 1u) != 0) {
       reg.snap_valid = true;
       reg.snap_slot = static_cast<std::uint8_t>(t);
       reg.snap_data = snapshot_word(t, decoder_.out());
@@ -287,7 +290,7 @@ class FeltgateCore {
   }
 
   Sequencer<D::clocks_per_tick> sequencer_;
-  Registers<D> registers_;
+  Registers<D, ReadBack> registers_;
   QuadDecoder decoder_;
   CoreWave<D> wave_;
   Supervisor<D> supervisor_, before_wave_;

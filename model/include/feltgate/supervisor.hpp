@@ -173,6 +173,12 @@ class Supervisor {
     return trips;
   }
 
+  /// Whether too much heat or a wrong polarity might trip in the wave to come.
+  bool near_trip(const Words& words) const {
+    return sum_.raw() >= static_cast<std::int64_t>(words.i2t_budget) ||
+           polarity_ >= words.polarity_ticks || polarity_ > kLongestPolarity;
+  }
+
   /// All five. Returns the clock of the tick after which the gates fell, or -1.
   int tick(const Words& words, const Tick& in) {
     const auto coefficient = [](std::uint32_t word) {

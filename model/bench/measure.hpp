@@ -50,7 +50,13 @@ struct Goal {
   bool met() const { return at_most ? value.median <= goal : value.median >= goal; }
 };
 
+/// Proven bounds of the integer engines' errors, the worst over the works.
+struct ErrorLimits {
+  double velocity_rad_s = 0, tau_hat_nm = 0, torque_nm = 0;
+};
+
 struct Result {
+  std::optional<ErrorLimits> bounds;
   std::vector<EngineResult> engines;
   std::vector<LoopResult> loops;
   std::vector<Goal> goals;

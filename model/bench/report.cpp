@@ -84,6 +84,11 @@ std::string json(const Result& r, const std::vector<Work>& works, const Circumst
     if (e.integer) o["hash"] = hex(e.hash);
     o["samples_ns_per_tick"] = e.samples;
   }
+  if (r.bounds) {
+    j["bounds_of_integer_engines"] = {{"velocity_error_rad_s", r.bounds->velocity_rad_s},
+                                      {"tau_hat_error_nm", r.bounds->tau_hat_nm},
+                                      {"torque_error_nm", r.bounds->torque_nm}};
+  }
   j["integer_engines_agree"] = r.divergence.empty();
   if (!r.divergence.empty()) j["first_divergence"] = r.divergence;
   for (const LoopResult& l : r.loops) {
@@ -120,6 +125,10 @@ std::string text(const Result& r, const std::vector<Work>& works, const Circumst
     } else {
       s += e.name == "quad" ? "   the reference\n" : "\n";
     }
+  }
+  if (r.bounds) {
+    print(&s, "%-57s %10.3g %10s %10.3g %10s %10.3g\n", "proven bound of the integer engines",
+          r.bounds->velocity_rad_s, "", r.bounds->tau_hat_nm, "", r.bounds->torque_nm);
   }
   s += "\n";
   if (r.divergence.empty()) {

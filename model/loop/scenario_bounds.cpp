@@ -48,7 +48,8 @@ void RunBounds::render(const std::string& scene, int mode) {
 
 void RunBounds::set(const std::string& parameter, double value, bool in_the_middle) {
   numbers_.set(parameter, value);
-  if (!in_the_middle) return;
+  // No bound depends on a set-point.
+  if (!in_the_middle || parameter == "setpoint_torque" || parameter == "voltage_setpoint") return;
   lost_ = lost_ || parameter == "velocity_a1" || parameter == "observer_a1" ||
           parameter == "inertia_gain";
   add();

@@ -2,10 +2,12 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate bench, a program of its own because it links SystemC. Documentation: docs/bench.md
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 
 #include "bench/report.hpp"
+#include "bench/work_bounds.hpp"
 #include "tools/commands.hpp"
 #include "tools/output.hpp"
 
@@ -20,6 +22,20 @@ struct Arguments {
   int repetitions = 0;
   bool quick = false, quiet = false;
 };
+
+/// The worst of the works.
+bench::ErrorLimits bounds_of(const std::vector<bench::Work>& works) {
+  const auto e = elaborate(design::read_design(repository() + "/rtl/designs/lever.toml"),
+                           design::read_registers(repository() + "/rtl/registers.toml"));
+  bench::ErrorLimits worst;
+  for (const bench::Work& work : works) {
+    const bounds::ErrorBounds b = bench::work_bounds(e, work);
+    worst.velocity_rad_s = std::max(worst.velocity_rad_s, b.velocity_rad_s.against_reference);
+    worst.tau_hat_nm = std::max(worst.tau_hat_nm, b.tau_hat_nm.against_reference);
+    worst.torque_nm = std::max(worst.torque_nm, b.torque_nm.against_reference);
+  }
+  return worst;
+}
 
 int run(const Arguments& a) {
   std::vector<std::string> scenes = a.scenes;
@@ -45,7 +61,8 @@ int run(const Arguments& a) {
   options.repetitions = a.repetitions > 0 ? a.repetitions : a.quick ? 1 : 3;
   Progress progress("bench", a.quiet);
   options.progress = [&progress](double done) { progress.update(done); };
-  const bench::Result result = bench::measure(runners, works, closed_loops, options);
+  bench::Result result = bench::measure(runners, works, closed_loops, options);
+  result.bounds = bounds_of(works);
   const bench::Circumstances c = bench::circumstances();
   if (json) {
     std::fputs(bench::json(result, works, c).c_str(), json->handle());

@@ -12,7 +12,6 @@ namespace feltgate::stability {
 
 namespace {
 
-constexpr double kPressNm = 0.45;  ///< of the hand; its swing has room to both sides
 constexpr double kLimitNm = 0.95;  ///< torque limit while measuring, from it follows the current
 
 plant::Drive drive_of(const design::Design& d) {
@@ -85,11 +84,11 @@ void BitLoop::tick() {
   ++k_;
 }
 
-double swing_rad(double stiffness_nm_rad) { return 0.6 * kPressNm / stiffness_nm_rad; }
+double swing_rad(double stiffness_nm_rad) { return 0.6 * press_nm / stiffness_nm_rad; }
 
 Growth swing(const design::Elaborated& design, const plant::Parameters& plant, const Wall& wall,
              const std::string& chain, double expected_rad_s) {
-  const double depth_rad = kPressNm / wall.stiffness_nm_rad;
+  const double depth_rad = press_nm / wall.stiffness_nm_rad;
   BitLoopSetting s;
   s.chain = chain;
   s.wall = wall;
@@ -97,53 +96,26 @@ Growth swing(const design::Elaborated& design, const plant::Parameters& plant, c
   s.hand.start_rad = depth_rad - swing_rad(wall.stiffness_nm_rad);
   plant::HandPhase press;
   press.kind = plant::HandPhase::Kind::kTorque;
-  press.profile = {{plant::Segment::Kind::kStep, 1.0, kPressNm}};
+  press.profile = {{plant::Segment::Kind::kStep, 1.0, press_nm}};
   s.hand.phases = {press};
   BitLoop loop(design, s);
-  const double count_rad = design.design.count_rad(), tick_s = design.design.tick_s();
-  constexpr int skipped = 3, wanted = 26;
+  const double tick_s = design.design.tick_s();
+  constexpr int wanted = 26;
   const double longest_s = 1.5 * wanted * 3.141592653589793 / expected_rad_s;
-  std::vector<double> times, sizes;
-  double extreme = s.hand.start_rad.value(), before = 0;
-  Growth g;
-  for (int seen = 0; seen < wanted + skipped;) {
+  SwingMeter meter(s.hand.start_rad.value(), 2.5 * design.design.count_rad(), wanted);
+  for (double now_s = 0; now_s < longest_s;) {
     loop.tick();
-    const double now_s = static_cast<double>(loop.ticks()) * tick_s;
-    if (now_s > longest_s) break;
+    now_s = static_cast<double>(loop.ticks()) * tick_s;
     // Before the first samples of a slow host there is no torque yet.
     const double torque = loop.tau_ref_nm();
-    g.left = loop.ticks() > 3 * wall.scene_ticks && (torque > -0.005 || torque < -0.99 * kLimitNm);
-    if (g.left) break;
-    const double speed = loop.omega_rad_s();
-    if (before * speed < 0) {
-      const double size = std::abs(loop.theta_rad() - extreme) / 2;
-      extreme = loop.theta_rad();
-      ++seen;
-      if (seen > skipped) {
-        times.push_back(now_s);
-        sizes.push_back(std::log(size));
-        if (size < 2.5 * count_rad) break;
-      }
+    const bool acts = loop.ticks() > 3 * wall.scene_ticks;
+    if (acts && (torque > -0.005 || torque < -0.99 * kLimitNm)) {
+      meter.leave();
+      break;
     }
-    if (speed != 0) before = speed;
+    if (!meter.add(now_s, loop.theta_rad(), loop.omega_rad_s())) break;
   }
-  g.swings = static_cast<int>(sizes.size());
-  if (g.swings < 3) {
-    g.rate_1_s =
-        g.left ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
-    return g;
-  }
-  double t = 0, y = 0, tt = 0, ty = 0;
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    t += times[i];
-    y += sizes[i];
-    tt += times[i] * times[i];
-    ty += times[i] * sizes[i];
-  }
-  const double n = static_cast<double>(sizes.size());
-  g.rate_1_s = (n * ty - t * y) / (n * tt - t * t);
-  g.rad_s = 3.141592653589793 * (n - 1) / (times.back() - times.front());
-  return g;
+  return meter.growth();
 }
 
 double measured_border(const design::Elaborated& design, const plant::Parameters& plant,

@@ -15,6 +15,7 @@
 #include "plant/plant.hpp"
 #include "reference/real_chain.hpp"
 #include "stability/linear_loop.hpp"
+#include "stability/swing_meter.hpp"
 
 namespace feltgate::stability {
 
@@ -64,16 +65,9 @@ class BitLoop {
   std::int64_t k_ = 0;
 };
 
-/// Size of the swing that swing() starts, in rad.
+/// The hand's press while a border is measured, and the size of the swing around its depth.
+constexpr double press_nm = 0.45;
 double swing_rad(double stiffness_nm_rad);
-
-/// Growth of a swing: slope of the logarithm of its size over time.
-struct Growth {
-  double rate_1_s = 0;  ///< positive: it grows
-  double rad_s = 0;     ///< of the swing
-  int swings = 0;       ///< half periods that the slope was taken from
-  bool left = false;    ///< it grew until the lever left the wall or the torque met its limit
-};
 
 /// A hand presses with a constant torque; the lever starts off its resting depth and swings.
 Growth swing(const design::Elaborated& design, const plant::Parameters& plant, const Wall& wall,

@@ -62,6 +62,9 @@ def ideal_torque(scene, design_name, theta, omega):
         torque = s["compression_nm_rad"] * depth
     elif scene == "spring_tension":
         torque = -s["tension_nm_rad"] * np.maximum(theta - s["tension_rest_rad"], 0)
+    elif scene == "wall":
+        push = s["wall_nm_rad"] * (theta - s["wall_contact_rad"]) + s["wall_nm_s_rad"] * omega
+        torque = np.where(theta > s["wall_contact_rad"], np.minimum(-push, 0), 0.0)
     elif scene == "damper":
         torque = -s["damper_nm_s_rad"] * omega
     elif scene in ("charge_attract", "charge_repel"):

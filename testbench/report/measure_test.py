@@ -23,6 +23,11 @@ class Laws(unittest.TestCase):
         pull = measure.ideal_torque("spring_tension", "paper", theta, 0 * theta)
         np.testing.assert_allclose(pull, [0, 0, -0.125, -0.25, -0.5, -0.5])
 
+    def test_wall_pushes_and_never_pulls(self):
+        theta = np.array([0.4, 0.6, 0.6, 0.51])
+        torque = measure.ideal_torque("wall", "lever", theta, np.array([5.0, 0.0, 5.0, -20.0]))
+        np.testing.assert_allclose(torque, [0, -0.4, -0.425, 0])
+
     def test_damper_opposes_motion(self):
         torque = measure.ideal_torque("damper", "lever", np.zeros(3), np.array([1.0, -2.0, 100.0]))
         np.testing.assert_allclose(torque, [-0.03, 0.06, -0.5])

@@ -5,21 +5,10 @@
 Documentation: docs/explore.md
 """
 
-import json
 import re
 
 from exploring import space
-
-# A key that takes the place of another one.
-REPLACES = {"velocity.gain": "velocity.n"}
-
-
-def toml_value(value):
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, list):
-        return "[" + ", ".join(toml_value(v) for v in value) + "]"
-    return json.dumps(value, ensure_ascii=False)
+from exploring.point import ALTERNATIVES, toml_value
 
 
 def header(lines, section):
@@ -44,10 +33,11 @@ def key_line(lines, section, key):
 def put(lines, full_key, value):
     section, key = full_key.rsplit(".", 1)
     text = f"{key} = {toml_value(value)}"
-    old = REPLACES.get(full_key)
     at = key_line(lines, section, key)
-    if at is None and old is not None:
-        at = key_line(lines, section, old.rsplit(".", 1)[1])
+    for pair in ALTERNATIVES:
+        if at is None and full_key in pair:
+            other = pair[pair[0] == full_key]
+            at = key_line(lines, section, other.rsplit(".", 1)[1])
     if at is not None:
         lines[at] = text  # a comment on the old value would be wrong
         return

@@ -14,6 +14,7 @@ from reporting import page
 
 from exploring import design_text, front, presets, space
 from exploring import plan as plans
+from exploring.point import toml_value
 
 NAME = "explore.html"
 HERE = Path(__file__).resolve().parent
@@ -49,7 +50,7 @@ def words(point):
     """What sets the point apart from its base, in few words."""
     if not point["set"]:
         return f"{point['base']} as it is"
-    return ", ".join(f"{key} {design_text.toml_value(v)}" for key, v in point["set"].items())
+    return ", ".join(f"{key} {toml_value(v)}" for key, v in point["set"].items())
 
 
 def data_of(rows, root):

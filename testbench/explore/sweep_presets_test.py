@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""The shipped presets: designs for use, bit for bit, stable, and what the committed table says.
+
+Documentation: docs/explore.md
+"""
+
+import csv
+import os
+import subprocess
+import tomllib
+import unittest
+from pathlib import Path
+
+from bench import ROOT
+from exploring import merge, point, presets, space
+
+BUILD = Path(os.environ.get("FELTGATE_BUILD", ROOT / "build"))
+TABLE = ROOT / "vectors/spaces/trade.csv"
+
+
+def design_of(name):
+    text = (ROOT / f"rtl/designs/{name}.toml").read_text(encoding="utf-8")
+    return text, space.flattened(tomllib.loads(text))
+
+
+class Presets(unittest.TestCase):
+    def rows(self):
+        with TABLE.open(encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def row_of(self, design):
+        """The row of the table that sets what the preset sets."""
+        base = design_of("lever")[1]
+        found = []
+        for row in self.rows():
+            keys = [key for key in row if "." in key]
+            changed = {key: row[key] for key in keys if row[key]}
+            shown = {key: merge.shown(value) for key, value in design.items()}
+            if all(str(shown.get(key)) == value for key, value in changed.items()) and all(
+                key in changed or design.get(key) == base.get(key, space.OPTIONAL.get(key))
+                for key in keys
+                if key in design
+            ):
+                found.append(row)
+        self.assertEqual(len(found), 1)
+        return found[0]
+
+    def test_the_table_is_large_enough(self):
+        self.assertGreaterEqual(len(self.rows()), 200)
+        self.assertTrue(all(int(row["mismatches"] or 0) == 0 for row in self.rows()))
+
+    def test_stable_and_for_use(self):
+        for name in presets.NAMES:
+            done = subprocess.run(
+                [BUILD / "feltgate", "design", name, "--plant", "p24"],
+                capture_output=True,
+                text=True,
+                check=False,
+            )
+            self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_equal_to_their_twins_and_as_tabled(self):
+        for name in presets.NAMES:
+            with self.subTest(name):
+                text, design = design_of(name)
+                self.assertIn("gives up", design["description"])
+                result = point.evaluate_design(text, BUILD / "explore/presets", area=False)
+                self.assertEqual((result["status"], result["coarse"]), ("ok", False))
+                self.assertGreater(result["clocks_compared"], 1_000_000)
+                row = self.row_of(design)
+                self.assertEqual(row["front"], "f")
+                for key in ("torque_error_rms_nm", "velocity_error_rms_rad_s", "delay_s"):
+                    self.assertAlmostEqual(result[key] / float(row[key]), 1, delta=0.02, msg=key)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -12,6 +12,7 @@ from exploring import space
 OBJECTIVES = (
     ("torque_error_rms_nm", "rms torque error", "µNm", 1e6),
     ("lut4_equivalents", "LUT4 equivalents", "", 1),
+    ("mult18", "MULT18", "", 1),
     ("delay_s", "estimator delay", "ms", 1e3),
 )
 SCENES = "scenes.include"

@@ -24,5 +24,6 @@ def evaluate(point, workdir, route=False):
     return {
         "torque_error_rms_nm": (1 + seed % 97) * 1e-6,
         "lut4_equivalents": 2000 + seed % 101,
+        "mult18": 2 + seed % 3,
         "delay_s": (1 + seed % 89) * 1e-5,
     } | ({"fmax_mhz": 50.0 + seed % 83} if route else {})

@@ -17,7 +17,7 @@ from exploring import design_text, explore_page, front, presets, space
 
 
 def row(name, error, area, delay, **keys):
-    result = {"torque_error_rms_nm": error, "lut4_equivalents": area, "delay_s": delay}
+    result = {"torque_error_rms_nm": error, "lut4_equivalents": area, "mult18": 2, "delay_s": delay}
     return {"id": name, "base": "lever", "set": keys, "result": result}
 
 

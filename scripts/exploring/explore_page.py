@@ -81,8 +81,12 @@ def data_of(rows, root):
 
 def front_table(rows):
     head = ["design", *(f"{what} {unit}".strip() for _, what, unit, _ in FIGURES)]
-    lines = []
+    lines, told = [], set()
     for row in front.find(rows):
+        alike = (row["set"].get(front.SCENES) is None, front.vector(row))
+        if alike in told:
+            continue  # differs in nothing that the front is about
+        told.add(alike)
         values = [row["result"].get(key) for key, *_ in FIGURES]
         scaled = [
             page.number(None if v is None else v * f)

@@ -11,14 +11,15 @@ import io
 import json
 import math
 import re
+import subprocess
 import tempfile
 import tomllib
 from pathlib import Path
 
-from exploring import chunks, design_text, front, routes, space
+from exploring import chunks, design_text, front, point, routes, space
 from exploring import plan as plans
-from exploring.point import bounds as proven_bounds
 
+PLANT = "p24"
 LINES, TABLE = "points.jsonl", "points.csv"
 
 
@@ -37,7 +38,7 @@ def collect(plan):
     """(sources, {id: line}) of all chunk files."""
     lines, come_from, sources = {}, {}, {}
     paths = sorted((plan.folder / chunks.FOLDER).glob("*.jsonl"))
-    wanted = {space.point_id(point) for point in plan.points}
+    wanted = {space.point_id(planned) for planned in plan.points}
     for path in paths:
         source, rows = read_chunk(plan, path)
         sources.setdefault(source, path)
@@ -80,12 +81,23 @@ def count_ripple_rad_s(design):
     return step_rad_s * -math.expm1(-design["velocity.cutoff_rad_s"] * window_s)
 
 
-def bounds(text, result):
-    """The bounds as they are proven now, whenever the point was measured."""
-    with tempfile.TemporaryDirectory(prefix="feltgate-bounds-") as folder:
+def is_stable(design):
+    """Whether the loop round the plant is stable with the lever free: docs/designs.md."""
+    command = [point.BUILD / "feltgate", "design", design, "--plant", PLANT]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode and "unstable" not in done.stderr:
+        raise chunks.ChunkError(f"feltgate design failed: {done.stderr.strip()}")
+    return done.returncode == 0
+
+
+def proven(text, result):
+    """Bounds as they are proven now, whenever the point was measured, and for a design for use
+    whether it is stable."""
+    with tempfile.TemporaryDirectory(prefix="feltgate-merge-") as folder:
         design = Path(folder) / "point.toml"
         design.write_text(text, encoding="utf-8")
-        return proven_bounds(design, result)
+        found = point.bounds(design, result)
+        return found if result["coarse"] else found | {"stable": is_stable(design)}
 
 
 def finished(root, row):
@@ -95,7 +107,7 @@ def finished(root, row):
         design = space.flattened(tomllib.loads(text))
         row["result"]["count_ripple_rad_s"] = count_ripple_rad_s(design)
         if "raw_velocity_max_rad_s" in row["result"]:
-            row["result"] |= bounds(text, row["result"])
+            row["result"] |= proven(text, row["result"])
     return row
 
 
@@ -104,8 +116,8 @@ def merge(plan, root):
     sources, lines = collect(plan)
     routed = routes.read(plan.folder, sources)
     rows = []
-    for point in plan.points:
-        row = json.loads(lines[space.point_id(point)])
+    for planned in plan.points:
+        row = json.loads(lines[space.point_id(planned)])
         row["result"] |= routed.get(row["id"], {})
         rows.append(finished(root, row))
     path = plan.folder / LINES

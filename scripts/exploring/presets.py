@@ -17,9 +17,14 @@ NAMES = ("fast", "balanced", "exact")
 
 
 def candidates(rows):
-    """The front among designs for use that have all scenes of the base."""
-    usable = [r for r in rows if front.SCENES not in r["set"] and not r["result"].get("coarse")]
-    return front.find(usable)
+    """The front among designs for use: stable, and with all scenes of the base."""
+
+    def usable(row):
+        result = row["result"]
+        good = not result.get("coarse") and result.get("stable", True)
+        return good and front.SCENES not in row["set"]
+
+    return front.find([row for row in rows if usable(row)])
 
 
 def distance(row, rows):
@@ -54,16 +59,18 @@ def sentence(name, chosen):
     fast, exact = chosen["fast"]["result"], chosen["exact"]["result"]
     figures = (
         f"{1e3 * me['delay_s']:.2f} ms of delay, {1e6 * me['torque_error_rms_nm']:.1f} uNm rms "
-        f"torque error, {me['lut4_equivalents']} LUT4"
+        f"torque error, {me['lut4_equivalents']} LUT4, {me['mult18']} MULT18"
     )
     later_ms = 1e3 * (me["delay_s"] - fast["delay_s"])
     worse_unm = 1e6 * (me["torque_error_rms_nm"] - exact["torque_error_rms_nm"])
     more_lut4 = me["lut4_equivalents"] - fast["lut4_equivalents"]
+    more_mult18 = me["mult18"] - fast["mult18"]
     gives_up = {
-        "fast": f"a quiet velocity: one encoder count moves it by {me['count_ripple_rad_s']:.2f} "
-        f"rad/s, in exact by {exact['count_ripple_rad_s']:.2f}",
+        "fast": f"{worse_unm:.1f} uNm against exact and a quiet velocity: one encoder count "
+        f"moves it by {me['count_ripple_rad_s']:.2f} rad/s, in exact by "
+        f"{exact['count_ripple_rad_s']:.2f}",
         "balanced": f"{later_ms:.2f} ms against fast and {worse_unm:.1f} uNm against exact",
-        "exact": f"{later_ms:.2f} ms and {more_lut4} LUT4 against fast",
+        "exact": f"{later_ms:.2f} ms, {more_lut4} LUT4 and {more_mult18} MULT18 against fast",
     }[name]
     return f"{figures}; gives up {gives_up}"
 

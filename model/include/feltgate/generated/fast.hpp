@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Generated from rtl/designs/fast.toml and rtl/registers.toml by
+// `feltgate generate`: do not edit. 
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "feltgate/chain_formats.hpp"
+#include "feltgate/fixed.hpp"
+#include "feltgate/parameter.hpp"
+
+namespace feltgate {
+
+/// 0.91 ms of delay, 5.0 uNm rms torque error, 2229 LUT4, 2 MULT18; gives up 1.6 uNm against exact and a quiet velocity: one encoder count moves it by 1.53 rad/s, in exact by 1.01.
+struct Fast {
+  static constexpr const char* name = "fast";
+  static constexpr std::int64_t clock_hz = 50000000;
+  static constexpr std::int64_t tick_hz = 1000000;
+  static constexpr double count_rad = 0.0015339807878856412;
+  static constexpr double velocity_gain_rad_s = 0.0;
+  static constexpr double supply_v = 24.0;
+  static constexpr int clocks_per_tick = 50;  // clocks
+  static constexpr int m1 = 767;  // ticks between the two positions of the velocity estimator
+  static constexpr int velocity_shift = 1;  // raw velocity = 2^n * counts
+  static constexpr int velocity_gain = 0;  // mantissa of the gain that stands for 2^n; 0: none
+  static constexpr int velocity_gain_f = 17;  // its fraction bits
+  static constexpr int pwm_period = 1000;  // clocks
+  static constexpr int dead_clocks = 25;  // clocks
+  static constexpr int scene_mask = 1021;  // bit n: scene n is built
+  static constexpr int control_reset = 0;  // control word after reset
+  static constexpr int coefficient_bits = 17;  // bits of a coefficient's mantissa, without its sign
+  static constexpr int parallel_multipliers = 0;  // 1: each block has its own
+  static constexpr int multiplier_a_bits = 35;  // bits
+  static constexpr int multiplier_b_bits = 18;  // bits
+  static constexpr int product_bits = 53;  // bits
+  static constexpr int narrow_w = 22;  // bits of the widest of current, torque, voltage and a scene's distance
+  static constexpr int travel_bits = 16;  // bits
+  static constexpr int multiplier_latency = 4;  // clocks from the operands to the product
+  static constexpr Round rounding = Round::half_up;  // where the chain rounds
+
+  /// Formats of the parameters.
+  struct P {
+    static constexpr Format velocity_a1{0, -9, 26};
+    static constexpr Format inverse_resistance{0, 2, 15};
+    static constexpr Format emf_over_resistance{0, -3, 20};
+    static constexpr Format torque_constant{0, -5, 22};
+    static constexpr Format inertia_gain{0, -3, 20};
+    static constexpr Format nominal_current_squared{0, 17, 2};
+    static constexpr Format observer_a1{0, -10, 27};
+    static constexpr Format overspeed{1, 10, 21};
+    static constexpr Format i2t_budget{0, 30, 2};
+    static constexpr Format polarity_speed{1, 10, 21};
+    static constexpr Format polarity_current{1, 5, 16};
+    static constexpr Format polarity_ticks{0, 31, 0};
+    static constexpr Format emf_constant{0, -5, 22};
+    static constexpr Format observer_gain{1, 0, 17};
+    static constexpr Format voltage_setpoint{1, 5, 14};
+    static constexpr Format torque_limit{1, 4, 16};
+    static constexpr Format ramp_step{1, 4, 24};
+    static constexpr Format voltage_to_current{0, 2, 15};
+    static constexpr Format torque_gain{0, 6, 11};
+    static constexpr Format dead_voltage_slope{0, 7, 10};
+    static constexpr Format region_torque{1, 4, 16};
+    static constexpr Format current_limit{1, 5, 16};
+    static constexpr Format voltage_gain{0, -1, 18};
+    static constexpr Format voltage_gain_high{0, -1, 18};
+    static constexpr Format dead_voltage{1, 5, 14};
+    static constexpr Format voltage_limit{1, 5, 14};
+    static constexpr Format duty_gain{0, 6, 11};
+    static constexpr Format duty_limit{0, 31, 0};
+    static constexpr Format watchdog_ticks{0, 31, 0};
+    static constexpr Format setpoint_torque{1, 4, 16};
+    static constexpr Format membrane_lower{1, 17, 8};
+    static constexpr Format membrane_upper{1, 17, 8};
+    static constexpr Format membrane_torque{1, 4, 16};
+    static constexpr Format compression_contact{1, 17, 8};
+    static constexpr Format compression_stiffness{0, -9, 26};
+    static constexpr Format tension_rest{1, 17, 8};
+    static constexpr Format tension_stiffness{0, -10, 27};
+    static constexpr Format damper_damping{0, -5, 22};
+    static constexpr Format attract_centre{1, 17, 8};
+    static constexpr Format attract_strength{0, 16, 16};
+    static constexpr Format attract_core{0, 31, 0};
+    static constexpr Format attract_core_slope{0, -8, 25};
+    static constexpr Format repel_centre{1, 17, 8};
+    static constexpr Format repel_strength{0, 16, 16};
+    static constexpr Format repel_core{0, 31, 0};
+    static constexpr Format repel_core_slope{0, -8, 25};
+    static constexpr Format wall_contact{1, 17, 8};
+    static constexpr Format wall_stiffness{0, -3, 20};
+    static constexpr Format wall_damping{0, -3, 20};
+  };
+
+  /// Addresses of the parameters.
+  struct A {
+    static constexpr int velocity_a1 = 4;
+    static constexpr int inverse_resistance = 5;
+    static constexpr int emf_over_resistance = 7;
+    static constexpr int torque_constant = 8;
+    static constexpr int inertia_gain = 9;
+    static constexpr int nominal_current_squared = 17;
+    static constexpr int observer_a1 = 15;
+    static constexpr int overspeed = 16;
+    static constexpr int i2t_budget = 18;
+    static constexpr int polarity_speed = 19;
+    static constexpr int polarity_current = 20;
+    static constexpr int polarity_ticks = 21;
+    static constexpr int emf_constant = 22;
+    static constexpr int observer_gain = 23;
+    static constexpr int voltage_setpoint = 24;
+    static constexpr int torque_limit = 25;
+    static constexpr int ramp_step = 26;
+    static constexpr int voltage_to_current = 27;
+    static constexpr int torque_gain = 28;
+    static constexpr int dead_voltage_slope = 29;
+    static constexpr int region_torque = 30;
+    static constexpr int current_limit = 33;
+    static constexpr int voltage_gain = 34;
+    static constexpr int voltage_gain_high = 50;
+    static constexpr int dead_voltage = 35;
+    static constexpr int voltage_limit = 39;
+    static constexpr int duty_gain = 40;
+    static constexpr int duty_limit = 45;
+    static constexpr int watchdog_ticks = 46;
+    static constexpr int setpoint_torque = 74;
+    static constexpr int membrane_lower = 97;
+    static constexpr int membrane_upper = 98;
+    static constexpr int membrane_torque = 106;
+    static constexpr int compression_contact = 129;
+    static constexpr int compression_stiffness = 131;
+    static constexpr int tension_rest = 161;
+    static constexpr int tension_stiffness = 163;
+    static constexpr int damper_damping = 202;
+    static constexpr int attract_centre = 225;
+    static constexpr int attract_strength = 226;
+    static constexpr int attract_core = 236;
+    static constexpr int attract_core_slope = 230;
+    static constexpr int repel_centre = 257;
+    static constexpr int repel_strength = 258;
+    static constexpr int repel_core = 268;
+    static constexpr int repel_core_slope = 262;
+    static constexpr int wall_contact = 289;
+    static constexpr int wall_stiffness = 291;
+    static constexpr int wall_damping = 298;
+  };
+
+  /// Scene numbers.
+  struct S {
+    static constexpr int free = 0;
+    static constexpr int setpoint = 2;
+    static constexpr int membrane = 3;
+    static constexpr int spring_compression = 4;
+    static constexpr int spring_tension = 5;
+    static constexpr int damper = 6;
+    static constexpr int charge_attract = 7;
+    static constexpr int charge_repel = 8;
+    static constexpr int wall = 9;
+  };
+  /// Number of a scene by name, -1 when there is none.
+  static constexpr int scene_number(std::string_view scene) {
+    if (scene == "free") return 0;
+    if (scene == "setpoint") return 2;
+    if (scene == "membrane") return 3;
+    if (scene == "spring_compression") return 4;
+    if (scene == "spring_tension") return 5;
+    if (scene == "damper") return 6;
+    if (scene == "charge_attract") return 7;
+    if (scene == "charge_repel") return 8;
+    if (scene == "wall") return 9;
+    return -1;
+  }
+
+  /// Addresses of control and snapshot words, and bits of the control words.
+  struct C {
+    static constexpr int control = 512;
+    static constexpr int control_host = 0;
+    static constexpr int control_arm = 1;
+    static constexpr int control_scene = 2;
+    static constexpr int control_mode = 6;
+    static constexpr int control_motor_polarity = 8;
+    static constexpr int control_encoder_polarity = 9;
+    static constexpr int control_pwm_mode = 10;
+    static constexpr int control_filter = 11;
+    static constexpr int command = 513;
+    static constexpr int command_set_zero = 0;
+    static constexpr int command_clear_faults = 1;
+    static constexpr int command_kick = 2;
+    static constexpr int command_freeze = 3;
+    static constexpr int command_thaw = 4;
+    static constexpr int read_tick = 768;
+    static constexpr int read_position = 769;
+    static constexpr int read_status = 770;
+    static constexpr int read_encoder = 782;
+    static constexpr int read_index = 779;
+    static constexpr int read_velocity = 777;
+    static constexpr int read_tau_hat = 791;
+    static constexpr int read_tau_ref = 796;
+    static constexpr int read_current_ref = 802;
+    static constexpr int read_voltage = 808;
+    static constexpr int read_duty = 814;
+  };
+
+  static constexpr BaseFormats base{
+      {1, 10, 21}, {1, 4, 16}, {1, 5, 16}, {1, 5, 14},
+      30, velocity_shift, velocity_gain != 0, {0, 0, 17},
+      P::velocity_a1, P::torque_constant, P::inertia_gain, P::observer_a1,
+      P::torque_gain, P::observer_gain, P::voltage_gain, P::emf_constant,
+      P::dead_voltage_slope, P::voltage_to_current, P::duty_gain,
+      P::inverse_resistance, P::emf_over_resistance};
+  static constexpr Formats f = derive(base);
+
+  /// Parameters: name, unit, address, format, exact value, integer.
+  static constexpr ParameterInfo parameters[] = {
+      {"velocity_a1", "1", A::velocity_a1, P::velocity_a1,
+       0.0018981961426238689, 127386},
+      {"inverse_resistance", "1/ohm", A::inverse_resistance, P::inverse_resistance,
+       2.3809523809523809, 78019},
+      {"emf_over_resistance", "A s/rad", A::emf_over_resistance, P::emf_over_resistance,
+       0.071904761904761916, 75398},
+      {"torque_constant", "Nm/A", A::torque_constant, P::torque_constant,
+       0.030200000000000001, 126668},
+      {"inertia_gain", "Nm s/rad", A::inertia_gain, P::inertia_gain,
+       0.063439999999999996, 66522},
+      {"nominal_current_squared", "A^2", A::nominal_current_squared, P::nominal_current_squared,
+       33.292899999999996, 133},
+      {"observer_a1", "1", A::observer_a1, P::observer_a1,
+       0.0005198648234316204, 69775},
+      {"overspeed", "rad/s", A::overspeed, P::overspeed,
+       613.60000000000002, 1286812467},
+      {"i2t_budget", "A^2 tick", A::i2t_budget, P::i2t_budget,
+       730000000.0, 2920000000},
+      {"polarity_speed", "rad/s", A::polarity_speed, P::polarity_speed,
+       60.0, 125829120},
+      {"polarity_current", "A", A::polarity_current, P::polarity_current,
+       1.0, 65536},
+      {"polarity_ticks", "tick", A::polarity_ticks, P::polarity_ticks,
+       5000.0, 5000},
+      {"emf_constant", "V s/rad", A::emf_constant, P::emf_constant,
+       0.030200000000000001, 126668},
+      {"observer_gain", "A/Nm", A::observer_gain, P::observer_gain,
+       0.0, 0},
+      {"voltage_setpoint", "V", A::voltage_setpoint, P::voltage_setpoint,
+       0.0, 0},
+      {"torque_limit", "Nm", A::torque_limit, P::torque_limit,
+       0.5, 32768},
+      {"ramp_step", "Nm/tick", A::ramp_step, P::ramp_step,
+       5.0000000000000004e-06, 84},
+      {"voltage_to_current", "1/ohm", A::voltage_to_current, P::voltage_to_current,
+       2.3809523809523809, 78019},
+      {"torque_gain", "A/Nm", A::torque_gain, P::torque_gain,
+       33.11258278145695, 67815},
+      {"dead_voltage_slope", "V/Nm", A::dead_voltage_slope, P::dead_voltage_slope,
+       97.5, 99840},
+      {"region_torque", "Nm", A::region_torque, P::region_torque,
+       0.5, 32768},
+      {"current_limit", "A", A::current_limit, P::current_limit,
+       16.600000000000001, 1087898},
+      {"voltage_gain", "ohm", A::voltage_gain, P::voltage_gain,
+       0.41999999999999998, 110100},
+      {"voltage_gain_high", "ohm", A::voltage_gain_high, P::voltage_gain_high,
+       0.41999999999999998, 110100},
+      {"dead_voltage", "V", A::dead_voltage, P::dead_voltage,
+       0.97500000000000009, 15974},
+      {"voltage_limit", "V", A::voltage_limit, P::voltage_limit,
+       24.0, 393216},
+      {"duty_gain", "clock/V", A::duty_gain, P::duty_gain,
+       41.666666666666664, 85333},
+      {"duty_limit", "clock", A::duty_limit, P::duty_limit,
+       1000.0, 1000},
+      {"watchdog_ticks", "tick", A::watchdog_ticks, P::watchdog_ticks,
+       100000.0, 100000},
+      {"setpoint_torque", "Nm", A::setpoint_torque, P::setpoint_torque,
+       0.0, 0},
+      {"membrane_lower", "count", A::membrane_lower, P::membrane_lower,
+       325.94932345220167, 83443},
+      {"membrane_upper", "count", A::membrane_upper, P::membrane_upper,
+       456.3290528330823, 116820},
+      {"membrane_torque", "Nm", A::membrane_torque, P::membrane_torque,
+       0.5, 32768},
+      {"compression_contact", "count", A::compression_contact, P::compression_contact,
+       325.94932345220167, 83443},
+      {"compression_stiffness", "Nm/count", A::compression_stiffness, P::compression_stiffness,
+       0.0015339807878856412, 102944},
+      {"tension_rest", "count", A::tension_rest, P::tension_rest,
+       0.0, 0},
+      {"tension_stiffness", "Nm/count", A::tension_stiffness, P::tension_stiffness,
+       0.00076699039394282058, 102944},
+      {"damper_damping", "Nm s/rad", A::damper_damping, P::damper_damping,
+       0.029999999999999999, 125829},
+      {"attract_centre", "count", A::attract_centre, P::attract_centre,
+       0.0, 0},
+      {"attract_strength", "Nm count^2", A::attract_strength, P::attract_strength,
+       8499.4369167158384, 557019098},
+      {"attract_core", "count", A::attract_core, P::attract_core,
+       131.0, 131},
+      {"attract_core_slope", "Nm/count", A::attract_core_slope, P::attract_core_slope,
+       0.0038349519697141021, 128680},
+      {"repel_centre", "count", A::repel_centre, P::repel_centre,
+       0.0, 0},
+      {"repel_strength", "Nm count^2", A::repel_strength, P::repel_strength,
+       8499.4369167158384, 557019098},
+      {"repel_core", "count", A::repel_core, P::repel_core,
+       131.0, 131},
+      {"repel_core_slope", "Nm/count", A::repel_core_slope, P::repel_core_slope,
+       0.0038349519697141021, 128680},
+      {"wall_contact", "count", A::wall_contact, P::wall_contact,
+       325.94932345220167, 83443},
+      {"wall_stiffness", "Nm/count", A::wall_stiffness, P::wall_stiffness,
+       0.0061359231515425647, 6434},
+      {"wall_damping", "Nm s/rad", A::wall_damping, P::wall_damping,
+       0.0050000000000000001, 5243},
+  };
+};
+
+}  // namespace feltgate

@@ -33,7 +33,7 @@ constexpr sc_dt::sc_q_mode systemc_mode(Round round) {
 }
 
 constexpr sc_dt::sc_o_mode systemc_mode(Overflow overflow) {
-  return overflow == Overflow::wrap ? sc_dt::SC_WRAP : sc_dt::SC_SAT;
+  return overflow == Overflow::saturate ? sc_dt::SC_SAT : sc_dt::SC_WRAP;
 }
 
 /// An exact intermediate result, as wide as it must be.

@@ -29,9 +29,8 @@ struct EstimatorStep {
     using Law = VelocityLaw<D, N>;
     limit = false;
     const auto raw = Law::raw(counts, &limit);
-    velocity =
-        Law::Filter::next(velocity, Law::Filter::operand(raw, velocity) *
-                                        w.template get<D::P::velocity_a1.key()>(D::A::velocity_a1));
+    constexpr int a1 = D::P::velocity_a1.key();
+    velocity = Law::Filter::template step<a1>(raw, velocity, w.template get<a1>(D::A::velocity_a1));
   }
 };
 
@@ -54,10 +53,9 @@ struct ObserverStep {
     const auto inertia =
         Law::inertia(velocity * w.template get<P::inertia_gain.key()>(A::inertia_gain));
     const auto input = Law::input(drive, inertia);
-    state = armed
-                ? Law::Filter::next(state, Law::Filter::operand(input, state) *
-                                               w.template get<P::observer_a1.key()>(A::observer_a1))
-                : input;
+    constexpr int a1 = P::observer_a1.key();
+    state = armed ? Law::Filter::template step<a1>(input, state, w.template get<a1>(A::observer_a1))
+                  : input;
     limit = false;
     tau_hat = Law::tau_hat(state, inertia, &limit);
   }

@@ -25,8 +25,9 @@ enum class Round {
 
 /// What narrow() does beyond the target's range, after rounding.
 enum class Overflow {
-  wrap,     ///< modulo 2^width
-  saturate  ///< the nearest end of the range
+  wrap,      ///< modulo 2^width
+  saturate,  ///< the nearest end of the range
+  never      ///< there is nothing beyond: the caller knows that the value fits; not checked
 };
 
 /// 2^k as an integer of type Raw, 0 <= k < bits(Raw)-1.
@@ -224,7 +225,8 @@ constexpr To narrow(fixed<S, I, F> x, bool* saturated = nullptr) {
   } else {
     y = static_cast<Raw>(x.raw()) * power_of_two<Raw>(grow);
   }
-  if constexpr (!detail::always_fits(fixed<S, I, F>::format, To::format, R)) {
+  if constexpr (O != Overflow::never &&
+                !detail::always_fits(fixed<S, I, F>::format, To::format, R)) {
     if constexpr (O == Overflow::saturate) {
       constexpr Raw low = static_cast<Raw>(To::min_raw());
       constexpr Raw high = static_cast<Raw>(To::max_raw());

@@ -28,6 +28,29 @@ struct LowpassLaw {
   static constexpr State next(State y, Product a1_times_operand) {
     return quantise<N, StateKey, R, Overflow::wrap>(y + a1_times_operand);
   }
+
+  /// The same from the input. Where stays_between() holds nothing can wrap, and nothing looks.
+  template <int CoefficientKey, class A1>
+  static constexpr State step(State x, State y, A1 a1) {
+    if constexpr (stays_between(Format::from_key(CoefficientKey))) {
+      return quantise<N, StateKey, R, Overflow::never>(y + operand(x, y) * a1);
+    } else {
+      return next(y, operand(x, y) * a1);
+    }
+  }
+
+  /// Whether every coefficient of this format leaves the new state between y and x. With 0 <= a1 <
+  /// 1 the exact sum lies there, and rounding to nearest cannot pass a number of the same grid. Of
+  /// d bits that the operand gives up it is short by less than 2^d, the sum by less than a1 * 2^d:
+  /// below half a step that rounds away too.
+  static constexpr bool stays_between(Format a1) {
+    constexpr Format state = Format::from_key(StateKey), operand = Format::from_key(OperandKey);
+    constexpr Format difference = growth::difference(state, state);
+    const int given_up = difference.fraction - operand.fraction;
+    const bool nearest = R == Round::half_up || R == Round::convergent;
+    const bool small = a1.sign == 0 && a1.integer <= (given_up > 0 ? -1 - given_up : 0);
+    return nearest && small && given_up >= 0 && operand.integer >= difference.integer;
+  }
 };
 
 /// Clocked twin. CoefficientKey is the format of a1.

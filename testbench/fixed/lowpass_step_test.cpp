@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The low-pass step that does not look for overflow, against the one that wraps: every state, input
+// and coefficient of small formats. FELTGATE_DEFECT=1 asks for it where it is not allowed.
+// Documentation: docs/blocks/lowpass.md
+#include "catch.hpp"
+#include "feltgate/lowpass.hpp"
+#include "seeded_defect.hpp"
+
+namespace {
+
+using namespace feltgate;
+
+struct Counts {
+  long cases = 0, wrong = 0, outside = 0;
+};
+
+/// All values of three small words; `outside` counts results that leave [min(x, y), max(x, y)].
+template <Round R, int StateKey, int OperandKey, int A1Key>
+Counts compare() {
+  using Law = LowpassLaw<Fixed, StateKey, OperandKey, R>;
+  using State = typename Law::State;
+  using A1 = fixed_of<A1Key>;
+  constexpr Format a1_format = Format::from_key(A1Key);
+  Counts c;
+  for (auto y = State::min_raw(); y <= State::max_raw(); ++y) {
+    for (auto x = State::min_raw(); x <= State::max_raw(); ++x) {
+      for (auto k = A1::min_raw(); k <= A1::max_raw(); ++k) {
+        const State state = State::from_raw(y), input = State::from_raw(x);
+        const A1 a1 = A1::from_raw(k);
+        const State wraps = Law::next(state, Law::operand(input, state) * a1);
+        State step = Law::template step<A1Key>(input, state, a1);
+        if (test::seeded_defect() == 1 && !Law::stays_between(a1_format)) {
+          step = narrow<State, R, Overflow::never>(state + Law::operand(input, state) * a1);
+        }
+        const bool between =
+            (y <= wraps.raw() && wraps.raw() <= x) || (x <= wraps.raw() && wraps.raw() <= y);
+        ++c.cases;
+        c.wrong += step.raw() != wraps.raw() ? 1 : 0;
+        c.outside += between ? 0 : 1;
+      }
+    }
+  }
+  return c;
+}
+
+constexpr Format state{1, 2, 3};  // 6 bits
+/// The operand when the multiplier lacks `given_up` bits.
+constexpr int operand(int given_up) { return Format{1, 3, 3 - given_up}.key(); }
+
+template <Round R, int GivenUp, int A1Integer>
+void check(bool allowed) {
+  constexpr int a1 = Format{0, A1Integer, 5 - A1Integer}.key();
+  using Law = LowpassLaw<Fixed, state.key(), operand(GivenUp), R>;
+  INFO("given up " << GivenUp << ", coefficient below 2^" << A1Integer);
+  CHECK(Law::stays_between(Format::from_key(a1)) == allowed);
+  const Counts c = compare<R, state.key(), operand(GivenUp), a1>();
+  CHECK(c.cases == 64 * 64 * 32);
+  CHECK(c.wrong == 0);
+  if (allowed) CHECK(c.outside == 0);
+}
+
+}  // namespace
+
+TEST_CASE("a coefficient below 1 keeps the state between its old value and the input") {
+  check<Round::half_up, 0, 0>(true);
+  check<Round::half_up, 0, -3>(true);
+  check<Round::convergent, 0, 0>(true);
+}
+
+TEST_CASE("bits that the operand gives up ask for a smaller coefficient") {
+  check<Round::half_up, 1, -2>(true);
+  check<Round::half_up, 2, -3>(true);
+  check<Round::convergent, 2, -3>(true);
+  check<Round::half_up, 2, -2>(false);
+  check<Round::half_up, 2, 0>(false);
+}
+
+TEST_CASE("a coefficient of 1 and more, or truncation, is not allowed") {
+  check<Round::half_up, 0, 1>(false);
+  check<Round::truncate, 2, -3>(false);
+}
+
+TEST_CASE("where it is not allowed the state does leave") {
+  CHECK(compare<Round::half_up, state.key(), operand(0), Format{0, 1, 4}.key()>().outside > 0);
+  CHECK(compare<Round::half_up, state.key(), operand(2), Format{0, 0, 5}.key()>().outside > 0);
+}

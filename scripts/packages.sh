@@ -23,6 +23,7 @@ PACKAGES=(
   "test|catch2|the unit test framework"
   "test|libsystemc-dev|sc_fixed, the independent oracle of the fixed-point type"
   "test|iverilog|second simulator, with unknown values (X)"
+  "test|python3-distributed|a sweep over two dask workers, one of them killed"
   "test|yosys|checks that the RTL is synthesizable"
   "bench|libsystemc-dev|sc_fixed, one of the engines of the benchmark"
   "synth|python3-venv|holds the pinned Yosys and nextpnr of scripts/requirements.txt"

@@ -7,6 +7,7 @@ Documentation: docs/explore.md
 """
 
 import argparse
+import dataclasses
 import importlib
 import os
 import signal
@@ -25,6 +26,7 @@ EXAMPLES = """examples:
   feltgate explore merge /data/trade              refuses gaps and duplicates
   feltgate explore route /data/trade              Fmax of the points on the front
   feltgate explore page /data/trade               explore.html: hover a dot, get its design file
+  feltgate explore page vectors/spaces/trade.csv  the same of the shipped table, at once
   feltgate explore presets /data/trade            fast.toml, balanced.toml, exact.toml
   feltgate explore point my_point.toml            one design point alone
 
@@ -76,12 +78,18 @@ def parser_of_verbs():
     merge = verbs.add_parser("merge", help="join the chunks into points.jsonl")
     route = verbs.add_parser("route", help="place and route the points of the front, and merge")
     route.add_argument("--point", metavar="ID", help="only this point, and no merge")
-    page = verbs.add_parser("page", help="write explore.html")
-    three = verbs.add_parser("presets", help="write fast, balanced and exact as design files")
-    three.add_argument("-o", "--out", type=Path, metavar="DIR", help="default: the plan's folder")
-    picture = verbs.add_parser("picture", help="write explore.svg; needs matplotlib")
-    for one in (run, merge, route, page, picture, three):
+    for one in (run, merge, route):
         one.add_argument("folder", type=Path, metavar="DIR")
+    for name, what in (
+        ("page", "write explore.html"),
+        ("picture", "write explore.svg; needs matplotlib"),
+        ("presets", "write fast, balanced and exact as design files"),
+    ):
+        one = verbs.add_parser(name, help=what)
+        one.add_argument("folder", type=Path, metavar="DIR | TABLE.csv")
+        one.add_argument(
+            "-o", "--out", type=Path, metavar="DIR", help="default: DIR, or explore/ in build"
+        )
     for one in (everything, run, route):
         add_engine(one)
     verbs.add_parser("point", help="evaluate one design point", add_help=False)
@@ -166,11 +174,42 @@ def act_all(options):
     return report_mismatches(rows)
 
 
+def merged(options):
+    """(plan, rows) of a folder, or of a committed table with its space file beside it."""
+    if options.folder.suffix != ".csv":
+        plan = plans.load(options.folder)
+        rows = merge.read(plan.folder)
+    else:
+        table = options.folder
+        rows = merge.read_table(table)
+        found = space.read_space(root(), table.with_suffix(".toml"))
+        plan = plans.Plan(default_folder(table.stem), found.name, found.description, (), "")
+    if options.out:
+        plan = dataclasses.replace(plan, folder=options.out)
+    plan.folder.mkdir(parents=True, exist_ok=True)
+    return plan, rows
+
+
+def show(options):
+    """page, picture and presets: what is made of the merged figures."""
+    plan, rows = merged(options)
+    if options.verb == "page":
+        paths = [explore_page.write(plan, rows, root())]
+    elif options.verb == "picture":
+        paths = [importlib.import_module("exploring.explore_picture").write(plan, rows)]
+    else:
+        paths = presets.write(plan, rows, root())
+    print("\n".join(map(str, paths)))
+
+
 def act(options):
     if options.verb == "all":
         return act_all(options)
     if options.verb == "plan":
         print(make_plan(options).folder)
+        return 0
+    if options.verb in ("page", "picture", "presets"):
+        show(options)
         return 0
     plan = plans.load(options.folder)
     if options.verb == "run" and options.chunk:
@@ -179,14 +218,6 @@ def act(options):
         run_all(plan, options)
     elif options.verb == "route" and options.point:
         print(routes.run(plan, options.point, sources_of(plan)))
-    elif options.verb == "presets":
-        for path in presets.write(plan, merge.read(plan.folder), root(), options.out):
-            print(path)
-    elif options.verb == "picture":
-        picture = importlib.import_module("exploring.explore_picture")  # needs matplotlib
-        print(picture.write(plan, merge.read(plan.folder)))
-    elif options.verb == "page":
-        print(explore_page.write(plan, merge.read(plan.folder), root()))
     else:
         if options.verb == "route":
             route_all(plan, options)

@@ -158,3 +158,34 @@ def read(folder):
         return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
     except OSError as error:
         raise chunks.ChunkError(f"{path}: {error.strerror}; 'explore merge DIR' first") from None
+
+
+def value_of(text):
+    """What shown() made a text of."""
+    if text in ("True", "False"):
+        return text == "True"
+    try:
+        return json.loads(text)
+    except ValueError:
+        return text
+
+
+def read_table(path):
+    """The rows of a points.csv, whose base is that of the space file beside it."""
+    path = Path(path)
+    beside = path.with_suffix(".toml")
+    try:
+        base = tomllib.loads(beside.read_text(encoding="utf-8"))["base"]
+        with path.open(encoding="utf-8", newline="") as file:
+            lines = list(csv.DictReader(file))
+    except (OSError, ValueError, KeyError) as error:
+        raise chunks.ChunkError(
+            f"{path}: {error}; wanted a table and {beside.name} beside it"
+        ) from None
+    rows = []
+    for line in lines:
+        known = {key: value_of(text) for key, text in line.items() if text and key != "id"}
+        changed = {key: value for key, value in known.items() if "." in key}
+        result = {key: value for key, value in known.items() if "." not in key and key != "front"}
+        rows.append({"id": line["id"], "base": base, "set": changed, "result": result})
+    return rows

@@ -88,13 +88,12 @@ def preset_text(root, name, chosen, plan):
     return head + text
 
 
-def write(plan, rows, root, folder=None):
+def write(plan, rows, root):
     """Writes the three files; their paths."""
     chosen = choose(rows)
     paths = []
     for name in chosen:
-        path = (folder or plan.folder) / f"{name}.toml"
-        path.parent.mkdir(parents=True, exist_ok=True)
+        path = plan.folder / f"{name}.toml"
         plans.write_durably(path, preset_text(root, name, chosen, plan))
         paths.append(path)
     return paths

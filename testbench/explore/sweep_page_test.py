@@ -8,6 +8,7 @@ Documentation: docs/explore.md
 
 import json
 import re
+import shutil
 import tomllib
 import unittest
 from pathlib import Path
@@ -110,6 +111,22 @@ class Page(Bench):
             design = tomllib.loads(Path(path).read_text())
             self.assertIn("gives up", design["description"])
             self.assertEqual(design["clock"]["clock_hz"], 50_000_000)
+
+    def test_a_committed_table_will_do(self):
+        folder = self.folder / "out"
+        self.good(self.space, "-o", folder, "--jobs", 2)
+        shutil.copy(folder / "points.csv", self.folder / "space.csv")
+        self.good("page", self.folder / "space.csv", "-o", self.folder / "again")
+        pages = [(at / "explore.html").read_text() for at in (folder, self.folder / "again")]
+        dots = [
+            json.loads(re.search(r'id="data">(.*?)</script>', text, re.S)[1])["dots"]
+            for text in pages
+        ]
+        for one, other in zip(*dots, strict=True):
+            self.assertEqual((one["id"], one["front"]), (other["id"], other["front"]))
+            self.assertEqual(one["preset"], other["preset"])
+            for a, b in zip(one["y"], other["y"], strict=True):
+                self.assertTrue(a == b or abs(a - b) < 1e-5 * abs(a))
 
     def test_words_say_what_is_changed(self):
         self.assertEqual(explore_page.words({"base": "lever", "set": {}}), "lever as it is")

@@ -46,8 +46,9 @@ class TwinEngine : public ClockedEngine {
   const char* name() const override { return "twin"; }
 
   /// From event to event: pins, register writes and the end of the stretch. Clocks in which nothing
-  /// happens that could be asked for wait for those that follow.
-  void advance(Clock clocks, const EncoderEvent* first, const EncoderEvent* last) override {
+  /// happens that could be asked for wait for those that follow. Flat: 7 % of the time are calls.
+  [[gnu::flatten]] void advance(Clock clocks, const EncoderEvent* first,
+                                const EncoderEvent* last) override {
     snapshots_.clear();
     if (first != last) events_.push(first, last);
     CoreIn in = inputs();

@@ -17,8 +17,6 @@ from pathlib import Path
 SCRIPT = Path(__file__).resolve().parents[1] / "explore.py"
 PARENT = "FELTGATE_EXPLORE_PARENT"  # a part whose starter is gone stops by itself
 POLL_S = 0.05
-# A worker that dies takes its part along; the scheduler gives it to another this many times.
-RETRIES = 5
 CONNECT_S = 10
 
 
@@ -113,13 +111,15 @@ def dask(parts, scheduler, jobs, finished):
         with Client(scheduler or cluster, timeout=CONNECT_S) as client:
             futures = {}
             for part in parts:
-                future = client.submit(
-                    run_part, part.command(), carried, PARENT, pure=False, retries=RETRIES
-                )
+                # A worker that dies takes its part along; the scheduler gives it to another one.
+                future = client.submit(run_part, part.command(), carried, PARENT, pure=False)
                 futures[future] = part
             for future in as_completed(list(futures)):
                 part = futures.pop(future)
-                status, said = future.result()
+                try:
+                    status, said = future.result()
+                except Exception as error:  # such as KilledWorker: it killed too many workers
+                    raise EngineError(f"explore {' '.join(part.words)}: {error}") from None
                 future.release()
                 part.check(status, said)
                 finished(part.points)

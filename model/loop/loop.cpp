@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -67,13 +68,17 @@ class ScenarioRun {
     core_.set_control(scene_, mode_, false);
     core_.lead().keep_gate_times(s_.switched);
     std::size_t next_event = 0;
+    const auto event_clock = [this](std::size_t n) {
+      return n < s_.events.size() ? clock_of(s_.events[n].at_s) : std::numeric_limits<Clock>::max();
+    };
     const Clock arm_at = clock_of(s_.arm_s);
-    Clock next_report = 0;
+    Clock next_report = 0, event_at = event_clock(0);
     while (core_.lead().now() < end) {
       const Clock now = core_.lead().now();
       if (!armed_ && !arm_done_ && now >= arm_at) request_arm();
-      while (next_event < s_.events.size() && now >= clock_of(s_.events[next_event].at_s)) {
+      while (now >= event_at) {
         apply(s_.events[next_event++]);
+        event_at = event_clock(next_event);
       }
       step(std::min<Clock>(s_.step_clocks, end - now));
       if (options_.progress && now >= next_report) {
@@ -140,7 +145,7 @@ class ScenarioRun {
     }
   }
 
-  plant::Bridge bridge(Clock clocks) const {
+  plant::Bridge bridge(Clock clocks) {
     const Engine& lead = core_.lead_const();
     if (choice_.rider_drives) {
       const double duty = core_.rider(0)->out().duty_clocks / core_.design().pwm_period;
@@ -153,8 +158,11 @@ class ScenarioRun {
           static_cast<double>(gates.a_hi) / n, static_cast<double>(gates.a_lo) / n,
           static_cast<double>(gates.b_hi) / n, static_cast<double>(gates.b_lo) / n);
     }
-    return plant::Bridge::averaged(static_cast<double>(lead.duty()) / core_.design().pwm_period,
-                                   lead.gates_enabled());
+    if (lead.duty() != duty_clocks_) {
+      duty_clocks_ = lead.duty();
+      duty_ = static_cast<double>(duty_clocks_) / core_.design().pwm_period;
+    }
+    return plant::Bridge::averaged(duty_, lead.gates_enabled());
   }
 
   // The bridge of the last interval drives the motor in this one: no edge depends on its own
@@ -186,24 +194,46 @@ class ScenarioRun {
   void tick(const Snapshot& s) {
     const plant::Observables& o = plant_.observables();
     Row& r = last_;
-    r.time_s = static_cast<double>(ticks_) / static_cast<double>(core_.design().tick_hz);
     r.theta_rad = o.theta_rad;
-    r.omega_rad_s = o.omega_rad_s;
     r.motor_torque_nm = mean_.mean();
-    r.hand_torque_nm = o.hand_torque_nm;
-    r.position_rad = s.position * core_.design().count_rad;
     if (choice_.rider_drives) {
       const ChainOut& c = core_.rider(0)->out();
       r.velocity_rad_s = c.velocity_rad_s;
       r.tau_ref_nm = c.tau_ref_nm;
       r.tau_hat_nm = c.tau_hat_nm;
-      r.current_a = c.current_a;
-      r.voltage_v = c.voltage_v;
-      r.duty = c.duty_clocks / core_.design().pwm_period;
     } else {
       r.velocity_rad_s = core_.velocity_rad_s(s);
       r.tau_ref_nm = core_.torque_nm(s.tau_ref);
       r.tau_hat_nm = core_.torque_nm(s.tau_hat);
+    }
+    faults_ |= s.faults;
+    tau_ref_.add(r.tau_ref_nm);
+    tau_hat_.add(r.tau_hat_nm);
+    velocity_.add(r.velocity_rad_s);
+    theta_.add(r.theta_rad);
+    if (recording_) {
+      steps_.back().tau_hat_nm.push_back(r.tau_hat_nm);
+      steps_.back().torque_nm.push_back(r.motor_torque_nm);
+    }
+    if (options_.row) {
+      complete(r, s, o);
+      options_.row(r);
+    }
+    ++ticks_;
+  }
+
+  /// What only a reader of rows wants.
+  void complete(Row& r, const Snapshot& s, const plant::Observables& o) const {
+    r.time_s = static_cast<double>(ticks_) / static_cast<double>(core_.design().tick_hz);
+    r.omega_rad_s = o.omega_rad_s;
+    r.hand_torque_nm = o.hand_torque_nm;
+    r.position_rad = s.position * core_.design().count_rad;
+    if (choice_.rider_drives) {
+      const ChainOut& c = core_.rider(0)->out();
+      r.current_a = c.current_a;
+      r.voltage_v = c.voltage_v;
+      r.duty = c.duty_clocks / core_.design().pwm_period;
+    } else {
       r.current_a = core_.current_a(s);
       r.voltage_v = core_.voltage_v(s);
       r.duty = static_cast<double>(s.duty) / core_.design().pwm_period;
@@ -216,17 +246,6 @@ class ScenarioRun {
     }
     r.limits = s.limits;
     r.faults = s.faults;
-    faults_ |= s.faults;
-    ++ticks_;
-    tau_ref_.add(r.tau_ref_nm);
-    tau_hat_.add(r.tau_hat_nm);
-    velocity_.add(r.velocity_rad_s);
-    theta_.add(r.theta_rad);
-    if (recording_) {
-      steps_.back().tau_hat_nm.push_back(r.tau_hat_nm);
-      steps_.back().torque_nm.push_back(r.motor_torque_nm);
-    }
-    if (options_.row) options_.row(r);
   }
 
   RunResult result(Clock clocks) {
@@ -318,6 +337,8 @@ class ScenarioRun {
   bool armed_ = false, arm_done_ = false, recording_ = false;
   Clock last_clocks_ = 0;  ///< none yet
   double dt_s_ = 0;
+  int duty_clocks_ = 0;  ///< of the bridge, and what it is of a period
+  double duty_ = 0;
   std::int64_t ticks_ = 0;
   int faults_ = 0;
   double hand_energy_j_ = 0, absorbed_j_ = 0;

@@ -42,58 +42,47 @@ double BridgeModel::dead_share(double on_share, double against_share) const {
   return std::min(dead_fraction_, on_share);
 }
 
-// With valley and peak of opposite sign each edge finds the current already where it must go:
-// nothing is lost. From there to the full loss it takes the current that one dead time moves.
-double BridgeModel::felt(double duty, double bus_v, double current_a) const {
-  if (hard_) return 1.0;
-  const double on = antiphase_ ? 0.5 * (1.0 + std::abs(duty)) : std::abs(duty);
-  const double swing = antiphase_ ? 2.0 * bus_v : bus_v;
-  const double half_ripple = ripple_a_v_ * swing * on * (1.0 - on);
-  const double rise = duty * current_a >= 0.0 ? 1.0 - on : on;
-  const double edge = 2.0 * ripple_a_v_ * swing * rise * dead_fraction_;
-  if (edge <= 0.0) return 1.0;
-  return std::clamp((std::abs(current_a) - half_ripple) / edge + 1.0, 0.0, 1.0);
-}
-
-BridgeVoltage BridgeModel::averaged(double duty, double bus_v, double current_a) const {
+void BridgeModel::hold(double duty, double bus_v) {
   const double d = std::clamp(duty, -1.0, 1.0);
-  if (!dead_time_) return {d, d, 0.0};
-  double positive = 0.0;
-  double negative = 0.0;
+  held_ = {};
+  held_.duty = duty;
+  held_.bus_v = bus_v;
+  held_.d = d;
+  if (!dead_time_) return;
   int legs = 1;
   if (antiphase_) {
     const double on = 0.5 * (1.0 + d);
-    positive = 2.0 * dead_share(on, 1.0 - on);
-    negative = 2.0 * dead_share(1.0 - on, on);
+    held_.positive = 2.0 * dead_share(on, 1.0 - on);
+    held_.negative = 2.0 * dead_share(1.0 - on, on);
     legs = 2;
   } else {
     const double with = dead_share(std::abs(d), 1.0 - std::abs(d));
     const double against = dead_share(1.0 - std::abs(d), std::abs(d));
-    positive = d >= 0.0 ? with : against;
-    negative = d >= 0.0 ? against : with;
+    held_.positive = d >= 0.0 ? with : against;
+    held_.negative = d >= 0.0 ? against : with;
   }
-  const double share = felt(d, bus_v, current_a);
-  const bool switching = positive > 0.0 || negative > 0.0;
-  const double diode = switching ? 2.0 * legs * dead_fraction_ * diode_v_ : 0.0;
-  return {d - share * positive, d + share * negative, share * diode};
+  const bool switching = held_.positive > 0.0 || held_.negative > 0.0;
+  held_.diode_v = switching ? 2.0 * legs * dead_fraction_ * diode_v_ : 0.0;
+  if (hard_) return;
+  const double on = antiphase_ ? 0.5 * (1.0 + std::abs(d)) : std::abs(d);
+  const double swing = antiphase_ ? 2.0 * bus_v : bus_v;
+  held_.half_ripple_a = ripple_a_v_ * swing * on * (1.0 - on);
+  const auto per_edge = [&](double rise) {
+    const double edge = 2.0 * ripple_a_v_ * swing * rise * dead_fraction_;
+    return edge > 0.0 ? 1.0 / edge : 0.0;
+  };
+  held_.with_per_a = per_edge(1.0 - on);
+  held_.against_per_a = per_edge(on);
 }
 
-BridgeVoltage BridgeModel::voltage(const Bridge& bridge, double bus_v, double current_a) const {
-  switch (bridge.mode) {
-    case Bridge::Mode::kAveraged:
-      return averaged(bridge.duty, bus_v, current_a);
-    case Bridge::Mode::kSwitched: {
-      // A leg with no gate on follows the current: out of it through the low diode, into it through
-      // the high one.
-      const double a_off = std::max(0.0, 1.0 - bridge.a_hi - bridge.a_lo);
-      const double b_off = std::max(0.0, 1.0 - bridge.b_hi - bridge.b_lo);
-      return {bridge.a_hi - bridge.b_hi - b_off, bridge.a_hi + a_off - bridge.b_hi,
-              (a_off + b_off) * diode_v_};
-    }
-    case Bridge::Mode::kOff:
-      break;
-  }
-  return {-1.0, 1.0, 2.0 * diode_v_};
+BridgeVoltage BridgeModel::unaveraged(const Bridge& bridge) const {
+  if (bridge.mode == Bridge::Mode::kOff) return {-1.0, 1.0, 2.0 * diode_v_};
+  // A leg with no gate on follows the current: out of it through the low diode, into it through
+  // the high one.
+  const double a_off = std::max(0.0, 1.0 - bridge.a_hi - bridge.a_lo);
+  const double b_off = std::max(0.0, 1.0 - bridge.b_hi - bridge.b_lo);
+  return {bridge.a_hi - bridge.b_hi - b_off, bridge.a_hi + a_off - bridge.b_hi,
+          (a_off + b_off) * diode_v_};
 }
 
 }  // namespace feltgate::plant

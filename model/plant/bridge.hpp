@@ -5,6 +5,9 @@
 // with free-wheeling diodes and dead time. Documentation: docs/plant.md
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "plant/parameters.hpp"
 
 namespace feltgate::plant {
@@ -65,12 +68,37 @@ class BridgeModel {
               const Effects& effects);
 
   /// `current_a` at the start of the step decides how much of the dead time is felt.
-  BridgeVoltage voltage(const Bridge& bridge, double bus_v, double current_a) const;
+  BridgeVoltage voltage(const Bridge& bridge, double bus_v, double current_a) {
+    if (bridge.mode != Bridge::Mode::kAveraged) return unaveraged(bridge);
+    if (bridge.duty != held_.duty || bus_v != held_.bus_v) hold(bridge.duty, bus_v);
+    if (!dead_time_) return {held_.d, held_.d, 0.0};
+    const double share = felt(current_a);
+    return {held_.d - share * held_.positive, held_.d + share * held_.negative,
+            share * held_.diode_v};
+  }
 
  private:
+  /// What follows from duty and bus alone: both last for a PWM period.
+  struct Held {
+    double duty = 0.0, bus_v = -1.0;               ///< no bus is negative: nothing held yet
+    double d = 0.0;                                ///< duty within [-1, 1]
+    double positive = 0.0, negative = 0.0;         ///< shares lost by a current of that direction
+    double diode_v = 0.0;                          ///< lost in diodes during the dead times
+    double half_ripple_a = 0.0;                    ///< of the current
+    double with_per_a = 0.0, against_per_a = 0.0;  ///< 1/the current that one dead time moves
+  };
+
   double dead_share(double on_share, double against_share) const;
-  double felt(double duty, double bus_v, double current_a) const;
-  BridgeVoltage averaged(double duty, double bus_v, double current_a) const;
+  void hold(double duty, double bus_v);
+  BridgeVoltage unaveraged(const Bridge& bridge) const;
+  // With valley and peak of opposite sign each edge finds the current already where it must go:
+  // nothing is lost. From there to the full loss it takes the current that one dead time moves.
+  double felt(double current_a) const {
+    const double per_a = held_.d * current_a >= 0.0 ? held_.with_per_a : held_.against_per_a;
+    if (per_a <= 0.0) return 1.0;
+    const double share = (std::abs(current_a) - held_.half_ripple_a) * per_a + 1.0;
+    return std::min(std::max(share, 0.0), 1.0);
+  }
 
   double diode_v_;
   bool dead_time_;
@@ -78,6 +106,7 @@ class BridgeModel {
   double dead_fraction_;  ///< dead time over PWM period
   double ripple_a_v_;     ///< half peak-to-peak ripple per volt of bus and unit of D*(1-D)
   bool antiphase_;
+  Held held_;
 };
 
 }  // namespace feltgate::plant

@@ -12,7 +12,7 @@ namespace feltgate::plant {
 using Kind = HandPhase::Kind;
 
 HandRun::HandRun(Hand hand, double radius_m, double clock_hz, bool dynamics)
-    : hand_(std::move(hand)), radius_m_(radius_m), clock_hz_(clock_hz) {
+    : hand_(std::move(hand)), radius_m_(radius_m), clock_hz_(clock_hz), clock_s_(1.0 / clock_hz) {
   if (hand_.phases.empty()) hand_.phases.emplace_back();
   for (HandPhase& phase : hand_.phases) {
     if (phase.kind == Kind::kImpedance && !dynamics) phase.kind = Kind::kPrescribed;
@@ -75,7 +75,7 @@ void HandRun::begin_step(Clock now, double dt_s, const Shaft& lever) {
     begin_phase(lever);
   }
   if (kind_ == Kind::kFree || kind_ == Kind::kLocked || kind_ == Kind::kCord) return;
-  const double begin_s = static_cast<double>(now - phase_begin_) / clock_hz_;
+  const double begin_s = static_cast<double>(now - phase_begin_) * clock_s_;
   if (kind_ == Kind::kPrescribed) {
     const ProfileSample end = profile_.at(begin_s + dt_s);
     target_ = {end.value, end.rate};
@@ -88,19 +88,6 @@ void HandRun::begin_step(Clock now, double dt_s, const Shaft& lever) {
     dynamics_.equilibrium_rad = middle.value;
     dynamics_.equilibrium_rad_s = middle.rate;
   }
-}
-
-ShaftTorque HandRun::torque() const {
-  if (kind_ == Kind::kTorque) return {applied_nm_, 0.0, 0.0};
-  if (kind_ != Kind::kCord) return {};
-  const Cord& cord = hand_.phases[index_].cord;
-  return {cord.stiffness_nm_rad * anchor_rad_, -cord.damping_nm_s_rad, -cord.stiffness_nm_rad};
-}
-
-double HandRun::torque_nm(const Shaft& lever) const {
-  if (has_mass()) return dynamics_.grip_nm(lever, mass_);
-  const ShaftTorque t = torque();
-  return t.constant_nm + t.omega_nm_s_rad * lever.omega_rad_s + t.theta_nm_rad * lever.theta_rad;
 }
 
 }  // namespace feltgate::plant

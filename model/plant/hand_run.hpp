@@ -31,9 +31,18 @@ class HandRun {
   const Shaft& target() const { return target_; }
 
   /// Torque of cord or torque profile over the step, for the mechanics.
-  ShaftTorque torque() const;
+  ShaftTorque torque() const {
+    if (kind_ == HandPhase::Kind::kTorque) return {applied_nm_, 0.0, 0.0};
+    if (kind_ != HandPhase::Kind::kCord) return {};
+    const Cord& cord = hand_.phases[index_].cord;
+    return {cord.stiffness_nm_rad * anchor_rad_, -cord.damping_nm_s_rad, -cord.stiffness_nm_rad};
+  }
   /// The same at one state of the lever (for impedance: through the grip), Nm.
-  double torque_nm(const Shaft& lever) const;
+  double torque_nm(const Shaft& lever) const {
+    if (has_mass()) return dynamics_.grip_nm(lever, mass_);
+    const ShaftTorque t = torque();
+    return t.constant_nm + t.omega_nm_s_rad * lever.omega_rad_s + t.theta_nm_rad * lever.theta_rad;
+  }
   const HandDynamics& dynamics() const { return dynamics_; }
   /// State of the hand's own mass, in angles of the lever.
   Shaft& mass() { return mass_; }
@@ -46,6 +55,7 @@ class HandRun {
   Hand hand_;
   double radius_m_;
   double clock_hz_;
+  double clock_s_;
   std::size_t index_ = 0;
   bool started_ = false;
   Clock phase_begin_ = 0;

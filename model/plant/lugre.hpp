@@ -31,12 +31,12 @@ class Lugre {
     if (omega_rad_s == 0.0) return p_.stiffness_nm_rad * z_rad_;
     const double x = omega_rad_s * inverse_stribeck_s_rad_;
     const double rise_nm = p_.static_nm - p_.coulomb_nm;
-    const double g_nm = p_.coulomb_nm + (x * x < kNegligible ? rise_nm * std::exp(-x * x) : 0.0);
+    const double g_nm = p_.coulomb_nm + (x * x < kNegligible ? rise_nm * stribeck(x * x) : 0.0);
     const double exponent = stiffness_dt_ * std::abs(omega_rad_s) / g_nm;
     const double target_rad = std::copysign(g_nm, omega_rad_s) * inverse_stiffness_rad_nm_;
-    const double gone = decay_share(exponent);
-    const double step_rad = (target_rad - z_rad_) * gone;
-    const double mean_rad = target_rad + (z_rad_ - target_rad) * mean_share(exponent, gone);
+    const double mean = mean_share(exponent);
+    const double step_rad = (target_rad - z_rad_) * exponent * mean;
+    const double mean_rad = target_rad + (z_rad_ - target_rad) * mean;
     z_rad_ += step_rad;
     return p_.stiffness_nm_rad * mean_rad + damping_per_dt_ * step_rad;
   }
@@ -47,16 +47,31 @@ class Lugre {
  private:
   static constexpr double kNegligible = 40.0;  // exp(-40) is below one rounding of the sum
 
-  // 1 - exp(-x); short series where the step is short, so that the fast path needs no expm1.
-  static double decay_share(double x) {
-    if (x < 1e-3) return x * (1.0 - x * (0.5 - x * (1.0 / 6.0 - x / 24.0)));
-    return x < kNegligible ? 1.0 - std::exp(-x) : 1.0;
+  static constexpr double kShort = 0.0625;  // where the series is as exact as a double
+
+  // (1 - exp(-x))/x: a series where the step is short, for exp() takes longer than all the rest.
+  static double mean_share(double x) {
+    if (std::abs(x) < kShort) return series(x);
+    return x < kNegligible ? -std::expm1(-x) / x : 1.0 / x;
   }
 
-  // (1 - exp(-x))/x
-  static double mean_share(double x, double gone) {
-    if (x < 1e-3) return 1.0 - x * (0.5 - x * (1.0 / 6.0 - x / 24.0));
-    return gone / x;
+  // sum of (-x)^n/(n+1)! to n = 8, in pairs, so that the terms do not wait for each other.
+  static double series(double x) {
+    const double x2 = x * x, x4 = x2 * x2;
+    const double low = (1.0 - x * (1.0 / 2)) + (1.0 / 6 - x * (1.0 / 24)) * x2;
+    const double high = (1.0 / 120 - x * (1.0 / 720)) + (1.0 / 5040 - x * (1.0 / 40320)) * x2;
+    return low + (high + x4 * (1.0 / 362880)) * x4;
+  }
+
+  // exp(-square) from the exact value at a square near by, which holds for many steps.
+  double stribeck(double square) {
+    const double away = square - near_square_;
+    if (!(std::abs(away) < kShort)) {
+      near_square_ = square;
+      near_exp_ = std::exp(-square);
+      return near_exp_;
+    }
+    return near_exp_ - near_exp_ * away * series(away);
   }
 
   LugreParameters p_;
@@ -65,6 +80,7 @@ class Lugre {
   double stiffness_dt_ = 0.0;
   double damping_per_dt_ = 0.0;
   double z_rad_ = 0.0;
+  double near_square_ = 0.0, near_exp_ = 1.0;
 };
 
 }  // namespace feltgate::plant

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The smooth mechanics of lever and hand, one fixed step of Boost.Odeint's fourth-order
-// Runge-Kutta. Why this stepper and this step: docs/plant.md
+// The smooth mechanics of lever and hand: linear while a step lasts, so that a fourth-order
+// Runge-Kutta step is one product with a matrix. Why this step: docs/plant.md
 #pragma once
 
 #include <array>
-
-#include <boost/numeric/odeint/algebra/array_algebra.hpp>
-#include <boost/numeric/odeint/stepper/runge_kutta4_classic.hpp>
+#include <cstddef>
 
 namespace feltgate::plant {
 
@@ -42,56 +40,122 @@ struct HandDynamics {
   }
 };
 
+/// One step of dx/dt = A*x + b with A and b held. The classic Runge-Kutta step of such a system is
+/// x + P*(A*x + b) with P = dt*(1 + z/2*(1 + z/3*(1 + z/4))), z = A*dt.
+template <std::size_t N>
+class LinearStep {
+ public:
+  using Vector = std::array<double, N>;
+  using Matrix = std::array<Vector, N>;
+
+  void set(const Matrix& a, double dt_s) {
+    Matrix p = identity();
+    for (const double order : {4.0, 3.0, 2.0}) {
+      Matrix next = identity();
+      for (std::size_t i = 0; i < N; ++i) {
+        for (std::size_t j = 0; j < N; ++j) {
+          for (std::size_t k = 0; k < N; ++k) next[i][j] += dt_s / order * a[i][k] * p[k][j];
+        }
+      }
+      p = next;
+    }
+    for (std::size_t i = 0; i < N; ++i) {
+      for (std::size_t j = 0; j < N; ++j) by_rate_[j][i] = dt_s * p[i][j];
+    }
+  }
+  /// What x gains in the step that it begins with this rate A*x + b.
+  Vector gain(const Vector& rate) const {
+    Vector g{};
+    for (std::size_t j = 0; j < N; ++j) {
+      for (std::size_t i = 0; i < N; ++i) g[i] += by_rate_[j][i] * rate[j];
+    }
+    return g;
+  }
+
+ private:
+  static Matrix identity() {
+    Matrix m{};
+    for (std::size_t i = 0; i < N; ++i) m[i][i] = 1.0;
+    return m;
+  }
+  Matrix by_rate_{};  ///< P by columns
+};
+
 class Mechanics {
  public:
   explicit Mechanics(double inertia_kg_m2) : inverse_inertia_(1.0 / inertia_kg_m2) {}
 
   /// Lever alone.
   void step(Shaft& lever, const ShaftTorque& torque, double dt_s) {
-    const double c0 = torque.constant_nm * inverse_inertia_;
-    const double c1 = torque.omega_nm_s_rad * inverse_inertia_;
-    const double c2 = torque.theta_nm_rad * inverse_inertia_;
-    LeverState x{lever.theta_rad, lever.omega_rad_s};
-    lever_stepper_.do_step(
-        [=](const LeverState& s, LeverState& rate, double) {
-          rate[0] = s[1];
-          rate[1] = c0 + c1 * s[1] + c2 * s[0];
-        },
-        x, 0.0, dt_s);
-    lever = {x[0], x[1]};
+    if (!lever_set_.same({dt_s, torque.theta_nm_rad, torque.omega_nm_s_rad})) {
+      lever_step_.set(
+          {{{0.0, 1.0},
+            {torque.theta_nm_rad * inverse_inertia_, torque.omega_nm_s_rad * inverse_inertia_}}},
+          dt_s);
+    }
+    const auto gain =
+        lever_step_.gain({lever.omega_rad_s, lever_nm(lever, torque) * inverse_inertia_});
+    lever.theta_rad += gain[0];
+    lever.omega_rad_s += gain[1];
   }
 
   /// Lever and hand.
   void step(Shaft& lever, Shaft& hand, const ShaftTorque& torque, const HandDynamics& h,
             double dt_s) {
-    GripState x{lever.theta_rad, lever.omega_rad_s, hand.theta_rad, hand.omega_rad_s};
-    grip_stepper_.do_step(
-        [&](const GripState& s, GripState& rate, double) {
-          const double grip_nm = h.grip_nm({s[0], s[1]}, {s[2], s[3]});
-          const double hand_nm = h.stiffness_nm_rad * (h.equilibrium_rad - s[2]) +
-                                 h.damping_nm_s_rad * (h.equilibrium_rad_s - s[3]);
-          const double lever_nm =
-              torque.constant_nm + torque.omega_nm_s_rad * s[1] + torque.theta_nm_rad * s[0];
-          rate[0] = s[1];
-          rate[1] = (lever_nm + grip_nm) * inverse_inertia_;
-          rate[2] = s[3];
-          rate[3] = (hand_nm - grip_nm) * h.inverse_inertia;
-        },
-        x, 0.0, dt_s);
-    lever = {x[0], x[1]};
-    hand = {x[2], x[3]};
+    if (!grip_set_.same({dt_s, torque.theta_nm_rad, torque.omega_nm_s_rad, h.inverse_inertia,
+                         h.damping_nm_s_rad, h.stiffness_nm_rad, h.grip_damping_nm_s_rad,
+                         h.grip_stiffness_nm_rad})) {
+      set_grip(torque, h, dt_s);
+    }
+    const double grip_nm = h.grip_nm(lever, hand);
+    const double hand_nm = h.stiffness_nm_rad * (h.equilibrium_rad - hand.theta_rad) +
+                           h.damping_nm_s_rad * (h.equilibrium_rad_s - hand.omega_rad_s);
+    const auto gain =
+        grip_step_.gain({lever.omega_rad_s, (lever_nm(lever, torque) + grip_nm) * inverse_inertia_,
+                         hand.omega_rad_s, (hand_nm - grip_nm) * h.inverse_inertia});
+    lever.theta_rad += gain[0];
+    lever.omega_rad_s += gain[1];
+    hand.theta_rad += gain[2];
+    hand.omega_rad_s += gain[3];
   }
 
  private:
-  using LeverState = std::array<double, 2>;
-  using GripState = std::array<double, 4>;
-  template <class State>
-  using Stepper =
-      boost::numeric::odeint::runge_kutta4_classic<State, double, State, double,
-                                                   boost::numeric::odeint::array_algebra>;
-  Stepper<LeverState> lever_stepper_;
-  Stepper<GripState> grip_stepper_;
+  /// The coefficients that a matrix was made from.
+  template <std::size_t N>
+  class MadeFrom {
+   public:
+    /// Whether they are these; if not, from now on they are.
+    bool same(const std::array<double, N>& now) {
+      if (now == values_) return true;
+      values_ = now;
+      return false;
+    }
+
+   private:
+    std::array<double, N> values_{};  // a step of length 0 is never asked for
+  };
+
+  static double lever_nm(const Shaft& lever, const ShaftTorque& torque) {
+    return torque.constant_nm + torque.omega_nm_s_rad * lever.omega_rad_s +
+           torque.theta_nm_rad * lever.theta_rad;
+  }
+  void set_grip(const ShaftTorque& torque, const HandDynamics& h, double dt_s) {
+    const double k = h.grip_stiffness_nm_rad, b = h.grip_damping_nm_s_rad;
+    const double lever = inverse_inertia_, hand = h.inverse_inertia;
+    grip_step_.set({{{0.0, 1.0, 0.0, 0.0},
+                     {(torque.theta_nm_rad - k) * lever, (torque.omega_nm_s_rad - b) * lever,
+                      k * lever, b * lever},
+                     {0.0, 0.0, 0.0, 1.0},
+                     {k * hand, b * hand, -(h.stiffness_nm_rad + k) * hand,
+                      -(h.damping_nm_s_rad + b) * hand}}},
+                   dt_s);
+  }
+
   double inverse_inertia_;
+  LinearStep<2> lever_step_;
+  LinearStep<4> grip_step_;
+  MadeFrom<3> lever_set_;
+  MadeFrom<8> grip_set_;
 };
 
 }  // namespace feltgate::plant

@@ -13,7 +13,8 @@ namespace {
 constexpr double kTwoPi = 6.283185307179586476925286766559;
 
 // A sine is written around `start - amplitude*sin(phase)`, so that it begins at `start`.
-ProfileSample sample(const Segment& segment, double start, double t) {
+// `per_s` is 1/duration.
+ProfileSample sample(const Segment& segment, double per_s, double start, double t) {
   const double way = segment.to - start;
   switch (segment.kind) {
     case Segment::Kind::kHold:
@@ -21,11 +22,11 @@ ProfileSample sample(const Segment& segment, double start, double t) {
     case Segment::Kind::kStep:
       return {segment.to, 0.0};
     case Segment::Kind::kRamp:
-      return {start + way * t / segment.duration_s, way / segment.duration_s};
+      return {start + way * t * per_s, way * per_s};
     case Segment::Kind::kMinimumJerk: {
       // Flash and Hogan, J. Neurosci. 1985: zero velocity and acceleration at both ends.
-      const double x = t / segment.duration_s;
-      const double rate = 30.0 * x * x * (1.0 - x) * (1.0 - x) / segment.duration_s;
+      const double x = t * per_s;
+      const double rate = 30.0 * x * x * (1.0 - x) * (1.0 - x) * per_s;
       return {start + way * x * x * x * (10.0 - x * (15.0 - 6.0 * x)), way * rate};
     }
     case Segment::Kind::kSine: {
@@ -53,9 +54,13 @@ ProfileSample ProfileRun::at(double time_s) {
   while (index_ < profile_.size()) {
     const Segment& segment = profile_[index_];
     if (time_s - begin_s_ < segment.duration_s) {
-      return sample(segment, start_, time_s - begin_s_);
+      if (timed_ != index_) {
+        timed_ = index_;
+        per_s_ = 1.0 / segment.duration_s;
+      }
+      return sample(segment, per_s_, start_, time_s - begin_s_);
     }
-    start_ = sample(segment, start_, segment.duration_s).value;
+    start_ = sample(segment, 1.0 / segment.duration_s, start_, segment.duration_s).value;
     begin_s_ += segment.duration_s;
     ++index_;
   }

@@ -46,6 +46,8 @@ class ProfileRun {
   std::size_t index_ = 0;
   double begin_s_ = 0.0;
   double start_ = 0.0;
+  std::size_t timed_ = static_cast<std::size_t>(-1);  ///< segment that per_s_ belongs to
+  double per_s_ = 0.0;
 };
 
 /// Recorded samples, interpolated by cubic Hermite pieces (slope: central difference) so that the

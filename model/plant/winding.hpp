@@ -18,7 +18,7 @@ struct CurrentStep {
 class Winding {
  public:
   Winding(double resistance_ohm, double inductance_h)
-      : resistance_ohm_(resistance_ohm), tau_s_(inductance_h / resistance_ohm) {}
+      : per_ohm_(1.0 / resistance_ohm), tau_s_(inductance_h / resistance_ohm) {}
 
   /// Sets the length of the steps to come, s.
   void set_step(double dt_s) {
@@ -43,13 +43,13 @@ class Winding {
 
   /// The current without inductance: it follows at once.
   double settled_a(double positive_v, double negative_v) const {
-    if (positive_v > 0.0) return positive_v / resistance_ohm_;
-    return negative_v < 0.0 ? negative_v / resistance_ohm_ : 0.0;
+    if (positive_v > 0.0) return positive_v * per_ohm_;
+    return negative_v < 0.0 ? negative_v * per_ohm_ : 0.0;
   }
 
  private:
   CurrentStep from_positive(double current_a, double positive_v, double negative_v) const {
-    const double final_a = positive_v / resistance_ohm_;
+    const double final_a = positive_v * per_ohm_;
     const double end_a = final_a + (current_a - final_a) * decay_;
     if (end_a >= 0.0) return {end_a, final_a + (current_a - final_a) * mean_weight_};
     return through_zero(current_a, final_a, negative_v);
@@ -61,7 +61,7 @@ class Winding {
     double charge = final_a * t + current_a * tau_s_;
     double end_a = 0.0;
     if (negative_v < 0.0) {
-      const double settled = negative_v / resistance_ohm_;
+      const double settled = negative_v * per_ohm_;
       const double rest = dt_s_ - t;
       end_a = -settled * std::expm1(-rest / tau_s_);
       charge += settled * rest - end_a * tau_s_;
@@ -69,7 +69,7 @@ class Winding {
     return {end_a, charge / dt_s_};
   }
 
-  double resistance_ohm_;
+  double per_ohm_;
   double tau_s_;
   double dt_s_ = 0.0;
   double decay_ = 0.0;

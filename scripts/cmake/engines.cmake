@@ -50,4 +50,5 @@ endforeach()
 file(CONFIGURE OUTPUT "${CMAKE_BINARY_DIR}/engines/designs.inc" CONTENT "${registrations}")
 target_link_libraries(feltgate_engines PUBLIC feltgate_model Boost::headers)
 target_include_directories(feltgate_engines PRIVATE "${CMAKE_BINARY_DIR}/engines")
-target_compile_options(feltgate_engines PRIVATE ${FELTGATE_WARNINGS} -O3)
+# What a tick leaves as words the next one takes as words: in pairs they would wait for the store.
+target_compile_options(feltgate_engines PRIVATE ${FELTGATE_WARNINGS} -O3 -fno-tree-slp-vectorize)

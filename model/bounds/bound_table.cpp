@@ -47,7 +47,7 @@ std::string bound_table(const ErrorBounds& b) {
   if (b.free.current_rad_s > 0) {
     add("and the current limit cannot act below %.6g rad/s\n", b.free.current_rad_s);
   } else {
-    add("and the current limit may act; the bounds hold with it, except those of \"no limit\"\n");
+    out += "and the current limit may act; the bounds hold with it, except those of \"no limit\"\n";
   }
   return out;
 }

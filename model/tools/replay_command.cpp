@@ -2,11 +2,13 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate replay and feltgate import. Documentation: docs/traces.md, docs/json.md
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "loop/replay.hpp"
+#include "loop/scenario_bounds.hpp"
 #include "tools/commands.hpp"
 #include "tools/output.hpp"
 #include "traces/open.hpp"
@@ -98,8 +100,22 @@ int replay(ReplayArguments& a) {
   options.progress = [&progress, length](Clock done) {
     progress.update(length > 0 ? static_cast<double>(done) / static_cast<double>(length) : 1.0);
   };
-  const RunResult result = run_replay(*source, name, options);
-  const RunLabels labels{"trace", "", probe_text(how), false, 0};
+  const auto elaborated =
+      design::elaborate(design::read_design(find_file(a.design, "rtl/designs")),
+                        design::read_registers(repository() + "/rtl/registers.toml"));
+  const auto bounds_up_to = [&](double velocity_rad_s) {
+    RunBounds run(elaborated, std::max(velocity_rad_s, hardly_any_rad_s));
+    run.render(a.scene, 0);
+    return run.worst();
+  };
+  const bounds::Coverage coverage(bounds_up_to(0), bounds::chain_numbers(elaborated));
+  options.coverage = &coverage;
+  RunResult result = run_replay(*source, name, options);
+  options.coverage = nullptr;
+  const bounds::ErrorBounds bounds = bounds_up_to(result.largest_velocity_rad_s);
+  check_bounds(result, bounds);
+  RunLabels labels{"trace", "", probe_text(how), false, 0};
+  labels.bounds = &bounds;
   if (csv) csv->commit();
   if (json) {
     std::fputs(run_json(result, labels).c_str(), json->handle());
@@ -118,7 +134,7 @@ int replay(ReplayArguments& a) {
     run_replay(*again, name, options);
     tell_mismatch(result.first_mismatch, options.fst);
   }
-  return result.mismatches == 0 ? exit_ok : exit_failed;
+  return result.mismatches == 0 && result.broken.empty() ? exit_ok : exit_failed;
 }
 
 }  // namespace
@@ -131,7 +147,8 @@ void add_replay(CLI::App& app, int* exit_code) {
       "  feltgate replay hand.sr --probes XA,XB\n"
       "  feltgate replay axis.sr --step 5 --dir 6\n"
       "  feltgate replay log.csv --time-column t --count-column theta --scale 2048/2pi\n"
-      "Exit code: 0 no mismatch, 1 mismatches, 2 the recording or an option cannot be used.");
+      "Exit code: 0 no mismatch and no error above its bound, 1 one, 2 the recording or an option "
+      "cannot be used.");
   a->trace.add_to(sub);
   sub->add_option("--design", a->design, "design point in rtl/designs")->capture_default_str();
   sub->add_option("--engine", a->engine, "rtl, twin or all")->capture_default_str();

@@ -127,8 +127,9 @@ std::string text(const Result& r, const std::vector<Work>& works, const Circumst
     }
   }
   if (r.bounds) {
-    print(&s, "%-57s %10.3g %10s %10.3g %10s %10.3g\n", "proven bound of the integer engines",
-          r.bounds->velocity_rad_s, "", r.bounds->tau_hat_nm, "", r.bounds->torque_nm);
+    print(&s, "%-57s %10.3g %10s %10.3g %10s %10.3g\n",
+          "proven bound of the integers, no limit or ramp at work", r.bounds->velocity_rad_s, "",
+          r.bounds->tau_hat_nm, "", r.bounds->torque_nm);
   }
   s += "\n";
   if (r.divergence.empty()) {

@@ -91,12 +91,12 @@ Work slow_small_signals(const std::string& design, double seconds) {
     work.inputs.edges.push_back({clock(at_s), {phase == 1 || phase == 2, phase >= 2, false}});
     at_s += 1e-4 * (1 + 57 * k % 400);
   }
-  // Second half: constant torques of one to a few steps.
+  // Second half: constant torques of one to a few steps, after the ramp of the change of scene.
   const ParameterInfo& torque = *d.find("setpoint_torque");
   work.inputs.writes.push_back({clock(seconds / 2), d.control_address, control(true, setpoint), 0});
   for (int k = 0; k < 8; ++k) {
     const double value = std::ldexp(k % 2 == 0 ? 1.0 + k : -1.0 - k, -d.torque.fraction);
-    work.inputs.writes.push_back({clock(seconds * (0.5 + 0.06 * k)), torque.address,
+    work.inputs.writes.push_back({clock(seconds * (0.51 + 0.06 * k)), torque.address,
                                   static_cast<std::uint32_t>(quantise_parameter(torque, value)),
                                   value});
   }

@@ -11,6 +11,7 @@ Exit status: 0 within the budget (scripts/synth_budget.toml), 1 when a figure ha
 import argparse
 import json
 import os
+import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -31,6 +32,14 @@ def arguments():
     )
     parser.add_argument("--design", action="append", help="a design point; default: lever, paper")
     parser.add_argument("--block", action="append", help="a block, or 'core'; default: all")
+    parser.add_argument(
+        "--for",
+        action="append",
+        dest="scenes",
+        metavar="SCENE[,SCENE...]",
+        help="the core of a design that builds only what these scenes need, instead of the blocks; "
+        "may be repeated, one row for each",
+    )
     parser.add_argument("--seeds", default="1,2,3", help="of nextpnr; default 1,2,3")
     parser.add_argument("--json", type=Path, help="write the figures here")
     parser.add_argument("--update", action="store_true", help="write budget and documentation")
@@ -59,6 +68,64 @@ def check_designs(root, designs):
     for design in designs:
         if not (root / f"rtl/generated/{design}/feltgate_pkg.sv").exists():
             raise ToolError(f"no design {design} in rtl/generated; ./feltgate generate makes it")
+
+
+def program(name):
+    """feltgate or feltgate_generate, built beside each other."""
+    if "FELTGATE_PROGRAM" not in os.environ:
+        raise ToolError("--for needs the built program: run it as ./feltgate synth")
+    return Path(os.environ["FELTGATE_PROGRAM"]).with_name(name)
+
+
+def package_for(root, design, scenes, folder):
+    """The package of DESIGN cut down to SCENES; made by the program as a user would."""
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / f"{design}_cut.toml"
+    for command in (
+        [program("feltgate"), "design", design, "--for", *scenes, "-o", path],
+        [program("feltgate_generate"), root, "--design", path, "--output", folder],
+    ):
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode:
+            raise ToolError(f"{' '.join(map(str, command))}: {done.stderr.strip()}")
+    return folder / "feltgate_pkg.sv"
+
+
+def run_scene_sets(options, root):
+    """Figures of the core for each design and set of scenes, and the tools that made them."""
+    measured = {}
+    seeds = [] if options.no_route else [int(seed) for seed in options.seeds.split(",")]
+    target = synth_measure.scene_target(root)
+    with tempfile.TemporaryDirectory(prefix="feltgate-synth-") as temporary:
+        keep = Path(os.environ.get("FELTGATE_BUILD", temporary), "synth")
+        for design in options.design or ["lever"]:
+            measured[design] = {}
+            for index, names in enumerate(options.scenes):
+                scenes = names.split(",")
+                progress(f"{design} for {names} ({index + 1} of {len(options.scenes)})")
+                folder = keep / f"{design}_for_{'_'.join(scenes)}"
+                package = package_for(root, design, scenes, folder / "design")
+                tools = Tools(folder)
+                figures = synth_measure.measure(tools, root, package, target, seeds)
+                measured[design][", ".join(scenes)] = figures
+            progress("")
+            print(synth_report.text_table(design, measured[design]))
+            print()
+    return measured, {"yosys": version(tools.yosys), "nextpnr": version(tools.nextpnr)}
+
+
+def main_scene_sets(options, root):
+    measured, tools = run_scene_sets(options, root)
+    if options.json:
+        result = {"schema": SCHEMA, "tools": tools, "scene_sets": measured}
+        options.json.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
+    if options.update:
+        path = root / "scripts/synth_budget.toml"
+        budget = synth_budget.read(path)
+        synth_budget.write(path, synth_budget.merge_scene_sets(budget, measured, tools))
+        synth_report.write_page(root / "docs/synthesis.md", synth_budget.read(path))
+        print("synth: wrote scripts/synth_budget.toml and docs/synthesis.md")
+    return 0
 
 
 def run(options, root):
@@ -93,6 +160,8 @@ def main():
     options = arguments()
     root = Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[1]))
     try:
+        if options.scenes:
+            return main_scene_sets(options, root)
         measured, tools = run(options, root)
     except (ToolError, ValueError) as error:
         print(f"synth: {error}", file=sys.stderr)

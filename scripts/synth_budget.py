@@ -23,8 +23,22 @@ HEAD = """# SPDX-License-Identifier: Apache-2.0
 
 def read(path):
     if not path.exists():
-        return {"measured": {}, "figures": {}}
-    return tomllib.loads(path.read_text(encoding="utf-8"))
+        return {"measured": {}, "figures": {}, "scene_sets": {}}
+    return {"scene_sets": {}} | tomllib.loads(path.read_text(encoding="utf-8"))
+
+
+def stamp(tools):
+    """When, on what and with what a figure was measured."""
+    machine = f"{platform.machine()}, {os.cpu_count()} cores"
+    return {"date": datetime.date.today().isoformat(), "machine": machine, **tools}
+
+
+def merge_scene_sets(budget, measured, tools):
+    """The budget with the measured scene sets, {design: {set: row}}, replaced."""
+    sets = {design: dict(rows) for design, rows in budget["scene_sets"].items()}
+    for design, rows in measured.items():
+        sets.setdefault(design, {}).update(rows)
+    return budget | {"scene_sets": sets, "scene_sets_measured": stamp(tools)}
 
 
 def merge(budget, measured, tools):
@@ -34,21 +48,25 @@ def merge(budget, measured, tools):
         there = figures.setdefault(design, {})
         for name, row in rows.items():
             there[name] = there.get(name, {}) | row
-    date = datetime.date.today().isoformat()
-    machine = f"{platform.machine()}, {os.cpu_count()} cores"
-    return {"measured": {"date": date, "machine": machine, **tools}, "figures": figures}
+    return budget | {"measured": stamp(tools), "figures": figures}
+
+
+def entries(table):
+    return [
+        f'{key} = "{value}"' if isinstance(value, str) else f"{key} = {value}"
+        for key, value in table.items()
+    ]
 
 
 def write(path, budget):
     lines = [HEAD.format(area=AREA_MARGIN, slack=AREA_SLACK, speed=SPEED_MARGIN), "[measured]"]
-    lines += [f'{key} = "{value}"' for key, value in budget["measured"].items()]
-    for design, rows in budget["figures"].items():
-        for name, row in rows.items():
-            lines += ["", f'[figures.{design}."{name}"]']
-            lines += [
-                f'{key} = "{value}"' if isinstance(value, str) else f"{key} = {value}"
-                for key, value in row.items()
-            ]
+    lines += entries(budget["measured"])
+    if "scene_sets_measured" in budget:
+        lines += ["", "[scene_sets_measured]", *entries(budget["scene_sets_measured"])]
+    for kind in ("figures", "scene_sets"):
+        for design, rows in budget[kind].items():
+            for name, row in rows.items():
+                lines += ["", f'[{kind}.{design}."{name}"]', *entries(row)]
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 

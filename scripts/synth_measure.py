@@ -13,6 +13,7 @@ import synth_path
 
 CORE = "feltgate_core"
 CELL_WRAPPER = "mult18_ecp5"
+SCENE_ROW = "core without read-back, registered"
 # On a board nobody looks at these: they are there for simulation, or repeat what the register port
 # reads. Everything that only they need is left out of the core's figures.
 SNAPSHOT_PORTS = (
@@ -68,9 +69,18 @@ def targets(root):
     return rows
 
 
+def scene_target(root):
+    """The row that scene sets are compared by: the core as a product without a host."""
+    return next(row for row in targets(root) if row.name == SCENE_ROW)
+
+
 def copy_sources(root, design, folder):
-    """Copies package and RTL into the working folder, in reading order."""
-    package = root / f"rtl/generated/{design}/feltgate_pkg.sv"
+    """Copies package and RTL into the working folder, in reading order.
+
+    DESIGN is the name of a generated design, or the path of a package.
+    """
+    is_path = isinstance(design, Path)
+    package = design if is_path else root / f"rtl/generated/{design}/feltgate_pkg.sv"
     names = [f"{CELL_WRAPPER}.sv", *core_sources(root)]
     shutil.copy(package, folder / "feltgate_pkg.sv")
     for name in names:

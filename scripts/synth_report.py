@@ -2,6 +2,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Tables of `feltgate synth`: on the terminal, and the generated part of docs/synthesis.md."""
 
+import synth_measure
+
 BEGIN = "<!-- written by feltgate synth --update: do not edit from here -->"
 END = "<!-- end of what feltgate synth wrote -->"
 
@@ -139,6 +141,38 @@ def goal_rows(design, rows):
         yield [f"{design}: {what}", f"{'>=' if at_least else '<='} {bound}", f"{value:g}", verdict]
 
 
+SCENE_HEADS = ("scenes", "LUT4 eq", "FF", "MULT18", "BRAM", "Fmax MHz", "LUT4 eq less")
+
+
+def scene_set_rows(rows, whole):
+    """One line for each set of scenes; the last column is against the whole design."""
+    for name, row in rows.items():
+        less = "-"
+        if whole is not None:
+            less = f"{1 - row['lut4_equivalents'] / whole['lut4_equivalents']:.0%}"
+        figures = [str(row[key]) for key in ("lut4_equivalents", "ff", "mult18", "bram")]
+        yield [name, *figures, speed(row), less]
+
+
+def scene_set_lines(budget):
+    if not budget.get("scene_sets"):
+        return []
+    how = budget["scene_sets_measured"]
+    lines = ["", '### <a name="scene-sets"></a>Scene sets', ""]
+    lines += [f"{synth_measure.SCENE_ROW[0].upper()}{synth_measure.SCENE_ROW[1:]}, of the design"]
+    lines += ["that `feltgate design DESIGN --for SCENE...` writes, measured by"]
+    lines += [f"`feltgate synth --for SCENE...` on {how['date']} with {how['yosys']} and"]
+    lines += [f"{how['nextpnr']} ({how['machine']})."]
+    for design, rows in budget["scene_sets"].items():
+        whole = budget["figures"].get(design, {}).get(synth_measure.SCENE_ROW)
+        sets = dict(sorted(rows.items(), key=lambda item: item[1]["lut4_equivalents"]))
+        if whole is not None:
+            sets["all scenes"] = whole
+        heads = (f"`{design}`: {SCENE_HEADS[0]}", *SCENE_HEADS[1:])
+        lines += ["", *markdown(heads, scene_set_rows(sets, whole))]
+    return lines
+
+
 def generated(budget):
     how = budget["measured"]
     lines = [
@@ -151,6 +185,7 @@ def generated(budget):
         lines += markdown(HEADS, [cells(name, row) for name, row in rows.items()])
         lines += ["", "Critical paths of the median seed:", ""]
         lines += [f"- {n}: `{r['critical_path']}`" for n, r in rows.items() if "critical_path" in r]
+    lines += scene_set_lines(budget)
     lines += ["", "### Goals", ""]
     goals = [g for design, rows in budget["figures"].items() for g in goal_rows(design, rows)]
     lines += markdown(("goal", "bound", "measured", ""), goals)

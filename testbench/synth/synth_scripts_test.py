@@ -49,6 +49,34 @@ class Budget(unittest.TestCase):
         lines = synth_budget.compare(budget, {"lever": {"dob": ROW | {"ff": 999}}}, TOOLS)
         self.assertIn("yosys 0.23", lines[-1])
 
+    def test_scene_sets_are_kept_beside_the_blocks(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "budget.toml")
+            budget = synth_budget.merge(synth_budget.read(path), {"lever": {"dob": ROW}}, TOOLS)
+            sets = {"lever": {"membrane": ROW, "free": ROW | {"lut4_equivalents": 100}}}
+            synth_budget.write(path, synth_budget.merge_scene_sets(budget, sets, TOOLS))
+            again = synth_budget.read(path)
+            self.assertEqual(again["figures"], budget["figures"])
+            self.assertEqual(again["scene_sets"], sets)
+            # A later run of the blocks keeps the sets.
+            later = synth_budget.merge(again, {"lever": {"mult": ROW}}, TOOLS)
+            self.assertEqual(later["scene_sets"], sets)
+
+    def test_scene_sets_are_shown_smallest_first_against_the_whole(self):
+        small = ROW | {"fmax_min_mhz": 1.0, "fmax_max_mhz": 2.0}
+        whole = small | {"lut4_equivalents": 400}
+        budget = {
+            "measured": TOOLS,
+            "figures": {"lever": {synth_measure.SCENE_ROW: whole}},
+            "scene_sets": {"lever": {"wall": small | {"lut4_equivalents": 300}, "free": small}},
+            "scene_sets_measured": TOOLS | {"date": "today", "machine": "this"},
+        }
+        table = [line for line in synth_report.scene_set_lines(budget) if line.startswith("| ")]
+        names = [line.split(" | ")[0] for line in table[1:]]
+        self.assertEqual(names, ["| free", "| wall", "| all scenes"])
+        self.assertIn("50%", table[1])
+        self.assertIn("25%", table[2])
+
     def test_written_and_read_again(self):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder, "budget.toml")

@@ -153,7 +153,7 @@ class ScenarioRun {
     }
     if (s_.switched) {
       const GateClocks gates = lead.gates();
-      const double n = static_cast<double>(clocks);
+      const double n = static_cast<double>(std::max<Clock>(clocks, 1));  // 0 before the first step
       return plant::Bridge::gates(
           static_cast<double>(gates.a_hi) / n, static_cast<double>(gates.a_lo) / n,
           static_cast<double>(gates.b_hi) / n, static_cast<double>(gates.b_lo) / n);

@@ -17,6 +17,26 @@ namespace feltgate {
 #include "designs.inc"
 #undef FELTGATE_DESIGN
 
+namespace {
+
+std::vector<DesignMakers>& further_designs() {
+  static std::vector<DesignMakers> list;
+  return list;
+}
+
+const DesignMakers* further(const std::string& design) {
+  for (const DesignMakers& d : further_designs()) {
+    if (d.name == design) return &d;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void add_design(const DesignMakers& design) {
+  if (further(design.name) == nullptr) further_designs().push_back(design);
+}
+
 std::vector<std::string> design_names() {
   return {
 #define FELTGATE_DESIGN(name) #name,
@@ -43,6 +63,7 @@ std::unique_ptr<Engine> make_engine(const std::string& design, const std::string
   if (design == #name) return make_##name##_engine(kind);
 #include "designs.inc"
 #undef FELTGATE_DESIGN
+  if (const DesignMakers* d = further(design)) return d->engine(kind);
   unknown_design(design);
 }
 
@@ -51,6 +72,7 @@ std::unique_ptr<RealChain> make_real_chain(const std::string& design, const std:
   if (design == #name) return make_##name##_chain(kind);
 #include "designs.inc"
 #undef FELTGATE_DESIGN
+  if (const DesignMakers* d = further(design)) return d->chain(kind);
   unknown_design(design);
 }
 

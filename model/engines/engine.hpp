@@ -149,6 +149,16 @@ class Engine {
 std::unique_ptr<Engine> make_engine(const std::string& design, const std::string& kind);
 std::vector<std::string> design_names();
 
+/// A design that is not in rtl/designs (those of tests): makers by kind, as the two functions
+/// make_engine and make_real_chain know them. design_names() does not list it.
+class RealChain;
+struct DesignMakers {
+  std::string name;
+  std::unique_ptr<Engine> (*engine)(const std::string& kind);
+  std::unique_ptr<RealChain> (*chain)(const std::string& kind);
+};
+void add_design(const DesignMakers& design);
+
 /// Integer of a parameter for a value in its unit, rounded to nearest.
 /// Throws std::invalid_argument when it does not fit, with the range.
 std::int64_t quantise_parameter(const ParameterInfo& info, double value);

@@ -47,8 +47,8 @@ bool Outcome::holds() const {
 
 std::vector<Case> cases() {
   std::vector<Case> all;
-  for (const auto group :
-       {encoder_cases, velocity_cases, filter_cases, observer_cases, scene_cases, loop_cases}) {
+  for (const auto group : {encoder_cases, velocity_cases, filter_cases, observer_cases, scene_cases,
+                           loop_cases, day_cases}) {
     for (const Case& c : group()) all.push_back(c);
   }
   return all;

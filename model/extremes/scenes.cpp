@@ -136,6 +136,5 @@ std::vector<Case> scene_cases() {
        false, charge_limit_cycle},
   };
 }
-std::vector<Case> loop_cases() { return {}; }
 
 }  // namespace feltgate::extremes

@@ -85,6 +85,14 @@ EXTREME(windup_trip)
 EXTREME(rest)
 EXTREME(charge_through_zero)
 EXTREME(charge_limit_cycle)
+EXTREME(stall_pole)
+EXTREME(inertia_ratio)
+EXTREME(lever_inertia)
+EXTREME(border_015)
+EXTREME(lever_monotone)
+EXTREME(wall_edge)
+EXTREME(rest_period)
+EXTREME(clock_of_the_simulator)
 
 TEST_CASE("every short case is tested, and the page has no other", "[list]") {
   std::set<std::string> names;

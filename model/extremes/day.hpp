@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A day of device time on the twin of the whole core, event to event. Documentation:
+// docs/extremes.md
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+
+#include "extremes/bench.hpp"
+#include "feltgate/feltgate_core.hpp"
+#include "feltgate/generated/lever.hpp"
+
+namespace feltgate::extremes {
+
+/// After so many ticks without an edge, every register that runs by itself is where it was: window
+/// of the velocity 767, leak of the supervisor 1024, PWM period 20 ticks. What remains is the tick
+/// counter, and a watchdog that sleeps.
+constexpr std::int64_t rest_period_ticks = 767 * 1024 * 5;
+static_assert(Lever::m1 == 767 && Lever::pwm_period == 20 * Lever::clocks_per_tick,
+              "the period of a core at rest follows from these");
+
+/// The core of `lever`, armed in the scene `free`, and an encoder that is moved edge by edge.
+class LongRun {
+ public:
+  LongRun() {
+    wait(10);
+    in_.arm = true;
+    wait(10);
+  }
+
+  /// `ticks` ticks without an edge.
+  void wait(std::int64_t ticks) { clocks(ticks * Lever::clocks_per_tick); }
+  /// So many counts up or down, one every `clocks_each` clocks.
+  void turn(std::int64_t counts, std::int64_t clocks_each) {
+    const int step = counts > 0 ? 1 : -1;
+    for (std::int64_t k = std::abs(counts); k > 0; --k) {
+      clocks(clocks_each);
+      count_ += step;
+      ++edges_;
+      in_.encoder = pins_at(count_);
+    }
+  }
+  /// Forth and back over one edge.
+  void dither(std::int64_t edges, std::int64_t clocks_each) {
+    for (std::int64_t k = 0; k < edges; ++k) turn(k % 2 == 0 ? 1 : -1, clocks_each);
+  }
+  /// On to the whole tick of this number.
+  void until_tick(std::int64_t tick) { clocks(tick * Lever::clocks_per_tick - clock_); }
+
+  std::int64_t stepped_ticks() const { return clock_ / Lever::clocks_per_tick; }
+  std::int64_t count() const { return count_; }
+  std::int64_t edges() const { return edges_; }
+  const CoreOut& out() const { return core_.out(); }
+  std::uint64_t hash() const { return hash_; }
+
+ private:
+  void clocks(std::int64_t n) {
+    clock_ += n;
+    core_.run(in_, n, [this] { note(core_.out()); });
+  }
+  void note(const CoreOut& o) {
+    for (const std::int64_t v :
+         {o.velocity, std::int64_t{o.tau_hat}, std::int64_t{o.voltage}, std::int64_t{o.duty}}) {
+      hash_ = (hash_ ^ static_cast<std::uint64_t>(v)) * 0x100000001b3u;
+    }
+  }
+
+  FeltgateCore<Lever> core_;
+  CoreIn in_;
+  std::int64_t clock_ = 0, count_ = 0, edges_ = 0;
+  std::uint64_t hash_ = 0xcbf29ce484222325u;
+};
+
+}  // namespace feltgate::extremes

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The design `wide`: its Verilated core and its twin. Documentation: docs/extremes.md
+#include "extremes/wide_design.hpp"
+
+#include <Vextremes_wide.h>
+
+#include "engines/make_engines.hpp"
+#include "wide.hpp"
+
+namespace feltgate::extremes {
+
+void use_wide_design() {
+  add_design({"wide", make_design_engine<Vextremes_wide, Wide>, make_design_chain<Wide>});
+}
+
+}  // namespace feltgate::extremes

@@ -6,6 +6,7 @@
 // Documentation: docs/extremes.md
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -55,9 +56,14 @@ class Bench {
   /// `ticks` ticks; each(sample) after each.
   template <class Each>
   void run(std::int64_t ticks, Each&& each) {
-    const Clock end = now() + ticks * design().clocks_per_tick;
-    ensemble_.advance(end - now(), edges_.data(), edges_.data() + edges_.size(),
-                      [&](const Snapshot& s) { each(sample(s)); });
+    // The engine keeps the edges that lie ahead; snapshots of one stretch are kept at once.
+    const EncoderEvent *first = edges_.data(), *last = first + edges_.size();
+    for (std::int64_t left = ticks; left > 0; left -= stretch_ticks) {
+      const std::int64_t now = std::min(left, stretch_ticks);
+      ensemble_.advance(now * design().clocks_per_tick, first, last,
+                        [&](const Snapshot& s) { each(sample(s)); });
+      first = last;
+    }
     edges_.clear();
   }
   void run(std::int64_t ticks) {
@@ -70,6 +76,7 @@ class Bench {
   Ensemble& ensemble() { return ensemble_; }
 
  private:
+  static constexpr std::int64_t stretch_ticks = 5000;
   Sample sample(const Snapshot& s);
 
   Cores cores_;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int minutes = 24 * 60;
 constexpr std::int64_t minute_ticks = 60'000'000;
-constexpr std::int64_t rests = 14;  ///< periods of rest per minute that are passed over
+constexpr std::int64_t rests = 11;  ///< periods of rest per minute that are passed over
 constexpr std::int64_t stepped_ticks = minute_ticks - rests * rest_period_ticks;
 
 /// The motion of one minute: bursts at 599 rad/s, strokes by hand, single counts, dither, rest.
@@ -191,9 +191,10 @@ Outcome day(const Settings& s) {
                             differing(first.end, second.begin)));
   o.twin_s = static_cast<double>(run * minute_ticks) * 1e-6;
   o.note =
-      "`lever`, armed, 1440 minutes: each 5.02 s of motion and rest stepped tick by tick (bursts "
-      "at 599 rad/s, strokes at 19 rad/s, 100 counts a second, dither on one edge at the worst "
-      "half-period), then 54.98 s of rest, 14 whole periods of 3.927 s after which a core at rest "
+      "`lever`, armed, 1440 minutes: each 16.8 s of motion and rest stepped tick by tick "
+      "(bursts at 599 rad/s, strokes at 19 rad/s, 100 counts a second, dither on one edge at the "
+      "worst half-period), then 43.2 s of rest, 11 whole periods of 3.927 s after which a core at "
+      "rest "
       "is where it was (rest_period shows one), passed over. Two segments of twelve hours; the "
       "second takes its state from the last minute of the first.";
   return o;

@@ -4,6 +4,7 @@
 // The table of the cases. Documentation: docs/extremes.md
 #include "extremes/table.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -57,6 +58,15 @@ bool same_cell(const std::string& a, const std::string& b) {
   const double x = std::strtod(a.c_str(), &end_a), y = std::strtod(b.c_str(), &end_b);
   if (end_a == a.c_str() || end_b == b.c_str() || *end_a != '\0' || *end_b != '\0') return false;
   return std::abs(x - y) <= 0.01 * std::max(std::abs(x), std::abs(y));
+}
+
+/// The section of one case in a page, with its heading; empty where there is none.
+std::string section_of(const std::string& page, const std::string& name) {
+  const std::string place = "### " + name + "\n";
+  const std::size_t begin = page.find(place);
+  if (begin == std::string::npos) return {};
+  const std::size_t end = page.find("\n\n##", begin + place.size());
+  return end == std::string::npos ? page.substr(begin) : page.substr(begin, end - begin) + "\n";
 }
 
 constexpr const char* head =
@@ -132,7 +142,7 @@ std::string markdown(const Result& result) {
   return out;
 }
 
-std::string page(const std::vector<Result>& results) {
+std::string page(const std::vector<Result>& results, const std::string& before) {
   std::string out =
       "# Extremes\n\n"
       "Code: [model/extremes](../model/extremes) · tests: "
@@ -154,23 +164,26 @@ std::string page(const std::vector<Result>& results) {
       "./feltgate extremes day --long       the 24 hours\n"
       "```\n";
   std::string group;
-  for (const Result& r : results) {
-    if (group != r.which.group) {
-      group = r.which.group;
+  for (const Case& c : cases()) {
+    const auto it = std::find_if(results.begin(), results.end(), [&](const Result& r) {
+      return std::string(r.which.name) == c.name;
+    });
+    const std::string section = it != results.end() ? markdown(*it) : section_of(before, c.name);
+    if (section.empty()) continue;
+    if (group != c.group) {
+      group = c.group;
       out += "\n## " + group + "\n";
     }
-    out += "\n" + markdown(r);
+    out += "\n" + section;
   }
   return out;
 }
 
 std::vector<std::string> stale_rows(const std::string& page, const Result& result) {
   std::vector<std::string> stale;
-  const std::string place = std::string("### ") + result.which.name + "\n";
-  const std::size_t begin = page.find(place);
-  if (begin == std::string::npos) return {std::string("no section ") + result.which.name};
-  const std::size_t end = page.find("\n##", begin + place.size());
-  std::istringstream section(page.substr(begin, end == std::string::npos ? end : end - begin));
+  const std::string old = section_of(page, result.which.name);
+  if (old.empty()) return {std::string("no section ") + result.which.name};
+  std::istringstream section(old);
   std::vector<std::vector<std::string>> rows;
   for (std::string line; std::getline(section, line);) {
     if (line.rfind("| ", 0) == 0 && line.rfind("| what", 0) != 0) rows.push_back(cells(line));

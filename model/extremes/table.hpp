@@ -30,8 +30,9 @@ std::string json(const std::vector<Result>& results);
 /// The rows of one case as the page has them, with its heading.
 std::string markdown(const Result& result);
 
-/// docs/extremes.md.
-std::string page(const std::vector<Result>& results);
+/// docs/extremes.md; the section of a long case that has not run is taken from `before`, the page
+/// as it was.
+std::string page(const std::vector<Result>& results, const std::string& before);
 
 /// What in the committed `page` no longer says what `result` says, one line each; a measured value
 /// may differ by 1 % (another libm), one marked chaotic is not compared.

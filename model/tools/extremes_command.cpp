@@ -4,7 +4,9 @@
 // feltgate extremes. Documentation: docs/extremes.md
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 
 #include "extremes/table.hpp"
@@ -17,9 +19,16 @@ namespace {
 
 struct ExtremesArguments {
   std::vector<std::string> names;
-  std::string json;
+  std::string json, progress_file;
   bool long_too = false, markdown = false, list = false;
 };
+
+std::string text_of(const std::string& path) {
+  std::ifstream in(path);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
 
 std::vector<extremes::Case> chosen(const ExtremesArguments& a) {
   std::vector<extremes::Case> out;
@@ -58,6 +67,7 @@ int run(const ExtremesArguments& a) {
     Progress progress(std::string("extremes: ") + cases[i].name, false);
     extremes::Settings settings;
     settings.root = repository();
+    settings.progress_file = a.progress_file;
     settings.progress = [&](double done) { progress.update(done); };
     progress.update(static_cast<double>(i) / static_cast<double>(cases.size()));
     results.push_back({cases[i], cases[i].run(settings)});
@@ -65,12 +75,13 @@ int run(const ExtremesArguments& a) {
     if (!a.markdown) std::fputs(extremes::text(results.back()).c_str(), stdout);
   }
   if (a.markdown) {
-    std::fputs((a.names.empty() ? extremes::page(results) : [&] {
-                 std::string some;
-                 for (const auto& r : results) some += extremes::markdown(r) + "\n";
-                 return some;
-               }()).c_str(),
-               stdout);
+    std::string out;
+    if (a.names.empty()) {
+      out = extremes::page(results, text_of(repository() + "/docs/extremes.md"));
+    } else {
+      for (const auto& r : results) out += extremes::markdown(r) + "\n";
+    }
+    std::fputs(out.c_str(), stdout);
   } else {
     std::printf("%zu cases%s%s\n", results.size(),
                 broken.empty() ? ", all hold" : ", broken:", broken.c_str());
@@ -93,10 +104,13 @@ void add_extremes(CLI::App& app, int* exit_code) {
       "  feltgate extremes --list               names and what they are about\n"
       "  feltgate extremes wrap_32 decoder_limit\n"
       "  feltgate extremes day --long           24 hours of device time in the twin\n"
-      "  feltgate extremes --markdown > docs/extremes.md\n"
+      "  feltgate extremes --markdown > extremes.md && mv extremes.md docs/\n"
       "Exit code: 0 every case holds, 1 one does not, 2 unusable input.");
   sub->add_option("case", a->names, "cases; all short ones when none is named")->type_name("CASE");
   sub->add_option("--json", a->json, "the table as JSON");
+  sub->add_option("--progress", a->progress_file,
+                  "day: each segment notes in FILE.N, N its first minute, how far it is")
+      ->type_name("FILE");
   sub->add_flag("--markdown", a->markdown, "print the page docs/extremes.md instead");
   sub->add_flag("--long", a->long_too, "also cases that take minutes of CPU time");
   sub->add_flag("--list", a->list, "only name the cases");

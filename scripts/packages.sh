@@ -12,7 +12,7 @@ PACKAGES=(
   "build|pkg-config|finds the libraries below"
   "build|python3|runs the build's small scripts"
   "build|verilator|turns the SystemVerilog core into a C++ simulation"
-  "build|libboost-dev|Odeint and 128-bit floats for plant and reference (headers)"
+  "build|libboost-dev|intervals for the proven bounds, 128-bit floats (headers)"
   "build|libeigen3-dev|eigenvalues of loops: feltgate stability (headers)"
   "build|libtomlplusplus-dev|reads designs, plants and scenes (TOML)"
   "build|libarchive-dev|reads sigrok recordings (zip)"

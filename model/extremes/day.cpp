@@ -196,7 +196,9 @@ Outcome day(const Settings& s) {
       "worst half-period), then 43.2 s of rest, 11 whole periods of 3.927 s after which a core at "
       "rest "
       "is where it was (rest_period shows one), passed over. Two segments of twelve hours; the "
-      "second takes its state from the last minute of the first.";
+      "second "
+      "starts from reset with the last minute of the first, and the seam compares what both then "
+      "show.";
   return o;
 }
 

@@ -117,7 +117,8 @@ int run(const BudgetArguments& a) {
   SceneBudget b;
   {
     Progress progress(scenario.name + " on " + e.design.name, a.quiet);
-    b = bounds::scene_budget(e, scenario, plant, a.seed, [&](double done) { progress.update(done); });
+    b = bounds::scene_budget(e, scenario, plant, a.seed,
+                             [&](double done) { progress.update(done); });
   }
   if (file) {
     std::fputs(json(b, scenario.name, e.design.name).c_str(), file->handle());

@@ -8,6 +8,7 @@
 #include "Vfeltgate_core.h"
 #include "catch.hpp"
 #include "core_stimulus.hpp"
+#include "engines/rtl_ports.hpp"
 #include "lock_step.hpp"
 #include "random.hpp"
 
@@ -31,18 +32,7 @@ using feltgate::test::sign_extend;
 namespace {
 
 struct Adapter {
-  static void drive(Vfeltgate_core& rtl, const CoreIn& in) {
-    rtl.enc_a_i = in.encoder.a;
-    rtl.enc_b_i = in.encoder.b;
-    rtl.enc_z_i = in.encoder.z;
-    rtl.arm_i = in.arm;
-    rtl.stop_i = in.stop;
-    rtl.set_zero_i = in.set_zero;
-    rtl.scene_i = in.scene;
-    rtl.reg_addr_i = in.reg_addr;
-    rtl.reg_wdata_i = in.reg_wdata;
-    rtl.reg_write_i = in.reg_write;
-  }
+  static void drive(Vfeltgate_core& rtl, const CoreIn& in) { feltgate::drive_inputs(rtl, in); }
   template <class Check>
   static void compare(Check& check, const Vfeltgate_core& rtl, const CoreOut& out) {
     check("tick_count", rtl.tick_count_o, out.tick_count);

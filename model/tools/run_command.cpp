@@ -141,8 +141,9 @@ void add_run(CLI::App& app, int* exit_code) {
       "beside\n"
       "  feltgate run torque_step --design paper --report out\n"
       "  feltgate run damper --engine twin --csv damper.csv --every 10\n"
-      "Exit code: 0 no mismatch and every expectation of the scene holds, 1 otherwise, 2 unusable "
-      "input.");
+      "Exit code: 0 no mismatch, every expectation of the scene holds and every error is within "
+      "its\n"
+      "proven bound, 1 otherwise, 2 unusable input.");
   sub->add_option("scene", a->scene, "scene")->required()->type_name("SCENE");
   sub->add_option("--design", a->design, "design point in rtl/designs")->capture_default_str();
   sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's");

@@ -19,7 +19,7 @@ from reporting import plots
 
 # What a user takes each engine for, and where its label stands.
 PURPOSE = {
-    "rtl": "proof: every pin of the hardware",
+    "rtl": "the check: every pin of the RTL",
     "twin_clock": "pins, without Verilator",
     "twin_event": "closed loops, recordings",
     "twin_tick": "exact signals, parameter studies",
@@ -31,8 +31,8 @@ PURPOSE = {
     "shifts": "a yardstick",
 }
 SENTENCE = (
-    "For the hardware's bits use twin_event (closed loop), twin_tick (signals) or twin_batch (many of "
-    "them);\nrtl proves that they are the hardware's. For the law without quantisation use double. "
+    "For the RTL's bits use twin_event (closed loop), twin_tick (signals) or twin_batch (many of "
+    "them);\nrtl checks that they are. For the law without quantisation use double. "
     "The others check these."
 )
 
@@ -100,7 +100,7 @@ def picture(data):
     low, high = min(r[1] for r in rows), max(r[1] for r in rows)
     axes.set_xlim(low / 4, high * 6)
     axes.set_title(SENTENCE, fontsize=8.5)
-    for kind, text in (("motor", "the hardware's integers, all equal in every bit"), ("quad", "real arithmetic, the same laws")):
+    for kind, text in (("motor", "the RTL's integers, all equal in every bit"), ("quad", "real arithmetic, the same laws")):
         axes.plot([], [], "o", color=plots.COLOURS[kind], label=text)
     axes.legend(loc="center left", fontsize=8)
     figure.text(

@@ -53,7 +53,7 @@ class BenchPicture(unittest.TestCase):
         for name in result()["engines"]:
             self.assertIn(f">{name}<", svg)
         self.assertIn("a machine", svg)
-        self.assertIn("For the hardware", svg)
+        self.assertIn("For the RTL's bits", svg)
 
     def test_another_schema_is_refused(self):
         done, svg = draw(result("feltgate-run-1"))

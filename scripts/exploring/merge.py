@@ -179,8 +179,9 @@ def read_table(path):
         with path.open(encoding="utf-8", newline="") as file:
             lines = list(csv.DictReader(file))
     except (OSError, ValueError, KeyError) as error:
+        what = getattr(error, "strerror", None) or error
         raise chunks.ChunkError(
-            f"{path}: {error}; wanted a table and {beside.name} beside it"
+            f"{path}: {what}; wanted a table and {beside.name} beside it"
         ) from None
     rows = []
     for line in lines:

@@ -24,7 +24,7 @@ module scene_wall #(
     output logic signed [  feltgate_pkg::SCENE_OFFSET_W-1:0] operand_o,
     output logic signed [        feltgate_pkg::TORQUE_W-1:0] tau_o
 );
-  localparam int Guard = 2;
+  localparam int Guard = feltgate_pkg::WALL_GUARD_BITS;
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int PartF = feltgate_pkg::TORQUE_F + Guard;
   localparam int OffsetW = feltgate_pkg::SCENE_OFFSET_W;

@@ -238,10 +238,10 @@ void check_drops(const Elaborated& e) {
   drops("formats.torque", f.scene_offset, e.word("compression_stiffness"), d.torque.fraction + 1);
   drops("formats.torque", f.scene_offset, e.word("tension_stiffness"), d.torque.fraction + 1);
   drops("formats.torque", d.velocity, e.word("damper_damping"), d.torque.fraction + 1);
-  constexpr int wall_guard_bits = 2;
   drops("formats.torque", f.scene_offset, e.word("wall_stiffness"),
-        d.torque.fraction + wall_guard_bits);
-  drops("formats.torque", d.velocity, e.word("wall_damping"), d.torque.fraction + wall_guard_bits);
+        d.torque.fraction + fabric::wall_guard_bits);
+  drops("formats.torque", d.velocity, e.word("wall_damping"),
+        d.torque.fraction + fabric::wall_guard_bits);
   drops("formats.coefficient_bits", f.scene_offset, e.word("attract_core_slope"),
         f.charge.fraction + 1);
   drops("formats.coefficient_bits", f.scene_offset, e.word("repel_core_slope"),

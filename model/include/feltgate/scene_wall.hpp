@@ -18,7 +18,7 @@ struct SceneWallLaw {
   using Offset = typename N::template num<D::f.scene_offset.key()>;
   using Velocity = typename N::template num<D::f.velocity.key()>;
   /// Bits that either product keeps below a torque step; one rounding follows their difference.
-  static constexpr int guard_bits = 2;
+  static constexpr int guard_bits = D::wall_guard_bits;
   /// k * operand and b * velocity [Nm]; neither can overflow it.
   static constexpr Format part{
       1,

@@ -18,6 +18,7 @@ PACKAGES=(
   "build|libarchive-dev|reads sigrok recordings (zip)"
   "build|nlohmann-json3-dev|writes the JSON results"
   "build|libcli11-dev|reads the command line"
+  "build|libfmt-dev|formats numbers and messages"
   "build|zlib1g-dev|writes FST waveforms"
   "plots|python3-matplotlib|draws the figures of the report"
   "test|catch2|the unit test framework"

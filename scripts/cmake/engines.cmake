@@ -48,7 +48,7 @@ foreach(path IN LISTS designs)
   string(APPEND registrations "FELTGATE_DESIGN(${design})\n")
 endforeach()
 file(CONFIGURE OUTPUT "${CMAKE_BINARY_DIR}/engines/designs.inc" CONTENT "${registrations}")
-target_link_libraries(feltgate_engines PUBLIC feltgate_model Boost::headers)
+target_link_libraries(feltgate_engines PUBLIC feltgate_model Boost::headers PRIVATE fmt::fmt)
 target_include_directories(feltgate_engines PRIVATE "${CMAKE_BINARY_DIR}/engines")
 # What a tick leaves as words the next one takes as words: in pairs they would wait for the store.
 target_compile_options(feltgate_engines PRIVATE ${FELTGATE_WARNINGS} -O3 -fno-tree-slp-vectorize)

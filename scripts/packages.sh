@@ -20,6 +20,7 @@ PACKAGES=(
   "build|libcli11-dev|reads the command line"
   "build|libfmt-dev|formats numbers and messages"
   "build|zlib1g-dev|writes FST waveforms"
+  "python|python3|writes the page of a table"
   "plots|python3-matplotlib|draws the figures of the report"
   "test|catch2|the unit test framework"
   "test|libsystemc-dev|sc_fixed, the independent oracle of the fixed-point type"
@@ -43,11 +44,13 @@ missing_packages() {
   done
 }
 
+# The named packages with their first reason, each once.
 list_with_reasons() {
-  local entry rest
+  local entry rest listed=" "
   for entry in "${PACKAGES[@]}"; do
     rest=${entry#*|}
-    if [[ " $* " == *" ${rest%%|*} "* ]]; then
+    if [[ " $* " == *" ${rest%%|*} "* && $listed != *" ${rest%%|*} "* ]]; then
+      listed+="${rest%%|*} "
       printf '  %-20s %s\n' "${rest%%|*}" "${rest#*|}" >&2
     fi
   done

@@ -12,7 +12,7 @@ Usage: ./feltgate test [NAME] [--long]
   --long  also the long runs (1e9 lock-step clocks of the core and more)
 
 The last line is "N passed, N failed", with ", N skipped" where tests could not run here; the exit
-status is 0 when none failed. Results for machines: $BUILD/test-results.xml (JUnit).
+status is 0 when none failed. Results for machines: test-results.xml (JUnit) in the build folder.
 TEXT
 }
 
@@ -38,6 +38,7 @@ run_tests() {
     esac
   done
   need_packages "$groups"
+  look_up_programs
   build ON all
   rm -f "$results"
   ctest --test-dir "$BUILD" --output-on-failure --no-tests=error -j "$(nproc)" \

@@ -1,0 +1,112 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""docs/commands: what --help prints, so that ./feltgate can print it before anything is built.
+
+  ninja -C build feltgate feltgate_generate feltgate_bench && scripts/help_texts.py --write
+"""
+
+import argparse
+import difflib
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+COMMANDS = ROOT / "docs/commands"
+# Layout differs between versions of argparse and CLI11; the committed texts are Debian 12's.
+EXACT = (3, 11)
+WIDTH = "100"
+# As the launcher: Debian's goes before another, it has the modules.
+PYTHON = "/usr/bin/python3" if os.access("/usr/bin/python3", os.X_OK) else sys.executable
+
+sys.path.insert(0, str(ROOT / "scripts"))
+
+
+def subcommands():
+    """Their names, as the launcher lists them."""
+    launcher = (ROOT / "feltgate").read_text(encoding="utf-8")
+    table = launcher.split("COMMANDS=(", 1)[1].split("\n)", 1)[0]
+    return re.findall(r'^\s*"([a-z]+)\|', table, re.M)
+
+
+def commands(build):
+    """{name of the text: command that prints it}."""
+    from explore import VERBS
+
+    own = {
+        "test": ["bash", ROOT / "feltgate", "test"],
+        "generate": [build / "feltgate_generate", ROOT],
+        "bench": [build / "feltgate_bench"],
+    }
+    found = {name: own.get(name, [build / "feltgate", name]) for name in subcommands()}
+    for verb in VERBS:
+        found[f"explore-{verb}"] = [build / "feltgate", "explore", verb]
+    return found
+
+
+def text_of(command):
+    kept = {k: v for k, v in os.environ.items() if not k.startswith("FELTGATE_")}
+    more = {"COLUMNS": WIDTH, "LC_ALL": "C.UTF-8", "FELTGATE_PYTHON": PYTHON}
+    done = subprocess.run(
+        [*map(str, command), "--help"],
+        env=kept | more,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    if done.returncode or not done.stdout.strip():
+        said = (done.stderr.strip() or "nothing").splitlines()[-1]
+        raise ValueError(f"{' '.join(map(str, command))} --help: status {done.returncode}, {said}")
+    return done.stdout
+
+
+def words(text):
+    """What is said, whatever the layout."""
+    return {word.casefold() for word in re.findall(r"[\w.-]*\w", text)}
+
+
+def same(committed, now, exact):
+    return committed == now if exact else words(committed) == words(now)
+
+
+def stale(folder, texts, exact):
+    """Complaints, one line each and the lines that differ."""
+    for name, now in texts.items():
+        path = folder / f"{name}.txt"
+        committed = path.read_text(encoding="utf-8") if path.exists() else ""
+        if not same(committed, now, exact):
+            yield f"{path.name}: stale; scripts/help_texts.py --write"
+            both = committed.splitlines(), now.splitlines()
+            yield from difflib.unified_diff(*both, "committed", "now", lineterm="", n=0)
+    for path in sorted(folder.glob("*.txt")):
+        if path.stem not in texts:
+            yield f"{path.name}: there is no such command; delete the file"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--build", type=Path, default=ROOT / "build", help="build folder")
+    parser.add_argument("--write", action="store_true", help="write; without it: check")
+    options = parser.parse_args()
+    texts, wrong = {}, []
+    for name, command in commands(options.build).items():
+        try:
+            texts[name] = text_of(command)
+        except (OSError, ValueError) as error:
+            wrong.append(str(error))
+    if options.write:
+        COMMANDS.mkdir(exist_ok=True)
+        for name, text in texts.items():
+            (COMMANDS / f"{name}.txt").write_text(text, encoding="utf-8")
+    elif not wrong:
+        wrong += stale(COMMANDS, texts, sys.version_info[:2] == EXACT)
+    print("\n".join(wrong) or f"{len(texts)} texts in {COMMANDS}", file=sys.stderr)
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""The launcher on a bare machine: what it installs, builds and hands on, and what needs neither."""
+
+import re
+import unittest
+
+from machine import ROOT, Machine
+
+BUILD_PACKAGES = ("python3", "cmake", "ninja-build", "g++", "verilator")
+
+
+class FirstStart(Machine):
+    def test_python_is_looked_up_after_it_was_installed(self):
+        for words in (("run", "membrane"), ("demo",)):
+            with self.subTest(words):
+                self.setUp()
+                done = self.start("--yes", *words)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn(f"program feltgate {' '.join(words)}\n", done.stdout)
+                self.assertIn("python works", done.stdout)
+                configured = [c for c in self.log() if c.startswith("cmake ") and " -S " in c]
+                self.assertEqual(len(configured), 1)
+                self.assertIn(f"-DPython3_EXECUTABLE={self.bin}/python3", configured[0])
+
+    def test_nothing_is_installed_unasked(self):
+        done = self.start("run", "membrane")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("python3", done.stderr)
+        self.assertIn("apt-get install", done.stderr)
+        self.assertFalse([c for c in self.log() if c.startswith("apt-get")])
+
+    def test_without_python_it_says_so(self):
+        done = self.start("run", "membrane", FELTGATE_SKIP_PACKAGES="1")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no python3", done.stderr)
+
+    def test_the_second_start_asks_and_configures_nothing(self):
+        self.assertEqual(self.start("--yes", "run", "membrane").returncode, 0)
+        self.log()
+        self.assertEqual(self.start("run", "membrane").returncode, 0)
+        self.assertEqual([c.split()[0] for c in self.log()], ["ninja", "python3"])
+
+    def test_a_newer_python_configures_again(self):
+        """A build folder made before Python was there does not stay without."""
+        self.assertEqual(self.start("--yes", "run", "membrane").returncode, 0)
+        configured = self.repository / "build/launcher/configured"
+        lines = configured.read_text(encoding="utf-8").splitlines()
+        configured.write_text("\n".join(["", *lines[1:-1], ""]) + "\n", encoding="utf-8")
+        self.log()
+        self.assertEqual(self.start("run", "membrane").returncode, 0)
+        self.assertEqual(len(self.calls("cmake")), 1)
+
+
+class Help(Machine):
+    def test_every_command_helps_on_a_bare_machine(self):
+        names = re.findall(r"^  ([a-z]+) ", self.start("--help").stdout, re.M)
+        self.assertIn("explore", names)
+        for name in names:
+            for words in ((name, "--help"), (name, "-h"), ("help", name)):
+                done = self.start(*words)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                committed = ROOT / f"docs/commands/{name}.txt"
+                self.assertEqual(done.stdout, committed.read_text(encoding="utf-8"))
+        self.assertEqual(self.log(), [])
+        self.assertFalse((self.repository / "build").exists())
+
+    def test_help_of_a_verb(self):
+        done = self.start("explore", "run", "--help")
+        self.assertIn("feltgate explore run", done.stdout)
+        self.assertEqual(self.log(), [])
+
+    def test_a_command_that_is_none(self):
+        done = self.start("rnu", "--help")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no subcommand 'rnu'", done.stderr)
+
+
+class Tables(Machine):
+    def test_the_page_of_a_table_needs_python_only(self):
+        self.installed("python3")
+        table = str(ROOT / "vectors/spaces/trade.csv")
+        out = self.folder / "out"
+        done = self.start("explore", "page", table, "-o", str(out))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue((out / "explore.html").is_file())
+        self.assertLessEqual({c.split()[0] for c in self.log()}, {"dpkg-query", "python3"})
+
+    def test_python_is_asked_for_and_nothing_else(self):
+        done = self.start("explore", "page", str(ROOT / "vectors/spaces/trade.csv"))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("apt-get install --yes --no-install-recommends python3\n", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -7,7 +7,9 @@
 #include <verilated.h>
 #include <verilated_fst_c.h>
 
+#include <algorithm>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "engines/rtl_ports.hpp"
@@ -39,6 +41,7 @@ class RtlCore {
     rtl_->rst_ni = 1;
     rtl_->clk_i = 0;
     rtl_->eval();
+    now_ = before_trace;
     reset(4);
     now_ = 0;
   }
@@ -60,6 +63,7 @@ class RtlCore {
   CoreOut out() const { return read_outputs<D>(*rtl_); }
 
   /// Writes the clocks [from, to] after the next power_up() to an FST file; to < 0: to the end.
+  /// Clock n begins at n periods of the design's clock and rises in their middle.
   void trace(const std::string& path, Clock from, Clock to) {
     trace_path_ = path;
     trace_from_ = from;
@@ -68,23 +72,32 @@ class RtlCore {
 
  private:
   void edge() {
-    const bool dumping =
-        !trace_path_.empty() && now_ >= trace_from_ && (trace_to_ < 0 || now_ <= trace_to_);
+    const bool dumping = !trace_path_.empty() && now_ >= std::max<Clock>(trace_from_, 0) &&
+                         (trace_to_ < 0 || now_ <= trace_to_);
     if (dumping && !fst_) open_trace();
     rtl_->clk_i = 0;
     rtl_->eval();
-    if (dumping) fst_->dump(static_cast<std::uint64_t>(20 * now_));
+    if (dumping) fst_->dump(picoseconds(2 * now_));
     rtl_->clk_i = 1;
     rtl_->eval();
-    if (dumping) fst_->dump(static_cast<std::uint64_t>(20 * now_ + 10));
+    if (dumping) fst_->dump(picoseconds(2 * now_ + 1));
     ++now_;
+  }
+  /// Of so many half clocks, to the nearest: a period need not be a whole number of them.
+  static std::uint64_t picoseconds(std::int64_t half_clocks) {
+    constexpr std::int64_t half_clocks_per_s = 2 * D::clock_hz;
+    const int128_t ps = int128_t{half_clocks} * 1'000'000'000'000 + half_clocks_per_s / 2;
+    return static_cast<std::uint64_t>(ps / half_clocks_per_s);
   }
   void open_trace() {
     fst_ = std::make_unique<VerilatedFstC>();
     rtl_->trace(fst_.get(), 99);
-    fst_->set_time_unit("1ns");
-    fst_->set_time_resolution("1ns");
+    fst_->set_time_unit("1ps");
+    fst_->set_time_resolution("1ps");
     fst_->open(trace_path_.c_str());
+    if (!fst_->isOpen()) {
+      throw std::runtime_error(trace_path_ + ": cannot be written; check the folder and the disk");
+    }
   }
   void close_trace() {
     if (fst_) fst_->close();
@@ -95,6 +108,7 @@ class RtlCore {
   std::unique_ptr<Rtl> rtl_;
   std::unique_ptr<VerilatedFstC> fst_;
   std::string trace_path_;
+  static constexpr Clock before_trace = -1000;  ///< the reset comes before clock 0, unseen
   Clock trace_from_ = 0, trace_to_ = -1, now_ = 0;
 };
 

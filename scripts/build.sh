@@ -68,7 +68,8 @@ configure() {
   printf '%s\n' "$tests" "$ROOT" "$presets" "$FELTGATE_PYTHON" >"$STATE/configured"
 }
 
-# build TESTS TARGET...: ends the launcher with the build's own status when it fails.
+# build TESTS TARGET...: ends the launcher with the build's own status when it fails. The target
+# build.ninja alone only configures, again where a CMakeLists.txt has changed.
 build() {
   lock_build
   configure "$1" || exit

@@ -2,22 +2,35 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# ./feltgate test [NAME] [--long]: builds everything and runs CTest. Sourced by feltgate.
+# ./feltgate test [NAME] [--long]: builds what the tests need and runs CTest. Sourced by feltgate.
 
 tests_usage() {
   cat <<TEXT
-Usage: ./feltgate test [NAME] [--long]
+Usage: ./feltgate test [NAME] [--long] [--list]
 
-  NAME    only the tests whose name matches this regular expression, such as quad_decoder
+  NAME    only the tests whose name matches this regular expression, such as quad_decoder;
+          only what they need is built
+  --list  only lists the tests with their labels; builds nothing
   --long  also the long runs (1e9 lock-step clocks of the core and more)
 
-The last line is "N passed, N failed", with ", N skipped" where tests could not run here; the exit
-status is 0 when none failed. Results for machines: test-results.xml (JUnit) in the build folder.
+The last line is "N passed, N failed", with ", N skipped" where tests could not run here; before it
+a run of all tests says how long each group of them took. Exit status: 0 none failed, 1 some did,
+2 wrong use. Results for machines: test-results.xml (JUnit) in the build folder.
+
+  ./feltgate test                 all of them: half an hour on two cores
+  ./feltgate test scene.wall      what the scene 'wall' is tested with
+  ./feltgate test 'dob.*defect'   must fail inside to pass: the seeded defects of one block
 TEXT
 }
 
+# What scripts/tests.py says about the tests of the build folder.
+tests_say() {
+  "$FELTGATE_PYTHON" -B "$ROOT/scripts/tests.py" "$@" --build "$BUILD"
+}
+
 run_tests() {
-  local groups=$1 argument name='' options=() status=0 results=$BUILD/test-results.xml
+  local groups=$1 argument name='' list='' chosen=() options=() targets=(all) status=0
+  local results=$BUILD/test-results.xml
   shift
   for argument in "$@"; do
     case $argument in
@@ -25,24 +38,38 @@ run_tests() {
         tests_usage
         return
         ;;
+      --list) list=1 ;;
       --long)
         export FELTGATE_LONG=1
+        chosen+=(--long)
         options+=(-C Long)
         ;;
       -*) die "test: unknown option '$argument'; './feltgate test --help'" ;;
       *)
         [[ ! $name ]] || die "test: one NAME only, got '$name' and '$argument'"
         name=$argument
+        chosen+=(--name "$name")
         options+=(-R "$name")
         ;;
     esac
   done
   need_packages "$groups"
   look_up_programs
-  build ON all
+  if [[ $list || $name ]]; then
+    build ON build.ninja
+    [[ $(tests_say list "${chosen[@]}") ]] ||
+      die "no test matches '$name'; './feltgate test --list' lists them"
+  fi
+  if [[ $list ]]; then
+    tests_say list "${chosen[@]}"
+    return
+  fi
+  if [[ $name ]]; then mapfile -t targets < <(tests_say targets "${chosen[@]}"); fi
+  if [[ ${targets[*]} ]]; then build ON "${targets[@]}"; fi
   rm -f "$results"
   ctest --test-dir "$BUILD" --output-on-failure --no-tests=error -j "$(nproc)" \
     --output-junit "$results" "${options[@]}" || status=$?
+  if [[ ! $name && -f $results ]]; then tests_say minutes "${chosen[@]}" --results "$results"; fi
   report_tests "$status" "$results" "$name"
 }
 
@@ -56,7 +83,7 @@ report_tests() {
     skipped=$(grep -cE '<testcase .*status="disabled"|<skipped message="SKIP_' "$results" || true)
   fi
   if ((total == 0)); then
-    if [[ $name ]]; then die "no test matches '$name'; 'ctest --test-dir $BUILD -N' lists them"; fi
+    if [[ $name ]]; then die "no test matches '$name'; './feltgate test --list' lists them"; fi
     die "CTest ran nothing and ended with status $status"
   fi
   failed=$((total - passed - skipped))

@@ -2,12 +2,15 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """The launcher on a bare machine: what it installs, builds and hands on, and what needs neither."""
 
+import json
 import re
 import unittest
 
 from machine import ROOT, Machine
 
 BUILD_PACKAGES = ("python3", "cmake", "ninja-build", "g++", "verilator")
+
+LABELS = {"name": "LABELS", "value": ["unit"]}
 
 
 class FirstStart(Machine):
@@ -90,6 +93,47 @@ class Tables(Machine):
         done = self.start("explore", "page", str(ROOT / "vectors/spaces/trade.csv"))
         self.assertEqual(done.returncode, 2)
         self.assertIn("apt-get install --yes --no-install-recommends python3\n", done.stderr)
+
+
+class Tests(Machine):
+    def setUp(self):
+        super().setUp()
+        self.installed(*BUILD_PACKAGES)
+        build = self.repository / "build"
+        build.mkdir()
+        (build / "CTestTestfile.cmake").write_text(
+            f'add_test([=[a]=] "{build}/a_test")\n', encoding="utf-8"
+        )
+        self.tests("a")
+        (self.folder / "outputs").write_text("a_test: CXX\nb_test: CXX\n", encoding="utf-8")
+
+    def tests(self, *names):
+        """What CTest says there is."""
+        found = [{"name": name, "properties": [LABELS]} for name in names]
+        text = json.dumps({"tests": found})
+        (self.folder / "tests.json").write_text(text, encoding="utf-8")
+
+    def test_a_name_builds_what_its_tests_need(self):
+        done = self.start("test", "a", FELTGATE_SKIP_PACKAGES="1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.splitlines()[-1], "1 passed, 0 failed")
+        log = self.log()
+        built = [c.split(maxsplit=3)[3] for c in log if c.startswith("ninja") and " -t " not in c]
+        self.assertEqual(built, ["build.ninja", "a_test"])
+        self.assertTrue([c for c in log if c.startswith("ctest") and c.endswith("-R a")])
+
+    def test_the_list_builds_nothing(self):
+        done = self.start("test", "--list", FELTGATE_SKIP_PACKAGES="1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout, "a  unit\n")
+        self.assertEqual(self.calls("ninja")[0].split()[2:], ["build.ninja"])
+
+    def test_a_name_that_none_has(self):
+        self.tests()
+        done = self.start("test", "zzz", FELTGATE_SKIP_PACKAGES="1")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no test matches 'zzz'", done.stderr)
+        self.assertEqual(len(self.calls("ninja")), 1)  # configured, nothing built
 
 
 if __name__ == "__main__":

@@ -112,7 +112,7 @@ def linked_files(root, page):
 def check_links(root, page):
     for target in sorted(linked_files(root, page)):
         if not (root / target).exists():
-            yield f"{page}: links {target}, which is not there; mend the link"
+            yield f"{page}: links {target}, which is not there; correct the link"
 
 
 def check_lengths(root):

@@ -94,7 +94,7 @@ def arguments_of(argv):
         prog="feltgate demo",
         description="Every scene in closed loop and every recording whole, through RTL and twin in "
         "lock-step; one HTML report. Under ten minutes on two cores.",
-        epilog="Without recordings it says where public ones are to be had.",
+        epilog="Without recordings it says where public ones can be downloaded.",
     )
     parser.add_argument(
         "--traces", metavar="DIR", help="recordings; default: FELTGATE_TRACES, ../shared/traces"

@@ -39,7 +39,7 @@ toml::table parse_toml_file(const std::string& path) {
       throw ConfigError(path + ":0: cannot be read; give the path of a readable TOML file");
     }
     throw ConfigError(place(path, error.source()) + "not TOML (" +
-                      std::string(error.description()) + "); mend the syntax of this line");
+                      std::string(error.description()) + "); correct the syntax of this line");
   }
 }
 

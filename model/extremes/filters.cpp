@@ -154,7 +154,7 @@ Outcome dyadic_trap(const Settings& s) {
   add(&o, "lowest rest", "state LSB", exactly(-1023), static_cast<double>(hardware.low),
       static_cast<double>(twin.low), 0);
   for (const int g : {11, 12}) {
-    add(&o, "output error for ever with " + number(g) + " guard bits", "output LSB",
+    add(&o, "lasting output error with " + number(g) + " guard bits", "output LSB",
         exactly(g == 11 ? 1 : 0), rtl_output_error(rtl, a1, g), output_error<Round::half_up>(a1, g),
         0);
   }

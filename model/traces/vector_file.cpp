@@ -50,9 +50,9 @@ void VectorCapture::read_header() {
     header_.clock_hz = parse_count(value).value_or(0);
     if (header_.clock_hz > kMostClockHz) header_.clock_hz = 0;
   }
-  if (header_.clock_hz < 1) in_.fail("no clock_hz from 1 to 1e12", "mend the first line");
+  if (header_.clock_hz < 1) in_.fail("no clock_hz from 1 to 1e12", "correct the first line");
   if (header_.signals.empty() || header_.signals.size() > kMostSignals) {
-    in_.fail("no signals, or more than 32", "mend the first line, such as signals=A,B,Z");
+    in_.fail("no signals, or more than 32", "correct the first line, such as signals=A,B,Z");
   }
 }
 

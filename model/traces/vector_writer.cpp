@@ -25,7 +25,7 @@ VectorWriter::VectorWriter(const std::filesystem::path& path, const VectorHeader
     : path_(path), part_(path) {
   part_ += ".part";
   if (!is_name(header.design) || header.clock_hz < 1 || header.signals.size() != 3) {
-    fail(path_.string(), "the header has no design, no clock or not three signals", "mend it");
+    fail(path_.string(), "the header has no design, no clock or not three signals", "fill in the header");
   }
   file_.open(part_, std::ios::binary | std::ios::trunc);
   file_ << "feltgate-vector " << VectorHeader::kSchema << " design=" << header.design

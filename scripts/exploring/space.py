@@ -86,7 +86,7 @@ class Reader:
             line = re.search(r"at line (\d+)", str(error))
             where = line.group(1) if line else str(self.text.count("\n") + 1)
             what = re.sub(r" \(at .*\)", "", str(error))
-            raise SpaceError(f"{path}:{where}: {what}; mend the TOML") from None
+            raise SpaceError(f"{path}:{where}: {what}; correct the TOML") from None
 
     def fail(self, word, what, mend, sweep=None):
         """`word` is looked for from the n-th [[sweep]] on."""
@@ -158,7 +158,7 @@ class Reader:
                 value = float(value)
             if there is not None and type(value) is not type(there):
                 wanted = type(there).__name__
-                self.fail(key, f"{key} = {value!r}, wanted {wanted}", "mend the value", number)
+                self.fail(key, f"{key} = {value!r}, wanted {wanted}", "correct the value", number)
             if value != there:
                 kept[key] = value
         return {"base": base, "set": dict(sorted(kept.items()))}

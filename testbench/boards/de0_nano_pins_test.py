@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Checks de0_nano.qsf against the board's pin table, the ports of de0_nano.sv and the wiring page.
 
-Quartus is not to be had here, so this stands in for its pin checks: each port one pin, no pin
+Quartus is not available here, so this stands in for its pin checks: each port one pin, no pin
 twice, no unknown pin or port, the IO standard on every pin, no output on an input-only pin. The
 second half breaks a copy in every one of these ways and wants to see it found.
 Documentation: docs/boards/de0_nano.md
@@ -111,7 +111,7 @@ def findings(texts):
         place = row["header"] or "on board"
         if f"| `{port}` | {row['signal']} | {row['pin']} | {place} |" not in texts["doc"]:
             found.append(
-                f"doc: no row '{port}, {row['signal']}, {row['pin']}, {place}'; mend the table"
+                f"doc: no row '{port}, {row['signal']}, {row['pin']}, {place}'; correct the table"
             )
     for port in {port for port, _ in standards} - set(ports):
         found.append(f"qsf: IO standard for {port}, which is no port; remove it")

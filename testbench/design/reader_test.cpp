@@ -107,7 +107,7 @@ TEST_CASE("syntax, name and place of the file", "[reader]") {
   const std::string error = design_error(replaced(good, "m1 = 386", "m1 == 386"));
   CHECK(error.rfind("changed.toml:" + std::to_string(line_of(good, "m1 = 386")) + ": not TOML (",
                     0) == 0);
-  CHECK(contains(error, "; mend the syntax of this line"));
+  CHECK(contains(error, "; correct the syntax of this line"));
   CHECK(read_error("/nonexistent/paper.toml") ==
         "/nonexistent/paper.toml:0: cannot be read; give the path of a readable TOML file");
   for (const char* name : {"Paper.toml", "2nd.toml", "my-design.toml", "_x.toml"}) {

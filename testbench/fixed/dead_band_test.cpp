@@ -170,7 +170,7 @@ TEST_CASE("dyadic trap: a pole of exactly 2^-11 needs one guard bit more", "[fix
   const Band band = rest_band<Round::half_up, 11>(a, patience);
   CHECK(band.low == want.low);
   CHECK(band.high == want.high);
-  // 1024 state LSB are half an output LSB: the output itself comes out wrong, for ever.
+  // 1024 state LSB are half an output LSB: the output itself stays wrong.
   CHECK(output_error<Round::half_up, 11>(a, 5, 100) == 1);
   CHECK(output_error<Round::convergent, 11>(a, 5, 100) == 1);
   CHECK(output_error<Round::half_up, 12>(a, 5, 100) == 0);

@@ -132,7 +132,7 @@ TEST_CASE("stability: bisection in bits meets the eigenvalues") {
     const Border b = border(m, damping, ticks);
     const double bits = measured_border(design, plant, damping, ticks, b);
     within(bits, b.stiffness_nm_rad, 0.02);
-    // A fifth more damping is told apart.
+    // A fifth more damping is noticed.
     const double other = border(m, 1.2 * damping, ticks).stiffness_nm_rad;
     CHECK(other / bits > 1.08);
   }

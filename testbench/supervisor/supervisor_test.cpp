@@ -287,7 +287,7 @@ TEST_CASE("supervisor: eight encoder errors trip, one is forgiven every 1024 tic
   s.errors(1);
   REQUIRE(only(s, Fault::encoder));
   s.clear();
-  for (int k = 0; k < 30; ++k) {  // less than one in 1024 ticks: for ever
+  for (int k = 0; k < 30; ++k) {  // less than one in 1024 ticks: never a fault
     s.errors(1);
     s.ticks(1030);
   }

@@ -42,7 +42,7 @@ struct Adapter {
 
 using Bench = LockStep<Vvelocity_n, Twin, Adapter>;
 
-/// The last bits of a count that runs on for ever.
+/// The last bits of a count that never stops.
 inline std::int16_t wrapped_travel(std::int64_t count) {
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(count & 0xffff));
 }

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
 # quartus_sh -t build.tcl compile | report | program     (no word: compile and report)
-# Never run: Quartus was not to be had when this was written. Documentation: docs/boards/de0_nano.md
+# Never run: Quartus was not available when this was written. Documentation: docs/boards/de0_nano.md
 
 load_package flow
 load_package report

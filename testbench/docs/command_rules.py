@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""How each command line of the pages is run by commands_test.py: the first rule that matches."""
+
+import re
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Rule:
+    """WHOLE: as it stands, in the sandbox with its short scenes. MORE: with more words, which make
+    it shorter. PARSED: a Python script's options are read, then it ends. LAUNCHER: the same for
+    the launcher's own subcommand. NAMED: programs that may not be here; the files, scripts and
+    CMake options that the line names must be there. BY: the test named in `more` runs it."""
+
+    pattern: str
+    how: str
+    more: str = ""
+    status: tuple = (0,)
+
+    def matches(self, words):
+        return re.match(rf"(?:\./)?{self.pattern}(?:\s|$)", words) is not None
+
+
+RULES = (
+    Rule(r"feltgate (?:--help|--version|help)", "WHOLE"),
+    Rule(r"feltgate \w+ --help", "WHOLE"),
+    # 2: what the page says of this line is that it is refused.
+    Rule(r"feltgate run torque_step --set voltage_gain=0\.6", "WHOLE", status=(2,)),
+    Rule(r"feltgate (?:run|replay|import|budget|design)", "WHOLE"),
+    Rule(r"feltgate generate", "WHOLE"),
+    # 1: of a scene of milliseconds there may be nothing to leave out.
+    Rule(r"feltgate trim", "MORE", "--unseen 1 --threads 1", status=(0, 1)),
+    Rule(r"feltgate stability .*--rate", "WHOLE"),
+    Rule(r"feltgate stability .*--no-bits", "WHOLE"),
+    Rule(r"feltgate stability", "MORE", "--rate 490 --damping 0.002 --no-experiments"),
+    Rule(r"feltgate extremes", "MORE", "--list"),
+    Rule(r"feltgate bench", "MORE", "--quick"),
+    Rule(r"feltgate explore (?:plan|page|presets) ", "WHOLE"),
+    Rule(r"feltgate (?:explore|synth|demo|figures)", "PARSED"),
+    Rule(r"feltgate test", "LAUNCHER"),
+    Rule(r"ctest .*-N", "WHOLE"),
+    Rule(r"ctest", "MORE", "-N"),
+    Rule(r"scripts/check_blocks\.py", "WHOLE"),
+    Rule(r"sbatch .*scripts/explore\.sbatch", "NAMED"),
+    Rule(r"cp", "NAMED"),
+    Rule(r"cmake -S \. -B build", "NAMED"),
+)
+
+# Words that stand for something, by the word before them.
+PLACEHOLDERS = {
+    "design NAME": "lever",
+    "design DESIGN": "lever",
+    "design FILE": "my_design.toml",
+    "--design NAME": "lever",
+    "--design D": "lever",
+    "--design FILE.toml": "my_design.toml",
+    "--output DIR": "out",
+    "-o DIR": "out",
+    "--report DIR": "out",
+    "--record FILE": "recorded.vec",
+    "--plant P": "p24",
+    "--for SCENE": "membrane",
+    "--for SCENE...": "membrane",
+    "run NAME": "wall",
+    "run SCENE": "wall",
+    "budget SCENE": "wall",
+    "point FILE": "my_design.toml",
+}
+# Engines that the launcher builds when a line names them; here they are not there.
+BUILT_ON_DEMAND = {"stability mine": "lever"}
+BUILT_ON_DEMAND |= {f"--design {name}": "lever" for name in ("fast", "balanced", "exact", "mine")}
+
+
+def rule_of(words):
+    return next((rule for rule in RULES if rule.matches(words)), None)
+
+
+def filled(words):
+    """The list of words, placeholders replaced by something that is there."""
+    done = []
+    for word in words:
+        pair = f"{done[-1] if done else ''} {word}"
+        known = PLACEHOLDERS | ({} if "design" in words else BUILT_ON_DEMAND)
+        done.append(known.get(pair, word))
+    return done

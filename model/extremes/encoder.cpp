@@ -62,15 +62,15 @@ Outcome decoder_limit(const Settings& s) {
   // One state a clock in radians.
   const double limit = count_rad * clock_hz;
   add(&o, "speed that this is, 1024 lines", "rad/s", near(76699, 0.5), limit, limit, limit);
-  o.note = "The float column is the motion itself.";
+  o.note = "The double column is the motion itself.";
   return o;
 }
 
 Outcome decoder_beyond(const Settings& s) {
   Outcome o = states_per_clock(s, {5, 6, 7, 8});
   o.note =
-      "A jump of two states is flagged and not counted, so true = counted + 2 x flagged. The float "
-      "column is the motion itself.";
+      "A jump of two states is flagged and not counted, so true = counted + 2 x flagged. The "
+      "double column is the motion itself.";
   return o;
 }
 
@@ -78,7 +78,7 @@ Outcome decoder_aliasing(const Settings& s) {
   Outcome o = states_per_clock(s, {10, 12, 14, 16});
   o.note =
       "Beyond two states a clock nothing can be known: a jump of three is counted as one back and "
-      "not flagged, a jump of four is invisible. The float column is the motion itself.";
+      "not flagged, a jump of four is invisible. The double column is the motion itself.";
   return o;
 }
 

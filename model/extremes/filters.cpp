@@ -180,7 +180,7 @@ Outcome slow_pole(const Settings& s) {
       guard_bits(twin), {});
   add(&o, "a1 with 16 fraction bits", "", exactly(0), {},
       static_cast<double>(std::llround(5e-6 * 65536)), 5e-6);
-  // Settling of the filter alone, sample by sample; float computes the same recurrence.
+  // Settling of the filter alone, sample by sample; double computes the same recurrence.
   const std::int64_t step = 1'000'000'000;
   rtl.start(0);
   std::int64_t y = 0, settled = 0, rtl_settled = 0, real_settled = 0;
@@ -349,8 +349,8 @@ Outcome coefficient_bits(const Settings& s) {
 std::vector<Case> filter_cases() {
   return {
       {"Filters", "dead_bands",
-       "Where y += round(a1 (x - y)) stops short of its input: |a1 d| rounds to 0. Float stops "
-       "nowhere.",
+       "Where y += round(a1 (x - y)) stops short of its input: |a1 d| rounds to 0. In double "
+       "it stops nowhere.",
        false, dead_bands},
       {"Filters", "dyadic_trap",
        "With a1 a power of two the band is exactly half an LSB, and one guard bit more is needed.",

@@ -335,8 +335,8 @@ Outcome wall_edge(const Settings& s) {
   }
   o.note =
       "Wall of the core with B = 1e-3 Nm s/rad, linear plant with b = 1e-3 Nm s/rad, nothing in "
-      "the voltage law but gains; slope of the logarithm of the swing over 0.25 s. Float: the "
-      "chain in double with the ticks and PWM periods of `feltgate stability`.";
+      "the voltage law but gains; slope of the logarithm of the swing over 0.25 s. Double: the "
+      "chain with the ticks and PWM periods of `feltgate stability`.";
   return o;
 }
 

@@ -70,7 +70,7 @@ std::string section_of(const std::string& page, const std::string& name) {
 }
 
 constexpr const char* head =
-    "| what | expected | RTL | twin | float | verdict |\n|---|---|---|---|---|---|\n";
+    "| what | expected | RTL | twin | double | verdict |\n|---|---|---|---|---|---|\n";
 
 }  // namespace
 
@@ -92,7 +92,7 @@ std::string text(const Result& result) {
       << "\n  " << result.which.about << "\n";
   for (const Finding& f : o.findings) {
     out << "    " << f.what << (f.unit.empty() ? "" : " [" + f.unit + "]") << ": expected "
-        << f.expected.text << "; RTL " << cell(f.rtl) << ", twin " << cell(f.twin) << ", float "
+        << f.expected.text << "; RTL " << cell(f.rtl) << ", twin " << cell(f.twin) << ", double "
         << cell(f.real) << ": " << verdict(f) << "\n";
   }
   if (o.mismatches > 0) {
@@ -115,7 +115,7 @@ std::string json(const std::vector<Result>& results) {
       if (std::isfinite(f.expected.high)) j["high"] = f.expected.high;
       if (f.rtl) j["rtl"] = *f.rtl;
       if (f.twin) j["twin"] = *f.twin;
-      if (f.real) j["float"] = *f.real;
+      if (f.real) j["double"] = *f.real;
       j["holds"] = f.holds();
       findings.push_back(j);
     }
@@ -147,16 +147,16 @@ std::string page(const std::vector<Result>& results, const std::string& before) 
       "# Extremes\n\n"
       "Code: [model/extremes](../model/extremes) · tests: "
       "[testbench/extremes](../testbench/extremes) · this page is written by\n"
-      "`./feltgate extremes --markdown`; a test fails when a row no longer says what comes out.\n\n"
-      "Each case stands at a limit of the core and computes, in its own code, what must come out; "
-      "the text beside the\n"
-      "numbers says from what. *RTL* and *twin* run in lock-step where both have a value: every "
+      "`./feltgate extremes --markdown`; a test fails when a row is out of date.\n\n"
+      "Each case takes the core to one of its limits. The expected value is computed by the case's "
+      "own code, from what the\n"
+      "text beside it says. *RTL* and *twin* run in lock-step where both have a value: every "
       "output was compared on\n"
-      "every clock, and one difference fails the case. *float* is the same chain in double "
-      "precision on the same sampled\n"
-      "counts, or, in closed loop, driving the motor itself. A dash: not measured there, and the "
+      "every clock, and one difference fails the case. *double* is the same chain in binary64 "
+      "on the same sampled\n"
+      "counts, or, in closed loop, driving the motor itself. A dash: not measured there; the "
       "line below the table\n"
-      "says what each engine ran. Simulation, as everything here.\n\n"
+      "says what each engine ran. Everything is simulation.\n\n"
       "```\n"
       "./feltgate extremes                  every short case, as text\n"
       "./feltgate extremes wrap_16 rest     only these\n"

@@ -76,7 +76,7 @@ Outcome one_count_per_second(const Settings& s) {
     o.findings.push_back(finding(Cores::twin,
                                  "mean over a second: 2^n m1 T, within the filter's dead band" + in,
                                  "rad/s", near(mean, dead_band(day.design())), sum, real_sum));
-    o.findings.push_back(finding(Cores::twin, "gain error of the mean in float" + in, "%",
+    o.findings.push_back(finding(Cores::twin, "gain error of the mean in double" + in, "%",
                                  near(100 * (mean / count_rad - 1), 0.01), 0,
                                  100 * (real_sum / count_rad - 1)));
     o.findings.back().twin.reset();

@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Runs every command line of the pages; command_rules.py says how. A line without a rule fails, and
-so does one that the program refuses. FELTGATE_BUILD is the build folder.
+so does one that the program refuses. FELTGATE_BUILD has the programs.
 
-  commands_test.py [TEXT]   only the lines that contain TEXT
+  commands_test.py [TEXT] [--configured DIR]   only the lines that contain TEXT; DIR is the folder
+                                               that cmake and ctest are asked about
 """
 
+import argparse
 import os
 import re
 import resource
@@ -21,14 +23,18 @@ import command_lines
 import command_rules
 import sandbox
 
-BUILD = Path(os.environ["FELTGATE_BUILD"])
+parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+parser.add_argument("text", nargs="?", default="", help="only the lines that contain it")
+parser.add_argument("--configured", type=Path, help="configured build folder")
+ARGUMENTS = parser.parse_args()
+BUILD = Path(os.environ["FELTGATE_BUILD"]).resolve()
+CONFIGURED = (ARGUMENTS.configured or BUILD).resolve()
 HERE = Path(__file__).resolve().parent
-SCRIPTS = ("demo", "figures", "explore", "synth")
 # The launcher's options are read by its own function; what it would then do is left out.
 LAUNCHER = """set -euo pipefail
 ROOT=$PWD BUILD=$1; shift
 say() { echo "$*" >&2; }; die() { say "$*"; exit 2; }
-need_packages() { exit 0; }; build() { exit 0; }; configure() { exit 0; }; lock_build() { :; }
+need_packages() { exit 0; }
 source scripts/run_tests.sh
 run_tests "build test" "$@"
 """
@@ -59,7 +65,7 @@ def argv_of(line, rule, folder):
         return ["bash", "-c", LAUNCHER, "test", BUILD, *words[2:]]
     words += shlex.split(rule.more)
     if words[0] == "ctest":
-        return [str(BUILD) if word == "build" else word for word in words]
+        return [str(CONFIGURED) if word == "build" else word for word in words]
     if words[0].endswith(".py"):
         return [sys.executable, *words]
     return program_of(words, folder)
@@ -67,7 +73,7 @@ def argv_of(line, rule, folder):
 
 def wrong_names(words, folder):
     """Of a line that is not run: what of the things that it names is not there."""
-    cache = (BUILD / "CMakeCache.txt").read_text(encoding="utf-8")
+    cache = (CONFIGURED / "CMakeCache.txt").read_text(encoding="utf-8")
     for word in words[1:]:
         option = re.match(r"-D(\w+)=", word)
         if option and f"\n{option[1]}:" not in cache:
@@ -84,7 +90,7 @@ def is_a_test(name):
     return re.search(
         rf": {re.escape(name)}$",
         subprocess.run(
-            ["ctest", "--test-dir", BUILD, "-N"], capture_output=True, text=True, check=True
+            ["ctest", "--test-dir", CONFIGURED, "-N"], capture_output=True, text=True, check=True
         ).stdout,
         re.M,
     )
@@ -133,12 +139,11 @@ def subcommands():
 
 
 def main():
-    wanted = sys.argv[1] if len(sys.argv) > 1 else ""
     names, failed, seen, total = subcommands(), 0, set(), 0.0
     with tempfile.TemporaryDirectory() as scratch:
         folder = sandbox.make(Path(scratch).resolve() / "feltgate")
         for line in command_lines.all_lines():
-            if wanted not in line.words or line.words in seen:
+            if ARGUMENTS.text not in line.words or line.words in seen:
                 continue
             seen.add(line.words)
             began = time.monotonic()

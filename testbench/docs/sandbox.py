@@ -13,7 +13,7 @@ import zipfile
 import pages
 
 SCENE_S = 0.03  # long enough to arm and to move
-SKIPPED = shutil.ignore_patterns(".git", "build*", "__pycache__", "*.part")
+SKIPPED = shutil.ignore_patterns(".git", "build", "build-*", "__pycache__", "*.part")
 
 
 def shortened(scene):

@@ -55,7 +55,8 @@ def program_of(words, folder):
 def argv_of(line, rule, folder):
     text = re.sub(r"^parallel .*?(\./feltgate .*?) :::.*", r"\1", line.words)
     text = text.replace("{}/", "1/").replace(" ...", "")
-    text = re.sub(r"(^| )/(tmp|shared)/", rf"\1{folder}/\2/", text)
+    text = re.sub(r"(^| )/(tmp|shared|data)/", rf"\1{folder}/\2/", text)
+    text = re.sub(r" > \S+$", "", text)
     words = command_rules.filled([w for w in shlex.split(text) if w != "--yes"])
     words = [w for w in words if not re.match(r"[A-Z_]+=", w)]
     if rule.how == "PARSED":

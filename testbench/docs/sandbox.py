@@ -58,17 +58,17 @@ def write_recordings(folder):
 
 
 def make(folder):
-    """Fills `folder` and returns it; `folder`/tmp and /shared stand for /tmp and /shared."""
+    """Fills `folder` and returns it; its tmp, shared and data stand for /tmp, /shared and /data."""
     shutil.copytree(pages.ROOT, folder, ignore=SKIPPED, symlinks=True, dirs_exist_ok=True)
     for path in (folder / "vectors/scenes").glob("*.toml"):
         path.write_text(shortened(path.read_text(encoding="utf-8")), encoding="utf-8")
-    for place in ("path/to", "tmp", "shared", "bin"):
+    for place in ("path/to", "tmp", "shared", "data"):
         (folder / place).mkdir(parents=True, exist_ok=True)
     for source, copies in {
         "vectors/scenes/membrane.toml": ("path/to/my.toml", "fast.toml", "my_scene.toml"),
         "vectors/spaces/smoke.toml": ("my_space.toml",),
         "vectors/plants/p24.toml": ("my.toml", "vectors/plants/mine.toml"),
-        "rtl/designs/lever.toml": ("my_design.toml", "rtl/designs/mine.toml"),
+        "rtl/designs/lever.toml": ("my_design.toml", "my_point.toml", "rtl/designs/mine.toml"),
     }.items():
         for copy in copies:
             shutil.copy(folder / source, folder / copy)

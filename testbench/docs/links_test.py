@@ -109,6 +109,19 @@ class Pages(unittest.TestCase):
     def test_reached_from_the_index(self):
         self.assertEqual(unreached(pages.ROOT), [])
 
+    def test_glossary(self):
+        """The report reads this table: two columns of plain text, in order, each term once."""
+        text = (pages.ROOT / "docs/glossary.md").read_text(encoding="utf-8")
+        rows = [line for line in text.splitlines() if line.startswith("|")]
+        self.assertEqual(rows[:2], ["| term | meaning |", "|---|---|"])
+        cells = [re.fullmatch(r"\| ([^|]+) \| ([^|]+\.) \|", row) for row in rows[2:]]
+        self.assertNotIn(None, cells)
+        self.assertFalse([c[0] for c in cells if re.search(r"[`*\]]\(|[`*]", c[0])])
+        lines = [c[1] for c in cells]
+        self.assertEqual(lines, sorted(lines, key=str.lower))
+        terms = [term for line in lines for term in line.split(", ")]
+        self.assertEqual(len(terms), len(set(terms)))
+
     def test_plain_words(self):
         self.assertEqual(list(unwanted(pages.ROOT)), [])
 

@@ -43,7 +43,7 @@ RULES = (
     Rule(r"ctest", "MORE", "-N"),
     Rule(r"scripts/check_blocks\.py", "WHOLE"),
     Rule(r"sbatch .*scripts/explore\.sbatch", "NAMED"),
-    Rule(r"(?:cp|mv)", "NAMED"),
+    Rule(r"(?:cp|mv|cd|quartus_sh|dask-worker)", "NAMED"),
     Rule(r"cmake -S \. -B build", "NAMED"),
 )
 

@@ -82,8 +82,10 @@ def wrong_names(words, folder):
         if re.match(r"(?:rtl|model|testbench|scripts|vectors|docs)/", word):
             if not (folder / word).exists():
                 return f"{word} is not there"
-            if word.endswith((".sh", ".sbatch")):
-                subprocess.run(["bash", "-n", folder / word], check=True)
+        if word.endswith(".tcl") and not list(folder.glob(f"rtl/boards/*/{word}")):
+            return f"no board has a {word}"
+        if word.startswith("scripts/") and word.endswith((".sh", ".sbatch")):
+            subprocess.run(["bash", "-n", folder / word], check=True)
     return None
 
 

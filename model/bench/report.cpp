@@ -12,6 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "files/json_text.hpp"
+
 namespace feltgate::bench {
 
 using Json = nlohmann::ordered_json;
@@ -101,7 +103,7 @@ std::string json(const Result& r, const std::vector<Work>& works, const Circumst
     o[g.at_most ? "at_most" : "at_least"] = g.goal;
     o["met"] = g.met();
   }
-  return j.dump(2) + "\n";
+  return files::json_text(j);
 }
 
 std::string text(const Result& r, const std::vector<Work>& works, const Circumstances& c) {

@@ -4,6 +4,8 @@
 // Registry of the engines that were built in. Documentation: docs/architecture.md
 #include "engines/engine.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <stdexcept>
 
@@ -76,9 +78,9 @@ std::unique_ptr<RealChain> make_real_chain(const std::string& design, const std:
   unknown_design(design);
 }
 
-void Engine::trace(const std::string& path, Clock, Clock) {
-  throw std::invalid_argument(path + ": the engine " + name() +
-                              " has no waveform; choose --engine rtl or all");
+void Engine::trace(const std::string&, Clock, Clock) {
+  throw std::invalid_argument(
+      fmt::format("--fst: the engine {} has no waveform; choose --engine rtl or all", name()));
 }
 
 const ParameterInfo* DesignInfo::find(const std::string& parameter) const {

@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "files/json_text.hpp"
+
 namespace feltgate::extremes {
 
 namespace {
@@ -130,7 +132,7 @@ std::string json(const std::vector<Result>& results) {
                    {"findings", findings}});
     holds = holds && r.outcome.holds();
   }
-  return Json{{"holds", holds}, {"cases", all}}.dump(2) + "\n";
+  return files::json_text(Json{{"holds", holds}, {"cases", all}});
 }
 
 std::string markdown(const Result& result) {

@@ -53,9 +53,9 @@ class ScenarioRun {
   RunResult run() {
     const DesignInfo& d = core_.design();
     const Clock end = std::llround(s_.duration_s * static_cast<double>(d.clock_hz));
-    if (!options_.record.empty()) {
+    if (options_.record != nullptr) {
       recorder_ = std::make_unique<traces::VectorWriter>(
-          options_.record, traces::VectorHeader{d.name, d.clock_hz, {"A", "B", "Z"}},
+          options_.record, "the record of scene " + s_.name, traces::VectorHeader{d.name, d.clock_hz, {"A", "B", "Z"}},
           plant_.encoder().pins());
     }
     core_.cover(options_.coverage);

@@ -5,6 +5,7 @@
 // sampled counts. Documentation: docs/architecture.md
 #pragma once
 
+#include <cstdio>
 #include <functional>
 #include <iosfwd>
 #include <map>
@@ -97,7 +98,7 @@ struct RunOptions {
   std::uint64_t seed = 1;
   std::string fst;                  ///< waveform of the clocks fst_from to fst_to; empty: none
   Clock fst_from = 0, fst_to = -1;  ///< fst_to < 0: to the end
-  std::string record;               ///< encoder edges as a vector file; empty: none
+  std::FILE* record = nullptr;      ///< gets the encoder's edges as a vector file; may be none
   const bounds::Coverage* coverage = nullptr;  ///< of error bounds that are to be checked
   RealChain* passenger = nullptr;  ///< rides along on the samples and writes, uncompared
   RunInputs* inputs = nullptr;     ///< filled when given; a scene that uses the stop pin throws

@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "files/json_text.hpp"
+
 namespace feltgate::stability {
 
 namespace {
@@ -177,7 +179,7 @@ std::string study_json(const Study& s) {
                             {"torque_rms_nm", r.figures.torque_rms_nm},
                             {"angle_rms_rad", r.figures.angle_rms_rad}});
   }
-  return out.dump(1) + "\n";
+  return files::json_text(out);
 }
 
 }  // namespace feltgate::stability

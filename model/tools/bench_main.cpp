@@ -2,14 +2,15 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate bench, a program of its own because it links SystemC. Documentation: docs/bench.md
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 
 #include "bench/report.hpp"
 #include "bench/work_bounds.hpp"
+#include "files/output_file.hpp"
 #include "tools/commands.hpp"
-#include "tools/output.hpp"
 
 namespace {
 
@@ -44,8 +45,8 @@ int run(const Arguments& a) {
                      : std::vector<std::string>{"torque_step_cord", "damper", "wall"};
   }
   // Opened before the run: a name that cannot be written must not cost it.
-  std::unique_ptr<OutputFile> json;
-  if (!a.json.empty()) json = std::make_unique<OutputFile>(a.json);
+  files::Outputs outputs;
+  files::OutputFile* json = outputs.open("--json", a.json);
   std::vector<std::unique_ptr<bench::Runner>> runners;
   for (const std::string& name : a.engines) runners.push_back(bench::make_runner(name));
 
@@ -64,13 +65,11 @@ int run(const Arguments& a) {
   bench::Result result = bench::measure(runners, works, closed_loops, options);
   result.bounds = bounds_of(works);
   const bench::Circumstances c = bench::circumstances();
-  if (json) {
-    std::fputs(bench::json(result, works, c).c_str(), json->handle());
-    json->commit();
-  }
-  if (!a.quiet) std::fputs(bench::text(result, works, c).c_str(), stdout);
+  if (json != nullptr) json->write(bench::json(result, works, c));
+  if (!a.quiet) fmt::print(outputs.text(), "{}", bench::text(result, works, c));
+  outputs.commit();
   if (result.divergence.empty()) return exit_ok;
-  std::fprintf(stderr, "feltgate: integer engines differ: %s\n", result.divergence.c_str());
+  fmt::print(stderr, "feltgate: integer engines differ: {}\n", result.divergence);
   return exit_failed;
 }
 
@@ -79,7 +78,6 @@ int run(const Arguments& a) {
 int main(int argc, char** argv) {
   CLI::App app{"feltgate bench: the same scenes through every engine, time against error"};
   app.name("feltgate bench");
-  app.failure_message(CLI::FailureMessage::simple);
   app.footer(
       "Scenes run once in closed loop; what reached the core is recorded and then given to every\n"
       "engine. Errors are against 113 bits on the same counts. Times are CPU time, in interleaved\n"
@@ -110,13 +108,7 @@ int main(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   app.add_flag("--quick", a.quick, "one short scene");
   app.add_flag("--quiet", a.quiet, "print nothing");
-  try {
-    app.parse(argc, argv);
-    return run(a);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? exit_ok : exit_unusable;
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "feltgate bench: %s\n", e.what());
-    return exit_unusable;
-  }
+  int exit_code = exit_ok;
+  app.callback([&] { exit_code = run(a); });
+  return run_command_line(app, argc, argv, exit_code);
 }

@@ -2,15 +2,18 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate budget. Documentation: docs/error-bounds.md
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "budget/scene_budget.hpp"
+#include "files/json_text.hpp"
+#include "files/output_file.hpp"
 #include "plant/plant_file.hpp"
 #include "tools/commands.hpp"
-#include "tools/output.hpp"
 
 namespace feltgate {
 
@@ -101,30 +104,30 @@ std::string json(const SceneBudget& b, const std::string& scene, const std::stri
   j["whole"] = line_json(b.whole);
   j["gain"] = line_json(b.gain);
   j["holds"] = b.holds();
-  return j.dump(2) + "\n";
+  return files::json_text(j);
 }
 
 int run(const BudgetArguments& a) {
   Scenario scenario = read_scenario(find_file(a.scene, "vectors/scenes"));
   if (!a.plant.empty()) scenario.plant = a.plant;
-  const plant::Parameters plant =
-      plant::read_plant_file(find_file(scenario.plant, "vectors/plants"));
+  const std::string plant_path = find_file(scenario.plant, "vectors/plants");
+  const plant::Parameters plant = plant::read_plant_file(plant_path);
   resolve_effects(scenario, plant.effects);
   const auto e = elaborate(design::read_design(find_file(a.design, "rtl/designs")),
                            design::read_registers(repository() + "/rtl/registers.toml"));
-  std::unique_ptr<OutputFile> file;
-  if (!a.json.empty()) file = std::make_unique<OutputFile>(a.json);
+  files::Outputs outputs;
+  outputs.reads(scenario.path);
+  outputs.reads(plant_path);
+  files::OutputFile* file = outputs.open("--json", a.json);
   SceneBudget b;
   {
     Progress progress(scenario.name + " on " + e.design.name, a.quiet);
     b = bounds::scene_budget(e, scenario, plant, a.seed,
                              [&](double done) { progress.update(done); });
   }
-  if (file) {
-    std::fputs(json(b, scenario.name, e.design.name).c_str(), file->handle());
-    file->commit();
-  }
-  if (!a.quiet) std::fputs(text(b, scenario.name, e.design.name).c_str(), stdout);
+  if (file != nullptr) file->write(json(b, scenario.name, e.design.name));
+  if (!a.quiet) fmt::print(outputs.text(), "{}", text(b, scenario.name, e.design.name));
+  outputs.commit();
   return b.holds() ? exit_ok : exit_failed;
 }
 

@@ -2,15 +2,19 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // What the subcommands share: places of files, progress. Documentation: README.md
+#include "tools/commands.hpp"
+
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 
-#include "tools/commands.hpp"
+#include "config/nearest.hpp"
+#include "files/program.hpp"
 
 namespace fs = std::filesystem;
 
@@ -22,7 +26,39 @@ double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+/// Names of the TOML files in a folder of the repository.
+std::set<std::string> names_in(const std::string& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(fs::path(repository()) / folder)) {
+    if (entry.path().extension() == ".toml") names.insert(entry.path().stem().string());
+  }
+  return names;
+}
+
+/// The mend for a path that leads nowhere.
+std::string near_path(const std::string& path, const std::string& folder) {
+  const std::set<std::string> names = names_in(folder);
+  const std::string name = config::nearest(fs::path(path).stem().string(), names);
+  return name.empty() ? "check the path"
+                      : fmt::format("did you mean {}, which is in {}?", name, folder);
+}
+
+/// The words that start one of the scripts.
+std::vector<std::string> script_words(const std::string& name,
+                                      const std::vector<std::string>& words) {
+  const char* python = std::getenv("FELTGATE_PYTHON");
+  std::vector<std::string> all{python != nullptr ? python : "python3",
+                               (fs::path(repository()) / "scripts" / name).string()};
+  all.insert(all.end(), words.begin(), words.end());
+  return all;
+}
+
 }  // namespace
+
+int run_script(const std::string& name, const std::vector<std::string>& words, std::FILE* out) {
+  std::fflush(out);
+  return files::run_program(script_words(name, words), fileno(out));
+}
 
 std::string repository() {
   const char* root = std::getenv("FELTGATE_ROOT");
@@ -31,21 +67,24 @@ std::string repository() {
 
 std::string find_file(const std::string& name, const std::string& folder) {
   if (name.find('/') != std::string::npos || fs::path(name).extension() == ".toml") {
-    if (!fs::exists(name))
-      throw std::invalid_argument(name + ": there is no such file; check the path");
+    std::error_code error;
+    const fs::file_status status = fs::status(name, error);
+    if (fs::is_directory(status)) {
+      throw std::invalid_argument(
+          fmt::format("{}: is a folder; give a file in it, or a name in {}", name, folder));
+    }
+    if (!fs::exists(status)) {
+      throw std::invalid_argument(
+          fmt::format("{}: there is no such file; {}", name, near_path(name, folder)));
+    }
     return name;
   }
-  const fs::path base = fs::path(repository()) / folder;
-  const fs::path path = base / (name + ".toml");
+  const fs::path path = fs::path(repository()) / folder / (name + ".toml");
   if (fs::exists(path)) return path.string();
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(base)) {
-    if (entry.path().extension() == ".toml") names.insert(entry.path().stem().string());
-  }
-  std::string list;
-  for (const std::string& n : names) list += (list.empty() ? "" : ", ") + n;
-  throw std::invalid_argument("\"" + name + "\" is not in " + folder + "; choose one of " + list +
-                              " or give the path of a file");
+  const std::set<std::string> names = names_in(folder);
+  throw std::invalid_argument(
+      fmt::format("\"{}\" is not in {}; {}choose one of {}, or give the path of a file", name,
+                  folder, config::did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
 std::string mismatch_path(const std::string& subject, const std::string& design) {
@@ -56,9 +95,9 @@ std::string mismatch_path(const std::string& subject, const std::string& design)
 }
 
 void tell_mismatch(const std::string& first_mismatch, const std::string& path) {
-  std::fprintf(stderr,
-               "first mismatch: %s\nwaveform: gtkwave %s %s/scripts/gtkwave/feltgate_core.gtkw\n",
-               first_mismatch.c_str(), path.c_str(), repository().c_str());
+  fmt::print(stderr,
+             "first mismatch: {}\nwaveform: gtkwave {} {}/scripts/gtkwave/feltgate_core.gtkw\n",
+             first_mismatch, path, repository());
 }
 
 Progress::Progress(std::string label, bool quiet)
@@ -77,7 +116,7 @@ void Progress::update(double done) {
   last_s_ = now;
   const double spent = now - start_s_;
   const double left = done > 0 ? spent * (1 - done) / done : 0;
-  std::fprintf(stderr, "\r\033[K%s: %3.0f %%, %.0f s left", label_.c_str(), 100 * done, left);
+  fmt::print(stderr, "\r\033[K{}: {:3.0f} %, {:.0f} s left", label_, 100 * done, left);
   std::fflush(stderr);
 }
 
@@ -93,20 +132,12 @@ void add_scripts(CLI::App& app, int* exit_code) {
     CLI::App* sub = app.add_subcommand(s.name, s.about);
     sub->set_help_flag();  // the script's own --help is the one to read
     sub->prefix_command();
-    const std::string script = std::string("scripts/") + s.name + ".py";
+    const std::string script = std::string(s.name) + ".py";
     sub->callback([sub, script, exit_code] {
-      const char* python = std::getenv("FELTGATE_PYTHON");
-      const std::string path = (fs::path(repository()) / script).string();
-      std::vector<std::string> words{python != nullptr ? python : "python3", path};
-      for (const std::string& word : sub->remaining()) words.push_back(word);
-      std::vector<char*> argv;
-      for (std::string& word : words) argv.push_back(word.data());
-      argv.push_back(nullptr);
       setenv("FELTGATE_PROGRAM", fs::read_symlink("/proc/self/exe").c_str(), 1);
       setenv("FELTGATE_ROOT", repository().c_str(), 1);
-      execvp(argv[0], argv.data());
-      std::perror(argv[0]);
-      *exit_code = exit_unusable;
+      *exit_code = exit_unusable;  // unless this process becomes the script
+      files::become_program(script_words(script, sub->remaining()));
     });
   }
 }

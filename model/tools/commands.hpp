@@ -6,12 +6,15 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <string>
+#include <vector>
 
 namespace feltgate {
 
-/// Exit codes: 0 all well, 1 a mismatch or a broken expectation, 2 input that cannot be used.
-enum Exit : int { exit_ok = 0, exit_failed = 1, exit_unusable = 2 };
+/// Exit codes: 0 all well, 1 a mismatch or a broken expectation, 2 input that cannot be used;
+/// from 128 on a signal, 130 for Ctrl-C.
+enum Exit : int { exit_ok = 0, exit_failed = 1, exit_unusable = 2, exit_signal = 128 };
 
 /// A subcommand adds its options to the program and sets *exit_code when it has run.
 void add_run(CLI::App& app, int* exit_code);
@@ -31,6 +34,14 @@ std::string repository();
 /// `name` itself when it is a path (has a slash or the suffix), else folder/name.toml of the
 /// repository. Throws std::invalid_argument listing what there is.
 std::string find_file(const std::string& name, const std::string& folder);
+
+/// Parses the command line, which runs the command that it names, and returns the exit code: the
+/// command's own, or that of an error, which is told on stderr as one line that begins with the
+/// program's name, the nearest name suggested for what is misspelt.
+int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code);
+
+/// Runs scripts/NAME with these words, its stdout going to `out`; returns its exit code.
+int run_script(const std::string& name, const std::vector<std::string>& words, std::FILE* out);
 
 /// Where the waveform around a mismatch goes: mismatch/ in the build folder, or in this one.
 std::string mismatch_path(const std::string& subject, const std::string& design);

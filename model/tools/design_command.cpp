@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate design. Documentation: docs/designs.md
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -10,10 +12,10 @@
 #include "design/for_scenes.hpp"
 #include "design/generate.hpp"
 #include "design/loop_poles.hpp"
+#include "files/output_file.hpp"
 #include "loop/scenario.hpp"
 #include "plant/plant_file.hpp"
 #include "tools/commands.hpp"
-#include "tools/output.hpp"
 
 namespace feltgate {
 
@@ -47,17 +49,16 @@ int design_for(const DesignArguments& a, const design::RegisterMap& registers) {
   std::string left_out;
   for (const std::string& block : blocks_left_out(laws, registers)) left_out += " " + block;
   if (left_out.empty()) left_out = " none";
-  const std::string text =
-      design::text_for_scenes(find_file(a.name, "rtl/designs"), laws,
-                              "Written by: " + command + "\nBlocks left out:" + left_out);
-  if (a.output.empty()) {
-    std::fputs(text.c_str(), stdout);
-    return exit_ok;
+  const std::string design_path = find_file(a.name, "rtl/designs");
+  const std::string text = design::text_for_scenes(
+      design_path, laws, "Written by: " + command + "\nBlocks left out:" + left_out);
+  files::Outputs outputs;
+  outputs.reads(design_path);
+  outputs.open("--output", a.output.empty() ? "-" : a.output)->write(text);
+  outputs.commit();
+  if (!a.output.empty()) {
+    fmt::print(outputs.text(), "{}: blocks left out:{}\n", a.output, left_out);
   }
-  OutputFile file(a.output);
-  std::fputs(text.c_str(), file.handle());
-  file.commit();
-  std::printf("%s: blocks left out:%s\n", a.output.c_str(), left_out.c_str());
   return exit_ok;
 }
 

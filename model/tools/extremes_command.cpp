@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate extremes. Documentation: docs/extremes.md
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
@@ -10,8 +12,8 @@
 #include <stdexcept>
 
 #include "extremes/table.hpp"
+#include "files/output_file.hpp"
 #include "tools/commands.hpp"
-#include "tools/output.hpp"
 
 namespace feltgate {
 
@@ -56,11 +58,12 @@ std::vector<extremes::Case> chosen(const ExtremesArguments& a) {
 int run(const ExtremesArguments& a) {
   const auto cases = chosen(a);
   if (a.list) {
-    for (const auto& c : cases) std::printf("%-10s %-22s %s\n", c.group, c.name, c.about);
+    for (const auto& c : cases) fmt::print("{:<10} {:<22} {}\n", c.group, c.name, c.about);
     return exit_ok;
   }
-  std::unique_ptr<OutputFile> json;
-  if (!a.json.empty()) json = std::make_unique<OutputFile>(a.json);
+  files::Outputs outputs;
+  files::OutputFile* json = outputs.open("--json", a.json);
+  std::FILE* to = outputs.text();
   std::vector<extremes::Result> results;
   std::string broken;
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -72,7 +75,7 @@ int run(const ExtremesArguments& a) {
     progress.update(static_cast<double>(i) / static_cast<double>(cases.size()));
     results.push_back({cases[i], cases[i].run(settings)});
     if (!results.back().outcome.holds()) broken += std::string(" ") + cases[i].name;
-    if (!a.markdown) std::fputs(extremes::text(results.back()).c_str(), stdout);
+    if (!a.markdown) fmt::print(to, "{}", extremes::text(results.back()));
   }
   if (a.markdown) {
     std::string out;
@@ -81,15 +84,13 @@ int run(const ExtremesArguments& a) {
     } else {
       for (const auto& r : results) out += extremes::markdown(r) + "\n";
     }
-    std::fputs(out.c_str(), stdout);
+    fmt::print(to, "{}", out);
   } else {
-    std::printf("%zu cases%s%s\n", results.size(),
-                broken.empty() ? ", all hold" : ", broken:", broken.c_str());
+    fmt::print(to, "{} cases{}{}\n", results.size(),
+               broken.empty() ? ", all hold" : ", broken:", broken);
   }
-  if (json) {
-    std::fputs(extremes::json(results).c_str(), json->handle());
-    json->commit();
-  }
+  if (json != nullptr) json->write(extremes::json(results));
+  outputs.commit();
   return broken.empty() ? exit_ok : exit_failed;
 }
 

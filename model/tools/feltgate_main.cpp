@@ -2,9 +2,6 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The feltgate program. Documentation: README.md
-#include <cstdio>
-#include <exception>
-
 #include "tools/commands.hpp"
 
 int main(int argc, char** argv) {
@@ -14,7 +11,6 @@ int main(int argc, char** argv) {
   app.name("feltgate");
   app.set_version_flag("--version", std::string("feltgate ") + FELTGATE_VERSION);
   app.require_subcommand(1);
-  app.failure_message(CLI::FailureMessage::simple);
   int exit_code = exit_ok;
   add_run(app, &exit_code);
   add_replay(app, &exit_code);
@@ -25,13 +21,5 @@ int main(int argc, char** argv) {
   add_trim(app, &exit_code);
   add_stability(app, &exit_code);
   add_scripts(app, &exit_code);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? exit_ok : exit_unusable;
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "feltgate: %s\n", e.what());
-    return exit_unusable;
-  }
-  return exit_code;
+  return run_command_line(app, argc, argv, exit_code);
 }

@@ -4,56 +4,29 @@
 // JSON, CSV and text of a run. Documentation: docs/json.md
 #include "tools/output.hpp"
 
-#include <unistd.h>
-
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 
+#include "files/json_text.hpp"
+
 namespace feltgate {
 
 using Json = nlohmann::ordered_json;
 
-OutputFile::OutputFile(const std::string& path)
-    : path_(path), part_(path + "." + std::to_string(getpid()) + ".part") {
-  file_ = std::fopen(part_.c_str(), "w");
-  if (file_ == nullptr) {
-    throw std::runtime_error(path +
-                             ": cannot be written; choose a folder that exists and is writable");
-  }
-}
-
-OutputFile::~OutputFile() {
-  if (file_ != nullptr) {
-    std::fclose(file_);
-    std::remove(part_.c_str());
-  }
-}
-
-void OutputFile::commit() {
-  const bool written = std::fflush(file_) == 0 && std::ferror(file_) == 0;
-  const bool closed = std::fclose(file_) == 0;
-  file_ = nullptr;
-  if (!written || !closed || std::rename(part_.c_str(), path_.c_str()) != 0) {
-    std::remove(part_.c_str());
-    throw std::runtime_error(path_ + ": could not be written whole; is the disk full?");
-  }
-}
-
-CsvWriter::CsvWriter(const std::string& path, int every) : file_(path), every_(every) {
+CsvWriter::CsvWriter(std::FILE* to, int every) : to_(to), every_(every) {
   std::fputs(
       "time_s,theta_rad,omega_rad_s,motor_torque_nm,hand_torque_nm,position_rad,velocity_rad_s,"
       "tau_ref_nm,tau_hat_nm,current_a,voltage_v,duty,quad_velocity_rad_s,quad_tau_hat_nm,"
       "quad_current_a,limits,faults\n",
-      file_.handle());
+      to_);
 }
 
 void CsvWriter::add(const Row& r) {
   if (count_++ % every_ != 0) return;
   std::fprintf(
-      file_.handle(),
-      "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.12g,%.12g,%.12g,%d,%d\n",
+      to_, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.12g,%.12g,%.12g,%d,%d\n",
       r.time_s, r.theta_rad, r.omega_rad_s, r.motor_torque_nm, r.hand_torque_nm, r.position_rad,
       r.velocity_rad_s, r.tau_ref_nm, r.tau_hat_nm, r.current_a, r.voltage_v, r.duty,
       r.quad_velocity_rad_s, r.quad_tau_hat_nm, r.quad_current_a, r.limits, r.faults);
@@ -169,7 +142,7 @@ std::string run_json(const RunResult& r, const RunLabels& labels) {
     j["figures"] = r.figures;
     j["expectations"] = {{"checked", labels.expectations}, {"broken", r.broken}};
   }
-  return j.dump(2) + "\n";
+  return files::json_text(j);
 }
 
 std::string run_text(const RunResult& r, const RunLabels& labels) {

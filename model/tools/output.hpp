@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A run's figures as JSON and its rows as CSV; files appear whole or not at all.
+// A run's figures as JSON and its rows as CSV.
 // Documentation: docs/json.md
 #pragma once
 
@@ -15,33 +15,14 @@
 
 namespace feltgate {
 
-/// A file under construction: written beside its name and renamed by commit(), removed otherwise.
-class OutputFile {
- public:
-  /// Throws std::runtime_error when it cannot be created.
-  explicit OutputFile(const std::string& path);
-  ~OutputFile();
-  OutputFile(const OutputFile&) = delete;
-  OutputFile& operator=(const OutputFile&) = delete;
-  std::FILE* handle() { return file_; }
-  const std::string& part() const { return part_; }
-  /// Throws std::runtime_error when not everything could be written.
-  void commit();
-
- private:
-  std::string path_, part_;
-  std::FILE* file_ = nullptr;
-};
-
 /// Rows to CSV, every n-th one.
 class CsvWriter {
  public:
-  CsvWriter(const std::string& path, int every);
+  CsvWriter(std::FILE* to, int every);
   void add(const Row& row);
-  void commit() { file_.commit(); }
 
  private:
-  OutputFile file_;
+  std::FILE* to_;
   int every_;
   std::int64_t count_ = 0;
 };

@@ -2,11 +2,15 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate replay and feltgate import. Documentation: docs/traces.md, docs/json.md
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
+#include "files/output_file.hpp"
 #include "loop/replay.hpp"
 #include "loop/scenario_bounds.hpp"
 #include "tools/commands.hpp"
@@ -77,15 +81,18 @@ int replay(ReplayArguments& a) {
   options.engine = a.engine;
   options.scene = a.scene;
   options.seed = how.seed;
-  options.fst = a.fst;
   options.most_clocks = static_cast<Clock>(a.seconds * static_cast<double>(how.clock_hz));
-  std::unique_ptr<CsvWriter> csv;
-  if (!a.csv.empty()) {
-    csv = std::make_unique<CsvWriter>(a.csv, a.every);
-    options.row = [&csv](const Row& r) { csv->add(r); };
+  files::Outputs outputs;
+  outputs.reads(a.trace.path);
+  files::OutputFile* json = outputs.open("--json", a.json);
+  files::OutputFile* csv = outputs.open("--csv", a.csv);
+  files::OutputFile* fst = outputs.open("--fst", a.fst);
+  if (fst != nullptr) options.fst = fst->named();
+  std::optional<CsvWriter> rows;
+  if (csv != nullptr) {
+    rows.emplace(csv->handle(), a.every);
+    options.row = [&rows](const Row& r) { rows->add(r); };
   }
-  std::unique_ptr<OutputFile> json;
-  if (!a.json.empty()) json = std::make_unique<OutputFile>(a.json);
   // The length is not known before the end; a first pass over the file finds it.
   Clock length = 0;
   if (options.most_clocks > 0) {
@@ -116,23 +123,22 @@ int replay(ReplayArguments& a) {
   check_bounds(result, bounds);
   RunLabels labels{"trace", "", probe_text(how), false, 0};
   labels.bounds = &bounds;
-  if (csv) csv->commit();
-  if (json) {
-    std::fputs(run_json(result, labels).c_str(), json->handle());
-    json->commit();
-  }
-  if (!a.quiet) std::fputs(run_text(result, labels).c_str(), stdout);
+  if (json != nullptr) json->write(run_json(result, labels));
+  if (!a.quiet) fmt::print(outputs.text(), "{}", run_text(result, labels));
+  outputs.commit();
   if (result.mismatches > 0) {
     // The replay is deterministic: once more, with the waveform on around the place.
     options.row = nullptr;
     options.progress = nullptr;
-    options.fst = mismatch_path(name, a.design);
+    files::OutputFile waveform("waveform", mismatch_path(name, a.design));
+    options.fst = waveform.named();
     options.fst_from = result.first_mismatch_clock - mismatch_before;
     options.fst_to = result.first_mismatch_clock + mismatch_after;
     options.most_clocks = options.fst_to + 1;
     const auto again = traces::open(a.trace.path, how);
     run_replay(*again, name, options);
-    tell_mismatch(result.first_mismatch, options.fst);
+    waveform.commit();
+    tell_mismatch(result.first_mismatch, waveform.path());
   }
   return result.mismatches == 0 && result.broken.empty() ? exit_ok : exit_failed;
 }
@@ -178,9 +184,13 @@ void add_import(CLI::App& app, int* exit_code) {
     traces::Options how = a->trace.read();
     how.clock_hz = make_engine(a->design, "twin")->design().clock_hz;
     const auto source = traces::open(a->trace.path, how);
-    traces::write_vector(a->out, a->design, how.clock_hz, *source);
-    std::printf("wrote %s, %.6g s\n", a->out.c_str(),
-                static_cast<double>(source->length()) / static_cast<double>(how.clock_hz));
+    files::Outputs outputs;
+    outputs.reads(a->trace.path);
+    files::OutputFile* out = outputs.open("OUT", a->out);
+    traces::write_vector(out->handle(), a->out, a->design, how.clock_hz, *source);
+    outputs.commit();
+    fmt::print(outputs.text(), "wrote {}, {:.6g} s\n", a->out,
+               static_cast<double>(source->length()) / static_cast<double>(how.clock_hz));
     *exit_code = exit_ok;
   });
 }

@@ -2,11 +2,13 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate run. Documentation: docs/scenes.md, docs/json.md
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <memory>
 
+#include "files/output_file.hpp"
 #include "loop/loop.hpp"
 #include "loop/scenario_bounds.hpp"
 #include "plant/plant_file.hpp"
@@ -44,31 +46,45 @@ int run(const RunArguments& a) {
   Scenario scenario = read_scenario(scene_path);
   apply_settings(a.set, scenario);
   if (!a.plant.empty()) scenario.plant = a.plant;
-  const plant::Parameters plant =
-      plant::read_plant_file(find_file(scenario.plant, "vectors/plants"));
+  const std::string plant_path = find_file(scenario.plant, "vectors/plants");
+  const plant::Parameters plant = plant::read_plant_file(plant_path);
   resolve_effects(scenario, plant.effects);
 
   RunOptions options;
   options.design = a.design;
   options.engine = a.engine;
   options.seed = a.seed;
-  options.fst = a.fst;
-  options.record = a.record;
+  // Opened before the run: a name that cannot be written must not cost it.
+  files::Outputs outputs;
+  outputs.reads(scene_path);
+  outputs.reads(plant_path);
+  outputs.folder("--report", a.report);
+  files::OutputFile* json = outputs.open("--json", a.json);
+  files::OutputFile* csv = outputs.open("--csv", a.csv);
+  files::OutputFile* fst = outputs.open("--fst", a.fst);
+  files::OutputFile* record = outputs.open("--record", a.record);
+  if (fst != nullptr) options.fst = fst->named();
+  if (record != nullptr) options.record = record->handle();
+  std::vector<CsvWriter> writers;
+  if (csv != nullptr) writers.emplace_back(csv->handle(), a.every > 0 ? a.every : 1);
+  // The report reads files, so what went to stdout or a device it gets once more.
   std::string json_path = a.json, csv_path = a.csv;
   if (!a.report.empty()) {
-    std::filesystem::create_directories(a.report);
-    if (json_path.empty()) json_path = a.report + "/" + scenario.name + ".json";
-    if (csv_path.empty()) csv_path = a.report + "/" + scenario.name + ".csv";
+    const std::string begin = a.report + "/" + scenario.name;
+    if (json == nullptr || json->in_place()) json_path = begin + ".json";
+    if (csv == nullptr || csv->in_place()) {
+      csv_path = begin + ".csv";
+      writers.emplace_back(outputs.open("--report", csv_path)->handle(),
+                           a.every > 0 ? a.every : 50);
+    }
   }
-  std::unique_ptr<CsvWriter> csv;
-  if (!csv_path.empty()) {
-    const int every = a.every > 0 ? a.every : a.csv.empty() ? 50 : 1;
-    csv = std::make_unique<CsvWriter>(csv_path, every);
-    options.row = [&csv](const Row& r) { csv->add(r); };
+  files::OutputFile* report_json =
+      json_path == a.json ? nullptr : outputs.open("--report", json_path);
+  if (!writers.empty()) {
+    options.row = [&writers](const Row& r) {
+      for (CsvWriter& writer : writers) writer.add(r);
+    };
   }
-  // Opened before the run: a name that cannot be written must not cost it.
-  std::unique_ptr<OutputFile> json;
-  if (!json_path.empty()) json = std::make_unique<OutputFile>(json_path);
   Progress progress(scenario.name + " on " + a.design, a.quiet);
   options.progress = [&progress](double done) { progress.update(done); };
   const auto elaborated =
@@ -93,20 +109,16 @@ int run(const RunArguments& a) {
                    scenario.step_clocks,
                    effects_off(scenario),
                    &bounds};
-  if (csv) csv->commit();
-  if (json) {
-    std::fputs(run_json(result, labels).c_str(), json->handle());
-    json->commit();
+  for (files::OutputFile* file : {json, report_json}) {
+    if (file != nullptr) file->write(run_json(result, labels));
   }
-  if (!a.quiet) std::fputs(run_text(result, labels).c_str(), stdout);
+  if (!a.quiet) fmt::print(outputs.text(), "{}", run_text(result, labels));
+  outputs.commit();
   const bool ok = result.mismatches == 0 && result.broken.empty();
   if (!a.report.empty()) {
-    const char* python = std::getenv("FELTGATE_PYTHON");
-    std::fflush(stdout);
-    const std::string command = std::string("'") + (python != nullptr ? python : "python3") +
-                                "' '" + repository() + "/scripts/report.py' '" + a.report + "' '" +
-                                json_path + "' '" + csv_path + "'";
-    if (std::system(command.c_str()) != 0) return exit_unusable;
+    const int status =
+        run_script("report.py", {"--", a.report, json_path, csv_path}, outputs.text());
+    if (status != 0) return status < exit_signal ? exit_unusable : status;
   }
   if (a.quiet) {
     for (const std::string& line : result.broken) std::fprintf(stderr, "%s\n", line.c_str());
@@ -117,14 +129,16 @@ int run(const RunArguments& a) {
     again.design = a.design;
     again.engine = a.engine;
     again.seed = a.seed;
-    again.fst = mismatch_path(scenario.name, a.design);
+    files::OutputFile waveform("waveform", mismatch_path(scenario.name, a.design));
+    again.fst = waveform.named();
     again.fst_from = result.first_mismatch_clock - mismatch_before;
     again.fst_to = result.first_mismatch_clock + mismatch_after;
     scenario.duration_s *=
         static_cast<double>(again.fst_to + 1) / static_cast<double>(result.clocks);
     scenario.expectations.clear();
     run_scenario(scenario, plant, again);
-    tell_mismatch(result.first_mismatch, again.fst);
+    waveform.commit();
+    tell_mismatch(result.first_mismatch, waveform.path());
   }
   return ok ? exit_ok : exit_failed;
 }

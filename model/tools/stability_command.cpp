@@ -2,15 +2,15 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate stability. Documentation: docs/stability.md
+#include <fmt/format.h>
+
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <memory>
 
+#include "files/output_file.hpp"
 #include "plant/plant_file.hpp"
 #include "stability/report.hpp"
 #include "tools/commands.hpp"
-#include "tools/output.hpp"
 
 namespace feltgate {
 
@@ -24,15 +24,15 @@ struct StabilityArguments {
 
 /// 1 when the chain's bits and the eigenvalues differ by more than 5 % where the swing spans enough
 /// counts for the two to mean the same.
-int verdict(const stability::Study& study) {
+int verdict(const stability::Study& study, std::FILE* text) {
   constexpr double enough_counts = 8, tolerance = 0.05;
   int off = 0;
   for (const auto& p : study.borders) {
     if (p.exact.stiffness_nm_rad == 0 || p.swing_counts < enough_counts) continue;
     const double ratio = p.bits_nm_rad / p.exact.stiffness_nm_rad;
     if (ratio > 1 - tolerance && ratio < 1 + tolerance) continue;
-    std::printf("bits and eigenvalues differ by more than 5 %%: %g Hz, B = %g Nm s/rad\n",
-                p.rate_hz, p.damping_nm_s_rad);
+    fmt::print(text, "bits and eigenvalues differ by more than 5 %: {:g} Hz, B = {:g} Nm s/rad\n",
+               p.rate_hz, p.damping_nm_s_rad);
     ++off;
   }
   return off == 0 ? exit_ok : exit_failed;
@@ -43,13 +43,15 @@ int run(const StabilityArguments& a) {
   const auto e = elaborate(design::read_design(find_file(a.design, "rtl/designs")), registers);
   const auto linear = plant::read_plant_file(find_file(a.linear, "vectors/plants"));
   const auto full = plant::read_plant_file(find_file(a.plant, "vectors/plants"));
+  files::Outputs outputs;
+  outputs.folder("--plot", a.plot);
+  files::OutputFile* json = outputs.open("--json", a.json);
+  // The pictures are drawn from a file.
   std::string json_path = a.json;
-  if (!a.plot.empty()) {
-    std::filesystem::create_directories(a.plot);
-    if (json_path.empty()) json_path = a.plot + "/stability.json";
+  if (!a.plot.empty() && (json == nullptr || json->in_place())) {
+    json_path = a.plot + "/stability.json";
   }
-  std::unique_ptr<OutputFile> json;
-  if (!json_path.empty()) json = std::make_unique<OutputFile>(json_path);
+  files::OutputFile* plot_json = json_path == a.json ? nullptr : outputs.open("--plot", json_path);
   stability::StudyOptions options;
   if (!a.rates.empty()) options.rates_hz = a.rates;
   if (!a.damping.empty()) options.damping_nm_s_rad = a.damping;
@@ -58,20 +60,16 @@ int run(const StabilityArguments& a) {
   Progress progress("stability of " + e.design.name, false);
   options.progress = [&progress](double done) { progress.update(done); };
   const auto study = run_study(e, linear, full, options);
-  std::fputs(stability::study_text(study).c_str(), stdout);
-  if (json) {
-    std::fputs(stability::study_json(study).c_str(), json->handle());
-    json->commit();
+  fmt::print(outputs.text(), "{}", stability::study_text(study));
+  for (files::OutputFile* file : {json, plot_json}) {
+    if (file != nullptr) file->write(stability::study_json(study));
   }
+  outputs.commit();
   if (!a.plot.empty()) {
-    const char* python = std::getenv("FELTGATE_PYTHON");
-    std::fflush(stdout);
-    const std::string command = std::string("'") + (python != nullptr ? python : "python3") +
-                                "' '" + repository() + "/scripts/stability.py' '" + json_path +
-                                "' '" + a.plot + "'";
-    if (std::system(command.c_str()) != 0) return exit_unusable;
+    const int status = run_script("stability.py", {"--", json_path, a.plot}, outputs.text());
+    if (status != 0) return status < exit_signal ? exit_unusable : status;
   }
-  return options.bits ? verdict(study) : exit_ok;
+  return options.bits ? verdict(study, outputs.text()) : exit_ok;
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate trim. Documentation: docs/trim.md
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <ctime>
 #include <memory>
@@ -9,9 +11,10 @@
 #include <sstream>
 #include <thread>
 
+#include "files/json_text.hpp"
+#include "files/output_file.hpp"
 #include "plant/plant_file.hpp"
 #include "tools/commands.hpp"
-#include "tools/output.hpp"
 #include "trim/scene_file.hpp"
 #include "trim/trim.hpp"
 
@@ -167,7 +170,7 @@ std::string json_of(const trim::Report& r, const Scenario& scene, const TrimArgu
                            {"searched", u.searched},
                            {"difference", difference_json(u.difference)}});
   }
-  return j.dump(2) + "\n";
+  return files::json_text(j);
 }
 
 std::string comment_of(const trim::Report& r, const Scenario& scene, const TrimArguments& a) {
@@ -193,28 +196,30 @@ int run_trim(TrimArguments& a) {
     scene.duration_s = a.duration_s;
     scene.expectations.clear();
   }
-  const plant::Parameters plant = plant::read_plant_file(find_file(scene.plant, "vectors/plants"));
-  const auto open = [](const std::string& path) {
-    return path.empty() ? nullptr : std::make_unique<OutputFile>(path);
-  };
-  const auto output = open(a.output), json = open(a.json);
+  const std::string plant_path = find_file(scene.plant, "vectors/plants");
+  const plant::Parameters plant = plant::read_plant_file(plant_path);
+  files::Outputs outputs;
+  outputs.reads(scene.path);
+  outputs.reads(plant_path);
+  files::OutputFile* output = outputs.open("--output", a.output);
+  files::OutputFile* json = outputs.open("--json", a.json);
   Progress progress("trim " + scene.name + " on " + a.options.design, a.quiet);
   a.options.progress = [&progress](double done) { progress.update(done); };
   const trim::Report report = trim::trim(scene, plant, a.options);
   progress.finish();
 
-  if (json) {
-    std::fputs(json_of(report, scene, a).c_str(), json->handle());
-    json->commit();
+  if (json != nullptr) json->write(json_of(report, scene, a));
+  if (!a.quiet) fmt::print(outputs.text(), "{}", text_of(report, scene, a));
+  const bool found = report.holds && report.smaller();
+  if (output != nullptr) {
+    if (found) {
+      output->write(trim::scene_text(scene, report.trimmed, comment_of(report, scene, a)));
+    } else {
+      output->discard();
+    }
   }
-  if (!a.quiet) std::fputs(text_of(report, scene, a).c_str(), stdout);
-  if (!report.holds || !report.smaller()) return exit_failed;
-  if (output) {
-    std::fputs(trim::scene_text(scene, report.trimmed, comment_of(report, scene, a)).c_str(),
-               output->handle());
-    output->commit();
-  }
-  return exit_ok;
+  outputs.commit();
+  return found ? exit_ok : exit_failed;
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 // Documentation: docs/traces.md
 #pragma once
 
+#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "feltgate/encoder_source.hpp"
@@ -51,32 +51,28 @@ class VectorCapture final : public Capture {
   bool ended_ = false;
 };
 
-/// Writes such a file beside its final name and renames it in finish(): a reader never sees a part.
-/// Every call throws TraceError when the disk or the caller (events out of order) is at fault.
+/// Writes such a file. Every call throws TraceError when the caller is at fault (events out of
+/// order); whether the disk took everything is for the file's owner to ask.
 class VectorWriter {
  public:
-  VectorWriter(const std::filesystem::path& path, const VectorHeader& header, EncoderPins initial);
-  /// Without finish() nothing is left behind.
-  ~VectorWriter();
-  VectorWriter(const VectorWriter&) = delete;
-  VectorWriter& operator=(const VectorWriter&) = delete;
+  /// `name` is how errors call the file.
+  VectorWriter(std::FILE* to, std::string name, const VectorHeader& header, EncoderPins initial);
 
   /// Strictly later than the event before, and later than clock 0.
   void add(const EncoderEvent& event);
-  /// Ends the file at this length in clocks, later than the last event, and gives it its name.
+  /// Ends the file at this length in clocks, later than the last event.
   void finish(Clock length);
 
  private:
   void write(Clock clock, const EncoderPins& pins);
 
-  std::filesystem::path path_;
-  std::filesystem::path part_;
-  std::ofstream file_;
+  std::FILE* to_;
+  std::string name_;
   Clock last_ = 0;
 };
 
 /// Writes a whole source with signals A, B, Z; returns its length in clocks.
-Clock write_vector(const std::filesystem::path& path, const std::string& design,
+Clock write_vector(std::FILE* to, const std::string& name, const std::string& design,
                    std::int64_t clock_hz, EncoderSource& source);
 
 }  // namespace feltgate::traces

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "catch.hpp"
+#include "files/output_file.hpp"
 #include "recording_files.hpp"
 #include "traces/place.hpp"
 #include "traces/statistics.hpp"
@@ -204,7 +205,13 @@ TEST_CASE("vectors are written whole or not at all, and read back exactly", "[tr
       folder.file("s.csv", "time_us,A,B,Z\n0,0,0,1\n1,0,0,1\n2,1,0,0\n3,1,0,1\n4,0,1,0\n");
   const auto path = folder.path() / "v.txt";
   const auto source = traces::open(csv, Options());
-  CHECK(write_vector(path, "lever", 50'000'000, *source) == 250);
+  const auto written = [&path](EncoderSource& from) {
+    files::OutputFile file("-o", path.string());
+    const Clock length = write_vector(file.handle(), path.string(), "lever", 50'000'000, from);
+    file.commit();
+    return length;
+  };
+  CHECK(written(*source) == 250);
   CHECK(told(path, Options()) == told(csv, Options()));
   CHECK(told(path, plain()) == told(csv, Options()));
   Options twice = plain();
@@ -219,15 +226,18 @@ TEST_CASE("vectors are written whole or not at all, and read back exactly", "[tr
                                             "$var wire 1 b B $end $enddefinitions $end "
                                             "#0 0a 0b #5 1a #4 1b"),
                                 Options());
-  CHECK_THROWS_AS(write_vector(path, "lever", 50'000'000, *bad), TraceError);
+  CHECK_THROWS_AS(written(*bad), TraceError);
   CHECK_THROWS_AS(traces::open(broken, Options()), TraceError);
   CHECK(test::bytes_of(path) == kept);
-  CHECK_FALSE(std::filesystem::exists(folder.path() / "v.txt.part"));
-  VectorWriter writer(folder.path() / "w.txt", VectorHeader{"lever", 1, {"A", "B", "Z"}}, {});
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    CHECK(entry.path().extension() != ".part");
+  }
+  files::OutputFile file("-o", (folder.path() / "w.txt").string());
+  VectorWriter writer(file.handle(), "w.txt", VectorHeader{"lever", 1, {"A", "B", "Z"}}, {});
   writer.add({5, {}});
   CHECK_THROWS_AS(writer.add({5, {}}), TraceError);
   CHECK_THROWS_AS(writer.finish(5), TraceError);
-  CHECK_THROWS_AS(VectorWriter(folder.path() / "no" / "w", VectorHeader{"lever", 1, {}}, {}),
+  CHECK_THROWS_AS(VectorWriter(file.handle(), "w.txt", VectorHeader{"lever", 1, {}}, {}),
                   TraceError);
 }
 

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Files that appear whole. Documentation: docs/json.md
+#include "files/output_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+
+namespace fs = std::filesystem;
+
+namespace feltgate::files {
+
+namespace {
+
+/// A name beside the target's that nobody else has; cut where a file's name would be too long.
+std::string part_of(const Destination& d) {
+  constexpr std::size_t most = 200;
+  static int count = 0;
+  const fs::path folder = fs::path(d.target).parent_path();
+  return (folder / fmt::format("{}.{}.{}.part", d.name.substr(0, most), getpid(), ++count))
+      .string();
+}
+
+/// The owner and mode of the file that will be replaced; the owner only where that is allowed.
+void take_over(int fd, const struct stat& old) {
+  if (fchown(fd, old.st_uid, old.st_gid) != 0) errno = 0;
+  if (fchmod(fd, old.st_mode & 07777) != 0) errno = 0;
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const std::string& option, const std::string& path)
+    : option_(option), path_(path), destination_(find_destination(option, path)) {
+  int fd = destination_.in_place;
+  if (fd < 0) {
+    part_ = part_of(destination_);
+    unfinished_ = std::make_unique<Unfinished>(part_, Unfinished::Kind::file);
+    fd = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (fd < 0) {
+      throw std::invalid_argument(fmt::format("{}: cannot be written: {}; choose a folder that can",
+                                              label(), std::strerror(errno)));
+    }
+    if (destination_.now) take_over(fd, *destination_.now);
+  }
+  file_ = fdopen(fd, "w");
+}
+
+OutputFile::~OutputFile() { discard(); }
+
+void OutputFile::discard() {
+  if (file_ != nullptr) std::fclose(file_);
+  file_ = nullptr;
+  if (!part_.empty()) unlink(part_.c_str());
+  part_.clear();
+  unfinished_.reset();
+  beside_.reset();
+}
+
+const std::string& OutputFile::named() {
+  if (in_place()) {
+    throw std::invalid_argument(label() + ": takes a file only, no device, pipe or stdout");
+  }
+  // The writer of waveforms keeps its table of signals beside them until it is closed.
+  beside_ = std::make_unique<Unfinished>(part_ + ".hier", Unfinished::Kind::file);
+  return part_;
+}
+
+void OutputFile::fail(int error) {
+  discard();
+  throw std::runtime_error(fmt::format("{}: could not be written whole: {}", label(),
+                                       error == 0 ? "is the disk full?" : std::strerror(error)));
+}
+
+void OutputFile::commit() {
+  if (file_ == nullptr) return;
+  errno = 0;
+  const bool before = std::ferror(file_) == 0;
+  const bool written = std::fflush(file_) == 0 && before;
+  int error = errno;
+  const bool closed = std::fclose(file_) == 0;
+  if (error == 0) error = errno;
+  file_ = nullptr;
+  if (!written || !closed) fail(error);
+  if (in_place()) return;
+  if (beside_ && destination_.now) chmod(part_.c_str(), destination_.now->st_mode & 07777);
+  if (std::rename(part_.c_str(), destination_.target.c_str()) != 0) {
+    const std::string kept = part_;
+    part_.clear();  // what was computed stays
+    throw std::runtime_error(fmt::format("{}: could not be given its name: {}; it is whole in {}",
+                                         label(), std::strerror(errno), kept));
+  }
+  part_.clear();
+  unfinished_.reset();
+  beside_.reset();
+}
+
+OutputFolder::OutputFolder(const std::string& option, const std::string& path) {
+  const auto refuse = [&](const std::string& why) {
+    for (auto made = made_.rbegin(); made != made_.rend(); ++made) rmdir(made->c_str());
+    throw std::invalid_argument(fmt::format("{} {}: {}", option, path, why));
+  };
+  if (path.empty()) refuse("has no name; give a folder's");
+  fs::path so_far;
+  for (const fs::path& piece : fs::path(path)) {
+    so_far /= piece;
+    std::error_code ignored;
+    if (fs::is_directory(so_far, ignored)) continue;
+    unfinished_.push_back(std::make_unique<Unfinished>(so_far.string(), Unfinished::Kind::folder));
+    if (mkdir(so_far.c_str(), 0777) != 0) {
+      const int error = errno;
+      refuse(fs::exists(so_far, ignored)
+                 ? fmt::format("{} is no folder; choose another name", so_far.string())
+                 : fmt::format("cannot be made: {}; choose another place", std::strerror(error)));
+    }
+    made_.push_back(so_far.string());
+  }
+  if (access(path.c_str(), W_OK | X_OK) != 0) {
+    refuse(fmt::format("cannot be written: {}; choose another folder", std::strerror(errno)));
+  }
+}
+
+OutputFolder::~OutputFolder() {
+  for (auto made = made_.rbegin(); made != made_.rend(); ++made) rmdir(made->c_str());
+}
+
+OutputFile* Outputs::open(const std::string& option, const std::string& path) {
+  if (path.empty()) return nullptr;
+  auto file = std::make_unique<OutputFile>(option, path);
+  const Destination& d = file->destination();
+  for (const auto& other : files_) {
+    if (d.same(other->destination())) {
+      throw std::invalid_argument(fmt::format("{} and {} are the same; give each its own name",
+                                              other->label(), file->label()));
+    }
+  }
+  for (const auto& [name, input] : inputs_) {
+    if (d.now && d.now->st_dev == input.st_dev && d.now->st_ino == input.st_ino) {
+      throw std::invalid_argument(fmt::format(
+          "{} would replace {}, which is read; choose another name", file->label(), name));
+    }
+  }
+  if (!file->in_place() && d.same(STDOUT_FILENO)) {
+    throw std::invalid_argument(file->label() +
+                                " is where stdout goes too; give each its own name");
+  }
+  files_.push_back(std::move(file));
+  return files_.back().get();
+}
+
+void Outputs::folder(const std::string& option, const std::string& path) {
+  if (!path.empty()) folders_.push_back(std::make_unique<OutputFolder>(option, path));
+}
+
+void Outputs::reads(const std::string& path) {
+  struct stat found = {};
+  if (stat(path.c_str(), &found) == 0 && S_ISREG(found.st_mode)) inputs_.emplace_back(path, found);
+}
+
+std::FILE* Outputs::text() const {
+  for (const auto& file : files_) {
+    if (file->in_place() && file->destination().same(STDOUT_FILENO)) return stderr;
+  }
+  return stdout;
+}
+
+void Outputs::commit() {
+  std::string failed;
+  for (const auto& file : files_) {
+    try {
+      file->commit();
+    } catch (const std::runtime_error& error) {
+      failed += (failed.empty() ? "" : "\n") + std::string(error.what());
+    }
+  }
+  if (!failed.empty()) throw std::runtime_error(failed);
+}
+
+}  // namespace feltgate::files

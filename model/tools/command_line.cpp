@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The command line as a whole: errors as one line with the nearest name, exit codes, signals.
+// Documentation: README.md
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "config/nearest.hpp"
+#include "files/unfinished.hpp"
+#include "tools/commands.hpp"
+
+namespace feltgate {
+
+namespace {
+
+/// Options and subcommands that a word may have been meant to be.
+std::vector<std::string> words_of(const CLI::App& app, bool options) {
+  std::vector<std::string> words;
+  for (const CLI::Option* option : app.get_options()) {
+    if (!options) break;
+    for (const std::string& name : option->get_lnames()) words.push_back("--" + name);
+  }
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (!options) words.push_back(sub->get_name());
+  }
+  return words;
+}
+
+/// One line about what the parser refused, with the nearest name for a misspelt one.
+std::string parse_error(const CLI::App& app, const CLI::ParseError& error) {
+  const auto chosen = app.get_subcommands();
+  const CLI::App& at = chosen.empty() ? app : *chosen.front();
+  const std::string help = at.get_parent() == nullptr || &at == &app
+                               ? app.get_name() + " --help"
+                               : app.get_name() + " " + at.get_name() + " --help";
+  const std::vector<std::string> extra = app.remaining(true);
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr &&
+      !(chosen.empty() && !extra.empty())) {
+    return fmt::format("{}; see {}", error.what(), help);
+  }
+  if (extra.empty()) return fmt::format("{}; see {}", error.what(), help);
+  const std::string word = extra.front().substr(0, extra.front().find('='));
+  const bool option = word.rfind('-', 0) == 0;
+  const auto words = words_of(at, option);
+  return fmt::format("{} {} is unknown; {}see {}",
+                     option           ? "option"
+                     : chosen.empty() ? "command"
+                                      : "argument",
+                     word, config::did_you_mean(word, words), help);
+}
+
+}  // namespace
+
+int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code) {
+  files::end_on_signals();
+  try {
+    app.parse(argc, argv);
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
+    fmt::print(stderr, "{}: stdout could not be written whole; is the disk full?\n",
+               app.get_name());
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);  // help or version, on stdout
+    fmt::print(stderr, "{}: {}\n", app.get_name(), parse_error(app, e));
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "{}: {}\n", app.get_name(), e.what());
+  }
+  return exit_unusable;
+}
+
+}  // namespace feltgate

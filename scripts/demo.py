@@ -52,10 +52,6 @@ def find_recordings(named):
     return own, complaints + more, recordings.OWN
 
 
-def draw_run(run):
-    return run_section.pictures(run.job.name, run.summary, run.csv)
-
-
 def faults(found):
     lines = []
     for run in found.values():
@@ -142,14 +138,13 @@ def main(argv=None):
         walls, complaint = (None, "") if arguments.no_figures else stability_section.study(folder)
         shown = [job.name for job in scenes + replays if done[job.name].ran]
         with ProcessPoolExecutor(arguments.jobs) as pool:
-            pictures = dict(
-                zip(shown, pool.map(draw_run, [done[name] for name in shown]), strict=True)
-            )
+            pages = pool.map(demo_page.draw, [done[name] for name in shown])
+            shown_runs = dict(zip(shown, pages, strict=True))
         demo = demo_page.Demo(
             runs=done,
             scenes=[job.name for job in scenes],
             replays=[job.name for job in replays],
-            pictures=pictures,
+            drawn=shown_runs,
             figures=drawn,
             stability=walls,
             wrong=faults(done) + ([complaint] if complaint else []),

@@ -14,7 +14,7 @@ import json
 import sys
 from pathlib import Path
 
-from reporting import page, run_section
+from reporting import card, headline, page, run_pictures, run_section
 from reporting.runs import read_csv
 
 SCHEMA = "feltgate-run-1"
@@ -33,21 +33,28 @@ def read_summary(path):
     return summary
 
 
+def compared(summary):
+    """The verdict of a run with which nothing is wrong."""
+    if "mismatches" not in summary:
+        return f"{summary['clocks']:,} clocks; RTL and twin were not compared in this run"
+    good = f"0 mismatches between RTL and twin in {summary['clocks']:,} clocks"
+    if summary.get("expectations"):
+        good += f"; {summary['expectations']['checked']} expectations hold"
+    return good
+
+
 def report(summary, tables):
     """The page's text. `tables` are dictionaries of columns, as read_csv gives them."""
     subject = run_section.subject(summary)
-    drawn = []
+    drawn, cards = [], ""
     for i, csv in enumerate(tables):
-        drawn += run_section.pictures(f"{subject}-{i}" if i else subject, summary, csv)
+        drawn += run_pictures.pictures(f"{subject}-{i}" if i else subject, summary, csv)
+        if run_section.room(summary) != "line":
+            cards += card.html(f"card-{i}", summary, csv)
     body = f"<h1>feltgate: {page.escape(subject)}</h1>"
-    if "mismatches" in summary:
-        good = f"0 mismatches between RTL and twin in {summary['clocks']:,} clocks"
-        if summary.get("expectations"):
-            good += f"; {summary['expectations']['checked']} expectations hold"
-    else:
-        good = f"{summary['clocks']:,} clocks; RTL and twin were not compared in this run"
-    body += page.verdict(run_section.faults_of(summary), good)
-    body += run_section.inside(summary, drawn)
+    body += page.verdict(run_section.faults_of(summary), compared(summary))
+    body += headline.html(headline.of_run(summary, run_section.steps_of(summary))) + cards
+    body += page.section("detail", "In detail", run_section.inside(summary, drawn))
     body += page.paragraph(
         "Errors are against the same chain in 113-bit arithmetic on the same sampled counts; speed "
         "is simulated seconds per second spent in the engine. All of this is simulation.",

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The page of the main job: verdict, tables of all runs, the paper's figures, each run's pictures.
+"""The page of the main job: what a hand feels, three numbers, tables of all runs, the paper's
+figures, each run's pictures.
 
 Documentation: docs/figures.md
 """
@@ -11,8 +12,34 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from reporting import page, recordings, run_section, stability_section
+from reporting import card, demo_tables, headline, page, recordings, run_pictures, run_section
+from reporting import stability_section
 from reporting.progress import clock_text
+
+
+# What every reader has felt before.
+CARDS = ("membrane-lever", "spring_compression-lever", "wall-lever")
+STEPS = "torque_step-lever"
+
+
+@dataclass
+class Drawn:
+    """What was drawn of a run; a process of its own does that."""
+
+    pictures: list
+    card: str = ""
+    strip: str = ""
+
+
+def draw(run):
+    """A run's pictures, and what else the page shows of it."""
+    name, summary = run.job.name, run.summary
+    drawn = Drawn(run_pictures.pictures(name, summary, run.csv))
+    if name in CARDS:
+        drawn.card = card.html(f"card-{name}", summary, run.csv)
+    if run.job.recording is not None and run_section.room(summary) != "line":
+        drawn.strip = run_pictures.strip(run.csv)
+    return drawn
 
 
 @dataclass
@@ -22,7 +49,7 @@ class Demo:
     runs: dict
     scenes: list
     replays: list
-    pictures: dict = field(default_factory=dict)
+    drawn: dict = field(default_factory=dict)
     figures: list = field(default_factory=list)
     stability: dict | None = None
     wrong: list = field(default_factory=list)
@@ -44,131 +71,35 @@ class Demo:
         return sum(run.mismatches for run in self.runs.values())
 
 
-ERROR_HEAD = [
-    "velocity error, max, µrad/s",
-    "rms",
-    "observed torque, max, µNm",
-    "rms",
-    "torque, max, µNm",
-    "rms",
-]
-SPEED_HEAD = ["RTL, s/s", "twin", "double", "quad"]
-
-
-def error_cells(summary):
-    rtl = summary["engines"].get("rtl", {})
-    return [
-        cell
-        for key in ("velocity_rad_s", "tau_hat_nm", "torque_nm")
-        for cell in run_section.error_cells(rtl, key, 1e6)
-    ]
-
-
-def speed_cells(summary):
-    engines = summary["engines"]
-    return [page.number(engines.get(name, {}).get("speed")) for name in run_section.ENGINES]
-
-
-def scene_table(demo):
-    head = [
-        "scene",
-        "design",
-        "device time, s",
-        "mismatches",
-        "expectations broken",
-        *ERROR_HEAD,
-        "saturated ticks",
-        *SPEED_HEAD,
-    ]
-    rows = []
-    for name in demo.scenes:
-        run = demo.runs[name]
-        if not run.ran:
-            rows.append([name, page.Cell('<span class="bad">did not run</span>')])
-            continue
-        s = run.summary
-        expectations = s.get("expectations", {"checked": 0, "broken": []})
-        broken = page.good_or_bad(len(expectations["broken"]))
-        saturated = s["engines"].get("rtl", {}).get("saturations")
-        rows.append(
-            [
-                page.link(name, s["scene"]),
-                s["design"],
-                page.number(s["simulated_s"]),
-                page.good_or_bad(run.mismatches),
-                page.Cell(f"{broken} of {expectations['checked']}"),
-                *error_cells(s),
-                "–" if saturated is None else f"{saturated:,}",
-                *speed_cells(s),
-            ]
-        )
-    return page.table(head, rows)
-
-
-def step_table(demo):
-    head = ["scene", "design"] + [title for title, _ in run_section.STEP_KEYS]
-    rows = []
-    for name in demo.scenes:
-        run = demo.runs[name]
-        if not run.ran or run.summary["scene"].startswith("calibration"):  # in figures 7 and 10
-            continue
-        for step in run_section.steps_of(run.summary):
-            numbers = [page.number(step.get(key)) for _, key in run_section.STEP_KEYS]
-            rows.append([run.summary["scene"], run.summary["design"], *numbers])
-    return page.table(head, rows)
-
-
-def recording_table(demo):
-    head = [
-        "recording",
-        "device time, s",
-        "mismatches",
-        "steps",
-        "illegal",
-        "reversals",
-        "as known",
-        *ERROR_HEAD,
-        *SPEED_HEAD,
-    ]
-    rows = []
-    for name in demo.replays:
-        run = demo.runs[name]
-        recording = run.job.recording
-        if not run.ran:
-            rows.append([recording.title, page.Cell('<span class="bad">not read</span>')])
-            continue
-        s, p = run.summary, run.summary["position"]
-        known = "no table"
-        if recording.expected:
-            wrong = bool(recordings.faults(run))
-            known = page.Cell(
-                f'<span class="{"bad" if wrong else "good"}">'
-                f'{"differs" if wrong else "yes"}</span>'
-            )
-        rows.append(
-            [
-                page.link(name, recording.title),
-                page.number(s["simulated_s"]),
-                page.good_or_bad(run.mismatches),
-                f"{p['steps']:,}",
-                f"{p['illegal']:,}",
-                f"{p['reversals']:,}",
-                known,
-                *error_cells(s),
-                *speed_cells(s),
-            ]
-        )
-    return page.table(head, rows)
-
-
 def contents(demo):
-    parts = [("scenes", "scenes"), ("steps", "torque steps"), ("recordings", "recordings")]
-    links = [page.link(anchor, text) for anchor, text in parts]
+    links = [page.link("scenes", "scenes"), page.link("recordings", "recordings")]
     links += [page.link(f.name(), f"figure {f.number}") for f in demo.figures]
     if demo.stability:
         links.append(page.link("stability", "walls"))
     links.append(page.link("runs", "each run"))
     return f"<p>{' · '.join(links)}</p>"
+
+
+def headlines(demo):
+    """Clocks and mismatches of all runs, the largest error of any, the settling of a step."""
+    there = [run.summary for run in demo.runs.values() if run.ran]
+    found = [headline.compared(demo.clocks, demo.mismatches), headline.error(there)]
+    run = demo.runs.get(STEPS)
+    if run is not None and run.ran and run_section.steps_of(run.summary):
+        found.append(headline.settling(run.summary, run_section.steps_of(run.summary)))
+    return headline.html(found)
+
+
+def cards(demo):
+    found = [demo.drawn[name].card for name in CARDS if name in demo.drawn]
+    if not any(found):
+        return ""
+    text = page.paragraph(
+        "A hand moves the lever; the core reads its encoder and tells the motor how hard to push "
+        "back. The drawings move by the numbers of these runs: core, motor, lever and hand are "
+        "simulated, clock by clock."
+    )
+    return page.section("felt", "What a hand feels", text + "".join(found))
 
 
 def recordings_text(demo):
@@ -185,16 +116,66 @@ def recordings_text(demo):
     )
 
 
+def many(count, what):
+    return f"{count:,} {what}{'' if count == 1 else 's'}"
+
+
+def tables(demo):
+    """All runs; each table is folded, and its title says what came out."""
+    scenes = [demo.runs[name] for name in demo.scenes]
+    replays = [demo.runs[name] for name in demo.replays]
+    broken = sum(len(r.summary.get("expectations", {}).get("broken", [])) for r in scenes)
+    steps = sum(r.summary["position"]["steps"] for r in replays if r.ran)
+    text = page.paragraph(
+        "Each scene in closed loop with a modelled motor, lever and hand; each recording of a real "
+        "encoder whole. Errors are against the same chain in 113-bit arithmetic on the same "
+        "sampled counts; speed is simulated seconds per second spent in an engine. Everything is "
+        "simulation: nothing ran on a board."
+    )
+    text += contents(demo)
+    text += page.folded(
+        "scenes",
+        f"Scenes: {many(len(scenes), 'run')} in closed loop, {mismatches(scenes)}, "
+        f"{many(broken, 'expectation')} broken",
+        demo_tables.scenes(demo),
+    )
+    text += page.folded("steps", "Torque steps: how fast each settles", demo_tables.steps(demo))
+    read = recordings_text(demo) + demo_tables.replays(demo)
+    if demo.unreadable:
+        read += page.paragraph("Could not be read:") + page.bullets(demo.unreadable)
+    text += page.folded(
+        "recordings",
+        f"Encoder recordings: {len(replays)} in open loop, {many(steps, 'step')}, "
+        f"{mismatches(replays)}",
+        read,
+    )
+    text += page.folded(
+        "errors", "Errors: velocity and torque of every run", demo_tables.all_errors(demo)
+    )
+    text += page.folded("speed", "Speed of every engine in every run", demo_tables.speeds(demo))
+    return text
+
+
+def mismatches(there):
+    count = sum(run.mismatches for run in there)
+    return "1 mismatch" if count == 1 else f"{count:,} mismatches"
+
+
 def runs_section(demo):
-    parts = []
+    parts, lines = [], []
     for name in demo.scenes + demo.replays:
         run = demo.runs[name]
-        if run.ran:
-            title = f"{run_section.subject(run.summary)}, design {run.design}"
-            if run.job.recording is not None:
-                title = run.job.recording.title
-            text = run_section.inside(run.summary, demo.pictures.get(name, []))
-            parts.append(page.folded(name, title, text))
+        if not run.ran:
+            continue
+        title = f"{run_section.subject(run.summary)}, design {run.design}"
+        if run.job.recording is not None:
+            title = run.job.recording.title
+        if run_section.room(run.summary) == "line":
+            lines.append((name, f"{title}: {run_section.in_a_line(run.summary)}"))
+            continue
+        text = run_section.inside(run.summary, demo.drawn[name].pictures)
+        parts.append(page.folded(name, title, text))
+    parts += [page.line(name, text) for name, text in lines]
     return page.section("runs", "Each run", "\n".join(parts))
 
 
@@ -205,26 +186,13 @@ def document(demo):
         f"({demo.simulated_s:.1f} s of device time, {ran} runs)"
     )
     version = next((r.summary.get("version", "") for r in demo.runs.values() if r.ran), "")
-    body = "<h1>feltgate demo</h1>" + page.verdict(demo.wrong, good)
+    body = "<h1>feltgate demo</h1>"
     body += page.paragraph(
-        "A DSP core for haptic devices, from encoder pins to PWM pins. Its SystemVerilog runs here "
-        "beside its bit-exact C++ twin, every output compared in every clock, in closed loop with "
-        "a modelled motor, lever and hand, and on recordings of real encoders. Errors are against "
-        "the same chain in 113-bit arithmetic on the same sampled counts; speed is simulated "
-        "seconds per second spent in an engine. Everything is simulation: nothing ran on a board."
+        "A DSP core that lets a hand feel things that are not there, tried in simulation: its "
+        "SystemVerilog runs beside its bit-exact C++ twin, every output compared in every clock."
     )
-    body += page.paragraph(
-        f"feltgate {version}, {time.strftime('%Y-%m-%d %H:%M')}, {os.cpu_count()} cores "
-        f"({platform.machine()}), {clock_text(demo.took_s)} minutes",
-        soft=True,
-    )
-    body += contents(demo)
-    body += page.section("scenes", "Scenes, closed loop", scene_table(demo))
-    body += page.section("steps", "Torque steps", step_table(demo))
-    replays = recordings_text(demo) + recording_table(demo)
-    if demo.unreadable:
-        replays += page.paragraph("Could not be read:") + page.bullets(demo.unreadable)
-    body += page.section("recordings", "Encoder recordings, open loop", replays)
+    body += page.verdict(demo.wrong, good) + headlines(demo) + cards(demo)
+    body += page.section("tables", "All runs", tables(demo))
     if demo.figures:
         body += page.section(
             "figures",
@@ -239,4 +207,9 @@ def document(demo):
     if demo.stability:
         body += stability_section.html(demo.stability)
     body += runs_section(demo)
+    body += page.paragraph(
+        f"feltgate {version}, {time.strftime('%Y-%m-%d %H:%M')}, {os.cpu_count()} cores "
+        f"({platform.machine()}), {clock_text(demo.took_s)} minutes",
+        soft=True,
+    )
     return page.document("feltgate demo", body)

@@ -2,72 +2,52 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """A self-contained HTML page: no network, readable on a phone, in the dark and in print."""
 
+import json
 from html import escape
+from pathlib import Path
 
-STYLE = """
-:root{color-scheme:light dark;--back:#fff;--text:#1d2329;--soft:#5a6570;--line:#d8dee4;
---tint:#f4f6f8;--good:#116329;--good-back:#dcf5e3;--bad:#a40e26;--bad-back:#ffe3e3;--link:#0550ae}
-@media(prefers-color-scheme:dark){:root{--back:#15191e;--text:#e4e9ee;--soft:#9aa6b2;--line:#343c45;
---tint:#1e242b;--good:#6fdd8b;--good-back:#12301c;--bad:#ff9492;--bad-back:#3d1418;--link:#6cb6ff}}
-*{box-sizing:border-box}
-body{margin:0 auto;max-width:84rem;padding:1rem;background:var(--back);color:var(--text);
-font:16px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,"Liberation Sans",sans-serif}
-h1{font-size:1.7rem;line-height:1.2;margin:.5rem 0}
-h2{font-size:1.3rem;margin:2.2rem 0 .6rem;border-bottom:1px solid var(--line);padding-bottom:.2rem}
-h3{font-size:1.05rem;margin:1.4rem 0 .4rem}
-a{color:var(--link)}
-p,ul{max-width:46rem}
-.soft{color:var(--soft);font-size:.9rem}
-.verdict{padding:.7rem 1rem;border-radius:.5rem;margin:1rem 0;font-weight:600}
-.good{color:var(--good)}.bad{color:var(--bad);font-weight:600}
-.verdict.good{background:var(--good-back)}.verdict.bad{background:var(--bad-back)}
-.verdict ul{font-weight:400;margin:.4rem 0 0;padding-left:1.2rem}
-.scroll{overflow-x:auto;margin:.6rem 0}
-table{border-collapse:collapse;font-size:.85rem;font-variant-numeric:tabular-nums}
-th,td{padding:.25rem .5rem;border-bottom:1px solid var(--line);text-align:right;white-space:nowrap}
-th{background:var(--tint);font-weight:600;vertical-align:bottom;white-space:normal;line-height:1.25;
-min-width:3.2rem}
-th:first-child,td:first-child,th.words,td.words{text-align:left}
-td:first-child{position:sticky;left:0;background:var(--back)}
-td.words,th.words{white-space:normal;min-width:9rem}
-.pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,26rem),1fr));gap:.8rem}
-figure{margin:0;break-inside:avoid}
-figure img{width:100%;height:auto;background:#fff;border:1px solid var(--line);border-radius:.4rem;
-display:block}
-figcaption{font-size:.85rem;color:var(--soft);margin-top:.2rem}
-details{margin:.5rem 0;border:1px solid var(--line);border-radius:.4rem;padding:.4rem .8rem}
-summary{cursor:pointer;font-weight:600}
-section{break-inside:auto}
-@media print{body{font-size:11px;max-width:none;padding:0}a{color:inherit;text-decoration:none}
-.scroll{overflow:visible}th,td{padding:.1rem .3rem}table{font-size:9px}
-details{border:none;padding:0}h2,h3{break-after:avoid}}
-"""
+from reporting import glossary
+
+HERE = Path(__file__).resolve().parent
 
 # Folded parts open themselves: for print, and when a link leads into them.
 SCRIPT = """
 function unfold(){document.querySelectorAll('details').forEach(d=>d.open=true)}
 addEventListener('beforeprint',unfold);
 function follow(){const t=location.hash&&document.getElementById(location.hash.slice(1));
-if(t){const d=t.closest('details')||t.querySelector('details');if(d)d.open=true;t.scrollIntoView()}}
+if(!t)return;let d=t.querySelector('details')||t.closest('details');
+for(;d;d=d.parentElement.closest('details'))d.open=true;t.scrollIntoView()}
 addEventListener('hashchange',follow);addEventListener('load',follow);
 """
 
 
 def document(title, body):
+    """The whole file. What only some pages need comes with those that have it."""
+    style = (HERE / "page.css").read_text(encoding="utf-8")
+    script = SCRIPT
+    if 'class="moving"' in body:
+        script += (HERE / "lever.js").read_text(encoding="utf-8")
     return (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width,initial-scale=1">'
-        f"<title>{escape(title)}</title><style>{STYLE}</style></head>\n<body>\n{body}\n"
-        f"<script>{SCRIPT}</script></body></html>\n"
+        f"<title>{escape(title)}</title><style>{style}</style></head>\n<body>\n{body}\n"
+        f"{glossary.section(body)}<script>{script}</script></body></html>\n"
     )
 
 
+def embedded(value):
+    """JSON for a script element: no text in it can end the element."""
+    text = json.dumps(value, ensure_ascii=False, separators=(",", ":"))
+    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+
+
 def paragraph(text, soft=False):
-    return f'<p{" class=soft" if soft else ""}>{escape(text)}</p>'
+    return f'<p{" class=soft" if soft else ""}>{glossary.marked(text)}</p>'
 
 
-def bullets(texts):
-    return "<ul>" + "".join(f"<li>{escape(text)}</li>" for text in texts) + "</ul>" if texts else ""
+def bullets(texts, mark=glossary.marked):
+    items = "".join(f"<li>{mark(text)}</li>" for text in texts)
+    return f"<ul>{items}</ul>" if texts else ""
 
 
 class Cell(str):
@@ -79,18 +59,27 @@ def good_or_bad(count):
     return Cell(f'<span class="{"good" if count == 0 else "bad"}">{count:,}</span>')
 
 
+def breakable(text):
+    """Text of a narrow column: a file's long name may go on in the next line after a _."""
+    return escape(text).replace("_", "_<wbr>")
+
+
 def link(target, text):
-    return Cell(f'<a href="#{escape(target, quote=True)}">{escape(text)}</a>')
+    return Cell(f'<a href="#{escape(target, quote=True)}">{breakable(text)}</a>')
 
 
 def table(head, rows, words=()):
-    """`words` are the columns (numbers) that hold text and may wrap. Empty rows: nothing."""
+    """`words` are the columns (numbers) that hold text and may wrap. Empty rows: nothing.
+
+    Terms in the head tell their meaning.
+    """
     if not rows:
         return ""
 
     def cells(row, tag):
         for i, value in enumerate(row):
-            inner = value if isinstance(value, Cell) else escape(str(value))
+            text = glossary.marked if tag == "th" else breakable if i in words else escape
+            inner = value if isinstance(value, Cell) else text(str(value))
             yield f"<{tag}{' class=words' if i in words else ''}>{inner}</{tag}>"
 
     lines = ["<tr>" + "".join(cells(head, "th")) + "</tr>"]
@@ -104,7 +93,7 @@ def verdict(faults, good_text):
     if not faults:
         return f'<div class="verdict good">{escape(good_text)}</div>'
     head = "1 thing is wrong" if len(faults) == 1 else f"{len(faults)} things are wrong"
-    return f'<div class="verdict bad">{head}{bullets(faults)}</div>'
+    return f'<div class="verdict bad">{head}{bullets(faults, escape)}</div>'
 
 
 def pictures(drawn):
@@ -118,11 +107,19 @@ def pictures(drawn):
     return '<div class="pictures">' + "\n".join(items) + "</div>" if items else ""
 
 
+def fold(summary, inside):
+    """Closed until it is asked for, without JavaScript too; nothing where there is nothing."""
+    return f"<details><summary>{escape(summary)}</summary>{inside}</details>" if inside else ""
+
+
 def folded(anchor, summary, inside):
-    return (
-        f'<section id="{escape(anchor, quote=True)}"><details><summary>{escape(summary)}</summary>'
-        f"{inside}</details></section>"
-    )
+    """The same, as a place that a link leads to."""
+    return f'<section id="{escape(anchor, quote=True)}">{fold(summary, inside)}</section>'
+
+
+def line(anchor, text):
+    """What needs no more room than a line, as a place that a link leads to."""
+    return f'<p class="line" id="{escape(anchor, quote=True)}">{escape(text)}</p>'
 
 
 def section(anchor, title, inside):

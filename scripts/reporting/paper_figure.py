@@ -45,7 +45,8 @@ class PaperFigure:
             for row in self.rows
         ]
         inside = page.paragraph(f"The paper: {self.said}") + page.pictures(self.pictures)
-        inside += page.table(head, rows, words=(0, 1)) + page.bullets(self.notes)
+        inside += page.fold("Numbers: the paper and ours", page.table(head, rows, words=(0, 1)))
+        inside += page.bullets(self.notes)
         return page.section(self.name(), f"Figure {self.number}: {self.title}", inside)
 
     def summary(self):

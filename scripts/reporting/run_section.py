@@ -1,136 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Pictures and tables of one run, for report.py and demo.py. Documentation: docs/figures.md"""
+"""What a page tells of one run in words and tables. Documentation: docs/figures.md"""
 
-import numpy as np
+from reporting import page
 
-from reporting import page, plots
-from reporting.runs import design
-
-ENGINES = ("rtl", "twin", "double", "quad")
-QUAD = {"linewidth": 0.6, "alpha": 0.5}  # lets the RTL through where both swing too fast
-
-
-def lsb(design_name, signal):
-    """Unit of the last place of a signal of a design, in its SI unit."""
-    try:
-        return 2.0 ** -design(design_name)["formats"][signal][2]
-    except (OSError, KeyError):
-        return {"velocity": 2.0**-21, "torque": 2.0**-16, "current": 2.0**-16}[signal]
-
-
-def torque_constant(design_name):
-    try:
-        return float(design(design_name)["observer"]["torque_constant_nm_a"])
-    except (OSError, KeyError):
-        return None
-
-
-def time_axis(t):
-    """(times, label) in ms for what is short."""
-    return (1e3 * t, "time, ms") if t[-1] <= 0.1 else (t, "time, s")
+ENGINES = ("rtl", "twin", "float", "double", "quad")
+ENGINE_NAMES = {"rtl": "RTL"}
+# A recording of few steps has nothing to look at: below these, a line, and one picture.
+LINE_STEPS, PICTURE_STEPS = 20, 1000
 
 
 def closed_loop(summary):
     return "scene" in summary
 
 
-def mark_faults(axes, time, faults):
-    """Shades the time in which a fault was latched."""
-    if not np.any(faults):
-        return
-    since, colour = time[np.argmax(faults > 0)], plots.COLOURS["fault"]
-    for axis in axes:
-        axis.axvspan(since, time[-1], color=colour, alpha=0.08)
-    where = ("data", "axes fraction")
-    axes[0].annotate("fault latched", (since, 0.9), xycoords=where, color=colour, fontsize=8)
-
-
-def motion_picture(name, summary, csv):
-    time, label = time_axis(csv["time_s"])
-    figure, (position, velocity) = plots.stacked("Motion", [1.5, 1.5])
-    plots.draw(position, time, csv["position_rad"], "rtl")
-    if closed_loop(summary):
-        plots.draw(position, time, csv["theta_rad"], "ideal", "lever of the plant")
-        plots.draw(velocity, time, csv["omega_rad_s"], "ideal", "lever of the plant")
-    plots.draw(velocity, time, csv["velocity_rad_s"], "rtl")
-    plots.draw(velocity, time, csv["quad_velocity_rad_s"], "quad", **QUAD)
-    position.set_ylabel("position, rad")
-    velocity.set_ylabel("velocity, rad/s")
-    velocity.set_xlabel(label)
-    plots.at_least(position, 0.005)
-    plots.at_least(velocity, 0.05)
-    plots.legend(position)
-    plots.legend(velocity)
-    mark_faults([position, velocity], time, csv["faults"])
-    return plots.finish(figure, f"{name}-motion")
-
-
-def torque_picture(name, summary, csv):
-    time, label = time_axis(csv["time_s"])
-    figure, (command, observed) = plots.stacked("Torque", [1.5, 1.5])
-    plots.draw(command, time, csv["tau_ref_nm"], "reference", "reference")
-    constant = torque_constant(summary["design"])
-    if constant:
-        plots.draw(command, time, constant * csv["current_a"], "rtl", "commanded, RTL")
-        plots.draw(command, time, constant * csv["quad_current_a"], "quad", **QUAD)
-    if closed_loop(summary):
-        plots.draw(command, time, csv["motor_torque_nm"], "motor")
-    plots.draw(observed, time, csv["tau_hat_nm"], "rtl", "observed, RTL")
-    plots.draw(observed, time, csv["quad_tau_hat_nm"], "quad", **QUAD)
-    command.set_ylabel("torque, Nm")
-    observed.set_ylabel("observed, Nm")
-    observed.set_xlabel(label)
-    for axes in (command, observed):
-        plots.at_least(axes, 0.01)
-        plots.legend(axes)
-    mark_faults([command, observed], time, csv["faults"])
-    return plots.finish(figure, f"{name}-torque")
-
-
-def difference_picture(name, summary, csv):
-    """RTL minus quad on the same counts, in units of the last place."""
-    time, label = time_axis(csv["time_s"])
-    figure, axes = plots.stacked("RTL minus quad reference, in units of the last place", [0.9] * 3)
-    rows = (
-        ("velocity", csv["velocity_rad_s"] - csv["quad_velocity_rad_s"]),
-        ("torque", csv["tau_hat_nm"] - csv["quad_tau_hat_nm"]),
-        ("current", csv["current_a"] - csv["quad_current_a"]),
-    )
-    for axis, (signal, error) in zip(axes, rows, strict=True):
-        unit = lsb(summary["design"], signal)
-        plots.draw(axis, time, error / unit, "rtl", "", linewidth=0.7, color="#2f7fb8")
-        axis.set_ylabel({"torque": "observed\ntorque"}.get(signal, signal))
-        plots.at_least(axis, 2.0)
-        si = {"velocity": "rad/s", "torque": "Nm", "current": "A"}[signal]
-        place = f"1 = 2^{round(np.log2(unit))} {si}"
-        axis.set_title(place, loc="right", fontsize=7.5, color="#5a6570")
-    axes[-1].set_xlabel(label)
-    return plots.finish(figure, f"{name}-difference")
-
-
-def loop_picture(name, csv):
-    """What the hand feels over where it is: a spring is a line, friction and damping an area."""
-    figure, (axes,) = plots.stacked("What the hand meets", [2.9])
-    position = csv["theta_rad"]
-    armed = csv["time_s"] > 0
-    plots.draw(axes, position[armed], csv["hand_torque_nm"][armed], "hand", "hand on the lever")
-    plots.draw(axes, position, -csv["tau_ref_nm"], "ideal", "against the torque reference")
-    axes.set_xlabel("position, rad")
-    axes.set_ylabel("torque, Nm")
-    plots.legend(axes)
-    return plots.finish(figure, f"{name}-loop")
-
-
-def pictures(name, summary, csv):
-    drawn = [motion_picture(name, summary, csv)]
-    if any(np.any(csv[column]) for column in ("tau_ref_nm", "tau_hat_nm", "current_a")):
-        drawn.append(torque_picture(name, summary, csv))
-    if closed_loop(summary) and np.ptp(csv["theta_rad"]) > 0.02:
-        drawn.append(loop_picture(name, csv))
-    if np.any(csv["quad_velocity_rad_s"]) or np.any(csv["quad_tau_hat_nm"]):
-        drawn.append(difference_picture(name, summary, csv))
-    return drawn
+def room(summary):
+    """How much a run shows: "line", "picture" or "whole"; a recording by its steps."""
+    steps = summary["position"]["steps"]
+    if closed_loop(summary) or steps >= PICTURE_STEPS:
+        return "whole"
+    return "picture" if steps >= LINE_STEPS else "line"
 
 
 def subject(summary):
@@ -169,12 +58,12 @@ def error_cells(engine, key, scale):
 def engine_table(summary):
     head = [
         "engine",
-        "velocity, max µrad/s",
-        "rms",
-        "observed torque, max µNm",
-        "rms",
-        "torque, max µNm",
-        "rms",
+        "velocity, largest error, µrad/s",
+        "rms error",
+        "observed torque, largest error, µNm",
+        "rms error",
+        "commanded torque, largest error, µNm",
+        "rms error",
         "saturated ticks",
         "speed, s/s",
     ]
@@ -184,7 +73,7 @@ def engine_table(summary):
         if engine is None:
             continue
         rows.append(
-            [name]
+            [ENGINE_NAMES.get(name, name)]
             + error_cells(engine, "velocity_rad_s", 1e6)
             + error_cells(engine, "tau_hat_nm", 1e6)
             + error_cells(engine, "torque_nm", 1e6)
@@ -228,10 +117,19 @@ def faults_of(summary):
     return [f"{subject(summary)}, {summary['design']}: {text}" for text in texts]
 
 
+def in_a_line(summary):
+    """A recording with nothing to look at."""
+    p, wrong = summary["position"], summary.get("mismatches")
+    count = "not compared" if wrong is None else f"{wrong:,} mismatches"
+    return (
+        f"{p['steps']:,} steps, {p['illegal']:,} illegal, {p['reversals']:,} reversals in "
+        f"{page.number(summary['simulated_s'])} s; {count}"
+    )
+
+
 def inside(summary, drawn):
-    """The section's body: facts, tables, pictures."""
-    parts = [page.bullets(facts(summary)), page.pictures(drawn), engine_table(summary)]
-    steps = step_table(summary)
-    if steps:
-        parts.append("<h3>Torque steps</h3>" + steps)
+    """The section's body: facts and pictures, the tables folded."""
+    parts = [page.bullets(facts(summary)), page.pictures(drawn)]
+    parts.append(page.fold("Torque steps", step_table(summary)))
+    parts.append(page.fold("Errors and speed of each engine", engine_table(summary)))
     return "\n".join(parts)

@@ -11,7 +11,7 @@ import numpy as np
 
 from reporting import objects, plots
 from reporting.paper_figure import PaperFigure
-from reporting.run_section import torque_constant
+from reporting.run_pictures import torque_constant
 from reporting.runs import scene_job
 
 ZOOM_S = 0.03

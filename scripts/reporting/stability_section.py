@@ -55,5 +55,6 @@ def html(found):
         "eigenvalues of the loop, and by (b+B)/(T/2+td). docs/stability.md says where the three "
         "must agree and why they differ elsewhere."
     )
-    text += page.pictures(stability_plots.pictures(found)) + table(found)
+    text += page.pictures(stability_plots.pictures(found))
+    text += page.fold("Stiffest stable wall for each rate and damping", table(found))
     return page.section("stability", f"Walls: stability of {found['design']}", text)

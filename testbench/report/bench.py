@@ -10,6 +10,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from markup import Markup
+
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPTS = ROOT / "scripts"
 FAKE = Path(__file__).resolve().parent / "fake_feltgate.py"
@@ -48,7 +50,11 @@ class Bench(unittest.TestCase):
         subprocess.run([self.program, *map(str, arguments)], check=True)
 
     def assert_self_contained(self, page):
-        """No reference leaves the file: only data: and places in the page itself."""
+        """A whole page from which no reference leads away: only data: and places in it."""
+        found = Markup(page)
+        self.assertEqual(found.complaints, [])
+        self.assertEqual(len(found.ids), len(set(found.ids)))
+        self.assertNotRegex(page, r"https?:|//[a-z]+\.[a-z]")
         for target in re.findall(r'(?:src|href)="([^"]*)"', page):
             self.assertTrue(target.startswith(("data:image/svg+xml;base64,", "#")), target[:60])
         self.assertNotRegex(page, r"@import|url\(")

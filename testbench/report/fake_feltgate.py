@@ -144,7 +144,10 @@ def summary(options, data, steps):
     for name, speed in (("rtl", 0.4), ("twin", 2.0), ("double", 9.0), ("quad", 0.5)):
         engine = {"saturations": 0, "speed": speed}
         if name != "quad":
-            engine |= {"velocity_rad_s": errors, "tau_hat_nm": errors, "torque_nm": errors}
+            bound = {"bound": 4e-5, "max_error_in_bounds": 3e-5} if name != "double" else {}
+            engine |= {
+                signal: errors | bound for signal in ("velocity_rad_s", "tau_hat_nm", "torque_nm")
+            }
         if steps and name == "rtl":
             engine |= {"step_responses": steps, "ripple_nm": 1e-4}
         engines[name] = engine
@@ -164,6 +167,10 @@ def summary(options, data, steps):
         return out | {
             "scene": options.subject,
             "plant": options.plant or "p24",
+            "figures": {
+                "tau_ref_min_nm": float(data["tau_ref_nm"].min()),
+                "tau_ref_max_nm": float(data["tau_ref_nm"].max()),
+            },
             "expectations": {"checked": 3, "broken": broken},
         }
     return out | {"trace": Path(options.subject).name, "probes": options.probes or ""}

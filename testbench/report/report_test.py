@@ -13,7 +13,9 @@ import sys
 import time
 import unittest
 
-from bench import ROOT, SCRIPTS, Bench
+from bench import ROOT, SCRIPTS, Bench  # isort: skip (puts scripts/ on the path)
+from markup import Markup, width_px
+from reporting import glossary
 
 
 class Report(Bench):
@@ -35,11 +37,17 @@ class Report(Bench):
         self.assertEqual(done.stdout.strip(), str(self.folder / "out" / "report.html"))
         self.assert_self_contained(self.page())
         self.assertIn('class="verdict good"', self.page())
-        self.assertEqual(self.page().count("<figure>"), 4)
+        found = Markup(self.page())
+        self.assertEqual(sum(tag == "img" for tag, _ in found.elements), 4)
+        self.assertEqual(len(found.classes("headline")), 3)
+        self.assertEqual(len(found.classes("card")), 1)
+        # Pictures first, tables folded.
+        self.assertLess(self.page().index('class="card"'), self.page().index("<table"))
+        self.assertLess(self.page().index("<img"), self.page().index("<table"))
 
     def test_steps_have_a_table(self):
         self.report("torque_step")
-        self.assertIn("motor settles, ms", self.page())
+        self.assertIn("motor settles, ms", Markup(self.page()).text)
 
     def test_mismatches_are_red(self):
         self.report(change=lambda s: s.update(mismatches=3, first_mismatch="clock 5: duty"))
@@ -92,7 +100,7 @@ class Figures(Bench):
 
 
 class Demo(Bench):
-    SCENES = {"damper", "torque_step"}
+    SCENES = {"damper", "torque_step", "wall"}
 
     def root(self):
         """A repository with two scenes, to be quick."""
@@ -115,7 +123,9 @@ class Demo(Bench):
     def test_scenes_recordings_and_what_cannot_be_read(self):
         traces = self.folder / "traces"
         traces.mkdir()
-        (traces / "hand.csv").write_text("t,count\n0,0\n0.5,3\n")
+        long = "avago_adns_2051_remove_and_readd_usb_20230828T150615_434.csv"
+        for name in ("hand.csv", long):
+            (traces / name).write_text("t,count\n0,0\n0.5,3\n")
         (traces / "empty.csv").write_text("t,A,B\n")
         done, summary, page = self.demo("--no-figures", traces=traces)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -126,6 +136,19 @@ class Demo(Bench):
         self.assertTrue(any(run.get("trace") == "hand.csv" for run in summary["runs"].values()))
         self.assertIn("empty.csv", done.stderr)
         self.assertEqual(len(summary["unreadable"]), 1)
+        found = Markup(page)
+        self.assertEqual(len(found.classes("headline")), 3)
+        self.assertEqual([a["id"] for a in found.classes("card")], ["card-wall-lever"])
+        first, last = page.index('class="card"'), page.index("<table")
+        self.assertLess(first, last)
+        self.assertLess(len(page), 6e6)
+        told = {a["title"] for tag, a in found.elements if tag == "abbr"}
+        self.assertLessEqual(told, set(glossary.meanings().values()))
+        for word in ("mismatches", "proven bound", "commanded torque", "saturated ticks", "twin"):
+            self.assertIn(glossary.meanings()[word], told, word)
+        self.assertGreaterEqual(len(found.tables), 5)
+        for table in found.tables:
+            self.assertLess(width_px(table), 1200 - 60, table[0])
 
     def test_mismatches_end_with_1_and_a_list(self):
         done, summary, page = self.demo("--no-figures", FAKE_MISMATCHES="2")

@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Pictures of one run, for report.py and demo.py. Documentation: docs/figures.md"""
+
+import numpy as np
+
+from reporting import plots
+from reporting.run_section import ENGINE_NAMES, closed_loop, room
+from reporting.runs import design
+
+QUAD = {"linewidth": 0.6, "alpha": 0.5}  # lets the RTL through where both swing too fast
+
+
+def lsb(design_name, signal):
+    """Unit of the last place of a signal of a design, in its SI unit."""
+    try:
+        return 2.0 ** -design(design_name)["formats"][signal][2]
+    except (OSError, KeyError):
+        return {"velocity": 2.0**-21, "torque": 2.0**-16, "current": 2.0**-16}[signal]
+
+
+def torque_constant(design_name):
+    try:
+        return float(design(design_name)["observer"]["torque_constant_nm_a"])
+    except (OSError, KeyError):
+        return None
+
+
+def time_axis(t):
+    """(times, label) in ms for what is short."""
+    return (1e3 * t, "time, ms") if t[-1] <= 0.1 else (t, "time, s")
+
+
+def mark_faults(axes, time, faults):
+    """Shades the time in which a fault was latched."""
+    if not np.any(faults):
+        return
+    since, colour = time[np.argmax(faults > 0)], plots.COLOURS["fault"]
+    for axis in axes:
+        axis.axvspan(since, time[-1], color=colour, alpha=0.08)
+    where = ("data", "axes fraction")
+    axes[0].annotate("fault latched", (since, 0.9), xycoords=where, color=colour, fontsize=8)
+
+
+def lead(summary):
+    """The engine whose signals have no name before them: the one that drives the motor."""
+    name = next(iter(summary["engines"]), "rtl")
+    return ENGINE_NAMES.get(name, name)
+
+
+def exact(summary, csv, signal):
+    """The quad reference's values; None where it did not run."""
+    return csv.get(f"quad_{signal}") if "quad" in summary["engines"] else None
+
+
+def draw_quad(axes, time, values):
+    if values is not None:
+        plots.draw(axes, time, values, "quad", **QUAD)
+
+
+def motion_picture(name, summary, csv):
+    time, label = time_axis(csv["time_s"])
+    figure, (position, velocity) = plots.stacked("Motion", [1.5, 1.5])
+    plots.draw(position, time, csv["position_rad"], "rtl", lead(summary))
+    if closed_loop(summary):
+        plots.draw(position, time, csv["theta_rad"], "ideal", "lever of the plant")
+        plots.draw(velocity, time, csv["omega_rad_s"], "ideal", "lever of the plant")
+    plots.draw(velocity, time, csv["velocity_rad_s"], "rtl", lead(summary))
+    draw_quad(velocity, time, exact(summary, csv, "velocity_rad_s"))
+    position.set_ylabel("position, rad")
+    velocity.set_ylabel("velocity, rad/s")
+    velocity.set_xlabel(label)
+    plots.at_least(position, 0.005)
+    plots.at_least(velocity, 0.05)
+    plots.legend(position)
+    plots.legend(velocity)
+    mark_faults([position, velocity], time, csv["faults"])
+    return plots.finish(figure, f"{name}-motion")
+
+
+def torque_picture(name, summary, csv):
+    time, label = time_axis(csv["time_s"])
+    figure, (command, observed) = plots.stacked("Torque", [1.5, 1.5])
+    plots.draw(command, time, csv["tau_ref_nm"], "reference", "asked for by the scene")
+    constant, current = torque_constant(summary["design"]), exact(summary, csv, "current_a")
+    if constant:
+        plots.draw(command, time, constant * csv["current_a"], "rtl", f"commanded, {lead(summary)}")
+        draw_quad(command, time, None if current is None else constant * current)
+    if closed_loop(summary):
+        plots.draw(command, time, csv["motor_torque_nm"], "motor")
+    plots.draw(observed, time, csv["tau_hat_nm"], "rtl", f"observed, {lead(summary)}")
+    draw_quad(observed, time, exact(summary, csv, "tau_hat_nm"))
+    command.set_ylabel("torque, Nm")
+    observed.set_ylabel("observed, Nm")
+    observed.set_xlabel(label)
+    for axes in (command, observed):
+        plots.at_least(axes, 0.01)
+        plots.legend(axes)
+    mark_faults([command, observed], time, csv["faults"])
+    return plots.finish(figure, f"{name}-torque")
+
+
+def differences(summary, csv):
+    """[(signal, unit, lead minus quad)]; empty where quad did not run."""
+    columns = (("velocity", "rad/s"), ("torque", "Nm"), ("current", "A"))
+    names = {"velocity": "velocity_rad_s", "torque": "tau_hat_nm", "current": "current_a"}
+    pairs = [(s, u, csv[names[s]], exact(summary, csv, names[s])) for s, u in columns]
+    return [(s, u, ours - quad) for s, u, ours, quad in pairs if quad is not None]
+
+
+def difference_picture(name, summary, csv):
+    """Lead minus quad on the same counts, in units of the last place."""
+    time, label = time_axis(csv["time_s"])
+    title = f"{lead(summary)} minus quad reference, in units of the last place"
+    figure, axes = plots.stacked(title, [0.9] * 3)
+    for axis, (signal, si, error) in zip(axes, differences(summary, csv), strict=True):
+        unit = lsb(summary["design"], signal)
+        plots.draw(axis, time, error / unit, "rtl", "", linewidth=0.7, color="#2f7fb8")
+        axis.set_ylabel({"torque": "observed\ntorque"}.get(signal, signal))
+        plots.at_least(axis, 2.0)
+        place = f"1 = 2^{round(np.log2(unit))} {si}"
+        axis.set_title(place, loc="right", fontsize=7.5, color="#5a6570")
+    axes[-1].set_xlabel(label)
+    return plots.finish(figure, f"{name}-difference")
+
+
+def loop_picture(name, csv):
+    """What the hand feels over where it is: a spring is a line, friction and damping an area."""
+    figure, (axes,) = plots.stacked("What the hand meets", [2.9])
+    position = csv["theta_rad"]
+    armed = csv["time_s"] > 0
+    plots.draw(axes, position[armed], csv["hand_torque_nm"][armed], "hand", "hand on the lever")
+    plots.draw(axes, position, -csv["tau_ref_nm"], "ideal", "against the torque reference")
+    axes.set_xlabel("position, rad")
+    axes.set_ylabel("torque, Nm")
+    plots.legend(axes)
+    return plots.finish(figure, f"{name}-loop")
+
+
+def strip(csv, width=180, height=26):
+    """Position over time in one line of a table, as SVG."""
+    x, y = plots.thinned(csv["time_s"], csv["position_rad"], 90)
+    low, high = float(y.min()), float(y.max())
+    x = width * (x - x[0]) / max(x[-1] - x[0], 1e-9)
+    y = 1 + (height - 2) * (high - y) / max(high - low, 1e-9)
+    path = "L".join(f"{a:.1f} {b:.1f}" for a, b in zip(x, y, strict=True))
+    return (
+        f'<svg class="strip" width="{width}" height="{height}" viewBox="0 0 {width} {height}" '
+        f'aria-hidden="true"><path class="angle" d="M{path}"/></svg>'
+    )
+
+
+def pictures(name, summary, csv):
+    """As many as the run has to show: of a recording of few steps none."""
+    if room(summary) == "line":
+        return []
+    drawn = [motion_picture(name, summary, csv)]
+    if room(summary) == "picture":
+        return drawn
+    if any(np.any(csv[column]) for column in ("tau_ref_nm", "tau_hat_nm", "current_a")):
+        drawn.append(torque_picture(name, summary, csv))
+    if closed_loop(summary) and np.ptp(csv["theta_rad"]) > 0.02:
+        drawn.append(loop_picture(name, csv))
+    if any(np.any(exact(summary, csv, s)) for s in ("velocity_rad_s", "tau_hat_nm")):
+        drawn.append(difference_picture(name, summary, csv))
+    return drawn

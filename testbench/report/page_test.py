@@ -1,0 +1,259 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""What a stranger sees first: numbers with bounds, cards with a moving lever, words explained.
+
+Documentation: docs/figures.md
+"""
+
+import json
+import unittest
+from html import escape
+from types import SimpleNamespace
+from unittest import mock
+
+from bench import SCRIPTS, Bench  # isort: skip (puts scripts/ on the path)
+import numpy as np
+from markup import Markup
+from reporting import (
+    card,
+    demo_page,
+    glossary,
+    headline,
+    lever,
+    moments,
+    page,
+    run_pictures,
+    run_section,
+    sentences,
+    time_chart,
+)
+from reporting.runs import read_csv
+
+HOSTILE = '"><img src=x onerror=alert(1)></script><script>alert(2)</script><!--<script>'
+
+
+class Recorded(Bench):
+    """Runs of the stand-in."""
+
+    def run_of(self, name="membrane", **changes):
+        json_path, csv_path = self.folder / "run.json", self.folder / "run.csv"
+        self.fake("run", name, "--json", json_path, "--csv", csv_path, "--every", 200)
+        return json.loads(json_path.read_text()) | changes, read_csv(csv_path)
+
+    def replay_of(self, steps):
+        path, json_path, csv_path = (self.folder / n for n in ("x.csv", "x.json", "x_out.csv"))
+        path.write_text("t,count\n0,0\n0.5,3\n")
+        self.fake("replay", path, "--json", json_path, "--csv", csv_path, "--every", 100)
+        summary = json.loads(json_path.read_text())
+        summary["position"]["steps"] = steps
+        return summary, read_csv(csv_path)
+
+
+class Headlines(Recorded):
+    def test_numbers_are_those_of_the_json(self):
+        summary, _ = self.run_of("torque_step")
+        clocks, error, settling = headline.of_run(summary, run_section.steps_of(summary))
+        self.assertEqual((clocks.value, clocks.good), ("0", True))
+        self.assertIn(f"{summary['clocks']:,} clocks", clocks.what)
+        torque = summary["engines"]["rtl"]["torque_nm"]
+        self.assertEqual(error.value, f"{1e6 * torque['max_error_in_bounds']:#.3g} µNm")
+        self.assertIn(f"{1e6 * torque['bound']:#.3g} µNm", error.bound)
+        self.assertAlmostEqual(error.share, torque["max_error_in_bounds"] / torque["bound"])
+        steps = summary["engines"]["rtl"]["step_responses"]
+        self.assertEqual(settling.value, f"{max(s['torque_settling_ms'] for s in steps):#.3g} ms")
+        self.assertIn("1.00 ms", settling.bound)  # torque_step.toml
+
+    def test_the_run_that_breaks_its_bound_is_shown(self):
+        good, _ = self.run_of()
+        large, broken = json.loads(json.dumps(good)), json.loads(json.dumps(good))
+        large["engines"]["rtl"]["torque_nm"].update(max_error_in_bounds=9e-3, bound=1e-2)
+        broken["engines"]["rtl"]["torque_nm"].update(max_error_in_bounds=2e-6, bound=1e-6)
+        self.assertEqual(headline.error([good, large]).value, "9,000 µNm")
+        shown = headline.error([good, large, broken])
+        self.assertEqual((shown.value, shown.good), ("2.00 µNm", False))
+        self.assertIn("broken", headline.tile(shown))
+
+    def test_nothing_is_claimed_of_what_did_not_run(self):
+        summary, _ = self.run_of()
+        del summary["mismatches"]
+        summary["engines"] = {"twin": {"speed": 1.0}}
+        clocks, error, peak = headline.of_run(summary, [])
+        self.assertIsNone(clocks.good)
+        self.assertIn("not compared", clocks.bound)
+        self.assertEqual((error.value, error.good), ("–", None))
+        self.assertEqual(peak.value, "0.500 Nm")
+        self.assertIn("0.5 Nm", peak.bound)
+
+
+class Cards(Recorded):
+    def card(self, scene):
+        summary, csv = self.run_of(scene)
+        return Markup(card.html("card", summary, csv)), summary, csv
+
+    def test_lever_moves_by_the_rows_of_the_run(self):
+        found, summary, csv = self.card("spring_compression")
+        (attributes, text), m = found.scripts[0], moments.of_run(summary, csv)
+        self.assertEqual(attributes["type"], "application/json")
+        data = json.loads(text)
+        self.assertLessEqual(len(data["angle_deg"]), lever.ROWS)
+        self.assertLess(len(text), 20_000)
+        time = np.linspace(data["begin_s"], data["end_s"], len(data["angle_deg"]))
+        for key, column, scale in (
+            ("angle_deg", "theta_rad", 180 / np.pi),
+            ("asked_mnm", "tau_ref_nm", 1e3),
+            ("felt_mnm", "motor_torque_nm", 1e3),
+            ("hand_mnm", "hand_torque_nm", 1e3),
+        ):
+            true = scale * np.interp(time, csv["time_s"], csv[column])
+            self.assertLess(np.abs(np.array(data[key]) - true).max(), 2.0, key)
+        felt = np.abs(np.array(data["felt_mnm"]))
+        self.assertAlmostEqual(felt[data["peak"]], felt.max(), delta=1.0)
+        self.assertAlmostEqual(data["scale_mnm"], 1e3 * np.abs(m.felt).max(), delta=5)
+
+    def test_without_a_script_it_stands_where_the_torque_is_largest(self):
+        found, _, csv = self.card("spring_compression")
+        (arm,) = found.classes("arm")
+        at = np.abs(csv["motor_torque_nm"]).argmax()
+        self.assertEqual(arm["transform"], f"rotate({np.degrees(csv['theta_rad'][at]):.2f})")
+        self.assertTrue(found.classes("controls")[0].keys() >= {"hidden"})
+        arrows = found.classes("motor") + found.classes("hand")
+        pushes = {a["class"]: a["d"] for a in arrows if "d" in a and "transform" in a}
+        self.assertRegex(pushes["motor"], r"^M12 0H\d")  # pushes up
+        self.assertRegex(pushes["hand"], r"^M-12 0H-\d")  # against it
+
+    def test_arrows_of_page_and_script_are_alike(self):
+        script = (SCRIPTS / "reporting" / "lever.js").read_text()
+        self.assertIn(f"const ARROW = {lever.ARROW};", script)
+        self.assertEqual(lever.arrow(0.5, 0.5), "M12 0H76.0M67.0 -6L76.0 0L67.0 6")
+        self.assertEqual(lever.arrow(-9.0, 0.5), lever.arrow(-0.7, 0.5))
+        self.assertEqual(lever.arrow(0.001, 0.5), "")
+
+    def test_what_is_shown_is_what_is_felt(self):
+        found, summary, csv = self.card("membrane")
+        m = moments.of_run(summary, csv)
+        self.assertGreater(m.touched.mean(), 0.08)
+        self.assertEqual(np.count_nonzero(np.abs(csv["tau_ref_nm"]) > 0.1), m.touched.sum())
+        zones = moments.zones(m)
+        self.assertAlmostEqual(zones[0][0], np.degrees(0.5), delta=1.5)
+        self.assertAlmostEqual(zones[-1][1], np.degrees(0.7), delta=1.5)
+        self.assertIn("between 29° and 40°", sentences.said(summary, m))
+        self.assertIn("0.50 Nm", found.text)
+
+    def test_every_scene_has_a_sentence(self):
+        for path in sorted((SCRIPTS.parent / "vectors" / "scenes").glob("*.toml")):
+            with self.subTest(path.stem):
+                self.assertIn(path.stem, sentences.TITLES)
+                summary, csv = self.run_of(path.stem)
+                said = sentences.said(summary, moments.of_run(summary, csv))
+                self.assertRegex(said, r"^[A-Z].*\d.*\.$")
+                self.assertNotIn("{", said)
+
+    def test_a_scene_of_ones_own(self):
+        summary, csv = self.run_of("wall", scene="mine {most} %s")
+        said = sentences.said(summary, moments.of_run(summary, csv))
+        self.assertIn("lever moves between", said)
+
+    def test_recording_feels_nothing(self):
+        summary, csv = self.replay_of(4000)
+        found = Markup(card.html("card", summary, csv))
+        self.assertIn("nothing feels it", found.text)
+        self.assertNotIn("push of the hand", found.text)
+        self.assertEqual(found.complaints, [])
+
+    def test_nothing_asked_for(self):
+        summary, csv = self.run_of("damper", scene="free")
+        for name in ("tau_ref_nm", "motor_torque_nm", "theta_rad"):
+            csv[name] = 0 * csv[name]
+        found = Markup(card.html("card", summary, csv))
+        self.assertIn("stands still", found.text)
+
+    def test_axis_numbers_have_the_digits_they_need(self):
+        ticks = time_chart.shown_ticks(-0.42, 0.02, 5)
+        self.assertEqual([time_chart.label(t, ticks) for t in ticks][0], "−0.4")
+        self.assertEqual(time_chart.label(0.05, [0.0, 0.05]), "0.05")
+        self.assertEqual(time_chart.label(30.0, [0.0, 15.0]), "30")
+
+
+class Room(Recorded):
+    def test_recordings_take_as_much_room_as_they_have_steps(self):
+        drawn = {}
+        for steps in (3, 99, 4154):
+            summary, csv = self.replay_of(steps)
+            drawn[steps] = len(run_pictures.pictures("x", summary, csv))
+        self.assertEqual(drawn, {3: 0, 99: 1, 4154: 2})
+
+    def test_few_steps_are_a_line_of_the_demo(self):
+        runs = {}
+        for steps in (3, 4154):
+            summary, csv = self.replay_of(steps)
+            recording = SimpleNamespace(title=f"mouse {steps}", expected=None, sure=False)
+            job = SimpleNamespace(name=f"replay-{steps}", recording=recording)
+            runs[job.name] = SimpleNamespace(
+                job=job, summary=summary, csv=csv, ran=True, mismatches=0, design="lever"
+            )
+        demo = demo_page.Demo(runs, [], list(runs), {n: demo_page.draw(r) for n, r in runs.items()})
+        found = Markup(demo_page.runs_section(demo))
+        (line,) = found.classes("line")
+        self.assertEqual(line["id"], "replay-3")
+        told = "mouse 3: 3 steps, 0 illegal, 3 reversals in 0.500 s; 0 mismatches"
+        self.assertIn(told, found.text)
+        self.assertEqual(sum(tag == "img" for tag, _ in found.elements), 2)
+        strips = Markup(demo_page.document(demo)).classes("strip")
+        self.assertEqual(len(strips), 1)
+
+
+class Words(unittest.TestCase):
+    def test_the_glossary_is_read(self):
+        known = glossary.meanings()
+        self.assertGreater(len(known), 100)
+        self.assertFalse(known.keys() & {"term", "---"})
+        self.assertEqual(known["mismatch"], known["mismatches"])
+
+    def test_words_are_marked_whole_once_and_safely(self):
+        text = glossary.marked("Twin & twin, twinned; a mismatch")
+        self.assertEqual(text.count("<abbr"), 2)
+        self.assertIn(">Twin</abbr> &amp; twin, twinned", text)
+        self.assertNotIn("<b>", glossary.marked("<b>"))
+
+    def test_longest_term_wins(self):
+        self.assertIn(">observed torque</abbr>", glossary.marked("the observed torque"))
+
+    def test_a_page_without_glossary_is_whole(self):
+        glossary.meanings.cache_clear()
+        glossary.pattern.cache_clear()
+        with mock.patch.object(glossary, "SOURCE", SCRIPTS / "none.md"):
+            text = glossary.marked("twin <")
+            whole = page.document("x", page.paragraph("twin"))
+        glossary.meanings.cache_clear()
+        glossary.pattern.cache_clear()
+        self.assertEqual(text, "twin &lt;")
+        self.assertNotIn("<abbr", whole)
+
+
+class Hostile(Recorded):
+    def test_names_do_no_harm(self):
+        summary, csv = self.run_of("wall", scene=HOSTILE, design=HOSTILE, version=HOSTILE)
+        summary["plant"] = HOSTILE
+        summary["expectations"]["broken"] = [HOSTILE]
+        run, table = self.folder / "run.json", self.folder / "run.csv"
+        run.write_text(json.dumps(summary))
+        done = self.script("report.py", self.folder / "out", run, table)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = (self.folder / "out" / "report.html").read_text()
+        found = Markup(text)
+        self.assertEqual(found.complaints, [])
+        self.assertEqual([a.get("type") for a, _ in found.scripts], ["application/json", None])
+        self.assertFalse([t for t, a in found.elements if t == "img" and "onerror" in a])
+        self.assertNotIn("<!--", text)
+        self.assertIn(escape(HOSTILE), text)
+        self.assert_self_contained(text)
+
+    def test_data_cannot_end_its_element(self):
+        text = page.embedded({"name": HOSTILE})
+        self.assertNotIn("<", text)
+        self.assertEqual(json.loads(text), {"name": HOSTILE})
+
+
+if __name__ == "__main__":
+    unittest.main()

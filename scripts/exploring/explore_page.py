@@ -6,7 +6,6 @@ Documentation: docs/explore.md
 """
 
 import difflib
-import json
 from html import escape
 from pathlib import Path
 
@@ -98,7 +97,7 @@ def front_table(rows):
 
 def body(plan, rows, root):
     refused = [row for row in rows if not front.good(row)]
-    data = json.dumps(data_of(rows, root), ensure_ascii=False, separators=(",", ":"))
+    data = page.embedded(data_of(rows, root))
     script = (HERE / "explore_page.js").read_text(encoding="utf-8")
     style = (HERE / "explore_page.css").read_text(encoding="utf-8")
     options = "".join(
@@ -115,7 +114,7 @@ def body(plan, rows, root):
 <svg id="chart" viewBox="0 0 640 460" role="img" aria-label="design points"></svg>
 <div id="told" aria-live="polite"></div></div>
 {page.section("front", "The front", front_table(rows))}
-<script type="application/json" id="data">{data.replace("</", "<" + chr(92) + "/")}</script>
+<script type="application/json" id="data">{data}</script>
 <script>{script}</script>"""
 
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "engines/engine.hpp"
+#include "engine.hpp"
 #include "feltgate/feltgate_core.hpp"
 
 namespace feltgate {

@@ -5,6 +5,7 @@
 #include "engines/engine.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <stdexcept>
@@ -13,8 +14,8 @@
 
 namespace feltgate {
 
-#define FELTGATE_DESIGN(name)                                       \
-  std::unique_ptr<Engine> make_##name##_engine(const std::string&); \
+#define FELTGATE_DESIGN(name)                   \
+  std::unique_ptr<Engine> make_##name##_twin(); \
   std::unique_ptr<RealChain> make_##name##_chain(const std::string&);
 #include "designs.inc"
 #undef FELTGATE_DESIGN
@@ -49,32 +50,53 @@ std::vector<std::string> design_names() {
 
 namespace {
 
+RtlMaker rtl_engines = nullptr;  // set before main() where the Verilated cores are linked
+
 [[noreturn]] void unknown_design(const std::string& design) {
-  std::string list;
-  for (const std::string& name : design_names()) list += (list.empty() ? "" : ", ") + name;
-  throw std::invalid_argument("design \"" + design + "\" is not built in; choose one of " + list +
-                              ", a preset (fast, balanced, exact) by way of ./feltgate, which "
-                              "builds it, or add rtl/designs/" +
-                              design + ".toml and run `feltgate generate`");
+  throw std::invalid_argument(
+      fmt::format("design \"{0}\" is not built in; choose one of {1}, a preset (fast, balanced, "
+                  "exact) by way of ./feltgate, which builds it, or add rtl/designs/{0}.toml and "
+                  "run `feltgate generate`",
+                  design, fmt::join(design_names(), ", ")));
+}
+
+[[noreturn]] void unknown_engine(const std::string& kind) {
+  throw std::invalid_argument("engine \"" + kind + "\" is unknown; choose rtl, twin or lockstep");
+}
+
+std::unique_ptr<Engine> make_rtl(const std::string& design, const std::string& kind) {
+  if (rtl_engines != nullptr) return rtl_engines(design, kind);
+  throw std::invalid_argument(
+      fmt::format("engine \"{}\" of design {}: the RTL is not built into this program; choose the "
+                  "engine twin, or build with -DFELTGATE_RTL=ON, which needs Verilator, and link "
+                  "feltgate_rtl",
+                  kind, design));
 }
 
 }  // namespace
 
+void provide_rtl_engines(RtlMaker maker) { rtl_engines = maker; }
+
 std::unique_ptr<Engine> make_engine(const std::string& design, const std::string& kind) {
-#define FELTGATE_DESIGN(name) \
-  if (design == #name) return make_##name##_engine(kind);
+  const bool rtl = kind == "rtl" || kind == "lockstep";
+  if (const DesignMakers* d = further(design)) return d->engine(kind);
+#define FELTGATE_DESIGN(name)                        \
+  if (design == #name) {                             \
+    if (rtl) return make_rtl(design, kind);          \
+    if (kind == "twin") return make_##name##_twin(); \
+    unknown_engine(kind);                            \
+  }
 #include "designs.inc"
 #undef FELTGATE_DESIGN
-  if (const DesignMakers* d = further(design)) return d->engine(kind);
   unknown_design(design);
 }
 
 std::unique_ptr<RealChain> make_real_chain(const std::string& design, const std::string& kind) {
+  if (const DesignMakers* d = further(design)) return d->chain(kind);
 #define FELTGATE_DESIGN(name) \
   if (design == #name) return make_##name##_chain(kind);
 #include "designs.inc"
 #undef FELTGATE_DESIGN
-  if (const DesignMakers* d = further(design)) return d->chain(kind);
   unknown_design(design);
 }
 

@@ -144,8 +144,8 @@ class Engine {
   virtual Clock first_mismatch_clock() const { return 0; }
 };
 
-/// Engines of the designs that were built in. Kinds: "rtl", "twin", "lockstep".
-/// Throws std::invalid_argument naming what there is.
+/// Engines of the designs that were built in. Kinds: "twin"; "rtl" and "lockstep" where
+/// feltgate_rtl is linked. Throws std::invalid_argument naming what there is.
 std::unique_ptr<Engine> make_engine(const std::string& design, const std::string& kind);
 std::vector<std::string> design_names();
 
@@ -158,6 +158,11 @@ struct DesignMakers {
   std::unique_ptr<RealChain> (*chain)(const std::string& kind);
 };
 void add_design(const DesignMakers& design);
+
+/// Makes "rtl" and "lockstep" of the designs built in. Set by the library feltgate_rtl before
+/// main(); nobody else needs to.
+using RtlMaker = std::unique_ptr<Engine> (*)(const std::string& design, const std::string& kind);
+void provide_rtl_engines(RtlMaker maker);
 
 /// Integer of a parameter for a value in its unit, rounded to nearest.
 /// Throws std::invalid_argument when it does not fit, with the range.

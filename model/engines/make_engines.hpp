@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The engines of one design: RTL, twin, and both in lock-step. Documentation: docs/architecture.md
+// The engines of one design: RTL, twin, and both in lock-step. Needs the Verilated core; without it
+// twin_engine.hpp. Documentation: docs/architecture.md
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "engines/clocked_engine.hpp"
-#include "engines/rtl_core.hpp"
-#include "reference/chain.hpp"
-#include "reference/real_chain.hpp"
+#include "clocked_engine.hpp"
+#include "rtl_core.hpp"
+#include "twin_engine.hpp"
 
 namespace feltgate {
 
@@ -37,90 +36,6 @@ class RtlEngine : public ClockedEngine {
  private:
   void reset_core(std::uint64_t seed, EncoderPins pins) override { core_.power_up(seed, pins); }
   RtlCore<Rtl, D> core_;
-};
-
-template <class D>
-class TwinEngine : public ClockedEngine {
- public:
-  TwinEngine() : ClockedEngine(design_info<D>()) {}
-  const char* name() const override { return "twin"; }
-
-  /// From event to event: pins, register writes and the end of the stretch. Clocks in which nothing
-  /// happens that could be asked for wait for those that follow. Flat: 7 % of the time are calls.
-  [[gnu::flatten]] void advance(Clock clocks, const EncoderEvent* first,
-                                const EncoderEvent* last) override {
-    snapshots_.clear();
-    if (first != last) events_.push(first, last);
-    CoreIn in = inputs();
-    const Clock end = now_ + clocks;
-    if (!gate_times_ && writes_.empty() && events_.next(end) >= end) {
-      in.encoder = events_.pins();
-      if (core_.calm(in, waiting_ + clocks)) {
-        waiting_ += clocks;
-        now_ = end;
-        return;
-      }
-    }
-    if (gate_times_) gates_before_ = core_.gate_clocks();
-    now_ -= waiting_;
-    waiting_ = 0;
-    const auto tell = [this] { keep(core_.out(), core_.sampled_travel(), core_.writes()); };
-    while (now_ < end) {
-      in.encoder = events_.at(now_);
-      const int clock_of_tick = core_.clock_of_tick();
-      if (!writes_.empty() && clock_of_tick == WriteQueue::issue_clock) {
-        issue_write(&in);
-        core_.clock(in);
-        if (core_.out().snapshot_valid) tell();
-        in.reg_write = false;
-        ++now_;
-        continue;
-      }
-      Clock until = std::min(end, events_.next(end));
-      if (!writes_.empty()) {
-        const int ahead = WriteQueue::issue_clock - clock_of_tick;
-        until = std::min(until, now_ + (ahead > 0 ? ahead : ahead + D::clocks_per_tick));
-      }
-      core_.run(in, until - now_, tell);
-      now_ = until;
-    }
-  }
-  void set_panel(const Panel& panel) override {
-    settle();
-    ClockedEngine::set_panel(panel);
-  }
-  void write(int address, std::uint32_t data) override {
-    settle();
-    ClockedEngine::write(address, data);
-  }
-  void keep_gate_times(bool keep) override { gate_times_ = keep; }
-  GateClocks gates() const override {
-    const auto after = core_.gate_clocks();
-    return {after[0] - gates_before_[0], after[1] - gates_before_[1], after[2] - gates_before_[2],
-            after[3] - gates_before_[3]};
-  }
-  int duty() const override { return core_.out().duty_active; }
-  bool gates_enabled() const override { return core_.out().gates_enable; }
-
- private:
-  using Core = FeltgateCore<D, false>;  // nobody reads registers through an engine
-
-  /// Before the inputs change: the clocks that wait.
-  void settle() {
-    CoreIn in = inputs();
-    in.encoder = events_.pins();
-    core_.run(in, waiting_, [] {});
-    waiting_ = 0;
-  }
-  void reset_core(std::uint64_t, EncoderPins) override {
-    core_ = Core();
-    waiting_ = 0;
-    gates_before_ = {};
-  }
-  Core core_;
-  Clock waiting_ = 0;  ///< clocks before now() that the core has yet to run
-  bool gate_times_ = true;
-  std::array<std::int64_t, 4> gates_before_{};
 };
 
 /// Name of the first output in which two cores differ, with both values.
@@ -225,16 +140,6 @@ std::unique_ptr<Engine> make_design_engine(const std::string& kind) {
   if (kind == "twin") return std::make_unique<TwinEngine<D>>();
   if (kind == "lockstep") return std::make_unique<LockStepEngine<Rtl, D>>();
   throw std::invalid_argument("engine \"" + kind + "\" is unknown; choose rtl, twin or lockstep");
-}
-
-template <class D>
-std::unique_ptr<RealChain> make_design_chain(const std::string& kind) {
-  if (kind == "fixed") return std::make_unique<Chain<D, Fixed>>("fixed");
-  if (kind == "float") return std::make_unique<Chain<D, Real<float>>>("float");
-  if (kind == "double") return std::make_unique<Chain<D, Real<double>>>("double");
-  if (kind == "quad") return std::make_unique<Chain<D, Real<Quad>>>("quad");
-  throw std::invalid_argument("chain \"" + kind +
-                              "\" is unknown; choose fixed, float, double or quad");
 }
 
 }  // namespace feltgate

@@ -12,8 +12,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "engines/rtl_ports.hpp"
 #include "feltgate/feltgate_core.hpp"
+#include "rtl_ports.hpp"
 
 namespace feltgate {
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bounds/coverage.hpp"
 #include "loop/loop.hpp"
 #include "loop/sampled_watch.hpp"
 

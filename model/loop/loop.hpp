@@ -12,14 +12,16 @@
 #include <string>
 #include <vector>
 
-#include "bounds/coverage.hpp"
-#include "engines/engine.hpp"
-#include "loop/figures.hpp"
-#include "loop/scenario.hpp"
-#include "reference/real_chain.hpp"
+#include "../engines/engine.hpp"
+#include "../reference/real_chain.hpp"
+#include "figures.hpp"
+#include "scenario.hpp"
 
 namespace feltgate {
 
+namespace bounds {
+class Coverage;
+}
 namespace plant {
 struct Observables;
 }

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "feltgate/encoder_source.hpp"
-#include "loop/loop.hpp"
+#include "loop.hpp"
 
 namespace feltgate {
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "plant/hand.hpp"
-#include "plant/parameters.hpp"
+#include "../plant/hand.hpp"
+#include "../plant/parameters.hpp"
 
 namespace feltgate {
 

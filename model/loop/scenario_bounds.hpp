@@ -5,6 +5,7 @@
 // through. Documentation: docs/error-bounds.md
 #pragma once
 
+#include "bounds/coverage.hpp"
 #include "bounds/error_bounds.hpp"
 #include "loop/scenario.hpp"
 

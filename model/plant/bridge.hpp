@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plant/parameters.hpp"
+#include "parameters.hpp"
 
 namespace feltgate::plant {
 

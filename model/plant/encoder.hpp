@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "feltgate/encoder_source.hpp"
-#include "plant/parameters.hpp"
+#include "parameters.hpp"
 
 namespace feltgate::plant {
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "plant/profile.hpp"
+#include "profile.hpp"
 
 namespace feltgate::plant {
 

@@ -132,12 +132,6 @@ HandPhase read_phase(config::TomlReader table, bool last) {
 
 }  // namespace
 
-double Hand::initial_rad() const {
-  if (start_rad) return *start_rad;
-  if (phases.empty() || phases.front().kind != Kind::kTrace) return 0.0;
-  return phases.front().trace.theta_rad.empty() ? 0.0 : phases.front().trace.theta_rad.front();
-}
-
 Trace read_trace_file(const std::string& path) {
   std::ifstream in(path);
   std::string line;

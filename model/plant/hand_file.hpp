@@ -5,7 +5,7 @@
 #pragma once
 
 #include "config/toml_reader.hpp"
-#include "plant/hand.hpp"
+#include "hand.hpp"
 
 namespace feltgate::plant {
 

@@ -11,6 +11,12 @@ namespace feltgate::plant {
 
 using Kind = HandPhase::Kind;
 
+double Hand::initial_rad() const {
+  if (start_rad) return *start_rad;
+  if (phases.empty() || phases.front().kind != Kind::kTrace) return 0.0;
+  return phases.front().trace.theta_rad.empty() ? 0.0 : phases.front().trace.theta_rad.front();
+}
+
 HandRun::HandRun(Hand hand, double radius_m, double clock_hz, bool dynamics)
     : hand_(std::move(hand)), radius_m_(radius_m), clock_hz_(clock_hz), clock_s_(1.0 / clock_hz) {
   if (hand_.phases.empty()) hand_.phases.emplace_back();

@@ -7,8 +7,8 @@
 #include <cstddef>
 
 #include "feltgate/encoder_source.hpp"
-#include "plant/hand.hpp"
-#include "plant/mechanics.hpp"
+#include "hand.hpp"
+#include "mechanics.hpp"
 
 namespace feltgate::plant {
 

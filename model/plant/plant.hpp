@@ -9,15 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "bridge.hpp"
+#include "encoder.hpp"
 #include "feltgate/encoder_source.hpp"
-#include "plant/bridge.hpp"
-#include "plant/encoder.hpp"
-#include "plant/hand_run.hpp"
-#include "plant/lugre.hpp"
-#include "plant/mechanics.hpp"
-#include "plant/parameters.hpp"
-#include "plant/supply.hpp"
-#include "plant/winding.hpp"
+#include "hand_run.hpp"
+#include "lugre.hpp"
+#include "mechanics.hpp"
+#include "parameters.hpp"
+#include "supply.hpp"
+#include "winding.hpp"
 
 namespace feltgate::plant {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "config/toml_reader.hpp"
-#include "plant/parameters.hpp"
+#include "parameters.hpp"
 
 namespace feltgate::plant {
 

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "plant/parameters.hpp"
+#include "parameters.hpp"
 
 namespace feltgate::plant {
 

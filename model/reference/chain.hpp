@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "reference/control_chain.hpp"
+#include "control_chain.hpp"
 
 namespace feltgate {
 

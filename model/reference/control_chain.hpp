@@ -6,7 +6,7 @@
 #pragma once
 
 #include "feltgate/chain_tick.hpp"
-#include "reference/real_chain.hpp"
+#include "real_chain.hpp"
 
 namespace feltgate {
 

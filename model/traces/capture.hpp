@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "traces/place.hpp"
+#include "place.hpp"
 
 namespace feltgate::traces {
 

@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "feltgate/encoder_source.hpp"
-#include "traces/options.hpp"
-#include "traces/table.hpp"
+#include "options.hpp"
+#include "table.hpp"
 
 namespace feltgate::traces {
 

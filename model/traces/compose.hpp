@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "traces/synthetic.hpp"
+#include "synthetic.hpp"
 
 namespace feltgate::traces::synthetic {
 

@@ -7,9 +7,9 @@
 
 #include <memory>
 
+#include "capture.hpp"
 #include "feltgate/encoder_source.hpp"
-#include "traces/capture.hpp"
-#include "traces/options.hpp"
+#include "options.hpp"
 
 namespace feltgate::traces {
 

@@ -8,9 +8,9 @@
 #include <deque>
 #include <string>
 
-#include "traces/capture.hpp"
-#include "traces/options.hpp"
-#include "traces/table.hpp"
+#include "capture.hpp"
+#include "options.hpp"
+#include "table.hpp"
 
 namespace feltgate::traces {
 

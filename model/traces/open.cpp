@@ -55,7 +55,12 @@ std::unique_ptr<Capture> capture(const std::filesystem::path& path, FileFormat f
                                  const Options& options) {
   switch (format) {
     case FileFormat::sigrok:
+#ifdef FELTGATE_SIGROK
       return std::make_unique<SigrokCapture>(path, options.sample_hz);
+#else
+      fail(path.string(), "sigrok recordings are not built into this program",
+           "convert it to a VCD, or build with libarchive and -DFELTGATE_SIGROK=ON");
+#endif
     case FileFormat::vcd:
       return std::make_unique<VcdCapture>(path, options.sample_hz);
     case FileFormat::vector:

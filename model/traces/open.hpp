@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "error.hpp"
 #include "feltgate/encoder_source.hpp"
-#include "traces/error.hpp"
-#include "traces/options.hpp"
+#include "options.hpp"
 
 namespace feltgate::traces {
 

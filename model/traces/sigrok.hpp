@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "traces/capture.hpp"
+#include "capture.hpp"
 
 struct archive;
 

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "traces/place.hpp"
-#include "traces/text.hpp"
+#include "place.hpp"
+#include "text.hpp"
 
 namespace feltgate::traces {
 

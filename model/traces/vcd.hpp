@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <unordered_map>
 
-#include "traces/capture.hpp"
-#include "traces/text.hpp"
+#include "capture.hpp"
+#include "text.hpp"
 
 namespace feltgate::traces {
 

@@ -9,9 +9,9 @@
 #include <filesystem>
 #include <string>
 
+#include "capture.hpp"
 #include "feltgate/encoder_source.hpp"
-#include "traces/capture.hpp"
-#include "traces/text.hpp"
+#include "text.hpp"
 
 namespace feltgate::traces {
 

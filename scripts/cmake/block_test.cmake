@@ -21,7 +21,7 @@ if(NOT TARGET feltgate_catch_main)
   target_include_directories(feltgate_catch_main PUBLIC
     ${FELTGATE_ROOT}/testbench/common ${FELTGATE_ROOT}/model/include)
   target_compile_definitions(feltgate_catch_main PUBLIC
-    FELTGATE_BUILD_DIR="${CMAKE_BINARY_DIR}" FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}")
+    FELTGATE_BUILD_DIR="${PROJECT_BINARY_DIR}" FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}")
   target_compile_features(feltgate_catch_main PUBLIC cxx_std_17)
   target_compile_options(feltgate_catch_main PRIVATE ${FELTGATE_WARNINGS})
   target_link_libraries(feltgate_catch_main PUBLIC Catch2::Catch2)
@@ -80,6 +80,6 @@ function(feltgate_block_test block)
     add_test(NAME ${arg_NAME}.defect${n}
       COMMAND ${CMAKE_COMMAND} -DTEST=$<TARGET_FILE:${name}> -P "${FELTGATE_EXPECT_FAILURE}")
     set_tests_properties(${arg_NAME}.defect${n} PROPERTIES LABELS mutation TIMEOUT 3600
-      ENVIRONMENT "FELTGATE_MISMATCH_DIR=${CMAKE_BINARY_DIR}/mismatch/defect${n}")
+      ENVIRONMENT "FELTGATE_MISMATCH_DIR=${PROJECT_BINARY_DIR}/mismatch/defect${n}")
   endforeach()
 endfunction()

@@ -4,10 +4,7 @@
 # Verilator: its run-time as a library and feltgate_verilate(). docs/testing.md
 include_guard(GLOBAL)
 
-get_filename_component(FELTGATE_ROOT "${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
 set(FELTGATE_JOIN_SOURCES "${CMAKE_CURRENT_LIST_DIR}/join_sources.cmake")
-set(FELTGATE_WARNINGS -Wall -Wextra -Wconversion -Wpedantic -Werror
-    CACHE STRING "Warnings for code of this project, not for Verilator's output")
 
 find_package(verilator REQUIRED HINTS $ENV{VERILATOR_ROOT} /usr/share/verilator)
 find_package(ZLIB REQUIRED)

@@ -28,7 +28,7 @@ BUILD = Path(os.environ.get("FELTGATE_BUILD", ROOT / "build"))
 SEEDS = (1, 2, 3)
 # Of two such keys a design has one: setting one takes the other out.
 ALTERNATIVES = (("velocity.n", "velocity.gain"), ("control.kp", "control.kp_1_kg_m2"))
-LIBRARIES = ("explore", "plant", "config", "verilated")
+LIBRARIES = ("explore", "plant_files", "plant", "config", "verilated")
 OPTIMISE = "-O1"  # measured: -O2 costs as much compiling as it saves running
 
 
@@ -166,7 +166,7 @@ def build_program(generated, folder, defect):
         objects.append(folder / f"{source.stem}.o")
         run([compiler(), *flags, "-c", source, "-o", objects[-1]])
     libraries = [BUILD / f"libfeltgate_{name}.a" for name in LIBRARIES]
-    run([compiler(), *objects, *libraries, "-lz", "-pthread", "-o", folder / "point"])
+    run([compiler(), *objects, *libraries, "-lfmt", "-lz", "-pthread", "-o", folder / "point"])
 
 
 def core_target():

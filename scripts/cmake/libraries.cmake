@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+#
+# The libraries for users: feltgate::core (headers, no dependency) and feltgate::sim with its parts,
+# of which feltgate::plant and feltgate::engines read no file. docs/library.md
+include_guard(GLOBAL)
+
+# Twin, laws, generated designs.
+add_library(feltgate_model INTERFACE)
+add_library(feltgate::core ALIAS feltgate_model)
+set_target_properties(feltgate_model PROPERTIES EXPORT_NAME core)
+target_include_directories(feltgate_model INTERFACE
+  "$<BUILD_INTERFACE:${FELTGATE_ROOT}/model/include>" "$<INSTALL_INTERFACE:include>")
+target_compile_features(feltgate_model INTERFACE cxx_std_17)
+if(NOT FELTGATE_SIM)
+  return()
+endif()
+
+find_package(Boost 1.74 REQUIRED)
+find_package(fmt 9 REQUIRED)
+find_path(FELTGATE_TOML_INCLUDE_DIR toml++/toml.h REQUIRED)
+
+# In the source tree a room of headers is model/<room>; its users write feltgate/<room>/x.hpp.
+set(FELTGATE_ROOMS engines loop plant reference traces)
+set(FELTGATE_STAGED_INCLUDE "${PROJECT_BINARY_DIR}/include")
+file(MAKE_DIRECTORY "${FELTGATE_STAGED_INCLUDE}/feltgate")
+foreach(room IN LISTS FELTGATE_ROOMS)
+  file(CREATE_LINK "${FELTGATE_ROOT}/model/${room}" "${FELTGATE_STAGED_INCLUDE}/feltgate/${room}"
+    SYMBOLIC)
+endforeach()
+
+# feltgate_library(<name> <folder> [ONLY <regex>] [EXCEPT <regex>] [libraries...]): a static library
+# of the sources of model/<folder>, but a program's, whose names match.
+function(feltgate_library name folder)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "ONLY;EXCEPT" "")
+  file(GLOB sources CONFIGURE_DEPENDS "${FELTGATE_ROOT}/model/${folder}/*.cpp")
+  list(FILTER sources EXCLUDE REGEX "_main\\.cpp$")
+  if(arg_ONLY)
+    list(FILTER sources INCLUDE REGEX "${arg_ONLY}")
+  endif()
+  if(arg_EXCEPT)
+    list(FILTER sources EXCLUDE REGEX "${arg_EXCEPT}")
+  endif()
+  add_library(${name} STATIC ${sources})
+  target_compile_options(${name} PRIVATE ${FELTGATE_WARNINGS})
+  target_link_libraries(${name} PUBLIC feltgate_model ${arg_UNPARSED_ARGUMENTS} PRIVATE fmt::fmt)
+endfunction()
+
+# feltgate_sim_library(<name> <folder> ...): the same, exported as feltgate::<name>.
+function(feltgate_sim_library name)
+  feltgate_library(feltgate_${name} ${ARGN})
+  feltgate_export(${name})
+endfunction()
+
+function(feltgate_export name)
+  add_library(feltgate::${name} ALIAS feltgate_${name})
+  set_target_properties(feltgate_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(feltgate_${name} INTERFACE
+    "$<BUILD_INTERFACE:${FELTGATE_STAGED_INCLUDE}>")
+  set_property(GLOBAL APPEND PROPERTY FELTGATE_SIM_TARGETS feltgate_${name})
+endfunction()
+
+# Strict reading of TOML files and what needs it.
+feltgate_sim_library(config config)
+target_include_directories(feltgate_config SYSTEM PUBLIC
+  "$<BUILD_INTERFACE:${FELTGATE_TOML_INCLUDE_DIR}>")
+# Output files that are whole or not there.
+feltgate_sim_library(files files)
+feltgate_sim_library(design design feltgate_config)
+feltgate_sim_library(bounds bounds feltgate_design Boost::headers)
+
+# The plant itself reads no file; plant_files reads plants and hands.
+feltgate_sim_library(plant plant EXCEPT "_file\\.cpp$")
+feltgate_sim_library(plant_files plant ONLY "_file\\.cpp$" feltgate_plant feltgate_config)
+
+if(FELTGATE_SIGROK)
+  find_package(LibArchive REQUIRED)
+  feltgate_sim_library(traces traces)
+  target_link_libraries(feltgate_traces PRIVATE LibArchive::LibArchive)
+  target_compile_definitions(feltgate_traces PRIVATE FELTGATE_SIGROK)
+else()
+  feltgate_sim_library(traces traces EXCEPT "/sigrok")
+endif()
+
+include(engines)
+feltgate_sim_library(loop loop
+  feltgate_engines feltgate_plant_files feltgate_traces feltgate_bounds)
+# A closed loop hands scalars from step to step; packed in pairs they would wait for the store.
+foreach(target feltgate_plant feltgate_loop)
+  target_compile_options(${target} PRIVATE -fno-tree-slp-vectorize)
+endforeach()
+
+add_library(feltgate_sim INTERFACE)
+target_link_libraries(feltgate_sim INTERFACE feltgate_loop)
+feltgate_export(sim)

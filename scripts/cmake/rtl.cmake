@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+#
+# feltgate_rtl: the Verilated core of each design, alone and in lock-step with its twin. Whoever links
+# it gets the engines "rtl" and "lockstep" from make_engine().
+include_guard(GLOBAL)
+include(verilate)
+
+file(STRINGS "${FELTGATE_ROOT}/rtl/feltgate_core.f" FELTGATE_CORE_SOURCES REGEX "^[^/]")
+list(TRANSFORM FELTGATE_CORE_SOURCES PREPEND "${FELTGATE_ROOT}/rtl/")
+
+add_library(feltgate_rtl STATIC "${FELTGATE_ROOT}/model/engines/rtl_engines.cpp")
+foreach(design IN LISTS FELTGATE_DESIGNS)
+  set(type ${FELTGATE_TYPE_${design}})
+  feltgate_verilate(core_${design} feltgate_core
+    "${FELTGATE_ROOT}/rtl/generated/${design}/feltgate_pkg.sv;${FELTGATE_CORE_SOURCES}"
+    CLASS Vcore_${design} -O3)
+  feltgate_for_design(design_rtl.cpp.in "${PROJECT_BINARY_DIR}/engines/${design}_rtl.cpp")
+  target_sources(feltgate_rtl PRIVATE "${PROJECT_BINARY_DIR}/engines/${design}_rtl.cpp")
+  target_link_libraries(feltgate_rtl PUBLIC core_${design})
+endforeach()
+target_link_libraries(feltgate_rtl PUBLIC feltgate_engines PRIVATE fmt::fmt)
+target_include_directories(feltgate_rtl PRIVATE "${PROJECT_BINARY_DIR}/engines")
+target_compile_options(feltgate_rtl PRIVATE ${FELTGATE_ENGINE_OPTIONS})
+# An archive's member is linked where something asks for it: this asks for the registration.
+target_link_options(feltgate_rtl INTERFACE "LINKER:--undefined=feltgate_rtl_engines")

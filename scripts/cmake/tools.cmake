@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+#
+# The program feltgate with the studies behind its commands, the generator and the benchmark.
+include_guard(GLOBAL)
+
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(Eigen3 REQUIRED NO_MODULE)
+
+# feltgate_program(<name> <sources> [libraries...])
+function(feltgate_program name sources)
+  list(TRANSFORM sources PREPEND "${FELTGATE_ROOT}/model/tools/")
+  add_executable(${name} ${sources})
+  target_compile_options(${name} PRIVATE ${FELTGATE_WARNINGS})
+  target_compile_definitions(${name} PRIVATE
+    FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}" FELTGATE_VERSION="${PROJECT_VERSION}")
+  target_link_libraries(${name} PRIVATE ${ARGN} fmt::fmt)
+endfunction()
+
+# What the programs of design points share; scripts/exploring/point.py compiles the rest.
+feltgate_library(feltgate_explore explore feltgate_plant_files nlohmann_json::nlohmann_json)
+
+feltgate_library(feltgate_budget budget feltgate_loop)
+target_include_directories(feltgate_budget PRIVATE "${PROJECT_BINARY_DIR}/engines")
+foreach(design IN LISTS FELTGATE_DESIGNS)
+  set(type ${FELTGATE_TYPE_${design}})
+  feltgate_for_design(design_budget.cpp.in "${PROJECT_BINARY_DIR}/engines/${design}_budget.cpp")
+  target_sources(feltgate_budget PRIVATE "${PROJECT_BINARY_DIR}/engines/${design}_budget.cpp")
+endforeach()
+feltgate_library(feltgate_trim trim feltgate_loop)
+
+# Eigen's own warnings are not ours: its headers are system headers.
+feltgate_library(feltgate_stability stability feltgate_engines feltgate_plant_files feltgate_design
+  Eigen3::Eigen)
+target_link_libraries(feltgate_stability PRIVATE nlohmann_json::nlohmann_json)
+
+feltgate_program(feltgate_generate generate_main.cpp feltgate_design)
+include(extremes)
+
+file(GLOB tool_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/tools"
+  "${FELTGATE_ROOT}/model/tools/*.cpp")
+list(FILTER tool_sources EXCLUDE REGEX "_main\\.cpp$")
+feltgate_program(feltgate "feltgate_main.cpp;${tool_sources}"
+  feltgate_rtl feltgate_files feltgate_budget feltgate_loop feltgate_stability feltgate_trim feltgate_design
+  feltgate_extremes nlohmann_json::nlohmann_json CLI11::CLI11)
+
+# What `feltgate explore` takes from the build; with synth it makes designs out of tree.
+feltgate_program(feltgate_point_bounds bounds_main.cpp feltgate_bounds nlohmann_json::nlohmann_json)
+add_dependencies(feltgate
+  feltgate_generate feltgate_point_bounds feltgate_explore feltgate_verilated)
+
+# The benchmark links SystemC, which nothing else of the product needs: only built when asked for.
+feltgate_library(feltgate_bench_parts bench feltgate_rtl feltgate_loop systemc)
+target_compile_definitions(feltgate_bench_parts PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
+feltgate_program(feltgate_bench "bench_main.cpp;commands.cpp;command_line.cpp"
+  feltgate_files feltgate_bench_parts nlohmann_json::nlohmann_json CLI11::CLI11)
+if(NOT FELTGATE_TESTS)
+  set_target_properties(feltgate_bench feltgate_bench_parts PROPERTIES EXCLUDE_FROM_ALL ON)
+endif()

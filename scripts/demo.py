@@ -19,7 +19,7 @@ from pathlib import Path
 from reporting import all_figures, demo_page, recordings, run_section, runs, stability_section
 from reporting.progress import Progress, clock_text
 
-SCHEMA = "feltgate-demo-1"
+SCHEMA = "feltgate-demo/1"
 DESIGNS = ("lever", "paper")
 # Velocity alone would leave half of the core idle: the damper makes torque of it.
 REPLAY_SCENE = "damper"

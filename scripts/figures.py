@@ -16,7 +16,7 @@ from pathlib import Path
 from reporting import all_figures, page, run_section, runs
 from reporting.progress import Progress
 
-SCHEMA = "feltgate-figures-1"
+SCHEMA = "feltgate-figures/1"
 DESIGNS = ("lever", "paper")
 INTRODUCTION = (
     "The figures of A. G. Rodríguez Ramírez, M. Nandayapa, O. O. Vergara Villegas and F. García "

@@ -17,7 +17,7 @@ from pathlib import Path
 from reporting import card, headline, page, run_pictures, run_section
 from reporting.runs import read_csv
 
-SCHEMA = "feltgate-run-1"
+SCHEMA = "feltgate-run/1"
 MOST_ROWS = 60_000  # a picture shows no more
 
 

@@ -5,6 +5,7 @@
 // Documentation: docs/architecture.md
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -63,7 +64,14 @@ constexpr unsigned duty = 16;
 constexpr unsigned velocity = 32;  ///< the raw velocity saturated its format
 constexpr unsigned tau_hat = 64;   ///< tau_hat saturated its format
 constexpr unsigned gates_closed = 128;
+/// By the number of the bit.
+inline constexpr std::array<const char*, 8> names{"torque", "ramp",     "current", "voltage",
+                                                  "duty",   "velocity", "tau_hat", "gates_closed"};
 }  // namespace limit
+
+/// Bits of Snapshot::faults by number; as the causes of the supervisor (Fault).
+inline constexpr std::array<const char*, 7> fault_names{"none", "encoder",  "speed", "polarity",
+                                                        "i2t",  "watchdog", "stop"};
 
 /// Switches and pins of the board.
 struct Panel {

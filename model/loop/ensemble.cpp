@@ -4,20 +4,14 @@
 // A core with its riders. Documentation: docs/architecture.md
 #include "loop/ensemble.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
 
 namespace feltgate {
-
-EngineChoice choose_engines(const std::string& engine) {
-  if (engine == "all") return {"lockstep", {"double", "quad"}, false};
-  if (engine == "rtl" || engine == "twin") return {engine, {}, false};
-  if (engine == "double" || engine == "quad") return {"twin", {engine}, true};
-  throw std::invalid_argument("engine \"" + engine +
-                              "\" is unknown; choose rtl, twin, double, quad or all");
-}
 
 Ensemble::Ensemble(const std::string& design, const EngineChoice& choice, std::uint64_t seed,
                    EncoderPins pins, const Waveform& waveform)
@@ -36,9 +30,9 @@ Ensemble::Ensemble(const std::string& design, const EngineChoice& choice, std::u
     riders_.push_back(std::move(r));
   }
   for (const Rider& r : riders_) {
-    if (r.figures.name == "quad") quad_ = r.chain.get();
+    if (r.figures.name == choice.reference()) reference_ = r.chain.get();
   }
-  lead_figures_.compared = quad_ != nullptr && !choice.rider_drives;
+  lead_figures_.compared = reference_ != nullptr && !choice.rider_drives;
 }
 
 void Ensemble::write(HostWrite w) {
@@ -51,8 +45,8 @@ void Ensemble::write(HostWrite w) {
 void Ensemble::set_parameter(const std::string& name, double value) {
   const ParameterInfo* info = design().find(name);
   if (info == nullptr) {
-    throw std::invalid_argument("parameter \"" + name + "\" is unknown; `feltgate design " +
-                                design().name + "` lists them");
+    throw std::invalid_argument(fmt::format(
+        "parameter \"{}\" is unknown; `feltgate design {}` lists them", name, design().name));
   }
   write({0, info->address, static_cast<std::uint32_t>(quantise_parameter(*info, value)), value});
 }
@@ -90,16 +84,48 @@ void Ensemble::ride(const Snapshot& s) {
   for (Rider& r : riders_) {
     r.watch.time([&] { r.chain->tick(in); });
   }
-  if (quad_ == nullptr) return;
+  if (reference_ == nullptr) return;
   if (covers_) check_coverage(s);
   if (lead_figures_.compared) {
     compare(lead_figures_, velocity_rad_s(s), torque_nm(s.tau_hat), current_a(s));
   }
   for (Rider& r : riders_) {
+    if (r.chain.get() == reference_) continue;
     const ChainOut& o = r.chain->out();
     compare(r.figures, o.velocity_rad_s, o.tau_hat_nm, o.current_a);
     r.figures.compared = true;
   }
+}
+
+EngineSignals Ensemble::of_core(const Snapshot& s) const {
+  const double current = current_a(s);
+  return {velocity_rad_s(s),
+          torque_nm(s.tau_ref),
+          torque_nm(s.tau_hat),
+          design().torque_constant_nm_a * current,
+          current,
+          voltage_v(s),
+          static_cast<double>(s.duty) / design().pwm_period};
+}
+
+EngineSignals Ensemble::of_chain(const ChainOut& o) const {
+  return {o.velocity_rad_s,
+          o.tau_ref_nm,
+          o.tau_hat_nm,
+          design().torque_constant_nm_a * o.current_a,
+          o.current_a,
+          o.voltage_v,
+          o.duty_clocks / design().pwm_period};
+}
+
+void Ensemble::fill(Row& row, const Snapshot& s) const {
+  row.position_rad = s.position * design().count_rad;
+  row.limits = s.limits;
+  row.faults = s.faults;
+  row.engines.clear();
+  if (!choice_.rider_drives) row.engines.push_back(of_core(s));
+  for (const Rider& r : riders_) row.engines.push_back(of_chain(r.chain->out()));
+  static_cast<EngineSignals&>(row) = row.engines.front();
 }
 
 void Ensemble::watch_velocity(std::int16_t travel) {
@@ -115,14 +141,14 @@ void Ensemble::check_coverage(const Snapshot& s) {
   bounds::TickState t;
   t.velocity_saturated = (s.limits & limit::velocity) != 0;
   t.tau_hat_saturated = (s.limits & limit::tau_hat) != 0;
-  t.ramping = (s.limits & limit::ramp) != 0 || quad_->ramping();
-  t.tau_ref_error_nm = torque_nm(s.tau_ref) - quad_->out().tau_ref_nm;
+  t.ramping = (s.limits & limit::ramp) != 0 || reference_->ramping();
+  t.tau_ref_error_nm = torque_nm(s.tau_ref) - reference_->out().tau_ref_nm;
   coverage_.tick(t);
 }
 
 void Ensemble::compare(EngineFigures& f, double velocity_rad_s, double tau_hat_nm,
                        double current_a) {
-  const ChainOut& exact = quad_->out();
+  const ChainOut& exact = reference_->out();
   const double velocity_error = velocity_rad_s - exact.velocity_rad_s;
   const double tau_hat_error = tau_hat_nm - exact.tau_hat_nm;
   const double torque_error = design().torque_constant_nm_a * (current_a - exact.current_a);

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A core with its riders: queues register writes for all of them alike and collects their errors
-// against the quad reference. Used by closed loop and replay. Documentation: docs/architecture.md
+// against the most exact of them. Used by closed loop and replay. Documentation:
+// docs/architecture.md
 #pragma once
 
 #include <deque>
@@ -57,8 +58,13 @@ class Ensemble {
     }
   }
 
-  /// The rider that serves as reference, or none.
-  const RealChain* quad() const { return quad_; }
+  /// What the engine that drives the motor says in the tick of `s`.
+  EngineSignals signals(const Snapshot& s) const {
+    return choice_.rider_drives ? of_chain(riders_[0].chain->out()) : of_core(s);
+  }
+  /// Position, limits, faults and the signals of every engine in the tick of `s`.
+  void fill(Row& row, const Snapshot& s) const;
+  const EngineChoice& choice() const { return choice_; }
   const RealChain* rider(std::size_t i) const { return riders_[i].chain.get(); }
   std::size_t rider_count() const { return riders_.size(); }
 
@@ -90,6 +96,8 @@ class Ensemble {
     double velocity_rad_s = 0, torque_nm = 0, current_a = 0, voltage_v = 0;
   };
 
+  EngineSignals of_core(const Snapshot& s) const;
+  EngineSignals of_chain(const ChainOut& o) const;
   void write(HostWrite w);
   void ride(const Snapshot& s);
   void watch_velocity(std::int16_t travel);
@@ -101,7 +109,7 @@ class Ensemble {
   const DesignInfo* design_;
   Units unit_;
   std::vector<Rider> riders_;
-  const RealChain* quad_ = nullptr;
+  const RealChain* reference_ = nullptr;
   RealChain* passenger_ = nullptr;
   bounds::Coverage coverage_;
   bool covers_ = false;

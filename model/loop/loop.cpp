@@ -4,6 +4,8 @@
 // Closed loop. Documentation: docs/architecture.md
 #include "loop/loop.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -46,6 +48,7 @@ class ScenarioRun {
         core_(options.design, choice_, options.seed, plant_.encoder().pins(),
               Waveform{options.fst, options.fst_from, options.fst_to}),
         mean_(core_.design().pwm_period),
+        felt_(1.0 / static_cast<double>(core_.design().tick_hz)),
         scene_(scene_number(scenario.scene)),
         mode_(scenario.mode),
         counter_(plant_.encoder().pins()) {}
@@ -55,8 +58,8 @@ class ScenarioRun {
     const Clock end = std::llround(s_.duration_s * static_cast<double>(d.clock_hz));
     if (options_.record != nullptr) {
       recorder_ = std::make_unique<traces::VectorWriter>(
-          options_.record, "the record of scene " + s_.name, traces::VectorHeader{d.name, d.clock_hz, {"A", "B", "Z"}},
-          plant_.encoder().pins());
+          options_.record, "the record of scene " + s_.name,
+          traces::VectorHeader{d.name, d.clock_hz, {"A", "B", "Z"}}, plant_.encoder().pins());
     }
     core_.cover(options_.coverage);
     core_.carry(options_.passenger);
@@ -176,7 +179,7 @@ class ScenarioRun {
     const plant::Observables& o = plant_.observables();
     if (options_.plant_step) options_.plant_step(clocks, o);
     mean_.add(clocks, o.motor_torque_mean_nm);
-    hand_energy_j_ += o.hand_torque_nm * o.omega_rad_s * dt_s_;
+    felt_.step(dt_s_, o.hand_torque_nm, o.omega_rad_s);
     absorbed_j_ -= last_.tau_ref_nm * o.omega_rad_s * dt_s_;
     const auto& events = plant_.events();
     if (options_.inputs != nullptr) {
@@ -196,16 +199,9 @@ class ScenarioRun {
     Row& r = last_;
     r.theta_rad = o.theta_rad;
     r.motor_torque_nm = mean_.mean();
-    if (choice_.rider_drives) {
-      const ChainOut& c = core_.rider(0)->out();
-      r.velocity_rad_s = c.velocity_rad_s;
-      r.tau_ref_nm = c.tau_ref_nm;
-      r.tau_hat_nm = c.tau_hat_nm;
-    } else {
-      r.velocity_rad_s = core_.velocity_rad_s(s);
-      r.tau_ref_nm = core_.torque_nm(s.tau_ref);
-      r.tau_hat_nm = core_.torque_nm(s.tau_hat);
-    }
+    static_cast<EngineSignals&>(r) = core_.signals(s);
+    felt_.tick(r.tau_ref_nm, r.torque_nm, s.limits, s.faults);
+    felt_.motor(r.motor_torque_nm, r.tau_ref_nm);
     faults_ |= s.faults;
     tau_ref_.add(r.tau_ref_nm);
     tau_hat_.add(r.tau_hat_nm);
@@ -215,37 +211,14 @@ class ScenarioRun {
       steps_.back().tau_hat_nm.push_back(r.tau_hat_nm);
       steps_.back().torque_nm.push_back(r.motor_torque_nm);
     }
-    if (options_.row) {
-      complete(r, s, o);
+    if (options_.row && ticks_ % options_.row_every == 0) {
+      r.time_s = static_cast<double>(ticks_) / static_cast<double>(core_.design().tick_hz);
+      r.omega_rad_s = o.omega_rad_s;
+      r.hand_torque_nm = o.hand_torque_nm;
+      core_.fill(r, s);
       options_.row(r);
     }
     ++ticks_;
-  }
-
-  /// What only a reader of rows wants.
-  void complete(Row& r, const Snapshot& s, const plant::Observables& o) const {
-    r.time_s = static_cast<double>(ticks_) / static_cast<double>(core_.design().tick_hz);
-    r.omega_rad_s = o.omega_rad_s;
-    r.hand_torque_nm = o.hand_torque_nm;
-    r.position_rad = s.position * core_.design().count_rad;
-    if (choice_.rider_drives) {
-      const ChainOut& c = core_.rider(0)->out();
-      r.current_a = c.current_a;
-      r.voltage_v = c.voltage_v;
-      r.duty = c.duty_clocks / core_.design().pwm_period;
-    } else {
-      r.current_a = core_.current_a(s);
-      r.voltage_v = core_.voltage_v(s);
-      r.duty = static_cast<double>(s.duty) / core_.design().pwm_period;
-    }
-    if (core_.quad() != nullptr) {
-      const ChainOut& q = core_.quad()->out();
-      r.quad_velocity_rad_s = q.velocity_rad_s;
-      r.quad_tau_hat_nm = q.tau_hat_nm;
-      r.quad_current_a = q.current_a;
-    }
-    r.limits = s.limits;
-    r.faults = s.faults;
   }
 
   RunResult result(Clock clocks) {
@@ -265,7 +238,10 @@ class ScenarioRun {
     const traces::Statistics& p = counter_.result();
     out.position = {p.steps, p.illegal, p.reversals};
     out.largest_velocity_rad_s = core_.largest_velocity_rad_s();
+    out.reference = choice_.reference();
     out.engines = core_.figures();
+    out.felt = felt_.felt();
+    out.felt.closed_loop = true;
     const double tick_s = 1.0 / static_cast<double>(d.tick_hz);
     std::vector<StepFigures> steps;
     for (const StepRecord& r : steps_) {
@@ -283,7 +259,7 @@ class ScenarioRun {
 
   /// The engine whose duty drove the motor: only its torques are responses to the steps.
   bool closes_loop(const std::string& engine) const {
-    return choice_.rider_drives ? engine == options_.engine : engine == "rtl" || engine == "twin";
+    return choice_.rider_drives ? engine == choice_.riders[0] : engine == "rtl" || engine == "twin";
   }
 
   void fill_figures(RunResult& out, const std::vector<StepFigures>& steps) const {
@@ -298,10 +274,10 @@ class ScenarioRun {
     f["velocity_max_rad_s"] = velocity_.high;
     f["theta_min_rad"] = theta_.low;
     f["theta_max_rad"] = theta_.high;
-    f["hand_energy_j"] = hand_energy_j_;
+    f["hand_energy_j"] = out.felt.energy.net_from_hand_j();
     f["energy_absorbed_j"] = absorbed_j_;
     for (std::size_t i = 0; i < steps.size(); ++i) {
-      const std::string n = "." + std::to_string(i);
+      const std::string n = fmt::format(".{}", i);
       f["tau_hat_settling_ms" + n] = steps[i].tau_hat.settling_ms;
       f["tau_hat_final_nm" + n] = steps[i].tau_hat.final_value_nm;
       f["tau_hat_final_error_nm" + n] = steps[i].tau_hat.final_value_nm - steps[i].tau_ref_nm;
@@ -314,15 +290,19 @@ class ScenarioRun {
 
   void check(RunResult& out, const Expectation& x) const {
     if (x.design && *x.design != out.design) return;
-    ++out.expectations_checked;
     const auto it = out.figures.find(x.figure);
     if (it == out.figures.end()) {
-      throw config::ConfigError(s_.path + ":" + std::to_string(x.line) + ": figure \"" + x.figure +
-                                "\" is not one of this run; see docs/scenes.md");
+      throw config::ConfigError(
+          fmt::format("{}:{}: figure \"{}\" is not one of this run; see docs/scenes.md", s_.path,
+                      x.line, x.figure));
     }
-    if (it->second >= x.low && it->second <= x.high) return;
-    out.broken.push_back(s_.path + ":" + std::to_string(x.line) + ": " + x.figure + " = " +
-                         std::to_string(it->second) + " is outside its bounds");
+    const double low = x.low > -1e300 ? x.low : -std::numeric_limits<double>::infinity();
+    const double high = x.high < 1e300 ? x.high : std::numeric_limits<double>::infinity();
+    const Expected e{x.figure, it->second, low, high, x.line};
+    out.felt.expectations.push_back(e);
+    if (e.kept()) return;
+    out.broken.push_back(fmt::format("{}:{}: {} = {:.6g} is outside its bounds; expected {}",
+                                     s_.path, x.line, x.figure, e.value, e.wanted()));
   }
 
   const Scenario& s_;
@@ -331,6 +311,7 @@ class ScenarioRun {
   plant::Plant plant_;
   Ensemble core_;
   plant::PeriodMean mean_;
+  FeltMeter felt_;
   int scene_, mode_;
   traces::StepCounter counter_;
   std::unique_ptr<traces::VectorWriter> recorder_;
@@ -341,7 +322,7 @@ class ScenarioRun {
   double duty_ = 0;
   std::int64_t ticks_ = 0;
   int faults_ = 0;
-  double hand_energy_j_ = 0, absorbed_j_ = 0;
+  double absorbed_j_ = 0;
   Range tau_ref_, tau_hat_, velocity_, theta_;
   Row last_;
   std::vector<StepRecord> steps_;

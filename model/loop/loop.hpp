@@ -14,6 +14,9 @@
 
 #include "../engines/engine.hpp"
 #include "../reference/real_chain.hpp"
+#include "columns.hpp"
+#include "engine_choice.hpp"
+#include "felt.hpp"
 #include "figures.hpp"
 #include "scenario.hpp"
 
@@ -35,7 +38,7 @@ struct StepFigures {
 /// What is known of one engine after a run.
 struct EngineFigures {
   std::string name;
-  bool compared = false;  ///< the error figures below were taken against the quad reference
+  bool compared = false;  ///< the error figures below were taken against RunResult::reference
   ErrorFigure velocity_rad_s, tau_hat_nm, torque_nm;
   /// The same in the ticks for which error bounds hold; empty where none were given.
   ErrorFigure covered_velocity_rad_s, covered_tau_hat_nm, covered_torque_nm;
@@ -60,22 +63,16 @@ struct RunResult {
   PositionFigures position;
   std::int32_t last_position = 0;     ///< counts, by an independent count of the pins; wraps
   double largest_velocity_rad_s = 0;  ///< of the N-method before its low-pass; needs a rider
+  std::string reference;  ///< engine that the others are compared with, "quad" or "double", or none
   std::vector<EngineFigures> engines;
+  Felt felt;
+  std::optional<bounds::ErrorBounds>
+      bounds;                             ///< of this motion, where the errors were held to them
   std::map<std::string, double> figures;  ///< what scene files put bounds on
-  int expectations_checked = 0;
-  std::vector<std::string> broken;  ///< expectations that do not hold, one line each
+  std::vector<std::string> broken;  ///< expectations and bounds that do not hold, one line each
   double simulated_s = 0;
   std::size_t plant_states = 0;    ///< continuous states of the plant at the end
   plant::Evaluations evaluations;  ///< of the plant's effects
-};
-
-/// One row per tick, for CSV and pictures.
-struct Row {
-  double time_s = 0, theta_rad = 0, omega_rad_s = 0, motor_torque_nm = 0, hand_torque_nm = 0;
-  double position_rad = 0, velocity_rad_s = 0, tau_ref_nm = 0, tau_hat_nm = 0, current_a = 0,
-         voltage_v = 0, duty = 0;
-  double quad_velocity_rad_s = 0, quad_tau_hat_nm = 0, quad_current_a = 0;
-  int limits = 0, faults = 0;
 };
 
 /// A register write of the host: the word for fixed point, the value for real arithmetic.
@@ -96,7 +93,7 @@ struct RunInputs {
 
 struct RunOptions {
   std::string design = "lever";
-  std::string engine = "all";  ///< rtl, twin, double, quad or all
+  std::string engine = "all";  ///< comma list, see choose_engines()
   std::uint64_t seed = 1;
   std::string fst;                  ///< waveform of the clocks fst_from to fst_to; empty: none
   Clock fst_from = 0, fst_to = -1;  ///< fst_to < 0: to the end
@@ -104,7 +101,8 @@ struct RunOptions {
   const bounds::Coverage* coverage = nullptr;  ///< of error bounds that are to be checked
   RealChain* passenger = nullptr;  ///< rides along on the samples and writes, uncompared
   RunInputs* inputs = nullptr;     ///< filled when given; a scene that uses the stop pin throws
-  std::function<void(const Row&)> row;  ///< called once per tick; may be empty
+  std::function<void(const Row&)> row;  ///< called for every row_every-th tick; may be empty
+  int row_every = 1;
   /// called after each step of the plant, which took `clocks`; may be empty
   std::function<void(Clock clocks, const plant::Observables&)> plant_step;
   std::function<void(double done)> progress;  ///< called now and then with 0..1; may be empty
@@ -114,13 +112,5 @@ struct RunOptions {
 /// not.
 RunResult run_scenario(const Scenario& scenario, const plant::Parameters& plant,
                        const RunOptions& options);
-
-/// Engines that an --engine choice starts: the lead ("rtl", "twin" or "lockstep") and the riders.
-struct EngineChoice {
-  std::string lead;
-  std::vector<std::string> riders;
-  bool rider_drives = false;  ///< the rider's duty drives the motor instead of the lead's
-};
-EngineChoice choose_engines(const std::string& engine);
 
 }  // namespace feltgate

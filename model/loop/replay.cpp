@@ -4,6 +4,8 @@
 // Open loop on an encoder recording. Documentation: docs/traces.md
 #include "loop/replay.hpp"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 
 #include "loop/ensemble.hpp"
@@ -13,17 +15,20 @@ namespace feltgate {
 
 RunResult run_replay(EncoderSource& source, const std::string& subject,
                      const ReplayOptions& options) {
-  if (options.engine == "double" || options.engine == "quad") {
-    throw std::invalid_argument(
-        "engine \"" + options.engine +
-        "\" alone has nothing to be compared with here; choose rtl, twin or all");
+  const EngineChoice choice = choose_engines(options.engine);
+  if (choice.rider_drives && choice.riders.size() == 1) {
+    throw std::invalid_argument(fmt::format(
+        "engine \"{0}\" alone has nothing to be compared with here; choose twin,{0} or all",
+        options.engine));
   }
-  Ensemble core(options.design, choose_engines(options.engine), options.seed, source.initial(),
+  Ensemble core(options.design, choice, options.seed, source.initial(),
                 Waveform{options.fst, options.fst_from, options.fst_to});
   const DesignInfo& d = core.design();
   const int scene = d.scene_number(options.scene);
-  if (scene < 0)
-    throw std::invalid_argument("scene \"" + options.scene + "\" is not built in design " + d.name);
+  if (scene < 0) {
+    throw std::invalid_argument(
+        fmt::format("scene \"{}\" is not built in design {}", options.scene, d.name));
+  }
   core.set_control(scene, 0, options.arm);
   core.cover(options.coverage);
 
@@ -31,26 +36,16 @@ RunResult run_replay(EncoderSource& source, const std::string& subject,
   out.design = d.name;
   out.subject = subject;
   traces::StepCounter counter(source.initial());
+  FeltMeter felt(1.0 / static_cast<double>(d.tick_hz));
+  Row row;
   const auto tick = [&](const Snapshot& s) {
     ++out.ticks;
-    if (!options.row) return;
-    Row r;
-    r.time_s = static_cast<double>(out.ticks) / static_cast<double>(d.tick_hz);
-    r.position_rad = s.position * d.count_rad;
-    r.velocity_rad_s = core.velocity_rad_s(s);
-    r.tau_ref_nm = core.torque_nm(s.tau_ref);
-    r.tau_hat_nm = core.torque_nm(s.tau_hat);
-    r.current_a = core.current_a(s);
-    r.voltage_v = core.voltage_v(s);
-    r.duty = static_cast<double>(s.duty) / d.pwm_period;
-    if (core.quad() != nullptr) {
-      r.quad_velocity_rad_s = core.quad()->out().velocity_rad_s;
-      r.quad_tau_hat_nm = core.quad()->out().tau_hat_nm;
-      r.quad_current_a = core.quad()->out().current_a;
-    }
-    r.limits = s.limits;
-    r.faults = s.faults;
-    options.row(r);
+    const EngineSignals now = core.signals(s);
+    felt.tick(now.tau_ref_nm, now.torque_nm, s.limits, s.faults);
+    if (!options.row || (out.ticks - 1) % options.row_every != 0) return;
+    row.time_s = static_cast<double>(out.ticks) / static_cast<double>(d.tick_hz);
+    core.fill(row, s);
+    options.row(row);
   };
 
   // In blocks of a thousand ticks: long enough to be cheap, short enough to show progress.
@@ -89,14 +84,16 @@ RunResult run_replay(EncoderSource& source, const std::string& subject,
   core.advance(2 * d.clocks_per_tick, nullptr, nullptr, tick);
   out.clocks = core.lead().now();
   out.simulated_s = static_cast<double>(out.clocks) / static_cast<double>(d.clock_hz);
-  out.lock_step = choose_engines(options.engine).lead == "lockstep";
+  out.lock_step = choice.lead == "lockstep";
   out.mismatches = core.lead().mismatches();
   out.first_mismatch = core.lead().first_mismatch();
   out.first_mismatch_clock = core.lead().first_mismatch_clock();
   out.position = {counter.result().steps, counter.result().illegal, counter.result().reversals};
   out.last_position = static_cast<std::int32_t>(counter.result().position);
   out.largest_velocity_rad_s = core.largest_velocity_rad_s();
+  out.reference = choice.reference();
   out.engines = core.figures();
+  out.felt = felt.felt();
   return out;
 }
 

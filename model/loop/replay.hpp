@@ -20,7 +20,8 @@ struct ReplayOptions {
   Clock fst_from = 0, fst_to = -1;
   const bounds::Coverage* coverage = nullptr;  ///< of error bounds that are to be checked
   Clock most_clocks = 0;                       ///< stop there; 0: to the end of the recording
-  std::function<void(const Row&)> row;
+  std::function<void(const Row&)> row;         ///< for every row_every-th tick
+  int row_every = 1;
   std::function<void(Clock done)> progress;
 };
 

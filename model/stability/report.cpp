@@ -127,7 +127,7 @@ std::string study_text(const Study& s) {
 
 std::string study_json(const Study& s) {
   using nlohmann::json;
-  json out{{"schema", "feltgate-stability-1"},
+  json out{{"schema", "feltgate-stability/1"},
            {"design", s.design},
            {"linear_plant", s.linear_plant},
            {"full_plant", s.full_plant},

@@ -12,7 +12,7 @@ namespace feltgate::stability {
 
 std::string study_text(const Study& study);
 
-/// Schema feltgate-stability-1, pretty-printed.
+/// Schema feltgate-stability/1, pretty-printed.
 std::string study_json(const Study& study);
 
 }  // namespace feltgate::stability

@@ -93,7 +93,7 @@ Json line_json(const BudgetLine& l) {
 }
 
 std::string json(const SceneBudget& b, const std::string& scene, const std::string& design) {
-  Json j{{"schema", "feltgate-budget-1"}, {"version", FELTGATE_VERSION}};
+  Json j{{"schema", "feltgate-budget/1"}, {"version", FELTGATE_VERSION}};
   j["design"] = design;
   j["scene"] = scene;
   j["ticks"] = b.ticks;

@@ -87,6 +87,11 @@ std::string find_file(const std::string& name, const std::string& folder) {
                   folder, config::did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
+design::Elaborated elaborated_design(const std::string& name) {
+  return design::elaborate(design::read_design(find_file(name, "rtl/designs")),
+                           design::read_registers(repository() + "/rtl/registers.toml"));
+}
+
 std::string mismatch_path(const std::string& subject, const std::string& design) {
   const char* build = std::getenv("FELTGATE_BUILD");
   const fs::path folder = build != nullptr ? fs::path(build) / "mismatch" : fs::path("mismatch");

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "design/design.hpp"
+
 namespace feltgate {
 
 /// Exit codes: 0 all well, 1 a mismatch or a broken expectation, 2 input that cannot be used;
@@ -42,6 +44,9 @@ int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code)
 
 /// Runs scripts/NAME with these words, its stdout going to `out`; returns its exit code.
 int run_script(const std::string& name, const std::vector<std::string>& words, std::FILE* out);
+
+/// The design point of this name with everything that follows from it, against the register map.
+design::Elaborated elaborated_design(const std::string& name);
 
 /// Where the waveform around a mismatch goes: mismatch/ in the build folder, or in this one.
 std::string mismatch_path(const std::string& subject, const std::string& design);

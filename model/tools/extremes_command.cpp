@@ -99,7 +99,8 @@ int run(const ExtremesArguments& a) {
 void add_extremes(CLI::App& app, int* exit_code) {
   auto a = std::make_shared<ExtremesArguments>();
   CLI::App* sub = app.add_subcommand(
-      "extremes", "the core at its limits: expected, RTL, twin, double and a verdict for each case");
+      "extremes",
+      "the core at its limits: expected, RTL, twin, double and a verdict for each case");
   sub->footer(
       "  feltgate extremes                      every short case (a minute or two)\n"
       "  feltgate extremes --list               names and what they are about\n"

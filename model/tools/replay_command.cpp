@@ -4,17 +4,16 @@
 // feltgate replay and feltgate import. Documentation: docs/traces.md, docs/json.md
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "files/output_file.hpp"
-#include "loop/replay.hpp"
-#include "loop/scenario_bounds.hpp"
+#include "loop/bounded.hpp"
 #include "tools/commands.hpp"
-#include "tools/output.hpp"
+#include "tools/csv.hpp"
+#include "tools/run_output.hpp"
 #include "traces/open.hpp"
 #include "traces/vector_file.hpp"
 
@@ -59,7 +58,7 @@ struct ReplayArguments {
   TraceArguments trace;
   std::string design = "lever", engine = "all", scene = "spring_tension", json, csv, fst;
   double seconds = 0;
-  int every = 1;
+  int every = 0;  ///< 0: sane_every()
   bool quiet = false;
 };
 
@@ -88,11 +87,6 @@ int replay(ReplayArguments& a) {
   files::OutputFile* csv = outputs.open("--csv", a.csv);
   files::OutputFile* fst = outputs.open("--fst", a.fst);
   if (fst != nullptr) options.fst = fst->named();
-  std::optional<CsvWriter> rows;
-  if (csv != nullptr) {
-    rows.emplace(csv->handle(), a.every);
-    options.row = [&rows](const Row& r) { rows->add(r); };
-  }
   // The length is not known before the end; a first pass over the file finds it.
   Clock length = 0;
   if (options.most_clocks > 0) {
@@ -103,26 +97,21 @@ int replay(ReplayArguments& a) {
     }
     length = first_pass->length();
   }
+  const design::Elaborated elaborated = elaborated_design(a.design);
+  std::optional<CsvWriter> rows;
+  if (csv != nullptr) {
+    rows.emplace(csv->handle(), row_columns(false, choose_engines(a.engine).names()));
+    const Clock ticks = length * elaborated.design.tick_hz / how.clock_hz;
+    options.row_every = a.every > 0 ? a.every : sane_every(ticks);
+    options.row = [&rows](const Row& r) { rows->add(r); };
+    if (!a.quiet) fmt::print(stderr, "{}\n", rows->forecast(ticks, options.row_every));
+  }
   Progress progress(name, a.quiet);
   options.progress = [&progress, length](Clock done) {
     progress.update(length > 0 ? static_cast<double>(done) / static_cast<double>(length) : 1.0);
   };
-  const auto elaborated =
-      design::elaborate(design::read_design(find_file(a.design, "rtl/designs")),
-                        design::read_registers(repository() + "/rtl/registers.toml"));
-  const auto bounds_up_to = [&](double velocity_rad_s) {
-    RunBounds run(elaborated, std::max(velocity_rad_s, hardly_any_rad_s));
-    run.render(a.scene, 0);
-    return run.worst();
-  };
-  const bounds::Coverage coverage(bounds_up_to(0), bounds::chain_numbers(elaborated));
-  options.coverage = &coverage;
-  RunResult result = run_replay(*source, name, options);
-  options.coverage = nullptr;
-  const bounds::ErrorBounds bounds = bounds_up_to(result.largest_velocity_rad_s);
-  check_bounds(result, bounds);
-  RunLabels labels{"trace", "", probe_text(how), false, 0};
-  labels.bounds = &bounds;
+  const RunResult result = replay_within_bounds(elaborated, *source, name, options);
+  const RunLabels labels{"trace", "", probe_text(how)};
   if (json != nullptr) json->write(run_json(result, labels));
   if (!a.quiet) fmt::print(outputs.text(), "{}", run_text(result, labels));
   outputs.commit();
@@ -157,12 +146,13 @@ void add_replay(CLI::App& app, int* exit_code) {
       "cannot be used.");
   a->trace.add_to(sub);
   sub->add_option("--design", a->design, "design point in rtl/designs")->capture_default_str();
-  sub->add_option("--engine", a->engine, "rtl, twin or all")->capture_default_str();
+  sub->add_option("--engine", a->engine, engine_help)->type_name("ENGINES")->capture_default_str();
   sub->add_option("--scene", a->scene, "what the core renders meanwhile")->capture_default_str();
   sub->add_option("--seconds", a->seconds, "stop after so much of it; default: its end");
   sub->add_option("--json", a->json, "figures as JSON (docs/json.md)");
-  sub->add_option("--csv", a->csv, "one row per tick");
-  sub->add_option("--every", a->every, "CSV: only every n-th tick")->check(CLI::PositiveNumber);
+  sub->add_option("--csv", a->csv, "a row per tick, the columns of every engine (docs/json.md)")
+      ->type_name("FILE");
+  sub->add_option("--every", a->every, every_help)->check(CLI::PositiveNumber)->type_name("TICKS");
   sub->add_option("--fst", a->fst, "waveform of every clock of the RTL (large: with --seconds)");
   sub->add_flag("--quiet", a->quiet, "print only what went wrong");
   sub->callback([a, exit_code] { *exit_code = replay(*a); });

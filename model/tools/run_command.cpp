@@ -9,11 +9,11 @@
 #include <memory>
 
 #include "files/output_file.hpp"
-#include "loop/loop.hpp"
-#include "loop/scenario_bounds.hpp"
+#include "loop/bounded.hpp"
 #include "plant/plant_file.hpp"
 #include "tools/commands.hpp"
-#include "tools/output.hpp"
+#include "tools/csv.hpp"
+#include "tools/run_output.hpp"
 
 namespace feltgate {
 
@@ -23,8 +23,8 @@ struct RunArguments {
   std::string scene, design = "lever", plant, engine = "all", report, json, csv, fst, record;
   std::vector<std::string> set;
   std::uint64_t seed = 1;
-  int every = 0;  ///< 0: every tick, or every 50th into a report
-  bool quiet = false;
+  int every = 0;  ///< 0: sane_every()
+  bool quiet = false, columns = false;
 };
 
 /// NAME=VALUE pairs onto the scene's parameters.
@@ -42,6 +42,11 @@ void apply_settings(const std::vector<std::string>& set, Scenario& scenario) {
 }
 
 int run(const RunArguments& a) {
+  if (a.columns) {
+    fmt::print("{}", columns_markdown());
+    return exit_ok;
+  }
+  if (a.scene.empty()) throw std::invalid_argument("run: SCENE is missing; feltgate run --help");
   const std::string scene_path = find_file(a.scene, "vectors/scenes");
   Scenario scenario = read_scenario(scene_path);
   apply_settings(a.set, scenario);
@@ -65,8 +70,10 @@ int run(const RunArguments& a) {
   files::OutputFile* record = outputs.open("--record", a.record);
   if (fst != nullptr) options.fst = fst->named();
   if (record != nullptr) options.record = record->handle();
+  const design::Elaborated elaborated = elaborated_design(a.design);
+  const std::vector<Column> columns = row_columns(true, choose_engines(a.engine).names());
   std::vector<CsvWriter> writers;
-  if (csv != nullptr) writers.emplace_back(csv->handle(), a.every > 0 ? a.every : 1);
+  if (csv != nullptr) writers.emplace_back(csv->handle(), columns);
   // The report reads files, so what went to stdout or a device it gets once more.
   std::string json_path = a.json, csv_path = a.csv;
   if (!a.report.empty()) {
@@ -74,41 +81,24 @@ int run(const RunArguments& a) {
     if (json == nullptr || json->in_place()) json_path = begin + ".json";
     if (csv == nullptr || csv->in_place()) {
       csv_path = begin + ".csv";
-      writers.emplace_back(outputs.open("--report", csv_path)->handle(),
-                           a.every > 0 ? a.every : 50);
+      writers.emplace_back(outputs.open("--report", csv_path)->handle(), columns);
     }
   }
   files::OutputFile* report_json =
       json_path == a.json ? nullptr : outputs.open("--report", json_path);
   if (!writers.empty()) {
+    const auto ticks = static_cast<std::int64_t>(scenario.duration_s *
+                                                 static_cast<double>(elaborated.design.tick_hz));
+    options.row_every = a.every > 0 ? a.every : sane_every(ticks);
+    if (!a.quiet) fmt::print(stderr, "{}\n", writers[0].forecast(ticks, options.row_every));
     options.row = [&writers](const Row& r) {
       for (CsvWriter& writer : writers) writer.add(r);
     };
   }
   Progress progress(scenario.name + " on " + a.design, a.quiet);
   options.progress = [&progress](double done) { progress.update(done); };
-  const auto elaborated =
-      design::elaborate(design::read_design(find_file(a.design, "rtl/designs")),
-                        design::read_registers(repository() + "/rtl/registers.toml"));
-  // Which ticks count is decided before, by the strictest bound; the bound follows the motion.
-  const bounds::Coverage coverage(scenario_bounds(elaborated, scenario, hardly_any_rad_s).worst(),
-                                  bounds::chain_numbers(elaborated));
-  options.coverage = &coverage;
-  RunResult result = run_scenario(scenario, plant, options);
-  const bounds::ErrorBounds bounds =
-      scenario_bounds(elaborated, scenario,
-                      std::max(result.largest_velocity_rad_s, hardly_any_rad_s))
-          .worst();
-  check_bounds(result, bounds);
-
-  RunLabels labels{"scene",
-                   plant.name,
-                   "",
-                   true,
-                   result.expectations_checked,
-                   scenario.step_clocks,
-                   effects_off(scenario),
-                   &bounds};
+  const RunResult result = run_within_bounds(elaborated, scenario, plant, options);
+  const RunLabels labels{"scene", plant.name, "", scenario.step_clocks, effects_off(scenario)};
   for (files::OutputFile* file : {json, report_json}) {
     if (file != nullptr) file->write(run_json(result, labels));
   }
@@ -151,27 +141,26 @@ void add_run(CLI::App& app, int* exit_code) {
       app.add_subcommand("run", "one scene in closed loop: core, motor, lever and hand");
   sub->footer(
       "SCENE is a name in vectors/scenes or the path of a scene file (docs/scenes.md).\n"
-      "  feltgate run membrane                      RTL and twin in lock-step, double and quad "
-      "beside\n"
+      "  feltgate run membrane                      RTL and twin in lock-step, float, double, "
+      "quad\n"
       "  feltgate run torque_step --design paper --report out\n"
-      "  feltgate run damper --engine twin --csv damper.csv --every 10\n"
+      "  feltgate run damper --engine twin,double,float --csv damper.csv    fixed beside float\n"
       "Exit code: 0 no mismatch, every expectation of the scene holds and every error is within "
       "its\n"
       "proven bound, 1 otherwise, 2 unusable input.");
-  sub->add_option("scene", a->scene, "scene")->required()->type_name("SCENE");
+  sub->add_option("scene", a->scene, "scene")->type_name("SCENE");
   sub->add_option("--design", a->design, "design point in rtl/designs")->capture_default_str();
   sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's");
-  sub->add_option("--engine", a->engine,
-                  "rtl, twin, double, quad, or all: RTL and twin in lock-step, the others beside")
-      ->capture_default_str();
+  sub->add_option("--engine", a->engine, engine_help)->type_name("ENGINES")->capture_default_str();
   sub->add_option("--set", a->set,
                   "parameter to set before arming, NAME=VALUE in its unit; may be repeated");
   sub->add_option("--seed", a->seed, "of the RTL's state before reset")->capture_default_str();
   sub->add_option("--report", a->report, "folder for an HTML report with pictures, JSON and CSV");
   sub->add_option("--json", a->json, "figures as JSON (docs/json.md)");
-  sub->add_option("--csv", a->csv, "one row per tick");
-  sub->add_option("--every", a->every, "CSV: only every n-th tick; default 1, in a report 50")
-      ->check(CLI::PositiveNumber);
+  sub->add_option("--csv", a->csv, "a row per tick, the columns of every engine (docs/json.md)")
+      ->type_name("FILE");
+  sub->add_option("--every", a->every, every_help)->check(CLI::PositiveNumber)->type_name("TICKS");
+  sub->add_flag("--columns", a->columns, "print the table of CSV columns and end");
   sub->add_option("--fst", a->fst, "waveform of every clock of the RTL (large: short scenes only)");
   sub->add_option("--record", a->record, "the encoder's edges as a vector file (docs/traces.md)");
   sub->add_flag("--quiet", a->quiet, "print only what went wrong");

@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 
 struct TrimArguments {
   std::string scene, plant, output, json, tolerance = "1%";
-  double window_ms = 1.0, duration_s = 0;
+  double window_ms = 1e3 * felt_window_s, duration_s = 0;
   bool quiet = false;
   trim::Options options;
 };
@@ -140,7 +140,7 @@ Json model_json(const Scenario& scene, const trim::Model& model, const trim::Fel
 }
 
 std::string json_of(const trim::Report& r, const Scenario& scene, const TrimArguments& a) {
-  Json j{{"schema", "feltgate-trim-1"},
+  Json j{{"schema", "feltgate-trim/1"},
          {"version", FELTGATE_VERSION},
          {"date", today()},
          {"scene", scene.name},

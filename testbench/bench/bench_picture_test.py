@@ -56,7 +56,7 @@ class BenchPicture(unittest.TestCase):
         self.assertIn("For the RTL's bits", svg)
 
     def test_another_schema_is_refused(self):
-        done, svg = draw(result("feltgate-run-1"))
+        done, svg = draw(result("feltgate-run/1"))
         self.assertEqual(done.returncode, 2)
         self.assertIn("feltgate-bench/1", done.stderr)
         self.assertEqual(svg, "")

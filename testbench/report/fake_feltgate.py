@@ -152,7 +152,7 @@ def summary(options, data, steps):
             engine |= {"step_responses": steps, "ripple_nm": 1e-4}
         engines[name] = engine
     out = {
-        "schema": "feltgate-run-1",
+        "schema": "feltgate-run/1",
         "version": "0.0.0-fake",
         "design": options.design,
         "simulated_s": length,

@@ -75,7 +75,7 @@ class Figures(Bench):
         self.assertEqual(done.stdout.strip(), str(out / "figures.html"))
         self.assert_self_contained((out / "figures.html").read_text())
         summary = json.loads((out / "figures.json").read_text())
-        self.assertEqual(summary["schema"], "feltgate-figures-1")
+        self.assertEqual(summary["schema"], "feltgate-figures/1")
         numbers = {f["figure"]: f["numbers"] for f in summary["figures"]}
         self.assertEqual(list(numbers), [7, 10, 11, 14, 16, 17, 19, 21, 22])
         for figure in summary["figures"]:

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What a run tells of a tick, and the one table of its columns: header, rows, documentation and
+// arrays come from it. Documentation: docs/json.md
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace feltgate {
+
+/// What one engine says of a tick.
+struct EngineSignals {
+  double velocity_rad_s = 0, tau_ref_nm = 0, tau_hat_nm = 0;
+  double torque_nm = 0;  ///< commanded: nominal torque constant times current_a
+  double current_a = 0, voltage_v = 0;
+  double duty = 0;  ///< of the PWM period, -1 to 1
+};
+
+/// A tick. The signals of the base are those of the engine that drives the motor.
+struct Row : EngineSignals {
+  double time_s = 0;
+  // Of the plant; 0 in a replay, which has no columns for them.
+  double theta_rad = 0, omega_rad_s = 0, motor_torque_nm = 0, hand_torque_nm = 0;
+  double position_rad = 0;  ///< the core's count
+  int limits = 0, faults = 0;
+  std::vector<EngineSignals> engines;  ///< of EngineChoice::names(), in their order
+};
+
+/// One column of a table of rows.
+struct Column {
+  std::string name;  ///< with its unit, as in the header of a CSV file
+  std::string unit;
+  std::string meaning;
+  int digits = 0;  ///< significant ones of a measured value; 0: all that the value has
+  std::function<double(const Row&)> value;
+};
+
+/// The columns of a run: those of the plant only in a closed loop, and one set for each of
+/// `engines`, EngineChoice::names(). What a run has not, it has no column for.
+std::vector<Column> row_columns(bool closed_loop, const std::vector<std::string>& engines);
+
+/// The table of docs/json.md: every column, "X_" for the name of an engine.
+std::string columns_markdown();
+
+}  // namespace feltgate

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A run's figures as JSON and for reading on a terminal. Documentation: docs/json.md
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "loop/loop.hpp"
+
+namespace feltgate {
+
+/// Help of options that run and replay share.
+constexpr const char* engine_help =
+    "rtl, twin, float (binary32), double (binary64), quad (binary128), several with commas between "
+    "them, or all: RTL and twin in lock-step, the others beside";
+constexpr const char* every_help =
+    "CSV: only every n-th tick; default: the first of 1, 2, 5, 10, 20, ... that leaves at most "
+    "100000 rows";
+
+/// What is said beyond the figures.
+struct RunLabels {
+  std::string subject_key;  ///< "scene" or "trace"
+  std::string plant, probes;
+  int step_clocks = 0;                        ///< of the plant
+  std::vector<std::string> effects_off = {};  ///< of the plant
+};
+
+/// The JSON object, pretty-printed.
+std::string run_json(const RunResult& result, const RunLabels& labels);
+
+/// The same for reading on a terminal: what ran, engines where several did, and what was felt.
+std::string run_text(const RunResult& result, const RunLabels& labels);
+
+/// What was felt, the end of that text.
+std::string felt_text(const RunResult& result);
+
+}  // namespace feltgate

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What a run felt like: closed forms first, then a scene. Documentation: docs/json.md
+#include "loop/felt.hpp"
+
+#include <cmath>
+
+#include "catch.hpp"
+#include "design/design.hpp"
+#include "engines/engine.hpp"
+#include "loop/bounded.hpp"
+#include "loop_fixture.hpp"
+
+namespace {
+
+using namespace feltgate;
+
+bool near(double a, double b) { return std::abs(a - b) < 1e-9; }
+
+design::Elaborated lever() {
+  const std::string root = FELTGATE_ROOT;
+  return design::elaborate(design::read_design(root + "/rtl/designs/lever.toml"),
+                           design::read_registers(root + "/rtl/registers.toml"));
+}
+
+}  // namespace
+
+TEST_CASE("energy: a spring gives back what it took, and a push beyond shows as a debt") {
+  FeltMeter meter(1e-6);
+  for (int i = 0; i < 100; ++i) meter.step(0.01, 2.0, 1.0);   // 2 J in
+  for (int i = 0; i < 150; ++i) meter.step(0.01, 2.0, -1.0);  // 3 J out
+  const FeltEnergy e = meter.felt().energy;
+  CHECK(near(e.taken_from_hand_j, 2.0));
+  CHECK(near(e.given_to_hand_j, 3.0));
+  CHECK(near(e.net_from_hand_j(), -1.0));
+  CHECK(near(e.peak_from_hand_j, 2.0));
+  CHECK(near(e.peak_to_hand_j, 1.0));
+}
+
+TEST_CASE("a pulse shorter than a hand feels counts as its mean over 1 ms") {
+  FeltMeter meter(1e-6);
+  for (int tick = 0; tick < 3000; ++tick) {
+    const bool pulse = tick >= 1000 && tick < 1100;
+    meter.step(1e-6, pulse ? -50.0 : 0.0, 0.0);
+    meter.tick(pulse ? 1.0 : 0.0, pulse ? -2.0 : 0.0, 0, 0);
+    meter.motor(pulse ? 0.5 : 0.0, pulse ? 1.0 : 0.0);
+  }
+  const FeltTorque t = meter.felt().torque;
+  CHECK(t.asked.value == 1.0);
+  CHECK(near(t.asked.at_s, 1e-3));
+  CHECK(t.commanded.value == -2.0);
+  CHECK(near(t.motor.value, 0.05));
+  CHECK(near(t.motor.at_s, 1e-3));
+  CHECK(near(t.hand.value, -5.0));
+  CHECK(near(t.motor_error.max(), 0.05));
+  CHECK(t.motor_error.count() == 3);
+}
+
+TEST_CASE("limits and faults: each by its name, how long and since when") {
+  FeltMeter meter(1e-3);
+  const auto ticks = [&](int n, unsigned limits, unsigned faults) {
+    for (int i = 0; i < n; ++i) meter.tick(0, 0, limits, faults);
+  };
+  ticks(10, limit::gates_closed, 0);
+  ticks(5, limit::ramp | limit::torque, 0);
+  ticks(20, 0, 0);
+  ticks(5, limit::torque, 1u << 2);
+  const Felt f = meter.felt();
+  REQUIRE(f.limits.size() == 3);
+  CHECK(near(f.limits.at("gates_closed").seconds, 0.010));
+  CHECK(near(f.limits.at("ramp").seconds, 0.005));
+  CHECK(near(f.limits.at("torque").seconds, 0.010));
+  CHECK(near(f.limits.at("torque").first_s, 0.010));
+  REQUIRE(f.faults.size() == 1);
+  CHECK(near(f.faults.at("speed").first_s, 0.035));
+}
+
+TEST_CASE("a scene: energy, errors within their bounds, expectations by name") {
+  Scenario scene = shipped_scene("wall");
+  const plant::Parameters plant = p24();
+  resolve_effects(scene, plant.effects);
+  Expectation wrong;
+  wrong.figure = "tau_ref_min_nm";
+  wrong.low = -0.1;
+  wrong.high = 0;
+  scene.expectations.push_back(wrong);
+  RunOptions options;
+  options.engine = "twin,quad";
+  const RunResult r = run_within_bounds(lever(), scene, plant, options);
+  CHECK(r.felt.closed_loop);
+  CHECK(std::abs(r.felt.torque.asked.value + 0.4023) < 1e-3);
+  CHECK(std::abs(r.felt.torque.motor.value - r.felt.torque.asked.value) < 0.01);
+  CHECK(r.felt.energy.net_from_hand_j() == r.figures.at("hand_energy_j"));
+  CHECK(r.felt.energy.taken_from_hand_j > 0.02);  // 4 Nm/rad * (0.1 rad)^2 / 2
+  CHECK(r.felt.energy.taken_from_hand_j < 0.025);
+  CHECK(r.felt.energy.peak_to_hand_j == 0);
+  REQUIRE(r.felt.errors.size() == 3);
+  for (const FeltError& e : r.felt.errors) {
+    CAPTURE(e.signal, e.max_error, e.bound);
+    CHECK(e.max_error > 0);
+    CHECK(e.max_error_in_bounds <= e.bound);
+    CHECK(e.bound < 1e-3);
+  }
+  REQUIRE(r.felt.expectations.size() == 6);
+  for (std::size_t i = 0; i < 5; ++i) CHECK(r.felt.expectations[i].kept());
+  CHECK(!r.felt.expectations[5].kept());
+  CHECK(r.felt.expectations[5].figure == "tau_ref_min_nm");
+  CHECK(r.broken.size() == 1);
+}
+
+TEST_CASE("engines by name: lists, their order, and what compares them") {
+  const auto names = [](const char* list) { return choose_engines(list).names(); };
+  using Names = std::vector<std::string>;
+  CHECK(names("twin,double,float") == Names{"twin", "double", "float"});
+  CHECK(names("all") == Names{"twin", "float", "double", "quad"});
+  CHECK(names("rtl") == Names{"rtl"});
+  CHECK(names("double") == Names{"double"});
+  CHECK(choose_engines("rtl,float").lead == "rtl");
+  CHECK(choose_engines("float,rtl,twin").lead == "lockstep");
+  CHECK(choose_engines("float,double").rider_drives);
+  CHECK(choose_engines("twin,double,float").reference() == "double");
+  CHECK(choose_engines("all").reference() == "quad");
+  CHECK(choose_engines("quad").reference().empty());
+  CHECK(choose_engines("twin,float").reference().empty());
+  const auto complaint = [](const char* list) -> std::string {
+    try {
+      choose_engines(list);
+      return "";
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+  };
+  CHECK(complaint("twin,dubble").find("did you mean \"double\"?") != std::string::npos);
+  CHECK(complaint("twin,twin").find("twice") != std::string::npos);
+  CHECK(complaint("").find("unknown") != std::string::npos);
+}

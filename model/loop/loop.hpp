@@ -66,8 +66,6 @@ struct RunResult {
   std::string reference;  ///< engine that the others are compared with, "quad" or "double", or none
   std::vector<EngineFigures> engines;
   Felt felt;
-  std::optional<bounds::ErrorBounds>
-      bounds;                             ///< of this motion, where the errors were held to them
   std::map<std::string, double> figures;  ///< what scene files put bounds on
   std::vector<std::string> broken;  ///< expectations and bounds that do not hold, one line each
   double simulated_s = 0;

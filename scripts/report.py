@@ -35,12 +35,11 @@ def read_summary(path):
 
 def compared(summary):
     """The verdict of a run with which nothing is wrong."""
-    if "mismatches" not in summary:
-        return f"{summary['clocks']:,} clocks; RTL and twin were not compared in this run"
-    good = f"0 mismatches between RTL and twin in {summary['clocks']:,} clocks"
-    if summary.get("expectations"):
-        good += f"; {summary['expectations']['checked']} expectations hold"
-    return good
+    good = f"{summary['clocks']:,} clocks; RTL and twin were not compared in this run"
+    if "mismatches" in summary:
+        good = f"0 mismatches between RTL and twin in {summary['clocks']:,} clocks"
+    checked = summary.get("expectations", {}).get("checked", 0)
+    return good + (f"; all {checked} expectations of the scene hold" if checked else "")
 
 
 def report(summary, tables):

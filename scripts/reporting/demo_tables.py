@@ -31,6 +31,12 @@ def errors(summary, key, kinds=("max_error", "rms_error", "bound")):
     return [micro(found.get(kind)) for kind in kinds]
 
 
+def peaks(summary):
+    """Largest torque that the scene asked for, and that the motor gave."""
+    torque = summary.get("felt", {}).get("torque", {})
+    return [page.number(torque.get(kind, {}).get("peak_nm")) for kind in ("asked", "motor")]
+
+
 def ran(demo, names):
     return [demo.runs[name] for name in names if demo.runs[name].ran]
 
@@ -42,6 +48,7 @@ def title(run):
 def scenes(demo):
     head = [
         *("scene", "design", "device time, s", "mismatches", "expectations broken"),
+        *("largest torque asked for, Nm", "felt, Nm"),
         *("largest error of the commanded torque, µNm", "its bound", "saturated ticks"),
     ]
     rows = []
@@ -61,6 +68,7 @@ def scenes(demo):
                 page.number(s["simulated_s"]),
                 page.good_or_bad(run.mismatches),
                 page.Cell(f"{broken} of {expectations['checked']}"),
+                *peaks(s),
                 *errors(s, "torque_nm", ("max_error_in_bounds", "bound")),
                 "–" if saturated is None else f"{saturated:,}",
             ]

@@ -4,14 +4,14 @@
 the files that set the bounds. Documentation: docs/figures.md, docs/json.md
 """
 
-import os
 from dataclasses import dataclass
 from html import escape
 
 from reporting import glossary, page
-from reporting.runs import SCENES, design, scene_file
+from reporting.runs import design
 
 FIXED = ("rtl", "twin")  # the engines in fixed point, whose errors have proven bounds
+ARITHMETIC = {"quad": "113-bit arithmetic", "double": "binary64 arithmetic"}
 
 
 @dataclass(frozen=True)
@@ -32,6 +32,7 @@ class Error:
     nm: float
     bound_nm: float | None
     where: str
+    against: str
 
     @property
     def share(self):
@@ -48,7 +49,8 @@ def torque_error(summary):
         found = summary.get("engines", {}).get(name, {}).get("torque_nm")
         if found:
             within = found.get("max_error_in_bounds", found["max_error"])
-            return Error(within, found.get("bound"), where(summary))
+            against = ARITHMETIC.get(summary.get("reference", "quad"), "another engine")
+            return Error(within, found.get("bound"), where(summary), against)
     return None
 
 
@@ -76,7 +78,7 @@ def error(summaries):
         )
     bounded = [e for e in errors if e.bound_nm]
     worst = max(bounded or errors, key=lambda e: (e.share > 1 and e.share, e.nm))
-    what = "largest error of the commanded torque against 113-bit arithmetic"
+    what = f"largest error of the commanded torque against {worst.against}"
     value = micro(worst.nm)
     if not worst.bound_nm:
         return Headline(value, what, f"no bound is proven for {worst.where}")
@@ -91,15 +93,10 @@ def micro(nm):
 
 def allowed_ms(summary):
     """The longest settling of a torque step that the run's scene file allows; None without one."""
-    scene = summary.get("scene", "")
-    if not os.path.isfile(SCENES / f"{scene}.toml"):
-        return None
     limits = [
         e["high"]
-        for e in scene_file(scene).get("expect", [])
-        if e["figure"].startswith("torque_settling_ms")
-        and e.get("design", summary.get("design")) == summary.get("design")
-        and "high" in e
+        for e in summary.get("felt", {}).get("expectations", [])
+        if e["figure"].startswith("torque_settling_ms") and "high" in e
     ]
     return max(limits, default=None)
 
@@ -125,8 +122,7 @@ def torque_limit(summary):
 
 def peak(summary):
     """The third, of another scene: the largest torque."""
-    figures = summary.get("figures", {})
-    largest = max(abs(figures.get(f"tau_ref_{end}_nm", 0.0)) for end in ("min", "max"))
+    largest = abs(summary.get("felt", {}).get("torque", {}).get("asked", {}).get("peak_nm", 0.0))
     limit = torque_limit(summary)
     what = "largest torque that the scene asked for"
     value = f"{page.number(largest)} Nm"

@@ -19,13 +19,6 @@ def lsb(design_name, signal):
         return {"velocity": 2.0**-21, "torque": 2.0**-16, "current": 2.0**-16}[signal]
 
 
-def torque_constant(design_name):
-    try:
-        return float(design(design_name)["observer"]["torque_constant_nm_a"])
-    except (OSError, KeyError):
-        return None
-
-
 def time_axis(t):
     """(times, label) in ms for what is short."""
     return (1e3 * t, "time, ms") if t[-1] <= 0.1 else (t, "time, s")
@@ -82,10 +75,8 @@ def torque_picture(name, summary, csv):
     time, label = time_axis(csv["time_s"])
     figure, (command, observed) = plots.stacked("Torque", [1.5, 1.5])
     plots.draw(command, time, csv["tau_ref_nm"], "reference", "asked for by the scene")
-    constant, current = torque_constant(summary["design"]), exact(summary, csv, "current_a")
-    if constant:
-        plots.draw(command, time, constant * csv["current_a"], "rtl", f"commanded, {lead(summary)}")
-        draw_quad(command, time, None if current is None else constant * current)
+    plots.draw(command, time, csv["torque_nm"], "rtl", f"commanded, {lead(summary)}")
+    draw_quad(command, time, exact(summary, csv, "torque_nm"))
     if closed_loop(summary):
         plots.draw(command, time, csv["motor_torque_nm"], "motor")
     plots.draw(observed, time, csv["tau_hat_nm"], "rtl", f"observed, {lead(summary)}")

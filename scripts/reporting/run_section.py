@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """What a page tells of one run in words and tables. Documentation: docs/figures.md"""
 
-from reporting import page
+from reporting import felt_section, page
 
 ENGINES = ("rtl", "twin", "float", "double", "quad")
 ENGINE_NAMES = {"rtl": "RTL"}
@@ -43,7 +43,7 @@ def facts(summary):
     lines.append(
         f"encoder: {p['steps']:,} steps, {p['illegal']:,} illegal, {p['reversals']:,} reversals"
     )
-    return lines
+    return lines + felt_section.lines(summary)
 
 
 def error_cells(engine, key, scale):
@@ -114,6 +114,7 @@ def faults_of(summary):
     if "first_mismatch" in summary:
         texts[-1:] = [f"{count:,} mismatches, the first: {summary['first_mismatch']}"]
     texts += summary.get("expectations", {}).get("broken", [])
+    texts += felt_section.broken_bounds(summary)
     return [f"{subject(summary)}, {summary['design']}: {text}" for text in texts]
 
 
@@ -131,5 +132,6 @@ def inside(summary, drawn):
     """The section's body: facts and pictures, the tables folded."""
     parts = [page.bullets(facts(summary)), page.pictures(drawn)]
     parts.append(page.fold("Torque steps", step_table(summary)))
+    parts.append(page.fold("What the scene expects", felt_section.table(summary)))
     parts.append(page.fold("Errors and speed of each engine", engine_table(summary)))
     return "\n".join(parts)

@@ -11,7 +11,6 @@ import numpy as np
 
 from reporting import objects, plots
 from reporting.paper_figure import PaperFigure
-from reporting.run_pictures import torque_constant
 from reporting.runs import scene_job
 
 ZOOM_S = 0.03
@@ -26,7 +25,7 @@ def zoom_window(v):
 
 def draw_overview(axes, csv, v):
     """Position, for the damper velocity, commanded and observed torque, over the whole run."""
-    time, constant = csv["time_s"], torque_constant(v.design)
+    time = csv["time_s"]
     plots.draw(axes[0], time, csv["position_rad"], "rtl")
     plots.draw(axes[0], time, csv["theta_rad"], "ideal", "lever")
     axes[0].set_ylabel("position, rad")
@@ -35,7 +34,7 @@ def draw_overview(axes, csv, v):
         plots.draw(axes[1], time, csv["omega_rad_s"], "ideal", "lever")
         axes[1].set_ylabel("velocity,\nrad/s")
     command, observed = axes[-2:]
-    plots.draw(command, time, constant * csv["current_a"], "rtl", "commanded, RTL")
+    plots.draw(command, time, csv["torque_nm"], "rtl", "commanded, RTL")
     plots.draw(command, time, csv["motor_torque_nm"], "motor", zorder=2.5)
     plots.draw(observed, time, csv["tau_hat_nm"], "rtl", "observed, RTL")
     for axis in (command, observed):

@@ -16,11 +16,11 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 COUNT_RAD = 2 * np.pi / 4096
-COLUMNS = [
-    *("time_s", "theta_rad", "omega_rad_s", "motor_torque_nm", "hand_torque_nm", "position_rad"),
-    *("velocity_rad_s", "tau_ref_nm", "tau_hat_nm", "current_a", "voltage_v", "duty"),
-    *("quad_velocity_rad_s", "quad_tau_hat_nm", "quad_current_a", "limits", "faults"),
-]
+PLANT = ("theta_rad", "omega_rad_s", "motor_torque_nm", "hand_torque_nm")
+SIGNALS = ("velocity_rad_s", "tau_ref_nm", "tau_hat_nm", "torque_nm", "current_a", "voltage_v")
+QUAD = ("quad_velocity_rad_s", "quad_tau_hat_nm", "quad_torque_nm", "quad_current_a")
+CORE = ("time_s", "position_rad", *SIGNALS, "duty", "limits", "faults", *QUAD)
+COLUMNS = (*CORE, *PLANT)
 
 
 def profile(segments, time, start):
@@ -102,6 +102,7 @@ def run(options):
     data |= {"hand_torque_nm": -torque, "position_rad": np.round(theta / COUNT_RAD) * COUNT_RAD}
     data |= {"velocity_rad_s": velocity, "tau_ref_nm": reference, "tau_hat_nm": tau_hat}
     data |= {"current_a": current, "voltage_v": voltage, "duty": voltage / 24}
+    data |= {"torque_nm": constant * current, "quad_torque_nm": constant * current}
     noise = np.random.default_rng(1).normal(0, 2e-6, len(time))
     data |= {"quad_velocity_rad_s": velocity + noise / 10, "quad_tau_hat_nm": tau_hat + noise}
     data |= {"quad_current_a": current + noise}
@@ -126,7 +127,7 @@ def replay(options):
         raise SystemExit(f"{path}: empty; record it again")
     dt = 1e-6 * options.every
     time = np.arange(dt, 0.5, dt)
-    data = dict.fromkeys(COLUMNS, np.zeros_like(time))
+    data = dict.fromkeys(CORE, np.zeros_like(time))
     theta = np.round(np.sin(12 * time) / COUNT_RAD) * COUNT_RAD
     velocity = low_pass(12 * np.cos(12 * time), dt, 500)
     return data | {
@@ -135,6 +136,34 @@ def replay(options):
         "velocity_rad_s": velocity,
         "quad_velocity_rad_s": velocity,
     }
+
+
+def expectations(options):
+    """Each as the scene's file has it, and kept: its bound is what came out."""
+    scene = tomllib.loads((ROOT / "vectors" / "scenes" / f"{options.subject}.toml").read_text())
+    return [
+        {k: e[k] for k in ("figure", "low", "high") if k in e}
+        | {"value": e.get("high", e.get("low")), "line": 1, "kept": True}
+        for e in scene.get("expect", [])
+        if e.get("design", options.design) == options.design
+    ]
+
+
+def felt(options, data):
+    def peak(name):
+        at = int(np.abs(data[name]).argmax())
+        return {"peak_nm": float(data[name][at]), "at_s": float(data["time_s"][at])}
+
+    torque = {"asked": peak("tau_ref_nm"), "commanded": peak("torque_nm")}
+    told = {"torque": torque, "limits": {"gates_closed": {"seconds": 0.05, "first_s": 0.0}}}
+    told |= {"faults": {}}
+    if options.command == "replay":
+        return told
+    off = data["motor_torque_nm"] - data["tau_ref_nm"]
+    torque |= {"motor": peak("motor_torque_nm"), "hand": peak("hand_torque_nm")}
+    torque |= {"motor_less_asked_nm": {"max_error": float(np.abs(off).max()), "rms_error": 1e-3}}
+    energy = {"taken_from_hand_j": 0.0061, "given_to_hand_j": 0.0012}
+    return told | {"energy": energy, "expectations": expectations(options)}
 
 
 def summary(options, data, steps):
@@ -160,18 +189,16 @@ def summary(options, data, steps):
         "ticks": round(length * 1e6),
         "mismatches": mismatches,
         "position": {"steps": 42, "illegal": 0, "reversals": 3},
+        "reference": "quad",
         "engines": engines,
+        "felt": felt(options, data),
     }
     if options.command == "run":
         broken = ["mismatches = 1 is outside its bounds"] if mismatches else []
         return out | {
             "scene": options.subject,
             "plant": options.plant or "p24",
-            "figures": {
-                "tau_ref_min_nm": float(data["tau_ref_nm"].min()),
-                "tau_ref_max_nm": float(data["tau_ref_nm"].max()),
-            },
-            "expectations": {"checked": 3, "broken": broken},
+            "expectations": {"checked": len(out["felt"]["expectations"]), "broken": broken},
         }
     return out | {"trace": Path(options.subject).name, "probes": options.probes or ""}
 
@@ -206,8 +233,8 @@ def main():
     else:
         data, steps = replay(options), []
     result = summary(options, data, steps)
-    table = np.column_stack([data[name] for name in COLUMNS])
-    np.savetxt(options.csv, table, fmt="%.9g", delimiter=",", header=",".join(COLUMNS), comments="")
+    table = np.column_stack(list(data.values()))
+    np.savetxt(options.csv, table, fmt="%.9g", delimiter=",", header=",".join(data), comments="")
     Path(options.json).write_text(json.dumps(result))
     return 1 if result["mismatches"] else 0
 

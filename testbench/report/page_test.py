@@ -63,6 +63,7 @@ class Headlines(Recorded):
         steps = summary["engines"]["rtl"]["step_responses"]
         self.assertEqual(settling.value, f"{max(s['torque_settling_ms'] for s in steps):#.3g} ms")
         self.assertIn("1.00 ms", settling.bound)  # torque_step.toml
+        self.assertAlmostEqual(settling.share, 0.77)
 
     def test_the_run_that_breaks_its_bound_is_shown(self):
         good, _ = self.run_of()
@@ -78,6 +79,7 @@ class Headlines(Recorded):
         summary, _ = self.run_of()
         del summary["mismatches"]
         summary["engines"] = {"twin": {"speed": 1.0}}
+        del summary["reference"]
         clocks, error, peak = headline.of_run(summary, [])
         self.assertIsNone(clocks.good)
         self.assertIn("not compared", clocks.bound)
@@ -173,6 +175,30 @@ class Cards(Recorded):
         self.assertEqual([time_chart.label(t, ticks) for t in ticks][0], "−0.4")
         self.assertEqual(time_chart.label(0.05, [0.0, 0.05]), "0.05")
         self.assertEqual(time_chart.label(30.0, [0.0, 15.0]), "30")
+
+
+class Felt(Recorded):
+    def test_what_acted_and_what_was_expected(self):
+        summary, _ = self.run_of("wall")
+        summary["felt"]["limits"] = {"torque": {"seconds": 0.25, "first_s": 0.5}}
+        summary["felt"]["faults"] = {"i2t": {"seconds": 0.1, "first_s": 1.1}}
+        summary["felt"]["expectations"][0]["kept"] = False
+        found = Markup(run_section.inside(summary, []))
+        self.assertIn("limit torque: acted for 0.250 s, first at 0.500 s", found.text)
+        self.assertIn("fault i2t: acted for 0.100 s, first at 1.10 s", found.text)
+        self.assertIn("gave 6.10 mJ and got 1.20 mJ back", found.text)
+        rows = [[text for text, _ in row] for row in found.tables[0]]
+        self.assertEqual(rows[1], ["mismatches", "0", "at most 0", "no"])
+        self.assertEqual(rows[2], ["tau_ref_min_nm", "-0.394", "-0.407 to -0.394", "yes"])
+        self.assertEqual(rows[4], ["energy_absorbed_j", "0.0005", "at least 0.0005", "yes"])
+
+    def test_a_bound_that_breaks_in_a_replay_is_a_fault(self):
+        summary, _ = self.replay_of(50)
+        self.assertEqual(run_section.faults_of(summary), [])
+        error = {"max_error_in_bounds": 2e-5, "bound": 1e-5, "holds": False}
+        summary["felt"]["errors"] = {"torque_nm": error}
+        (fault,) = run_section.faults_of(summary)
+        self.assertIn("torque_nm is off by 2e-05, above its proven bound 1e-05", fault)
 
 
 class Room(Recorded):

@@ -72,6 +72,10 @@ const std::string& OutputFile::named() {
   return part_;
 }
 
+void OutputFile::write(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), file_) < text.size() && error_ == 0) error_ = errno;
+}
+
 void OutputFile::fail(int error) {
   discard();
   throw std::runtime_error(fmt::format("{}: could not be written whole: {}", label(),
@@ -83,7 +87,7 @@ void OutputFile::commit() {
   errno = 0;
   const bool before = std::ferror(file_) == 0;
   const bool written = std::fflush(file_) == 0 && before;
-  int error = errno;
+  int error = error_ != 0 ? error_ : errno;
   const bool closed = std::fclose(file_) == 0;
   if (error == 0) error = errno;
   file_ = nullptr;

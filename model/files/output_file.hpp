@@ -29,7 +29,8 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   std::FILE* handle() { return file_; }
-  void write(const std::string& text) { std::fwrite(text.data(), 1, text.size(), file_); }
+  /// What goes wrong is told by commit().
+  void write(const std::string& text);
   /// For a library that wants a name: it writes the file `named()`. Nothing else may be written.
   /// Throws std::invalid_argument for what is written in place: such a library goes back and forth.
   const std::string& named();
@@ -50,6 +51,7 @@ class OutputFile {
   std::string option_, path_, part_;
   Destination destination_;
   std::FILE* file_ = nullptr;
+  int error_ = 0;  ///< errno of the first write() that failed
   std::unique_ptr<Unfinished> unfinished_, beside_;
 };
 
@@ -79,6 +81,8 @@ class Outputs {
   void reads(const std::string& path);
   /// Where text for people goes: stdout, or stderr when an output goes to stdout.
   std::FILE* text() const;
+  /// Writes it there; whether stdout took everything is looked at when the program ends.
+  void say(const std::string& text) const { std::fputs(text.c_str(), this->text()); }
   /// Commits every output; throws std::runtime_error that names those that failed.
   void commit();
 

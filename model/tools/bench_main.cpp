@@ -66,7 +66,7 @@ int run(const Arguments& a) {
   result.bounds = bounds_of(works);
   const bench::Circumstances c = bench::circumstances();
   if (json != nullptr) json->write(bench::json(result, works, c));
-  if (!a.quiet) fmt::print(outputs.text(), "{}", bench::text(result, works, c));
+  if (!a.quiet) outputs.say(bench::text(result, works, c));
   outputs.commit();
   if (result.divergence.empty()) return exit_ok;
   fmt::print(stderr, "feltgate: integer engines differ: {}\n", result.divergence);

@@ -126,7 +126,7 @@ int run(const BudgetArguments& a) {
                              [&](double done) { progress.update(done); });
   }
   if (file != nullptr) file->write(json(b, scenario.name, e.design.name));
-  if (!a.quiet) fmt::print(outputs.text(), "{}", text(b, scenario.name, e.design.name));
+  if (!a.quiet) outputs.say(text(b, scenario.name, e.design.name));
   outputs.commit();
   return b.holds() ? exit_ok : exit_failed;
 }

@@ -52,6 +52,10 @@ std::string parse_error(const CLI::App& app, const CLI::ParseError& error) {
                      word, config::did_you_mean(word, words), help);
 }
 
+void complain(const CLI::App& app, const std::string& what) {
+  std::fputs(fmt::format("{}: {}\n", app.get_name(), what).c_str(), stderr);
+}
+
 }  // namespace
 
 int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code) {
@@ -59,13 +63,12 @@ int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code)
   try {
     app.parse(argc, argv);
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
-    fmt::print(stderr, "{}: stdout could not be written whole; is the disk full?\n",
-               app.get_name());
+    complain(app, "stdout could not be written whole; is the disk full?");
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // help or version, on stdout
-    fmt::print(stderr, "{}: {}\n", app.get_name(), parse_error(app, e));
+    complain(app, parse_error(app, e));
   } catch (const std::exception& e) {
-    fmt::print(stderr, "{}: {}\n", app.get_name(), e.what());
+    complain(app, e.what());
   }
   return exit_unusable;
 }

@@ -121,7 +121,8 @@ void Progress::update(double done) {
   last_s_ = now;
   const double spent = now - start_s_;
   const double left = done > 0 ? spent * (1 - done) / done : 0;
-  fmt::print(stderr, "\r\033[K{}: {:3.0f} %, {:.0f} s left", label_, 100 * done, left);
+  std::fputs(fmt::format("\r\033[K{}: {:3.0f} %, {:.0f} s left", label_, 100 * done, left).c_str(),
+             stderr);
   std::fflush(stderr);
 }
 

@@ -57,7 +57,7 @@ int design_for(const DesignArguments& a, const design::RegisterMap& registers) {
   outputs.open("--output", a.output.empty() ? "-" : a.output)->write(text);
   outputs.commit();
   if (!a.output.empty()) {
-    fmt::print(outputs.text(), "{}: blocks left out:{}\n", a.output, left_out);
+    outputs.say(fmt::format("{}: blocks left out:{}\n", a.output, left_out));
   }
   return exit_ok;
 }

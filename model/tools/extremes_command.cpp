@@ -63,7 +63,6 @@ int run(const ExtremesArguments& a) {
   }
   files::Outputs outputs;
   files::OutputFile* json = outputs.open("--json", a.json);
-  std::FILE* to = outputs.text();
   std::vector<extremes::Result> results;
   std::string broken;
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -75,7 +74,7 @@ int run(const ExtremesArguments& a) {
     progress.update(static_cast<double>(i) / static_cast<double>(cases.size()));
     results.push_back({cases[i], cases[i].run(settings)});
     if (!results.back().outcome.holds()) broken += std::string(" ") + cases[i].name;
-    if (!a.markdown) fmt::print(to, "{}", extremes::text(results.back()));
+    if (!a.markdown) outputs.say(extremes::text(results.back()));
   }
   if (a.markdown) {
     std::string out;
@@ -84,10 +83,10 @@ int run(const ExtremesArguments& a) {
     } else {
       for (const auto& r : results) out += extremes::markdown(r) + "\n";
     }
-    fmt::print(to, "{}", out);
+    outputs.say(out);
   } else {
-    fmt::print(to, "{} cases{}{}\n", results.size(),
-               broken.empty() ? ", all hold" : ", broken:", broken);
+    outputs.say(fmt::format("{} cases{}{}\n", results.size(),
+                            broken.empty() ? ", all hold" : ", broken:", broken));
   }
   if (json != nullptr) json->write(extremes::json(results));
   outputs.commit();

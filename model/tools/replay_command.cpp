@@ -113,7 +113,7 @@ int replay(ReplayArguments& a) {
   const RunResult result = replay_within_bounds(elaborated, *source, name, options);
   const RunLabels labels{"trace", "", probe_text(how)};
   if (json != nullptr) json->write(run_json(result, labels));
-  if (!a.quiet) fmt::print(outputs.text(), "{}", run_text(result, labels));
+  if (!a.quiet) outputs.say(run_text(result, labels));
   outputs.commit();
   if (result.mismatches > 0) {
     // The replay is deterministic: once more, with the waveform on around the place.
@@ -179,8 +179,9 @@ void add_import(CLI::App& app, int* exit_code) {
     files::OutputFile* out = outputs.open("OUT", a->out);
     traces::write_vector(out->handle(), a->out, a->design, how.clock_hz, *source);
     outputs.commit();
-    fmt::print(outputs.text(), "wrote {}, {:.6g} s\n", a->out,
-               static_cast<double>(source->length()) / static_cast<double>(how.clock_hz));
+    outputs.say(
+        fmt::format("wrote {}, {:.6g} s\n", a->out,
+                    static_cast<double>(source->length()) / static_cast<double>(how.clock_hz)));
     *exit_code = exit_ok;
   });
 }

@@ -102,7 +102,7 @@ int run(const RunArguments& a) {
   for (files::OutputFile* file : {json, report_json}) {
     if (file != nullptr) file->write(run_json(result, labels));
   }
-  if (!a.quiet) fmt::print(outputs.text(), "{}", run_text(result, labels));
+  if (!a.quiet) outputs.say(run_text(result, labels));
   outputs.commit();
   const bool ok = result.mismatches == 0 && result.broken.empty();
   if (!a.report.empty()) {

@@ -24,15 +24,16 @@ struct StabilityArguments {
 
 /// 1 when the chain's bits and the eigenvalues differ by more than 5 % where the swing spans enough
 /// counts for the two to mean the same.
-int verdict(const stability::Study& study, std::FILE* text) {
+int verdict(const stability::Study& study, const files::Outputs& outputs) {
   constexpr double enough_counts = 8, tolerance = 0.05;
   int off = 0;
   for (const auto& p : study.borders) {
     if (p.exact.stiffness_nm_rad == 0 || p.swing_counts < enough_counts) continue;
     const double ratio = p.bits_nm_rad / p.exact.stiffness_nm_rad;
     if (ratio > 1 - tolerance && ratio < 1 + tolerance) continue;
-    fmt::print(text, "bits and eigenvalues differ by more than 5 %: {:g} Hz, B = {:g} Nm s/rad\n",
-               p.rate_hz, p.damping_nm_s_rad);
+    outputs.say(
+        fmt::format("bits and eigenvalues differ by more than 5 %: {:g} Hz, B = {:g} Nm s/rad\n",
+                    p.rate_hz, p.damping_nm_s_rad));
     ++off;
   }
   return off == 0 ? exit_ok : exit_failed;
@@ -60,7 +61,7 @@ int run(const StabilityArguments& a) {
   Progress progress("stability of " + e.design.name, false);
   options.progress = [&progress](double done) { progress.update(done); };
   const auto study = run_study(e, linear, full, options);
-  fmt::print(outputs.text(), "{}", stability::study_text(study));
+  outputs.say(stability::study_text(study));
   for (files::OutputFile* file : {json, plot_json}) {
     if (file != nullptr) file->write(stability::study_json(study));
   }
@@ -69,7 +70,7 @@ int run(const StabilityArguments& a) {
     const int status = run_script("stability.py", {"--", json_path, a.plot}, outputs.text());
     if (status != 0) return status < exit_signal ? exit_unusable : status;
   }
-  return options.bits ? verdict(study, outputs.text()) : exit_ok;
+  return options.bits ? verdict(study, outputs) : exit_ok;
 }
 
 }  // namespace

@@ -209,7 +209,7 @@ int run_trim(TrimArguments& a) {
   progress.finish();
 
   if (json != nullptr) json->write(json_of(report, scene, a));
-  if (!a.quiet) fmt::print(outputs.text(), "{}", text_of(report, scene, a));
+  if (!a.quiet) outputs.say(text_of(report, scene, a));
   const bool found = report.holds && report.smaller();
   if (output != nullptr) {
     if (found) {

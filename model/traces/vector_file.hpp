@@ -64,6 +64,7 @@ class VectorWriter {
   void finish(Clock length);
 
  private:
+  void put(const std::string& text);
   void write(Clock clock, const EncoderPins& pins);
 
   std::FILE* to_;

@@ -29,14 +29,16 @@ VectorWriter::VectorWriter(std::FILE* to, std::string name, const VectorHeader& 
   if (!is_name(header.design) || header.clock_hz < 1 || header.signals.size() != 3) {
     fail(name_, "the header has no design, no clock or not three signals", "fill in the header");
   }
-  fmt::print(to_, "feltgate-vector {} design={} clock_hz={} signals={},{},{}\n",
-             VectorHeader::kSchema, header.design, header.clock_hz, header.signals[0],
-             header.signals[1], header.signals[2]);
+  put(fmt::format("feltgate-vector {} design={} clock_hz={} signals={},{},{}\n",
+                  VectorHeader::kSchema, header.design, header.clock_hz, header.signals[0],
+                  header.signals[1], header.signals[2]));
   write(0, initial);
 }
 
+void VectorWriter::put(const std::string& text) { std::fputs(text.c_str(), to_); }
+
 void VectorWriter::write(Clock clock, const EncoderPins& pins) {
-  fmt::print(to_, "{} {:d} {:d} {:d}\n", clock, pins.a, pins.b, pins.z);
+  put(fmt::format("{} {:d} {:d} {:d}\n", clock, pins.a, pins.b, pins.z));
 }
 
 void VectorWriter::add(const EncoderEvent& event) {
@@ -52,7 +54,7 @@ void VectorWriter::finish(Clock length) {
   if (length <= last_) {
     fail(name_, "the length is not later than the last event", "give the whole length");
   }
-  fmt::print(to_, "end {}\n", length);
+  put(fmt::format("end {}\n", length));
 }
 
 Clock write_vector(std::FILE* to, const std::string& name, const std::string& design,

@@ -3,9 +3,9 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """One self-contained HTML page about one run: pictures inside, no network.
 
-feltgate run and replay call this for --report DIR; by hand:
-  feltgate run membrane --engine all --json run.json --csv run.csv --every 100
-  scripts/report.py out run.json run.csv
+feltgate run calls this for --report DIR; by hand, for a replay too:
+  feltgate replay hand.sr --json hand.json --csv hand.csv
+  scripts/report.py out hand.json hand.csv
 Writes DIR/report.html and prints its path. Documentation: docs/figures.md
 """
 

@@ -58,7 +58,7 @@ def compared(clocks, mismatches):
     """The first number: clocks and mismatches; None mismatches where only one engine ran."""
     if mismatches is None:
         return Headline(
-            f"{clocks:,}", "clocks computed", "by one engine: RTL and twin were not compared"
+            f"{clocks:,}", "clocks computed", "RTL and twin were not compared: --engine all"
         )
     return Headline(
         f"{mismatches:,}",
@@ -80,6 +80,8 @@ def error(summaries):
     worst = max(bounded or errors, key=lambda e: (e.share > 1 and e.share, e.nm))
     what = f"largest error of the commanded torque against {worst.against}"
     value = micro(worst.nm)
+    if not worst.bound_nm and worst.against != ARITHMETIC["quad"]:
+        return Headline(value, what, "its proven bound is against 113-bit arithmetic: --engine all")
     if not worst.bound_nm:
         return Headline(value, what, f"no bound is proven for {worst.where}")
     told = f"proven bound for this motion: {micro(worst.bound_nm)} ({worst.where})"

@@ -42,13 +42,14 @@ def lead(summary):
 
 
 def exact(summary, csv, signal):
-    """The quad reference's values; None where it did not run."""
-    return csv.get(f"quad_{signal}") if "quad" in summary["engines"] else None
+    """Values of the engine that the others are compared with; None where there is none."""
+    return csv.get(f"{summary.get('reference')}_{signal}")
 
 
-def draw_quad(axes, time, values):
+def draw_exact(axes, time, summary, csv, signal):
+    values = exact(summary, csv, signal)
     if values is not None:
-        plots.draw(axes, time, values, "quad", **QUAD)
+        plots.draw(axes, time, values, "quad", f"{summary['reference']} reference", **QUAD)
 
 
 def motion_picture(name, summary, csv):
@@ -59,7 +60,7 @@ def motion_picture(name, summary, csv):
         plots.draw(position, time, csv["theta_rad"], "ideal", "lever of the plant")
         plots.draw(velocity, time, csv["omega_rad_s"], "ideal", "lever of the plant")
     plots.draw(velocity, time, csv["velocity_rad_s"], "rtl", lead(summary))
-    draw_quad(velocity, time, exact(summary, csv, "velocity_rad_s"))
+    draw_exact(velocity, time, summary, csv, "velocity_rad_s")
     position.set_ylabel("position, rad")
     velocity.set_ylabel("velocity, rad/s")
     velocity.set_xlabel(label)
@@ -76,11 +77,11 @@ def torque_picture(name, summary, csv):
     figure, (command, observed) = plots.stacked("Torque", [1.5, 1.5])
     plots.draw(command, time, csv["tau_ref_nm"], "reference", "asked for by the scene")
     plots.draw(command, time, csv["torque_nm"], "rtl", f"commanded, {lead(summary)}")
-    draw_quad(command, time, exact(summary, csv, "torque_nm"))
+    draw_exact(command, time, summary, csv, "torque_nm")
     if closed_loop(summary):
         plots.draw(command, time, csv["motor_torque_nm"], "motor")
     plots.draw(observed, time, csv["tau_hat_nm"], "rtl", f"observed, {lead(summary)}")
-    draw_quad(observed, time, exact(summary, csv, "tau_hat_nm"))
+    draw_exact(observed, time, summary, csv, "tau_hat_nm")
     command.set_ylabel("torque, Nm")
     observed.set_ylabel("observed, Nm")
     observed.set_xlabel(label)
@@ -91,26 +92,38 @@ def torque_picture(name, summary, csv):
     return plots.finish(figure, f"{name}-torque")
 
 
-def differences(summary, csv):
-    """[(signal, unit, lead minus quad)]; empty where quad did not run."""
-    columns = (("velocity", "rad/s"), ("torque", "Nm"), ("current", "A"))
-    names = {"velocity": "velocity_rad_s", "torque": "tau_hat_nm", "current": "current_a"}
-    pairs = [(s, u, csv[names[s]], exact(summary, csv, names[s])) for s, u in columns]
-    return [(s, u, ours - quad) for s, u, ours, quad in pairs if quad is not None]
+DIFFERENCES = (  # signal of the formats, column, unit, name
+    ("velocity", "velocity_rad_s", "rad/s", "velocity"),
+    ("torque", "tau_hat_nm", "Nm", "observed\ntorque"),
+    ("current", "current_a", "A", "current"),
+)
+
+
+def differs(summary, csv):
+    """Whether there is anything to compare with, and it says something."""
+    found = [exact(summary, csv, column) for _, column, *_ in DIFFERENCES]
+    return any(values is not None and np.any(values) for values in found)
 
 
 def difference_picture(name, summary, csv):
-    """Lead minus quad on the same counts, in units of the last place."""
+    """Lead, and binary32 where it ran, minus the reference on the same counts, in last places."""
     time, label = time_axis(csv["time_s"])
-    title = f"{lead(summary)} minus quad reference, in units of the last place"
+    title = f"{lead(summary)} minus {summary['reference']} reference, in units of the last place"
     figure, axes = plots.stacked(title, [0.9] * 3)
-    for axis, (signal, si, error) in zip(axes, differences(summary, csv), strict=True):
-        unit = lsb(summary["design"], signal)
-        plots.draw(axis, time, error / unit, "rtl", "", linewidth=0.7, color="#2f7fb8")
-        axis.set_ylabel({"torque": "observed\ntorque"}.get(signal, signal))
+    for axis, (signal, column, si, words) in zip(axes, DIFFERENCES, strict=True):
+        unit, reference = lsb(summary["design"], signal), exact(summary, csv, column)
+        single = csv.get(f"float_{column}")
+        ours = {"linewidth": 0.7, "color": "#2f7fb8"}
+        plots.draw(axis, time, (csv[column] - reference) / unit, "rtl", lead(summary), **ours)
+        if single is not None:
+            error = (single - reference) / unit
+            plots.draw(axis, time, error, "paper", "float", linewidth=0.6, linestyle="-")
+        axis.set_ylabel(words)
         plots.at_least(axis, 2.0)
         place = f"1 = 2^{round(np.log2(unit))} {si}"
-        axis.set_title(place, loc="right", fontsize=7.5, color="#5a6570")
+        axis.set_title(place, loc="left", fontsize=7.5, color="#5a6570")
+    if "float_velocity_rad_s" in csv:
+        plots.legend(axes[0])
     axes[-1].set_xlabel(label)
     return plots.finish(figure, f"{name}-difference")
 
@@ -152,6 +165,6 @@ def pictures(name, summary, csv):
         drawn.append(torque_picture(name, summary, csv))
     if closed_loop(summary) and np.ptp(csv["theta_rad"]) > 0.02:
         drawn.append(loop_picture(name, csv))
-    if any(np.any(exact(summary, csv, s)) for s in ("velocity_rad_s", "tau_hat_nm")):
+    if differs(summary, csv):
         drawn.append(difference_picture(name, summary, csv))
     return drawn

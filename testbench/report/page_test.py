@@ -84,6 +84,10 @@ class Headlines(Recorded):
         self.assertIsNone(clocks.good)
         self.assertIn("not compared", clocks.bound)
         self.assertEqual((error.value, error.good), ("–", None))
+        summary["engines"]["twin"]["torque_nm"] = {"max_error": 1e-5, "rms_error": 1e-6}
+        beside_double = headline.error([summary | {"reference": "double"}])
+        self.assertIn("binary64", beside_double.what)
+        self.assertIn("--engine all", beside_double.bound)
         self.assertEqual(peak.value, "0.500 Nm")
         self.assertIn("0.5 Nm", peak.bound)
 
@@ -199,6 +203,19 @@ class Felt(Recorded):
         summary["felt"]["errors"] = {"torque_nm": error}
         (fault,) = run_section.faults_of(summary)
         self.assertIn("torque_nm is off by 2e-05, above its proven bound 1e-05", fault)
+
+
+    def test_float_lies_beside_fixed_where_it_ran(self):
+        summary, csv = self.run_of("damper")
+        self.assertNotIn("float", run_pictures.difference_picture("x", summary, csv).svg)
+        summary["reference"] = "double"
+        self.assertFalse(run_pictures.differs(summary, csv))
+        for _, column, *_ in run_pictures.DIFFERENCES:
+            csv[f"double_{column}"], csv[f"float_{column}"] = csv[column], csv[column] + 1e-6
+        self.assertTrue(run_pictures.differs(summary, csv))
+        picture = run_pictures.difference_picture("x", summary, csv)
+        self.assertIn("minus double reference", picture.svg)
+        self.assertIn(">float<", picture.svg)
 
 
 class Room(Recorded):

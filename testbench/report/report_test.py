@@ -124,7 +124,8 @@ class Demo(Bench):
         traces = self.folder / "traces"
         traces.mkdir()
         long = "avago_adns_2051_remove_and_readd_usb_20230828T150615_434.csv"
-        for name in ("hand.csv", long):
+        hostile = '"><img src=x onerror=alert(1)>.csv'
+        for name in ("hand.csv", long, hostile):
             (traces / name).write_text("t,count\n0,0\n0.5,3\n")
         (traces / "empty.csv").write_text("t,A,B\n")
         done, summary, page = self.demo("--no-figures", traces=traces)
@@ -146,6 +147,8 @@ class Demo(Bench):
         self.assertLessEqual(told, set(glossary.meanings().values()))
         for word in ("mismatches", "proven bound", "commanded torque", "saturated ticks", "twin"):
             self.assertIn(glossary.meanings()[word], told, word)
+        self.assertFalse([a for _, a in found.elements if "onerror" in a])
+        self.assertIn(hostile, found.text)
         self.assertGreaterEqual(len(found.tables), 5)
         for table in found.tables:
             self.assertLess(width_px(table), 1200 - 60, table[0])

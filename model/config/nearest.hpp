@@ -1,71 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a misspelt name was probably meant to be: for keys, parameters, probes, scenes, options.
-// Documentation: docs/designs.md
+// What a misspelt name was meant to be; the twin's facade asks the same. Documentation:
+// docs/designs.md
 #pragma once
 
-#include <algorithm>
-#include <string>
-#include <string_view>
-#include <vector>
-
-namespace feltgate::config {
-
-/// Mistakes between two words: letters inserted, left out, replaced, or swapped with their
-/// neighbour (optimal string alignment). Case counts for nothing, and '-' is '_'.
-inline std::size_t mistakes_between(std::string_view a, std::string_view b) {
-  const auto plain = [](char c) {
-    return c == '-' ? '_' : c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  };
-  std::vector<std::size_t> two_above, above(b.size() + 1), row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    two_above = above;
-    above = row;
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const bool same = plain(a[i - 1]) == plain(b[j - 1]);
-      row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (same ? 0 : 1)});
-      const bool swapped = i > 1 && j > 1 && plain(a[i - 1]) == plain(b[j - 2]) &&
-                           plain(a[i - 2]) == plain(b[j - 1]);
-      if (swapped) row[j] = std::min(row[j], two_above[j - 2] + 1);
-    }
-  }
-  return row[b.size()];
-}
-
-/// The candidate that `word` was probably meant to be, or nothing. One mistake is forgiven for
-/// every three letters of the word, at most three; failing that, three letters or more from which
-/// exactly one candidate goes on. Equally near ones: the first. `candidates` holds strings.
-template <class Names>
-std::string nearest(std::string_view word, const Names& candidates) {
-  constexpr std::size_t letters_a_mistake = 3, most_mistakes = 3, longest = 100;
-  if (word.size() > longest) return {};  // no name is; and the work grows with it
-  std::size_t best = std::min(word.size() / letters_a_mistake, most_mistakes) + 1;
-  std::string found, continued;
-  int continuations = 0;
-  for (const auto& candidate : candidates) {
-    const std::string_view name = candidate;
-    const std::size_t mistakes = mistakes_between(word, name);
-    if (mistakes < best) {
-      best = mistakes;
-      found = name;
-    }
-    if (name.substr(0, word.size()) == word) {
-      continued = name;
-      ++continuations;
-    }
-  }
-  if (!found.empty()) return found;
-  return continuations == 1 && word.size() >= letters_a_mistake ? continued : "";
-}
-
-/// `did you mean "x"? ` for the beginning of a message's mend, or nothing.
-template <class Names>
-std::string did_you_mean(std::string_view word, const Names& candidates) {
-  const std::string name = nearest(word, candidates);
-  return name.empty() ? name : "did you mean \"" + name + "\"? ";
-}
-
-}  // namespace feltgate::config
+#include "feltgate/nearest.hpp"  // IWYU pragma: export

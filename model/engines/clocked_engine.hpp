@@ -150,39 +150,4 @@ class ClockedEngine : public Engine {
   CoreOut last_;
 };
 
-/// The generated constants of design D as run-time information.
-template <class D>
-DesignInfo design_info() {
-  DesignInfo i;
-  i.name = D::name;
-  i.clock_hz = D::clock_hz;
-  i.tick_hz = D::tick_hz;
-  i.clocks_per_tick = D::clocks_per_tick;
-  i.pwm_period = D::pwm_period;
-  i.dead_clocks = D::dead_clocks;
-  i.pwm_mode = (D::control_reset >> D::C::control_pwm_mode) & 1;
-  i.m1 = D::m1;
-  i.rad_s_per_count = D::velocity_gain == 0
-                          ? std::ldexp(1.0, D::velocity_shift)
-                          : std::ldexp(static_cast<double>(D::velocity_gain), -D::velocity_gain_f);
-  i.count_rad = D::count_rad;
-  i.supply_v = D::supply_v;
-  i.velocity = D::f.velocity;
-  i.torque = D::f.torque;
-  i.current = D::f.current;
-  i.voltage = D::f.voltage;
-  i.parameters = D::parameters;
-  i.parameter_count = static_cast<int>(std::size(D::parameters));
-  i.torque_constant_nm_a = i.find("torque_constant")->si;
-  i.control_address = D::C::control;
-  i.command_address = D::C::command;
-  i.control = {D::C::control_host, D::C::control_arm, D::C::control_scene, D::C::control_mode};
-  i.control_reset = static_cast<std::uint32_t>(D::control_reset);
-  i.scene_number = [](const std::string& name) {
-    const int n = D::scene_number(name);
-    return n >= 0 && ((D::scene_mask >> n) & 1) != 0 ? n : -1;
-  };
-  return i;
-}
-
 }  // namespace feltgate

@@ -10,12 +10,14 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "engines/make_device.hpp"
 #include "reference/real_chain.hpp"
 
 namespace feltgate {
 
-#define FELTGATE_DESIGN(name)                   \
-  std::unique_ptr<Engine> make_##name##_twin(); \
+#define FELTGATE_DESIGN(name)                     \
+  std::unique_ptr<Engine> make_##name##_twin();   \
+  std::unique_ptr<Device> make_##name##_device(); \
   std::unique_ptr<RealChain> make_##name##_chain(const std::string&);
 #include "designs.inc"
 #undef FELTGATE_DESIGN
@@ -91,6 +93,14 @@ std::unique_ptr<Engine> make_engine(const std::string& design, const std::string
   unknown_design(design);
 }
 
+std::unique_ptr<Device> make_device(const std::string& design) {
+#define FELTGATE_DESIGN(name) \
+  if (design == #name) return make_##name##_device();
+#include "designs.inc"
+#undef FELTGATE_DESIGN
+  unknown_design(design);
+}
+
 std::unique_ptr<RealChain> make_real_chain(const std::string& design, const std::string& kind) {
   if (const DesignMakers* d = further(design)) return d->chain(kind);
 #define FELTGATE_DESIGN(name) \
@@ -105,25 +115,12 @@ void Engine::trace(const std::string&, Clock, Clock) {
       fmt::format("--fst: the engine {} has no waveform; choose --engine rtl or all", name()));
 }
 
-const ParameterInfo* DesignInfo::find(const std::string& parameter) const {
-  for (int i = 0; i < parameter_count; ++i) {
-    if (parameter == parameters[i].name) return &parameters[i];
-  }
-  return nullptr;
-}
-
 std::int64_t quantise_parameter(const ParameterInfo& info, double value) {
-  const double scaled = std::ldexp(value, info.format.fraction);
-  const double high = std::ldexp(1.0, info.format.width() - info.format.sign);
-  const double low = info.format.sign == 1 ? -high : 0.0;
-  if (!(scaled >= low && std::round(scaled) < high)) {
-    throw std::invalid_argument(std::string(info.name) + " = " + std::to_string(value) + " " +
-                                info.unit + " does not fit its register; choose a value from " +
-                                std::to_string(std::ldexp(low, -info.format.fraction)) +
-                                " to below " +
-                                std::to_string(std::ldexp(high, -info.format.fraction)));
-  }
-  return std::llround(scaled);
+  if (const auto raw = quantised(info, value)) return *raw;
+  const ValueRange range = range_of(info);
+  throw std::invalid_argument(
+      fmt::format("{} = {} {} does not fit its register; choose a value from {} to below {}",
+                  info.name, value, info.unit, range.low, range.high + range.step));
 }
 
 }  // namespace feltgate

@@ -5,14 +5,14 @@
 // Documentation: docs/architecture.md
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "feltgate/causes.hpp"  // IWYU pragma: export
 #include "feltgate/core_ports.hpp"
+#include "feltgate/design_info.hpp"  // IWYU pragma: export
 #include "feltgate/encoder_source.hpp"
 #include "feltgate/parameter.hpp"
 
@@ -54,25 +54,6 @@ struct Snapshot {
   }
 };
 
-/// Bits of Snapshot::limits: which limit holds the torque now.
-namespace limit {
-constexpr unsigned torque = 1;  ///< torque reference at its limit
-constexpr unsigned ramp = 2;    ///< ramping after arming or a change of scene
-constexpr unsigned current = 4;
-constexpr unsigned voltage = 8;
-constexpr unsigned duty = 16;
-constexpr unsigned velocity = 32;  ///< the raw velocity saturated its format
-constexpr unsigned tau_hat = 64;   ///< tau_hat saturated its format
-constexpr unsigned gates_closed = 128;
-/// By the number of the bit.
-inline constexpr std::array<const char*, 8> names{"torque", "ramp",     "current", "voltage",
-                                                  "duty",   "velocity", "tau_hat", "gates_closed"};
-}  // namespace limit
-
-/// Bits of Snapshot::faults by number; as the causes of the supervisor (Fault).
-inline constexpr std::array<const char*, 7> fault_names{"none", "encoder",  "speed", "polarity",
-                                                        "i2t",  "watchdog", "stop"};
-
 /// Switches and pins of the board.
 struct Panel {
   bool arm = false;
@@ -83,31 +64,6 @@ struct Panel {
 /// Clocks for which each gate was on during the last advance().
 struct GateClocks {
   std::int64_t a_hi = 0, a_lo = 0, b_hi = 0, b_lo = 0;
-};
-
-/// Bits of the control word.
-struct ControlBits {
-  int host = 0, arm = 0, scene = 0, mode = 0;
-};
-
-/// What a design looks like at run time.
-struct DesignInfo {
-  const char* name = "";
-  std::int64_t clock_hz = 0, tick_hz = 0;
-  int clocks_per_tick = 0, pwm_period = 0, dead_clocks = 0, pwm_mode = 0;
-  int m1 = 0;                  ///< ticks of the N-method's window
-  double rad_s_per_count = 0;  ///< what it makes of a count in that window
-  double count_rad = 0, supply_v = 0;
-  Format velocity{}, torque{}, current{}, voltage{};
-  double torque_constant_nm_a = 0;
-  const ParameterInfo* parameters = nullptr;
-  int parameter_count = 0;
-  int control_address = 0, command_address = 0;
-  ControlBits control;
-  std::uint32_t control_reset = 0;
-  std::function<int(const std::string&)> scene_number;  ///< -1: no such scene, or not built
-
-  const ParameterInfo* find(const std::string& name) const;
 };
 
 class Engine {

@@ -14,6 +14,7 @@
 
 #include "config/toml_reader.hpp"
 #include "loop/ensemble.hpp"
+#include "plant/drive.hpp"
 #include "plant/period_mean.hpp"
 #include "plant/plant.hpp"
 #include "traces/statistics.hpp"
@@ -97,14 +98,7 @@ class ScenarioRun {
  private:
   static plant::Drive drive(const std::string& design, const EngineChoice& choice) {
     const auto engine = make_engine(design, choice.lead == "lockstep" ? "twin" : choice.lead);
-    const DesignInfo& d = engine->design();
-    plant::Drive drive;
-    drive.clock_hz = static_cast<double>(d.clock_hz);
-    drive.pwm_hz = drive.clock_hz / d.pwm_period;
-    drive.dead_time_s = d.dead_clocks / drive.clock_hz;
-    drive.switching = d.pwm_mode == 1 ? plant::Drive::Switching::kLockedAntiphase
-                                      : plant::Drive::Switching::kSignMagnitude;
-    return drive;
+    return plant::drive_of(engine->design());
   }
 
   Clock clock_of(double seconds) const {

@@ -8,8 +8,7 @@
 #include <filesystem>
 
 #include "config/toml_reader.hpp"
-#include "plant/hand_file.hpp"
-#include "plant/plant_file.hpp"
+#include "plant/plant_table.hpp"
 
 namespace feltgate {
 

@@ -3,6 +3,7 @@
 //
 // Reads the [hand] table of a scene. Documentation: docs/plant.md
 #include "plant/hand_file.hpp"
+#include "plant/plant_table.hpp"
 
 #include <cmath>
 #include <fstream>

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Reads the [hand] table of a scene. Documentation: docs/plant.md
+// Reads recorded motions of a hand. Documentation: docs/plant.md
 #pragma once
 
-#include "config/toml_reader.hpp"
-#include "hand.hpp"
+#include <string>
+
+#include "profile.hpp"
 
 namespace feltgate::plant {
-
-/// Reads [hand] and [[hand.phase]]; files of traces are relative to the folder of the scene.
-/// Errors: config::ConfigError "file:line: what; mend".
-Hand read_hand(config::TomlReader table);
 
 /// Reads a recorded motion: a CSV with the header "time_s,theta_rad".
 /// Errors: config::ConfigError with file and line of the first bad row.

@@ -3,6 +3,7 @@
 //
 // Reads vectors/plants/NAME.toml. Documentation: docs/plant.md
 #include "plant/plant_file.hpp"
+#include "plant/plant_table.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -30,9 +30,10 @@ if(FELTGATE_SIM)
       DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/feltgate/${room}" COMPONENT feltgate_sim
       FILES_MATCHING PATTERN "*.hpp"
       PATTERN "ensemble.hpp" EXCLUDE PATTERN "scenario_bounds.hpp" EXCLUDE
-      PATTERN "make_engines.hpp" EXCLUDE PATTERN "rtl_*.hpp" EXCLUDE)
+      PATTERN "make_engines.hpp" EXCLUDE PATTERN "plant_table.hpp" EXCLUDE PATTERN "rtl_*.hpp" EXCLUDE)
   endforeach()
   install(DIRECTORY "${FELTGATE_ROOT}/vectors/plants" "${FELTGATE_ROOT}/vectors/scenes"
+    "${FELTGATE_ROOT}/vectors/traces"
     DESTINATION "${CMAKE_INSTALL_DATADIR}/feltgate" COMPONENT feltgate_sim)
 endif()
 

@@ -7,6 +7,7 @@
 
 #include "catch.hpp"
 #include "plant/hand_file.hpp"
+#include "plant/plant_table.hpp"
 #include "plant_fixture.hpp"
 
 using namespace feltgate;

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What holds the torque back and what closes the gates, by bit and by name.
+// Documentation: docs/blocks/supervisor.md
+#pragma once
+
+#include <array>
+
+namespace feltgate {
+
+/// Bits of Snapshot::limits: which limit holds the torque now.
+namespace limit {
+constexpr unsigned torque = 1;  ///< torque reference at its limit
+constexpr unsigned ramp = 2;    ///< ramping after arming or a change of scene
+constexpr unsigned current = 4;
+constexpr unsigned voltage = 8;
+constexpr unsigned duty = 16;
+constexpr unsigned velocity = 32;  ///< the raw velocity saturated its format
+constexpr unsigned tau_hat = 64;   ///< tau_hat saturated its format
+constexpr unsigned gates_closed = 128;
+/// By the number of the bit.
+inline constexpr std::array<const char*, 8> names{"torque", "ramp",     "current", "voltage",
+                                                  "duty",   "velocity", "tau_hat", "gates_closed"};
+}  // namespace limit
+
+/// Bits of Snapshot::faults by number; as the causes of the supervisor (Fault).
+inline constexpr std::array<const char*, 7> fault_names{"none", "encoder",  "speed", "polarity",
+                                                        "i2t",  "watchdog", "stop"};
+
+}  // namespace feltgate

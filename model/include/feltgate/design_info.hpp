@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The constants of a generated design as run-time information. Documentation: docs/library.md
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "feltgate/nearest.hpp"
+#include "feltgate/parameter.hpp"
+
+namespace feltgate {
+
+/// Bits of the control word.
+struct ControlBits {
+  int host = 0, arm = 0, scene = 0, mode = 0;
+};
+
+/// Bits of the command word.
+struct CommandBits {
+  int set_zero = 0, clear_faults = 0, kick = 0;
+};
+
+/// What a design looks like at run time.
+struct DesignInfo {
+  const char* name = "";
+  std::int64_t clock_hz = 0, tick_hz = 0;
+  int clocks_per_tick = 0, pwm_period = 0, dead_clocks = 0, pwm_mode = 0;
+  int m1 = 0;                  ///< ticks of the N-method's window
+  double rad_s_per_count = 0;  ///< what it makes of a count in that window
+  double count_rad = 0, supply_v = 0;
+  Format velocity{}, torque{}, current{}, voltage{};
+  double torque_constant_nm_a = 0;
+  const ParameterInfo* parameters = nullptr;
+  int parameter_count = 0;
+  int control_address = 0, command_address = 0;
+  ControlBits control;
+  CommandBits command;
+  std::uint32_t control_reset = 0;
+  std::function<int(const std::string&)> scene_number;  ///< -1: no such scene, or not built
+
+  /// nullptr where the design has no such parameter.
+  const ParameterInfo* find(std::string_view parameter) const {
+    for (int i = 0; i < parameter_count; ++i) {
+      if (parameter == parameters[i].name) return &parameters[i];
+    }
+    return nullptr;
+  }
+  /// What to say of a parameter that find() has not: the nearest name, and where all are listed.
+  std::string unknown(const std::string& parameter) const {
+    std::vector<std::string> names;
+    for (int i = 0; i < parameter_count; ++i) names.emplace_back(parameters[i].name);
+    return "parameter \"" + parameter + "\" is unknown; " + config::did_you_mean(parameter, names) +
+           "`feltgate design " + name + "` lists them";
+  }
+};
+
+/// Values that the word of a parameter can hold, in its unit.
+struct ValueRange {
+  double low = 0, high = 0, step = 0;
+};
+inline ValueRange range_of(const ParameterInfo& p) {
+  const double words = std::ldexp(1.0, p.format.width() - p.format.sign);
+  const double step = std::ldexp(1.0, -p.format.fraction);
+  return {p.format.sign == 1 ? -words * step : 0.0, (words - 1) * step, step};
+}
+
+/// Integer of a parameter for a value in its unit, rounded to nearest; nothing where it does not
+/// fit.
+inline std::optional<std::int64_t> quantised(const ParameterInfo& p, double value) {
+  const ValueRange range = range_of(p);
+  const double steps = std::round(value / range.step);
+  if (!(value >= range.low && steps <= range.high / range.step)) return {};
+  return static_cast<std::int64_t>(steps);
+}
+
+/// The generated constants of design D as run-time information.
+template <class D>
+DesignInfo design_info() {
+  DesignInfo i;
+  i.name = D::name;
+  i.clock_hz = D::clock_hz;
+  i.tick_hz = D::tick_hz;
+  i.clocks_per_tick = D::clocks_per_tick;
+  i.pwm_period = D::pwm_period;
+  i.dead_clocks = D::dead_clocks;
+  i.pwm_mode = (D::control_reset >> D::C::control_pwm_mode) & 1;
+  i.m1 = D::m1;
+  i.rad_s_per_count = D::velocity_gain == 0
+                          ? std::ldexp(1.0, D::velocity_shift)
+                          : std::ldexp(static_cast<double>(D::velocity_gain), -D::velocity_gain_f);
+  i.count_rad = D::count_rad;
+  i.supply_v = D::supply_v;
+  i.velocity = D::f.velocity;
+  i.torque = D::f.torque;
+  i.current = D::f.current;
+  i.voltage = D::f.voltage;
+  i.parameters = D::parameters;
+  i.parameter_count = static_cast<int>(std::size(D::parameters));
+  i.torque_constant_nm_a = i.find("torque_constant")->si;
+  i.control_address = D::C::control;
+  i.command_address = D::C::command;
+  i.control = {D::C::control_host, D::C::control_arm, D::C::control_scene, D::C::control_mode};
+  i.command = {D::C::command_set_zero, D::C::command_clear_faults, D::C::command_kick};
+  i.control_reset = static_cast<std::uint32_t>(D::control_reset);
+  i.scene_number = [](const std::string& name) {
+    const int n = D::scene_number(name);
+    return n >= 0 && ((D::scene_mask >> n) & 1) != 0 ? n : -1;
+  };
+  return i;
+}
+
+}  // namespace feltgate

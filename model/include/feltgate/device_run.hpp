@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What Device does: requests into pins and register writes, angles into edges. Included by
+// device.hpp. Documentation: docs/library.md
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "feltgate/device.hpp"
+#include "feltgate/nearest.hpp"
+
+namespace feltgate {
+
+inline Device::Device(DesignInfo design) : design_(std::move(design)) {
+  for (int i = 0; i < design_.parameter_count; ++i) raw_.push_back(design_.parameters[i].raw);
+}
+
+/// Arms by a request that was low at the end of the tick before; one that a fault or a stop has
+/// ended is not raised again.
+inline void Device::begin_tick() {
+  if ((out().faults != 0 && !clearing_) || in_.stop) wanted_ = false;
+  in_.arm = wanted_ && !clearing_ && (armed() || low_before_);
+}
+
+/// To the clock `until` with the pins as they are.
+inline void Device::advance(Clock until) {
+  const std::pair<std::uint16_t, std::uint32_t> clear{
+      static_cast<std::uint16_t>(design_.command_address), 1u << design_.command.clear_faults};
+  while (now_ < until) {
+    const int clock = clock_of_tick();
+    if (clock == 0) begin_tick();
+    if (clock == kWriteClock && !writes_.empty() && !out().reg_busy) {
+      in_.reg_addr = writes_.front().first;
+      in_.reg_wdata = writes_.front().second;
+      cleared_ = writes_.front() == clear;
+      writes_.pop_front();
+      in_.reg_write = true;
+      step(in_);
+      ++now_;
+    } else {
+      const bool whole = writes_.empty() || clock >= kWriteClock;
+      const Clock next = whole ? end_of_tick() : now_ + kWriteClock - clock;
+      const Clock clocks = std::min(until, next) - now_;
+      in_.reg_write = false;
+      stretch(in_, clocks);
+      now_ += clocks;
+    }
+    if (clock_of_tick() == 0) {
+      low_before_ = !in_.arm;
+      clearing_ = clearing_ && !cleared_;
+      cleared_ = false;
+    }
+  }
+}
+
+inline const CoreOut& Device::clock(EncoderPins encoder) {
+  in_.encoder = encoder;
+  advance(now_ + 1);
+  return out();
+}
+
+inline const Reading& Device::tick(EncoderPins encoder) {
+  in_.encoder = encoder;
+  advance(end_of_tick());
+  return reading_;
+}
+
+inline void Device::run(Clock clocks, const std::vector<EncoderEvent>& events) {
+  const Clock end = now_ + clocks;
+  for (const EncoderEvent& e : events) {
+    if (e.clock > end) {
+      throw std::invalid_argument("a pin change at clock " + std::to_string(e.clock) +
+                                  " lies after the end of the stretch at clock " +
+                                  std::to_string(end) + "; give it with the next one");
+    }
+    advance(e.clock);
+    in_.encoder = e.pins;
+  }
+  advance(end);
+}
+
+inline const Reading& Device::tick_to(double angle_rad) {
+  const Clock clocks = end_of_tick() - now_;
+  const double position = std::floor(counts(angle_rad));
+  if (!(std::abs(position - static_cast<double>(count_)) <= static_cast<double>(clocks))) {
+    std::ostringstream text;
+    text << "the lever cannot move to " << angle_rad << " rad in this tick: from "
+         << static_cast<double>(count_) * design_.count_rad << " rad it can move by "
+         << static_cast<double>(clocks) * design_.count_rad
+         << " rad, an edge in each clock; move it in smaller steps";
+    throw std::invalid_argument(text.str());
+  }
+  const auto edges = static_cast<std::int64_t>(position) - count_;
+  const std::int64_t magnitude = edges < 0 ? -edges : edges;
+  const Clock begin = now_;
+  for (std::int64_t edge = 0; edge < magnitude; ++edge) {
+    advance(begin + clocks * edge / magnitude);
+    count_ += edges < 0 ? -1 : 1;
+    const auto phase = static_cast<unsigned>(count_) & 3u;
+    in_.encoder = {phase >= 2, phase == 1 || phase == 2, false};
+  }
+  advance(begin + clocks);
+  return reading_;
+}
+
+inline void Device::arm() {
+  if (out().faults != 0 && !clearing_) {
+    throw std::runtime_error("cannot arm: the fault " + reading_of(design_, out()).fault_names() +
+                             " is latched; clear_faults() once its cause is gone");
+  }
+  if (in_.stop) throw std::runtime_error("cannot arm: the stop is pressed; stop(false) first");
+  wanted_ = true;
+}
+
+inline void Device::disarm() { wanted_ = in_.arm = false; }
+
+inline void Device::stop(bool pressed) { in_.stop = pressed; }
+
+inline void Device::clear_faults() {
+  disarm();
+  clearing_ = true;
+  write(design_.command_address, 1u << design_.command.clear_faults);
+}
+
+inline void Device::select(const std::string& scene) {
+  static constexpr std::array<const char*, 9> names{"free",
+                                                    "setpoint",
+                                                    "membrane",
+                                                    "spring_compression",
+                                                    "spring_tension",
+                                                    "damper",
+                                                    "charge_attract",
+                                                    "charge_repel",
+                                                    "wall"};
+  const int number = design_.scene_number(scene);
+  if (number >= 0) {
+    in_.scene = static_cast<std::uint8_t>(number);
+    return;
+  }
+  std::vector<std::string> built;
+  std::string list;
+  for (const char* name : names) {
+    if (design_.scene_number(name) < 0) continue;
+    built.emplace_back(name);
+    list += (list.empty() ? "" : ", ") + built.back();
+  }
+  throw std::invalid_argument("scene \"" + scene + "\" is not built in design " + design_.name +
+                              "; " + config::did_you_mean(scene, built) + "there are " + list);
+}
+
+inline void Device::set_control(Control how) {
+  const std::uint32_t others = design_.control_reset & ~(3u << design_.control.mode);
+  write(design_.control_address, others | static_cast<std::uint32_t>(how) << design_.control.mode);
+}
+
+inline const ParameterInfo& Device::find(const std::string& name) const {
+  if (const ParameterInfo* p = design_.find(name)) return *p;
+  throw std::invalid_argument(design_.unknown(name));
+}
+
+inline void Device::set(const std::string& parameter, double value) {
+  const ParameterInfo& p = find(parameter);
+  const auto raw = quantised(p, value);
+  if (!raw) {
+    const ValueRange range = range_of(p);
+    std::ostringstream text;
+    text << parameter << " = " << value << " " << p.unit << " does not fit design " << design_.name
+         << "; choose a value from " << range.low << " to " << range.high << " " << p.unit;
+    throw std::invalid_argument(text.str());
+  }
+  raw_[static_cast<std::size_t>(&p - design_.parameters)] = *raw;
+  write(p.address, static_cast<std::uint32_t>(*raw));
+}
+
+inline Parameter Device::parameter(const std::string& name) const {
+  const ParameterInfo& p = find(name);
+  const ValueRange range = range_of(p);
+  const std::int64_t raw = raw_[static_cast<std::size_t>(&p - design_.parameters)];
+  return {p.name, p.unit, static_cast<double>(raw) * range.step, range.low, range.high, range.step};
+}
+
+inline std::vector<Parameter> Device::parameters() const {
+  std::vector<Parameter> all;
+  for (int i = 0; i < design_.parameter_count; ++i) {
+    all.push_back(parameter(design_.parameters[i].name));
+  }
+  return all;
+}
+
+}  // namespace feltgate

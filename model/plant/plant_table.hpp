@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The tables of plants and hands, parsed: for readers of files that hold them. Users of the library
+// need plant_file.hpp only, which knows nothing of TOML. Documentation: docs/plant.md
+#pragma once
+
+#include <string>
+
+#include "config/toml_reader.hpp"
+#include "plant/hand.hpp"
+#include "plant/parameters.hpp"
+
+namespace feltgate::plant {
+
+/// A plant from a parsed table, `file` being the name that errors print.
+Parameters read_plant(const toml::table& root, const std::string& file);
+
+/// Effects of a scene's [effects] table over `base`: a missing key keeps the value of `base`.
+Effects read_effects(config::TomlReader table, const Effects& base);
+
+/// Reads [hand] and [[hand.phase]]; files of traces are relative to the folder of the scene.
+/// Errors: config::ConfigError "file:line: what; mend".
+Hand read_hand(config::TomlReader table);
+
+}  // namespace feltgate::plant

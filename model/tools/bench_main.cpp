@@ -10,6 +10,7 @@
 #include "bench/report.hpp"
 #include "bench/work_bounds.hpp"
 #include "files/output_file.hpp"
+#include "tools/checks.hpp"
 #include "tools/commands.hpp"
 
 namespace {
@@ -105,7 +106,7 @@ int main(int argc, char** argv) {
                  "names in vectors/scenes instead of torque_step_cord, damper, wall")
       ->delimiter(',');
   app.add_option("--repetitions", a.repetitions, "default 3, with --quick 1")
-      ->check(CLI::PositiveNumber);
+      ->check(checks::whole(1, 1000));
   app.add_flag("--quick", a.quick, "one short scene");
   app.add_flag("--quiet", a.quiet, "print nothing");
   int exit_code = exit_ok;

@@ -13,6 +13,7 @@
 #include "files/json_text.hpp"
 #include "files/output_file.hpp"
 #include "plant/plant_file.hpp"
+#include "tools/checks.hpp"
 #include "tools/commands.hpp"
 
 namespace feltgate {
@@ -149,9 +150,12 @@ void add_budget(CLI::App& app, int* exit_code) {
   sub->add_option("--design", a->design, "design point in rtl/designs")->capture_default_str();
   sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's");
   sub->add_option("--json", a->json, "the same as JSON (docs/json.md)");
-  sub->add_option("--seed", a->seed, "of the run")->capture_default_str();
+  sub->add_option("--seed", a->seed, "of the run")->capture_default_str()->check(checks::seed());
   sub->add_flag("--quiet", a->quiet, "print nothing");
-  sub->callback([a, exit_code] { *exit_code = run(*a); });
+  sub->callback([a, exit_code] {
+    a->design = built_design(a->design);
+    *exit_code = run(*a);
+  });
 }
 
 }  // namespace feltgate

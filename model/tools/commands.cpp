@@ -7,13 +7,18 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <stdexcept>
 
 #include "config/nearest.hpp"
+#include "design/design.hpp"
+#include "engines/engine.hpp"
 #include "files/program.hpp"
 
 namespace fs = std::filesystem;
@@ -24,6 +29,15 @@ namespace {
 
 double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+bool is_path(const std::string& name) {
+  return name.find('/') != std::string::npos || fs::path(name).extension() == ".toml";
+}
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 /// Names of the TOML files in a folder of the repository.
@@ -66,7 +80,7 @@ std::string repository() {
 }
 
 std::string find_file(const std::string& name, const std::string& folder) {
-  if (name.find('/') != std::string::npos || fs::path(name).extension() == ".toml") {
+  if (is_path(name)) {
     std::error_code error;
     const fs::file_status status = fs::status(name, error);
     if (fs::is_directory(status)) {
@@ -90,6 +104,27 @@ std::string find_file(const std::string& name, const std::string& folder) {
 design::Elaborated elaborated_design(const std::string& name) {
   return design::elaborate(design::read_design(find_file(name, "rtl/designs")),
                            design::read_registers(repository() + "/rtl/registers.toml"));
+}
+
+std::string built_design(const std::string& given) {
+  const std::vector<std::string> built = design_names();
+  if (std::find(built.begin(), built.end(), given) != built.end()) return given;
+  const std::set<std::string> names = names_in("rtl/designs");
+  if (!is_path(given)) {
+    if (names.count(given) > 0) make_engine(given, "twin");  // says how presets are built
+    throw std::invalid_argument(fmt::format("design \"{}\" is unknown; {}choose one of {}", given,
+                                            config::did_you_mean(given, names),
+                                            fmt::join(built, ", ")));
+  }
+  const std::string file = find_file(given, "rtl/designs");
+  const std::string name = design::read_design(file).name;
+  const fs::path ours = fs::path(repository()) / "rtl/designs" / (name + ".toml");
+  const bool known = std::find(built.begin(), built.end(), name) != built.end();
+  if (known && text_of(file) == text_of(ours)) return name;
+  throw std::invalid_argument(
+      fmt::format("{}: a design runs once it is built in; copy it to rtl/designs/{}.toml{}, run "
+                  "`./feltgate generate`, then give --design {}",
+                  given, name, known ? " under a name of its own" : "", name));
 }
 
 std::string mismatch_path(const std::string& subject, const std::string& design) {

@@ -48,6 +48,10 @@ int run_script(const std::string& name, const std::vector<std::string>& words, s
 /// The design point of this name with everything that follows from it, against the register map.
 design::Elaborated elaborated_design(const std::string& name);
 
+/// Name of the design that `given` means: a name that is built in, or the path of the file of one.
+/// Throws std::invalid_argument that says how to build another one in.
+std::string built_design(const std::string& given);
+
 /// Where the waveform around a mismatch goes: mismatch/ in the build folder, or in this one.
 std::string mismatch_path(const std::string& subject, const std::string& design);
 /// Says where it is and how to look at it.

@@ -11,6 +11,7 @@
 
 #include "files/output_file.hpp"
 #include "loop/bounded.hpp"
+#include "tools/checks.hpp"
 #include "tools/commands.hpp"
 #include "tools/csv.hpp"
 #include "tools/run_output.hpp"
@@ -45,12 +46,15 @@ struct TraceArguments {
     sub->add_option("--count-column", options.count_column, "column with counts or an angle");
     sub->add_option("--scale", scale, "counts per unit of that column, e.g. 2048/2pi for radians");
     sub->add_option("--sample-hz", options.sample_hz,
-                    "rate of the capture, where the file does not say it");
+                    "rate of the capture, where the file does not say it")
+        ->check(checks::positive(1e12, "Hz"));
     sub->add_option("--format", format,
                     "sigrok, vcd, saleae, levels, columns or vector; default: by content");
     sub->add_flag("--no-jitter", no_jitter,
                   "edges at the start of their sample instead of a seeded place inside");
-    sub->add_option("--seed", options.seed, "of that place")->capture_default_str();
+    sub->add_option("--seed", options.seed, "of that place")
+        ->capture_default_str()
+        ->check(checks::seed());
   }
 };
 
@@ -148,14 +152,20 @@ void add_replay(CLI::App& app, int* exit_code) {
   sub->add_option("--design", a->design, "design point in rtl/designs")->capture_default_str();
   sub->add_option("--engine", a->engine, engine_help)->type_name("ENGINES")->capture_default_str();
   sub->add_option("--scene", a->scene, "what the core renders meanwhile")->capture_default_str();
-  sub->add_option("--seconds", a->seconds, "stop after so much of it; default: its end");
+  sub->add_option("--seconds", a->seconds, "stop after so much of it; default: its end")
+      ->check(checks::seconds());
   sub->add_option("--json", a->json, "figures as JSON (docs/json.md)");
   sub->add_option("--csv", a->csv, "a row per tick, the columns of every engine (docs/json.md)")
       ->type_name("FILE");
-  sub->add_option("--every", a->every, every_help)->check(CLI::PositiveNumber)->type_name("TICKS");
+  sub->add_option("--every", a->every, every_help)
+      ->check(checks::whole(1, 1'000'000'000))
+      ->type_name("TICKS");
   sub->add_option("--fst", a->fst, "waveform of every clock of the RTL (large: with --seconds)");
   sub->add_flag("--quiet", a->quiet, "print only what went wrong");
-  sub->callback([a, exit_code] { *exit_code = replay(*a); });
+  sub->callback([a, exit_code] {
+    a->design = built_design(a->design);
+    *exit_code = replay(*a);
+  });
 }
 
 void add_import(CLI::App& app, int* exit_code) {
@@ -171,6 +181,7 @@ void add_import(CLI::App& app, int* exit_code) {
   sub->add_option("--design", a->design, "design whose clock stamps the edges")
       ->capture_default_str();
   sub->callback([a, exit_code] {
+    a->design = built_design(a->design);
     traces::Options how = a->trace.read();
     how.clock_hz = make_engine(a->design, "twin")->design().clock_hz;
     const auto source = traces::open(a->trace.path, how);

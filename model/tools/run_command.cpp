@@ -11,6 +11,7 @@
 #include "files/output_file.hpp"
 #include "loop/bounded.hpp"
 #include "plant/plant_file.hpp"
+#include "tools/checks.hpp"
 #include "tools/commands.hpp"
 #include "tools/csv.hpp"
 #include "tools/run_output.hpp"
@@ -154,17 +155,24 @@ void add_run(CLI::App& app, int* exit_code) {
   sub->add_option("--engine", a->engine, engine_help)->type_name("ENGINES")->capture_default_str();
   sub->add_option("--set", a->set,
                   "parameter to set before arming, NAME=VALUE in its unit; may be repeated");
-  sub->add_option("--seed", a->seed, "of the RTL's state before reset")->capture_default_str();
+  sub->add_option("--seed", a->seed, "of the RTL's state before reset")
+      ->capture_default_str()
+      ->check(checks::seed());
   sub->add_option("--report", a->report, "folder for an HTML report with pictures, JSON and CSV");
   sub->add_option("--json", a->json, "figures as JSON (docs/json.md)");
   sub->add_option("--csv", a->csv, "a row per tick, the columns of every engine (docs/json.md)")
       ->type_name("FILE");
-  sub->add_option("--every", a->every, every_help)->check(CLI::PositiveNumber)->type_name("TICKS");
+  sub->add_option("--every", a->every, every_help)
+      ->check(checks::whole(1, 1'000'000'000))
+      ->type_name("TICKS");
   sub->add_flag("--columns", a->columns, "print the table of CSV columns and end");
   sub->add_option("--fst", a->fst, "waveform of every clock of the RTL (large: short scenes only)");
   sub->add_option("--record", a->record, "the encoder's edges as a vector file (docs/traces.md)");
   sub->add_flag("--quiet", a->quiet, "print only what went wrong");
-  sub->callback([a, exit_code] { *exit_code = run(*a); });
+  sub->callback([a, exit_code] {
+    a->design = built_design(a->design);
+    *exit_code = run(*a);
+  });
 }
 
 }  // namespace feltgate

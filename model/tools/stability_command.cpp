@@ -10,6 +10,7 @@
 #include "files/output_file.hpp"
 #include "plant/plant_file.hpp"
 #include "stability/report.hpp"
+#include "tools/checks.hpp"
 #include "tools/commands.hpp"
 
 namespace feltgate {
@@ -101,16 +102,19 @@ void add_stability(CLI::App& app, int* exit_code) {
       ->capture_default_str();
   sub->add_option("--rate", a->rates, "scene rates in Hz; default 144,490,1000,40000,1000000")
       ->delimiter(',')
-      ->check(CLI::Range(1.0, 1e6));
+      ->check(checks::number(1, 1e6, "Hz"));
   sub->add_option("--damping", a->damping,
                   "dampings B of the wall in Nm s/rad; default 0,0.001,0.002,0.005,0.01,0.02")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(checks::number(0, 1, "Nm s/rad"));
   sub->add_flag("--no-bits", a->no_bits, "eigenvalues and closed forms only: two seconds");
   sub->add_flag("--no-experiments", a->no_experiments, "borders only");
   sub->add_option("--json", a->json, "write all numbers to this file");
   sub->add_option("--plot", a->plot, "draw the K-B plot and the eigenvalue locus into this folder");
-  sub->callback([a, exit_code] { *exit_code = run(*a); });
+  sub->callback([a, exit_code] {
+    a->design = built_design(a->design);
+    *exit_code = run(*a);
+  });
 }
 
 }  // namespace feltgate

@@ -14,6 +14,7 @@
 #include "files/json_text.hpp"
 #include "files/output_file.hpp"
 #include "plant/plant_file.hpp"
+#include "tools/checks.hpp"
 #include "tools/commands.hpp"
 #include "trim/scene_file.hpp"
 #include "trim/trim.hpp"
@@ -246,22 +247,27 @@ void add_trim(CLI::App& app, int* exit_code) {
   sub->add_option("-o,--output", a->output, "the trimmed scene as a file for feltgate run");
   sub->add_option("--json", a->json, "the figures as JSON");
   sub->add_option("--duration", a->duration_s, "seconds; default: the scene's")
-      ->check(CLI::PositiveNumber);
+      ->check(checks::seconds());
   sub->add_option("--window", a->window_ms, "length of the means, ms")
       ->capture_default_str()
-      ->check(CLI::Range(0.01, 1000.0));
+      ->check(checks::number(0.01, 1000, "ms"));
   sub->add_option("--full-step", a->options.full_step_clocks, "step of the full model, clocks")
       ->capture_default_str()
-      ->check(CLI::Range(1, 5));
+      ->check(checks::whole(1, 5));
   sub->add_option("--unseen", a->options.unseen, "motions of the final check")
       ->capture_default_str()
-      ->check(CLI::Range(1, 100));
-  sub->add_option("--seed", a->options.seed, "of these motions")->capture_default_str();
+      ->check(checks::whole(1, 100));
+  sub->add_option("--seed", a->options.seed, "of these motions")
+      ->capture_default_str()
+      ->check(checks::seed());
   sub->add_option("--threads", a->options.threads, "runs at a time")
       ->capture_default_str()
-      ->check(CLI::Range(1, 64));
+      ->check(checks::whole(1, 64));
   sub->add_flag("--quiet", a->quiet, "print nothing");
-  sub->callback([a, exit_code] { *exit_code = run_trim(*a); });
+  sub->callback([a, exit_code] {
+    a->options.design = built_design(a->options.design);
+    *exit_code = run_trim(*a);
+  });
 }
 
 }  // namespace feltgate

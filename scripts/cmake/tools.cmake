@@ -53,7 +53,7 @@ add_dependencies(feltgate
 # The benchmark links SystemC, which nothing else of the product needs: only built when asked for.
 feltgate_library(feltgate_bench_parts bench feltgate_rtl feltgate_loop systemc)
 target_compile_definitions(feltgate_bench_parts PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
-feltgate_program(feltgate_bench "bench_main.cpp;commands.cpp;command_line.cpp"
+feltgate_program(feltgate_bench "bench_main.cpp;checks.cpp;commands.cpp;command_line.cpp"
   feltgate_files feltgate_bench_parts nlohmann_json::nlohmann_json CLI11::CLI11)
 if(NOT FELTGATE_TESTS)
   set_target_properties(feltgate_bench feltgate_bench_parts PROPERTIES EXCLUDE_FROM_ALL ON)

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Validators of the command line; they see the text, so that nothing has wrapped or become NaN.
+// Documentation: README.md
+#include "tools/checks.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <functional>
+
+namespace feltgate::checks {
+
+namespace {
+
+/// All of the text as a number; false where it is none.
+template <class Number>
+bool parse(const std::string& text, Number* value) {
+  const char* end = text.data() + text.size();
+  const char* begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
+  const auto [stopped, error] = std::from_chars(begin, end, *value);
+  return error == std::errc() && stopped == end && begin != end;
+}
+
+template <class Number>
+CLI::Validator accepts(const std::string& range, std::function<bool(Number)> good) {
+  const auto check = [range, good](std::string& text) {
+    Number value{};
+    if (parse(text, &value) && good(value)) return std::string();
+    return fmt::format("{} is not {}", text, range);
+  };
+  return CLI::Validator(check, range);
+}
+
+std::string with_unit(const std::string& range, const std::string& unit) {
+  return unit.empty() ? range : range + " " + unit;
+}
+
+}  // namespace
+
+CLI::Validator number(double min, double max, const std::string& unit) {
+  return accepts<double>(with_unit(fmt::format("a number from {:g} to {:.12g}", min, max), unit),
+                         [min, max](double v) { return v >= min && v <= max; });
+}
+
+CLI::Validator positive(double max, const std::string& unit) {
+  return accepts<double>(with_unit(fmt::format("a number above 0, to {:.12g}", max), unit),
+                         [max](double v) { return v > 0 && v <= max; });
+}
+
+CLI::Validator whole(std::int64_t min, std::int64_t max) {
+  return accepts<std::int64_t>(fmt::format("a whole number from {} to {}", min, max),
+                               [min, max](std::int64_t v) { return v >= min && v <= max; });
+}
+
+CLI::Validator seed() {
+  return accepts<std::uint64_t>("a whole number from 0 to 18446744073709551615",
+                                [](std::uint64_t) { return true; });
+}
+
+CLI::Validator seconds() { return positive(100'000, "s"); }
+
+}  // namespace feltgate::checks

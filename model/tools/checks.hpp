@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Which numbers the command line takes: finite ones within a range that the message names.
+// Documentation: README.md
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+
+namespace feltgate::checks {
+
+/// A finite number from min to max. `unit` follows the range in help and message; may be empty.
+CLI::Validator number(double min, double max, const std::string& unit);
+/// A finite number above 0, to max.
+CLI::Validator positive(double max, const std::string& unit);
+/// A whole number from min to max.
+CLI::Validator whole(std::int64_t min, std::int64_t max);
+/// A seed: a whole number from 0 to 2^64 - 1.
+CLI::Validator seed();
+/// A length of time that can be simulated: above 0, to 100000 s.
+CLI::Validator seconds();
+
+}  // namespace feltgate::checks

@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""What the command line refuses: one line that names it, its range or the nearest name.
+
+Documentation: README.md
+"""
+
+import json
+import unittest
+
+from bench import ROOT, Bench
+
+SEED = "a whole number from 0 to 18446744073709551615"
+SECONDS = "a number above 0, to 100000 s"
+NUMBERS = (
+    ("stability", "--rate", ("nan", "inf", "0", "1e300", "1000,nan", "x"), "1 to 1000000 Hz"),
+    ("stability", "--damping", ("nan", "-1", "-nan", "2"), "a number from 0 to 1 Nm s/rad"),
+    ("replay x.vec", "--seconds", ("nan", "-1", "0", "1e300", "inf", "1s"), SECONDS),
+    ("replay x.vec", "--sample-hz", ("nan", "0", "-1", "inf"), "a number above 0, to 1e+12 Hz"),
+    ("trim membrane", "--duration", ("nan", "1e300", "-1", "0"), SECONDS),
+    ("trim membrane", "--window", ("nan", "0"), "a number from 0.01 to 1000 ms"),
+    ("trim membrane", "--threads", ("0", "65", "1e1", "nan"), "a whole number from 1 to 64"),
+    ("run membrane", "--every", ("0", "-1", "1.5", "nan", "99999999999"), "from 1 to 1000000000"),
+    ("run membrane", "--seed", ("-1", "1.5", "nan", "18446744073709551616", "0x1"), SEED),
+    ("replay x.vec", "--seed", ("-1",), SEED),
+    ("import x.vec y.vec", "--seed", ("-1",), SEED),
+    ("budget membrane", "--seed", ("-1",), SEED),
+    ("trim membrane", "--seed", ("-1",), SEED),
+)
+
+
+class CommandLine(Bench):
+    def refused(self, *words, said):
+        process = self.start(*words)
+        process.err = process.communicate(timeout=20)[1].decode()
+        self.assert_refused(process, *said)
+        self.assert_only()
+
+    def test_numbers(self):
+        for command, option, values, accepted in NUMBERS:
+            for value in values:
+                with self.subTest(command, option=option, value=value):
+                    wrong = value.rpartition(",")[2]
+                    said = (f"feltgate: {option}: {wrong} is not ", f"{accepted}; see feltgate ")
+                    self.refused(*command.split(), f"{option}={value}", said=said)
+
+    def test_settings(self):
+        for value in ("nan", "inf", "1e300", "", "x"):
+            with self.subTest(value):
+                word = f"voltage_gain={value}"
+                self.refused("run", "membrane", "--set", word, said=("voltage_gain",))
+
+    def test_the_nearest_name(self):
+        for words, said in (
+            (("rnu",), 'command rnu is unknown; did you mean "run"?'),
+            (("run", "membrane", "--desing", "lever"), 'did you mean "--design"?'),
+            (("run", "membrane", "--desing=lever"), 'option --desing is unknown; did you mean'),
+            (("stability", "--no-experimnets"), 'did you mean "--no-experiments"?'),
+            (("run", "membrnae"), '"membrnae" is not in vectors/scenes; did you mean "membrane"?'),
+            (("run", "mebrane.toml"), "did you mean membrane, which is in vectors/scenes?"),
+            (("run", "membrane", "--plant", "p42"), '"p42" is not in vectors/plants; did you mean'),
+            (("design", "Lever2"), '"Lever2" is not in rtl/designs; did you mean "lever"?'),
+            (("budget", "membrane", "--design", "levr"), 'did you mean "lever"?'),
+        ):
+            with self.subTest(words):
+                self.refused(*words, said=(said,))
+
+    def test_a_folder_is_no_scene(self):
+        self.path("scenes.toml").mkdir()
+        self.given.add("scenes.toml")
+        for name in (self.folder, "./", "scenes.toml"):
+            for command in ("run", "budget", "trim"):
+                with self.subTest(command, name=name):
+                    self.refused(command, name, said=(f"{name}: is a folder; give a file in it",))
+        self.refused("run", "short.toml", "--plant", "./", said=("./: is a folder",))
+        self.refused("design", "./", said=("./: is a folder",))
+
+    def test_a_design_by_its_path(self):
+        ours = ROOT / "rtl/designs/lever.toml"
+        done = self.run_it("--design", ours, "--json", "a.json")
+        self.assertEqual(done.returncode, 0, done.err)
+        self.assertEqual(json.loads(self.path("a.json").read_text())["design"], "lever")
+        self.path("a.json").unlink()
+        text = ours.read_text().replace("# ", "#  ", 1)
+        for name in ("mine", "lever"):
+            self.given.add(f"{name}.toml")
+            self.path(f"{name}.toml").write_text(text)
+            for command in ("run", "budget", "trim"):
+                said = (f"{name}.toml: a design runs once it is built in; ", f"--design {name}")
+                self.refused(command, "short.toml", "--design", f"{name}.toml", said=said)
+
+
+if __name__ == "__main__":
+    unittest.main()

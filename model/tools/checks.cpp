@@ -24,12 +24,14 @@ bool parse(const std::string& text, Number* value) {
   return error == std::errc() && stopped == end && begin != end;
 }
 
+/// `kind` and `range` make the message; help shows the range alone.
 template <class Number>
-CLI::Validator accepts(const std::string& range, std::function<bool(Number)> good) {
-  const auto check = [range, good](std::string& text) {
+CLI::Validator accepts(const std::string& kind, const std::string& range,
+                       std::function<bool(Number)> good) {
+  const auto check = [kind, range, good](std::string& text) {
     Number value{};
     if (parse(text, &value) && good(value)) return std::string();
-    return fmt::format("{} is not {}", text, range);
+    return fmt::format("{} is not a {} {}", text, kind, range);
   };
   return CLI::Validator(check, range);
 }
@@ -41,23 +43,24 @@ std::string with_unit(const std::string& range, const std::string& unit) {
 }  // namespace
 
 CLI::Validator number(double min, double max, const std::string& unit) {
-  return accepts<double>(with_unit(fmt::format("a number from {:g} to {:.12g}", min, max), unit),
+  return accepts<double>("number", with_unit(fmt::format("from {:g} to {:.12g}", min, max), unit),
                          [min, max](double v) { return v >= min && v <= max; });
 }
 
 CLI::Validator positive(double max, const std::string& unit) {
-  return accepts<double>(with_unit(fmt::format("a number above 0, to {:.12g}", max), unit),
+  return accepts<double>("number", with_unit(fmt::format("above 0, to {:.12g}", max), unit),
                          [max](double v) { return v > 0 && v <= max; });
 }
 
 CLI::Validator whole(std::int64_t min, std::int64_t max) {
-  return accepts<std::int64_t>(fmt::format("a whole number from {} to {}", min, max),
+  return accepts<std::int64_t>("whole number", fmt::format("from {} to {}", min, max),
                                [min, max](std::int64_t v) { return v >= min && v <= max; });
 }
 
 CLI::Validator seed() {
-  return accepts<std::uint64_t>("a whole number from 0 to 18446744073709551615",
-                                [](std::uint64_t) { return true; });
+  auto check = accepts<std::uint64_t>("whole number", "from 0 to 18446744073709551615",
+                                      [](std::uint64_t) { return true; });
+  return check.description("");
 }
 
 CLI::Validator seconds() { return positive(100'000, "s"); }

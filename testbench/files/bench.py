@@ -4,12 +4,14 @@
 
 import os
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-PROGRAM = os.environ.get("FELTGATE_PROGRAM", str(ROOT / "build/feltgate"))
+PROGRAM = str(Path(os.environ.get("FELTGATE_BUILD", ROOT / "build")) / "feltgate")
+os.environ["FELTGATE_PYTHON"] = sys.executable
 SCENE = """title = "A lever at rest"
 about = "For tests of the program around the run."
 duration_s = {seconds}

@@ -44,7 +44,11 @@ RULES = (
     Rule(r"scripts/check_blocks\.py", "WHOLE"),
     Rule(r"sbatch .*scripts/explore\.sbatch", "NAMED"),
     Rule(r"(?:cp|mv|cd|quartus_sh|dask-worker)", "NAMED"),
-    Rule(r"cmake -S \. -B build", "NAMED"),
+    Rule(r"cmake -S \. -B build(?:-library)?", "NAMED"),
+    Rule(r"cmake --(?:build|install) build-library", "NAMED"),
+    Rule(r"sudo apt-get install", "NAMED"),
+    Rule(r"python3 testbench/python/speed\.py", "BY", "python.speed"),
+    Rule(r"(?:python3 -m venv|(?:venv/bin/)?pip install)", "BY", "python.pip"),
 )
 
 # Words that stand for something, by the word before them.

@@ -21,7 +21,7 @@ find_package(fmt 9 REQUIRED)
 find_path(FELTGATE_TOML_INCLUDE_DIR toml++/toml.h REQUIRED)
 
 # In the source tree a room of headers is model/<room>; its users write feltgate/<room>/x.hpp.
-set(FELTGATE_ROOMS engines loop plant reference traces)
+set(FELTGATE_ROOMS engines loop plant reference systemc traces)
 set(FELTGATE_STAGED_INCLUDE "${PROJECT_BINARY_DIR}/include")
 file(MAKE_DIRECTORY "${FELTGATE_STAGED_INCLUDE}/feltgate")
 foreach(room IN LISTS FELTGATE_ROOMS)
@@ -93,3 +93,9 @@ endforeach()
 add_library(feltgate_sim INTERFACE)
 target_link_libraries(feltgate_sim INTERFACE feltgate_loop)
 feltgate_export(sim)
+
+# sc_modules of twin and motor: headers. SystemC itself is looked for by who links them.
+add_library(feltgate_systemc INTERFACE)
+add_library(feltgate::systemc ALIAS feltgate_systemc)
+set_target_properties(feltgate_systemc PROPERTIES EXPORT_NAME systemc)
+target_link_libraries(feltgate_systemc INTERFACE feltgate_plant systemc)

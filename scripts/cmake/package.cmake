@@ -25,9 +25,14 @@ install(DIRECTORY "${FELTGATE_ROOT}/model/include/feltgate"
 if(FELTGATE_SIM)
   feltgate_install(sim "${sim_targets}")
   # Not installed: headers that a user has no way to use without the sources or the Verilated core.
+  feltgate_install(systemc feltgate_systemc)
   foreach(room IN LISTS FELTGATE_ROOMS)
+    set(component sim)
+    if(room STREQUAL systemc)
+      set(component systemc)
+    endif()
     install(DIRECTORY "${FELTGATE_ROOT}/model/${room}/"
-      DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/feltgate/${room}" COMPONENT feltgate_sim
+      DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/feltgate/${room}" COMPONENT feltgate_${component}
       FILES_MATCHING PATTERN "*.hpp"
       PATTERN "ensemble.hpp" EXCLUDE PATTERN "scenario_bounds.hpp" EXCLUDE
       PATTERN "make_engines.hpp" EXCLUDE PATTERN "plant_table.hpp" EXCLUDE PATTERN "rtl_*.hpp" EXCLUDE)

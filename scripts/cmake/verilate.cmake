@@ -33,22 +33,28 @@ if(NOT FELTGATE_VERILATOR_VERSION VERSION_EQUAL "5.006")
   list(APPEND FELTGATE_VERILATOR_WARNINGS -Wno-fatal)
 endif()
 
-# feltgate_verilate(<target> <top> <sources> [CLASS <name>] [verilator arguments...]): static library
-# <target> with the class <name> (default V<top>), generated and compiled at build time as one
-# translation unit.
+# feltgate_verilate(<target> <top> <sources> [CLASS <name>] [SYSTEMC] [verilator arguments...]):
+# static library <target> with the class <name> (default V<top>), generated and compiled at build
+# time as one translation unit. SYSTEMC: the class is an sc_module, which needs feltgate_verilated_sc.
 function(feltgate_verilate target top sources)
-  cmake_parse_arguments(PARSE_ARGV 3 arg "" "CLASS" "")
+  cmake_parse_arguments(PARSE_ARGV 3 arg "SYSTEMC" "CLASS" "")
   if(NOT arg_CLASS)
     set(arg_CLASS V${top})
   endif()
   set(directory "${CMAKE_CURRENT_BINARY_DIR}/${target}.verilated")
   set(joined "${directory}/all.cpp")
+  set(kind --cc --trace-fst)
+  set(runtime feltgate_verilated)
+  if(arg_SYSTEMC)
+    set(kind --sc)
+    set(runtime feltgate_verilated_sc)
+  endif()
   add_custom_command(
     OUTPUT "${joined}" "${directory}/${arg_CLASS}.h"
     COMMAND ${CMAKE_COMMAND} -E rm -rf "${directory}"
     COMMAND ${CMAKE_COMMAND} -E make_directory "${directory}"
-    COMMAND ${CMAKE_COMMAND} -E env "VERILATOR_ROOT=${VERILATOR_ROOT}" ${VERILATOR_BIN} --cc
-            --prefix ${arg_CLASS} --top-module ${top} --Mdir "${directory}" --trace-fst
+    COMMAND ${CMAKE_COMMAND} -E env "VERILATOR_ROOT=${VERILATOR_ROOT}" ${VERILATOR_BIN} ${kind}
+            --prefix ${arg_CLASS} --top-module ${top} --Mdir "${directory}"
             --x-initial unique --x-assign unique --output-split 0 ${FELTGATE_VERILATOR_WARNINGS}
             ${arg_UNPARSED_ARGUMENTS} ${sources}
     COMMAND ${CMAKE_COMMAND} -DDIRECTORY=${directory} -P "${FELTGATE_JOIN_SOURCES}"
@@ -57,5 +63,5 @@ function(feltgate_verilate target top sources)
   add_library(${target} STATIC "${joined}" "${directory}/${arg_CLASS}.h")
   target_include_directories(${target} SYSTEM PUBLIC "${directory}")
   target_compile_options(${target} PRIVATE -w -O2)
-  target_link_libraries(${target} PUBLIC feltgate_verilated)
+  target_link_libraries(${target} PUBLIC ${runtime})
 endfunction()

@@ -1,0 +1,187 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""The package as a user gets it: what is installed, the examples of docs/examples built and run
+against it, the tree inside another project. docs/library.md
+
+  package_test.py --configured DIR [unittest arguments]   DIR is the built tree that is installed
+"""
+
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(os.environ["FELTGATE_ROOT"])
+at = sys.argv.index("--configured")
+BUILD = Path(sys.argv[at + 1]).resolve()
+del sys.argv[at : at + 2]
+EXAMPLES = ROOT / "docs" / "examples"
+MOST_LINES = 20
+# What no header of the package may pull in.
+FOREIGN = re.compile(r"toml\+\+|/boost/|/fmt/|archive\.h|verilated|nlohmann|CLI11|Eigen")
+
+
+def run(*command, ok=True, cwd=None):
+    done = subprocess.run(
+        [str(word) for word in command], capture_output=True, text=True, check=False, cwd=cwd
+    )
+    text = done.stdout + done.stderr
+    if ok and done.returncode:
+        raise AssertionError(f"{' '.join(map(str, command))}\n{text}")
+    return text
+
+
+def install(prefix, *components):
+    for component in components:
+        run("cmake", "--install", BUILD, "--prefix", prefix, "--component", f"feltgate_{component}")
+
+
+def project(folder, text, source="int main() {}\n"):
+    folder.mkdir()
+    head = "cmake_minimum_required(VERSION 3.22)\nproject(outside LANGUAGES CXX)\n"
+    (folder / "CMakeLists.txt").write_text(head + text)
+    (folder / "main.cpp").write_text(source)
+    return folder
+
+
+def configure(folder, *options, ok=True):
+    return run(
+        "cmake", "-S", folder, "-B", folder / "build", "-G", "Ninja", *options,
+        "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", ok=ok,
+    )  # fmt: skip
+
+
+def main_command(folder):
+    commands = json.loads((folder / "build" / "compile_commands.json").read_text())
+    return next(c["command"] for c in commands if c["file"] == str(folder / "main.cpp"))
+
+
+def without_header(path):
+    lines = path.read_text().splitlines(keepends=True)
+    return "".join(line for line in lines if not line.startswith("// SPDX-"))
+
+
+CORE_PROGRAM = """#include "feltgate/device.hpp"
+#include "feltgate/generated/paper.hpp"
+int main() {
+  feltgate::TwinDevice<feltgate::Paper> device;
+  device.arm();
+  for (int tick = 0; tick < 10; ++tick) device.tick({});
+  return device.armed() ? 0 : 1;
+}
+"""
+PLANT_PROGRAM = """#include "feltgate/plant/plant.hpp"
+int main() {
+  feltgate::plant::Parameters p;
+  return p.motor.resistance_ohm == 0 && feltgate::plant::Hand{}.initial_rad() == 0 ? 0 : 1;
+}
+"""
+
+
+class Package(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = Path(cls.temporary.name)
+        cls.prefix = cls.folder / "all"
+        install(cls.prefix, "core", "sim", "systemc")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def test_include_folder_has_feltgate_and_nothing_else(self):
+        self.assertEqual([p.name for p in (self.prefix / "include").iterdir()], ["feltgate"])
+
+    def test_headers_stand_alone_and_need_no_library(self):
+        include = self.prefix / "include"
+        headers = sorted(
+            str(p.relative_to(include))
+            for p in include.rglob("*.hpp")
+            if "systemc" not in p.parts and not p.stem.endswith("_run")
+        )
+        self.assertGreater(len(headers), 50)
+        source = self.folder / "headers.cpp"
+        flags = ["g++", "-std=c++17", "-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-Werror"]
+        # Each comes once before what it could have been given by another, or it is the first.
+        for order in (headers, headers[::-1]):
+            source.write_text("".join(f'#include "{h}"\n' for h in order))
+            run(*flags, "-I", include, "-fsyntax-only", source)
+        seen = run("g++", "-std=c++17", "-I", include, "-M", source)
+        self.assertEqual(FOREIGN.findall(seen), [])
+
+    def test_examples_run_against_the_installed_package(self):
+        build = self.folder / "examples"
+        run("cmake", "-S", EXAMPLES, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+            f"-DCMAKE_PREFIX_PATH={self.prefix}")  # fmt: skip
+        run("ninja", "-C", build)
+        run("ctest", "--test-dir", build, "--output-on-failure")
+        wall = run(build / "tick_loop").split()
+        self.assertEqual(wall[-4:], ["0.249", "rad", "-0.2040", "Nm"])
+        data = self.prefix / "share" / "feltgate"
+        spring = run(build / "closed_loop", data / "plants" / "p24.toml").split()
+        # 0.2 Nm against 0.5 Nm/rad, less the friction of a lever that has come to rest.
+        self.assertAlmostEqual(float(spring[-2]), 0.4, delta=0.02)
+        told = run(build / "replay", data / "traces" / "membrane.vec")
+        self.assertRegex(told, r"^3\.000 s: fixed [1-9]\.\d+e-04, float [1-9]\.\d+e-\d+ rad/s\n$")
+
+    def test_examples_are_short_and_the_readme_shows_them(self):
+        readme = (ROOT / "README.md").read_text() + (ROOT / "docs" / "library.md").read_text()
+        for path in EXAMPLES.glob("*.cpp"):
+            text = without_header(path)
+            code = [x for x in text.splitlines() if x.strip() and not x.startswith("//")]
+            self.assertLessEqual(len(code), MOST_LINES, path.name)
+            self.assertIn(f"```cpp\n{text}```\n", readme, f"{path.name}: the page is stale")
+        self.assertIn(without_header(EXAMPLES / "tick_loop.cpp"), (ROOT / "README.md").read_text())
+
+    def test_core_alone_needs_nothing_and_says_what_is_not_there(self):
+        prefix = self.folder / "core"
+        install(prefix, "core")
+        found = f"-DCMAKE_PREFIX_PATH={prefix}"
+        text = (
+            "find_package(feltgate 0.1 REQUIRED COMPONENTS core)\nadd_executable(main main.cpp)\n"
+        )
+        text += "target_link_libraries(main PRIVATE feltgate::core)\n"
+        folder = project(self.folder / "alone", text, CORE_PROGRAM)
+        configure(folder, found)
+        run("ninja", "-C", folder / "build")
+        run(folder / "build" / "main")
+        text = "find_package(feltgate REQUIRED COMPONENTS sim)\n"
+        told = configure(project(self.folder / "lacking", text), found, ok=False)
+        self.assertIn('feltgate has no component "sim" here; installed are: core', told)
+        text = "find_package(feltgate 0.2 REQUIRED)\n"
+        told = configure(project(self.folder / "newer", text), found, ok=False)
+        self.assertIn("compatible with requested version", told)
+
+    def test_inside_another_project_only_what_is_linked_is_built(self):
+        text = "include(FetchContent)\nFetchContent_Declare(feltgate URL nowhere)\n"
+        text += "FetchContent_MakeAvailable(feltgate)\nadd_executable(main main.cpp)\n"
+        text += "target_link_libraries(main PRIVATE feltgate::core)\n"
+        folder = project(self.folder / "fetched", text, CORE_PROGRAM)
+        configure(folder, f"-DFETCHCONTENT_SOURCE_DIR_FELTGATE={ROOT}", "-DFELTGATE_SIM=OFF")
+        run("ninja", "-C", folder / "build")
+        run(folder / "build" / "main")
+        commands = json.loads((folder / "build" / "compile_commands.json").read_text())
+        self.assertEqual([Path(c["file"]).name for c in commands], ["main.cpp"])
+
+        text = f'add_subdirectory("{ROOT}" feltgate)\nadd_executable(main main.cpp)\n'
+        text += "target_link_libraries(main PRIVATE feltgate::plant)\n"
+        folder = project(self.folder / "added", text, PLANT_PROGRAM)
+        configure(folder, "-DFELTGATE_SIGROK=OFF")
+        self.assertNotIn("-Werror", (folder / "build" / "compile_commands.json").read_text())
+        self.assertIn("Total Tests: 0", run("ctest", "--test-dir", folder / "build", "-N"))
+        run("ninja", "-C", folder / "build", "main")
+        run(folder / "build" / "main")
+        made = sorted(p.name for p in (folder / "build" / "feltgate").glob("*.a"))
+        self.assertEqual(made, ["libfeltgate_plant.a"])
+        for path in re.findall(r"-(?:I|isystem) ?(\S+)", main_command(folder)):
+            self.assertEqual([p.name for p in Path(path).iterdir()], ["feltgate"], path)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -56,8 +56,23 @@ class RtlCore {
   }
 
   void clock(const CoreIn& in) {
-    drive_inputs(*rtl_, in);
+    drive(in);
     edge();
+  }
+  /// The inputs of the coming clocks.
+  void drive(const CoreIn& in) { drive_inputs(*rtl_, in); }
+  /// One clock with the inputs that were driven.
+  void edge() {
+    const bool dumping = !trace_path_.empty() && now_ >= std::max<Clock>(trace_from_, 0) &&
+                         (trace_to_ < 0 || now_ <= trace_to_);
+    if (dumping && !fst_) open_trace();
+    rtl_->clk_i = 0;
+    rtl_->eval();
+    if (dumping) fst_->dump(picoseconds(2 * now_));
+    rtl_->clk_i = 1;
+    rtl_->eval();
+    if (dumping) fst_->dump(picoseconds(2 * now_ + 1));
+    ++now_;
   }
 
   CoreOut out() const { return read_outputs<D>(*rtl_); }
@@ -71,18 +86,6 @@ class RtlCore {
   }
 
  private:
-  void edge() {
-    const bool dumping = !trace_path_.empty() && now_ >= std::max<Clock>(trace_from_, 0) &&
-                         (trace_to_ < 0 || now_ <= trace_to_);
-    if (dumping && !fst_) open_trace();
-    rtl_->clk_i = 0;
-    rtl_->eval();
-    if (dumping) fst_->dump(picoseconds(2 * now_));
-    rtl_->clk_i = 1;
-    rtl_->eval();
-    if (dumping) fst_->dump(picoseconds(2 * now_ + 1));
-    ++now_;
-  }
   /// Of so many half clocks, to the nearest: a period need not be a whole number of them.
   static std::uint64_t picoseconds(std::int64_t half_clocks) {
     constexpr std::int64_t half_clocks_per_s = 2 * D::clock_hz;

@@ -13,7 +13,7 @@
 
 #include "bounds/coverage.hpp"
 #include "loop/loop.hpp"
-#include "loop/sampled_watch.hpp"
+#include "engines/sampled_watch.hpp"
 
 namespace feltgate {
 

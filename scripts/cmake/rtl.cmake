@@ -15,6 +15,7 @@ foreach(design IN LISTS FELTGATE_DESIGNS)
   feltgate_verilate(core_${design} feltgate_core
     "${FELTGATE_ROOT}/rtl/generated/${design}/feltgate_pkg.sv;${FELTGATE_CORE_SOURCES}"
     CLASS Vcore_${design} -O3)
+  target_compile_options(core_${design} PRIVATE ${FELTGATE_FASTEST_RTL})
   feltgate_for_design(design_rtl.cpp.in "${PROJECT_BINARY_DIR}/engines/${design}_rtl.cpp")
   target_sources(feltgate_rtl PRIVATE "${PROJECT_BINARY_DIR}/engines/${design}_rtl.cpp")
   target_link_libraries(feltgate_rtl PUBLIC core_${design})

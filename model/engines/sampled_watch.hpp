@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Time spent in something short that runs millions of times: one call in 64 is timed, for a look at
-// the clock takes as long as a tick of the twin. Documentation: docs/architecture.md
+// Time spent in something short that runs millions of times: one call in 61 is timed, for a look at
+// the clock takes as long as a tick of the twin. A prime, so that the calls of a tick take turns.
+// Documentation: docs/architecture.md
 #pragma once
 
 #include <chrono>
@@ -30,7 +31,7 @@ class SampledWatch {
   }
 
  private:
-  static constexpr unsigned kEvery = 64;
+  static constexpr unsigned kEvery = 61;
   unsigned long long calls_ = 0;
   std::chrono::duration<double> timed_{0};
 };

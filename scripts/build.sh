@@ -46,26 +46,20 @@ lock_build() {
   flock 9
 }
 
-# configure TESTS: once per build folder, again when tests or another preset are wanted or the
-# repository moved. PRESETS are those that a command names; once built they stay.
+# configure TESTS: once per build folder, again when tests are wanted, or the repository or Python
+# moved.
 configure() {
-  local tests=$1 had_tests='' had_root='' had_presets='' had_python='' presets preset fresh=()
+  local tests=$1 had_tests='' had_root='' had_python='' fresh=()
   if [[ -f $BUILD/build.ninja && -f $STATE/configured ]]; then
-    { read -r had_tests && read -r had_root && read -r had_presets && read -r had_python; } \
-      <"$STATE/configured" || true
+    { read -r had_tests && read -r had_root && read -r had_python; } <"$STATE/configured" || true
   fi
   if [[ $had_tests == ON ]]; then tests=ON; fi
-  presets=$had_presets
-  for preset in ${PRESETS-}; do
-    if [[ ";$presets;" != *";$preset;"* ]]; then presets+=${presets:+;}$preset; fi
-  done
-  [[ $had_tests == "$tests" && $had_root == "$ROOT" && $had_presets == "$presets" &&
-    $had_python == "$FELTGATE_PYTHON" ]] && return
+  [[ $had_tests == "$tests" && $had_root == "$ROOT" && $had_python == "$FELTGATE_PYTHON" ]] && return
   if [[ $had_root && $had_root != "$ROOT" ]]; then fresh=(--fresh); fi
   run_logged "configuring" "$STATE/configure.log" cmake "${fresh[@]}" -S "$ROOT" -B "$BUILD" \
     -G Ninja -DCMAKE_BUILD_TYPE=Release -DFELTGATE_TESTS="$tests" \
-    -DPython3_EXECUTABLE="$FELTGATE_PYTHON" -DFELTGATE_PRESETS="$presets" || return
-  printf '%s\n' "$tests" "$ROOT" "$presets" "$FELTGATE_PYTHON" >"$STATE/configured"
+    -DPython3_EXECUTABLE="$FELTGATE_PYTHON" || return
+  printf '%s\n' "$tests" "$ROOT" "$FELTGATE_PYTHON" >"$STATE/configured"
 }
 
 # build TESTS TARGET...: ends the launcher with the build's own status when it fails. The target

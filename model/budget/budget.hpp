@@ -37,4 +37,8 @@ class Budget : public RealChain {
 /// Throws std::invalid_argument for a design that is not built in.
 std::unique_ptr<Budget> make_budget(const std::string& design);
 
+/// A design that is not among those: make_budget() knows it from now on.
+using BudgetMaker = std::unique_ptr<Budget> (*)();
+void add_budget(const std::string& design, BudgetMaker make);
+
 }  // namespace feltgate::bounds

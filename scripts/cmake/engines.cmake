@@ -6,12 +6,10 @@
 include_guard(GLOBAL)
 
 file(GLOB designs CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/designs/*.toml")
-# The engine of a preset costs a minute to build, so it is built when somebody asks for it.
-set(FELTGATE_PRESETS "" CACHE STRING "Of fast, balanced and exact those whose engines are built")
-foreach(preset fast balanced exact)
-  if(NOT preset IN_LIST FELTGATE_PRESETS)
-    list(REMOVE_ITEM designs "${FELTGATE_ROOT}/rtl/designs/${preset}.toml")
-  endif()
+# Presets are in programs of their own: presets.cmake.
+set(FELTGATE_PRESETS fast balanced exact)
+foreach(preset IN LISTS FELTGATE_PRESETS)
+  list(REMOVE_ITEM designs "${FELTGATE_ROOT}/rtl/designs/${preset}.toml")
 endforeach()
 
 # feltgate_for_design(<template> <output>): the template filled for ${design} of C++ type ${type}.

@@ -45,6 +45,8 @@ feltgate_program(feltgate "feltgate_main.cpp;${tool_sources}"
   feltgate_rtl feltgate_files feltgate_budget feltgate_loop feltgate_stability feltgate_trim feltgate_design
   feltgate_extremes nlohmann_json::nlohmann_json CLI11::CLI11)
 
+include(presets)
+
 # What `feltgate explore` takes from the build; with synth it makes designs out of tree.
 feltgate_program(feltgate_point_bounds bounds_main.cpp feltgate_bounds nlohmann_json::nlohmann_json)
 add_dependencies(feltgate

@@ -95,6 +95,28 @@ class Tables(Machine):
         self.assertIn("apt-get install --yes --no-install-recommends python3\n", done.stderr)
 
 
+class Presets(Machine):
+    def built(self, *words):
+        """The targets of one start."""
+        done = self.start(*words, FELTGATE_SKIP_PACKAGES="1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        log = self.log()
+        self.assertFalse([c for c in log if c.startswith("cmake") and "PRESET" in c])
+        self.said = done.stdout
+        return [c.split()[3:] for c in log if c.startswith("ninja")]
+
+    def test_a_preset_burdens_the_command_that_names_it_and_no_other(self):
+        self.installed(*BUILD_PACKAGES)
+        self.assertEqual(self.built("run", "membrane", "--design", "fast"), [["feltgate_fast"]])
+        self.assertIn("program feltgate_fast run membrane --design fast\n", self.said)
+        self.assertEqual(self.built("run", "membrane"), [["feltgate"]])
+        self.assertIn("program feltgate run membrane\n", self.said)
+        self.assertEqual(self.built("run", "wall", "--design=exact"), [["feltgate_exact"]])
+        self.assertEqual(self.built("stability", "balanced"), [["feltgate_balanced"]])
+        self.assertEqual(self.built("design", "fast"), [["feltgate"]])
+        self.assertEqual(self.built("run", "wall", "--design", "faster"), [["feltgate"]])
+
+
 class Tests(Machine):
     def setUp(self):
         super().setUp()

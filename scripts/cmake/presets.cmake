@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+#
+# feltgate_fast, feltgate_balanced, feltgate_exact: the program feltgate with one preset more. An
+# engine costs a minute to build, so these are built when somebody asks for them, and nobody else
+# builds or loads a preset. docs/designs.md
+include_guard(GLOBAL)
+
+get_target_property(libraries feltgate LINK_LIBRARIES)
+foreach(design IN LISTS FELTGATE_PRESETS)
+  set(package "${FELTGATE_ROOT}/rtl/generated/${design}/feltgate_pkg.sv")
+  if(NOT EXISTS "${package}")
+    continue()
+  endif()
+  string(SUBSTRING ${design} 0 1 first)
+  string(SUBSTRING ${design} 1 -1 rest)
+  string(TOUPPER ${first} first)
+  set(type ${first}${rest})
+  feltgate_verilate(core_${design} feltgate_core "${package};${FELTGATE_CORE_SOURCES}"
+    CLASS Vcore_${design} -O3)
+  target_compile_options(core_${design} PRIVATE ${FELTGATE_FASTEST_RTL})
+  feltgate_for_design(design_preset.cpp.in "${PROJECT_BINARY_DIR}/engines/${design}_preset.cpp")
+  add_executable(feltgate_${design}
+    "${PROJECT_BINARY_DIR}/engines/${design}_preset.cpp" $<TARGET_OBJECTS:feltgate>)
+  target_compile_options(feltgate_${design} PRIVATE ${FELTGATE_ENGINE_OPTIONS})
+  target_link_libraries(feltgate_${design} PRIVATE ${libraries} core_${design})
+  set_target_properties(core_${design} feltgate_${design} PROPERTIES EXCLUDE_FROM_ALL ON)
+endforeach()

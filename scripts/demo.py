@@ -9,6 +9,7 @@ Documentation: docs/figures.md
 """
 
 import argparse
+import contextlib
 import json
 import os
 import sys
@@ -127,18 +128,24 @@ def main(argv=None):
             "device time",
             file=sys.stderr,
         )
-        with Progress(jobs) as progress:
-            done = runs.run_all(jobs, folder / "data", progress, arguments.jobs)
+        with contextlib.ExitStack() as beside:
+            study = None
+            if not arguments.no_figures:
+                study = beside.enter_context(stability_section.Study(folder))
+            with Progress(jobs) as progress:
+                done = runs.run_all(jobs, folder / "data", progress, arguments.jobs)
+            walls, complaint = study.result() if study else (None, "")
         unreadable += [
             f"{r.job.recording.title}: {r.complaint}"
             for r in done.values()
             if not r.ran and r.job.recording and not r.job.recording.sure
         ]
-        drawn = [] if arguments.no_figures else all_figures.draw(done, DESIGNS)
-        walls, complaint = (None, "") if arguments.no_figures else stability_section.study(folder)
         shown = [job.name for job in scenes + replays if done[job.name].ran]
         with ProcessPoolExecutor(arguments.jobs) as pool:
+            # The large ones first, so that no core waits for the last of them.
+            waiting = [] if arguments.no_figures else all_figures.start(pool, done, DESIGNS)
             pages = pool.map(demo_page.draw, [done[name] for name in shown])
+            drawn = [figure.result() for figure in waiting]
             shown_runs = dict(zip(shown, pages, strict=True))
         demo = demo_page.Demo(
             runs=done,

@@ -10,19 +10,35 @@ from reporting import page, runs, stability_plots
 DESIGN = "lever"
 
 
-def study(folder):
-    """(study, complaint): of the borders alone, written to folder/stability.json."""
-    path = folder / "stability.json"
-    done = subprocess.run(
-        [runs.program(), "stability", DESIGN, "--no-experiments", "--json", path],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    if done.returncode == 0:
-        return json.loads(path.read_text(encoding="utf-8")), ""
-    said = (done.stderr or done.stdout).strip().splitlines()
-    return None, f"stability {DESIGN}: {said[-1] if said else f'exit code {done.returncode}'}"
+class Study:
+    """The borders alone, beside other work; written to folder/stability.json. Left early, it ends."""
+
+    def __init__(self, folder):
+        self.path = folder / "stability.json"
+        self.process = subprocess.Popen(
+            [runs.program(), "stability", DESIGN, "--no-experiments", "--json", self.path],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.process.poll() is None:
+            self.process.terminate()
+            self.process.communicate()
+
+    def result(self):
+        """(study, complaint) once it has come to its end."""
+        stdout, stderr = self.process.communicate()
+        status = self.process.returncode
+        if status == 0:
+            return json.loads(self.path.read_text(encoding="utf-8")), ""
+        said = (stderr or stdout).strip().splitlines()
+        return None, f"stability {DESIGN}: {said[-1] if said else f'exit code {status}'}"
 
 
 def table(found):

@@ -59,9 +59,24 @@ class Stability(unittest.TestCase):
             program.write_text("#!/bin/sh\necho 'feltgate: no such design' >&2\nexit 2\n")
             program.chmod(0o755)
             with mock.patch.dict(os.environ, {"FELTGATE_PROGRAM": str(program)}):
-                found, complaint = stability_section.study(Path(folder))
+                with stability_section.Study(Path(folder)) as study:
+                    found, complaint = study.result()
         self.assertIsNone(found)
         self.assertIn("no such design", complaint)
+
+
+    def test_a_study_that_is_left_ends(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = Path(folder) / "feltgate"
+            program.write_text("#!/bin/sh\nexec sleep 600\n")
+            program.chmod(0o755)
+            with (
+                mock.patch.dict(os.environ, {"FELTGATE_PROGRAM": str(program)}),
+                self.assertRaises(KeyboardInterrupt),
+                stability_section.Study(Path(folder)) as study,
+            ):
+                raise KeyboardInterrupt
+        self.assertIsNotNone(study.process.returncode)
 
 
 if __name__ == "__main__":

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "bounds/coverage.hpp"
-#include "loop/loop.hpp"
 #include "engines/sampled_watch.hpp"
+#include "loop/loop.hpp"
 
 namespace feltgate {
 

@@ -28,7 +28,7 @@ class Chain : public RealChain {
 
   void reset() override {
     chain_.reset();
-    out_ = {};
+    made_ = false;
     raw_ = {};
   }
 
@@ -52,6 +52,7 @@ class Chain : public RealChain {
 
   void tick(const ChainIn& in) override {
     chain_.tick(in);
+    made_ = false;
     if constexpr (N::is_fixed) {
       raw_.velocity = N::raw(chain_.velocity());
       raw_.tau_hat = static_cast<std::int32_t>(N::raw(chain_.tau_hat()));
@@ -64,6 +65,8 @@ class Chain : public RealChain {
   }
 
   const ChainOut& out() const override {
+    if (made_) return out_;
+    made_ = true;
     out_.velocity_rad_s = number(chain_.velocity());
     out_.tau_hat_nm = number(chain_.tau_hat());
     out_.tau_ref_nm = number(chain_.tau_ref());
@@ -97,7 +100,8 @@ class Chain : public RealChain {
 
   const char* name_;
   ControlChain<D, N> chain_;
-  mutable ChainOut out_;  // made from the chain when asked for
+  mutable ChainOut out_;  // made from the chain when first asked for after a tick
+  mutable bool made_ = false;
   ChainRaw raw_;
 };
 

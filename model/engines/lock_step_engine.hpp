@@ -69,6 +69,7 @@ class LockStepEngine : public ClockedEngine {
   const char* name() const override { return "lockstep"; }
   void trace(const std::string& path, Clock from, Clock to) override {
     follower_.rtl.trace(path, from, to);
+    traced_ = true;
   }
   std::int64_t mismatches() const override { return followed().mismatches; }
   std::string first_mismatch() const override { return followed().first; }
@@ -96,6 +97,7 @@ class LockStepEngine : public ClockedEngine {
       now_ = until;
       if (follower_.room() == 0) follower_.follow();
     }
+    if (traced_) followed();  // a file that cannot be written is told at once
   }
   GateClocks gates() const override {
     const auto after = twin_.gate_clocks();
@@ -179,6 +181,7 @@ class LockStepEngine : public ClockedEngine {
 
   FeltgateCore<D> twin_;
   mutable Follower follower_;
+  bool traced_ = false;
   SampledWatch twin_watch_;
   std::array<std::int64_t, 4> gates_before_{};
 };

@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 from matplotlib.figure import Figure
-
+from outputs import write_whole
 from reporting import plots
 
 # What a user takes each engine for, and where its label stands.
@@ -123,7 +123,7 @@ def main():
         data = json.loads(arguments.json.read_text(encoding="utf-8"))
         if data.get("schema") != "feltgate-bench/1":
             raise ValueError(f"schema is {data.get('schema')!r}, not 'feltgate-bench/1'")
-        arguments.svg.write_text(picture(data), encoding="utf-8")
+        write_whole(arguments.svg, picture(data))
     except (OSError, ValueError, KeyError) as error:
         print(f"bench_picture: {arguments.json}: {error}", file=sys.stderr)
         return 2

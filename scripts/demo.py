@@ -17,6 +17,8 @@ import time
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
+import interrupts
+from outputs import write_whole
 from reporting import all_figures, demo_page, recordings, run_section, runs, stability_section
 from reporting.progress import Progress, clock_text
 
@@ -80,9 +82,9 @@ def write(folder, demo):
         "figures": [figure.summary() for figure in demo.figures],
     }
     text = json.dumps(summary, indent=1, ensure_ascii=False)
-    (folder / "demo.json").write_text(text + "\n", encoding="utf-8")
+    write_whole(folder / "demo.json", text + "\n")
     path = folder / "demo.html"
-    path.write_text(demo_page.document(demo), encoding="utf-8")
+    write_whole(path, demo_page.document(demo))
     return path
 
 
@@ -113,7 +115,7 @@ def main(argv=None):
     arguments = arguments_of(argv)
     folder = (arguments.out or runs.build_folder() / "demo").resolve()
     began = time.monotonic()
-    runs.end_on_terminate()
+    interrupts.end_on_signals()
     try:
         folder.mkdir(parents=True, exist_ok=True)
         found, unreadable, where = find_recordings(arguments.traces)
@@ -141,7 +143,9 @@ def main(argv=None):
             if not r.ran and r.job.recording and not r.job.recording.sure
         ]
         shown = [job.name for job in scenes + replays if done[job.name].ran]
-        with ProcessPoolExecutor(arguments.jobs) as pool:
+        with ProcessPoolExecutor(
+            arguments.jobs, initializer=interrupts.leave_signals_to_the_parent
+        ) as pool:
             # The large ones first, so that no core waits for the last of them.
             waiting = [] if arguments.no_figures else all_figures.start(pool, done, DESIGNS)
             pages = pool.map(demo_page.draw, [done[name] for name in shown])
@@ -164,9 +168,8 @@ def main(argv=None):
     except OSError as error:
         print(f"demo: {error}", file=sys.stderr)
         return 2
-    except KeyboardInterrupt:
-        print("demo: interrupted", file=sys.stderr)
-        return 130
+    except KeyboardInterrupt as error:
+        return interrupts.tell("demo", error)
     for line in demo.unreadable:
         print(f"demo: could not read {line}", file=sys.stderr)
     for line in demo.wrong:

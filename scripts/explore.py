@@ -10,10 +10,10 @@ import argparse
 import dataclasses
 import importlib
 import os
-import signal
 import sys
 from pathlib import Path
 
+import interrupts
 from exploring import chunks, engines, explore_page, front, merge, meter, presets, routes, space
 from exploring import plan as plans
 
@@ -226,33 +226,25 @@ def act(options):
     return 0
 
 
-def end_on_terminate():
-    """SIGTERM ends as Ctrl-C does, so that chunks under way are stopped. Not by way of SIGINT,
-    which a shell has its background jobs ignore."""
-
-    def interrupt(*_):
-        raise KeyboardInterrupt
-
-    signal.signal(signal.SIGTERM, interrupt)
-
-
 def main():
     words = sys.argv[1:]
+    interrupts.end_on_signals()
     if words[:1] == ["point"]:
-        return importlib.import_module("exploring.point").main(words[1:])
+        try:
+            return importlib.import_module("exploring.point").main(words[1:])
+        except KeyboardInterrupt as error:
+            return interrupts.tell("explore", error)
     if words and words[0] not in VERBS and not words[0].startswith("-"):
         words.insert(0, "all")
     options = parser_of_verbs().parse_args(words)
-    end_on_terminate()
     try:
         return act(options)
     except (space.SpaceError, plans.PlanError, chunks.ChunkError, engines.EngineError) as error:
         print(f"explore: {error}", file=sys.stderr)
     except (chunks.Orphaned, OSError) as error:
         print(f"explore: {error}", file=sys.stderr)
-    except KeyboardInterrupt:
-        print("explore: interrupted; the same command goes on from here", file=sys.stderr)
-        return 130
+    except KeyboardInterrupt as error:
+        return interrupts.tell("explore", error, "; the same command goes on from here")
     return 2
 
 

@@ -13,6 +13,8 @@ import json
 import sys
 from pathlib import Path
 
+import interrupts
+from outputs import write_whole
 from reporting import all_figures, page, run_section, runs
 from reporting.progress import Progress
 
@@ -57,15 +59,14 @@ def write(folder, drawn, found):
         "broken": wrong,
         "figures": [figure.summary() for figure in drawn],
     }
-    (folder / "figures.json").write_text(
-        json.dumps(summary, indent=1, ensure_ascii=False) + "\n", encoding="utf-8"
-    )
+    text = json.dumps(summary, indent=1, ensure_ascii=False)
+    write_whole(folder / "figures.json", text + "\n")
     body = "<h1>The Haptic Lever's figures, redrawn from RTL</h1>"
     body += page.verdict(wrong, f"0 mismatches between RTL and twin in {clocks:,} clocks")
     body += page.paragraph(INTRODUCTION) + page.paragraph(LEGEND)
     body += "".join(figure.html() for figure in drawn)
     path = folder / "figures.html"
-    path.write_text(page.document("feltgate: figures of the paper", body), encoding="utf-8")
+    write_whole(path, page.document("feltgate: figures of the paper", body))
     return path
 
 
@@ -82,7 +83,7 @@ def main():
     folder = (arguments.out or runs.build_folder() / "figures").resolve()
     designs = (arguments.design,) if arguments.design else DESIGNS
     jobs = all_figures.jobs(designs)
-    runs.end_on_terminate()
+    interrupts.end_on_signals()
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with Progress(jobs) as progress:
@@ -92,9 +93,8 @@ def main():
     except OSError as error:
         print(f"figures: {error}", file=sys.stderr)
         return 2
-    except KeyboardInterrupt:
-        print("figures: interrupted", file=sys.stderr)
-        return 130
+    except KeyboardInterrupt as error:
+        return interrupts.tell("figures", error)
     wrong = faults(found)
     for line in wrong:
         print(f"figures: {line}", file=sys.stderr)

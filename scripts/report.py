@@ -14,6 +14,8 @@ import json
 import sys
 from pathlib import Path
 
+import interrupts
+from outputs import write_whole
 from reporting import card, headline, page, run_pictures, run_section
 from reporting.runs import read_csv
 
@@ -69,15 +71,18 @@ def main():
     parser.add_argument("json", metavar="JSON", help="what --json wrote")
     parser.add_argument("csv", metavar="CSV", nargs="*", help="what --csv wrote")
     arguments = parser.parse_args()
+    interrupts.end_on_signals()
     try:
         summary = read_summary(arguments.json)
         text = report(summary, [read_csv(path, MOST_ROWS) for path in arguments.csv])
         arguments.folder.mkdir(parents=True, exist_ok=True)
         path = arguments.folder / "report.html"
-        path.write_text(text, encoding="utf-8")
+        write_whole(path, text)
     except (OSError, ValueError) as error:
         print(f"report: {error}", file=sys.stderr)
         return 2
+    except KeyboardInterrupt as error:
+        return interrupts.tell("report", error)
     print(path)
     return 0
 

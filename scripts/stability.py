@@ -8,8 +8,10 @@ Called by `feltgate stability --plot`; it only draws. Documentation: docs/stabil
 
 import argparse
 import json
+import sys
 from pathlib import Path
 
+import interrupts
 from reporting import stability_plots
 
 
@@ -18,10 +20,14 @@ def main(argv=None):
     parser.add_argument("study", type=Path)
     parser.add_argument("folder", type=Path)
     arguments = parser.parse_args(argv)
+    interrupts.end_on_signals()
     study = json.loads(arguments.study.read_text(encoding="utf-8"))
     for picture in stability_plots.pictures(study, png=True):
         print(arguments.folder / picture.write(arguments.folder)[0])
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except KeyboardInterrupt as interrupt:
+        sys.exit(interrupts.tell("stability", interrupt))

@@ -11,11 +11,12 @@ Exit status: 0 within the budget (scripts/synth_budget.toml), 1 when a figure ha
 import argparse
 import json
 import os
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
+import interrupts
+import outputs
 import synth_budget
 import synth_measure
 import synth_report
@@ -44,7 +45,9 @@ def arguments():
     parser.add_argument("--json", type=Path, help="write the figures here")
     parser.add_argument("--update", action="store_true", help="write budget and documentation")
     parser.add_argument("--no-route", action="store_true", help="area only, without nextpnr")
-    return parser.parse_args()
+    options = parser.parse_args()
+    outputs.check(parser, json=options.json)
+    return options
 
 
 def chosen(root, blocks):
@@ -85,7 +88,7 @@ def package_for(root, design, scenes, folder):
         [program("feltgate"), "design", design, "--for", *scenes, "-o", path],
         [program("feltgate_generate"), root, "--design", path, "--output", folder],
     ):
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        done = interrupts.run(command, **interrupts.CAPTURED)
         if done.returncode:
             raise ToolError(f"{' '.join(map(str, command))}: {done.stderr.strip()}")
     return folder / "feltgate_pkg.sv"
@@ -118,7 +121,7 @@ def main_scene_sets(options, root):
     measured, tools = run_scene_sets(options, root)
     if options.json:
         result = {"schema": SCHEMA, "tools": tools, "scene_sets": measured}
-        options.json.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
+        outputs.write_whole(options.json, json.dumps(result, indent=2) + "\n")
     if options.update:
         path = root / "scripts/synth_budget.toml"
         budget = synth_budget.read(path)
@@ -158,6 +161,7 @@ def run(options, root):
 
 def main():
     options = arguments()
+    interrupts.end_on_signals()
     root = Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[1]))
     try:
         if options.scenes:
@@ -166,9 +170,11 @@ def main():
     except (ToolError, ValueError) as error:
         print(f"synth: {error}", file=sys.stderr)
         return 2
+    except KeyboardInterrupt as error:
+        return interrupts.tell("synth", error)
     if options.json:
         result = {"schema": SCHEMA, "tools": tools, "designs": measured}
-        options.json.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
+        outputs.write_whole(options.json, json.dumps(result, indent=2) + "\n")
     path = root / "scripts/synth_budget.toml"
     budget = synth_budget.read(path)
     if options.update:

@@ -14,6 +14,8 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import interrupts
+
 DEVICE = ("--85k", "--package", "CABGA381", "--speed", "6")
 TARGET_MHZ = 200
 
@@ -64,8 +66,8 @@ class Tools:
     def run(self, command, name, outputs):
         log = self.folder / f"{name}.log"
         with log.open("wb") as file:
-            done = subprocess.run(
-                command, cwd=self.folder, stdout=file, stderr=subprocess.STDOUT, check=False
+            done = interrupts.run(
+                command, cwd=self.folder, stdout=file, stderr=subprocess.STDOUT
             )
         missing = [output for output in outputs if not (self.folder / output).exists()]
         if done.returncode or missing:

@@ -14,6 +14,8 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+import interrupts
+
 SCRIPT = Path(__file__).resolve().parents[1] / "explore.py"
 PARENT = "FELTGATE_EXPLORE_PARENT"  # a part whose starter is gone stops by itself
 POLL_S = 0.05
@@ -35,9 +37,11 @@ class Part:
         return [sys.executable, "-B", str(SCRIPT), *self.words]
 
     def check(self, status, said):
+        interrupts.check(status)
         if status:
             said = said.strip().removeprefix("explore: ")
-            raise EngineError(said or f"explore {' '.join(self.words)}: status {status}")
+            how = interrupts.how_it_ended(status)
+            raise EngineError(said or f"explore {' '.join(self.words)}: {how}")
 
 
 def stop(processes):
@@ -70,7 +74,8 @@ def local(parts, jobs, finished):
         while waiting or running:
             while waiting and len(running) < jobs:
                 part = waiting.pop(0)
-                running[start(part)] = part
+                with interrupts.Held():
+                    running[start(part)] = part
             ended = [process for process in running if process.poll() is not None]
             for process in ended:
                 part = running.pop(process)

@@ -11,11 +11,11 @@ import io
 import json
 import math
 import re
-import subprocess
 import tempfile
 import tomllib
 from pathlib import Path
 
+import interrupts
 from exploring import chunks, design_text, front, point, routes, space
 from exploring import plan as plans
 
@@ -84,7 +84,7 @@ def count_ripple_rad_s(design):
 def is_stable(design):
     """Whether the loop round the plant is stable with the lever free: docs/designs.md."""
     command = [point.BUILD / "feltgate", "design", design, "--plant", PLANT]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    done = interrupts.run(command, **interrupts.CAPTURED)
     if done.returncode and "unstable" not in done.stderr:
         raise chunks.ChunkError(f"feltgate design failed: {done.stderr.strip()}")
     return done.returncode == 0

@@ -13,13 +13,14 @@ import json
 import os
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 import tomllib
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+import interrupts  # noqa: E402
+import outputs  # noqa: E402
 import synth_measure  # noqa: E402
 import synth_tools  # noqa: E402
 
@@ -72,7 +73,7 @@ def design_text(base, overrides):
 
 
 def run(command, **options):
-    done = subprocess.run(command, capture_output=True, text=True, check=False, **options)
+    done = interrupts.run(command, **interrupts.CAPTURED, **options)
     if done.returncode:
         said = (done.stdout + done.stderr).strip().splitlines()
         raise PointError("\n".join([f"{command[0]} failed", *said[-12:]]))
@@ -83,7 +84,7 @@ def generate(design, folder):
     """(coarse, refusal): whether only --allow-coarse lets it pass, and why nothing does."""
     command = [BUILD / "feltgate_generate", ROOT, "--design", design, "--output", folder]
     for extra in ([], ["--allow-coarse"]):
-        done = subprocess.run([*command, *extra], capture_output=True, text=True, check=False)
+        done = interrupts.run([*command, *extra], **interrupts.CAPTURED)
         if done.returncode == 0:
             return bool(extra), None
     if done.returncode != 2 or not done.stderr.startswith(str(design)):
@@ -281,7 +282,7 @@ def evaluate_design(text, workdir, route=False, area=True, defect=0):
             return {"status": "refused", "reason": refusal}
         structure = Structure(workdir, folder, defect)
         command = [structure.program(), folder / "values.txt", ROOT / "vectors/plants/linear.toml"]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        done = interrupts.run(command, **interrupts.CAPTURED)
         if done.returncode not in (0, 1) or not done.stdout:
             raise PointError(f"structure {structure.key}: {done.stderr.strip()}")
         result = json.loads(done.stdout) | {"coarse": coarse, "structure": structure.key}
@@ -326,6 +327,7 @@ def main(words):
     parser.add_argument("--json", metavar="F", help="write the figures to F")
     parser.add_argument("--work", metavar="DIR", default=str(BUILD / "explore"), help="kept builds")
     arguments = parser.parse_args(words)
+    outputs.check(parser, json=arguments.json)
     try:
         text = Path(arguments.design).read_text(encoding="utf-8")
         tomllib.loads(text)
@@ -337,6 +339,6 @@ def main(words):
         print(error, file=sys.stderr)
         return 2
     if arguments.json:
-        Path(arguments.json).write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
-    print(report(result))
+        outputs.write_whole(arguments.json, json.dumps(result, indent=1) + "\n")
+    print(report(result), file=sys.stderr if arguments.json == outputs.STDOUT else sys.stdout)
     return 0 if result["status"] == "ok" else 1

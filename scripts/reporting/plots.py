@@ -16,6 +16,7 @@ import matplotlib
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from outputs import write_whole
 
 # Near Okabe and Ito's colours: told apart by colour-blind eyes too.
 COLOURS = {
@@ -81,10 +82,10 @@ class Picture:
     def write(self, folder):
         """Writes NAME.svg, and NAME.png where it was drawn; returns the names."""
         folder = Path(folder)
-        (folder / f"{self.name}.svg").write_text(self.svg, encoding="utf-8")
+        write_whole(folder / f"{self.name}.svg", self.svg)
         if not self.png:
             return [f"{self.name}.svg"]
-        (folder / f"{self.name}.png").write_bytes(self.png)
+        write_whole(folder / f"{self.name}.png", self.png)
         return [f"{self.name}.svg", f"{self.name}.png"]
 
 

@@ -7,7 +7,6 @@ Documentation: docs/json.md, docs/figures.md
 
 import json
 import os
-import signal
 import subprocess
 import threading
 import time
@@ -18,6 +17,7 @@ from functools import cached_property, lru_cache
 from itertools import islice
 from pathlib import Path
 
+import interrupts
 import numpy as np
 
 ROOT = Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[2]))
@@ -134,6 +134,37 @@ def scene_job(scene, design_name="lever", plant=None, sets=(), variant="", every
     return Job(name, tuple(arguments), float(scene_file(scene)["duration_s"]), every)
 
 
+class Children:
+    """Programs under way; once they are ended, no further one starts."""
+
+    def __init__(self):
+        self.lock, self.running, self.ended = threading.Lock(), set(), False
+
+    def start(self, command):
+        """The program started, or None when all are to end."""
+        with self.lock:
+            if self.ended:
+                return None
+            child = subprocess.Popen(
+                command,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.PIPE,
+            )
+            self.running.add(child)
+            return child
+
+    def end(self):
+        with self.lock:
+            self.ended = True
+            for child in self.running:
+                child.terminate()
+
+    def gone(self, child):
+        with self.lock:
+            self.running.discard(child)
+
+
 def start(job, folder, children):
     """Runs one job to its end; never raises for what the program does."""
     json_path, csv_path = folder / f"{job.name}.json", folder / f"{job.name}.csv"
@@ -142,13 +173,14 @@ def start(job, folder, children):
     command = [str(program()), *job.arguments, "--engine", "all", "--quiet"]
     command += ["--json", str(json_path), "--csv", str(csv_path), "--every", str(job.every)]
     began = time.monotonic()
-    child = subprocess.Popen(
-        command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE
-    )
-    children.add(child)
+    child = children.start(command)
+    if child is None:
+        return Run(job, -1, "interrupted")
     stderr = child.communicate()[1].decode(errors="replace").strip()
-    children.discard(child)
+    children.gone(child)
     complaint = stderr.splitlines()[-1].removeprefix("feltgate: ") if stderr else ""
+    if interrupts.ending_signal(child.returncode):
+        complaint = interrupts.how_it_ended(child.returncode)
     run = Run(job, child.returncode, complaint)
     run.took_s, run.csv_path = time.monotonic() - began, csv_path
     if child.returncode in (0, 1) and json_path.exists() and csv_path.exists():
@@ -157,17 +189,8 @@ def start(job, folder, children):
         except ValueError as error:
             run.complaint = f"{json_path}: {error}"
     elif not run.complaint:
-        run.complaint = f"feltgate ended with status {child.returncode} and wrote no result"
+        run.complaint = f"feltgate {interrupts.how_it_ended(child.returncode)} and wrote no result"
     return run
-
-
-def end_on_terminate():
-    """A polite kill ends as an interrupt does: with the programs that were started."""
-
-    def interrupt(*_):
-        raise KeyboardInterrupt
-
-    signal.signal(signal.SIGTERM, interrupt)
 
 
 def run_all(jobs, folder, progress, workers=None):
@@ -177,10 +200,10 @@ def run_all(jobs, folder, progress, workers=None):
     """
     folder.mkdir(parents=True, exist_ok=True)
     program()  # complain once, not once per job
-    children, runs, stop = set(), {}, threading.Event()
+    children, runs = Children(), {}
 
     def one(job):
-        if stop.is_set():
+        if children.ended:
             return Run(job, -1, "interrupted")
         progress.begin(job)
         run = start(job, folder, children)
@@ -189,14 +212,12 @@ def run_all(jobs, folder, progress, workers=None):
 
     ordered = sorted(jobs, key=lambda job: -job.seconds)
     with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
-        waiting = [pool.submit(one, job) for job in ordered]
         try:
+            waiting = [pool.submit(one, job) for job in ordered]
             for done in as_completed(waiting):
                 run = done.result()
                 runs[run.job.name] = run
         except BaseException:
-            stop.set()
-            for child in list(children):
-                child.terminate()
+            children.end()
             raise
     return {job.name: runs[job.name] for job in jobs}

@@ -5,6 +5,7 @@
 import json
 import subprocess
 
+import interrupts
 from reporting import page, runs, stability_plots
 
 DESIGN = "lever"
@@ -15,7 +16,7 @@ class Study:
 
     def __init__(self, folder):
         self.path = folder / "stability.json"
-        self.process = subprocess.Popen(
+        self.process = interrupts.start(
             [runs.program(), "stability", DESIGN, "--no-experiments", "--json", self.path],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
@@ -35,6 +36,7 @@ class Study:
         """(study, complaint) once it has come to its end."""
         stdout, stderr = self.process.communicate()
         status = self.process.returncode
+        interrupts.check(status)
         if status == 0:
             return json.loads(self.path.read_text(encoding="utf-8")), ""
         said = (stderr or stdout).strip().splitlines()

@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <iostream>
 #include <sstream>
 #include <stdexcept>
 
@@ -37,6 +38,8 @@ void fail_with(const char* block, std::uint64_t seed, const Mismatch& mismatch,
   if (std::filesystem::exists(save)) {
     text << "\nview: gtkwave " << waveform << ' ' << save.string();
   }
+  // Catch breaks lines at 80 columns; these are to be searched and copied.
+  std::cerr << text.str() << std::endl;
   FAIL(text.str());
   throw std::logic_error("FAIL returned");
 }

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Files that appear whole or not at all, as those of the program. Documentation: docs/json.md"""
+
+import os
+import stat
+import sys
+from pathlib import Path
+
+STDOUT = "-"
+
+
+def is_in_place(path):
+    """Whether a path is stdout, a device or a pipe, which are written where they are."""
+    if str(path) == STDOUT:
+        return True
+    try:
+        mode = os.stat(path).st_mode
+    except OSError:
+        return False
+    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
+
+
+def refusal(path):
+    """Why nothing can be written there, with what to do, or ""."""
+    path = Path(path)
+    if is_in_place(path):
+        return "" if str(path) == STDOUT or os.access(path, os.W_OK) else "is not writable"
+    if path.is_dir():
+        return "is a folder; add the name of a file in it"
+    folder = Path(os.path.realpath(path)).parent
+    if not folder.is_dir():
+        return f"there is no folder {folder}; make it, or choose another one"
+    if not os.access(folder, os.W_OK | os.X_OK):
+        return f"the folder {folder} cannot be written; choose another one"
+    if path.exists() and not os.access(path, os.W_OK):
+        return "is write-protected; choose another name, or chmod u+w"
+    return ""
+
+
+def check(parser, **paths):
+    """Ends with 2, before the work, where an option's path cannot be written: json=path."""
+    for option, path in paths.items():
+        why = refusal(path) if path else ""
+        if why:
+            parser.error(f"--{option} {path}: {why}")
+
+
+def write_whole(path, data):
+    """Text or bytes. A symbolic link stays, its target is replaced and keeps its mode."""
+    data = data.encode("utf-8", "surrogateescape") if isinstance(data, str) else data
+    if str(path) == STDOUT:
+        sys.stdout.flush()
+        sys.stdout.buffer.write(data)
+        sys.stdout.buffer.flush()
+        return
+    if is_in_place(path):
+        with open(path, "wb", buffering=0) as device:
+            device.write(data)
+        return
+    target = os.path.realpath(path)
+    folder, name = os.path.split(target)
+    part = os.path.join(folder, f"{name[:200]}.{os.getpid()}.part")
+    try:
+        with open(part, "xb") as file:
+            file.write(data)
+            if os.path.exists(target):
+                os.fchmod(file.fileno(), stat.S_IMODE(os.stat(target).st_mode))
+        os.replace(part, target)
+    except BaseException:
+        Path(part).unlink(missing_ok=True)
+        raise

@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""demo, explore and synth under signals, with stand-ins for what they start; their output files.
+
+A stand-in notes its number and waits. Documentation: docs/json.md
+"""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+from bench import ROOT, Bench
+
+sys.path.insert(0, str(ROOT / "scripts"))
+import interrupts  # noqa: E402
+import outputs  # noqa: E402
+
+WAIT_S = 60
+STAND_IN = """#!/bin/sh
+echo $$ >"$PIDS/$$.new"; mv "$PIDS/$$.new" "$PIDS/$$"
+exec sleep 60 >/dev/null 2>&1
+"""
+SLEEPER = """import os
+import interrupts
+
+def evaluate(point, workdir, route=False):
+    interrupts.run([os.environ["FELTGATE_PROGRAM"]])
+"""
+
+
+class Scripts(Bench):
+    def setUp(self):
+        super().setUp()
+        self.pids = self.path("pids")
+        self.pids.mkdir()
+        self.path("bin").mkdir()
+        for name in ("feltgate", "bin/yosys", "bin/nextpnr-ecp5"):
+            self.path(name).write_text(STAND_IN)
+            self.path(name).chmod(0o755)
+        self.path("sleeper.py").write_text(SLEEPER)
+
+    def script(self, name, *words, **more):
+        kept = {k: v for k, v in os.environ.items() if not k.startswith("FELTGATE_")}
+        kept |= {"FELTGATE_PROGRAM": str(self.path("feltgate")), "PIDS": str(self.pids)}
+        kept |= {"FELTGATE_BUILD": str(self.path("build")), "PYTHONPATH": str(self.folder)}
+        process = subprocess.Popen(
+            [sys.executable, "-B", str(ROOT / "scripts" / name), *words],
+            cwd=self.folder,
+            env=kept | more,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        return process
+
+    def children(self, count):
+        """Numbers of so many stand-ins, once they are under way."""
+        end = time.monotonic() + WAIT_S
+        while True:
+            found = [int(p.name) for p in self.pids.iterdir() if p.suffix != ".new"]
+            if len(found) >= count:
+                return found
+            self.assertLess(time.monotonic(), end, "never came")
+            time.sleep(0.005)
+
+    def assert_gone(self, children):
+        for child in children:
+            self.assertRaises(ProcessLookupError, os.kill, child, 0)
+
+    def ends(self, process, number, said, count=1):
+        """A signal ends the script with all that it started; what it says in the end."""
+        children = self.children(count)
+        process.send_signal(number)
+        err = process.communicate(timeout=WAIT_S)[1]
+        self.assertEqual(process.returncode, 128 + number, err)
+        self.assertIn(said, err.splitlines())
+        self.assertNotIn("status -", err)
+        self.assertNotIn("Traceback", err)
+        self.assert_gone(self.children(count) + children)
+
+    def test_demo(self):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            with self.subTest(number):
+                words = ("--traces", str(self.pids), "--out", "out", "--jobs", "2")
+                process = self.script("demo.py", *words)
+                self.ends(process, number, "demo: interrupted", count=2)
+                self.assertFalse(list(self.path("out").rglob("*.html")))
+                for path in self.pids.iterdir():
+                    path.unlink()
+
+    def test_explore(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(number):
+                process = self.script(
+                    *("explore.py", "smoke", "-o", f"out{number}"),
+                    FELTGATE_EXPLORE_POINT="sleeper",
+                )
+                said = "explore: interrupted; the same command goes on from here"
+                self.ends(process, number, said)
+                self.assertEqual(list(self.folder.rglob("*.tmp")), [])
+                for path in self.pids.iterdir():
+                    path.unlink()
+
+    def test_synth(self):
+        path = f"{self.path('bin')}{os.pathsep}{os.environ['PATH']}"
+        process = self.script("synth.py", "--block", "mult", "--no-route", PATH=path)
+        self.ends(process, signal.SIGTERM, "synth: interrupted")
+
+    def test_a_child_that_is_interrupted_alone(self):
+        """A run of the demo that somebody else ended: the demo goes on and says what happened."""
+        words = ("--traces", str(self.pids), "--out", "out", "--jobs", "1", "--no-figures")
+        process = self.script("demo.py", *words)
+        os.kill(self.children(1)[0], signal.SIGINT)
+        self.children(2)
+        process.send_signal(signal.SIGINT)
+        err = process.communicate(timeout=WAIT_S)[1]
+        self.assertIn("did not run: interrupted", err)
+        self.assertNotIn("status -", err)
+
+    def test_how_a_program_ended(self):
+        for status, text in (
+            (-2, "interrupted"),
+            (130, "interrupted"),
+            (-15, "interrupted"),
+            (143, "interrupted"),
+            (-11, "killed by SIGSEGV"),
+            (137, "killed by SIGKILL"),
+            (2, "ended with status 2"),
+        ):
+            self.assertEqual(interrupts.how_it_ended(status), text)
+        self.assertRaises(interrupts.Interrupted, interrupts.check, 130)
+        self.assertIsNone(interrupts.check(2))
+
+
+class Outputs(Bench):
+    def test_whole_files(self):
+        self.path("target").write_text("old")
+        self.path("target").chmod(0o640)
+        self.path("link").symlink_to("target")
+        outputs.write_whole(self.path("link"), "new")
+        outputs.write_whole(self.path("fresh"), b"bytes")
+        self.assertTrue(self.path("link").is_symlink())
+        self.assertEqual(self.path("target").read_text(), "new")
+        self.assertEqual(self.path("target").stat().st_mode & 0o777, 0o640)
+        outputs.write_whole("/dev/null", "nothing")
+        self.assertRaises(OSError, outputs.write_whole, "/dev/full", "something")
+        self.assert_only("target", "link", "fresh")
+
+    def test_refused_before_the_work(self):
+        for path, said in ((".", "is a folder"), ("no/x.json", "there is no folder")):
+            for script in (("synth.py",), ("explore.py", "point", "x.toml")):
+                with self.subTest(script, path=path):
+                    done = subprocess.run(
+                        [sys.executable, "-B", ROOT / "scripts" / script[0], *script[1:]]
+                        + ["--json", path],
+                        cwd=self.folder,
+                        capture_output=True,
+                        text=True,
+                        check=False,
+                    )
+                    self.assertEqual(done.returncode, 2, done.stderr)
+                    self.assertIn(f"--json {path}: {said}", done.stderr)
+        self.assert_only()
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -8,6 +8,7 @@ Documentation: docs/figures.md
 
 import json
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -183,7 +184,7 @@ class Demo(Bench):
             time.sleep(0.1)
         time.sleep(0.5)
         demo.terminate()
-        self.assertEqual(demo.wait(timeout=60), 130)
+        self.assertEqual(demo.wait(timeout=60), 128 + signal.SIGTERM)
         for pid in pids.read_text().split():
             with self.assertRaises(ProcessLookupError):
                 os.kill(int(pid), 0)

@@ -23,6 +23,11 @@ from reporting import all_figures, demo_page, recordings, run_section, runs, sta
 from reporting.progress import Progress, clock_text
 
 SCHEMA = "feltgate-demo/1"
+EPILOG = """\
+Without recordings it says where public ones can be downloaded.
+  feltgate demo
+  feltgate demo --traces recordings -o report
+Exit code: 0 nothing broken, 1 a mismatch or a broken expectation, 2 unusable input."""
 DESIGNS = ("lever", "paper")
 # Velocity alone would leave half of the core idle: the damper makes torque of it.
 REPLAY_SCENE = "damper"
@@ -91,14 +96,18 @@ def write(folder, demo):
 def arguments_of(argv):
     parser = argparse.ArgumentParser(
         prog="feltgate demo",
-        description="Every scene in closed loop and every recording whole, through RTL and twin in "
+        description="Every scene in closed loop and every recording whole, through RTL and twin in\n"
         "lock-step; one HTML report. Under ten minutes on two cores.",
-        epilog="Without recordings it says where public ones can be downloaded.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
         "--traces", metavar="DIR", help="recordings; default: FELTGATE_TRACES, ../shared/traces"
     )
-    parser.add_argument("--out", type=Path, metavar="DIR", help="default: demo in the build folder")
+    parser.add_argument(
+        "-o", "--output", dest="out", type=Path, metavar="DIR", help="default: demo in build"
+    )
+    parser.add_argument("--out", dest="out", type=Path, help=argparse.SUPPRESS)  # its old name
     parser.add_argument("--jobs", type=int, metavar="N", help="runs at a time; default: all cores")
     parser.add_argument(
         "--no-figures", action="store_true", help="leave out the runs that only the figures need"

@@ -27,12 +27,28 @@ EXAMPLES = """examples:
   feltgate explore route /data/trade              Fmax of the points on the front
   feltgate explore page /data/trade               explore.html: hover a dot, get its design file
   feltgate explore page vectors/spaces/trade.csv  the same of the shipped table, at once
+  feltgate explore picture /data/trade            explore.svg
   feltgate explore presets /data/trade            fast.toml, balanced.toml, exact.toml
   feltgate explore point my_point.toml            one design point alone
 
-A run that was stopped is continued by the same command. Exit status: 0 done, 1 a point's RTL
+A run that was stopped is continued by the same command. Exit code: 0 done, 1 a point's RTL
 differs from its twin, 2 wrong use.
 """
+
+
+def help_of(verb):
+    """How a verb's own help ends: its lines of the examples, and the exit codes."""
+    shown = [line for line in EXAMPLES.splitlines() if f"explore {verb} " in line]
+    codes = EXAMPLES[EXAMPLES.index("Exit code") :]
+    return {
+        "epilog": "\n".join(["examples:", *shown, codes]),
+        "formatter_class": argparse.RawDescriptionHelpFormatter,
+    }
+
+
+def add_output(parser, default):
+    parser.add_argument("-o", "--output", dest="out", type=Path, metavar="DIR", help=default)
+    parser.add_argument("--out", dest="out", type=Path, help=argparse.SUPPRESS)  # its old name
 
 
 def root():
@@ -68,15 +84,19 @@ def parser_of_verbs():
     everything = verbs.add_parser(
         "all", help="SPACE.toml alone: all of the below, one after another"
     )
-    make = verbs.add_parser("plan", help="write the points of a space into a folder")
+    make = verbs.add_parser(
+        "plan", help="write the points of a space into a folder", **help_of("plan")
+    )
     for one in (everything, make):
-        one.add_argument("space", help="a file, or a name in vectors/spaces")
-        one.add_argument("-o", "--out", type=Path, metavar="DIR", help="default: explore/ in build")
+        one.add_argument("space", metavar="SPACE", help="a file, or a name in vectors/spaces")
+        add_output(one, "default: explore/ in build")
     everything.add_argument("--no-route", action="store_true", help="leave out place and route")
-    run = verbs.add_parser("run", help="evaluate a plan, or one chunk of it")
+    run = verbs.add_parser("run", help="evaluate a plan, or one chunk of it", **help_of("run"))
     run.add_argument("--chunk", metavar="I/N", help="only part I of N; default: all, in parallel")
-    merge = verbs.add_parser("merge", help="join the chunks into points.jsonl")
-    route = verbs.add_parser("route", help="place and route the points of the front, and merge")
+    merge = verbs.add_parser("merge", help="join the chunks into points.jsonl", **help_of("merge"))
+    route = verbs.add_parser(
+        "route", help="place and route the points of the front, and merge", **help_of("route")
+    )
     route.add_argument("--point", metavar="ID", help="only this point, and no merge")
     for one in (run, merge, route):
         one.add_argument("folder", type=Path, metavar="DIR")
@@ -85,11 +105,9 @@ def parser_of_verbs():
         ("picture", "write explore.svg; needs matplotlib"),
         ("presets", "write fast, balanced and exact as design files"),
     ):
-        one = verbs.add_parser(name, help=what)
+        one = verbs.add_parser(name, help=what, **help_of(name))
         one.add_argument("folder", type=Path, metavar="DIR | TABLE.csv")
-        one.add_argument(
-            "-o", "--out", type=Path, metavar="DIR", help="default: DIR, or explore/ in build"
-        )
+        add_output(one, "default: DIR, or explore/ in build")
     for one in (everything, run, route):
         add_engine(one)
     verbs.add_parser("point", help="evaluate one design point", add_help=False)

@@ -19,6 +19,10 @@ from reporting import all_figures, page, run_section, runs
 from reporting.progress import Progress
 
 SCHEMA = "feltgate-figures/1"
+EPILOG = """\
+  feltgate figures
+  feltgate figures --design paper -o figures
+Exit code: 0 nothing broken, 1 a mismatch or a broken expectation, 2 unusable input."""
 DESIGNS = ("lever", "paper")
 INTRODUCTION = (
     "The figures of A. G. Rodríguez Ramírez, M. Nandayapa, O. O. Vergara Villegas and F. García "
@@ -74,10 +78,13 @@ def main():
     parser = argparse.ArgumentParser(
         prog="feltgate figures",
         description="Redraws the figures of the Haptic Lever paper from runs of the RTL.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
-        "--out", type=Path, metavar="DIR", help="default: figures in the build folder"
+        "-o", "--output", dest="out", type=Path, metavar="DIR", help="default: figures in build"
     )
+    parser.add_argument("--out", dest="out", type=Path, help=argparse.SUPPRESS)  # its old name
     parser.add_argument("--design", choices=DESIGNS, help="only this design; default: both")
     arguments = parser.parse_args()
     folder = (arguments.out or runs.build_folder() / "figures").resolve()

@@ -14,7 +14,7 @@ Usage: ./feltgate test [NAME] [--long] [--list]
   --long  also the long runs (1e9 lock-step clocks of the core and more)
 
 The last line is "N passed, N failed", with ", N skipped" where tests could not run here; before it
-a run of all tests says how long each group of them took. Exit status: 0 none failed, 1 some did,
+a run of all tests says how long each group of them took. Exit code: 0 none failed, 1 some did,
 2 wrong use. Results for machines: test-results.xml (JUnit) in the build folder.
 
   ./feltgate test                 all of them: half an hour on two cores

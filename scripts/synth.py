@@ -4,8 +4,11 @@
 """Area and speed of the core and its blocks on ECP5, and their cells on Cyclone IV E.
 
 Yosys and nextpnr only: nothing here ran on a chip. Recipe, figures and goals: docs/synthesis.md.
-Exit status: 0 within the budget (scripts/synth_budget.toml), 1 when a figure has grown past it,
+Exit code: 0 within the budget (scripts/synth_budget.toml), 1 when a figure has grown past it,
 2 when a tool or an argument is wrong.
+
+  feltgate synth                                   all blocks of both designs, against the budget
+  feltgate synth --design lever --block core --json core.json
 """
 
 import argparse
@@ -31,8 +34,12 @@ def arguments():
         description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("--design", action="append", help="a design point; default: lever, paper")
-    parser.add_argument("--block", action="append", help="a block, or 'core'; default: all")
+    parser.add_argument(
+        "--design", action="append", metavar="DESIGN", help="a design point; default: lever, paper"
+    )
+    parser.add_argument(
+        "--block", action="append", metavar="BLOCK", help="a block, or 'core'; default: all"
+    )
     parser.add_argument(
         "--for",
         action="append",
@@ -41,8 +48,8 @@ def arguments():
         help="the core of a design that builds only what these scenes need, instead of the blocks; "
         "may be repeated, one row for each",
     )
-    parser.add_argument("--seeds", default="1,2,3", help="of nextpnr; default 1,2,3")
-    parser.add_argument("--json", type=Path, help="write the figures here")
+    parser.add_argument("--seeds", metavar="N[,N...]", default="1,2,3", help="of nextpnr; default 1,2,3")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures here")
     parser.add_argument("--update", action="store_true", help="write budget and documentation")
     parser.add_argument("--no-route", action="store_true", help="area only, without nextpnr")
     options = parser.parse_args()

@@ -92,6 +92,8 @@ struct Elaborated {
 /// Reads a design file. Throws config::ConfigError: unknown or missing key, wrong type, value out
 /// of range.
 Design read_design(const std::string& path);
+/// The same of the text of a file that is not written yet; errors call it `path`.
+Design design_from_text(const std::string& text, const std::string& path);
 
 /// Quantises the design against a register map and checks it; design.allow_coarse lets a resolution
 /// pass that is coarser than promised, for exploration. Throws config::ConfigError where a

@@ -5,11 +5,10 @@
 #include "design/for_scenes.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "config/toml_reader.hpp"
+#include "design/text_edit.hpp"
 
 namespace feltgate::design {
 
@@ -22,13 +21,6 @@ std::string block_of(const std::string& law) {
   if (law == always) return {};
   const std::string kind = law.substr(0, law.find('_'));
   return "scene_" + (kind == "spring" || kind == "charge" ? kind : law);
-}
-
-/// Where a position of the parser lies in the text.
-std::size_t offset_of(const std::string& text, const toml::source_position& at) {
-  std::size_t offset = 0;
-  for (auto line = at.line; line > 1; --line) offset = text.find('\n', offset) + 1;
-  return offset + at.column - 1;
 }
 
 }  // namespace
@@ -49,8 +41,7 @@ std::string text_for_scenes(const std::string& path, const std::set<std::string>
     if (law != always && laws.count(law) != 0) list += ", \"" + law + "\"";
   }
 
-  std::ifstream in(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  std::string text = text_of_file(path);
   const toml::source_region& region = root["scenes"]["include"].node()->source();
   const std::size_t begin = offset_of(text, region.begin);
   text.replace(begin, offset_of(text, region.end) - begin, list + "]");

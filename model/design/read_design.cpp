@@ -16,6 +16,8 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr config::Range kCutoff{1e-12, 1e6};
 
+Design design_of(const toml::table& root, const std::string& path);
+
 /// The name becomes part of C++ types and file names.
 std::string name_of(const std::string& path) {
   std::string name = std::filesystem::path(path).stem().string();
@@ -131,7 +133,16 @@ double Design::velocity_gain_rad_s() const {
 double Design::count_rad() const { return 2.0 * pi / (4.0 * lines); }
 
 Design read_design(const std::string& path) {
-  const toml::table root = config::parse_toml_file(path);
+  return design_of(config::parse_toml_file(path), path);
+}
+
+Design design_from_text(const std::string& text, const std::string& path) {
+  return design_of(toml::parse(text), path);
+}
+
+namespace {
+
+Design design_of(const toml::table& root, const std::string& path) {
   config::TomlReader top(root, path, "the design");
   Design d;
   d.path = path;
@@ -215,5 +226,7 @@ Design read_design(const std::string& path) {
   top.finish();
   return d;
 }
+
+}  // namespace
 
 }  // namespace feltgate::design

@@ -132,7 +132,8 @@ std::string json(const std::vector<Result>& results) {
                    {"findings", findings}});
     holds = holds && r.outcome.holds();
   }
-  return files::json_text(Json{{"holds", holds}, {"cases", all}});
+  return files::json_text(
+      Json{{"schema", "feltgate-extremes/1"}, {"holds", holds}, {"cases", all}});
 }
 
 std::string markdown(const Result& result) {

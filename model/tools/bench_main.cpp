@@ -88,23 +88,28 @@ int main(int argc, char** argv) {
       "  twin_event  the same from event to event\n"
       "  twin_tick   the twin's arithmetic alone, a tick at a time\n"
       "  twin_batch  32 of them at once in vector instructions, time per chain\n"
-      "  double, float, quad   the same laws in 53, 24 and 113 bits\n"
+      "  double, float, quad   the same laws in binary64, binary32 and binary128\n"
       "  sc_fixed    the same laws in SystemC's fixed point\n"
       "  shifts      the same chain written by hand in 64-bit integers\n"
       "Examples:\n"
       "  feltgate bench                        a few minutes\n"
       "  feltgate bench --quick                half a minute; rougher\n"
       "  feltgate bench --json bench.json      for programs; docs/bench.md has the keys\n"
-      "  feltgate bench --engines rtl,twin_event --scenes membrane\n"
+      "  feltgate bench --engine rtl,twin_event --scene membrane\n"
       "A missed goal is printed and is no error. Exit code: 0 the integer engines agree, 1 they "
       "do\n"
       "not, 2 unusable input.");
   Arguments a;
-  app.add_option("--json", a.json, "figures as JSON, schema feltgate-bench/1");
-  app.add_option("--engines", a.engines, "only these; errors need quad")->delimiter(',');
-  app.add_option("--scenes", a.scenes,
-                 "names in vectors/scenes instead of torque_step_cord, damper, wall")
+  app.add_option("--json", a.json, "figures as JSON, schema feltgate-bench/1")->type_name("FILE");
+  app.add_option("--engine", a.engines, "only these; errors need quad")
+      ->type_name("ENGINES")
       ->delimiter(',');
+  old_spelling(&app, "--engines", a.engines)->delimiter(',');
+  app.add_option("--scene", a.scenes,
+                 "names in vectors/scenes instead of torque_step_cord, damper, wall")
+      ->type_name("SCENES")
+      ->delimiter(',');
+  old_spelling(&app, "--scenes", a.scenes)->delimiter(',');
   app.add_option("--repetitions", a.repetitions, "default 3, with --quick 1")
       ->check(checks::whole(1, 1000));
   app.add_flag("--quick", a.quick, "one short scene");

@@ -147,9 +147,12 @@ void add_budget(CLI::App& app, int* exit_code) {
   sub->add_option("scene", a->scene, "name in vectors/scenes, or a path")
       ->required()
       ->type_name("SCENE");
-  sub->add_option("--design", a->design, "design point in rtl/designs")->capture_default_str();
-  sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's");
-  sub->add_option("--json", a->json, "the same as JSON (docs/json.md)");
+  sub->add_option("--design", a->design, "design point in rtl/designs")
+      ->type_name("DESIGN")
+      ->capture_default_str();
+  sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's")
+      ->type_name("PLANT");
+  sub->add_option("--json", a->json, "the same as JSON (docs/json.md)")->type_name("FILE");
   sub->add_option("--seed", a->seed, "of the run")->capture_default_str()->check(checks::seed());
   sub->add_flag("--quiet", a->quiet, "print nothing");
   sub->callback([a, exit_code] {

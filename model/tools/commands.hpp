@@ -52,6 +52,12 @@ design::Elaborated elaborated_design(const std::string& name);
 /// Throws std::invalid_argument that says how to build another one in.
 std::string built_design(const std::string& given);
 
+/// A spelling of an option that was documented once: still understood, no longer shown.
+template <class Value>
+CLI::Option* old_spelling(CLI::App* app, const std::string& name, Value& value) {
+  return app->add_option(name, value)->group("");
+}
+
 /// Where the waveform around a mismatch goes: mismatch/ in the build folder, or in this one.
 std::string mismatch_path(const std::string& subject, const std::string& design);
 /// Says where it is and how to look at it.

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "bounds/error_bounds.hpp"
+#include "design/for_plant.hpp"
 #include "design/for_scenes.hpp"
 #include "design/generate.hpp"
 #include "design/loop_poles.hpp"
@@ -22,7 +23,7 @@ namespace feltgate {
 namespace {
 
 struct DesignArguments {
-  std::string name, plant, output;
+  std::string name, plant, for_plant, output;
   std::vector<std::string> scenes;
 };
 
@@ -62,6 +63,58 @@ int design_for(const DesignArguments& a, const design::RegisterMap& registers) {
   return exit_ok;
 }
 
+/// "mine", of a file that becomes rtl/designs/mine.toml.
+std::string name_for(const std::string& plant, const std::string& output) {
+  if (!output.empty() && output != "-") return std::filesystem::path(output).stem().string();
+  std::string name;
+  for (const char c : std::filesystem::path(plant).stem().string()) {
+    const char small = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    const bool plain = (small >= 'a' && small <= 'z') || (small >= '0' && small <= '9');
+    name += plain ? small : '_';
+  }
+  return name.empty() || name[0] < 'a' || name[0] > 'z' ? "for_" + name : name;
+}
+
+std::string next_steps(const std::string& name, const std::string& output,
+                       const std::string& plant) {
+  namespace fs = std::filesystem;
+  const fs::path place = fs::path(repository()) / "rtl/designs" / (name + ".toml");
+  const bool there = !output.empty() && output != "-" &&
+                     fs::weakly_canonical(output) == fs::weakly_canonical(place);
+  std::string text = "next, in simulation:\n";
+  if (!there)
+    text +=
+        fmt::format("  put it into rtl/designs/{}.toml: its engines are built from there\n", name);
+  return text + fmt::format(
+                    "  ./feltgate generate\n"
+                    "  ./feltgate run torque_step --design {0} --plant {1}\n",
+                    name, plant);
+}
+
+int design_for_plant(const DesignArguments& a, const design::RegisterMap& registers) {
+  const std::string base = a.name.empty() ? "lever" : a.name;
+  const std::string base_path = find_file(base, "rtl/designs");
+  const std::string plant_path = find_file(a.for_plant, "vectors/plants");
+  const std::string name = name_for(plant_path, a.output);
+  const std::string path = a.output.empty() || a.output == "-" ? name + ".toml" : a.output;
+  const design::PlantDesign made = design::design_for_plant(
+      base_path, plant::read_plant_file(plant_path), a.for_plant, path, registers);
+  files::Outputs outputs;
+  outputs.reads(base_path);
+  outputs.reads(plant_path);
+  outputs.open("--output", a.output.empty() ? "-" : a.output)->write(made.text);
+  outputs.commit();
+  std::string told =
+      fmt::format("{}: {} with the constants of {}; stable around it\n", path, base, a.for_plant);
+  for (const design::Constant& c : made.changed) {
+    told += fmt::format("  {:<18} {:.6g} instead of {:.6g} {}\n", c.name, c.of_plant, c.of_design,
+                        c.unit);
+  }
+  for (const std::string& note : made.notes) told += fmt::format("note: {}\n", note);
+  outputs.say(told + next_steps(name, a.output, a.for_plant));
+  return exit_ok;
+}
+
 int table_of(const DesignArguments& a, const design::RegisterMap& registers) {
   const auto e = elaborate(design::read_design(find_file(a.name, "rtl/designs")), registers);
   std::string text = design_table(e) + "\n" + bound_table(bounds::error_bounds(e));
@@ -82,13 +135,15 @@ void add_design(CLI::App& app, int* exit_code) {
       "design", "the table of a design point: value, integer, error, range, headroom");
   sub->footer(
       "  feltgate design lever --plant p24                  the table and the poles of the loop\n"
+      "  feltgate design --for-plant p48 -o rtl/designs/mine.toml\n"
+      "                                                     lever with the constants of p48\n"
       "  feltgate design lever --for membrane               the design file with that scene alone\n"
       "  feltgate design lever --for membrane torque_step -o rtl/designs/mine.toml\n"
       "                                                     a design of its own: feltgate "
-      "generate");
-  sub->add_option("design", a->name, "name in rtl/designs or a path")
-      ->required()
-      ->type_name("DESIGN");
+      "generate\n"
+      "Exit code: 0 fine, 2 a design that cannot work, is unstable around the plant, or unusable "
+      "input.");
+  sub->add_option("design", a->name, "name in rtl/designs or a path")->type_name("DESIGN");
   auto* plant =
       sub->add_option("--plant", a->plant,
                       "name in vectors/plants or a path: also the poles of the loop around it; an "
@@ -98,10 +153,25 @@ void add_design(CLI::App& app, int* exit_code) {
       "--for", a->scenes,
       "torque laws or scene files: print the design file that builds only what these need");
   scenes->type_name("SCENE")->excludes(plant);
-  sub->add_option("-o,--output", a->output, "with --for: write it here")->needs(scenes);
+  auto* for_plant = sub->add_option(
+      "--for-plant", a->for_plant,
+      "name in vectors/plants or a path: print DESIGN (default: lever) with the constants of this "
+      "plant, once it is stable around it");
+  for_plant->type_name("PLANT")->excludes(plant)->excludes(scenes);
+  sub->add_option("-o,--output", a->output, "with --for or --for-plant: write it here")
+      ->type_name("FILE");
   sub->callback([a, exit_code] {
+    if (!a->output.empty() && a->scenes.empty() && a->for_plant.empty()) {
+      throw std::invalid_argument(
+          "--output is for --for and --for-plant; the table goes to stdout");
+    }
+    if (a->name.empty() && a->for_plant.empty()) {
+      throw std::invalid_argument("design: DESIGN is missing; feltgate design --help");
+    }
     const auto registers = design::read_registers(repository() + "/rtl/registers.toml");
-    *exit_code = a->scenes.empty() ? table_of(*a, registers) : design_for(*a, registers);
+    *exit_code = !a->for_plant.empty() ? design_for_plant(*a, registers)
+                 : a->scenes.empty()   ? table_of(*a, registers)
+                                       : design_for(*a, registers);
   });
 }
 

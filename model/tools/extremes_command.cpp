@@ -108,7 +108,7 @@ void add_extremes(CLI::App& app, int* exit_code) {
       "  feltgate extremes --markdown > extremes.md && mv extremes.md docs/\n"
       "Exit code: 0 every case holds, 1 one does not, 2 unusable input.");
   sub->add_option("case", a->names, "cases; all short ones when none is named")->type_name("CASE");
-  sub->add_option("--json", a->json, "the table as JSON");
+  sub->add_option("--json", a->json, "the table as JSON")->type_name("FILE");
   sub->add_option("--progress", a->progress_file,
                   "day: each segment notes in FILE.N, N its first minute, how far it is")
       ->type_name("FILE");

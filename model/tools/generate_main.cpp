@@ -36,7 +36,7 @@ bool update(const fs::path& path, const std::string& text, bool check_only) {
 
 constexpr const char* usage =
     "usage: feltgate generate [--check]\n"
-    "       feltgate generate --design FILE.toml --output DIR [--allow-coarse]\n"
+    "       feltgate generate --design FILE -o DIR [--allow-coarse]\n"
     "Writes what follows from rtl/registers.toml and rtl/designs/*.toml: the SystemVerilog "
     "packages in\n"
     "rtl/generated, the C++ headers in model/include/feltgate/generated, and docs/registers.md.\n"
@@ -45,7 +45,10 @@ constexpr const char* usage =
     "DIR/values.txt,\n"
     "a line per parameter: name, address, integer, exact value. --allow-coarse lets a resolution "
     "pass that\n"
-    "is coarser than a design for use must have; what cannot work is refused all the same.\n";
+    "is coarser than a design for use must have; what cannot work is refused all the same.\n"
+    "  feltgate generate                                        after a change in rtl/designs\n"
+    "  feltgate generate --design my.toml --output out          one design anywhere\n"
+    "Exit code: 0 fine, 1 a file is stale, 2 a design or option that cannot be used.\n";
 
 struct Options {
   fs::path root, design, output;
@@ -64,7 +67,7 @@ bool parse(int argc, char** argv, Options* o) {
       o->check_only = true;
     } else if (option == "--allow-coarse") {
       o->allow_coarse = true;
-    } else if ((option == "--design" || option == "--output") && i + 1 < argc) {
+    } else if ((option == "--design" || option == "--output" || option == "-o") && i + 1 < argc) {
       (option == "--design" ? o->design : o->output) = argv[++i];
     } else {
       return false;

@@ -39,17 +39,24 @@ struct TraceArguments {
     sub->add_option("trace", path, "recording: .sr, VCD, CSV, or a vector of this project")
         ->required()
         ->type_name("TRACE");
-    sub->add_option("--probes", probes, "names of the signals A,B[,Z]; default: guessed");
-    sub->add_option("--step", options.step, "name of the STEP signal; with --dir");
-    sub->add_option("--dir", options.dir, "name of the DIR signal");
-    sub->add_option("--time-column", options.time_column, "column with the time");
-    sub->add_option("--count-column", options.count_column, "column with counts or an angle");
-    sub->add_option("--scale", scale, "counts per unit of that column, e.g. 2048/2pi for radians");
+    sub->add_option("--probes", probes, "names of the signals A,B[,Z]; default: guessed")
+        ->type_name("NAMES");
+    sub->add_option("--step", options.step, "name of the STEP signal; with --dir")
+        ->type_name("NAME");
+    sub->add_option("--dir", options.dir, "name of the DIR signal")->type_name("NAME");
+    sub->add_option("--time-column", options.time_column, "column with the time")
+        ->type_name("NAME");
+    sub->add_option("--count-column", options.count_column, "column with counts or an angle")
+        ->type_name("NAME");
+    sub->add_option("--scale", scale, "counts per unit of that column, e.g. 2048/2pi for radians")
+        ->type_name("SCALE");
     sub->add_option("--sample-hz", options.sample_hz,
                     "rate of the capture, where the file does not say it")
+        ->type_name("HZ")
         ->check(checks::positive(1e12, "Hz"));
     sub->add_option("--format", format,
-                    "sigrok, vcd, saleae, levels, columns or vector; default: by content");
+                    "sigrok, vcd, saleae, levels, columns or vector; default: by content")
+        ->type_name("FORMAT");
     sub->add_flag("--no-jitter", no_jitter,
                   "edges at the start of their sample instead of a seeded place inside");
     sub->add_option("--seed", options.seed, "of that place")
@@ -146,21 +153,29 @@ void add_replay(CLI::App& app, int* exit_code) {
       "  feltgate replay hand.sr --probes XA,XB\n"
       "  feltgate replay axis.sr --step 5 --dir 6\n"
       "  feltgate replay log.csv --time-column t --count-column theta --scale 2048/2pi\n"
+      "  feltgate replay hand.sr --engine twin,double,float --csv hand.csv    fixed beside float\n"
       "Exit code: 0 no mismatch and no error above its bound, 1 one, 2 the recording or an option "
       "cannot be used.");
   a->trace.add_to(sub);
-  sub->add_option("--design", a->design, "design point in rtl/designs")->capture_default_str();
+  sub->add_option("--design", a->design, "design point in rtl/designs")
+      ->type_name("DESIGN")
+      ->capture_default_str();
   sub->add_option("--engine", a->engine, engine_help)->type_name("ENGINES")->capture_default_str();
-  sub->add_option("--scene", a->scene, "what the core renders meanwhile")->capture_default_str();
-  sub->add_option("--seconds", a->seconds, "stop after so much of it; default: its end")
+  sub->add_option("--scene", a->scene, "torque law that the core renders meanwhile")
+      ->type_name("SCENE")
+      ->capture_default_str();
+  sub->add_option("--duration", a->seconds, "stop after so much of it; default: its end")
+      ->type_name("SECONDS")
       ->check(checks::seconds());
-  sub->add_option("--json", a->json, "figures as JSON (docs/json.md)");
+  old_spelling(sub, "--seconds", a->seconds)->check(checks::seconds());
+  sub->add_option("--json", a->json, "figures as JSON (docs/json.md)")->type_name("FILE");
   sub->add_option("--csv", a->csv, "a row per tick, the columns of every engine (docs/json.md)")
       ->type_name("FILE");
   sub->add_option("--every", a->every, every_help)
       ->check(checks::whole(1, 1'000'000'000))
       ->type_name("TICKS");
-  sub->add_option("--fst", a->fst, "waveform of every clock of the RTL (large: with --seconds)");
+  sub->add_option("--fst", a->fst, "waveform of every clock of the RTL (large: with --duration)")
+      ->type_name("FILE");
   sub->add_flag("--quiet", a->quiet, "print only what went wrong");
   sub->callback([a, exit_code] {
     a->design = built_design(a->design);
@@ -177,17 +192,26 @@ void add_import(CLI::App& app, int* exit_code) {
   CLI::App* sub =
       app.add_subcommand("import", "convert an encoder recording to this project's vector format");
   a->trace.add_to(sub);
-  sub->add_option("out", a->out, "vector file to write")->required()->type_name("OUT");
+  sub->footer(
+      "  feltgate import hand.sr hand.vec --probes XA,XB\n"
+      "  feltgate import log.csv --count-column theta --scale 2048/2pi -o hand.vec\n"
+      "Exit code: 0 written, 2 the recording or an option cannot be used.");
+  sub->add_option("out", a->out, "vector file to write")->type_name("FILE");
+  sub->add_option("-o,--output", a->out, "the same")->type_name("FILE");
   sub->add_option("--design", a->design, "design whose clock stamps the edges")
+      ->type_name("DESIGN")
       ->capture_default_str();
   sub->callback([a, exit_code] {
+    if (a->out.empty()) {
+      throw std::invalid_argument("import: the FILE to write is missing; feltgate import --help");
+    }
     a->design = built_design(a->design);
     traces::Options how = a->trace.read();
     how.clock_hz = make_engine(a->design, "twin")->design().clock_hz;
     const auto source = traces::open(a->trace.path, how);
     files::Outputs outputs;
     outputs.reads(a->trace.path);
-    files::OutputFile* out = outputs.open("OUT", a->out);
+    files::OutputFile* out = outputs.open("--output", a->out);
     traces::write_vector(out->handle(), a->out, a->design, how.clock_hz, *source);
     outputs.commit();
     outputs.say(

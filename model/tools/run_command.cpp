@@ -99,7 +99,9 @@ int run(const RunArguments& a) {
   Progress progress(scenario.name + " on " + a.design, a.quiet);
   options.progress = [&progress](double done) { progress.update(done); };
   const RunResult result = run_within_bounds(elaborated, scenario, plant, options);
-  const RunLabels labels{"scene", plant.name, "", scenario.step_clocks, effects_off(scenario)};
+  RunLabels labels{"scene", plant.name, "", scenario.step_clocks, effects_off(scenario)};
+  labels.differing = design::differing_constants(elaborated.design, plant, scenario.effects);
+  labels.plant_as_named = scenario.plant;
   for (files::OutputFile* file : {json, report_json}) {
     if (file != nullptr) file->write(run_json(result, labels));
   }
@@ -150,24 +152,31 @@ void add_run(CLI::App& app, int* exit_code) {
       "its\n"
       "proven bound, 1 otherwise, 2 unusable input.");
   sub->add_option("scene", a->scene, "scene")->type_name("SCENE");
-  sub->add_option("--design", a->design, "design point in rtl/designs")->capture_default_str();
-  sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's");
+  sub->add_option("--design", a->design, "design point in rtl/designs")
+      ->type_name("DESIGN")
+      ->capture_default_str();
+  sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's")
+      ->type_name("PLANT");
   sub->add_option("--engine", a->engine, engine_help)->type_name("ENGINES")->capture_default_str();
   sub->add_option("--set", a->set,
-                  "parameter to set before arming, NAME=VALUE in its unit; may be repeated");
+                  "parameter to set before arming, NAME=VALUE in its unit; may be repeated")
+      ->type_name("NAME=VALUE");
   sub->add_option("--seed", a->seed, "of the RTL's state before reset")
       ->capture_default_str()
       ->check(checks::seed());
-  sub->add_option("--report", a->report, "folder for an HTML report with pictures, JSON and CSV");
-  sub->add_option("--json", a->json, "figures as JSON (docs/json.md)");
+  sub->add_option("--report", a->report, "folder for an HTML report with pictures, JSON and CSV")
+      ->type_name("DIR");
+  sub->add_option("--json", a->json, "figures as JSON (docs/json.md)")->type_name("FILE");
   sub->add_option("--csv", a->csv, "a row per tick, the columns of every engine (docs/json.md)")
       ->type_name("FILE");
   sub->add_option("--every", a->every, every_help)
       ->check(checks::whole(1, 1'000'000'000))
       ->type_name("TICKS");
   sub->add_flag("--columns", a->columns, "print the table of CSV columns and end");
-  sub->add_option("--fst", a->fst, "waveform of every clock of the RTL (large: short scenes only)");
-  sub->add_option("--record", a->record, "the encoder's edges as a vector file (docs/traces.md)");
+  sub->add_option("--fst", a->fst, "waveform of every clock of the RTL (large: short scenes only)")
+      ->type_name("FILE");
+  sub->add_option("--record", a->record, "the encoder's edges as a vector file (docs/traces.md)")
+      ->type_name("FILE");
   sub->add_flag("--quiet", a->quiet, "print only what went wrong");
   sub->callback([a, exit_code] {
     a->design = built_design(a->design);

@@ -119,6 +119,10 @@ std::string run_json(const RunResult& r, const RunLabels& labels) {
   if (r.felt.closed_loop) {
     j["plant_step_clocks"] = labels.step_clocks;
     j["effects_off"] = labels.effects_off;
+    for (const design::Constant& c : labels.differing) {
+      j["plant_differs"].push_back(
+          {{"constant", c.key}, {"design", c.of_design}, {"plant", c.of_plant}});
+    }
     j["figures"] = r.figures;
     j["expectations"] = {{"checked", r.felt.expectations.size()}, {"broken", r.broken}};
   }

@@ -168,6 +168,26 @@ std::string felt_text(const RunResult& r) {
   return text;
 }
 
+namespace {
+
+/// What makes a result that surprises: constants of the plant that the design does not have.
+std::string differing_lines(const RunLabels& labels) {
+  if (labels.differing.empty()) return {};
+  std::string text = "the plant is not the one that the design counts on:\n";
+  for (const design::Constant& c : labels.differing) {
+    text += fmt::format("  {:<18} design {:.4g}, plant {:.4g} {}", c.name, c.of_design, c.of_plant,
+                        c.unit);
+    if (std::isfinite(c.excess())) text += fmt::format(" ({:+.1f} %)", 100 * c.excess());
+    text += "\n";
+  }
+  return text +
+         fmt::format(
+             "a design for this plant: feltgate design --for-plant {} -o rtl/designs/mine.toml\n",
+             labels.plant_as_named);
+}
+
+}  // namespace
+
 std::string run_text(const RunResult& r, const RunLabels& labels) {
   std::string text = fmt::format("{} {}, design {}", labels.subject_key, r.subject, r.design);
   if (!labels.plant.empty()) text += fmt::format(", plant {}", labels.plant);
@@ -181,6 +201,7 @@ std::string run_text(const RunResult& r, const RunLabels& labels) {
                             ? "none"
                             : fmt::format("{}", fmt::join(labels.effects_off, " ")));
   }
+  text += differing_lines(labels);
   if (!r.first_mismatch.empty()) text += fmt::format("first mismatch: {}\n", r.first_mismatch);
   if (r.engines.size() > 1) {
     text += engine_table(r);

@@ -97,8 +97,10 @@ void add_stability(CLI::App& app, int* exit_code) {
   sub->add_option("--linear-plant", a->linear,
                   "plant of the borders, in vectors/plants or a path: without friction, dead "
                   "voltage and dead time")
+      ->type_name("PLANT")
       ->capture_default_str();
   sub->add_option("--plant", a->plant, "plant of counts, friction and noise")
+      ->type_name("PLANT")
       ->capture_default_str();
   sub->add_option("--rate", a->rates, "scene rates in Hz; default 144,490,1000,40000,1000000")
       ->delimiter(',')
@@ -109,8 +111,9 @@ void add_stability(CLI::App& app, int* exit_code) {
       ->check(checks::number(0, 1, "Nm s/rad"));
   sub->add_flag("--no-bits", a->no_bits, "eigenvalues and closed forms only: two seconds");
   sub->add_flag("--no-experiments", a->no_experiments, "borders only");
-  sub->add_option("--json", a->json, "write all numbers to this file");
-  sub->add_option("--plot", a->plot, "draw the K-B plot and the eigenvalue locus into this folder");
+  sub->add_option("--json", a->json, "write all numbers to this file")->type_name("FILE");
+  sub->add_option("--plot", a->plot, "draw the K-B plot and the eigenvalue locus into this folder")
+      ->type_name("DIR");
   sub->callback([a, exit_code] {
     a->design = built_design(a->design);
     *exit_code = run(*a);

@@ -242,10 +242,13 @@ void add_trim(CLI::App& app, int* exit_code) {
   sub->add_option("--tolerance", a->tolerance, "share of the full model's peak and of its rms")
       ->capture_default_str();
   sub->add_option("--design", a->options.design, "design point in rtl/designs")
+      ->type_name("DESIGN")
       ->capture_default_str();
-  sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's");
-  sub->add_option("-o,--output", a->output, "the trimmed scene as a file for feltgate run");
-  sub->add_option("--json", a->json, "the figures as JSON");
+  sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's")
+      ->type_name("PLANT");
+  sub->add_option("-o,--output", a->output, "the trimmed scene as a file for feltgate run")
+      ->type_name("FILE");
+  sub->add_option("--json", a->json, "the figures as JSON")->type_name("FILE");
   sub->add_option("--duration", a->duration_s, "seconds; default: the scene's")
       ->check(checks::seconds());
   sub->add_option("--window", a->window_ms, "length of the means, ms")
@@ -260,9 +263,10 @@ void add_trim(CLI::App& app, int* exit_code) {
   sub->add_option("--seed", a->options.seed, "of these motions")
       ->capture_default_str()
       ->check(checks::seed());
-  sub->add_option("--threads", a->options.threads, "runs at a time")
+  sub->add_option("--jobs", a->options.threads, "runs at a time")
       ->capture_default_str()
       ->check(checks::whole(1, 64));
+  old_spelling(sub, "--threads", a->options.threads)->check(checks::whole(1, 64));
   sub->add_flag("--quiet", a->quiet, "print nothing");
   sub->callback([a, exit_code] {
     a->options.design = built_design(a->options.design);

@@ -300,6 +300,7 @@ def evaluate(point, workdir, route=False):
     return evaluate_design(design_text(point["base"], point.get("set", {})), workdir, route)
 
 
+SCHEMA = "feltgate-point/1"
 HELP = """\
 Evaluates one design point: builds its RTL, compares it with its twin bit for bit, measures its
 error against the exact design, its delays, and its area on an ECP5.
@@ -307,7 +308,7 @@ error against the exact design, its delays, and its area on an ECP5.
   feltgate explore point rtl/designs/lever.toml
   feltgate explore point my.toml --route --json my.json    also places and routes it, three seeds
 
-A design that is coarser than one for use may be is measured too and says so. Exit status: 0
+A design that is coarser than one for use may be is measured too and says so. Exit code: 0
 measured, 1 RTL and twin differ or the design is refused, 2 wrong use."""
 
 
@@ -322,9 +323,9 @@ def main(words):
         description=HELP,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("design", metavar="FILE.toml", help="a design file")
+    parser.add_argument("design", metavar="FILE", help="a design file")
     parser.add_argument("--route", action="store_true", help="also Fmax, median of three seeds")
-    parser.add_argument("--json", metavar="F", help="write the figures to F")
+    parser.add_argument("--json", metavar="FILE", help="write the figures here")
     parser.add_argument("--work", metavar="DIR", default=str(BUILD / "explore"), help="kept builds")
     arguments = parser.parse_args(words)
     outputs.check(parser, json=arguments.json)
@@ -339,6 +340,7 @@ def main(words):
         print(error, file=sys.stderr)
         return 2
     if arguments.json:
-        outputs.write_whole(arguments.json, json.dumps(result, indent=1) + "\n")
+        told = {"schema": SCHEMA} | result
+        outputs.write_whole(arguments.json, json.dumps(told, indent=1) + "\n")
     print(report(result), file=sys.stderr if arguments.json == outputs.STDOUT else sys.stdout)
     return 0 if result["status"] == "ok" else 1

@@ -30,7 +30,7 @@ RULES = (
     Rule(r"feltgate (?:run|replay|import|budget|design)", "WHOLE"),
     Rule(r"feltgate generate", "WHOLE"),
     # 1: of a scene of milliseconds there may be nothing to leave out.
-    Rule(r"feltgate trim", "MORE", "--unseen 1 --threads 1", status=(0, 1)),
+    Rule(r"feltgate trim", "MORE", "--unseen 1 --jobs 1", status=(0, 1)),
     Rule(r"feltgate stability .*--rate", "WHOLE"),
     Rule(r"feltgate stability .*--no-bits", "WHOLE"),
     Rule(r"feltgate stability", "MORE", "--rate 490 --damping 0.002 --no-experiments"),

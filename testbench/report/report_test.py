@@ -71,7 +71,7 @@ class Report(Bench):
 class Figures(Bench):
     def test_all_figures(self):
         out = self.folder / "out"
-        done = self.script("figures.py", "--out", out)
+        done = self.script("figures.py", "--output", out)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stdout.strip(), str(out / "figures.html"))
         self.assert_self_contained((out / "figures.html").read_text())
@@ -117,7 +117,7 @@ class Demo(Bench):
         environment["FELTGATE_ROOT"] = self.root()
         folder = traces or self.folder / "no-traces"
         environment["FELTGATE_TRACES"] = str(folder)
-        done = self.script("demo.py", "--out", out, *arguments, **environment)
+        done = self.script("demo.py", "--output", out, *arguments, **environment)
         summary = json.loads((out / "demo.json").read_text())
         return done, summary, (out / "demo.html").read_text()
 
@@ -171,7 +171,7 @@ class Demo(Bench):
                 "-B",
                 SCRIPTS / "demo.py",
                 "--no-figures",
-                "--out",
+                "--output",
                 self.folder / "out",
             ],
             env=self.environment(FELTGATE_ROOT=self.root(), FELTGATE_TRACES=str(self.folder)),

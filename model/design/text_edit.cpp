@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Changes of values in a design file. Documentation: docs/designs.md
+#include "design/text_edit.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+#include "config/toml_reader.hpp"
+
+namespace feltgate::design {
+
+namespace {
+
+/// Whether two values as written are the same number or the same text.
+bool same_value(const std::string& a, const std::string& b) {
+  if (a == b) return true;
+  std::string digits;
+  for (const char c : a) {
+    if (c != '_') digits += c;
+  }
+  char* end = nullptr;
+  const double x = std::strtod(digits.c_str(), &end);
+  if (end == digits.c_str() || *end != '\0') return false;
+  const double y = std::strtod(b.c_str(), &end);
+  return end != b.c_str() && *end == '\0' && x == y;
+}
+
+}  // namespace
+
+std::size_t offset_of(const std::string& text, const toml::source_position& at) {
+  std::size_t offset = 0;
+  for (auto line = at.line; line > 1; --line) offset = text.find('\n', offset) + 1;
+  return offset + at.column - 1;
+}
+
+std::string text_of_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw config::ConfigError(path + ":0: cannot be read; check the path");
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+TextEdit::TextEdit(const std::string& path, std::string reason)
+    : path_(path), reason_(std::move(reason)), text_(text_of_file(path)) {
+  (void)config::parse_toml_file(path);  // complains as every reader does
+  parse();
+}
+
+void TextEdit::parse() { root_ = toml::parse(text_); }
+
+const toml::node* TextEdit::find(const std::string& section, const std::string& key) const {
+  return section.empty() ? root_[key].node() : root_[section][key].node();
+}
+
+std::optional<std::string> TextEdit::text_of(const std::string& section,
+                                             const std::string& key) const {
+  const toml::node* node = find(section, key);
+  if (node == nullptr) return {};
+  const std::size_t begin = offset_of(text_, node->source().begin);
+  return text_.substr(begin, offset_of(text_, node->source().end) - begin);
+}
+
+void TextEdit::set(const std::string& section, const std::string& key, const std::string& value) {
+  const auto old = text_of(section, key);
+  if (!old) {
+    throw config::ConfigError(
+        fmt::format("{}:0: [{}] has no key \"{}\"; add it", path_, section, key));
+  }
+  if (same_value(*old, value)) return;
+  const std::size_t begin = offset_of(text_, find(section, key)->source().begin);
+  const std::size_t end = text_.find('\n', begin + old->size());
+  text_.replace(begin, end - begin, fmt::format("{}  # {}", value, reason_));
+  parse();
+}
+
+void TextEdit::replace(const std::string& section, const std::string& key,
+                       const std::string& new_key, const std::string& value) {
+  set(section, key, value);
+  const std::size_t at = offset_of(text_, find(section, key)->source().begin);
+  const std::size_t line = text_.rfind('\n', at) + 1;
+  text_.replace(text_.find(key, line), key.size(), new_key);
+  parse();
+}
+
+void TextEdit::set_description(const std::string& text) {
+  const std::string old = *text_of("", "description");
+  const std::size_t begin = offset_of(text_, find("", "description")->source().begin);
+  text_.replace(begin, old.size(), "\"" + text + "\"");
+  parse();
+}
+
+std::string TextEdit::text() const {
+  std::size_t begin = 0;
+  while (begin < text_.size() && (text_[begin] == '#' || text_[begin] == '\n')) {
+    begin = text_.find('\n', begin) + 1;
+  }
+  return text_.substr(begin);
+}
+
+}  // namespace feltgate::design

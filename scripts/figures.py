@@ -85,7 +85,9 @@ def main():
         "-o", "--output", dest="out", type=Path, metavar="DIR", help="default: figures in build"
     )
     parser.add_argument("--out", dest="out", type=Path, help=argparse.SUPPRESS)  # its old name
-    parser.add_argument("--design", choices=DESIGNS, help="only this design; default: both")
+    parser.add_argument(
+        "--design", choices=DESIGNS, metavar="DESIGN", help="only lever or only paper; default: both"
+    )
     arguments = parser.parse_args()
     folder = (arguments.out or runs.build_folder() / "figures").resolve()
     designs = (arguments.design,) if arguments.design else DESIGNS

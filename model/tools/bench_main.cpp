@@ -104,12 +104,12 @@ int main(int argc, char** argv) {
   app.add_option("--engine", a.engines, "only these; errors need quad")
       ->type_name("ENGINES")
       ->delimiter(',');
-  old_spelling(&app, "--engines", a.engines)->delimiter(',');
+  old_spelling(&app, "--engines", a.engines, CLI::Validator())->delimiter(',');
   app.add_option("--scene", a.scenes,
                  "names in vectors/scenes instead of torque_step_cord, damper, wall")
       ->type_name("SCENES")
       ->delimiter(',');
-  old_spelling(&app, "--scenes", a.scenes)->delimiter(',');
+  old_spelling(&app, "--scenes", a.scenes, CLI::Validator())->delimiter(',');
   app.add_option("--repetitions", a.repetitions, "default 3, with --quick 1")
       ->check(checks::whole(1, 1000));
   app.add_flag("--quick", a.quick, "one short scene");

@@ -29,6 +29,12 @@ std::vector<std::string> words_of(const CLI::App& app, bool options) {
   return words;
 }
 
+/// What the parser says; of a hidden option it leaves the name out, and only ": " is left of it.
+std::string told(const CLI::ParseError& error) {
+  const std::string what = error.what();
+  return what.rfind(": ", 0) == 0 ? what.substr(2) : what;
+}
+
 /// One line about what the parser refused, with the nearest name for a misspelt one.
 std::string parse_error(const CLI::App& app, const CLI::ParseError& error) {
   const auto chosen = app.get_subcommands();
@@ -39,9 +45,9 @@ std::string parse_error(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<std::string> extra = app.remaining(true);
   if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr &&
       !(chosen.empty() && !extra.empty())) {
-    return fmt::format("{}; see {}", error.what(), help);
+    return fmt::format("{}; see {}", told(error), help);
   }
-  if (extra.empty()) return fmt::format("{}; see {}", error.what(), help);
+  if (extra.empty()) return fmt::format("{}; see {}", told(error), help);
   const std::string word = extra.front().substr(0, extra.front().find('='));
   const bool option = word.rfind('-', 0) == 0;
   const auto words = words_of(at, option);

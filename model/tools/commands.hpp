@@ -54,8 +54,14 @@ std::string built_design(const std::string& given);
 
 /// A spelling of an option that was documented once: still understood, no longer shown.
 template <class Value>
-CLI::Option* old_spelling(CLI::App* app, const std::string& name, Value& value) {
-  return app->add_option(name, value)->group("");
+CLI::Option* old_spelling(CLI::App* app, const std::string& name, Value& value,
+                          const CLI::Validator& check) {
+  // A hidden option has no name in messages; its check says it.
+  const auto named = [name, check](const std::string& word) {
+    const std::string error = check(word);
+    return error.empty() ? error : name + ": " + error;
+  };
+  return app->add_option(name, value)->group("")->check(named);
 }
 
 /// Where the waveform around a mismatch goes: mismatch/ in the build folder, or in this one.

@@ -167,7 +167,7 @@ void add_replay(CLI::App& app, int* exit_code) {
   sub->add_option("--duration", a->seconds, "stop after so much of it; default: its end")
       ->type_name("SECONDS")
       ->check(checks::seconds());
-  old_spelling(sub, "--seconds", a->seconds)->check(checks::seconds());
+  old_spelling(sub, "--seconds", a->seconds, checks::seconds());
   sub->add_option("--json", a->json, "figures as JSON (docs/json.md)")->type_name("FILE");
   sub->add_option("--csv", a->csv, "a row per tick, the columns of every engine (docs/json.md)")
       ->type_name("FILE");

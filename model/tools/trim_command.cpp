@@ -266,7 +266,7 @@ void add_trim(CLI::App& app, int* exit_code) {
   sub->add_option("--jobs", a->options.threads, "runs at a time")
       ->capture_default_str()
       ->check(checks::whole(1, 64));
-  old_spelling(sub, "--threads", a->options.threads)->check(checks::whole(1, 64));
+  old_spelling(sub, "--threads", a->options.threads, checks::whole(1, 64));
   sub->add_flag("--quiet", a->quiet, "print nothing");
   sub->callback([a, exit_code] {
     a->options.design = built_design(a->options.design);

@@ -37,7 +37,8 @@ def commands(build):
     from explore import VERBS
 
     own = {
-        "test": ["bash", ROOT / "feltgate", "test"],
+        # Not by the launcher: that prints the text which this compares.
+        "test": ["bash", "-c", 'source "$0"; tests_usage', ROOT / "scripts/run_tests.sh"],
         "generate": [build / "feltgate_generate", ROOT],
         "bench": [build / "feltgate_bench"],
     }

@@ -240,6 +240,7 @@ void add_trim(CLI::App& app, int* exit_code) {
       "Exit code: 0 a smaller model was found, 1 nothing can be left out, 2 unusable input.");
   sub->add_option("scene", a->scene, "scene")->required()->type_name("SCENE");
   sub->add_option("--tolerance", a->tolerance, "share of the full model's peak and of its rms")
+      ->type_name("SHARE")
       ->capture_default_str();
   sub->add_option("--design", a->options.design, "design point in rtl/designs")
       ->type_name("DESIGN")
@@ -249,7 +250,8 @@ void add_trim(CLI::App& app, int* exit_code) {
   sub->add_option("-o,--output", a->output, "the trimmed scene as a file for feltgate run")
       ->type_name("FILE");
   sub->add_option("--json", a->json, "the figures as JSON")->type_name("FILE");
-  sub->add_option("--duration", a->duration_s, "seconds; default: the scene's")
+  sub->add_option("--duration", a->duration_s, "of the scene; default: its own")
+      ->type_name("SECONDS")
       ->check(checks::seconds());
   sub->add_option("--window", a->window_ms, "length of the means, ms")
       ->capture_default_str()

@@ -105,7 +105,7 @@ class ProgramTest(unittest.TestCase):
         for option in ("--duration", "--seconds"):
             done = self.run_it("replay", trace, option, "0.01", "--engine", "twin,quad")
             self.assertEqual(done.returncode, 0, done.stderr)
-            texts.append(re.sub(r"\S+x\n", "\n", done.stdout))
+            texts.append(re.sub(r" +\S+x\n", "\n", done.stdout))
         self.assertEqual(*texts)
         self.assertIn("0.010002 s", texts[0])
         # A value that cannot be: the complaint is about the value, not about the option.

@@ -25,6 +25,17 @@ namespace feltgate {
               apply(snapshot_valid) apply(reg_busy) apply(reg_rdata)
 static_assert(sizeof(CoreOut) == 56, "an output came or went: FELTGATE_EACH_OUTPUT");
 
+/// Name of the first output in which two cores differ, with both values.
+inline std::string difference(const CoreOut& rtl, const CoreOut& twin) {
+#define FELTGATE_TELL(name)                                                                   \
+  if (rtl.name != twin.name) {                                                                \
+    return #name ": rtl " + std::to_string(rtl.name) + ", twin " + std::to_string(twin.name); \
+  }
+  FELTGATE_EACH_OUTPUT(FELTGATE_TELL)
+#undef FELTGATE_TELL
+  return {};
+}
+
 /// The outputs of `Clocks` clocks, each in an array of its own: word for word, as the twin has just
 /// written them. Copied in wider pieces, each copy would wait for the words to reach the cache.
 template <std::size_t Clocks>
@@ -42,14 +53,12 @@ class OutputLog {
 #undef FELTGATE_COMPARE
     return difference == 0;
   }
-  /// Name of the first output that differs, with both values.
-  std::string difference(std::size_t clock, const CoreOut& rtl) const {
-#define FELTGATE_TELL(name)       \
-  if (name##_[clock] != rtl.name) \
-    return #name ": rtl " + std::to_string(rtl.name) + ", twin " + std::to_string(name##_[clock]);
-    FELTGATE_EACH_OUTPUT(FELTGATE_TELL)
-#undef FELTGATE_TELL
-    return {};
+  CoreOut at(std::size_t clock) const {
+    CoreOut out;
+#define FELTGATE_GET(name) out.name = name##_[clock];
+    FELTGATE_EACH_OUTPUT(FELTGATE_GET)
+#undef FELTGATE_GET
+    return out;
   }
 
  private:
@@ -142,7 +151,7 @@ class LockStepEngine : public ClockedEngine {
     [[gnu::noinline, gnu::cold]] void miss(std::size_t n) {
       if (mismatches++ > 0) return;
       first_clock = clock + static_cast<Clock>(n);
-      first = "clock " + std::to_string(first_clock) + ", " + twin.difference(n, rtl.out());
+      first = "clock " + std::to_string(first_clock) + ", " + difference(rtl.out(), twin.at(n));
     }
 
     RtlCore<Rtl, D> rtl;

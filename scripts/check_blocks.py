@@ -103,7 +103,9 @@ def check_block(root, block):
 
 def linked_files(root, page):
     links = set()
-    for target in re.findall(r"\]\(([^)#\s]+)", (root / page).read_text(encoding="utf-8")):
+    text = (root / page).read_text(encoding="utf-8")
+    prose = re.sub(r"^```.*?^```", "", text, flags=re.S | re.M)  # a C++ lambda is no link
+    for target in re.findall(r"\]\(([^)#\s]+)", prose):
         if "://" not in target:
             links.add(Path(os.path.normpath(page.parent / target)))
     return links

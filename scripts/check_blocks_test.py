@@ -94,7 +94,9 @@ class CheckBlocks(unittest.TestCase):
         self.put("docs/blocks/alpha.md", "no links\n")
         self.expect("no link to rtl/alpha.sv", "no link to model/include/feltgate/alpha.hpp")
         self.put("docs/other.md", "[gone](nowhere.md) [far](https://example.org/x)\n")
+        self.put("docs/code.md", "```cpp\nauto f = [&](const int& x) { return x; };\n```\n")
         self.expect("docs/other.md: links docs/nowhere.md")
+        self.assertFalse([line for line in check_blocks.check(self.root) if "code.md" in line])
 
     def test_stale_lists(self):
         self.add_block("beta", "testbench/beta/beta_test.cpp")

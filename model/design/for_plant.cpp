@@ -136,7 +136,7 @@ std::string edited(const std::string& base, const Design& d, const Parameters& p
   }
   notes->push_back(
       "supervisor.nominal_current_a and i2t_budget_a2_s are still the base's: no plant file says "
-      "what a motor bears; take them from its data sheet");
+      "what current a motor can carry; take them from its data sheet");
   const double needed = p.motor.resistance_ohm * current + p.motor.dead_voltage_v;
   if (needed > p.supply.voltage_v) {
     notes->push_back(fmt::format(

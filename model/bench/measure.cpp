@@ -4,6 +4,7 @@
 // The benchmark. Documentation: docs/bench.md
 #include "bench/measure.hpp"
 
+#include <fmt/format.h>
 #include <time.h>
 
 #include <algorithm>
@@ -117,8 +118,8 @@ class Measurement {
         });
       });
       if (e.integer && tick != integers.size() && result_.divergence.empty()) {
-        result_.divergence = work.name + ": " + e.name + " shows " + std::to_string(tick) +
-                             " ticks, " + integers_of + " " + std::to_string(integers.size());
+        result_.divergence = fmt::format("{}: {} shows {} ticks, {} {}", work.name, e.name, tick,
+                                         integers_of, integers.size());
       }
     }
   }
@@ -128,9 +129,8 @@ class Measurement {
     if (!result_.divergence.empty() || tick >= expected.size() || expected[tick] == raw) return;
     for (std::size_t s = 0; s < raw_signals; ++s) {
       if (expected[tick][s] == raw[s]) continue;
-      result_.divergence = work.name + ", tick " + std::to_string(tick) + ", " + raw_names[s] +
-                           ": " + a + " " + std::to_string(expected[tick][s]) + ", " + b + " " +
-                           std::to_string(raw[s]);
+      result_.divergence = fmt::format("{}, tick {}, {}: {} {}, {} {}", work.name, tick,
+                                       raw_names[s], a, expected[tick][s], b, raw[s]);
       return;
     }
   }

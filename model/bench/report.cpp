@@ -4,10 +4,9 @@
 // The benchmark's result as JSON and as text. Documentation: docs/bench.md
 #include "bench/report.hpp"
 
+#include <fmt/format.h>
 #include <time.h>
 
-#include <cinttypes>
-#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -25,17 +24,11 @@ Json spread_json(const Spread& s) {
 }
 Json error_json(const ErrorFigure& e) { return {{"max", e.max()}, {"rms", e.rms()}}; }
 
-std::string hex(std::uint64_t v) {
-  char s[20];
-  std::snprintf(s, sizeof s, "%016" PRIx64, v);
-  return s;
-}
+std::string hex(std::uint64_t v) { return fmt::format("{:016x}", v); }
 
 template <class... Values>
-void print(std::string* out, const char* format, Values... values) {
-  char line[400];
-  std::snprintf(line, sizeof line, format, values...);
-  *out += line;
+void print(std::string* out, const char* format, const Values&... values) {
+  *out += fmt::format(fmt::runtime(format), values...);
 }
 
 }  // namespace
@@ -51,7 +44,7 @@ Circumstances circumstances() {
     }
   }
   if (c.machine.empty()) c.machine = "unknown processor";
-  c.machine += ", " + std::to_string(std::thread::hardware_concurrency()) + " cores";
+  c.machine += fmt::format(", {} cores", std::thread::hardware_concurrency());
 #ifdef __clang__
   c.compiler = "clang " __clang_version__;
 #else
@@ -108,20 +101,20 @@ std::string json(const Result& r, const std::vector<Work>& works, const Circumst
 
 std::string text(const Result& r, const std::vector<Work>& works, const Circumstances& c) {
   std::string s;
-  print(&s, "%s, %s, %s, design lever\nscenes:", c.machine.c_str(), c.compiler.c_str(),
+  print(&s, "{}, {}, {}, design lever\nscenes:", c.machine.c_str(), c.compiler.c_str(),
         c.date.c_str());
-  for (const Work& w : works) print(&s, " %s (%g s)", w.name.c_str(), w.simulated_s);
-  print(&s, "; %zu ticks in all\n\n%-11s %10s %21s %12s %21s %21s %21s\n", r.ticks, "engine",
-        "ns/tick", "min .. max", "x real time", "velocity error rad/s", "tau_hat error Nm",
-        "torque error Nm");
-  print(&s, "%-11s %10s %21s %12s %10s %10s %10s %10s %10s %10s\n", "", "", "", "", "max", "rms",
-        "max", "rms", "max", "rms");
+  for (const Work& w : works) print(&s, " {} ({:g} s)", w.name.c_str(), w.simulated_s);
+  print(&s, "; {} ticks in all\n\n{:<11} {:>10} {:>21} {:>12} {:>21} {:>21} {:>21}\n", r.ticks,
+        "engine", "ns/tick", "min .. max", "x real time", "velocity error rad/s",
+        "tau_hat error Nm", "torque error Nm");
+  print(&s, "{:<11} {:>10} {:>21} {:>12} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}\n", "", "", "",
+        "", "max", "rms", "max", "rms", "max", "rms");
   for (const EngineResult& e : r.engines) {
-    print(&s, "%-11s %10.4g %10.4g %10.4g %12.4g", e.name.c_str(), e.ns_per_tick.median,
+    print(&s, "{:<11} {:10.4g} {:10.4g} {:10.4g} {:12.4g}", e.name.c_str(), e.ns_per_tick.median,
           e.ns_per_tick.low, e.ns_per_tick.high, e.speed.median);
     if (e.compared) {
       for (const ErrorFigure* f : {&e.velocity_rad_s, &e.tau_hat_nm, &e.torque_nm}) {
-        print(&s, " %10.3g %10.3g", f->max(), f->rms());
+        print(&s, " {:10.3g} {:10.3g}", f->max(), f->rms());
       }
       s += "\n";
     } else {
@@ -129,7 +122,7 @@ std::string text(const Result& r, const std::vector<Work>& works, const Circumst
     }
   }
   if (r.bounds) {
-    print(&s, "%-57s %10.3g %10s %10.3g %10s %10.3g\n",
+    print(&s, "{:<57} {:10.3g} {:>10} {:10.3g} {:>10} {:10.3g}\n",
           "proven bound of the integers, no limit or ramp at work", r.bounds->velocity_rad_s, "",
           r.bounds->tau_hat_nm, "", r.bounds->torque_nm);
   }
@@ -142,17 +135,17 @@ std::string text(const Result& r, const std::vector<Work>& works, const Circumst
       names += (names.empty() ? "" : ", ") + e.name;
       hash = e.hash;
     }
-    print(&s, "equal in every bit of every tick: %s (hash %s)\n", names.c_str(), hex(hash).c_str());
+    print(&s, "equal in every bit of every tick: {} (hash {})\n", names.c_str(), hex(hash).c_str());
   } else {
-    print(&s, "DIFFERENT: %s\n", r.divergence.c_str());
+    print(&s, "DIFFERENT: {}\n", r.divergence.c_str());
   }
   for (const LoopResult& l : r.loops) {
-    print(&s, "closed loop, %s: %.3g times real time (%.3g .. %.3g)\n", l.scene.c_str(),
+    print(&s, "closed loop, {}: {:.3g} times real time ({:.3g} .. {:.3g})\n", l.scene.c_str(),
           l.speed.median, l.speed.low, l.speed.high);
   }
   s += "\n";
   for (const Goal& g : r.goals) {
-    print(&s, "%-6s %s: %.3g (%.3g .. %.3g), goal %s %g\n", g.met() ? "met" : "MISSED",
+    print(&s, "{:<6} {}: {:.3g} ({:.3g} .. {:.3g}), goal {} {:g}\n", g.met() ? "met" : "MISSED",
           g.text.c_str(), g.value.median, g.value.low, g.value.high,
           g.at_most ? "at most" : "at least", g.goal);
   }

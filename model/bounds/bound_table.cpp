@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Error bounds as fields and as text. Documentation: docs/error-bounds.md
+#include <fmt/format.h>
+
 #include <cstdio>
 
 #include "bounds/error_bounds.hpp"
@@ -18,19 +20,17 @@ std::vector<std::pair<std::string, double>> bound_fields(const ErrorBounds& b) {
 
 std::string bound_table(const ErrorBounds& b) {
   std::string out;
-  char line[200];
-  const auto add = [&](const char* format, auto... values) {
-    std::snprintf(line, sizeof line, format, values...);
-    out += line;
+  const auto add = [&](const char* format, const auto&... values) {
+    out += fmt::format(fmt::runtime(format), values...);
   };
   const bool one_scene = !b.region.scene.empty();
-  add("proven bounds on |core - real|, velocity up to %.6g rad/s, %s\n", b.region.velocity_rad_s,
+  add("proven bounds on |core - real|, velocity up to {:.6g} rad/s, {}\n", b.region.velocity_rad_s,
       one_scene ? b.region.scene.c_str() : "any scene");
-  add("%-22s %18s %18s %18s\n", "", "core's own", "exact", "exact, and gain");
-  add("%-22s %18s %18s %18s\n", "against coefficients", "coefficients", "coefficients",
+  add("{:<22} {:>18} {:>18} {:>18}\n", "", "core's own", "exact", "exact, and gain");
+  add("{:<22} {:>18} {:>18} {:>18}\n", "against coefficients", "coefficients", "coefficients",
       "2 pi/(Er Tp m1)");
   const auto row = [&](const char* name, const ErrorBound& e) {
-    add("%-22s %18.4g %18.4g %18.4g\n", name, e.against_quantised, e.against_reference,
+    add("{:<22} {:18.4g} {:18.4g} {:18.4g}\n", name, e.against_quantised, e.against_reference,
         e.against_exact);
   };
   row("velocity, rad/s", b.velocity_rad_s);
@@ -40,12 +40,12 @@ std::string bound_table(const ErrorBounds& b) {
   row("torque Ktn*I, Nm", b.torque_nm);
   row("tau_hat, no limit, Nm", b.unlimited_tau_hat_nm);
   row("current, no limit, A", b.unlimited_current_a);
-  add("nothing saturates while |velocity| <= %.6g rad/s (%d counts in m1 ticks),\n",
+  add("nothing saturates while |velocity| <= {:.6g} rad/s ({} counts in m1 ticks),\n",
       b.free.velocity_rad_s, b.free.counts_per_window);
-  add("|position| <= %.0f counts; tau_hat cannot below %.6g rad/s whatever the motion,\n",
+  add("|position| <= {:.0f} counts; tau_hat cannot below {:.6g} rad/s whatever the motion,\n",
       b.free.position_counts, b.free.tau_hat_rad_s);
   if (b.free.current_rad_s > 0) {
-    add("and the current limit cannot act below %.6g rad/s\n", b.free.current_rad_s);
+    add("and the current limit cannot act below {:.6g} rad/s\n", b.free.current_rad_s);
   } else {
     out += "and the current limit may act; the bounds hold with it, except those of \"no limit\"\n";
   }

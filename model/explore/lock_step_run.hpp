@@ -5,6 +5,8 @@
 // tick beside them. Documentation: docs/explore.md
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -148,7 +150,7 @@ class LockStepRun {
     const CoreOut rtl = read_outputs<D>(*rtl_);
     const CoreOut& twin = twin_.out();
     if (!(rtl == twin))
-      note("clock " + std::to_string(m_->clocks_compared) + ", " + difference(rtl, twin));
+      note(fmt::format("clock {}, {}", m_->clocks_compared, difference(rtl, twin)));
     ++m_->clocks_compared;
     m_->clocks_armed += twin.armed ? 1 : 0;
     if (twin.snapshot_valid) compare_chain(twin);
@@ -160,8 +162,7 @@ class LockStepRun {
         chain_.tau_ref().raw() == twin.tau_ref &&
         chain_.control().current.raw() == twin.current_ref &&
         chain_.control().voltage.raw() == twin.voltage && chain_.control().duty.raw() == twin.duty;
-    if (!same)
-      note("tick " + std::to_string(twin.tick_count) + ": the chain differs from the core");
+    if (!same) note(fmt::format("tick {}: the chain differs from the core", twin.tick_count));
   }
   void note(const std::string& what) {
     if (m_->mismatches++ == 0) m_->first_mismatch = what;

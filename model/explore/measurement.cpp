@@ -4,6 +4,8 @@
 // Documentation: docs/explore.md
 #include "explore/measurement.hpp"
 
+#include <fmt/format.h>
+
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -20,8 +22,8 @@ std::vector<Value> read_values(const std::string& path) {
     std::istringstream words(line);
     Value v;
     if (!(words >> v.name >> v.address >> v.raw >> v.si)) {
-      throw std::runtime_error(path + ":" + std::to_string(number) +
-                               ": no parameter; write name, address, integer, value");
+      throw std::runtime_error(
+          fmt::format("{}:{}: no parameter; write name, address, integer, value", path, number));
     }
     values.push_back(v);
   }

@@ -5,6 +5,8 @@
 // docs/extremes.md
 #include "extremes/day.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <fstream>
 #include <thread>
@@ -71,7 +73,7 @@ Segment run_segment(int from, int to, const std::string& progress_file) {
     s.disarmed += o.armed ? 0 : 1;
     ++s.minutes;
     if (!progress_file.empty() && (m % 10 == 9 || m + 1 == to)) {
-      std::ofstream(progress_file + "." + std::to_string(from))
+      std::ofstream(fmt::format("{}.{}", progress_file, from))
           << m + 1 - from << " of " << to - from << " minutes\n";
     }
   }

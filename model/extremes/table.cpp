@@ -4,6 +4,8 @@
 // The table of the cases. Documentation: docs/extremes.md
 #include "extremes/table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -78,13 +80,8 @@ constexpr const char* head =
 
 std::string number(double value) {
   if (value == 0) return "0";
-  char text[40];
-  if (value == std::floor(value) && std::abs(value) < 1e12) {
-    std::snprintf(text, sizeof text, "%.0f", value);
-  } else {
-    std::snprintf(text, sizeof text, "%.5g", value);
-  }
-  return text;
+  const bool whole = value == std::floor(value) && std::abs(value) < 1e12;
+  return whole ? fmt::format("{:.0f}", value) : fmt::format("{:.5g}", value);
 }
 
 std::string text(const Result& result) {
@@ -193,8 +190,7 @@ std::vector<std::string> stale_rows(const std::string& page, const Result& resul
   }
   const auto& findings = result.outcome.findings;
   if (rows.size() != findings.size()) {
-    stale.push_back(std::to_string(rows.size()) + " rows instead of " +
-                    std::to_string(findings.size()));
+    stale.push_back(fmt::format("{} rows instead of {}", rows.size(), findings.size()));
     return stale;
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -4,9 +4,9 @@
 // Documentation: docs/stability.md
 #include "stability/report.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "files/json_text.hpp"
@@ -15,44 +15,26 @@ namespace feltgate::stability {
 
 namespace {
 
-__attribute__((format(printf, 2, 3))) void add(std::string& out, const char* format, ...) {
-  char line[400];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  out += line;
+template <class... Values>
+void add(std::string& out, const char* format, const Values&... values) {
+  out += fmt::format(fmt::runtime(format), values...);
 }
 
 std::string percent(double value, double of) {
   if (!std::isfinite(value) || of == 0) return "-";
-  char text[32];
-  std::snprintf(text, sizeof text, "%+.1f %%", 100 * (value / of - 1));
-  return text;
+  return fmt::format("{:+.1f} %", 100 * (value / of - 1));
 }
 
-std::string number(double v, const char* format = "%.4g") {
-  if (!std::isfinite(v)) return "-";
-  char text[32];
-  std::snprintf(text, sizeof text, format, v);
-  return text;
-}
+std::string number(double v) { return std::isfinite(v) ? fmt::format("{:.4g}", v) : "-"; }
 
 std::string rate(double hz) {
-  char text[32];
-  if (hz >= 1e6) {
-    std::snprintf(text, sizeof text, "%g MHz", hz / 1e6);
-  } else if (hz >= 1e3) {
-    std::snprintf(text, sizeof text, "%g kHz", hz / 1e3);
-  } else {
-    std::snprintf(text, sizeof text, "%g Hz", hz);
-  }
-  return text;
+  if (hz >= 1e6) return fmt::format("{:g} MHz", hz / 1e6);
+  return hz >= 1e3 ? fmt::format("{:g} kHz", hz / 1e3) : fmt::format("{:g} Hz", hz);
 }
 
 void borders(std::string& out, const Study& s) {
   add(out,
-      "stiffest stable wall, Nm/rad: design %s, plant %s, lever pressed by a constant torque\n\n"
+      "stiffest stable wall, Nm/rad: design {}, plant {}, lever pressed by a constant torque\n\n"
       "scene rate       B   chain's bits   eigenvalues  (bits)   swing  closed form            "
       "with estimator        Z-width\n"
       "           Nms/rad                                      counts  (b+B)/(T/2+td)\n",
@@ -61,21 +43,24 @@ void borders(std::string& out, const Study& s) {
   for (const BorderPoint& p : s.borders) {
     const double k = p.exact.stiffness_nm_rad;
     if (before != 0 && before != p.rate_hz) out += "\n";
-    add(out, "%-9s  %7.4f", before == p.rate_hz ? "" : rate(p.rate_hz).c_str(), p.damping_nm_s_rad);
+    add(out, "{:<9}  {:7.4f}", before == p.rate_hz ? "" : rate(p.rate_hz).c_str(),
+        p.damping_nm_s_rad);
     before = p.rate_hz;
     if (k == 0) {
       out += "           none: the loop grows at any stiffness\n";
       continue;
     }
-    add(out, "  %13s %13s  %-8s %5.0f  %10s %-10s  %10s %-10s  %6.1f\n",
+    add(out, "  {:>13} {:>13}  {:<8} {:5.0f}  {:>10} {:<10}  {:>10} {:<10}  {:6.1f}\n",
         number(p.bits_nm_rad).c_str(), number(k).c_str(), percent(p.bits_nm_rad, k).c_str(),
         p.swing_counts, number(p.closed_nm_rad).c_str(), percent(p.closed_nm_rad, k).c_str(),
         number(p.estimator_nm_rad).c_str(), percent(p.estimator_nm_rad, k).c_str(), p.z_width);
   }
   const LoopModel& m = s.model;
   add(out,
-      "\nb = %.3g Nm s/rad of friction and %.3g of the motor, of which the voltage law compensates "
-      "%.4g;\ntd = %.4g us at 1 MHz, %.4g us behind a host; estimator lag %.4g ms, J = %.3g kg "
+      "\nb = {:.3g} Nm s/rad of friction and {:.3g} of the motor, of which the voltage law "
+      "compensates "
+      "{:.4g};\ntd = {:.4g} us at 1 MHz, {:.4g} us behind a host; estimator lag {:.4g} ms, J = "
+      "{:.3g} kg "
       "m^2\n",
       m.viscous_nm_s_rad, m.motor_damping_nm_s_rad, m.compensated, 1e6 * actuator_delay_s(m, 1),
       1e6 * actuator_delay_s(m, 2), 1e3 * m.velocity_delay_s, m.inertia_kg_m2);
@@ -83,14 +68,14 @@ void borders(std::string& out, const Study& s) {
 
 void experiments(std::string& out, const Study& s) {
   add(out,
-      "\ncounts and friction: the core's own wall, plant %s, B = %.3g Nm s/rad. A press half way "
-      "between the\ntorques of two counts is the worst: friction holds it below 2f/q = %.3f "
+      "\ncounts and friction: the core's own wall, plant {}, B = {:.3g} Nm s/rad. A press half way "
+      "between the\ntorques of two counts is the worst: friction holds it below 2f/q = {:.3f} "
       "Nm/rad. "
       "A press of a whole\ncount leaves the lever anywhere in it, now and then on an edge\n\n"
       "Nm/rad  press, counts   quiet   counts moved   torque rms   K*q/2   motor torque rms, mNm\n",
       s.full_plant.c_str(), s.rest_damping_nm_s_rad, s.rule_nm_rad);
   for (const Rest& r : s.rests) {
-    add(out, "%6.2f   %4.1f to %4.1f  %2d of %-2d   %11d  %11.2f  %6.2f  %17.2f\n",
+    add(out, "{:6.2f}   {:4.1f} to {:4.1f}  {:2} of {:<2}   {:11}  {:11.2f}  {:6.2f}  {:17.2f}\n",
         r.stiffness_nm_rad, r.first_count, r.first_count + r.presses - 1, r.quiet, r.presses,
         r.counts, 1e3 * r.torque_rms_nm, 1e3 * s.friction_nm * r.stiffness_nm_rad / s.rule_nm_rad,
         1e3 * r.motor_torque_rms_nm);
@@ -100,7 +85,7 @@ void experiments(std::string& out, const Study& s) {
       "                           rate   Nm/rad   noise mrad   alpha   torque rms mNm   lever rms "
       "mrad\n");
   for (const HostRow& r : s.hosts) {
-    add(out, "%-22s %8.1f  %7.2f  %11.3f  %6.2g  %15.2f  %15.3f\n", r.what.c_str(),
+    add(out, "{:<22} {:8.1f}  {:7.2f}  {:11.3f}  {:6.2g}  {:15.2f}  {:15.3f}\n", r.what.c_str(),
         r.figures.rate_hz, r.setting.stiffness_nm_rad, 1e3 * r.setting.noise_rad,
         r.setting.smoothing, 1e3 * r.figures.torque_rms_nm, 1e3 * r.figures.angle_rms_rad);
   }
@@ -118,7 +103,7 @@ std::string study_text(const Study& s) {
   out +=
       "\nthe textbook loop (mass, held force, backward difference) against published numbers\n\n";
   for (const KnownNumber& k : s.known) {
-    add(out, "  %-40s %8g   computed %9.4f  %s\n", k.what.c_str(), k.published, k.computed,
+    add(out, "  {:<40} {:8g}   computed {:9.4f}  {}\n", k.what.c_str(), k.published, k.computed,
         percent(k.computed, k.published).c_str());
   }
   if (!s.rests.empty()) experiments(out, s);

@@ -45,21 +45,14 @@ constexpr Column columns[] = {{"velocity rad/s", "velocity_rad_s", &SourceBound:
 
 std::string text(const SceneBudget& b, const std::string& scene, const std::string& design) {
   std::ostringstream s;
-  char cell[64];
   s << "scene " << scene << ", design " << design << ": largest error, and the proven bound\n\n";
-  std::snprintf(cell, sizeof cell, "%-16s", "source");
-  s << cell;
-  for (const Column& c : columns) {
-    std::snprintf(cell, sizeof cell, " %14s %9s", c.heading, "bound");
-    s << cell;
-  }
+  s << fmt::format("{:<16}", "source");
+  for (const Column& c : columns) s << fmt::format(" {:>14} {:>9}", c.heading, "bound");
   s << "\n";
   const auto row = [&](const BudgetLine& l, const char* name) {
-    std::snprintf(cell, sizeof cell, "%-16s", name);
-    s << cell;
+    s << fmt::format("{:<16}", name);
     for (const Column& c : columns) {
-      std::snprintf(cell, sizeof cell, " %14.3g %9.3g", l.max.*c.value, l.bound.*c.value);
-      s << cell;
+      s << fmt::format(" {:14.3g} {:9.3g}", l.max.*c.value, l.bound.*c.value);
     }
     s << "\n";
   };
@@ -67,14 +60,14 @@ std::string text(const SceneBudget& b, const std::string& scene, const std::stri
   row(b.sum, "sum");
   row(b.whole, "whole");
   row(b.gain, "2^n (not in it)");
-  std::snprintf(cell, sizeof cell, "\n%lld ticks", static_cast<long long>(b.ticks));
-  s << cell;
+  s << "\n" << b.ticks << " ticks";
   if (b.ticks_out_of_bounds > 0) {
     s << ", of which " << b.ticks_out_of_bounds
       << " in no row: a ramp or saturation and what follows";
   }
-  std::snprintf(cell, sizeof cell, "%.4g rad/s", b.largest_velocity_rad_s);
-  s << "\nbounds are for any motion up to this one's " << cell << " before the low-pass\n";
+  s << fmt::format(
+      "\nbounds are for any motion up to this one's {:.4g} rad/s before the low-pass\n",
+      b.largest_velocity_rad_s);
   if (!b.holds()) s << "an error exceeds its bound\n";
   return s.str();
 }

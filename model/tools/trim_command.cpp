@@ -57,13 +57,6 @@ std::string today() {
   return text;
 }
 
-template <class... T>
-std::string format(const char* pattern, T... values) {
-  char text[300];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
-
 std::vector<std::string> off(const Scenario& scene, const trim::Model& model) {
   Scenario s = scene;
   s.effects = model.effects;
@@ -81,7 +74,7 @@ double cost(const trim::Felt& felt) { return felt.cpu_s / felt.simulated_s; }
 
 /// peak/rms in percent.
 std::string loss_text(const trim::Loss& l) {
-  return format("%7.2f %6.2f", 100 * l.peak, 100 * l.rms);
+  return fmt::format("{:7.2f} {:6.2f}", 100 * l.peak, 100 * l.rms);
 }
 
 std::string difference_text(const trim::Difference& d) {
@@ -90,8 +83,8 @@ std::string difference_text(const trim::Difference& d) {
 
 std::string verdict(const trim::PartReport& p) {
   if (p.put_back) return "put back by the final check";
-  if (p.dropped) return format("off; all so far %.2f %%", 100 * p.so_far);
-  if (p.so_far > 0) return format("stays; the set would be %.2f %% off", 100 * p.so_far);
+  if (p.dropped) return fmt::format("off; all so far {:.2f} %", 100 * p.so_far);
+  if (p.so_far > 0) return fmt::format("stays; the set would be {:.2f} % off", 100 * p.so_far);
   return "stays";
 }
 
@@ -99,32 +92,32 @@ std::string text_of(const trim::Report& r, const Scenario& scene, const TrimArgu
   std::ostringstream s;
   s << "scene " << scene.name << ", design " << a.options.design << ", plant " << scene.plant
     << "\n"
-    << format("tolerance %.3g %% of peak and of rms, means over %.3g ms\n",
-              100 * a.options.tolerance, a.window_ms)
+    << fmt::format("tolerance {:.3g} % of peak and of rms, means over {:.3g} ms\n",
+                   100 * a.options.tolerance, a.window_ms)
     << "full model: " << joined(trim::parts_of(scene, r.full))
-    << format(", %d clocks a step: %.3g s of CPU time per simulated second\n\n", r.full.step_clocks,
-              cost(r.full_run))
+    << fmt::format(", {} clocks a step: {:.3g} s of CPU time per simulated second\n\n",
+                   r.full.step_clocks, cost(r.full_run))
     << "left out                torque %      position %         force %     saves\n"
     << "alone                 peak    rms     peak    rms     peak    rms   of time\n";
   for (const trim::PartReport& p : r.parts) {
-    s << format("%-18s", p.name.c_str()) << difference_text(p.alone)
-      << format("  %6.1f %%  ", 100 * p.saves) << verdict(p) << "\n";
+    s << fmt::format("{:<18}", p.name.c_str()) << difference_text(p.alone)
+      << fmt::format("  {:6.1f} %  ", 100 * p.saves) << verdict(p) << "\n";
   }
   s << "\neffects off: " << joined(off(scene, r.trimmed)) << "\n"
-    << format("step: %d clocks\n", r.trimmed.step_clocks) << "own motion        "
+    << fmt::format("step: {} clocks\n", r.trimmed.step_clocks) << "own motion        "
     << difference_text(r.own) << "\n";
   for (const trim::UnseenReport& u : r.unseen) {
     s << (u.searched ? "searched too      " : "unseen motion     ") << difference_text(u.difference)
-      << format("  way x%.2f, speed x%.2f, seed %llu\n", u.amplitude, u.speed,
-                static_cast<unsigned long long>(u.seed));
+      << fmt::format("  way x{:.2f}, speed x{:.2f}, seed {}\n", u.amplitude, u.speed,
+                     static_cast<unsigned long long>(u.seed));
   }
-  s << format(
-      "states of the plant %zu -> %zu; CPU per simulated second %.3g -> %.3g s, %.3g times\n",
+  s << fmt::format(
+      "states of the plant {} -> {}; CPU per simulated second {:.3g} -> {:.3g} s, {:.3g} times\n",
       r.full_run.states, r.trimmed_run.states, cost(r.full_run), cost(r.trimmed_run),
       cost(r.full_run) / cost(r.trimmed_run));
   for (const std::string& b : r.trimmed_run.broken) s << "trimmed, not as expected: " << b << "\n";
   if (!r.smaller()) s << "nothing can be left out within the tolerance\n";
-  s << format("search: %d runs, %.3g s of CPU time\n", r.runs, r.cpu_s);
+  s << fmt::format("search: {} runs, {:.3g} s of CPU time\n", r.runs, r.cpu_s);
   return s.str();
 }
 
@@ -181,8 +174,8 @@ std::string comment_of(const trim::Report& r, const Scenario& scene, const TrimA
   s << "Written on " << today() << " by: feltgate trim " << scene.name << " --design "
     << a.options.design << " --tolerance " << a.tolerance << "\n"
     << "effects off: " << joined(off(scene, r.trimmed)) << "\n"
-    << format(
-           "Within %.3g %% of the full model on its own motion and on %zu others, %.3g times "
+    << fmt::format(
+           "Within {:.3g} % of the full model on its own motion and on {} others, {:.3g} times "
            "faster.",
            100 * worst, r.unseen.size(), cost(r.full_run) / cost(r.trimmed_run));
   return s.str();

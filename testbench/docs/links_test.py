@@ -20,8 +20,8 @@ TO_BE_MADE = re.compile(r"[A-Z]{3,}|/foo\b|detent|/mine\.")
 # Archaic, or translated word by word.
 UNWANTED = (
     "was not to be had", "not to be had", "for ever", "which see", "is told in", "told apart",
-    "bears for", "motor bears", "to be had", "mend it", "nought", "whilst", "thereof", "therein", "hitherto",
-    "shared/reference",
+    "bears for", "motor bears", "to be had", "mend it", "nought", "whilst", "thereof", "therein",
+    "hitherto", "shared/reference",
 )  # fmt: skip
 
 

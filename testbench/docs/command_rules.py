@@ -42,6 +42,7 @@ RULES = (
     Rule(r"ctest .*-N", "WHOLE"),
     Rule(r"ctest", "MORE", "-N"),
     Rule(r"scripts/check_blocks\.py", "WHOLE"),
+    Rule(r"scripts/tests\.py", "PARSED"),
     Rule(r"sbatch .*scripts/explore\.sbatch", "NAMED"),
     Rule(r"(?:cp|mv|cd|quartus_sh|dask-worker)", "NAMED"),
     Rule(r"cmake -S \. -B build", "NAMED"),

@@ -60,8 +60,9 @@ def argv_of(line, rule, folder):
     words = command_rules.filled([w for w in shlex.split(text) if w != "--yes"])
     words = [w for w in words if not re.match(r"[A-Z_]+=", w)]
     if rule.how == "PARSED":
-        script = folder / "scripts" / f"{words[1]}.py"
-        return [sys.executable, HERE / "parse_only.py", script, *words[2:]]
+        if not words[0].endswith(".py"):
+            words[:2] = [f"scripts/{words[1]}.py"]
+        return [sys.executable, HERE / "parse_only.py", *words]
     if rule.how == "LAUNCHER":
         return ["bash", "-c", LAUNCHER, "test", BUILD, *words[2:]]
     words += shlex.split(rule.more)

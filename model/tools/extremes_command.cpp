@@ -11,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "config/nearest.hpp"
 #include "extremes/table.hpp"
 #include "files/output_file.hpp"
 #include "tools/commands.hpp"
@@ -35,7 +36,9 @@ std::string text_of(const std::string& path) {
 std::vector<extremes::Case> chosen(const ExtremesArguments& a) {
   std::vector<extremes::Case> out;
   std::string known;
+  std::vector<std::string> names;
   for (const extremes::Case& c : extremes::cases()) {
+    names.emplace_back(c.name);
     known += (known.empty() ? "" : ", ") + std::string(c.name);
     const bool named = std::find(a.names.begin(), a.names.end(), c.name) != a.names.end();
     if (!named && !a.names.empty()) continue;
@@ -49,7 +52,8 @@ std::vector<extremes::Case> chosen(const ExtremesArguments& a) {
   }
   for (const std::string& name : a.names) {
     if (std::none_of(out.begin(), out.end(), [&](const auto& c) { return name == c.name; })) {
-      throw std::invalid_argument("case \"" + name + "\" is unknown; choose among " + known);
+      throw std::invalid_argument(fmt::format("case \"{}\" is unknown; {}choose among {}", name,
+                                              config::did_you_mean(name, names), known));
     }
   }
   return out;

@@ -60,6 +60,7 @@ class CommandLine(Bench):
             (("run", "membrnae"), '"membrnae" is not in vectors/scenes; did you mean "membrane"?'),
             (("run", "mebrane.toml"), "did you mean membrane, which is in vectors/scenes?"),
             (("run", "membrane", "--plant", "p42"), '"p42" is not in vectors/plants; did you mean'),
+            (("extremes", "warp_32"), 'case "warp_32" is unknown; did you mean "wrap_32"?'),
             (("design", "Lever2"), '"Lever2" is not in rtl/designs; did you mean "lever"?'),
             (("budget", "membrane", "--design", "levr"), 'did you mean "lever"?'),
         ):

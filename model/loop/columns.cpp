@@ -53,7 +53,7 @@ constexpr BitColumn bit_columns[] = {
     {"faults", "bit set of the latched faults (docs/blocks/supervisor.md)", &Row::faults}};
 
 Column column(const RowColumn& c) {
-  return {c.name, c.unit, c.meaning, c.digits, [v = c.value](const Row& r) { return r.*v; }};
+  return {c.name, c.unit, c.meaning, c.digits, ColumnValue(c.value)};
 }
 
 }  // namespace
@@ -65,15 +65,15 @@ std::vector<Column> row_columns(bool closed_loop, const std::vector<std::string>
   }
   all.push_back(column(position_column));
   for (const EngineColumn& c : engine_columns) {
-    all.push_back({c.name, c.unit, c.meaning, 0, [v = c.value](const Row& r) { return r.*v; }});
+    all.push_back({c.name, c.unit, c.meaning, 0, ColumnValue(c.value)});
   }
   for (const BitColumn& c : bit_columns) {
-    all.push_back({c.name, "", c.meaning, 0, [v = c.value](const Row& r) { return r.*v; }});
+    all.push_back({c.name, "", c.meaning, 0, ColumnValue(c.value)});
   }
   for (std::size_t i = 0; i < engines.size(); ++i) {
     for (const EngineColumn& c : engine_columns) {
       all.push_back({fmt::format("{}_{}", engines[i], c.name), c.unit, c.meaning, 0,
-                     [v = c.value, i](const Row& r) { return r.engines[i].*v; }});
+                     ColumnValue(c.value, i)});
     }
   }
   return all;

@@ -5,7 +5,7 @@
 // arrays come from it. Documentation: docs/json.md
 #pragma once
 
-#include <functional>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -29,13 +29,49 @@ struct Row : EngineSignals {
   std::vector<EngineSignals> engines;  ///< of EngineChoice::names(), in their order
 };
 
+/// Where a column finds its value in a row; asked for every column of every tick.
+class ColumnValue {
+ public:
+  explicit ColumnValue(double Row::*value) : kind_(Kind::row), row_(value) {}
+  explicit ColumnValue(int Row::*bits) : kind_(Kind::bits), bits_(bits) {}
+  /// Of the engine that drives the motor.
+  explicit ColumnValue(double EngineSignals::*value) : kind_(Kind::signal), signal_(value) {}
+  /// Of the n-th of Row::engines.
+  ColumnValue(double EngineSignals::*value, std::size_t engine)
+      : kind_(Kind::engine), signal_(value), engine_(engine) {}
+
+  /// A set of bits, below 256, and no measure.
+  bool is_bits() const { return kind_ == Kind::bits; }
+  double operator()(const Row& r) const {
+    switch (kind_) {
+      case Kind::row:
+        return r.*row_;
+      case Kind::bits:
+        return r.*bits_;
+      case Kind::signal:
+        return r.*signal_;
+      case Kind::engine:
+        break;
+    }
+    return r.engines[engine_].*signal_;
+  }
+
+ private:
+  enum class Kind { row, bits, signal, engine };
+  Kind kind_;
+  double Row::*row_ = nullptr;
+  int Row::*bits_ = nullptr;
+  double EngineSignals::*signal_ = nullptr;
+  std::size_t engine_ = 0;
+};
+
 /// One column of a table of rows.
 struct Column {
   std::string name;  ///< with its unit, as in the header of a CSV file
   std::string unit;
   std::string meaning;
   int digits = 0;  ///< significant ones of a measured value; 0: all that the value has
-  std::function<double(const Row&)> value;
+  ColumnValue value;
 };
 
 /// The columns of a run: those of the plant only in a closed loop, and one set for each of

@@ -6,16 +6,32 @@
 include_guard(GLOBAL)
 
 file(GLOB designs CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/designs/*.toml")
-# Presets are in programs of their own: presets.cmake.
+# Presets are in programs of their own: presets.cmake. The Python package has them all.
 set(FELTGATE_PRESETS fast balanced exact)
 foreach(preset IN LISTS FELTGATE_PRESETS)
-  list(REMOVE_ITEM designs "${FELTGATE_ROOT}/rtl/designs/${preset}.toml")
+  if(NOT FELTGATE_PYTHON)
+    list(REMOVE_ITEM designs "${FELTGATE_ROOT}/rtl/designs/${preset}.toml")
+  endif()
 endforeach()
 
 # feltgate_for_design(<template> <output>): the template filled for ${design} of C++ type ${type}.
 macro(feltgate_for_design template output)
   configure_file("${FELTGATE_ROOT}/scripts/cmake/${template}" "${output}" @ONLY)
 endmacro()
+
+# feltgate_type_of(<design> <variable>): its C++ type, the name in UpperCamelCase, as the generator
+# writes it.
+function(feltgate_type_of design variable)
+  string(REGEX REPLACE "[-_]" ";" words "${design}")
+  set(type "")
+  foreach(word IN LISTS words)
+    string(SUBSTRING "${word}" 0 1 first)
+    string(SUBSTRING "${word}" 1 -1 rest)
+    string(TOUPPER "${first}" first)
+    string(APPEND type "${first}${rest}")
+  endforeach()
+  set(${variable} "${type}" PARENT_SCOPE)
+endfunction()
 
 add_library(feltgate_engines STATIC "${FELTGATE_ROOT}/model/engines/engine.cpp")
 set(FELTGATE_DESIGNS "")
@@ -26,15 +42,7 @@ foreach(path IN LISTS designs)
     message(STATUS "design ${design} has no generated files yet: run `feltgate generate`")
     continue()
   endif()
-  # The C++ type of a design: its name in UpperCamelCase, as the generator writes it.
-  string(REGEX REPLACE "[-_]" ";" words "${design}")
-  set(type "")
-  foreach(word IN LISTS words)
-    string(SUBSTRING "${word}" 0 1 first)
-    string(SUBSTRING "${word}" 1 -1 rest)
-    string(TOUPPER "${first}" first)
-    string(APPEND type "${first}${rest}")
-  endforeach()
+  feltgate_type_of(${design} type)
   set(FELTGATE_TYPE_${design} ${type})
   list(APPEND FELTGATE_DESIGNS ${design})
   feltgate_for_design(design_engines.cpp.in "${PROJECT_BINARY_DIR}/engines/${design}_engines.cpp")

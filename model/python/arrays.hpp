@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Between std::vector and numpy, and between a long run and Ctrl-C. Documentation: docs/python.md
+#pragma once
+
+#include <fmt/format.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace feltgate::python {
+
+namespace py = pybind11;
+
+/// Any sequence of numbers, as doubles side by side.
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// A vector as the numpy array that owns it; nothing is copied.
+template <class T>
+py::array_t<T> to_array(std::vector<T>&& values) {
+  auto owner = std::make_unique<std::vector<T>>(std::move(values));
+  T* data = owner->data();
+  const auto size = static_cast<py::ssize_t>(owner->size());
+  const py::capsule keeper(owner.release(),
+                           [](void* p) { delete static_cast<std::vector<T>*>(p); });
+  return py::array_t<T>(size, data, keeper);
+}
+
+/// One dimension of finite numbers. Throws std::invalid_argument that names the argument.
+inline std::vector<double> to_vector(const Doubles& array, const char* name) {
+  if (array.ndim() != 1) {
+    throw std::invalid_argument(
+        fmt::format("{} has {} dimensions; give a list or an array of one", name, array.ndim()));
+  }
+  std::vector<double> values(array.data(), array.data() + array.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) {
+      throw std::invalid_argument(
+          fmt::format("{}[{}] is {}; give finite numbers", name, i, values[i]));
+    }
+  }
+  return values;
+}
+
+/// In a run that has let go of the interpreter: raises what Ctrl-C left behind.
+inline void check_interrupt() {
+  const py::gil_scoped_acquire hold;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+/// A progress callback for runs: Ctrl-C first, then the caller's function of 0..1, if any.
+inline auto progress_for(const py::object& callback) {
+  return [callback](double done) {
+    const py::gil_scoped_acquire hold;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (!callback.is_none()) callback(done);
+  };
+}
+
+}  // namespace feltgate::python

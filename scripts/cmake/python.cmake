@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+#
+# The Python package feltgate: the extension module, its Python files, and the scenes, plants and
+# designs that it reads, as component `python` of the installation. pyproject.toml, docs/python.md
+include_guard(GLOBAL)
+
+find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter Development.Module)
+find_package(pybind11 2.10 QUIET CONFIG)
+if(NOT pybind11_FOUND)
+  message(FATAL_ERROR "pybind11 is missing; run: apt-get install pybind11-dev")
+endif()
+
+set(FELTGATE_EXTRA_DESIGNS "" CACHE STRING "Design files of your own that the package gets too")
+# lever in shorter words, for docs/fixed_against_float.ipynb; too coarse for a design for use.
+set(narrow "${PROJECT_BINARY_DIR}/designs/narrow.toml")
+file(READ "${FELTGATE_ROOT}/rtl/designs/lever.toml" text)
+foreach(format "velocity = [1, 10, 14]" "torque = [1, 4, 12]" "current = [1, 5, 12]"
+    "voltage = [1, 5, 11]" "observer_fraction = 24")
+  string(REGEX MATCH "^[a-z_]+ = " key "${format}")
+  string(REGEX REPLACE "\n${key}[^\n#]*" "\n${format} " text "${text}")
+endforeach()
+string(REGEX REPLACE "\ndescription = [^\n]*" "\ndescription = \"lever in shorter words\"" text "${text}")
+file(CONFIGURE OUTPUT "${narrow}" CONTENT "${text}" @ONLY)
+
+if(NOT TARGET feltgate_generate)
+  add_executable(feltgate_generate "${FELTGATE_ROOT}/model/tools/generate_main.cpp")
+  target_link_libraries(feltgate_generate PRIVATE feltgate_design fmt::fmt)
+endif()
+set(extra_names "")
+set(extra_sources "")
+foreach(path IN LISTS FELTGATE_EXTRA_DESIGNS ITEMS "${narrow}")
+  get_filename_component(path "${path}" ABSOLUTE BASE_DIR "${FELTGATE_ROOT}")
+  get_filename_component(design "${path}" NAME_WE)
+  feltgate_type_of(${design} type)
+  set(folder "${PROJECT_BINARY_DIR}/designs/${design}")
+  add_custom_command(OUTPUT "${folder}/${design}.hpp" "${folder}/feltgate_pkg.sv"
+    COMMAND feltgate_generate "${FELTGATE_ROOT}" --design "${path}" --output "${folder}" --allow-coarse
+    COMMAND ${CMAKE_COMMAND} -E touch "${folder}/${design}.hpp" "${folder}/feltgate_pkg.sv"
+    DEPENDS feltgate_generate "${path}" "${FELTGATE_ROOT}/rtl/registers.toml" VERBATIM)
+  feltgate_for_design(python_design.cpp.in "${folder}/${design}_makers.cpp")
+  list(APPEND extra_sources "${folder}/${design}_makers.cpp" "${folder}/${design}.hpp")
+  string(APPEND extra_names "FELTGATE_DESIGN(${design})\n")
+  install(FILES "${path}" DESTINATION feltgate/data/rtl/designs COMPONENT python)
+endforeach()
+file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/designs/extra_designs.inc" CONTENT "${extra_names}")
+
+file(GLOB sources CONFIGURE_DEPENDS "${FELTGATE_ROOT}/model/python/*.cpp")
+pybind11_add_module(feltgate_python MODULE NO_EXTRAS ${sources} ${extra_sources})
+set_target_properties(feltgate_python PROPERTIES OUTPUT_NAME _core)
+target_compile_options(feltgate_python PRIVATE ${FELTGATE_ENGINE_OPTIONS})
+target_compile_definitions(feltgate_python PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
+target_include_directories(feltgate_python PRIVATE "${PROJECT_BINARY_DIR}/designs")
+foreach(source IN LISTS extra_sources)
+  get_filename_component(folder "${source}" DIRECTORY)
+  target_include_directories(feltgate_python PRIVATE "${folder}")
+endforeach()
+target_link_libraries(feltgate_python PRIVATE feltgate_loop fmt::fmt)
+
+install(TARGETS feltgate_python LIBRARY DESTINATION feltgate COMPONENT python)
+install(DIRECTORY "${FELTGATE_ROOT}/model/python/feltgate" DESTINATION . COMPONENT python
+  FILES_MATCHING PATTERN "*.py" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
+# The folders keep their places, so that FELTGATE_ROOT may name a repository instead.
+foreach(folder vectors/plants vectors/scenes vectors/traces rtl/designs)
+  install(DIRECTORY "${FELTGATE_ROOT}/${folder}/" DESTINATION "feltgate/data/${folder}"
+    COMPONENT python)
+endforeach()
+install(FILES "${FELTGATE_ROOT}/rtl/registers.toml" DESTINATION feltgate/data/rtl COMPONENT python)

@@ -1,0 +1,253 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""What the Python package gives a user: columns, hands, plants, recordings, errors, Ctrl-C."""
+
+import filecmp
+import inspect
+import os
+import signal
+import subprocess
+import sys
+import threading
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import feltgate
+
+ROOT = Path(os.environ["FELTGATE_ROOT"])
+SCENE = "torque_step_cord"
+
+
+class Columns(unittest.TestCase):
+    def test_the_hints_name_every_column(self):
+        result = feltgate.run(SCENE, engine="twin,double", every=1000)
+        arrays = [name for name, kind in feltgate.Result.__annotations__.items()
+                  if "NDArray" in str(kind) or "ndarray" in str(kind)]
+        self.assertEqual(arrays, list(result))
+        kinds = {name: str(column.dtype) for name, column in result.items()}
+        self.assertEqual({name for name, kind in kinds.items() if kind != "float64"},
+                         {"limits", "faults"})
+        signals = [name for name in feltgate.Signals.__annotations__ if name not in
+                   ("errors", "busy_s")]
+        self.assertEqual(signals, list(result["double"]))
+        for engine in ("twin", "double"):
+            for name in signals:
+                self.assertEqual(len(result[engine][name]), len(result.time_s))
+
+    def test_one_engine_has_the_columns_of_the_base(self):
+        result = feltgate.run(SCENE, engine="float", every=1000)
+        self.assertIs(result["float"].velocity_rad_s, result.velocity_rad_s)
+        with self.assertRaisesRegex(AttributeError, "no column"):
+            result.velocity
+
+    def test_every(self):
+        few, all_ticks = (feltgate.run(SCENE, engine="twin", every=n) for n in (10, 1))
+        self.assertEqual(len(all_ticks.time_s), all_ticks.ticks)
+        np.testing.assert_array_equal(few.tau_hat_nm, all_ticks.tau_hat_nm[::10])
+        self.assertLess(len(feltgate.run(SCENE).time_s), 30_000)
+
+    def test_what_was_felt_and_the_bounds(self):
+        result = feltgate.run("wall")
+        self.assertEqual(result.broken, [])
+        self.assertTrue(all(e.kept for e in result.felt.expectations))
+        self.assertAlmostEqual(result.felt.asked_nm.value, -0.4, delta=0.01)
+        self.assertIn("gates_closed", result.felt.limits)
+        for name, error in result["twin"].errors.items():
+            self.assertLessEqual(error.max, result.bounds[name], name)
+            self.assertGreater(error.max, 0, name)
+        self.assertIsNone(feltgate.run(SCENE, engine="twin").bounds)
+
+    def test_bounds_of_a_design(self):
+        small = feltgate.bounds("lever", "spring_tension", velocity_rad_s=1.0)
+        self.assertLess(small["torque_nm"], feltgate.bounds("lever")["torque_nm"])
+        self.assertLess(small["velocity_rad_s"], feltgate.bounds("exact")["velocity_rad_s"] * 100)
+
+
+class Hands(unittest.TestCase):
+    time_s = np.linspace(0, 0.1, 201)
+
+    def test_motion(self):
+        angle_rad = 0.3 * np.sin(2 * np.pi * 5 * self.time_s) ** 2  # at rest at both ends
+        result = feltgate.run("spring_tension", engine="twin", hand=(self.time_s, angle_rad))
+        self.assertAlmostEqual(result.simulated_s, 0.1)
+        expected = np.interp(result.time_s, self.time_s, angle_rad)
+        np.testing.assert_allclose(result.theta_rad, expected, atol=2e-4)
+
+    def test_a_function_of_the_time(self):
+        def motion(time_s):
+            return 0.3 * np.sin(2 * np.pi * 5 * time_s)
+        result = feltgate.run("spring_tension", engine="twin", hand=motion, duration_s=0.1)
+        self.assertAlmostEqual(result.simulated_s, 0.1)
+        self.assertAlmostEqual(result.theta_rad.max(), 0.3, places=3)
+
+    def test_torque(self):
+        hand = feltgate.Hand.torque([0.0, 0.05, 0.1], [0.0, 0.1, 0.1], start_rad=0.2)
+        result = feltgate.run("spring_tension", engine="twin", hand=hand)
+        self.assertAlmostEqual(result.hand_torque_nm.max(), 0.1, places=6)
+        self.assertAlmostEqual(result.theta_rad[0], 0.2, places=3)
+        half = np.searchsorted(result.time_s, 0.025)
+        self.assertAlmostEqual(result.hand_torque_nm[half], 0.05, places=3)
+
+    def test_impedance_yields(self):
+        angle_rad = np.linspace(0, 0.5, self.time_s.size)
+        stiff = feltgate.Hand.impedance(self.time_s, angle_rad, stiffness_n_m=2000.0)
+        soft = feltgate.Hand.impedance(self.time_s, angle_rad, stiffness_n_m=20.0)
+        ends = [feltgate.run("spring_tension", engine="twin", hand=h).theta_rad[-1]
+                for h in (stiff, soft)]
+        self.assertGreater(ends[0], ends[1] + 0.01)
+
+    def test_nobody(self):
+        result = feltgate.run("spring_tension", engine="twin", hand=feltgate.Hand.free(),
+                              duration_s=0.01)
+        self.assertEqual(np.abs(result.hand_torque_nm).max(), 0)
+
+
+class Parts(unittest.TestCase):
+    def test_plant(self):
+        plant = feltgate.Plant("p24", set={"lever.inertia_kg_m2": 5e-4})
+        self.assertEqual(plant.parameters["lever.inertia_kg_m2"], 5e-4)
+        heavy, light = (p.run(np.full(4000, 0.1)) for p in (plant, feltgate.Plant("p24")))
+        self.assertAlmostEqual(heavy.time_s[-1], 0.002)
+        self.assertGreater(light.omega_rad_s[-1], 2 * heavy.omega_rad_s[-1])
+        self.assertEqual(heavy.counts[-1], plant.counts)
+        slow = feltgate.run(SCENE, engine="twin", plant=plant)
+        self.assertNotEqual(slow.theta_rad.max(), feltgate.run(SCENE, engine="twin").theta_rad.max())
+
+    def test_recording(self):
+        recording = feltgate.Recording(ROOT / "vectors/traces/membrane.vec")
+        lines = (ROOT / "vectors/traces/membrane.vec").read_text().splitlines()
+        self.assertGreater(len(recording), len(lines) - 10)
+        self.assertTrue(np.all(np.diff(recording.clock) > 0))
+        self.assertTrue(np.all(np.abs(np.diff(recording.counts)) == 1))
+        self.assertEqual(recording.illegal, 0)
+        at = recording.counts_at([0.0, recording.time_s[99], recording.length_s])
+        self.assertEqual(list(at), [0, recording.counts[99], recording.counts[-1]])
+
+    def test_counts_of_your_own(self):
+        counts = np.repeat(np.arange(50), 20)
+        result = feltgate.replay(counts, engine="twin,double", scene="spring_tension", every=1)
+        self.assertEqual(round(result.position_rad.max() / (2 * np.pi / 4096)), 49)
+        self.assertEqual(result.reference, "double")
+        self.assertNotIn("theta_rad", result)
+
+    def test_chain_arithmetics(self):
+        counts = np.arange(30_000) // 10
+        exact = feltgate.Chain("lever", "quad").run(counts, "damper")
+        errors = {}
+        for arithmetic in ("fixed", "float", "double"):
+            chain = feltgate.Chain("lever", arithmetic)
+            out = chain.run(counts, "damper")
+            errors[arithmetic] = np.abs(out.velocity_rad_s - exact.velocity_rad_s).max()
+            chain.reset()
+            again = chain.run(counts, "damper")
+            np.testing.assert_array_equal(out.tau_ref_nm, again.tau_ref_nm)
+        self.assertLess(errors["double"], 1e-9)
+        self.assertLess(errors["double"], errors["float"])
+        self.assertLess(errors["fixed"], feltgate.bounds("lever")["velocity_rad_s"])
+
+    def test_a_fault_and_a_stop(self):
+        twin = feltgate.Twin().arm("setpoint").set(setpoint_torque=0.1)
+        self.assertEqual(twin.run(np.zeros(50)).armed[-1], 1)
+        self.assertEqual(twin.stop().run(np.zeros(5)).armed[-1], 0)
+        self.assertNotEqual(twin.tick(0)["faults"], 0)
+        twin.stop(False).clear_faults().run(np.zeros(5))
+        after = twin.arm("setpoint").run(np.zeros(50))
+        self.assertEqual((after.faults[-1], after.armed[-1]), (0, 1))
+
+
+class Installed(unittest.TestCase):
+    def test_data(self):
+        names = feltgate.scenes(), feltgate.plants(), feltgate.designs()
+        data = Path(feltgate.__file__).parent / "data"
+        os.environ.pop("FELTGATE_ROOT")
+        try:
+            self.assertEqual(feltgate.root(), data)
+            self.assertEqual((feltgate.scenes(), feltgate.plants(), feltgate.designs()), names)
+            self.assertGreater(feltgate.run(SCENE, engine="twin").ticks, 1000)
+        finally:
+            os.environ["FELTGATE_ROOT"] = str(ROOT)
+        for path in data.rglob("*.toml"):
+            if path.stem == "narrow":  # made by the build
+                continue
+            self.assertTrue(filecmp.cmp(path, ROOT / path.relative_to(data), shallow=False), path)
+        in_tree = [path.stem for path in (ROOT / "rtl/designs").glob("*.toml")]
+        self.assertEqual(names[2], sorted([*in_tree, "narrow"]))
+
+    def test_version(self):
+        said = (ROOT / "CITATION.cff").read_text()
+        self.assertIn(f"version: {feltgate.__version__}", said)
+
+    def test_everything_public_is_explained(self):
+        for name in feltgate.__all__:
+            thing = getattr(feltgate, name)
+            self.assertTrue(inspect.getdoc(thing), name)
+            for member, value in vars(thing).items() if inspect.isclass(thing) else ():
+                if not member.startswith("_") and (callable(value) or isinstance(value, property)):
+                    self.assertTrue(inspect.getdoc(value), f"{name}.{member}")
+
+
+class Refused(unittest.TestCase):
+    CASES = (
+        ('not in vectors/scenes; did you mean "membrane"', lambda: feltgate.run("membran")),
+        ('"levr" is not built in; did you mean "lever"', lambda: feltgate.run(SCENE, "levr")),
+        ('"flaot" is unknown; did you mean "float"',
+         lambda: feltgate.run(SCENE, engine=["twin", "flaot"])),
+        ("every is 0", lambda: feltgate.run(SCENE, every=0)),
+        ("duration_s is -1", lambda: feltgate.run(SCENE, duration_s=-1, every=1)),
+        ("duration_s is nan", lambda: feltgate.run(SCENE, duration_s=float("nan"), every=1)),
+        ('did you mean "tension_stiffness"',
+         lambda: feltgate.run(SCENE, set={"tension_stifness": 1})),
+        ("does not fit its register", lambda: feltgate.Twin().set(tension_stiffness=1e9)),
+        ('p25" is not in vectors/plants', lambda: feltgate.run(SCENE, plant="p25")),
+        ("p24.toml:18: .*out of range",
+         lambda: feltgate.Plant("p24", set={"lever.inertia_kg_m2": -1})),
+        ("is no number of the plant", lambda: feltgate.Plant("p24", set={"lever.mass": 1})),
+        (r"angle_rad\[1\] is nan", lambda: feltgate.run(SCENE, hand=([0, 1], [0, float("nan")]))),
+        (r"time_s\[1\] = 0 s is not after", lambda: feltgate.run(SCENE, hand=([0, 0], [0, 1]))),
+        ("2 values and angle_rad has 3", lambda: feltgate.run(SCENE, hand=([0, 1], [0, 1, 2]))),
+        ("neither a feltgate.Hand", lambda: feltgate.run(SCENE, hand="left")),
+        ("mass_kg is 0", lambda: feltgate.Hand.impedance([0, 1], [0, 1], mass_kg=0)),
+        ("there is no such file", lambda: feltgate.run("./nothing.toml")),
+        ("nothing.vec", lambda: feltgate.Recording("nothing.vec")),
+        ('"sprung" is not built', lambda: feltgate.Chain().run([0], "sprung")),
+        ("round them", lambda: feltgate.Chain().run([0.5], "free")),
+        ("at most 25 counts in a tick", lambda: feltgate.Twin().run([0, 100])),
+        ("choose fixed, float, double or quad", lambda: feltgate.Chain("lever", "half")),
+        (r"duty\[0\] is 2", lambda: feltgate.Plant().run([2.0])),
+        ("velocity_rad_s is nan", lambda: feltgate.bounds(velocity_rad_s=float("nan"))),
+        ("alone has nothing to be compared with",
+         lambda: feltgate.replay([0, 1, 2], engine="double")),
+    )
+
+    def test_every_message_names_the_mend(self):
+        for message, call in self.CASES:
+            with self.subTest(message), self.assertRaisesRegex(ValueError, message):
+                call()
+
+
+class Long(unittest.TestCase):
+    def test_ctrl_c(self):
+        code = ("import feltgate, sys\n"
+                "tell = lambda done: print(done, flush=True)\n"
+                "feltgate.run('membrane', engine='twin', hand=feltgate.Hand.free(), duration_s=3000,"
+                " every=10**6, progress=tell)\n")
+        with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True) as run:
+            run.stdout.readline()
+            run.send_signal(signal.SIGINT)
+            _, errors = run.communicate(timeout=60)
+        self.assertIn("KeyboardInterrupt", errors)
+
+    def test_other_threads_go_on(self):
+        run = threading.Thread(target=feltgate.run, args=("damper", "lever", "twin"))
+        run.start()
+        turns = 0
+        while run.is_alive():
+            turns += 1
+        self.assertGreater(turns, 1000)
+
+
+if __name__ == "__main__":
+    unittest.main()

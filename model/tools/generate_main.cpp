@@ -47,7 +47,7 @@ constexpr const char* usage =
     "pass that\n"
     "is coarser than a design for use must have; what cannot work is refused all the same.\n"
     "  feltgate generate                                        after a change in rtl/designs\n"
-    "  feltgate generate --design my.toml --output out          one design anywhere\n"
+    "  feltgate generate --design my_design.toml -o out          one design anywhere\n"
     "Exit code: 0 fine, 1 a file is stale, 2 a design or option that cannot be used.\n";
 
 struct Options {

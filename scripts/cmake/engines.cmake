@@ -6,6 +6,8 @@
 include_guard(GLOBAL)
 
 file(GLOB designs CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/designs/*.toml")
+# A new design gets its engines once its files are generated: then this list changes.
+file(GLOB generated CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/generated/*/feltgate_pkg.sv")
 # Presets are in programs of their own: presets.cmake. The Python package has them all.
 set(FELTGATE_PRESETS fast balanced exact)
 foreach(preset IN LISTS FELTGATE_PRESETS)

@@ -80,5 +80,8 @@ def said(summary, m):
         "high": degrees(high),
     }
     plain = MOVED if high - low > 1 else STILL
-    sentence = SAID.get(summary["scene"], plain) if "scene" in summary else REPLAYED
+    if "scene" not in summary:
+        return REPLAYED.format(**words)
+    # What was never met is not described.
+    sentence = SAID.get(summary["scene"], plain) if m.touched.any() else plain
     return sentence.format(**words)

@@ -160,6 +160,13 @@ class Cards(Recorded):
         said = sentences.said(summary, moments.of_run(summary, csv))
         self.assertIn("lever moves between", said)
 
+    def test_a_wall_that_was_never_met(self):
+        summary, csv = self.run_of("wall")
+        csv["tau_ref_nm"], csv["motor_torque_nm"] = 0 * csv["time_s"], 0 * csv["time_s"]
+        said = sentences.said(summary, moments.of_run(summary, csv))
+        self.assertNotIn("wall", said)
+        self.assertIn("moves between", said)
+
     def test_recording_feels_nothing(self):
         summary, csv = self.replay_of(4000)
         found = Markup(card.html("card", summary, csv))

@@ -34,6 +34,8 @@ PACKAGES=(
   "test|python3-ipykernel|the same"
   "test|python3-matplotlib|draws the notebook's pictures"
   "test|yosys|checks that the RTL is synthesizable"
+  "long|g++-aarch64-linux-gnu|the libraries on AArch64"
+  "long|qemu-user|runs what it compiles"
   "bench|libsystemc-dev|sc_fixed, one of the engines of the benchmark"
   "synth|python3-venv|holds the pinned Yosys and nextpnr of scripts/requirements.txt"
   "synth|ca-certificates|lets pip fetch them over https"

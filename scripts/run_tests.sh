@@ -42,6 +42,7 @@ run_tests() {
       --long)
         export FELTGATE_LONG=1
         chosen+=(--long)
+        groups+=" long"
         options+=(-C Long)
         ;;
       -*) die "test: unknown option '$argument'; './feltgate test --help'" ;;

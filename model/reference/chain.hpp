@@ -10,11 +10,9 @@
 #include <string>
 
 #include "control_chain.hpp"
+#include "feltgate/quad.hpp"
 
 namespace feltgate {
-
-/// IEEE binary128 of the compiler: 113 bits of mantissa.
-__extension__ typedef __float128 Quad;
 
 /// Integer of a parameter for a value in its unit, rounded to nearest.
 /// Throws std::invalid_argument when it does not fit, with the range.

@@ -17,7 +17,14 @@ if(NOT FELTGATE_SIM)
 endif()
 
 find_package(Boost 1.74 REQUIRED)
-find_package(fmt 9 REQUIRED)
+find_package(fmt 9 QUIET)
+if(NOT fmt_FOUND)
+  # Headers without the library, as where this is compiled for another machine.
+  find_path(FELTGATE_FMT_INCLUDE_DIR fmt/format.h REQUIRED)
+  add_library(fmt::fmt INTERFACE IMPORTED)
+  target_include_directories(fmt::fmt SYSTEM INTERFACE "${FELTGATE_FMT_INCLUDE_DIR}")
+  target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY=1)
+endif()
 find_path(FELTGATE_TOML_INCLUDE_DIR toml++/toml.h REQUIRED)
 
 # In the source tree a room of headers is model/<room>; its users write feltgate/<room>/x.hpp.

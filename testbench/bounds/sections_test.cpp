@@ -6,12 +6,11 @@
 
 #include "bounds/interval.hpp"
 #include "catch.hpp"
+#include "feltgate/quad.hpp"
 
 namespace feltgate::bounds {
 
 namespace {
-
-__extension__ typedef __float128 Quad;
 
 Quad magnitude_of(Quad x) { return x < 0 ? -x : x; }
 

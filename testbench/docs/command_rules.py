@@ -46,6 +46,7 @@ RULES = (
     Rule(r"sbatch .*scripts/explore\.sbatch", "NAMED"),
     Rule(r"(?:cp|mv|cd|quartus_sh|dask-worker)", "NAMED"),
     Rule(r"cmake -S \. -B build", "NAMED"),
+    Rule(r"cmake -S \. -B build-aarch64", "BY", "aarch64"),
     Rule(r"cmake -S \. -B build-library|cmake --(?:build|install)", "BY", "package"),
     Rule(r"sudo apt-get install", "NAMED"),
     Rule(r"python3 testbench/python/speed\.py", "BY", "python.speed"),

@@ -94,7 +94,10 @@ def is_a_test(name):
     return re.search(
         rf": {re.escape(name)}$",
         subprocess.run(
-            ["ctest", "--test-dir", CONFIGURED, "-N"], capture_output=True, text=True, check=True
+            ["ctest", "--test-dir", CONFIGURED, "-N", "-C", "Long"],
+            capture_output=True,
+            text=True,
+            check=True,
         ).stdout,
         re.M,
     )

@@ -6,8 +6,8 @@
 Every rtl/<b>.sv has model/include/feltgate/<b>.hpp, testbench/<b>/<b>_test.cpp and
 docs/blocks/<b>.md (scene_* blocks may share one folder testbench/scene*/), at least one seeded
 defect, and a page that links the other three. Beside that: no hand-written source of more than 400
-lines, and the lists made from the blocks are fresh: docs/blocks.md, and the sources in
-feltgate.core and the boards' .qsf.
+lines, no number formatted but by libfmt in model/, and the lists made from the blocks are fresh:
+docs/blocks.md, and the sources in feltgate.core and the boards' .qsf.
 
   check_blocks.py           check; one line 'path: what; mend' for each finding, status 1
   check_blocks.py --write   write the lists again, then check
@@ -25,6 +25,10 @@ SOURCE_SUFFIXES = {".sv", ".v", ".svh", ".cpp", ".hpp", ".h", ".py", ".sh", ".cm
 CELL_WRAPPERS = {"mult18_ecp5"}  # one cell of one vendor: no block, and no other vendor's source
 SKIPPED_FOLDERS = {".git", "build", "generated", "__pycache__"}
 BOARD_DESIGN = "lever"
+# Headers that users of the library compile, who need no libfmt; they print integers only.
+NO_LIBFMT = {"include", "engines", "reference"}
+# Folders whose messages are still to be rewritten; the aim is none.
+NOT_YET = {"config", "design", "plant", "traces"}
 BEGIN = "# sources: written by scripts/check_blocks.py --write"
 END = "# end of sources"
 MEND_LIST = "run scripts/check_blocks.py --write"
@@ -131,6 +135,20 @@ def check_lengths(root):
                     yield f"{relative}: {lines} lines, more than {MAX_LINES}; split it"
 
 
+def check_formatting(root):
+    """Numbers reach people by libfmt: to_string writes a bound as 0.000000 or in 309 digits."""
+    for path in sorted([*root.glob("model/**/*.hpp"), *root.glob("model/**/*.cpp")]):
+        relative = path.relative_to(root)
+        if relative.parts[1] in NOT_YET or (
+            relative.match("*.hpp") and relative.parts[1] in NO_LIBFMT
+        ):
+            continue
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            found = re.search(r"\b(v?s[n]?printf|to_string)\s*\(", line)
+            if found:
+                yield f"{relative}:{number}: {found.group(1)}; write it by fmt::format"
+
+
 def blocks_table(blocks):
     def link(path):
         return f"[{path.name}]({os.path.relpath(path, 'docs')})"
@@ -214,6 +232,7 @@ def check(root, write=False):
         if page != root / "docs/blocks.md":  # its links are the siblings, checked above
             found += check_links(root, page.relative_to(root))
     found += check_lengths(root)
+    found += check_formatting(root)
     return found
 
 

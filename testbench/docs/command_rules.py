@@ -19,7 +19,7 @@ class Rule:
     status: tuple = (0,)
 
     def matches(self, words):
-        return re.match(rf"(?:\./)?{self.pattern}(?:\s|$)", words) is not None
+        return re.match(rf"(?:\./)?(?:{self.pattern})(?:\s|$)", words) is not None
 
 
 RULES = (
@@ -36,7 +36,7 @@ RULES = (
     Rule(r"feltgate stability", "MORE", "--rate 490 --damping 0.002 --no-experiments"),
     Rule(r"feltgate extremes", "MORE", "--list"),
     Rule(r"feltgate bench", "MORE", "--quick"),
-    Rule(r"feltgate explore (?:plan|page|presets) ", "WHOLE"),
+    Rule(r"feltgate explore (?:plan|page vectors/spaces/trade\.csv)", "WHOLE"),
     Rule(r"feltgate (?:explore|synth|demo|figures)", "PARSED"),
     Rule(r"feltgate test", "LAUNCHER"),
     Rule(r"ctest .*-N", "WHOLE"),

@@ -3,11 +3,14 @@
 //
 // How far the torque reference of each scene can be off. The position is the same integer in core
 // and reference. Documentation: docs/error-bounds.md
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "bounds/error_bounds.hpp"
+#include "config/nearest.hpp"
 
 namespace feltgate::bounds::detail {
 
@@ -126,7 +129,9 @@ double scene_error(const ChainNumbers& c, const std::string& scene, Level level,
   const Interval error(velocity_error_rad_s), velocity(velocity_rad_s);
   if (!scene.empty()) {
     if (!c.built(scene)) {
-      throw std::invalid_argument("scene \"" + scene + "\" is not built in design " + c.design);
+      throw std::invalid_argument(fmt::format(
+          "scene \"{}\" is not built in design {}; {}choose one of {}, or a design that lists it",
+          scene, c.design, config::did_you_mean(scene, c.scenes), fmt::join(c.scenes, ", ")));
     }
     return scenes.error(scene, error, velocity).upper();
   }

@@ -18,7 +18,8 @@ namespace feltgate::config {
 /// A file that cannot be used; what() reads "file:line: what; mend".
 class ConfigError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  /// Control characters in the message are shown as '?', so that it stays one line.
+  explicit ConfigError(const std::string& message);
 };
 
 /// Closed interval of admissible values, in the unit of the key.
@@ -50,7 +51,12 @@ class TomlReader {
   std::vector<std::int64_t> integers(const std::string& key, std::int64_t min, std::int64_t max);
   bool flag(const std::string& key);
   bool flag_or(const std::string& key, bool fallback);
+  /// One line: control characters are an error.
   std::string text(const std::string& key);
+  /// A text of several lines.
+  std::string paragraph(const std::string& key);
+  /// A text that may stand in generated code: a to z, 0 to 9 and _, a letter first.
+  std::string identifier(const std::string& key);
   std::vector<std::string> texts(const std::string& key);
   /// Index of the text under `key` in `choices`; the error lists them.
   std::size_t choice(const std::string& key, const std::vector<std::string>& choices);
@@ -69,6 +75,7 @@ class TomlReader {
 
  private:
   const toml::node& required(const std::string& key);
+  std::string how_to_add(const std::string& key) const;
   const toml::array& list(const std::string& key);
   double checked(const toml::node& node, const std::string& key, Range range) const;
   std::int64_t checked(const toml::node& node, const std::string& key, std::int64_t min,

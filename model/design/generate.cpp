@@ -4,9 +4,10 @@
 // The generated SystemVerilog package and C++ header. Documentation: docs/designs.md
 #include "design/generate.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
 #include <functional>
 #include <sstream>
 
@@ -34,16 +35,13 @@ std::string camel(const std::string& s) {
 }
 
 std::string exact(double v) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.17g", v);
-  std::string s = text;
+  std::string s = fmt::format("{:.17g}", v);
   if (s.find_first_of(".en") == std::string::npos) s += ".0";
   return s;
 }
 
 std::string triple(Format f) {
-  return "{" + std::to_string(f.sign) + ", " + std::to_string(f.integer) + ", " +
-         std::to_string(f.fraction) + "}";
+  return fmt::format("{{{}, {}, {}}}", f.sign, f.integer, f.fraction);
 }
 
 unsigned scene_mask(const Elaborated& e) {

@@ -6,10 +6,11 @@
 // and finds them. Derivation: docs/designs.md
 #include "design/loop_poles.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 
 #include "config/toml_reader.hpp"
@@ -195,13 +196,8 @@ LoopRegion region(LoopCoefficients c, const std::string& where, double voltage_g
 }
 
 std::string pole_text(Complex s) {
-  char text[64];
-  if (s.imag() == 0) {
-    std::snprintf(text, sizeof text, "%.5g", s.real());
-  } else {
-    std::snprintf(text, sizeof text, "%.5g+-%.5gj", s.real(), s.imag());
-  }
-  return text;
+  if (s.imag() == 0) return fmt::format("{:.5g}", s.real());
+  return fmt::format("{:.5g}+-{:.5g}j", s.real(), s.imag());
 }
 
 }  // namespace
@@ -227,10 +223,8 @@ ClosedLoop closed_loop(const Elaborated& e, const plant::Parameters& plant) {
   if (low == high) {
     loop.regions.push_back(region(c, "any torque", low));
   } else {
-    char border[32];
-    std::snprintf(border, sizeof border, "%.4g Nm", d.region_nm);
-    loop.regions.push_back(region(c, std::string("torque up to ") + border, low));
-    loop.regions.push_back(region(c, std::string("torque above ") + border, high));
+    loop.regions.push_back(region(c, fmt::format("torque up to {:.4g} Nm", d.region_nm), low));
+    loop.regions.push_back(region(c, fmt::format("torque above {:.4g} Nm", d.region_nm), high));
   }
   return loop;
 }
@@ -240,13 +234,11 @@ void refuse_unstable(const Elaborated& e, const plant::Parameters& plant) {
   const auto worst = std::find_if(loop.regions.begin(), loop.regions.end(),
                                   [](const LoopRegion& r) { return r.unstable > 0; });
   if (worst == loop.regions.end()) return;
-  char what[200];
-  std::snprintf(
-      what, sizeof what,
-      "the loop around plant \"%s\" is unstable (%s: pole at %s rad/s; Jn/J = %.3g, "
-      "Jn*Kp = %.3g)",
-      plant.name.c_str(), worst->where.c_str(),
-      worst->poles_rad_s.empty() ? "beyond 1e4" : pole_text(worst->poles_rad_s[0]).c_str(),
+  const std::string what = fmt::format(
+      "the loop around plant \"{}\" is unstable ({}: pole at {} rad/s; Jn/J = {:.3g}, "
+      "Jn*Kp = {:.3g})",
+      plant.name, worst->where,
+      worst->poles_rad_s.empty() ? "beyond 1e4" : pole_text(worst->poles_rad_s[0]),
       loop.inertia_ratio, loop.feed_forward);
   struct Change {
     const char* key;
@@ -254,9 +246,7 @@ void refuse_unstable(const Elaborated& e, const plant::Parameters& plant) {
     std::function<void(Design&)> make;
   };
   const auto value = [](const char* key, double v) {
-    char text[80];
-    std::snprintf(text, sizeof text, "%s = %.4g, the plant's", key, v);
-    return std::string(text);
+    return fmt::format("{} = {:.4g}, the plant's", key, v);
   };
   const double emf = plant.motor.back_emf_constant_v_s_rad, inertia = plant.lever.inertia_kg_m2;
   const std::vector<Change> changes{
@@ -279,23 +269,19 @@ void refuse_unstable(const Elaborated& e, const plant::Parameters& plant) {
 }
 
 std::string loop_table(const ClosedLoop& loop) {
-  char line[200];
-  std::snprintf(
-      line, sizeof line,
-      "\nclosed loop around plant %s, lever free, friction %.3g Nm s/rad: poles in rad/s\n",
-      loop.plant.c_str(), loop.damping_nm_s_rad);
-  std::string text = line;
+  std::string text = fmt::format(
+      "\nclosed loop around plant {}, lever free, friction {:.3g} Nm s/rad: poles in rad/s\n",
+      loop.plant, loop.damping_nm_s_rad);
   for (const LoopRegion& r : loop.regions) {
-    std::snprintf(line, sizeof line, "  %s, gain %.4g ohm:", r.where.c_str(), r.voltage_gain_ohm);
-    text += line;
+    text += fmt::format("  {}, gain {:.4g} ohm:", r.where, r.voltage_gain_ohm);
     for (const auto& s : r.poles_rad_s) text += "  " + pole_text(s);
     text += r.unstable == 0 ? "  (stable)\n" : "  (UNSTABLE)\n";
   }
-  std::snprintf(line, sizeof line,
-                "  lever blocked: tau_hat at %.6g\n"
-                "  Jn/J = %.4g; %.4g of the current reference is feed-forward (Jn*Kp)\n",
-                loop.stall_pole_rad_s, loop.inertia_ratio, loop.feed_forward);
-  return text + line;
+  return text + fmt::format(
+                    "  lever blocked: tau_hat at {:.6g}\n"
+                    "  Jn/J = {:.4g}; {:.4g} of the current reference is feed-forward "
+                    "(Jn*Kp)\n",
+                    loop.stall_pole_rad_s, loop.inertia_ratio, loop.feed_forward);
 }
 
 }  // namespace feltgate::design

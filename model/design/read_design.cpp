@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Reader of rtl/designs/NAME.toml. Documentation: docs/designs.md
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -25,8 +27,9 @@ std::string name_of(const std::string& path) {
     return !(c == '_' || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'));
   };
   if (name.empty() || std::any_of(name.begin(), name.end(), bad) || name[0] < 'a') {
-    throw config::ConfigError(path + ":0: a design cannot be called \"" + name +
-                              "\"; use a to z, 0 to 9 and _, a letter first");
+    throw config::ConfigError(fmt::format(
+        "{}:0: a design cannot be called \"{}\"; use a to z, 0 to 9 and _, a letter first", path,
+        name));
   }
   return name;
 }
@@ -48,10 +51,12 @@ std::map<std::string, int> lines_of(const toml::table& root) {
 Format read_format(config::TomlReader& r, const std::string& key) {
   const auto v = r.integers(key, -64, 64);
   if (v.size() != 3 || v[0] != 1) {
-    r.fail(key, "\"" + key + "\" is no format of a signed signal", "write [1, I, F]");
+    r.fail(key, fmt::format("\"{}\" is no format of a signed signal", key), "write [1, I, F]");
   }
   const Format f{1, static_cast<int>(v[1]), static_cast<int>(v[2])};
-  if (f.width() < 2) r.fail(key, "\"" + key + "\" has less than two bits", "raise I or F");
+  if (f.width() < 2) {
+    r.fail(key, fmt::format("\"{}\" has less than two bits", key), "raise I or F");
+  }
   return f;
 }
 
@@ -123,7 +128,7 @@ void Design::fail(const std::string& key, const std::string& what, const std::st
   auto at = lines_of.find(key);
   if (at == lines_of.end()) at = lines_of.find(key.substr(0, key.find('.')));
   const int line = at == lines_of.end() ? 0 : at->second;
-  throw config::ConfigError(path + ":" + std::to_string(line) + ": " + what + "; " + mend);
+  throw config::ConfigError(fmt::format("{}:{}: {}; {}", path, line, what, mend));
 }
 
 double Design::velocity_gain_rad_s() const {

@@ -4,8 +4,11 @@
 // Reader of rtl/registers.toml. Documentation: docs/registers.md (generated)
 #include "design/registers.hpp"
 
+#include <fmt/format.h>
+
 #include <set>
 
+#include "config/nearest.hpp"
 #include "config/toml_reader.hpp"
 
 namespace feltgate::design {
@@ -15,6 +18,12 @@ int RegisterMap::scene_number(const std::string& name) const {
     if (s.name == name) return s.number;
   }
   return -1;
+}
+
+std::vector<std::string> RegisterMap::scene_names() const {
+  std::vector<std::string> names;
+  for (const Scene& s : scenes) names.push_back(s.name);
+  return names;
 }
 
 namespace {
@@ -27,8 +36,8 @@ Parameter read_parameter(config::TomlReader r, const RegisterMap& map, std::set<
   static const std::vector<std::string> kinds{"coefficient", "signed", "signal", "counts",
                                               "integer"};
   Parameter p;
-  p.name = r.text("name");
-  p.place = r.file() + ":" + std::to_string(r.line("name"));
+  p.name = r.identifier("name");
+  p.place = fmt::format("{}:{}", r.file(), r.line("name"));
   if (r.has("scene")) p.scene = r.text("scene");
   p.slot = small(r, "slot", p.scene.empty() ? 63 : 31);
   p.kind = kinds[r.choice("kind", kinds)];
@@ -36,12 +45,17 @@ Parameter read_parameter(config::TomlReader r, const RegisterMap& map, std::set<
   if (r.has("same_format_as")) p.same_format_as = r.text("same_format_as");
   if (r.has("headroom_bits")) p.headroom_bits = small(r, "headroom_bits", 8);
   p.unit = r.text("unit");
+  if (p.unit.find_first_of("\"\\") != std::string::npos) {
+    r.fail("unit", "a unit with \" or \\ cannot be written into a program", "write it without");
+  }
   p.doc = r.text("doc");
   p.address = p.slot;
   if (!p.scene.empty()) {
     const int number = map.scene_number(p.scene);
-    if (number < 2)
-      r.fail("scene", "scene \"" + p.scene + "\" has no bank", "list it under [[scene]]");
+    if (number < 2) {
+      r.fail("scene", fmt::format("scene \"{}\" has no bank", p.scene),
+             config::did_you_mean(p.scene, map.scene_names()) + "list it under [[scene]]");
+    }
     p.address += 32 * number;
   }
   if (!used.insert(p.address).second) {
@@ -53,12 +67,12 @@ Parameter read_parameter(config::TomlReader r, const RegisterMap& map, std::set<
 
 Control read_control(config::TomlReader r) {
   Control c;
-  c.name = r.text("name");
+  c.name = r.identifier("name");
   c.address = small(r, "address", 0x2ff);
   c.doc = r.text("doc");
   for (config::TomlReader& f : r.sections("fields")) {
     Field field;
-    field.name = f.text("name");
+    field.name = f.identifier("name");
     field.bit = small(f, "bit", 31);
     field.width = f.has("width") ? small(f, "width", 32) : 1;
     if (field.bit + field.width > 32)
@@ -77,8 +91,9 @@ RegisterMap read_registers(const std::string& path) {
   const toml::table root = config::parse_toml_file(path);
   config::TomlReader top(root, path, "the register map");
   RegisterMap map;
+  map.path = path;
   for (config::TomlReader& r : top.sections("scene")) {
-    map.scenes.push_back({r.text("name"), small(r, "number", 15)});
+    map.scenes.push_back({r.identifier("name"), small(r, "number", 15)});
     r.finish();
   }
   std::set<int> used;
@@ -87,7 +102,7 @@ RegisterMap read_registers(const std::string& path) {
   }
   for (config::TomlReader& r : top.sections("control")) map.controls.push_back(read_control(r));
   for (config::TomlReader& r : top.sections("snapshot")) {
-    map.snapshots.push_back({r.text("name"), small(r, "slot", 63), r.text("doc")});
+    map.snapshots.push_back({r.identifier("name"), small(r, "slot", 63), r.text("doc")});
     r.finish();
   }
   top.finish();

@@ -50,12 +50,14 @@ struct Snapshot {
 };
 
 struct RegisterMap {
+  std::string path;
   std::vector<Parameter> parameters;
   std::vector<Scene> scenes;
   std::vector<Control> controls;
   std::vector<Snapshot> snapshots;
 
   int scene_number(const std::string& name) const;  ///< -1 when there is no such scene
+  std::vector<std::string> scene_names() const;
 };
 
 /// First address of the snapshot words in the register port's address space.

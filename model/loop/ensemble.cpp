@@ -45,8 +45,7 @@ void Ensemble::write(HostWrite w) {
 void Ensemble::set_parameter(const std::string& name, double value) {
   const ParameterInfo* info = design().find(name);
   if (info == nullptr) {
-    throw std::invalid_argument(fmt::format(
-        "parameter \"{}\" is unknown; `feltgate design {}` lists them", name, design().name));
+    throw std::invalid_argument(design().unknown(name));
   }
   write({0, info->address, static_cast<std::uint32_t>(quantise_parameter(*info, value)), value});
 }

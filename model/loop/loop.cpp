@@ -12,8 +12,10 @@
 #include <memory>
 #include <stdexcept>
 
+#include "config/nearest.hpp"
 #include "config/toml_reader.hpp"
 #include "loop/ensemble.hpp"
+#include "loop/scenario_check.hpp"
 #include "plant/drive.hpp"
 #include "plant/period_mean.hpp"
 #include "plant/plant.hpp"
@@ -102,7 +104,8 @@ class ScenarioRun {
   }
 
   Clock clock_of(double seconds) const {
-    return std::llround(seconds * static_cast<double>(core_.design().clock_hz));
+    constexpr double never = 0x1p62;  // and no sum with it overflows
+    return std::llround(std::min(seconds * static_cast<double>(core_.design().clock_hz), never));
   }
 
   int scene_number(const std::string& name) const {
@@ -286,9 +289,11 @@ class ScenarioRun {
     if (x.design && *x.design != out.design) return;
     const auto it = out.figures.find(x.figure);
     if (it == out.figures.end()) {
+      std::vector<std::string> names;
+      for (const auto& [name, value] : out.figures) names.push_back(name);
       throw config::ConfigError(
-          fmt::format("{}:{}: figure \"{}\" is not one of this run; see docs/scenes.md", s_.path,
-                      x.line, x.figure));
+          fmt::format("{}:{}: figure \"{}\" is not one of this run; {}docs/scenes.md lists them",
+                      s_.path, x.line, x.figure, config::did_you_mean(x.figure, names)));
     }
     const double low = x.low > -1e300 ? x.low : -std::numeric_limits<double>::infinity();
     const double high = x.high < 1e300 ? x.high : std::numeric_limits<double>::infinity();
@@ -326,7 +331,13 @@ class ScenarioRun {
 
 RunResult run_scenario(const Scenario& scenario, const plant::Parameters& plant,
                        const RunOptions& options) {
-  return ScenarioRun(scenario, plant, options).run();
+  check_scenario(scenario, plant, make_engine(options.design, "twin")->design());
+  try {
+    return ScenarioRun(scenario, plant, options).run();
+  } catch (const plant::MotionError& error) {
+    throw config::ConfigError(scenario.path.empty() ? error.what()
+                                                    : scenario.path + ": " + error.what());
+  }
 }
 
 }  // namespace feltgate

@@ -4,6 +4,8 @@
 // Reader of scene files. Documentation: docs/scenes.md
 #include "loop/scenario.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -26,16 +28,22 @@ std::map<std::string, double> read_values(const toml::table& table, config::Toml
   return values;
 }
 
-Event read_event(config::TomlReader r, const toml::table& table) {
+Event read_event(config::TomlReader r, const toml::table& table, double duration_s) {
   Event e;
+  e.line = r.line("at_s");
   e.at_s = r.number("at_s", config::kNotNegative);
+  if (e.at_s >= duration_s) {
+    r.fail(
+        "at_s",
+        fmt::format("the event at {} s comes when the scene of {} s is over", e.at_s, duration_s),
+        "move the event, or raise duration_s");
+  }
   if (r.has("scene")) e.scene = r.text("scene");
   if (r.has("mode")) e.mode = static_cast<int>(r.choice("mode", kModes));
   if (r.has("arm")) e.arm = r.flag("arm");
   if (r.has("stop")) e.stop = r.flag("stop");
   if (r.has("set")) {
-    config::TomlReader set = r.section("set");
-    e.set = read_values(*table["set"].as_table(), set);
+    e.set = read_values(*table["set"].as_table(), r.section("set"));
   }
   if (r.has("step_nm")) e.step_nm = r.number("step_nm", config::kAnyNumber);
   r.finish();
@@ -65,7 +73,7 @@ Scenario read_scenario(const std::string& path) {
   s.path = path;
   s.name = std::filesystem::path(path).stem().string();
   s.title = top.text("title");
-  s.about = top.text("about");
+  s.about = top.paragraph("about");
   s.duration_s = top.number("duration_s", {1e-5, 1e5});
   s.plant = top.has("plant") ? top.text("plant") : "p24";
   s.step_clocks =
@@ -74,16 +82,20 @@ Scenario read_scenario(const std::string& path) {
   {
     config::TomlReader core = top.section("core");
     s.scene = core.text("scene");
+    s.scene_line = core.line("scene");
     if (core.has("mode")) s.mode = static_cast<int>(core.choice("mode", kModes));
     s.arm_s = core.number_or("arm_s", 0.0, config::kNotNegative);
     core.finish();
   }
   if (top.has("parameters")) {
-    s.parameters = read_values(*root["parameters"].as_table(), top.section("parameters"));
+    const config::TomlReader reader = top.section("parameters");
+    s.parameters = read_values(*root["parameters"].as_table(), reader);
+    for (const auto& [name, value] : s.parameters) s.parameter_lines[name] = reader.line(name);
   }
   const auto events = top.sections("event");
   for (std::size_t i = 0; i < events.size(); ++i) {
-    s.events.push_back(read_event(events[i], *root["event"].as_array()->get(i)->as_table()));
+    s.events.push_back(
+        read_event(events[i], *root["event"].as_array()->get(i)->as_table(), s.duration_s));
   }
   std::stable_sort(s.events.begin(), s.events.end(),
                    [](const Event& a, const Event& b) { return a.at_s < b.at_s; });

@@ -19,6 +19,7 @@ namespace feltgate {
 /// Something that happens at a time: the host changes scene, mode or parameters, or a pin moves.
 struct Event {
   double at_s = 0;
+  int line = 0;  ///< of the file; 0: not of a file
   std::optional<std::string> scene;
   std::optional<int> mode;
   std::optional<bool> arm;
@@ -42,11 +43,13 @@ struct Scenario {
   int step_clocks = 25;   ///< plant step
   bool switched = false;  ///< gates drive the plant instead of the mean duty
   std::string scene = "free";
+  int scene_line = 0;  ///< of the file; 0: not of a file
   int mode = 0;
   double arm_s = 0;
-  std::map<std::string, double> parameters;  ///< set before arming, in their units
-  std::vector<Event> events;                 ///< in order of time
-  plant::Effects effects;                    ///< of the plant, as the scene overrides them
+  std::map<std::string, double> parameters;    ///< set before arming, in their units
+  std::map<std::string, int> parameter_lines;  ///< of those that the file sets
+  std::vector<Event> events;                   ///< in order of time
+  plant::Effects effects;                      ///< of the plant, as the scene overrides them
   plant::Hand hand;
   std::vector<Expectation> expectations;
 };

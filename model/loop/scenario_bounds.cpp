@@ -4,9 +4,14 @@
 // Error bounds of a whole run. Documentation: docs/error-bounds.md
 #include "loop/scenario_bounds.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+
+#include "config/toml_reader.hpp"
 
 namespace feltgate {
 
@@ -84,13 +89,22 @@ RunBounds scenario_bounds(const design::Elaborated& e, const Scenario& scenario,
   for (const auto& [name, value] : scenario.parameters) run.set(name, value, false);
   std::string scene = scenario.scene;
   int mode = scenario.mode;
-  run.render(scene, mode);
+  // A name that is not built, with the line where it stands.
+  const auto render = [&](int line) {
+    try {
+      run.render(scene, mode);
+    } catch (const std::invalid_argument& error) {
+      if (line == 0) throw;
+      throw config::ConfigError(fmt::format("{}:{}: {}", scenario.path, line, error.what()));
+    }
+  };
+  render(scenario.scene_line);
   for (const Event& event : scenario.events) {
     for (const auto& [name, value] : event.set) run.set(name, value, true);
     if (!event.scene && !event.mode) continue;
     scene = event.scene.value_or(scene);
     mode = event.mode.value_or(mode);
-    run.render(scene, mode);
+    render(event.line);
   }
   return run;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "plant/random.hpp"
 
@@ -33,6 +34,9 @@ Encoder::Encoder(const EncoderParameters& parameters, bool imperfect, double sta
         offset_counts_.push_back(offset + jitter);
       }
     }
+  }
+  if (!(std::abs(start_rad / count_rad_) < 0x1p45)) {
+    throw std::invalid_argument("encoder: the start is beyond 2^45 counts");
   }
   count_ = static_cast<std::int64_t>(std::floor(start_rad / count_rad_));
   settle();
@@ -62,6 +66,9 @@ EncoderPins Encoder::pins_of(std::int64_t count) const {
 void Encoder::cross(double theta_rad, Clock begin, Clock clocks,
                     std::vector<EncoderEvent>& events) {
   const double way_rad = theta_rad - theta_rad_;
+  if (!(std::abs(way_rad) <= count_rad_ * static_cast<double>(clocks))) {
+    throw std::domain_error("encoder: more than one count per clock");
+  }
   const std::size_t first = events.size();
   while (theta_rad >= high_rad_ || theta_rad < low_rad_) {
     const bool up = theta_rad >= high_rad_;

@@ -16,10 +16,12 @@ namespace feltgate::plant {
 class Encoder {
  public:
   /// With `imperfect` false offsets and jitter are left out.
+  /// Errors: std::invalid_argument for an angle beyond 2^45 counts, where doubles miss counts.
   Encoder(const EncoderParameters& parameters, bool imperfect, double start_rad);
 
   /// The angle goes linearly to `theta_rad` in the `clocks` after `begin`. Events are appended with
   /// clocks in (begin, begin + clocks], strictly increasing; what falls on one clock is one event.
+  /// Errors: std::domain_error for more than one count per clock, which pins cannot show.
   void advance(double theta_rad, Clock begin, Clock clocks, std::vector<EncoderEvent>& events) {
     if (theta_rad >= low_rad_ && theta_rad < high_rad_) {
       theta_rad_ = theta_rad;
@@ -33,6 +35,7 @@ class Encoder {
   std::int64_t count() const { return count_; }
   /// Angle of the edge between counts `edge` - 1 and `edge`, rad; both directions share it.
   double edge_rad(std::int64_t edge) const;
+  double count_rad() const { return count_rad_; }
   std::uint64_t offset_edges() const { return offset_edges_; }
 
  private:

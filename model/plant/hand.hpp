@@ -40,6 +40,7 @@ struct HandPhase {
     kTorque,      ///< the hand applies `profile` (Nm), starting from 0
   };
   Kind kind = Kind::kFree;
+  int line = 0;  ///< of the scene file; 0: not of a file
   double duration_s = std::numeric_limits<double>::infinity();  ///< infinite: for good
   Profile profile;
   Trace trace;

@@ -5,6 +5,8 @@
 #include "plant/hand_file.hpp"
 #include "plant/plant_table.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <fstream>
 #include <utility>
@@ -16,6 +18,8 @@ using Kind = HandPhase::Kind;
 
 constexpr config::Range kPhase{-7.0, 7.0};
 constexpr config::Range kFrequency{1e-6, 1e5};
+/// Of angles in rad (160 000 turns) and torques in Nm: far beyond any lever, far inside a double.
+constexpr config::Range kWay{-1e6, 1e6};
 
 // `unit` is the suffix of the keys: rad or nm.
 Segment read_segment(config::TomlReader table, const std::string& unit, bool steps_allowed) {
@@ -27,11 +31,11 @@ Segment read_segment(config::TomlReader table, const std::string& unit, bool ste
   }
   segment.duration_s = table.number("duration_s", config::kPositive);
   if (segment.kind == Segment::Kind::kSine) {
-    segment.amplitude = table.number("amplitude_" + unit, config::kAnyNumber);
+    segment.amplitude = table.number("amplitude_" + unit, kWay);
     segment.frequency_hz = table.number("frequency_hz", kFrequency);
     segment.phase_rad = table.number_or("phase_rad", 0.0, kPhase);
   } else if (segment.kind != Segment::Kind::kHold) {
-    segment.to = table.number("to_" + unit, config::kAnyNumber);
+    segment.to = table.number("to_" + unit, kWay);
   }
   table.finish();
   return segment;
@@ -59,13 +63,13 @@ std::string beside(const std::string& file, const std::string& name) {
 void check_trace(const config::TomlReader& table, const std::string& key, const Trace& trace) {
   if (trace.time_s.size() != trace.theta_rad.size() || trace.time_s.size() < 2) {
     table.fail(key,
-               "the trace holds " + std::to_string(trace.time_s.size()) + " times and " +
-                   std::to_string(trace.theta_rad.size()) + " angles",
+               fmt::format("the trace holds {} times and {} angles", trace.time_s.size(),
+                           trace.theta_rad.size()),
                "give as many times as angles, two at least");
   }
   for (std::size_t i = 1; i < trace.time_s.size(); ++i) {
     if (trace.time_s[i] > trace.time_s[i - 1]) continue;
-    table.fail(key, "time does not increase at sample " + std::to_string(i),
+    table.fail(key, fmt::format("time does not increase at sample {}", i),
                "sort the samples and drop repeated times");
   }
 }
@@ -77,7 +81,7 @@ Trace read_trace(config::TomlReader& table) {
     check_trace(table, "file", trace);
   } else {
     trace.time_s = table.numbers("time_s", config::kNotNegative);
-    trace.theta_rad = table.numbers("theta_rad", config::kAnyNumber);
+    trace.theta_rad = table.numbers("theta_rad", kWay);
     check_trace(table, "time_s", trace);
   }
   return trace;
@@ -108,6 +112,7 @@ HandPhase read_phase(config::TomlReader table, bool last) {
   HandPhase phase;
   phase.kind = static_cast<Kind>(table.choice(
       "kind", {"free", "locked", "prescribed", "trace", "impedance", "cord", "torque"}));
+  phase.line = table.line("kind");
   double natural_s = 0.0;
   if (phase.kind == Kind::kPrescribed || phase.kind == Kind::kImpedance) {
     phase.profile = read_profile(table, "motion", "rad", phase.kind == Kind::kImpedance);
@@ -145,7 +150,7 @@ Trace read_trace_file(const std::string& path) {
   }
   Trace trace;
   for (int number = 2; std::getline(in, line); ++number) {
-    const std::string place = path + ":" + std::to_string(number) + ": ";
+    const std::string place = fmt::format("{}:{}: ", path, number);
     try {
       std::size_t end = 0;
       const double time_s = std::stod(line, &end);
@@ -154,12 +159,13 @@ Trace read_trace_file(const std::string& path) {
       const double theta_rad = std::stod(second, &end);
       if (end < second.size() && second[end] != '\r')
         throw config::ConfigError("more than two columns");
-      if (!std::isfinite(time_s) || !std::isfinite(theta_rad))
+      if (!std::isfinite(time_s) || !(std::abs(theta_rad) <= kWay.max))
         throw config::ConfigError("not finite");
       trace.time_s.push_back(time_s);
       trace.theta_rad.push_back(theta_rad);
     } catch (const std::exception&) {
-      throw config::ConfigError(place + "not two finite numbers; write \"seconds,radians\"");
+      throw config::ConfigError(
+          place + "not two finite numbers, an angle up to 1e6 rad; write \"seconds,radians\"");
     }
   }
   return trace;
@@ -167,7 +173,7 @@ Trace read_trace_file(const std::string& path) {
 
 Hand read_hand(config::TomlReader table) {
   Hand hand;
-  if (table.has("start_rad")) hand.start_rad = table.number("start_rad", config::kAnyNumber);
+  if (table.has("start_rad")) hand.start_rad = table.number("start_rad", kWay);
   if (table.has("radius_m")) hand.radius_m = table.number("radius_m", config::kPositive);
   auto phases = table.sections("phase");
   for (std::size_t i = 0; i < phases.size(); ++i) {

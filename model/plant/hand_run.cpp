@@ -4,6 +4,7 @@
 // Carries out the phases of a Hand. Documentation: docs/plant.md
 #include "plant/hand_run.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -26,7 +27,8 @@ HandRun::HandRun(Hand hand, double radius_m, double clock_hz, bool dynamics)
 }
 
 Clock HandRun::end_of(std::size_t index) const {
-  return phase_begin_ + std::llround(hand_.phases[index].duration_s * clock_hz_);
+  constexpr double never = 0x1p62;  // more than 2000 years of any clock; no sum overflows
+  return phase_begin_ + std::llround(std::min(hand_.phases[index].duration_s * clock_hz_, never));
 }
 
 void HandRun::begin_phase(const Shaft& lever) {
@@ -52,20 +54,11 @@ void HandRun::begin_phase(const Shaft& lever) {
       shift_rad_ =
           phase.trace.theta_rad.empty() ? 0.0 : lever.theta_rad - phase.trace.theta_rad.front();
       break;
-    case Kind::kImpedance: {
-      const Impedance& i = phase.impedance;
-      const double r2 = radius_m_ * radius_m_;
+    case Kind::kImpedance:
       profile_ = ProfileRun(phase.profile, goes_on ? dynamics_.equilibrium_rad : lever.theta_rad);
       if (!goes_on) mass_ = lever;
-      dynamics_ = {1.0 / (i.mass_kg * r2),
-                   i.damping_ns_m * r2,
-                   i.stiffness_n_m * r2,
-                   i.grip_damping_ns_m * r2,
-                   i.grip_stiffness_n_m * r2,
-                   0.0,
-                   0.0};
+      dynamics_ = dynamics_of(phase.impedance, radius_m_);
       break;
-    }
     case Kind::kFree:
     case Kind::kLocked:
     case Kind::kCord:

@@ -8,6 +8,8 @@
 #include <array>
 #include <cstddef>
 
+#include "plant/hand.hpp"
+
 namespace feltgate::plant {
 
 struct Shaft {
@@ -81,6 +83,37 @@ class LinearStep {
   Matrix by_rate_{};  ///< P by columns
 };
 
+/// A of the lever alone: angle, speed.
+inline LinearStep<2>::Matrix lever_matrix(const ShaftTorque& torque, double inverse_inertia) {
+  return {{{0.0, 1.0},
+           {torque.theta_nm_rad * inverse_inertia, torque.omega_nm_s_rad * inverse_inertia}}};
+}
+
+/// A of lever and hand: angle and speed of the lever, then of the hand.
+inline LinearStep<4>::Matrix grip_matrix(const ShaftTorque& torque, const HandDynamics& h,
+                                         double inverse_inertia) {
+  const double k = h.grip_stiffness_nm_rad, b = h.grip_damping_nm_s_rad;
+  const double lever = inverse_inertia, hand = h.inverse_inertia;
+  return {
+      {{0.0, 1.0, 0.0, 0.0},
+       {(torque.theta_nm_rad - k) * lever, (torque.omega_nm_s_rad - b) * lever, k * lever,
+        b * lever},
+       {0.0, 0.0, 0.0, 1.0},
+       {k * hand, b * hand, -(h.stiffness_nm_rad + k) * hand, -(h.damping_nm_s_rad + b) * hand}}};
+}
+
+/// The hand's dynamics in angles of the lever, its equilibrium at 0.
+inline HandDynamics dynamics_of(const Impedance& i, double radius_m) {
+  const double r2 = radius_m * radius_m;
+  return {1.0 / (i.mass_kg * r2),
+          i.damping_ns_m * r2,
+          i.stiffness_n_m * r2,
+          i.grip_damping_ns_m * r2,
+          i.grip_stiffness_n_m * r2,
+          0.0,
+          0.0};
+}
+
 class Mechanics {
  public:
   explicit Mechanics(double inertia_kg_m2) : inverse_inertia_(1.0 / inertia_kg_m2) {}
@@ -88,10 +121,7 @@ class Mechanics {
   /// Lever alone.
   void step(Shaft& lever, const ShaftTorque& torque, double dt_s) {
     if (!lever_set_.same({dt_s, torque.theta_nm_rad, torque.omega_nm_s_rad})) {
-      lever_step_.set(
-          {{{0.0, 1.0},
-            {torque.theta_nm_rad * inverse_inertia_, torque.omega_nm_s_rad * inverse_inertia_}}},
-          dt_s);
+      lever_step_.set(lever_matrix(torque, inverse_inertia_), dt_s);
     }
     const auto gain =
         lever_step_.gain({lever.omega_rad_s, lever_nm(lever, torque) * inverse_inertia_});
@@ -105,7 +135,7 @@ class Mechanics {
     if (!grip_set_.same({dt_s, torque.theta_nm_rad, torque.omega_nm_s_rad, h.inverse_inertia,
                          h.damping_nm_s_rad, h.stiffness_nm_rad, h.grip_damping_nm_s_rad,
                          h.grip_stiffness_nm_rad})) {
-      set_grip(torque, h, dt_s);
+      grip_step_.set(grip_matrix(torque, h, inverse_inertia_), dt_s);
     }
     const double grip_nm = h.grip_nm(lever, hand);
     const double hand_nm = h.stiffness_nm_rad * (h.equilibrium_rad - hand.theta_rad) +
@@ -138,17 +168,6 @@ class Mechanics {
   static double lever_nm(const Shaft& lever, const ShaftTorque& torque) {
     return torque.constant_nm + torque.omega_nm_s_rad * lever.omega_rad_s +
            torque.theta_nm_rad * lever.theta_rad;
-  }
-  void set_grip(const ShaftTorque& torque, const HandDynamics& h, double dt_s) {
-    const double k = h.grip_stiffness_nm_rad, b = h.grip_damping_nm_s_rad;
-    const double lever = inverse_inertia_, hand = h.inverse_inertia;
-    grip_step_.set({{{0.0, 1.0, 0.0, 0.0},
-                     {(torque.theta_nm_rad - k) * lever, (torque.omega_nm_s_rad - b) * lever,
-                      k * lever, b * lever},
-                     {0.0, 0.0, 0.0, 1.0},
-                     {k * hand, b * hand, -(h.stiffness_nm_rad + k) * hand,
-                      -(h.damping_nm_s_rad + b) * hand}}},
-                   dt_s);
   }
 
   double inverse_inertia_;

@@ -79,6 +79,7 @@ inline constexpr EffectName effect_names[] = {{"inductance", &Effects::inductanc
 
 struct Parameters {
   std::string name;
+  std::string place;  ///< "file:line" of the lever's inertia, for errors; empty: not of a file
   MotorParameters motor;
   LeverParameters lever;
   LugreParameters lugre;
@@ -86,6 +87,12 @@ struct Parameters {
   EncoderParameters encoder;
   Effects effects;  ///< defaults of the file; a scene may override each
 };
+
+/// Torque per speed of what friction grows with it, of the effects that are on.
+inline double smooth_damping_nm_s_rad(const Parameters& p, const Effects& on) {
+  return (on.viscous ? p.lever.viscous_nm_s_rad : 0.0) +
+         (on.lugre ? p.lugre.viscous_nm_s_rad : 0.0);
+}
 
 /// How often each effect was evaluated, for tests ("off costs nothing").
 struct Evaluations {

@@ -4,6 +4,9 @@
 // Motor, lever, friction, encoder, supply and hand. Documentation: docs/plant.md
 #include "plant/plant.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <stdexcept>
 
 namespace feltgate::plant {
@@ -14,8 +17,7 @@ Plant::Plant(const Parameters& parameters, const Effects& effects, const Drive& 
       on_(effects),
       clock_hz_(drive.clock_hz),
       per_radius_(1.0 / hand.radius_m.value_or(parameters.lever.radius_m)),
-      smooth_nm_s_rad_((effects.viscous ? parameters.lever.viscous_nm_s_rad : 0.0) +
-                       (effects.lugre ? parameters.lugre.viscous_nm_s_rad : 0.0)),
+      smooth_nm_s_rad_(smooth_damping_nm_s_rad(parameters, effects)),
       bridge_(drive, parameters.supply, parameters.motor, effects),
       winding_(parameters.motor.resistance_ohm, parameters.motor.inductance_h),
       lugre_(parameters.lugre),
@@ -36,6 +38,7 @@ void Plant::set_step(Clock clocks) {
   step_clocks_ = clocks;
   dt_s_ = static_cast<double>(clocks) / clock_hz_;
   per_s_ = 1.0 / dt_s_;
+  most_way_rad_ = encoder_.count_rad() * static_cast<double>(clocks);
   if (on_.inductance) winding_.set_step(dt_s_);
   if (on_.lugre) lugre_.set_step(dt_s_);
 }
@@ -99,6 +102,21 @@ void Plant::advance_shaft(double motor_nm, double friction_nm, double omega_mid_
   seen_.hand_torque_nm = hand_.kind() == HandPhase::Kind::kFree ? 0.0 : hand_.torque_nm(shaft_);
 }
 
+// Off the path of every step.
+void Plant::refuse_motion(double way_rad) const {
+  const double time_s = static_cast<double>(now_) / clock_hz_;
+  if (!std::isfinite(way_rad + shaft_.omega_rad_s + seen_.motor_torque_mean_nm)) {
+    throw MotionError(fmt::format(
+        "after {:.6g} s the plant's state is no longer finite (the lever turned at {:.4g} rad/s); "
+        "use gentler constants or a shorter step of the plant",
+        time_s, seen_.omega_rad_s));
+  }
+  throw MotionError(fmt::format(
+      "after {:.6g} s the lever turns at {:.4g} rad/s, {:.3g} states of the encoder in a "
+      "clock, and pins can show one; slow the motion, or give the encoder fewer lines",
+      time_s, way_rad * per_s_, std::abs(way_rad) / most_way_rad_));
+}
+
 void Plant::advance(const Bridge& bridge, Clock clocks) {
   if (clocks != step_clocks_) set_step(clocks);
   events_.clear();
@@ -121,6 +139,11 @@ void Plant::advance(const Bridge& bridge, Clock clocks) {
   advance_shaft(motor_nm, friction_nm, omega_mid_rad_s);
   acceleration_rad_s2_ = hand_.imposes() ? 0.0 : (shaft_.omega_rad_s - before_rad_s) * per_s_;
 
+  // Also where anything is NaN.
+  const double way_rad = shaft_.theta_rad - before_rad;
+  if (!(std::abs(way_rad) <= most_way_rad_) || !std::isfinite(motor_nm + shaft_.omega_rad_s)) {
+    refuse_motion(way_rad);
+  }
   encoder_.advance(shaft_.theta_rad, now_, clocks, events_);
   now_ += clocks;
   seen_.theta_rad = shaft_.theta_rad;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,13 @@ struct StateValue {
   double value;
 };
 
+/// A motion that cannot be shown: faster than one encoder state per clock, or not finite.
+/// what() names time, speed and what to change.
+class MotionError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 class Plant {
  public:
   /// `hand` decides the angle at clock 0; the lever starts at rest, without current.
@@ -49,7 +57,7 @@ class Plant {
   Plant(const Parameters& parameters, const Effects& effects, const Drive& drive, const Hand& hand);
 
   /// Advances by `clocks` >= 1 FPGA clocks with the bridge as given. Steps of one length are
-  /// fastest; recommended 25 clocks (0.5 us), at most 250 (5 us).
+  /// fastest; recommended 25 clocks (0.5 us), at most 250 (5 us). Errors: MotionError.
   void advance(const Bridge& bridge, Clock clocks);
 
   /// Time since the start, in clocks. Seconds come from it alone.
@@ -67,6 +75,7 @@ class Plant {
 
  private:
   void set_step(Clock clocks);
+  [[noreturn]] void refuse_motion(double way_rad) const;
   double advance_current(const Bridge& bridge, double omega_rad_s);
   void advance_shaft(double motor_nm, double friction_nm, double omega_mid_rad_s);
 
@@ -88,6 +97,7 @@ class Plant {
   Clock step_clocks_ = -1;  ///< none yet
   double dt_s_ = 0.0;
   double per_s_ = 0.0;                ///< 1/dt_s_
+  double most_way_rad_ = 0.0;         ///< of a step: one encoder state per clock
   double acceleration_rad_s2_ = 0.0;  ///< mean of the last step, predicts the next middle
   double current_a_ = 0.0;
   std::vector<EncoderEvent> events_;

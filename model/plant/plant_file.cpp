@@ -5,6 +5,8 @@
 #include "plant/plant_file.hpp"
 #include "plant/plant_table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -101,7 +103,9 @@ Parameters read_plant(const toml::table& root, const std::string& file) {
   Parameters parameters;
   parameters.name = reader.text("name");
   parameters.motor = read_motor(reader.section("motor"));
-  parameters.lever = read_lever(reader.section("lever"));
+  config::TomlReader lever = reader.section("lever");
+  parameters.place = fmt::format("{}:{}", file, lever.line("inertia_kg_m2"));
+  parameters.lever = read_lever(std::move(lever));
   parameters.lugre = read_lugre(reader.section("lugre"));
   parameters.supply = read_supply(reader.section("supply"));
   parameters.encoder = read_encoder(reader.section("encoder"));

@@ -4,7 +4,10 @@
 // Documentation: docs/stability.md
 #include "stability/study.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <stdexcept>
 
 namespace feltgate::stability {
 
@@ -60,6 +63,20 @@ std::vector<HostRow> host_rows(const design::Elaborated& design, const plant::Pa
   return rows;
 }
 
+/// Whatever calls: not a number would never end.
+void check(const StudyOptions& o) {
+  for (const double rate : o.rates_hz) {
+    if (rate >= 1 && rate <= 1e6) continue;
+    throw std::invalid_argument(
+        fmt::format("a scene rate of {} Hz cannot be studied; choose 1 to 1e6 Hz", rate));
+  }
+  for (const double damping : o.damping_nm_s_rad) {
+    if (damping >= 0 && damping <= 1) continue;
+    throw std::invalid_argument(
+        fmt::format("a wall's damping of {} Nm s/rad cannot be studied; choose 0 to 1", damping));
+  }
+}
+
 }  // namespace
 
 std::vector<KnownNumber> known_numbers() {
@@ -100,6 +117,7 @@ std::vector<KnownNumber> known_numbers() {
 
 Study run_study(const design::Elaborated& design, const plant::Parameters& linear,
                 const plant::Parameters& full, const StudyOptions& o) {
+  check(o);
   Study s;
   s.design = design.design.name;
   s.linear_plant = linear.name;

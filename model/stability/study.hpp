@@ -66,6 +66,7 @@ struct StudyOptions {
   std::function<void(double done)> progress;  ///< 0..1; may be empty
 };
 
+/// Errors: std::invalid_argument for a rate outside 1 to 1e6 Hz or a damping outside 0 to 1.
 /// `design` must be built in; `linear` has no friction, dead voltage and dead time.
 Study run_study(const design::Elaborated& design, const plant::Parameters& linear,
                 const plant::Parameters& full, const StudyOptions& options);

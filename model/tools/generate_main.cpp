@@ -4,10 +4,14 @@
 // feltgate_generate ROOT [--check]: writes everything that follows from rtl/registers.toml and
 // rtl/designs/*.toml; with --check it only compares and fails on a stale file. With --design FILE
 // --output DIR it writes what follows from one design, anywhere. Documentation: docs/designs.md
+#include <fmt/format.h>
+
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <system_error>
 
 #include "config/toml_reader.hpp"
 #include "design/generate.hpp"
@@ -16,6 +20,12 @@ namespace fs = std::filesystem;
 using feltgate::config::ConfigError;
 
 namespace {
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
+  throw ConfigError(
+      fmt::format("{}: cannot be written ({}); give a folder in which files can be made",
+                  path.string(), reason));
+}
 
 /// Writes `text` where it differs; in check mode only reports. Returns whether the file was stale.
 bool update(const fs::path& path, const std::string& text, bool check_only) {
@@ -26,8 +36,12 @@ bool update(const fs::path& path, const std::string& text, bool check_only) {
     std::cerr << path.string() << ": stale; run `feltgate generate` and commit the result\n";
     return true;
   }
-  fs::create_directories(path.parent_path());
-  std::ofstream(path, std::ios::binary) << text;
+  std::error_code error;
+  fs::create_directories(path.parent_path(), error);
+  if (error) refuse(path.parent_path(), error.message());
+  std::ofstream out(path, std::ios::binary);
+  out << text << std::flush;
+  if (!out) refuse(path, std::generic_category().message(errno));
   std::cout << "wrote " << path.string() << "\n";
   return true;
 }
@@ -122,7 +136,7 @@ int main(int argc, char** argv) {
       return 0;
     }
     return generate_all(o, registers) && o.check_only ? 1 : 0;
-  } catch (const ConfigError& error) {
+  } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";
     return 2;
   }

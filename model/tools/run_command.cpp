@@ -10,6 +10,7 @@
 
 #include "files/output_file.hpp"
 #include "loop/bounded.hpp"
+#include "loop/scenario_check.hpp"
 #include "plant/plant_file.hpp"
 #include "tools/checks.hpp"
 #include "tools/commands.hpp"
@@ -38,7 +39,9 @@ void apply_settings(const std::vector<std::string>& set, Scenario& scenario) {
       throw std::invalid_argument("--set " + item +
                                   " is not NAME=VALUE; write for example --set voltage_gain=1");
     }
-    scenario.parameters[item.substr(0, at)] = value;
+    const std::string name = item.substr(0, at);
+    scenario.parameters[name] = value;
+    scenario.parameter_lines.erase(name);  // an error in it is none of the file
   }
 }
 
@@ -55,6 +58,7 @@ int run(const RunArguments& a) {
   const std::string plant_path = find_file(scenario.plant, "vectors/plants");
   const plant::Parameters plant = plant::read_plant_file(plant_path);
   resolve_effects(scenario, plant.effects);
+  check_scenario(scenario, plant, make_engine(a.design, "twin")->design());
 
   RunOptions options;
   options.design = a.design;

@@ -4,22 +4,12 @@
 // Finding channels by name in a recording of logic levels. Documentation: docs/traces.md
 #include "traces/capture.hpp"
 
+#include "config/nearest.hpp"
 #include "traces/error.hpp"
 #include "traces/text.hpp"
 
 namespace feltgate::traces {
 namespace {
-
-std::string list(const std::vector<std::string>& names) {
-  constexpr std::size_t kMostShown = 32;
-  std::string text;
-  for (std::size_t i = 0; i < names.size() && i < kMostShown; ++i) {
-    text += (i == 0 ? "" : ", ") + names[i];
-  }
-  if (names.size() > kMostShown)
-    text += " and " + std::to_string(names.size() - kMostShown) + " more";
-  return text.empty() ? "none" : text;
-}
 
 template <class Matches>
 std::vector<std::size_t> all_that(const std::vector<std::string>& channels, Matches matches) {
@@ -47,7 +37,8 @@ std::size_t find_channel(const std::vector<std::string>& channels, const std::st
   }
   if (found.size() == 1) return found.front();
   fail(where, found.empty() ? "no probe " + shown(name) : "more than one probe " + shown(name),
-       "there are: " + list(channels));
+       (found.empty() ? config::did_you_mean(name, channels) : "") +
+           "there are: " + list_names(channels));
 }
 
 std::vector<std::vector<std::string>> quadrature_pairs(const std::vector<std::string>& channels) {
@@ -82,7 +73,8 @@ std::vector<std::string> guess_probes(const std::vector<std::string>& channels,
   for (const auto& pair : pairs)
     choices += (choices.empty() ? "" : " or ") + pair[0] + "," + pair[1];
   fail(where, "cannot tell which channels are the encoder's A and B",
-       "name the probes" + (choices.empty() ? ", there are: " + list(channels) : ": " + choices));
+       "name the probes" +
+           (choices.empty() ? ", there are: " + list_names(channels) : ": " + choices));
 }
 
 }  // namespace feltgate::traces

@@ -4,6 +4,8 @@
 // Plain columns of time and position as encoder edges. Documentation: docs/traces.md
 #include "traces/column_source.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "traces/error.hpp"
@@ -25,7 +27,7 @@ std::size_t count_column(const Table& table, const std::string& name) {
   }
   if (column == table.columns().size()) {
     table.fail(name.empty() ? "no column of counts" : "no column " + shown(name),
-               "name it; there are: " + list_columns(table));
+               table.columns_there(name));
   }
   return column;
 }
@@ -84,8 +86,8 @@ bool ColumnSource::advance() {
   up_ = count > count_;
   steps_ = up_ ? count - count_ : count_ - count;
   if (steps_ > *clock - row_clock_) {
-    table_.fail(std::to_string(steps_) + " counts in " + std::to_string(*clock - row_clock_) +
-                    " clocks: more than one state per clock",
+    table_.fail(fmt::format("{} counts in {} clocks: more than one state per clock", steps_,
+                            *clock - row_clock_),
                 "check scale and time unit, or raise the clock");
   }
   count_ = count;

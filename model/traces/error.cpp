@@ -4,6 +4,10 @@
 // What every reader of recordings throws. Documentation: docs/traces.md
 #include "traces/error.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace feltgate::traces {
 namespace {
 
@@ -31,6 +35,18 @@ std::string shown(std::string_view text) {
     printable += byte < 0x20 || byte >= 0x7f ? '?' : c;
   }
   return "'" + printable + (text.size() > kLongest ? "...'" : "'");
+}
+
+std::string list_names(const std::vector<std::string>& names) {
+  constexpr std::size_t kMostShown = 32;
+  const auto shown_names = std::min(names.size(), kMostShown);
+  std::string text = names.empty() ? "none" : "";
+  for (std::size_t i = 0; i < shown_names; ++i) {
+    constexpr std::size_t kLongest = 80;
+    text += (i == 0 ? "" : ", ") + names[i].substr(0, kLongest);
+  }
+  if (names.size() > kMostShown) text += fmt::format(" and {} more", names.size() - kMostShown);
+  return text;
 }
 
 }  // namespace feltgate::traces

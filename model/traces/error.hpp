@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace feltgate::traces {
 
@@ -22,5 +23,8 @@ class TraceError : public std::runtime_error {
 
 /// The text in single quotes, cut after 40 bytes, safe to print whatever a broken file holds.
 std::string shown(std::string_view text);
+
+/// The names as one text for messages, the first 32 of them.
+std::string list_names(const std::vector<std::string>& names);
 
 }  // namespace feltgate::traces

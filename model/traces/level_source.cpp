@@ -4,6 +4,8 @@
 // A capture of logic levels as encoder pins. Documentation: docs/traces.md
 #include "traces/level_source.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "traces/error.hpp"
@@ -22,7 +24,7 @@ std::vector<std::string> wanted(const Capture& capture, const Options& options) 
   }
   if (options.probes.empty()) return guess_probes(capture.channels(), capture.where());
   if (options.probes.size() != 2 && options.probes.size() != 3) {
-    fail(capture.where(), std::to_string(options.probes.size()) + " probes are named",
+    fail(capture.where(), fmt::format("{} probes are named", options.probes.size()),
          "give A,B or A,B,Z");
   }
   return options.probes;

@@ -5,6 +5,8 @@
 // Documentation: docs/traces.md
 #include "traces/open.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "traces/column_source.hpp"
@@ -22,12 +24,10 @@ constexpr std::size_t kHead = 256;
 
 void check(const std::string& file, const Options& options) {
   if (options.clock_hz < 1 || options.clock_hz > kMostHz) {
-    fail(file, "clock_hz " + std::to_string(options.clock_hz) + " is not a clock",
-         "give 1 to 1e12 Hz");
+    fail(file, fmt::format("clock_hz {} is not a clock", options.clock_hz), "give 1 to 1e12 Hz");
   }
   if (options.sample_hz < 0 || options.sample_hz > kMostHz) {
-    fail(file, "sample_hz " + std::to_string(options.sample_hz) + " is not a rate",
-         "give 0 to 1e12 Hz");
+    fail(file, fmt::format("sample_hz {} is not a rate", options.sample_hz), "give 0 to 1e12 Hz");
   }
   if (options.scale && (!std::isfinite(*options.scale) || *options.scale == 0.0)) {
     fail(file, "the scale is not a finite number other than 0", "give counts per unit");

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "config/nearest.hpp"
 #include "traces/error.hpp"
 #include "traces/text.hpp"
 
@@ -72,12 +73,13 @@ const char* name_of(FileFormat format) {
 }
 
 FileFormat parse_format(const std::string& name) {
-  std::string known;
+  std::vector<std::string> known;
   for (const auto& [value, text] : kNames) {
     if (name == text) return value;
-    known += (known.empty() ? "" : ", ") + std::string(text);
+    known.emplace_back(text);
   }
-  fail("--format", shown(name) + " is not a format", "give one of " + known);
+  fail("--format", shown(name) + " is not a format",
+       config::did_you_mean(name, known) + "give one of " + list_names(known));
 }
 
 }  // namespace feltgate::traces

@@ -7,6 +7,7 @@
 
 #include <archive.h>
 #include <archive_entry.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
@@ -95,7 +96,7 @@ void SigrokCapture::scan_archive() {
   for (const auto& [number, name] : numbered) {
     const auto expected = static_cast<std::int64_t>(chunks_.size()) + 1;
     if (number != expected) {
-      fail(path_, "chunk " + capture_file_ + "-" + std::to_string(expected) + " is missing",
+      fail(path_, fmt::format("chunk {}-{} is missing", capture_file_, expected),
            "fetch the file again");
     }
     chunks_.push_back(name);
@@ -200,7 +201,7 @@ std::optional<Change> SigrokCapture::next() {
 
 std::string SigrokCapture::where() const {
   if (chunk_ == 0) return path_;
-  return path_ + ":" + chunks_[chunk_ - 1] + ":sample " + std::to_string(sample_);
+  return fmt::format("{}:{}:sample {}", path_, chunks_[chunk_ - 1], sample_);
 }
 
 }  // namespace feltgate::traces

@@ -3,6 +3,8 @@
 //
 // sigrok session files: the `metadata` entry, an INI text with the rate and the probes.
 // Documentation: docs/traces.md
+#include <fmt/format.h>
+
 #include <map>
 
 #include "traces/error.hpp"
@@ -76,7 +78,7 @@ void SigrokCapture::parse_metadata(const std::string& text) {
   if (!value("capturefile").empty()) capture_file_ = value("capturefile");
 
   for (std::size_t bit = 0; bit < unit_size_ * 8; ++bit) {
-    const std::string name = value("probe" + std::to_string(bit + 1));
+    const std::string name = value(fmt::format("probe{}", bit + 1));
     if (name.empty()) continue;
     names_.push_back(name);
     bits_.push_back(bit);

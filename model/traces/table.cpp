@@ -4,6 +4,9 @@
 // Text tables: names, rows and times. Documentation: docs/traces.md
 #include "traces/table.hpp"
 
+#include <fmt/format.h>
+
+#include "config/nearest.hpp"
 #include "traces/error.hpp"
 
 namespace feltgate::traces {
@@ -95,8 +98,7 @@ std::size_t Table::use_time(const std::string& name) {
     }
   }
   if (time_column_ == columns_.size()) {
-    fail(name.empty() ? "no column of time" : "no column " + shown(name),
-         "name it; there are: " + list_columns(*this));
+    fail(name.empty() ? "no column of time" : "no column " + shown(name), columns_there(name));
   }
   time_power_ = heading(columns_[time_column_]).power;
   return time_column_;
@@ -106,8 +108,7 @@ bool Table::read() {
   if (!next_line()) return false;
   split();
   if (fields_.size() != columns_.size()) {
-    fail("the row has " + std::to_string(fields_.size()) + " of " +
-             std::to_string(columns_.size()) + " fields",
+    fail(fmt::format("the row has {} of {} fields", fields_.size(), columns_.size()),
          "the file is truncated or damaged; fetch it again");
   }
   read_time();
@@ -139,10 +140,9 @@ std::string Table::values() const {
 
 void Table::fail(const std::string& what, const std::string& mend) const { in_.fail(what, mend); }
 
-std::string list_columns(const Table& table) {
-  std::string text;
-  for (const std::string& name : table.columns()) text += (text.empty() ? "" : ", ") + name;
-  return text;
+std::string Table::columns_there(const std::string& name) const {
+  return fmt::format("{}name it; there are: {}", config::did_you_mean(name, columns_),
+                     list_names(columns_));
 }
 
 }  // namespace feltgate::traces

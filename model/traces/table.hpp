@@ -41,6 +41,8 @@ class Table {
   std::int64_t time() const { return time_; }
 
   std::string where() const { return in_.where(); }
+  /// The mend of a message about a column that is not there: the nearest name, and what there is.
+  std::string columns_there(const std::string& name) const;
   [[noreturn]] void fail(const std::string& what, const std::string& mend) const;
 
  private:
@@ -59,8 +61,5 @@ class Table {
   int128_t origin_ = 0;
   std::int64_t time_ = 0;
 };
-
-/// The column names, as one text for messages.
-std::string list_columns(const Table& table);
 
 }  // namespace feltgate::traces

@@ -4,6 +4,8 @@
 // Text of bounded memory: bytes, lines and numbers of a file. Documentation: docs/traces.md
 #include "traces/text.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 
@@ -140,7 +142,7 @@ bool ByteReader::line(std::string& text) {
   return true;
 }
 
-std::string ByteReader::where() const { return name_ + ":" + std::to_string(line_); }
+std::string ByteReader::where() const { return fmt::format("{}:{}", name_, line_); }
 
 void ByteReader::fail(const std::string& what, const std::string& mend) const {
   traces::fail(where(), what, mend);

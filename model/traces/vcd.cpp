@@ -4,6 +4,8 @@
 // Value change dumps: the stream of values after the header. Documentation: docs/traces.md
 #include "traces/vcd.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "traces/error.hpp"
@@ -110,7 +112,7 @@ void VcdCapture::read_time() {
     timed_ = true;
     origin_ = moment_ = *t;
   } else if (*t < time_) {
-    in_.fail("time goes backwards from " + std::to_string(time_) + " to " + std::to_string(*t),
+    in_.fail(fmt::format("time goes backwards from {} to {}", time_, *t),
              "sort the recording or cut it");
   }
   time_ = *t;

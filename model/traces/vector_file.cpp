@@ -4,6 +4,8 @@
 // feltgate's own recordings of encoder pins: the reader. Documentation: docs/traces.md
 #include "traces/vector_file.hpp"
 
+#include <fmt/format.h>
+
 #include "traces/error.hpp"
 #include "traces/options.hpp"
 
@@ -34,7 +36,7 @@ void VectorCapture::read_header() {
   if (fields.size() < 2 || fields[0] != "feltgate-vector") {
     in_.fail("the first line is not that of a feltgate vector", "convert it with feltgate import");
   }
-  if (fields[1] != std::to_string(VectorHeader::kSchema)) {
+  if (parse_count(fields[1]) != VectorHeader::kSchema) {
     in_.fail("schema " + shown(fields[1]) + " is not known", "this program reads schema 1");
   }
   header_.signals.clear();
@@ -60,7 +62,7 @@ std::int64_t VectorCapture::clock_of(std::string_view word) const {
   const auto clock = parse_count(word);
   if (!clock) in_.fail(shown(word) + " is not a clock", "clocks are whole numbers up to 2^62");
   if (*clock <= clock_) {
-    in_.fail("time goes backwards or stands still at clock " + std::to_string(*clock),
+    in_.fail(fmt::format("time goes backwards or stands still at clock {}", *clock),
              "every line is later than the one before");
   }
   return *clock;
@@ -81,8 +83,7 @@ bool VectorCapture::read_change() {
     return false;
   }
   if (fields.size() != header_.signals.size() + 1) {
-    in_.fail("the line has " + std::to_string(fields.size()) + " of " +
-                 std::to_string(header_.signals.size() + 1) + " fields",
+    in_.fail(fmt::format("the line has {} of {} fields", fields.size(), header_.signals.size() + 1),
              "the file is damaged; make it again");
   }
   clock_ = clock_of(fields[0]);

@@ -104,10 +104,14 @@ TEST_CASE("a crossing is stamped with the first clock at or after it", "[encoder
   CHECK(events[0].clock == 1050);
   CHECK(events[1].clock == 1100);
   events.clear();
-  encoder.advance(1003.5 * kCountRad, 1125, 100, events);  // ten edges a clock: pins can only jump
+  encoder.advance(103.5 * kCountRad, 1125, 100,
+                  events);  // one edge a clock: the most that pins show
   CHECK(events.size() == 100);
   CHECK(events.back().clock <= 1225);
-  CHECK(encoder.count() == 1003);
+  CHECK(encoder.count() == 103);
+  CHECK_THROWS_AS(encoder.advance(204.5 * kCountRad, 1225, 100, events), std::domain_error);
+  CHECK_THROWS_AS(encoder.advance(std::nan(""), 1225, 100, events), std::domain_error);
+  CHECK_THROWS_AS(Encoder(imperfect(), false, 1e12), std::invalid_argument);
 }
 
 TEST_CASE("imperfect edges have the stated offsets and are repeatable", "[encoder]") {

@@ -89,12 +89,18 @@ TEST_CASE("errors of a plant file say file, line, what and mend", "[plant_file]"
   const std::string good = p24_text();
   CHECK(plant_error(good) == "no error");
   const std::string unknown = replaced(good, "seed = 1", "sed = 1\nseed = 1");
-  CHECK(plant_error(unknown) == "x.toml:" + std::to_string(line_of(unknown, "sed = 1")) +
-                                    ": key \"sed\" is unknown in [encoder]; remove it or use one "
-                                    "of: edge_offset_counts, line_jitter_counts_rms, lines, seed");
+  CHECK(plant_error(unknown) ==
+        "x.toml:" + std::to_string(line_of(unknown, "sed = 1")) +
+            ": key \"sed\" is unknown in [encoder]; did you mean \"seed\"? "
+            "remove it or use one of: edge_offset_counts, line_jitter_counts_rms, lines, seed");
   const std::string missing = replaced(good, "coulomb_nm = 3.5e-3\n", "");
   CHECK(plant_error(missing) == "x.toml:" + std::to_string(line_of(missing, "[lugre]")) +
                                     ": key \"coulomb_nm\" is missing in [lugre]; add it");
+  const std::string misspelt = replaced(good, "coulomb_nm = ", "coulom_nm = ");
+  CHECK(plant_error(misspelt) ==
+        "x.toml:" + std::to_string(line_of(misspelt, "[lugre]")) +
+            ": key \"coulomb_nm\" is missing in [lugre]; add it, or rename \"coulom_nm\" in line " +
+            std::to_string(line_of(misspelt, "coulom_nm")) + " if that was meant");
   const std::string range = replaced(good, "resistance_ohm = 0.42", "resistance_ohm = -0.42");
   CHECK(plant_error(range) == "x.toml:" + std::to_string(line_of(range, "resistance_ohm")) +
                                   ": \"resistance_ohm\" = -0.42 is out of range; it must be "

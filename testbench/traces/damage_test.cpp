@@ -130,6 +130,14 @@ TEST_CASE("texts that are wrong", "[traces]") {
   expect(csv(edited(kCsv, "0.003", "nan")), "a.csv:5: time 'nan' is not a finite number");
   expect(csv(edited(kCsv, "0.003,1", "0.003,2")), "level '2' of 'A' is not 0 or 1");
   expect(csv(edited(kCsv, "0.003,1,1", "0.003,1")), "a.csv:5: the row has 2 of 3 fields");
+  Options near;
+  near.probes = {"enc_a", "enc_q"};
+  expect(told(folder.file("near.csv", "time,enc_a,enc_b\n0,0,0\n"), near),
+         "no probe 'enc_q'; did you mean \"enc_a\"? there are: enc_a, enc_b");
+  near.probes.clear();
+  near.count_column = "coutn";
+  expect(told(folder.file("near.csv", "time,count\n0,0\n"), near),
+         "no column 'coutn'; did you mean \"count\"? name it; there are: time, count");
   expect(csv("t,count\n0,1\n1,inf\n"), "a.csv:3: position 'inf' is not a finite number");
   expect(csv("t,count\n0,1\n1,1e300\n"), "over 2^53 counts");
   expect(csv("t,theta\n0,1\n"), "cannot tell which channels are the encoder's A and B");

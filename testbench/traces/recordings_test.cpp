@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <iostream>
 
 #include "catch.hpp"
 #include "recording_files.hpp"
@@ -18,14 +19,15 @@ using namespace feltgate::traces;
 
 namespace {
 
-/// The folder of the recordings; empty, after a message, when there is none.
+/// The folder of the recordings; empty, after the line by which CTest knows a skipped test, when
+/// there is none.
 std::filesystem::path recordings() {
   const char* const named = std::getenv("FELTGATE_TRACES");
   std::filesystem::path folder = named != nullptr
                                      ? std::filesystem::path(named)
                                      : std::filesystem::path(FELTGATE_ROOT) / "../shared/traces";
   if (std::filesystem::is_directory(folder)) return folder;
-  WARN("skipped: no recordings in " << folder.string() << "; set FELTGATE_TRACES");
+  std::cout << "SKIPPED: no recordings in " << folder.string() << "; set FELTGATE_TRACES\n";
   return {};
 }
 
@@ -73,7 +75,7 @@ std::vector<Options> modes(Options options) {
 
 }  // namespace
 
-TEST_CASE("the mouse recordings give their table", "[traces][recorded]") {
+TEST_CASE("the mouse recordings give their table", "[mouse]") {
   const auto folder = recordings();
   if (folder.empty()) return;
   for (const Row& row : kMouse) {
@@ -98,7 +100,7 @@ TEST_CASE("the mouse recordings give their table", "[traces][recorded]") {
   }
 }
 
-TEST_CASE("both axes of the motion controller go out and back", "[traces][recorded]") {
+TEST_CASE("both axes of the motion controller go out and back", "[stepper]") {
   const auto folder = recordings();
   if (folder.empty()) return;
   for (const auto& [step, dir] : {std::pair("3", "4"), std::pair("5", "6")}) {
@@ -117,7 +119,7 @@ TEST_CASE("both axes of the motion controller go out and back", "[traces][record
   }
 }
 
-TEST_CASE("memory does not grow with the length of a recording", "[traces][recorded]") {
+TEST_CASE("memory does not grow with the length of a recording", "[memory]") {
   const auto folder = recordings();
   if (folder.empty()) return;
   Options options;
@@ -133,7 +135,7 @@ TEST_CASE("memory does not grow with the length of a recording", "[traces][recor
   CHECK(most - before < 20'000'000);
 }
 
-TEST_CASE("the QUBE recording gives its table", "[traces][recorded]") {
+TEST_CASE("the QUBE recording gives its table", "[qube]") {
   const auto folder = recordings();
   if (folder.empty()) return;
   Options base;

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What a scene asks of a design, checked before a run. Documentation: docs/scenes.md
+#include "loop/scenario_check.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "config/toml_reader.hpp"
+
+namespace feltgate {
+
+namespace {
+
+void check_parameter(const std::string& place, const std::string& name, double value,
+                     const DesignInfo& design) {
+  const std::string at = place.empty() ? "" : place + ": ";
+  const ParameterInfo* info = design.find(name);
+  if (info == nullptr) throw config::ConfigError(at + design.unknown(name));
+  try {
+    (void)quantise_parameter(*info, value);
+  } catch (const std::invalid_argument& error) {
+    throw config::ConfigError(at + error.what());
+  }
+}
+
+}  // namespace
+
+void check_scenario(const Scenario& s, const plant::Parameters& plant, const DesignInfo& design) {
+  for (const auto& [name, value] : s.parameters) {
+    const auto line = s.parameter_lines.find(name);
+    const bool of_file = line != s.parameter_lines.end();
+    check_parameter(of_file ? fmt::format("{}:{}", s.path, line->second) : "", name, value, design);
+  }
+  for (const Event& e : s.events) {
+    for (const auto& [name, value] : e.set) {
+      check_parameter(e.line == 0 ? "" : fmt::format("{}:{}", s.path, e.line), name, value, design);
+    }
+  }
+  check_step(s, plant, static_cast<double>(design.clock_hz));
+}
+
+}  // namespace feltgate

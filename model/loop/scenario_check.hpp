@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What a scene asks of design and plant, checked before a run. Documentation: docs/scenes.md
+#pragma once
+
+#include "engines/engine.hpp"
+#include "loop/scenario.hpp"
+
+namespace feltgate {
+
+/// Every parameter that the scene sets is one of the design and fits its word, and the plant's step
+/// is short enough for each phase of the hand (docs/plant.md).
+/// Errors: config::ConfigError "file:line: what; mend", without file and line for what was not read
+/// from a file.
+void check_scenario(const Scenario& scenario, const plant::Parameters& plant,
+                    const DesignInfo& design);
+
+/// The step alone, at a clock of `clock_hz`.
+void check_step(const Scenario& scenario, const plant::Parameters& plant, double clock_hz);
+
+}  // namespace feltgate

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Scenes that cannot be run: each is refused, or ended, with file, line and what to change.
+// Documentation: docs/scenes.md, docs/plant.md
+#include <filesystem>
+#include <fstream>
+
+#include "catch.hpp"
+#include "config/toml_reader.hpp"
+#include "loop/loop.hpp"
+#include "plant/plant_file.hpp"
+
+namespace {
+
+using namespace feltgate;
+
+const std::string kHead =
+    "title = \"t\"\nabout = \"a\"\nduration_s = 0.02\n[core]\nscene = \"free\"\n";  // 5 lines
+
+/// The message of a scene's text, read and run with the twin; empty where all goes well.
+std::string told(const std::string& text, const std::string& plant_change = "") {
+  const std::string folder = std::filesystem::temp_directory_path().string();
+  const std::string path = folder + "/feltgate_bad_scene.toml";
+  std::ofstream(path) << text;
+  const auto without_folder = [&](std::string message) {
+    const auto at = message.find(folder + "/");
+    if (at != std::string::npos) message.erase(at, folder.size() + 1);
+    return message;
+  };
+  try {
+    plant::Parameters p =
+        plant::read_plant_file(std::string(FELTGATE_ROOT) + "/vectors/plants/p24.toml");
+    if (plant_change == "light") p.lever.inertia_kg_m2 = 1e-12;
+    Scenario scene = read_scenario(path);
+    resolve_effects(scene, p.effects);
+    RunOptions options;
+    options.engine = "twin";
+    (void)run_scenario(scene, p, options);
+  } catch (const config::ConfigError& error) {
+    return without_folder(error.what());
+  }
+  return {};
+}
+
+void expect(const std::string& message, const std::string& beginning, const std::string& mend) {
+  INFO(message);
+  CHECK(message.rfind("feltgate_bad_scene.toml:" + beginning, 0) == 0);
+  CHECK(message.find(mend) != std::string::npos);
+}
+
+std::string hand(const std::string& phase) { return kHead + "[hand]\n[[hand.phase]]\n" + phase; }
+
+}  // namespace
+
+TEST_CASE("a good scene runs to its end", "[bad_scene]") { CHECK(told(kHead) == ""); }
+
+TEST_CASE("what is stiff beyond the step is refused before the run", "[bad_scene]") {
+  expect(told(hand("kind = \"impedance\"\nmass_kg = 1e-6\n"
+                   "motion = [{kind = \"hold\", duration_s = 1}]\n")),
+         "8: the fastest mechanical pole, ", "raise mass_kg");
+  const std::string cord = told(hand("kind = \"cord\"\ndamping_nm_s_rad = 1000\n"));
+  expect(cord,
+         "8: the fastest mechanical pole, 8.2e+06 1/s, times the plant's step of 5e-07 s is "
+         "4.1 and must stay below 2.5; lower damping_nm_s_rad",
+         "or set step_clocks = 15 (it is 25)");
+  CHECK(told("step_clocks = 15\n" + hand("kind = \"cord\"\ndamping_nm_s_rad = 1000\n")) == "");
+  const std::string light = told(kHead, "light");
+  INFO(light);
+  CHECK(light.find("p24.toml:18: the fastest pole of bristles and back-EMF") != std::string::npos);
+  CHECK(light.find("raise inertia_kg_m2") != std::string::npos);
+}
+
+TEST_CASE("angles and speeds that nothing can show", "[bad_scene]") {
+  expect(told(kHead + "[hand]\nstart_rad = 1e12\n"),
+         "7: \"start_rad\" = 1000000000000 is out of range", "from -1000000 to 1000000");
+  const auto ramp = [](const std::string& to) {
+    return hand("kind = \"prescribed\"\nmotion = [{kind = \"ramp\", to_rad = " + to +
+                ", duration_s = 0.005}]\n");
+  };
+  expect(told(ramp("1e9")), "9: \"to_rad\" = 1000000000 is out of range", "from -1000000");
+  expect(told(ramp("1e6")), " after 0 s the lever turns at 2e+08 rad/s", "slow the motion");
+  CHECK(told(ramp("1.0")) == "");
+}
+
+TEST_CASE("events that never come", "[bad_scene]") {
+  const auto event = [](const std::string& at) { return kHead + "[[event]]\nat_s = " + at + "\n"; };
+  for (const char* late : {"1e12", "1e300", "0.02", "0.03"}) {
+    expect(told(event(late)), "7: the event at ", "move the event, or raise duration_s");
+  }
+  CHECK(told(event("0.019")) == "");
+  // Arming later than the end is not arming.
+  CHECK(told(kHead + "arm_s = 1e300\n[[expect]]\nfigure = \"tau_ref_max_nm\"\nhigh = 0\n") == "");
+  expect(told("duration_s = 1e300\n"), "1: ", "");
+}
+
+TEST_CASE("misspelt names are named, and the nearest one", "[bad_scene]") {
+  expect(told(kHead + "[parameters]\ntorque_limt = 0.4\n"),
+         "7: parameter \"torque_limt\" is unknown; did you mean \"torque_limit\"?",
+         "`feltgate design lever` lists them");
+  expect(told(kHead + "[[event]]\nat_s = 0.01\nset = {setpoint_torqe = 0.1}\n"),
+         "7: parameter \"setpoint_torqe\" is unknown; did you mean \"setpoint_torque\"?", "lists");
+  expect(told(kHead + "[[expect]]\nfigure = \"tau_ref_max\"\nhigh = 0\n"),
+         "6: figure \"tau_ref_max\"", "did you mean \"tau_ref_max_nm\"?");
+  expect(told(kHead + "[parameters]\ntorque_limit = 1e9\n"),
+         "7: torque_limit = 1000000000 Nm does not fit its register",
+         "choose a value from -16 to below 16");
+  expect(told("dutation_s = 1\n" + kHead),
+         "1: key \"dutation_s\" is unknown in the scene; did you "
+         "mean \"duration_s\"?",
+         "");
+  expect(told("title = \"t\"\nabout = \"a\"\ndutation_s = 1\n[core]\nscene = \"free\"\n"),
+         "1: key \"duration_s\" is missing in the scene", "rename \"dutation_s\" in line 3");
+}

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The readers that are fuzzed. Documentation: docs/testing.md
+#include "reader_inputs.hpp"
+
+#include <archive.h>
+#include <archive_entry.h>
+
+#include <memory>
+#include <stdexcept>
+
+#include "config/toml_reader.hpp"
+#include "design/generate.hpp"
+#include "faulty_reader.hpp"
+#include "loop/scenario_check.hpp"
+#include "plant/hand_file.hpp"
+#include "plant/plant_file.hpp"
+#include "traces/open.hpp"
+#include "traces/place.hpp"
+
+namespace feltgate::fuzz {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr long kMostEvents = 20'000;  ///< a stream may be long; its first part shows what matters
+
+fs::path root_of_project;
+
+struct Shipped {
+  design::RegisterMap registers;
+  design::Design design;
+  plant::Parameters plant;
+};
+
+const Shipped& shipped() {
+  static const Shipped s{
+      design::read_registers((root_of_project / "rtl/registers.toml").string()),
+      design::read_design((root_of_project / "rtl/designs/paper.toml").string()),
+      plant::read_plant_file((root_of_project / "vectors/plants/p24.toml").string())};
+  return s;
+}
+
+std::string as_it_is(const std::string& input) { return input; }
+
+/// The metadata, a line "--", the first chunk, perhaps a line "--" and the second chunk: so that
+/// changes reach the reader's own code behind the checksums of the zip.
+std::string as_session(const std::string& input) {
+  static const std::string between = "\n--\n";
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  while (parts.size() < 3) {
+    const std::size_t end = parts.size() == 2 ? std::string::npos : input.find(between, begin);
+    parts.push_back(input.substr(begin, end == std::string::npos ? end : end - begin));
+    if (end == std::string::npos) break;
+    begin = end + between.size();
+  }
+  const std::string names[] = {"metadata", parts.size() == 3 ? "logic-1-1" : "logic-1",
+                               "logic-1-2"};
+  std::string zip(1U << 18U, '\0');
+  std::size_t used = 0;
+  archive* const a = archive_write_new();
+  archive_write_set_format_zip(a);
+  archive_write_zip_set_compression_store(a);
+  archive_write_set_bytes_per_block(a, 0);
+  if (archive_write_open_memory(a, zip.data(), zip.size(), &used) != ARCHIVE_OK) {
+    throw std::runtime_error("no zip");
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    archive_entry* const entry = archive_entry_new();
+    archive_entry_set_pathname(entry, names[i].c_str());
+    archive_entry_set_size(entry, static_cast<la_int64_t>(parts[i].size()));
+    archive_entry_set_filetype(entry, AE_IFREG);
+    archive_entry_set_perm(entry, 0644);
+    archive_write_header(a, entry);
+    archive_write_data(a, parts[i].data(), parts[i].size());
+    archive_entry_free(entry);
+  }
+  archive_write_close(a);
+  archive_write_free(a);
+  zip.resize(used);
+  return zip;
+}
+
+/// ":123: " somewhere in the message.
+bool names_line(const std::string& message) {
+  for (auto at = message.find(": "); at != std::string::npos; at = message.find(": ", at + 1)) {
+    const auto before = message.find_last_not_of("0123456789", at - 1);
+    if (before != std::string::npos && before + 1 < at && message[before] == ':') return true;
+  }
+  return false;
+}
+
+template <class Use>
+Ending config_ending(Use use) {
+  Ending ending;
+  try {
+    use();
+    ending.read = true;
+  } catch (const config::ConfigError& error) {
+    ending.error = error.what();
+    if (!names_line(ending.error)) ending.trouble = "the message has no line";
+  }
+  return ending;
+}
+
+/// Elaborates as far as it goes and makes every text that would be written.
+void make_all(const design::Design& d, const design::RegisterMap& registers) {
+  const design::Elaborated e = elaborate(d, registers);
+  (void)systemverilog_package(e);
+  (void)cpp_header(e);
+  (void)values_text(e);
+  (void)register_page(e);
+  (void)design_table(e);
+}
+
+Ending use_design(const fs::path& file) {
+  return config_ending([&] { make_all(design::read_design(file.string()), shipped().registers); });
+}
+
+Ending use_registers(const fs::path& file) {
+  return config_ending([&] { make_all(shipped().design, design::read_registers(file.string())); });
+}
+
+Ending use_plant(const fs::path& file) {
+  return config_ending([&] {
+    Scenario still;
+    const plant::Parameters plant = plant::read_plant_file(file.string());
+    still.effects = plant.effects;
+    check_step(still, plant, 50e6);
+  });
+}
+
+Ending use_scene(const fs::path& file) {
+  return config_ending([&] {
+    Scenario scenario = read_scenario(file.string());
+    resolve_effects(scenario, shipped().plant.effects);
+    check_step(scenario, shipped().plant, 50e6);
+    (void)effects_off(scenario);
+    (void)scenes_used(scenario);
+  });
+}
+
+Ending use_motion(const fs::path& file) {
+  return config_ending([&] { (void)plant::read_trace_file(file.string()); });
+}
+
+/// The options of a recording come from its bytes: the same input, the same options.
+traces::Options options_of(const fs::path& file, traces::FileFormat format) {
+  traces::Options o;
+  traces::Random random(static_cast<std::uint64_t>(fs::file_size(file)));
+  o.format = random.below(4) == 0 ? traces::FileFormat::detect : format;
+  o.jitter = random.below(2) == 0;
+  const std::int64_t clocks[] = {50'000'000, 1, 1'000'000'000'000, 12'345'678};
+  o.clock_hz = clocks[random.below(4)];
+  const std::int64_t rates[] = {0, 0, 1, 1'000'000'000'000};
+  o.sample_hz = rates[random.below(4)];
+  const bool saleae = format == traces::FileFormat::saleae;
+  if (random.below(3) == 0) {
+    o.probes = saleae ? std::vector<std::string>{"Channel 0", "Channel 1"}
+                      : std::vector<std::string>{"A", "B"};
+  }
+  if (format == traces::FileFormat::columns) {
+    o.probes.clear();
+    o.count_column = random.below(2) == 0 ? "count" : "";
+    if (random.below(2) == 0) o.scale = 325.95;
+  }
+  return o;
+}
+
+Ending use_recording(const fs::path& file, traces::FileFormat format) {
+  Ending ending;
+  try {
+    const traces::Options options = options_of(file, format);
+    (void)traces::channels(file, options);
+    const auto source = traces::open(file, options);
+    Clock last = 0;
+    long events = 0;
+    while (events < kMostEvents) {
+      const auto event = source->next();
+      if (!event) break;
+      if (event->clock <= last) ending.trouble = "an event is not later than the one before";
+      last = event->clock;
+      ++events;
+    }
+    if (events < kMostEvents && source->length() <= last) {
+      ending.trouble = "the recording ends before its last event";
+    }
+    ending.read = true;
+  } catch (const traces::TraceError& error) {
+    ending.error = error.what();
+  }
+  return ending;
+}
+
+template <traces::FileFormat Format>
+Ending use_trace(const fs::path& file) {
+  return use_recording(file, Format);
+}
+
+}  // namespace
+
+void set_root(const fs::path& root) {
+  root_of_project = root;
+  (void)shipped();
+}
+
+const std::vector<Reader>& readers() {
+  using F = traces::FileFormat;
+  static const std::vector<Reader> all{
+      {"design", "input.toml", as_it_is, use_design},
+      {"registers", "input.toml", as_it_is, use_registers},
+      {"plant", "input.toml", as_it_is, use_plant},
+      {"scene", "input.toml", as_it_is, use_scene},
+      {"motion", "input.csv", as_it_is, use_motion},
+      {"sigrok", "input.sr", as_it_is, use_trace<F::sigrok>},
+      {"session", "input.sr", as_session, use_trace<F::sigrok>},
+      {"vcd", "input.vcd", as_it_is, use_trace<F::vcd>},
+      {"saleae", "input.csv", as_it_is, use_trace<F::saleae>},
+      {"levels", "input.csv", as_it_is, use_trace<F::levels>},
+      {"columns", "input.csv", as_it_is, use_trace<F::columns>},
+      {"vector", "input.vec", as_it_is, use_trace<F::vector>},
+      {"faulty", "input.txt", as_it_is, use_faulty},
+  };
+  return all;
+}
+
+}  // namespace feltgate::fuzz

@@ -35,7 +35,8 @@ if(FELTGATE_SIM)
       DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/feltgate/${room}" COMPONENT feltgate_${component}
       FILES_MATCHING PATTERN "*.hpp"
       PATTERN "ensemble.hpp" EXCLUDE PATTERN "scenario_bounds.hpp" EXCLUDE
-      PATTERN "make_engines.hpp" EXCLUDE PATTERN "lock_step_engine.hpp" EXCLUDE PATTERN "plant_table.hpp" EXCLUDE PATTERN "rtl_*.hpp" EXCLUDE)
+      PATTERN "make_engines.hpp" EXCLUDE PATTERN "lock_step_engine.hpp" EXCLUDE
+      PATTERN "plant_table.hpp" EXCLUDE PATTERN "rtl_*.hpp" EXCLUDE)
   endforeach()
   install(DIRECTORY "${FELTGATE_ROOT}/vectors/plants" "${FELTGATE_ROOT}/vectors/scenes"
     "${FELTGATE_ROOT}/vectors/traces"

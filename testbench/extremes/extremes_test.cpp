@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Every extreme as a named test: what it expects holds in RTL, twin and double, and docs/extremes.md
-// says the same. FELTGATE_DEFECT=N breaks stimulus or register of one group.
+// Every extreme as a named test: what it expects holds in RTL, twin and double, and
+// docs/extremes.md says the same. FELTGATE_DEFECT=N breaks stimulus or register of one group.
 // Documentation: docs/extremes.md
 #include <cstdlib>
 #include <fstream>

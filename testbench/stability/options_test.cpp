@@ -20,12 +20,12 @@ TEST_CASE("rates and dampings of a study are numbers of their range") {
   StudyOptions options;
   options.bits = options.experiments = false;
   options.rates_hz = {1000};
-  for (const double damping : {std::nan(""), INFINITY, -0.1, 1.1}) {
+  for (const double damping : {std::nan(""), HUGE_VAL, -0.1, 1.1}) {
     options.damping_nm_s_rad = {0.001, damping};
     CHECK_THROWS_AS(run_study(design, plant, plant, options), std::invalid_argument);
   }
   options.damping_nm_s_rad = {0.001};
-  for (const double rate : {std::nan(""), INFINITY, 0.0, 2e6}) {
+  for (const double rate : {std::nan(""), HUGE_VAL, 0.0, 2e6}) {
     options.rates_hz = {rate};
     CHECK_THROWS_AS(run_study(design, plant, plant, options), std::invalid_argument);
   }

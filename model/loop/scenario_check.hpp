@@ -4,8 +4,8 @@
 // What a scene asks of design and plant, checked before a run. Documentation: docs/scenes.md
 #pragma once
 
-#include "engines/engine.hpp"
-#include "loop/scenario.hpp"
+#include "../engines/engine.hpp"
+#include "scenario.hpp"
 
 namespace feltgate {
 

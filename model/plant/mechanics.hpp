@@ -8,7 +8,7 @@
 #include <array>
 #include <cstddef>
 
-#include "plant/hand.hpp"
+#include "hand.hpp"
 
 namespace feltgate::plant {
 

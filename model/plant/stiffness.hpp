@@ -5,8 +5,8 @@
 // step. Derivation: docs/plant.md
 #pragma once
 
-#include "plant/hand.hpp"
-#include "plant/parameters.hpp"
+#include "hand.hpp"
+#include "parameters.hpp"
 
 namespace feltgate::plant {
 

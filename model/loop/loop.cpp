@@ -52,7 +52,7 @@ class ScenarioRun {
               Waveform{options.fst, options.fst_from, options.fst_to}),
         mean_(core_.design().pwm_period),
         felt_(1.0 / static_cast<double>(core_.design().tick_hz)),
-        scene_(scene_number(scenario.scene)),
+        scene_(scene_number(core_.design(), scenario.scene)),
         mode_(scenario.mode),
         counter_(plant_.encoder().pins()) {}
 
@@ -108,15 +108,6 @@ class ScenarioRun {
     return std::llround(std::min(seconds * static_cast<double>(core_.design().clock_hz), never));
   }
 
-  int scene_number(const std::string& name) const {
-    const int number = core_.design().scene_number(name);
-    if (number < 0) {
-      throw std::invalid_argument("scene \"" + name + "\" is not built in design " +
-                                  core_.design().name + "; choose a design that lists it");
-    }
-    return number;
-  }
-
   void request_arm() {
     armed_ = arm_done_ = true;
     core_.set_control(scene_, mode_, true);
@@ -134,7 +125,7 @@ class ScenarioRun {
       core_.set_panel(panel);
     }
     if (e.scene || e.mode || e.arm) {
-      if (e.scene) scene_ = scene_number(*e.scene);
+      if (e.scene) scene_ = scene_number(core_.design(), *e.scene);
       if (e.mode) mode_ = *e.mode;
       if (e.arm) armed_ = *e.arm;
       core_.set_control(scene_, mode_, armed_);

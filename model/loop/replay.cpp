@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "loop/ensemble.hpp"
+#include "loop/scenario_check.hpp"
 #include "traces/statistics.hpp"
 
 namespace feltgate {
@@ -24,12 +25,7 @@ RunResult run_replay(EncoderSource& source, const std::string& subject,
   Ensemble core(options.design, choice, options.seed, source.initial(),
                 Waveform{options.fst, options.fst_from, options.fst_to});
   const DesignInfo& d = core.design();
-  const int scene = d.scene_number(options.scene);
-  if (scene < 0) {
-    throw std::invalid_argument(
-        fmt::format("scene \"{}\" is not built in design {}", options.scene, d.name));
-  }
-  core.set_control(scene, 0, options.arm);
+  core.set_control(scene_number(d, options.scene), 0, options.arm);
   core.cover(options.coverage);
 
   RunResult out;

@@ -60,6 +60,7 @@ Expectation read_expectation(config::TomlReader r, const toml::table& table) {
   if (!r.has("low") && !r.has("high")) {
     r.fail("figure", "an expectation needs a bound", "give low, high or both");
   }
+  if (x.low > x.high) r.fail("low", "no value is above low and below high", "exchange them");
   r.finish();
   return x;
 }

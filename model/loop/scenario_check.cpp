@@ -7,12 +7,23 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <vector>
 
+#include "config/nearest.hpp"
 #include "config/toml_reader.hpp"
 
 namespace feltgate {
 
 namespace {
+
+void check_scene(const Scenario& s, int line, const std::string& name, const DesignInfo& design) {
+  try {
+    (void)scene_number(design, name);
+  } catch (const config::ConfigError& error) {
+    if (line == 0) throw;
+    throw config::ConfigError(fmt::format("{}:{}: {}", s.path, line, error.what()));
+  }
+}
 
 void check_parameter(const std::string& place, const std::string& name, double value,
                      const DesignInfo& design) {
@@ -28,13 +39,28 @@ void check_parameter(const std::string& place, const std::string& name, double v
 
 }  // namespace
 
+int scene_number(const DesignInfo& design, const std::string& name) {
+  const int number = design.scene_number(name);
+  if (number >= 0) return number;
+  std::vector<std::string> built;
+  for (const char* scene : {"free", "setpoint", "membrane", "spring_compression", "spring_tension",
+                            "damper", "charge_attract", "charge_repel", "wall"}) {
+    if (design.scene_number(scene) >= 0) built.emplace_back(scene);
+  }
+  throw config::ConfigError(fmt::format(
+      "scene \"{}\" is not built in design {}; {}choose one of {}, or a design that lists it", name,
+      design.name, config::did_you_mean(name, built), fmt::join(built, ", ")));
+}
+
 void check_scenario(const Scenario& s, const plant::Parameters& plant, const DesignInfo& design) {
+  check_scene(s, s.scene_line, s.scene, design);
   for (const auto& [name, value] : s.parameters) {
     const auto line = s.parameter_lines.find(name);
     const bool of_file = line != s.parameter_lines.end();
     check_parameter(of_file ? fmt::format("{}:{}", s.path, line->second) : "", name, value, design);
   }
   for (const Event& e : s.events) {
+    if (e.scene) check_scene(s, e.line, *e.scene, design);
     for (const auto& [name, value] : e.set) {
       check_parameter(e.line == 0 ? "" : fmt::format("{}:{}", s.path, e.line), name, value, design);
     }

@@ -9,8 +9,11 @@
 
 namespace feltgate {
 
-/// Every parameter that the scene sets is one of the design and fits its word, and the plant's step
-/// is short enough for each phase of the hand (docs/plant.md).
+/// Number of a torque law. Throws config::ConfigError with the laws that the design has.
+int scene_number(const DesignInfo& design, const std::string& name);
+
+/// Every scene that is named is in the design, every parameter that is set is one of the design and
+/// fits its word, and the plant's step is short enough for each phase of the hand (docs/plant.md).
 /// Errors: config::ConfigError "file:line: what; mend", without file and line for what was not read
 /// from a file.
 void check_scenario(const Scenario& scenario, const plant::Parameters& plant,

@@ -4,6 +4,8 @@
 // feltgate replay and feltgate import. Documentation: docs/traces.md, docs/json.md
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -91,9 +93,13 @@ int replay(ReplayArguments& a) {
   options.engine = a.engine;
   options.scene = a.scene;
   options.seed = how.seed;
-  options.most_clocks = static_cast<Clock>(a.seconds * static_cast<double>(how.clock_hz));
+  if (a.seconds > 0) {
+    const double clocks = a.seconds * static_cast<double>(how.clock_hz);
+    options.most_clocks = std::max<Clock>(1, std::llround(clocks));
+  }
   files::Outputs outputs;
   outputs.reads(a.trace.path);
+  outputs.reads(find_file(a.design, "rtl/designs"));
   files::OutputFile* json = outputs.open("--json", a.json);
   files::OutputFile* csv = outputs.open("--csv", a.csv);
   files::OutputFile* fst = outputs.open("--fst", a.fst);

@@ -46,6 +46,9 @@ int run(const StabilityArguments& a) {
   const auto linear = plant::read_plant_file(find_file(a.linear, "vectors/plants"));
   const auto full = plant::read_plant_file(find_file(a.plant, "vectors/plants"));
   files::Outputs outputs;
+  outputs.reads(find_file(a.design, "rtl/designs"));
+  outputs.reads(find_file(a.linear, "vectors/plants"));
+  outputs.reads(find_file(a.plant, "vectors/plants"));
   outputs.folder("--plot", a.plot);
   files::OutputFile* json = outputs.open("--json", a.json);
   // The pictures are drawn from a file.

@@ -195,6 +195,7 @@ int run_trim(TrimArguments& a) {
   files::Outputs outputs;
   outputs.reads(scene.path);
   outputs.reads(plant_path);
+  outputs.reads(find_file(a.options.design, "rtl/designs"));
   files::OutputFile* output = outputs.open("--output", a.output);
   files::OutputFile* json = outputs.open("--json", a.json);
   Progress progress("trim " + scene.name + " on " + a.options.design, a.quiet);

@@ -222,6 +222,10 @@ class Refused(Bench):
         done.err = done.communicate()[1].decode()
         self.assert_refused(done, "would replace r.vec, which is read")
         self.assertEqual(self.path("r.vec").read_bytes(), vector.read_bytes())
+        # The numbers of a design are read too.
+        self.path("lever").symlink_to(ROOT / "rtl/designs/lever.toml")
+        done = self.run_it("--json", "lever")
+        self.assert_refused(done, "rtl/designs/lever.toml, which is read")
 
     def test_where_stdout_goes_too(self):
         with self.path("text").open("wb") as out:

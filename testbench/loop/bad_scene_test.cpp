@@ -95,6 +95,10 @@ TEST_CASE("events that never come", "[bad_scene]") {
 }
 
 TEST_CASE("misspelt names are named, and the nearest one", "[bad_scene]") {
+  expect(told("title = \"t\"\nabout = \"a\"\nduration_s = 0.02\n[core]\nscene = \"wal\"\n"),
+         "5: scene \"wal\" is not built in design lever; did you mean \"wall\"?", "choose one of");
+  expect(told(kHead + "[[event]]\nat_s = 0.01\nscene = \"dampr\"\n"),
+         "7: scene \"dampr\" is not built in design lever; did you mean \"damper\"?", "free, ");
   expect(told(kHead + "[parameters]\ntorque_limt = 0.4\n"),
          "7: parameter \"torque_limt\" is unknown; did you mean \"torque_limit\"?",
          "`feltgate design lever` lists them");

@@ -204,7 +204,10 @@ def merged(options):
         plan = plans.Plan(default_folder(table.stem), found.name, found.description, (), "")
     if options.out:
         plan = dataclasses.replace(plan, folder=options.out)
-    plan.folder.mkdir(parents=True, exist_ok=True)
+    try:
+        plan.folder.mkdir(parents=True, exist_ok=True)
+    except FileExistsError:
+        raise plans.PlanError(f"{plan.folder}: is no folder; give -o a folder's name") from None
     return plan, rows
 
 

@@ -170,6 +170,10 @@ def value_of(text):
         return text
 
 
+# Columns of numbers, by how their names end.
+FIGURES = ("_nm", "_rad_s", "_v", "_s", "_us", "_mhz", "_clocks", "mult18", "ff", "lut4_equivalents")
+
+
 def read_table(path):
     """The rows of a points.csv, whose base is that of the space file beside it."""
     path = Path(path)
@@ -180,13 +184,23 @@ def read_table(path):
             lines = list(csv.DictReader(file))
     except (OSError, ValueError, KeyError) as error:
         what = getattr(error, "strerror", None) or error
+        where = getattr(error, "filename", None) or path
         raise chunks.ChunkError(
-            f"{path}: {what}; wanted a table and {beside.name} beside it"
+            f"{where}: {what}; wanted a table and {beside.name} beside it"
         ) from None
     rows = []
-    for line in lines:
+    for number, line in enumerate(lines, 2):
+        if None in line or None in line.values():
+            raise chunks.ChunkError(
+                f"{path}:{number}: not as many fields as in line 1; make the table again"
+            )
         known = {key: value_of(text) for key, text in line.items() if text and key != "id"}
         changed = {key: value for key, value in known.items() if "." in key}
         result = {key: value for key, value in known.items() if "." not in key and key != "front"}
+        for key, value in result.items():
+            if key.endswith(FIGURES) and not isinstance(value, int | float):
+                raise chunks.ChunkError(
+                    f"{path}:{number}: {key} = {value!r} is not a number; make the table again"
+                )
         rows.append({"id": line["id"], "base": base, "set": changed, "result": result})
     return rows

@@ -128,6 +128,19 @@ class Page(Bench):
             for a, b in zip(one["y"], other["y"], strict=True):
                 self.assertTrue(a == b or abs(a - b) < 1e-5 * abs(a))
 
+    def test_a_damaged_table(self):
+        table = self.folder / "space.csv"
+        for text, said in (
+            ("id,front,delay_s\nab,,1e-6,2\n", "space.csv:2: not as many fields as in line 1"),
+            ("id,front,delay_s\nab,,\nac,,x\n", "space.csv:3: delay_s = 'x' is not a number"),
+        ):
+            table.write_text(text)
+            done = self.explore("page", table)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+            self.assertIn(said, done.stderr)
+        self.space.unlink()
+        self.assertIn("space.toml: No such file", self.explore("page", table).stderr)
+
     def test_words_say_what_is_changed(self):
         self.assertEqual(explore_page.words({"base": "lever", "set": {}}), "lever as it is")
         text = explore_page.words({"base": "lever", "set": {"velocity.m1": 96}})

@@ -77,7 +77,9 @@ void check_trace(const config::TomlReader& table, const std::string& key, const 
 Trace read_trace(config::TomlReader& table) {
   Trace trace;
   if (table.has("file")) {
-    trace = read_trace_file(beside(table.file(), table.text("file")));
+    const std::string file = beside(table.file(), table.text("file"));
+    trace = read_trace_file(file);
+    trace.file = file;
     check_trace(table, "file", trace);
   } else {
     trace.time_s = table.numbers("time_s", config::kNotNegative);

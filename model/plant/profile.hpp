@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -55,6 +56,7 @@ class ProfileRun {
 struct Trace {
   std::vector<double> time_s;  ///< strictly increasing
   std::vector<double> theta_rad;
+  std::string file{};  ///< that it was read from, if any
 };
 
 /// A trace under way. Times must not decrease from call to call.

@@ -112,6 +112,7 @@ int run(const BudgetArguments& a) {
   files::Outputs outputs;
   outputs.reads(scenario.path);
   outputs.reads(plant_path);
+  for (const auto& phase : scenario.hand.phases) outputs.reads(phase.trace.file);
   outputs.reads(find_file(a.design, "rtl/designs"));
   files::OutputFile* file = outputs.open("--json", a.json);
   SceneBudget b;

@@ -68,6 +68,7 @@ int run(const RunArguments& a) {
   files::Outputs outputs;
   outputs.reads(scene_path);
   outputs.reads(plant_path);
+  for (const auto& phase : scenario.hand.phases) outputs.reads(phase.trace.file);
   outputs.reads(find_file(a.design, "rtl/designs"));
   outputs.folder("--report", a.report);
   files::OutputFile* json = outputs.open("--json", a.json);

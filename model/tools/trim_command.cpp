@@ -195,6 +195,7 @@ int run_trim(TrimArguments& a) {
   files::Outputs outputs;
   outputs.reads(scene.path);
   outputs.reads(plant_path);
+  for (const auto& phase : scene.hand.phases) outputs.reads(phase.trace.file);
   outputs.reads(find_file(a.options.design, "rtl/designs"));
   files::OutputFile* output = outputs.open("--output", a.output);
   files::OutputFile* json = outputs.open("--json", a.json);

@@ -222,7 +222,14 @@ class Refused(Bench):
         done.err = done.communicate()[1].decode()
         self.assert_refused(done, "would replace r.vec, which is read")
         self.assertEqual(self.path("r.vec").read_bytes(), vector.read_bytes())
-        # The numbers of a design are read too.
+        # The motion of a hand and the numbers of a design are read too.
+        self.path("hand.csv").write_text("time_s,theta_rad\n0,0\n0.01,0.1\n")
+        self.path("hand.toml").write_text(
+            'title = "t"\nabout = "a"\nduration_s = 0.01\n[core]\nscene = "free"\n'
+            '[hand]\n[[hand.phase]]\nkind = "trace"\nfile = "hand.csv"\n'
+        )
+        done = self.run_it("--csv", "hand.csv", scene="hand.toml")
+        self.assert_refused(done, "would replace hand.csv, which is read")
         self.path("lever").symlink_to(ROOT / "rtl/designs/lever.toml")
         done = self.run_it("--json", "lever")
         self.assert_refused(done, "rtl/designs/lever.toml, which is read")

@@ -95,6 +95,7 @@ def write(folder, demo):
 
 def arguments_of(argv):
     parser = argparse.ArgumentParser(
+        allow_abbrev=False,
         prog="feltgate demo",
         description="Every scene in closed loop and every recording whole, through RTL and twin in\n"
         "lock-step; one HTML report. Under ten minutes on two cores.",

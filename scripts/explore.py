@@ -43,6 +43,7 @@ def help_of(verb):
     return {
         "epilog": "\n".join(["examples:", *shown, codes]),
         "formatter_class": argparse.RawDescriptionHelpFormatter,
+        "allow_abbrev": False,
     }
 
 
@@ -75,6 +76,7 @@ def add_engine(parser):
 
 def parser_of_verbs():
     parser = argparse.ArgumentParser(
+        allow_abbrev=False,
         prog="feltgate explore",
         description=__doc__.splitlines()[0],
         epilog=EXAMPLES,

@@ -76,6 +76,7 @@ def write(folder, drawn, found):
 
 def main():
     parser = argparse.ArgumentParser(
+        allow_abbrev=False,
         prog="feltgate figures",
         description="Redraws the figures of the Haptic Lever paper from runs of the RTL.",
         epilog=EPILOG,

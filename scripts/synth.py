@@ -30,6 +30,7 @@ SCHEMA = "feltgate-synth/1"
 
 def arguments():
     parser = argparse.ArgumentParser(
+        allow_abbrev=False,
         prog="feltgate synth",
         description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,

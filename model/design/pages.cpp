@@ -88,6 +88,13 @@ std::string design_table(const Elaborated& e) {
       "\nvelocity gain error (against 2 pi/(Er Tp m1)): {:+.4f} %\n"
       "latency, sampled position to duty register: {} of {} clocks per tick\n",
       100.0 * (gain - 1.0), latency_clocks, e.design.clocks_per_tick());
+  constexpr double far = 0.02;
+  if (std::abs(gain - 1.0) > far) {
+    s << fmt::format(
+        "  every velocity is wrong by that much: 2^n is far from the exact factor;\n"
+        "  {}: write velocity.gain = \"exact\" instead of velocity.n\n",
+        e.design.path);
+  }
   return s.str();
 }
 

@@ -7,6 +7,8 @@
 
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
+#include <string>
 
 #include "config/nearest.hpp"
 #include "files/unfinished.hpp"
@@ -58,6 +60,21 @@ std::string parse_error(const CLI::App& app, const CLI::ParseError& error) {
                      word, config::did_you_mean(word, words), help);
 }
 
+/// An empty word is a shell's variable that was never set; nothing here is named "".
+void refuse_empty_words(int argc, char** argv) {
+  for (int n = 1; n < argc; ++n) {
+    const std::string word = argv[n];
+    if (word.empty()) {
+      throw std::invalid_argument(
+          fmt::format("the word after {} is empty; give a value, or leave {} out", argv[n - 1],
+                      n > 1 ? "both" : "it"));
+    }
+    if (word.rfind("--", 0) == 0 && word.back() == '=') {
+      throw std::invalid_argument(fmt::format("{} has no value; give one, or leave it out", word));
+    }
+  }
+}
+
 void complain(const CLI::App& app, const std::string& what) {
   std::fputs(fmt::format("{}: {}\n", app.get_name(), what).c_str(), stderr);
 }
@@ -67,6 +84,7 @@ void complain(const CLI::App& app, const std::string& what) {
 int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code) {
   files::end_on_signals();
   try {
+    refuse_empty_words(argc, argv);
     app.parse(argc, argv);
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
     complain(app, "stdout could not be written whole; is the disk full?");

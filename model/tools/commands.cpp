@@ -114,7 +114,7 @@ std::string built_design(const std::string& given) {
     if (names.count(given) > 0) make_engine(given, "twin");  // says how presets are built
     throw std::invalid_argument(fmt::format("design \"{}\" is unknown; {}choose one of {}", given,
                                             config::did_you_mean(given, names),
-                                            fmt::join(built, ", ")));
+                                            fmt::join(names, ", ")));
   }
   const std::string file = find_file(given, "rtl/designs");
   const std::string name = design::read_design(file).name;

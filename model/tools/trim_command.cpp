@@ -186,6 +186,17 @@ int run_trim(TrimArguments& a) {
   a.options.window_s = 1e-3 * a.window_ms;
   Scenario scene = read_scenario(find_file(a.scene, "vectors/scenes"));
   if (!a.plant.empty()) scene.plant = a.plant;
+  constexpr double fewest_windows = 10;  // fewer say nothing of a scene
+  if (a.duration_s > 0 && a.duration_s < fewest_windows * a.options.window_s) {
+    throw std::invalid_argument(fmt::format(
+        "--duration {:g}: is shorter than {:g} windows of {:g} ms; give at least {:g} s",
+        a.duration_s, fewest_windows, a.window_ms, fewest_windows * a.options.window_s));
+  }
+  if (a.duration_s > scene.duration_s) {
+    throw std::invalid_argument(
+        fmt::format("--duration {:g}: the scene is over after {:g} s; give less", a.duration_s,
+                    scene.duration_s));
+  }
   if (a.duration_s > 0 && a.duration_s < scene.duration_s) {
     scene.duration_s = a.duration_s;
     scene.expectations.clear();

@@ -17,14 +17,14 @@ namespace {
 std::vector<std::string> wanted(const Capture& capture, const Options& options) {
   if (!options.step.empty() || !options.dir.empty()) {
     if (options.step.empty() || options.dir.empty() || !options.probes.empty()) {
-      fail(capture.where(), "STEP, DIR and probes do not go together so",
+      fail(capture.where(), "STEP and DIR go together, and not with probes",
            "give STEP and DIR, or the probes");
     }
     return {options.step, options.dir};
   }
   if (options.probes.empty()) return guess_probes(capture.channels(), capture.where());
   if (options.probes.size() != 2 && options.probes.size() != 3) {
-    fail(capture.where(), fmt::format("{} probes are named", options.probes.size()),
+    fail(capture.where(), fmt::format("the number of probes is {}", options.probes.size()),
          "give A,B or A,B,Z");
   }
   return options.probes;

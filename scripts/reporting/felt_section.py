@@ -32,8 +32,8 @@ def lines(summary):
         told.append(
             f"felt: at most {page.number(motor['peak_nm'])} Nm from the motor, where the scene "
             f"asked for {page.number(asked['peak_nm'])} Nm; off by "
-            f"{page.number(1e3 * off['rms_error'])} mNm rms, {page.number(1e3 * off['max_error'])} "
-            "at most"
+            f"{page.number(1e3 * off['rms_error'])} mNm rms, at most "
+            f"{page.number(1e3 * off['max_error'])} mNm"
         )
     if energy:
         told.append(

@@ -45,6 +45,24 @@ class CommandLine(Bench):
                     said = (f"feltgate: {option}: {wrong} is not ", f"{accepted}; see feltgate ")
                     self.refused(*command.split(), f"{option}={value}", said=said)
 
+    def test_empty_words(self):
+        for words in (("run", "short.toml", "--json", ""), ("figures", "-o", ""), ("replay", "")):
+            with self.subTest(words):
+                self.refused(*words, said=(f"the word after {words[-2]} is empty",))
+        self.refused("run", "short.toml", "--report=", said=("--report= has no value",))
+
+    def test_abbreviations(self):
+        for command in ("figures", "synth", "demo"):
+            with self.subTest(command):
+                process = self.start(command, "--desig", "lever")
+                said = process.communicate(timeout=20)[1].decode()
+                self.assertEqual(process.returncode, 2, said)
+                self.assertIn("unrecognized arguments: --desig", said)
+
+    def test_how_long_trim_runs(self):
+        self.refused("trim", "wall", "--duration", "1e-9", said=("shorter than 10 windows",))
+        self.refused("trim", "wall", "--duration", "5", said=("the scene is over after",))
+
     def test_settings(self):
         for value in ("nan", "inf", "1e300", "", "x"):
             with self.subTest(value):

@@ -94,6 +94,11 @@ TEST_CASE("events that never come", "[bad_scene]") {
   expect(told("duration_s = 1e300\n"), "1: ", "");
 }
 
+TEST_CASE("bounds that nothing keeps", "[bad_scene]") {
+  expect(told(kHead + "[[expect]]\nfigure = \"faults\"\nlow = 3\nhigh = 2\n"),
+         "no value is above low and below high", "exchange them");
+}
+
 TEST_CASE("misspelt names are named, and the nearest one", "[bad_scene]") {
   expect(told("title = \"t\"\nabout = \"a\"\nduration_s = 0.02\n[core]\nscene = \"wal\"\n"),
          "5: scene \"wal\" is not built in design lever; did you mean \"wall\"?", "choose one of");

@@ -96,7 +96,7 @@ TEST_CASE("events that never come", "[bad_scene]") {
 
 TEST_CASE("bounds that nothing keeps", "[bad_scene]") {
   expect(told(kHead + "[[expect]]\nfigure = \"faults\"\nlow = 3\nhigh = 2\n"),
-         "no value is above low and below high", "exchange them");
+         "8: no value is above low and below high", "exchange them");
 }
 
 TEST_CASE("misspelt names are named, and the nearest one", "[bad_scene]") {

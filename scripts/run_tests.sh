@@ -29,7 +29,7 @@ tests_say() {
 }
 
 run_tests() {
-  local groups=$1 argument name='' list='' chosen=() options=() targets=(all) status=0
+  local groups=$1 argument name='' list='' found chosen=() options=() targets=(all) status=0
   local results=$BUILD/test-results.xml
   shift
   for argument in "$@"; do
@@ -58,11 +58,12 @@ run_tests() {
   look_up_programs
   if [[ $list || $name ]]; then
     build ON build.ninja
-    [[ $(tests_say list "${chosen[@]}") ]] ||
+    found=$(tests_say list "${chosen[@]}") || exit 2
+    [[ $found ]] ||
       die "no test matches '$name'; './feltgate test --list' lists them"
   fi
   if [[ $list ]]; then
-    tests_say list "${chosen[@]}"
+    printf '%s\n' "$found"
     return
   fi
   if [[ $name ]]; then mapfile -t targets < <(tests_say targets "${chosen[@]}"); fi

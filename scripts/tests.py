@@ -44,6 +44,9 @@ def listed(build, name="", long=False):
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:
         raise ValueError(done.stderr.strip())
+    if not done.stdout.startswith("{"):  # CTest's own words about it come first
+        why = done.stdout.splitlines()[0]
+        raise ValueError(f"'{name}' is no regular expression for CTest: {why}")
     return json.loads(done.stdout)["tests"]
 
 

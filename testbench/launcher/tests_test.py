@@ -102,6 +102,12 @@ class Selection(unittest.TestCase):
         self.assertEqual(len(lines), len(TESTS))
         self.assertEqual(lines[2].split(), ["b", "lockstep", "unit"])
 
+    def test_a_name_that_is_no_regular_expression(self):
+        self.standin("ctest", "RegularExpression::compile(): ?+* follows nothing.\n{}")
+        done = self.say("list", "--name", "(?!a)")
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("'(?!a)' is no regular expression for CTest", done.stderr)
+
     def test_minutes(self):
         results = self.folder / "results.xml"
         cases = {"a": 30, "a.defect1": 60, "b": 90.5, "script": 0.5, "whole": 600}

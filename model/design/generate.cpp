@@ -252,7 +252,12 @@ std::string cpp_header(const Elaborated& e) {
     s << "    if (scene == \"" << scene.name << "\") return " << scene.number << ";\n";
   }
   s << "    return -1;\n";
-  s << "  }\n\n  /// Addresses of control and snapshot words, and bits of the control words.\n"
+  s << "  }\n  /// All of them, built or not, in the order of their numbers.\n"
+    << "  static constexpr std::string_view scene_names[] = {";
+  for (const Scene& scene : e.registers.scenes) {
+    s << (&scene == &e.registers.scenes.front() ? "" : ",") << "\n      \"" << scene.name << "\"";
+  }
+  s << "};\n\n  /// Addresses of control and snapshot words, and bits of the control words.\n"
     << "  struct C {\n";
   for (const Control& c : e.registers.controls) {
     s << "    static constexpr int " << c.name << " = " << c.address << ";\n";

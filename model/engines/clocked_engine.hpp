@@ -29,8 +29,6 @@ class WriteQueue {
     writes_.pop_front();
     return w;
   }
-  /// Clock of a tick in which a write is issued: early, so that it is committed with this tick.
-  static constexpr int issue_clock = 5;
 
  private:
   std::deque<std::pair<std::uint16_t, std::uint32_t>> writes_;
@@ -103,7 +101,7 @@ class ClockedEngine : public Engine {
     for (const Clock end = now_ + clocks; now_ < end; ++now_) {
       in.encoder = events_.at(now_);
       in.reg_write = false;
-      if (clock_of_tick == WriteQueue::issue_clock && !writes_.empty()) {
+      if (clock_of_tick == host_write_clock && !writes_.empty()) {
         issue_write(&in);
       }
       if (++clock_of_tick == info_.clocks_per_tick) clock_of_tick = 0;

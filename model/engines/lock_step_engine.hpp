@@ -23,7 +23,14 @@ namespace feltgate {
       apply(current_ref) apply(voltage) apply(duty) apply(duty_active) apply(gates) apply(scene) \
           apply(limits) apply(faults) apply(first_fault) apply(armed) apply(gates_enable)        \
               apply(snapshot_valid) apply(reg_busy) apply(reg_rdata)
-static_assert(sizeof(CoreOut) == 56, "an output came or went: FELTGATE_EACH_OUTPUT");
+
+/// Does not compile when an output came or went: then the list above lacks it too.
+inline void count_outputs(const CoreOut& out) {
+  [[maybe_unused]] const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s] = out;
+#define FELTGATE_ONE(name) +1
+  static_assert(FELTGATE_EACH_OUTPUT(FELTGATE_ONE) == 19, "an output is not in the list above");
+#undef FELTGATE_ONE
+}
 
 /// Name of the first output in which two cores differ, with both values.
 inline std::string difference(const CoreOut& rtl, const CoreOut& twin) {
@@ -96,7 +103,7 @@ class LockStepEngine : public ClockedEngine {
       in.encoder = events_.at(now_);
       Clock until = std::min({end, events_.next(end), now_ + follower_.room()});
       if (!writes_.empty()) {
-        const int ahead = WriteQueue::issue_clock - twin_.clock_of_tick();
+        const int ahead = host_write_clock - twin_.clock_of_tick();
         if (ahead == 0) issue_write(&in);
         until = std::min(until, now_ + (ahead == 0  ? 1
                                         : ahead > 0 ? ahead

@@ -45,7 +45,7 @@ class TwinEngine : public ClockedEngine {
     while (now_ < end) {
       in.encoder = events_.at(now_);
       const int clock_of_tick = core_.clock_of_tick();
-      if (!writes_.empty() && clock_of_tick == WriteQueue::issue_clock) {
+      if (!writes_.empty() && clock_of_tick == host_write_clock) {
         issue_write(&in);
         core_.clock(in);
         if (core_.out().snapshot_valid) tell();
@@ -55,7 +55,7 @@ class TwinEngine : public ClockedEngine {
       }
       Clock until = std::min(end, events_.next(end));
       if (!writes_.empty()) {
-        const int ahead = WriteQueue::issue_clock - clock_of_tick;
+        const int ahead = host_write_clock - clock_of_tick;
         until = std::min(until, now_ + (ahead > 0 ? ahead : ahead + D::clocks_per_tick));
       }
       core_.run(in, until - now_, tell);

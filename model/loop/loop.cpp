@@ -286,9 +286,7 @@ class ScenarioRun {
           fmt::format("{}:{}: figure \"{}\" is not one of this run; {}docs/scenes.md lists them",
                       s_.path, x.line, x.figure, config::did_you_mean(x.figure, names)));
     }
-    const double low = x.low > -1e300 ? x.low : -std::numeric_limits<double>::infinity();
-    const double high = x.high < 1e300 ? x.high : std::numeric_limits<double>::infinity();
-    const Expected e{x.figure, it->second, low, high, x.line};
+    const Expected e{x.figure, it->second, x.low, x.high, x.line};
     out.felt.expectations.push_back(e);
     if (e.kept()) return;
     out.broken.push_back(fmt::format("{}:{}: {} = {:.6g} is outside its bounds; expected {}",

@@ -55,8 +55,8 @@ Expectation read_expectation(config::TomlReader r, const toml::table& table) {
   x.figure = r.text("figure");
   x.line = static_cast<int>(table.source().begin.line);
   if (r.has("design")) x.design = r.text("design");
-  x.low = r.number_or("low", -1e300, config::kAnyNumber);
-  x.high = r.number_or("high", 1e300, config::kAnyNumber);
+  x.low = r.number_or("low", x.low, config::kAnyNumber);
+  x.high = r.number_or("high", x.high, config::kAnyNumber);
   if (!r.has("low") && !r.has("high")) {
     r.fail("figure", "an expectation needs a bound", "give low, high or both");
   }

@@ -5,6 +5,7 @@
 // long it lasts and what must come out. Documentation: docs/scenes.md
 #pragma once
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -32,7 +33,9 @@ struct Event {
 struct Expectation {
   std::string figure;
   std::optional<std::string> design;  ///< only when run on this design
-  double low = 0, high = 0;
+  /// Infinite where the file gives no such bound.
+  double low = -std::numeric_limits<double>::infinity(),
+         high = std::numeric_limits<double>::infinity();
   int line = 0;
 };
 

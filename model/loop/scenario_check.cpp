@@ -7,9 +7,7 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
-#include <vector>
 
-#include "config/nearest.hpp"
 #include "config/toml_reader.hpp"
 
 namespace feltgate {
@@ -42,14 +40,7 @@ void check_parameter(const std::string& place, const std::string& name, double v
 int scene_number(const DesignInfo& design, const std::string& name) {
   const int number = design.scene_number(name);
   if (number >= 0) return number;
-  std::vector<std::string> built;
-  for (const char* scene : {"free", "setpoint", "membrane", "spring_compression", "spring_tension",
-                            "damper", "charge_attract", "charge_repel", "wall"}) {
-    if (design.scene_number(scene) >= 0) built.emplace_back(scene);
-  }
-  throw config::ConfigError(fmt::format(
-      "scene \"{}\" is not built in design {}; {}choose one of {}, or a design that lists it", name,
-      design.name, config::did_you_mean(name, built), fmt::join(built, ", ")));
+  throw config::ConfigError(design.unknown_scene(name));
 }
 
 void check_scenario(const Scenario& s, const plant::Parameters& plant, const DesignInfo& design) {

@@ -55,7 +55,7 @@ Found clock_by_clock(const std::vector<EncoderEvent>& events) {
   auto next = events.begin();
   for (Clock now = 0; now < clocks; ++now) {
     for (; next != events.end() && next->clock <= now; ++next) in.encoder = next->pins;
-    in.reg_write = now == WriteQueue::issue_clock;
+    in.reg_write = now == host_write_clock;
     if (in.reg_write) {
       in.reg_addr = static_cast<std::uint16_t>(Lever::C::control);
       in.reg_wdata = control_word();

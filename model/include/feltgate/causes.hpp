@@ -6,6 +6,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 
 namespace feltgate {
 
@@ -24,8 +26,19 @@ inline constexpr std::array<const char*, 8> names{"torque", "ramp",     "current
                                                   "duty",   "velocity", "tau_hat", "gates_closed"};
 }  // namespace limit
 
-/// Bits of Snapshot::faults by number; as the causes of the supervisor (Fault).
+/// Numbers of the causes, as in first_fault and as bits of faults.
+enum class Fault : std::uint8_t {
+  none = 0,
+  encoder = 1,   ///< too many illegal transitions
+  speed = 2,     ///< |w| above the limit
+  polarity = 3,  ///< fast against the commanded current for too long
+  i2t = 4,       ///< estimated current above nominal for too long
+  watchdog = 5,  ///< the host is silent
+  stop = 6       ///< external stop
+};
+/// By the number of the cause.
 inline constexpr std::array<const char*, 7> fault_names{"none", "encoder",  "speed", "polarity",
                                                         "i2t",  "watchdog", "stop"};
+static_assert(fault_names.size() == static_cast<std::size_t>(Fault::stop) + 1);
 
 }  // namespace feltgate

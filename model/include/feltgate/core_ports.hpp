@@ -11,6 +11,10 @@
 
 namespace feltgate {
 
+/// Clock of a tick in which a host's register write is issued: early, so that it is committed with
+/// this tick.
+constexpr int host_write_clock = 5;
+
 /// Inputs of the core in one clock.
 struct CoreIn {
   EncoderPins encoder;

@@ -45,6 +45,7 @@ struct DesignInfo {
   CommandBits command;
   std::uint32_t control_reset = 0;
   std::function<int(const std::string&)> scene_number;  ///< -1: no such scene, or not built
+  std::vector<std::string> scenes;  ///< that are built, in the order of their numbers
 
   /// nullptr where the design has no such parameter.
   const ParameterInfo* find(std::string_view parameter) const {
@@ -59,6 +60,14 @@ struct DesignInfo {
     for (int i = 0; i < parameter_count; ++i) names.emplace_back(parameters[i].name);
     return "parameter \"" + parameter + "\" is unknown; " + config::did_you_mean(parameter, names) +
            "`feltgate design " + name + "` lists them";
+  }
+  /// What to say of a scene that scene_number() has not: the nearest name, and what there is.
+  std::string unknown_scene(const std::string& scene) const {
+    std::string list;
+    for (const std::string& built : scenes) list += (list.empty() ? "" : ", ") + built;
+    return "scene \"" + scene + "\" is not built in design " + name + "; " +
+           config::did_you_mean(scene, scenes) + "choose one of " + list +
+           ", or a design that lists it";
   }
 };
 
@@ -114,6 +123,9 @@ DesignInfo design_info() {
     const int n = D::scene_number(name);
     return n >= 0 && ((D::scene_mask >> n) & 1) != 0 ? n : -1;
   };
+  for (const std::string_view scene : D::scene_names) {
+    if (i.scene_number(std::string(scene)) >= 0) i.scenes.emplace_back(scene);
+  }
   return i;
 }
 

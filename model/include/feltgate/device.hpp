@@ -93,8 +93,6 @@ class Device {
   void note(const CoreOut& snapshot) { reading_ = reading_of(design_, snapshot); }
 
  private:
-  static constexpr int kWriteClock = 5;  // of a tick: early, so that the write acts at its end
-
   void write(int address, std::uint32_t data) {
     writes_.emplace_back(static_cast<std::uint16_t>(address), data);
   }

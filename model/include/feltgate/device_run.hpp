@@ -6,7 +6,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -14,7 +13,6 @@
 #include <vector>
 
 #include "feltgate/device.hpp"
-#include "feltgate/nearest.hpp"
 
 namespace feltgate {
 
@@ -36,7 +34,7 @@ inline void Device::advance(Clock until) {
   while (now_ < until) {
     const int clock = clock_of_tick();
     if (clock == 0) begin_tick();
-    if (clock == kWriteClock && !writes_.empty() && !out().reg_busy) {
+    if (clock == host_write_clock && !writes_.empty() && !out().reg_busy) {
       in_.reg_addr = writes_.front().first;
       in_.reg_wdata = writes_.front().second;
       cleared_ = writes_.front() == clear;
@@ -45,8 +43,8 @@ inline void Device::advance(Clock until) {
       step(in_);
       ++now_;
     } else {
-      const bool whole = writes_.empty() || clock >= kWriteClock;
-      const Clock next = whole ? end_of_tick() : now_ + kWriteClock - clock;
+      const bool whole = writes_.empty() || clock >= host_write_clock;
+      const Clock next = whole ? end_of_tick() : now_ + host_write_clock - clock;
       const Clock clocks = std::min(until, next) - now_;
       in_.reg_write = false;
       stretch(in_, clocks);
@@ -130,29 +128,12 @@ inline void Device::clear_faults() {
 }
 
 inline void Device::select(const std::string& scene) {
-  static constexpr std::array<const char*, 9> names{"free",
-                                                    "setpoint",
-                                                    "membrane",
-                                                    "spring_compression",
-                                                    "spring_tension",
-                                                    "damper",
-                                                    "charge_attract",
-                                                    "charge_repel",
-                                                    "wall"};
   const int number = design_.scene_number(scene);
   if (number >= 0) {
     in_.scene = static_cast<std::uint8_t>(number);
     return;
   }
-  std::vector<std::string> built;
-  std::string list;
-  for (const char* name : names) {
-    if (design_.scene_number(name) < 0) continue;
-    built.emplace_back(name);
-    list += (list.empty() ? "" : ", ") + built.back();
-  }
-  throw std::invalid_argument("scene \"" + scene + "\" is not built in design " + design_.name +
-                              "; " + config::did_you_mean(scene, built) + "there are " + list);
+  throw std::invalid_argument(design_.unknown_scene(scene));
 }
 
 inline void Device::set_control(Control how) {

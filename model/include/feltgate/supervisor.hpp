@@ -7,6 +7,7 @@
 
 #include <cstdint>
 
+#include "feltgate/causes.hpp"
 #include "feltgate/numbers.hpp"
 
 namespace feltgate {
@@ -42,17 +43,6 @@ struct SupervisorLaw {
   static Num<sum_key> heated(Num<sum_key> sum, Num<squared_key> square) {
     return quantise<N, sum_key, Round::truncate, Overflow::wrap>(sum + square);
   }
-};
-
-/// Numbers of the causes, as in first_fault and as bits of faults.
-enum class Fault : std::uint8_t {
-  none = 0,
-  encoder = 1,   ///< too many illegal transitions
-  speed = 2,     ///< |w| above the limit
-  polarity = 3,  ///< fast against the commanded current for too long
-  i2t = 4,       ///< estimated current above nominal for too long
-  watchdog = 5,  ///< the host is silent
-  stop = 6       ///< external stop
 };
 
 template <class D>

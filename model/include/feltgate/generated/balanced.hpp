@@ -173,6 +173,17 @@ struct Balanced {
     if (scene == "wall") return 9;
     return -1;
   }
+  /// All of them, built or not, in the order of their numbers.
+  static constexpr std::string_view scene_names[] = {
+      "free",
+      "setpoint",
+      "membrane",
+      "spring_compression",
+      "spring_tension",
+      "damper",
+      "charge_attract",
+      "charge_repel",
+      "wall"};
 
   /// Addresses of control and snapshot words, and bits of the control words.
   struct C {

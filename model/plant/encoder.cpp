@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "plant/random.hpp"
+#include "feltgate/random.hpp"
 
 namespace feltgate::plant {
 namespace {
@@ -27,7 +27,7 @@ Encoder::Encoder(const EncoderParameters& parameters, bool imperfect, double sta
       count_rad_(kTwoPi / static_cast<double>(counts_per_rev_)),
       theta_rad_(start_rad) {
   if (imperfect) {
-    Random random(parameters.seed);
+    SplitMix64 random(parameters.seed);
     for (int line = 0; line < parameters.lines; ++line) {
       const double jitter = parameters.line_jitter_counts_rms * random.gaussian();
       for (const double offset : parameters.edge_offset_counts) {

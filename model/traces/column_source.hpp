@@ -35,7 +35,7 @@ class ColumnSource final : public EncoderSource {
   Table table_;
   ClockMap map_;
   bool jitter_;
-  Random random_;
+  SplitMix64 random_;
   double scale_;
   std::size_t column_ = 0;
   EncoderPins initial_;

@@ -134,7 +134,7 @@ class Bounce final : public EncoderSource {
 
   Source source_;
   EncoderPins initial_ = source_->initial();
-  Random random_;
+  SplitMix64 random_;
   int most_toggles_;
   Clock most_spacing_;
   EncoderPins pins_;

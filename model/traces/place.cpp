@@ -11,19 +11,6 @@
 
 namespace feltgate::traces {
 
-std::uint64_t Random::bits() {
-  state_ += 0x9e3779b97f4a7c15U;
-  std::uint64_t z = state_;
-  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-  return z ^ (z >> 31U);
-}
-
-std::int64_t Random::below(std::int64_t n) {
-  const auto high = static_cast<std::int64_t>(bits() >> 1U);
-  return static_cast<std::int64_t>((static_cast<int128_t>(high) * n) >> 63U);
-}
-
 ClockMap::ClockMap(TimeBase base, std::int64_t clock_hz)
     : num_(base.num * clock_hz), den_(base.den) {
   const std::int64_t common = std::gcd(num_, den_);

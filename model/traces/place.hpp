@@ -9,20 +9,9 @@
 #include <optional>
 
 #include "feltgate/encoder_source.hpp"
+#include "feltgate/random.hpp"
 
 namespace feltgate::traces {
-
-/// SplitMix64 (Steele, Lea, Flood 2014): the same numbers from a seed on every machine.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t bits();
-  /// Uniform from 0 to n-1, n >= 1; the bias is below n / 2^64.
-  std::int64_t below(std::int64_t n);
-
- private:
-  std::uint64_t state_;
-};
 
 /// Seconds in one unit of a recording's time: num / den, each 1 to 10^15, num at most 100.
 struct TimeBase {
@@ -62,7 +51,7 @@ class Placer {
  private:
   ClockMap map_;
   bool jitter_;
-  Random random_;
+  SplitMix64 random_;
   Clock last_ = 0;
 };
 

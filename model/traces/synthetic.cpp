@@ -127,7 +127,7 @@ Source random_walk(std::uint64_t seed, std::int64_t counts, Clock min_wait, Cloc
 Source illegal(std::uint64_t seed, std::int64_t moves, int per_thousand, Clock min_wait,
                Clock max_wait) {
   demand(min_wait >= 1 && max_wait >= min_wait, "random motion: waits");
-  return make([=, random = Random(seed), k = std::int64_t{0}]() mutable -> std::optional<Move> {
+  return make([=, random = SplitMix64(seed), k = std::int64_t{0}]() mutable -> std::optional<Move> {
     if (k++ == moves) return std::nullopt;
     const Clock wait = min_wait + random.below(max_wait - min_wait + 1);
     const int legal = random.below(2) == 0 ? 1 : -1;

@@ -4,7 +4,7 @@
 // Other motions of the same scene. Documentation: docs/trim.md
 #include "trim/motions.hpp"
 
-#include "plant/random.hpp"
+#include "feltgate/random.hpp"
 
 namespace feltgate::trim {
 
@@ -40,7 +40,7 @@ void stretch(plant::HandPhase& phase, double start_rad, double amplitude, double
 }  // namespace
 
 Motion perturbed(const Scenario& scene, const plant::Parameters& plant, std::uint64_t seed) {
-  plant::Random random(seed);
+  SplitMix64 random(seed);
   // Consecutive seeds go round the four quarters: long or short, fast or slow.
   const bool far = (seed & 1) != 0, fast = (seed & 2) == 0;
   Motion m{scene, plant, far ? random.between(1.0, 1.3) : random.between(0.7, 1.0),

@@ -1,26 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A small seeded generator (splitmix64) for stimuli: same numbers with every compiler and library,
-// one multiplication chain per draw, copyable. Documentation: docs/testing.md
+// Draws for stimuli from the seeded generator of the models. Documentation: docs/testing.md
 #pragma once
 
 #include <cstdint>
 
+#include "feltgate/random.hpp"
+
 namespace feltgate::test {
 
-class Random {
+class Random : public SplitMix64 {
  public:
-  explicit constexpr Random(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15U + 1U) {}
+  explicit constexpr Random(std::uint64_t seed) : SplitMix64(seed * 0x9e3779b97f4a7c15U + 1U) {}
 
-  /// 64 uniform bits.
-  constexpr std::uint64_t bits() {
-    state_ += 0x9e3779b97f4a7c15U;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31);
-  }
   /// Uniform in [0, n), n in [1, 2^32]; the bias of n/2^32 does not matter to a stimulus.
   constexpr std::uint32_t below(std::uint64_t n) {
     return static_cast<std::uint32_t>(((bits() >> 32) * n) >> 32);
@@ -32,9 +25,6 @@ class Random {
   /// True once in n draws on average.
   constexpr bool one_in(std::uint64_t n) { return below(n) == 0; }
   constexpr bool coin() { return (bits() >> 63) != 0; }
-
- private:
-  std::uint64_t state_;
 };
 
 }  // namespace feltgate::test

@@ -150,7 +150,7 @@ Ending use_motion(const fs::path& file) {
 /// The options of a recording come from its bytes: the same input, the same options.
 traces::Options options_of(const fs::path& file, traces::FileFormat format) {
   traces::Options o;
-  traces::Random random(static_cast<std::uint64_t>(fs::file_size(file)));
+  SplitMix64 random(static_cast<std::uint64_t>(fs::file_size(file)));
   o.format = random.below(4) == 0 ? traces::FileFormat::detect : format;
   o.jitter = random.below(2) == 0;
   const std::int64_t clocks[] = {50'000'000, 1, 1'000'000'000'000, 12'345'678};

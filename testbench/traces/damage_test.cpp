@@ -63,7 +63,7 @@ void damage(const std::string& name, const std::string& good, const Options& opt
     }
   };
   for (std::size_t size = 0; size < good.size(); ++size) attempt(good.substr(0, size));
-  Random random(42);
+  feltgate::SplitMix64 random(42);
   for (int round = 0; round < 2000; ++round) {
     std::string bytes = good;
     for (std::int64_t flips = 1 + random.below(3); flips > 0; --flips) {

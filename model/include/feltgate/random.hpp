@@ -1,27 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// SplitMix64 (Steele, Lea, Flood 2014) for draws that belong to a model: the same numbers with
-// every compiler and library. Documentation: docs/plant.md
+// SplitMix64 (Steele, Lea, Flood 2014): the same numbers from a seed with every compiler and
+// library, one multiplication chain per draw, copyable. Documentation: docs/plant.md
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-namespace feltgate::plant {
+#include "fixed.hpp"
 
-class Random {
+namespace feltgate {
+
+class SplitMix64 {
  public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
+  explicit constexpr SplitMix64(std::uint64_t seed) : state_(seed) {}
 
   /// 64 uniform bits.
-  std::uint64_t bits() {
-    state_ += 0x9e3779b97f4a7c15ULL;
+  constexpr std::uint64_t bits() {
+    state_ += 0x9e3779b97f4a7c15U;
     std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
     return z ^ (z >> 31);
+  }
+  /// Uniform from 0 to n-1, n >= 1; the bias is below n / 2^64.
+  constexpr std::int64_t below(std::int64_t n) {
+    const auto high = static_cast<std::int64_t>(bits() >> 1);
+    return static_cast<std::int64_t>((static_cast<int128_t>(high) * n) >> 63);
   }
   /// Uniform in (0, 1).
   double uniform() { return (static_cast<double>(bits() >> 11) + 0.5) * 0x1p-53; }
@@ -37,4 +44,4 @@ class Random {
   std::uint64_t state_;
 };
 
-}  // namespace feltgate::plant
+}  // namespace feltgate

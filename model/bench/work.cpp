@@ -69,8 +69,7 @@ Work record_scene(const Scene& scene, const std::string& design) {
 }
 
 Work slow_small_signals(const std::string& design, double seconds) {
-  const auto engine = make_engine(design, "twin");
-  const DesignInfo& d = engine->design();
+  const DesignInfo d = design_named(design);
   const auto clock = [&d](double s) { return std::llround(s * static_cast<double>(d.clock_hz)); };
   Work work;
   work.name = "slow_small";

@@ -16,6 +16,7 @@
 namespace feltgate {
 
 #define FELTGATE_DESIGN(name)                     \
+  DesignInfo make_##name##_info();                \
   std::unique_ptr<Engine> make_##name##_twin();   \
   std::unique_ptr<Device> make_##name##_device(); \
   std::unique_ptr<RealChain> make_##name##_chain(const std::string&);
@@ -88,6 +89,15 @@ std::unique_ptr<Engine> make_engine(const std::string& design, const std::string
     if (kind == "twin") return make_##name##_twin(); \
     unknown_engine(kind);                            \
   }
+#include "designs.inc"
+#undef FELTGATE_DESIGN
+  unknown_design(design);
+}
+
+DesignInfo design_named(const std::string& design) {
+  if (const DesignMakers* d = further(design)) return d->info();
+#define FELTGATE_DESIGN(name) \
+  if (design == #name) return make_##name##_info();
 #include "designs.inc"
 #undef FELTGATE_DESIGN
   unknown_design(design);

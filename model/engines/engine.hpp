@@ -112,14 +112,18 @@ class Engine {
 /// feltgate_rtl is linked. Throws std::invalid_argument naming what there is.
 std::unique_ptr<Engine> make_engine(const std::string& design, const std::string& kind);
 std::vector<std::string> design_names();
+/// What is known of a design without an engine of it: rates, formats, parameters.
+/// Throws like make_engine().
+DesignInfo design_named(const std::string& design);
 
-/// A design that is not in rtl/designs (those of tests): makers by kind, as the two functions
-/// make_engine and make_real_chain know them. design_names() does not list it.
+/// A design that is not in rtl/designs (those of tests): makers by kind, as the functions
+/// make_engine, make_real_chain and design_named know them. design_names() does not list it.
 class RealChain;
 struct DesignMakers {
   std::string name;
   std::unique_ptr<Engine> (*engine)(const std::string& kind);
   std::unique_ptr<RealChain> (*chain)(const std::string& kind);
+  DesignInfo (*info)();
 };
 void add_design(const DesignMakers& design);
 

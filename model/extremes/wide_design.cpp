@@ -12,7 +12,8 @@
 namespace feltgate::extremes {
 
 void use_wide_design() {
-  add_design({"wide", make_design_engine<Vextremes_wide, Wide>, make_design_chain<Wide>});
+  add_design({"wide", make_design_engine<Vextremes_wide, Wide>, make_design_chain<Wide>,
+              design_info<Wide>});
 }
 
 }  // namespace feltgate::extremes

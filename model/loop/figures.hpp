@@ -42,9 +42,29 @@ struct StepResponse {
   double ripple_nm = 0;        ///< rms around the final value in the last tenth
 };
 
-/// Step response of `samples`, `sample_s` apart, the first one at the step; `before_nm` is the
-/// value the signal had before the step. Settling is measured on the 2 % band of the final value.
-StepResponse step_response(const std::vector<double>& samples, double sample_s, double before_nm,
-                           double tau_ref_nm);
+/// A signal from a step on, in bounded memory: beyond `most` samples neighbours become one block,
+/// and times are then known to a block, at most 2/most of the response.
+class StepSamples {
+ public:
+  static constexpr std::size_t most = std::size_t{1} << 20;  ///< blocks; even
+
+  /// `before_nm`: what the signal was before the step.
+  explicit StepSamples(double before_nm) : before_nm_(before_nm) {}
+  void add(double value);
+  /// Of samples `sample_s` apart, the first one at the step. Settling is measured on the 2 % band
+  /// of the final value.
+  StepResponse response(double sample_s, double tau_ref_nm) const;
+
+ private:
+  /// What is kept of `per_block_` samples.
+  struct Block {
+    double low, high, mean, squares;  ///< squares: sum of those of the distances from the mean
+  };
+  void halve();
+
+  double before_nm_;
+  std::vector<Block> blocks_;  ///< the last one may have fewer samples
+  std::int64_t per_block_ = 1, samples_ = 0;
+};
 
 }  // namespace feltgate

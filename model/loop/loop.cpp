@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "config/nearest.hpp"
@@ -35,10 +36,10 @@ struct Range {
   }
 };
 
-/// Records the torques from one step of the reference to the next.
+/// The torques from a step of the reference to the next event.
 struct StepRecord {
-  double tau_ref_nm = 0, tau_hat_before_nm = 0, torque_before_nm = 0;
-  std::vector<double> tau_hat_nm, torque_nm;
+  double tau_ref_nm;
+  StepSamples tau_hat, torque;
 };
 
 class ScenarioRun {
@@ -47,7 +48,8 @@ class ScenarioRun {
       : s_(scenario),
         options_(options),
         choice_(choose_engines(options.engine)),
-        plant_(plant, scenario.effects, drive(options.design, choice_), scenario.hand),
+        plant_(plant, scenario.effects, plant::drive_of(design_named(options.design)),
+               scenario.hand),
         core_(options.design, choice_, options.seed, plant_.encoder().pins(),
               Waveform{options.fst, options.fst_from, options.fst_to}),
         mean_(core_.design().pwm_period),
@@ -98,11 +100,6 @@ class ScenarioRun {
   }
 
  private:
-  static plant::Drive drive(const std::string& design, const EngineChoice& choice) {
-    const auto engine = make_engine(design, choice.lead == "lockstep" ? "twin" : choice.lead);
-    return plant::drive_of(engine->design());
-  }
-
   Clock clock_of(double seconds) const {
     constexpr double never = 0x1p62;  // and no sum with it overflows
     return std::llround(std::min(seconds * static_cast<double>(core_.design().clock_hz), never));
@@ -130,10 +127,18 @@ class ScenarioRun {
       if (e.arm) armed_ = *e.arm;
       core_.set_control(scene_, mode_, armed_);
     }
-    recording_ = e.step_nm.has_value();
+    end_step();
     if (e.step_nm) {
-      steps_.push_back({*e.step_nm, last_.tau_hat_nm, last_.motor_torque_nm, {}, {}});
+      step_ = {*e.step_nm, StepSamples(last_.tau_hat_nm), StepSamples(last_.motor_torque_nm)};
     }
+  }
+
+  /// Of a step that is over only its figures are kept.
+  void end_step() {
+    if (!step_) return;
+    const double tick_s = 1.0 / static_cast<double>(core_.design().tick_hz), to = step_->tau_ref_nm;
+    steps_.push_back({to, step_->tau_hat.response(tick_s, to), step_->torque.response(tick_s, to)});
+    step_.reset();
   }
 
   plant::Bridge bridge(Clock clocks) {
@@ -195,9 +200,9 @@ class ScenarioRun {
     tau_hat_.add(r.tau_hat_nm);
     velocity_.add(r.velocity_rad_s);
     theta_.add(r.theta_rad);
-    if (recording_) {
-      steps_.back().tau_hat_nm.push_back(r.tau_hat_nm);
-      steps_.back().torque_nm.push_back(r.motor_torque_nm);
+    if (step_) {
+      step_->tau_hat.add(r.tau_hat_nm);
+      step_->torque.add(r.motor_torque_nm);
     }
     if (options_.row && ticks_ % options_.row_every == 0) {
       r.time_s = static_cast<double>(ticks_) / static_cast<double>(core_.design().tick_hz);
@@ -230,17 +235,11 @@ class ScenarioRun {
     out.engines = core_.figures();
     out.felt = felt_.felt();
     out.felt.closed_loop = true;
-    const double tick_s = 1.0 / static_cast<double>(d.tick_hz);
-    std::vector<StepFigures> steps;
-    for (const StepRecord& r : steps_) {
-      steps.push_back({r.tau_ref_nm,
-                       step_response(r.tau_hat_nm, tick_s, r.tau_hat_before_nm, r.tau_ref_nm),
-                       step_response(r.torque_nm, tick_s, r.torque_before_nm, r.tau_ref_nm)});
-    }
+    end_step();
     for (EngineFigures& e : out.engines) {
-      if (closes_loop(e.name)) e.steps = steps;
+      if (closes_loop(e.name)) e.steps = steps_;
     }
-    fill_figures(out, steps);
+    fill_figures(out, steps_);
     for (const Expectation& x : s_.expectations) check(out, x);
     return out;
   }
@@ -303,7 +302,7 @@ class ScenarioRun {
   int scene_, mode_;
   traces::StepCounter counter_;
   std::unique_ptr<traces::VectorWriter> recorder_;
-  bool armed_ = false, arm_done_ = false, recording_ = false;
+  bool armed_ = false, arm_done_ = false;
   Clock last_clocks_ = 0;  ///< none yet
   double dt_s_ = 0;
   int duty_clocks_ = 0;  ///< of the bridge, and what it is of a period
@@ -313,14 +312,15 @@ class ScenarioRun {
   double absorbed_j_ = 0;
   Range tau_ref_, tau_hat_, velocity_, theta_;
   Row last_;
-  std::vector<StepRecord> steps_;
+  std::optional<StepRecord> step_;  ///< under way
+  std::vector<StepFigures> steps_;
 };
 
 }  // namespace
 
 RunResult run_scenario(const Scenario& scenario, const plant::Parameters& plant,
                        const RunOptions& options) {
-  check_scenario(scenario, plant, make_engine(options.design, "twin")->design());
+  check_scenario(scenario, plant, design_named(options.design));
   try {
     return ScenarioRun(scenario, plant, options).run();
   } catch (const plant::MotionError& error) {

@@ -50,6 +50,22 @@ Event read_event(config::TomlReader r, const toml::table& table, double duration
   return e;
 }
 
+/// The flags that the table gives: what is the same whatever it stands on.
+std::vector<EffectSetting> read_effects_set(const config::TomlReader& table) {
+  plant::Effects all, none;
+  for (const plant::EffectName& e : plant::effect_names) {
+    all.*e.flag = true;
+    none.*e.flag = false;
+  }
+  all = plant::read_effects(table, all);
+  none = plant::read_effects(table, none);
+  std::vector<EffectSetting> set;
+  for (const plant::EffectName& e : plant::effect_names) {
+    if (all.*e.flag == none.*e.flag) set.push_back({e.flag, all.*e.flag});
+  }
+  return set;
+}
+
 Expectation read_expectation(config::TomlReader r, const toml::table& table) {
   Expectation x;
   x.figure = r.text("figure");
@@ -100,7 +116,7 @@ Scenario read_scenario(const std::string& path) {
   }
   std::stable_sort(s.events.begin(), s.events.end(),
                    [](const Event& a, const Event& b) { return a.at_s < b.at_s; });
-  if (top.has("effects")) plant::read_effects(top.section("effects"), plant::Effects{});
+  if (top.has("effects")) s.effects_set = read_effects_set(top.section("effects"));
   if (top.has("hand")) s.hand = plant::read_hand(top.section("hand"));
   const auto expectations = top.sections("expect");
   for (std::size_t i = 0; i < expectations.size(); ++i) {
@@ -134,10 +150,8 @@ std::set<std::string> scenes_used(const Scenario& scenario) {
 }
 
 void resolve_effects(Scenario& scenario, const plant::Effects& of_plant) {
-  const toml::table root = config::parse_toml_file(scenario.path);
-  config::TomlReader top(root, scenario.path, "the scene");
   scenario.effects = of_plant;
-  if (top.has("effects")) scenario.effects = plant::read_effects(top.section("effects"), of_plant);
+  for (const auto& [flag, on] : scenario.effects_set) scenario.effects.*flag = on;
 }
 
 }  // namespace feltgate

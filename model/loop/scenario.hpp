@@ -39,6 +39,12 @@ struct Expectation {
   int line = 0;
 };
 
+/// An effect that a scene switches, whatever its plant says.
+struct EffectSetting {
+  bool plant::Effects::*flag;
+  bool on;
+};
+
 struct Scenario {
   std::string name, path, title, about;
   double duration_s = 0;
@@ -52,6 +58,7 @@ struct Scenario {
   std::map<std::string, double> parameters;    ///< set before arming, in their units
   std::map<std::string, int> parameter_lines;  ///< of those that the file sets
   std::vector<Event> events;                   ///< in order of time
+  std::vector<EffectSetting> effects_set;      ///< by the scene
   plant::Effects effects;                      ///< of the plant, as the scene overrides them
   plant::Hand hand;
   std::vector<Expectation> expectations;
@@ -67,7 +74,7 @@ std::vector<std::string> effects_off(const Scenario& scenario);
 /// The torque laws that a scene renders: its own and those that its events switch to.
 std::set<std::string> scenes_used(const Scenario& scenario);
 
-/// Fills scenario.effects: the plant's defaults with the scene's overrides.
+/// Fills scenario.effects: those of the plant, as the scene sets them.
 void resolve_effects(Scenario& scenario, const plant::Effects& of_plant);
 
 }  // namespace feltgate

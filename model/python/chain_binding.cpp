@@ -16,9 +16,9 @@ using Counts = py::array_t<std::int32_t, py::array::c_style>;
 class PyChain {
  public:
   PyChain(const std::string& design, const std::string& arithmetic)
-      : twin_(make_engine(design, "twin")), chain_(make_real_chain(design, arithmetic)) {}
+      : design_(design_named(design)), chain_(make_real_chain(design, arithmetic)) {}
 
-  const DesignInfo& design() const { return twin_->design(); }
+  const DesignInfo& design() const { return design_; }
   const char* arithmetic() const { return chain_->name(); }
   void reset() { chain_->reset(); }
 
@@ -71,13 +71,12 @@ class PyChain {
   }
 
  private:
-  std::unique_ptr<Engine> twin_;  ///< for what the design is; it never runs
+  DesignInfo design_;
   std::unique_ptr<RealChain> chain_;
 };
 
 py::dict parameters(const std::string& design) {
-  const auto twin = make_engine(design, "twin");
-  const DesignInfo& d = twin->design();
+  const DesignInfo d = design_named(design);
   py::dict all;
   for (int i = 0; i < d.parameter_count; ++i) {
     const ParameterInfo& p = d.parameters[i];
@@ -94,11 +93,9 @@ py::dict parameters(const std::string& design) {
 
 void bind_chain(py::module_& m) {
   m.def("parameters", &parameters);
-  m.def("count_rad",
-        [](const std::string& design) { return make_engine(design, "twin")->design().count_rad; });
+  m.def("count_rad", [](const std::string& design) { return design_named(design).count_rad; });
   m.def("formats", [](const std::string& design) {
-    const auto twin = make_engine(design, "twin");
-    const DesignInfo& d = twin->design();
+    const DesignInfo d = design_named(design);
     const auto widths = [](Format f) { return py::make_tuple(f.sign, f.integer, f.fraction); };
     py::dict all;
     all["velocity_rad_s"] = widths(d.velocity);
@@ -108,8 +105,8 @@ void bind_chain(py::module_& m) {
     return all;
   });
   m.def("rates", [](const std::string& design) {
-    const auto twin = make_engine(design, "twin");
-    return std::make_pair(twin->design().clock_hz, twin->design().tick_hz);
+    const DesignInfo d = design_named(design);
+    return std::make_pair(d.clock_hz, d.tick_hz);
   });
   py::class_<PyChain>(m, "Chain")
       .def(py::init<const std::string&, const std::string&>(), py::arg("design"),

@@ -46,7 +46,7 @@ PyPlant::PyPlant(const std::string& path, const std::map<std::string, double>& s
                  const std::string& design, const plant::Hand& hand)
     : table_(changed(path, set)),
       constants_(plant::read_plant(table_, path)),
-      drive_(plant::drive_of(make_engine(design, "twin")->design())),
+      drive_(plant::drive_of(design_named(design))),
       hand_(hand) {
   reset();
 }

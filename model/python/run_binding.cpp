@@ -23,7 +23,7 @@ struct What {
 
   design::Elaborated elaborated() const { return elaborated_files(design_path, registers_path); }
   std::size_t rows(double duration_s) const {
-    const auto tick_hz = make_engine(design, "twin")->design().tick_hz;
+    const auto tick_hz = design_named(design).tick_hz;
     return static_cast<std::size_t>(duration_s * static_cast<double>(tick_hz) / every) + 4;
   }
 };
@@ -31,9 +31,9 @@ struct What {
 py::dict run(Scenario scenario, const PyPlant& plant, const What& what,
              const std::map<std::string, double>& set, std::optional<double> duration_s,
              const plant::Hand* hand, const py::object& progress) {
-  const auto twin = make_engine(what.design, "twin");
+  const DesignInfo design = design_named(what.design);
   for (const auto& [name, value] : set) {
-    quantise_parameter(parameter_of(twin->design(), name), value);
+    quantise_parameter(parameter_of(design, name), value);
     scenario.parameters[name] = value;
   }
   if (hand != nullptr) scenario.hand = *hand;
@@ -68,7 +68,7 @@ py::dict run(Scenario scenario, const PyPlant& plant, const What& what,
 
 py::dict replay(const PyRecording& recording, const What& what, const std::string& scene, bool arm,
                 const py::object& progress) {
-  const auto clock_hz = make_engine(what.design, "twin")->design().clock_hz;
+  const auto clock_hz = design_named(what.design).clock_hz;
   if (clock_hz != recording.clock_hz) {
     throw std::invalid_argument(fmt::format(
         "the recording counts {} clocks per second, design {} has {}; read it with clock_hz={}",

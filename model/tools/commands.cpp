@@ -111,7 +111,7 @@ std::string built_design(const std::string& given) {
   if (std::find(built.begin(), built.end(), given) != built.end()) return given;
   const std::set<std::string> names = names_in("rtl/designs");
   if (!is_path(given)) {
-    if (names.count(given) > 0) make_engine(given, "twin");  // says how presets are built
+    if (names.count(given) > 0) (void)design_named(given);  // says how presets are built
     throw std::invalid_argument(fmt::format("design \"{}\" is unknown; {}choose one of {}", given,
                                             config::did_you_mean(given, names),
                                             fmt::join(names, ", ")));

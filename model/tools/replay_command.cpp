@@ -84,7 +84,7 @@ std::string probe_text(const traces::Options& o) {
 
 int replay(ReplayArguments& a) {
   traces::Options how = a.trace.read();
-  how.clock_hz = make_engine(a.design, "twin")->design().clock_hz;
+  how.clock_hz = design_named(a.design).clock_hz;
   const auto source = traces::open(a.trace.path, how);
   const std::string name = std::filesystem::path(a.trace.path).filename().string();
 
@@ -213,7 +213,7 @@ void add_import(CLI::App& app, int* exit_code) {
     }
     a->design = built_design(a->design);
     traces::Options how = a->trace.read();
-    how.clock_hz = make_engine(a->design, "twin")->design().clock_hz;
+    how.clock_hz = design_named(a->design).clock_hz;
     const auto source = traces::open(a->trace.path, how);
     files::Outputs outputs;
     outputs.reads(a->trace.path);

@@ -58,7 +58,7 @@ int run(const RunArguments& a) {
   const std::string plant_path = find_file(scenario.plant, "vectors/plants");
   const plant::Parameters plant = plant::read_plant_file(plant_path);
   resolve_effects(scenario, plant.effects);
-  check_scenario(scenario, plant, make_engine(a.design, "twin")->design());
+  check_scenario(scenario, plant, design_named(a.design));
 
   RunOptions options;
   options.design = a.design;

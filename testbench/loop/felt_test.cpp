@@ -10,6 +10,7 @@
 #include "design/design.hpp"
 #include "engines/engine.hpp"
 #include "loop/bounded.hpp"
+#include "loop/figures.hpp"
 #include "loop_fixture.hpp"
 
 namespace {
@@ -36,6 +37,25 @@ TEST_CASE("energy: a spring gives back what it took, and a push beyond shows as 
   CHECK(near(e.net_from_hand_j(), -1.0));
   CHECK(near(e.peak_from_hand_j, 2.0));
   CHECK(near(e.peak_to_hand_j, 1.0));
+}
+
+TEST_CASE("a step response is right however long it is") {
+  // An exponential with a ripple of 0.02 on a step of 2, first in one sample a block, then in four.
+  for (const std::int64_t samples : {400'000, 3'000'000}) {
+    const double tau = static_cast<double>(samples) / 20;
+    StepSamples response(1.0);
+    for (std::int64_t k = 0; k < samples; ++k) {
+      const double at = static_cast<double>(k);
+      response.add(3.0 - 2.0 * std::exp(-at / tau) + (k % 2 == 0 ? 0.02 : -0.02));
+    }
+    const StepResponse r = response.response(1e-6, 3.03);
+    CHECK(std::abs(r.final_value_nm - 3.0) < 1e-7);
+    CHECK(std::abs(r.ripple_nm - 0.02) < 1e-7);
+    CHECK(std::abs(r.overshoot_pct - 1.0) < 1e-5);
+    // Out of the band of 0.04 until 2 exp(-t) = 0.02, less one ripple.
+    CHECK(std::abs(r.settling_ms - 1e-3 * tau * std::log(100.0)) < 0.01);
+    CHECK(std::abs(r.final_error_pct - 100 * (3.0 / 3.03 - 1)) < 1e-6);
+  }
 }
 
 TEST_CASE("a pulse shorter than a hand feels counts as its mean over 1 ms") {

@@ -26,7 +26,7 @@ RunResult replayed(EncoderSource& source, const std::string& name, Clock most_cl
   ReplayOptions options;
   options.most_clocks = most_clocks;
   std::int32_t last = 0;
-  const double count_rad = make_engine("lever", "twin")->design().count_rad;
+  const double count_rad = design_named("lever").count_rad;
   options.row = [&](const Row& r) {
     last = static_cast<std::int32_t>(std::lround(r.position_rad / count_rad));
   };

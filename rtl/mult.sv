@@ -7,10 +7,7 @@
 
 `default_nettype none
 
-module mult #(
-    // 1: low half taken as signed, 2: carry of the halves loses its sign, 3: halves of two clocks
-    parameter int Defect = 0
-) (
+module mult (
     input  logic               clk_i,
     input  logic signed [34:0] a_i,
     input  logic signed [17:0] b_i,
@@ -18,7 +15,7 @@ module mult #(
 );
   // a = high * 2^17 + low, low without a sign: both halves fit a signed 18-bit operand.
   logic signed [17:0] low, high;
-  assign low  = {(Defect == 1) ? a_i[16] : 1'b0, a_i[16:0]};
+  assign low  = {1'b0, a_i[16:0]};
   assign high = a_i[34:17];
 
   logic signed [35:0] low_product, high_product;  // in clock t + 3
@@ -39,15 +36,14 @@ module mult #(
     high_product_q2 <= high_product_q;
   end
   assign low_product  = low_product_q2;
-  assign high_product = (Defect == 3) ? high_product_q : high_product_q2;
+  assign high_product = high_product_q2;
 `endif
 
   // The 17 lowest bits come from the low product alone.
   logic signed [35:0] upper_q;
   logic        [16:0] lower_q;
   always_ff @(posedge clk_i) begin
-    upper_q <= high_product +
-               ((Defect == 2) ? 36'(low_product[35:17]) : 36'(low_product >>> 17));
+    upper_q <= high_product + 36'(low_product >>> 17);
     lower_q <= low_product[16:0];
   end
   assign product_o = {upper_q, lower_q};

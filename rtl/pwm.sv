@@ -9,8 +9,7 @@
 
 module pwm #(
   parameter int Period     = 1000,  // clocks, even, 4 to 4094
-  parameter int DeadClocks = 25,    // clocks, 1 to 64
-  parameter int Defect     = 0      // test only: see testbench/pwm
+  parameter int DeadClocks = 25     // clocks, 1 to 64
 ) (
   input  logic               clk_i,
   input  logic               rst_ni,
@@ -66,7 +65,7 @@ module pwm #(
       antiphase_q   <= 1'b0;
       negate_q      <= 1'b0;
       switch_b_q    <= 1'b0;
-    end else if (take || (Defect == 1)) begin
+    end else if (take) begin
       duty_active_o <= duty_i;
       antiphase_q   <= mode_i;
       negate_q      <= mode_i ? polarity_i : duty_i[12];
@@ -94,8 +93,7 @@ module pwm #(
   logic [12:0] unused_difference;
   logic [1:0]  high_q;  // leg A, leg B: wanted high
 
-  assign {above, unused_difference} = {threshold_q[13:1], threshold_q[0] && (Defect != 3)} -
-                                      {2'b00, level_q, rising_q};
+  assign {above, unused_difference} = threshold_q - {2'b00, level_q, rising_q};
   assign high = !above;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -128,19 +126,15 @@ module pwm #(
         if (!enable_i || changes) dead_q <= DEAD;
         else if (!elapsed) dead_q <= dead_q + 1'b1;
         hi_q[l] <= enable_i && !changes && elapsed && wanted_q;
-        lo_q[l] <= enable_i && !wanted_q && !changes && elapsed ||
-                   Defect == 2 && enable_i && changes && wanted_q;
+        lo_q[l] <= enable_i && !wanted_q && !changes && elapsed;
       end
     end
   end
 
-  logic enable;
-
-  assign enable      = enable_i || (Defect == 4);
-  assign gate_a_hi_o = hi_q[0] && enable;
-  assign gate_a_lo_o = lo_q[0] && enable;
-  assign gate_b_hi_o = hi_q[1] && enable;
-  assign gate_b_lo_o = lo_q[1] && enable;
+  assign gate_a_hi_o = hi_q[0] && enable_i;
+  assign gate_a_lo_o = lo_q[0] && enable_i;
+  assign gate_b_hi_o = hi_q[1] && enable_i;
+  assign gate_b_lo_o = lo_q[1] && enable_i;
 
 endmodule
 

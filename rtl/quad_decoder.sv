@@ -7,8 +7,7 @@
 `default_nettype none
 
 module quad_decoder #(
-  parameter int ResetPosition = 0,  // test only: brings the wrap near
-  parameter int Defect = 0          // test only: see testbench/quad_decoder
+  parameter int ResetPosition = 0  // test only: brings the wrap near
 ) (
   input  logic               clk_i,
   input  logic               rst_ni,
@@ -34,9 +33,7 @@ module quad_decoder #(
   logic [2:0] meta_q, sync_q, previous_q, level_q;
   logic [2:0] changed, rejected;
   logic [1:0] fill_q;
-  logic       primed_q, primed;
-
-  assign primed = (Defect == 2) ? 1'b1 : primed_q;
+  logic       primed_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -55,17 +52,14 @@ module quad_decoder #(
   end
 
   // A level that differs from the accepted one must last while `wait_q` runs from filter_i to 0.
-  logic [3:0] load;
-  assign load = (Defect == 4 && filter_i != 4'd0) ? filter_i - 4'd1 : filter_i;
-
   for (genvar c = 0; c < 3; c++) begin : g_filter
     logic [3:0] wait_q;
     logic       differs, elapsed_q, reload;  // elapsed_q: wait_q is 0
 
     assign differs     = sync_q[c] != level_q[c];
-    assign changed[c]  = differs && elapsed_q && primed;
-    assign rejected[c] = !differs && (previous_q[c] != sync_q[c]) && primed;
-    assign reload      = !differs || elapsed_q || !primed;
+    assign changed[c]  = differs && elapsed_q && primed_q;
+    assign rejected[c] = !differs && (previous_q[c] != sync_q[c]) && primed_q;
+    assign reload      = !differs || elapsed_q || !primed_q;
 
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
@@ -73,28 +67,26 @@ module quad_decoder #(
         elapsed_q  <= 1'b1;
         level_q[c] <= 1'b0;
       end else begin
-        wait_q    <= reload ? load : wait_q - 4'd1;
-        elapsed_q <= reload ? load == 4'd0 : wait_q == 4'd1;
-        if (elapsed_q || !primed) level_q[c] <= sync_q[c];  // the first sample counts as no edge
+        wait_q    <= reload ? filter_i : wait_q - 4'd1;
+        elapsed_q <= reload ? filter_i == 4'd0 : wait_q == 4'd1;
+        if (elapsed_q || !primed_q) level_q[c] <= sync_q[c];  // the first sample counts as no edge
       end
     end
   end
 
   // Gray order of (A,B): 00 01 11 10 counts up.
-  logic              illegal, moved, down, down_now, down_q;
+  logic              illegal, moved, down;
   logic signed [1:0] step;
 
-  assign illegal  = changed[0] && changed[1];
-  assign moved    = changed[0] != changed[1];
-  assign down_now = changed[0] ^ level_q[0] ^ level_q[1] ^ polarity_i;
-  assign down     = (Defect == 1) ? down_q : down_now;
-  assign step     = (Defect == 7 && illegal) ? 2'sd1 : {moved && down, moved};
+  assign illegal = changed[0] && changed[1];
+  assign moved   = changed[0] != changed[1];
+  assign down    = changed[0] ^ level_q[0] ^ level_q[1] ^ polarity_i;
+  assign step    = {moved && down, moved};
 
-  logic signed [31:0] count_q, zero_q, count_d, difference, position_d;
+  logic signed [31:0] count_q, zero_q, count_d, position_d;
 
   assign count_d    = count_q + 32'(step);
-  assign difference = count_q - zero_q;
-  assign position_d = (Defect == 6) ? {difference[30], difference[30:0]} : difference;
+  assign position_d = count_q - zero_q;
 
   logic signed [1:0] step_q;
   logic              index_q;
@@ -106,15 +98,13 @@ module quad_decoder #(
       zero_q           <= 32'sd0;
       position_o       <= ResetPosition;
       step_q           <= 2'sd0;
-      down_q           <= 1'b0;
       index_q          <= 1'b0;
       index_position_o <= 32'sd0;
     end else begin
       count_q    <= count_d;
       position_o <= position_d;
       step_q     <= step;
-      if (moved) down_q <= down_now;
-      if (set_zero_i) zero_q <= (Defect == 5) ? count_d : count_q;
+      if (set_zero_i) zero_q <= count_q;
       index_q <= changed[2] && sync_q[2];
       if (index_q) index_position_o <= position_d;
     end
@@ -143,12 +133,12 @@ module quad_decoder #(
       error_count_o    <= 16'd0;
       rejected_count_o <= 16'd0;
     end else begin
-      error_wait_q    <= (illegal && Defect != 3) || (error_wait_q && !serve_error);
+      error_wait_q    <= illegal || (error_wait_q && !serve_error);
       rejected_wait_q <= (rejected != 3'b000) || (rejected_wait_q && !serve_rejected);
-      error_o         <= (illegal && Defect != 3) || (error_o && !clear_error_i);
-      illegal_o       <= illegal && Defect != 3;
+      error_o         <= illegal || (error_o && !clear_error_i);
+      illegal_o       <= illegal;
       index_seen_o    <= index_q || (index_seen_o && !clear_error_i);
-      if (clear_error_i || (serve_error && (!full || Defect == 8))) error_count_o <= sum;
+      if (clear_error_i || (serve_error && !full)) error_count_o <= sum;
       if (clear_error_i || (serve_rejected && !full)) rejected_count_o <= sum;
     end
   end

@@ -20,6 +20,8 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+import defects
+
 MAX_LINES = 400
 SOURCE_SUFFIXES = {".sv", ".v", ".svh", ".cpp", ".hpp", ".h", ".py", ".sh", ".cmake", ".tcl"}
 CELL_WRAPPERS = {"mult18_ecp5"}  # one cell of one vendor: no block, and no other vendor's source
@@ -74,9 +76,8 @@ def find_blocks(root):
                 twin=Path(f"model/include/feltgate/{name}.hpp"),
                 test=test,
                 doc=Path(f"docs/blocks/{name}.md"),
-                defects=tuple(
-                    sorted({int(n) for n in re.findall(r"\bDefect\s*[=!]=\s*(\d+)", code)})
-                ),
+                defects=tuple(sorted(root.glob(f"testbench/{name}/defects/*.patch")))
+                or tuple(sorted({int(n) for n in re.findall(r"\bDefect\s*[=!]=\s*(\d+)", code)})),
             )
         )
     return blocks
@@ -91,10 +92,17 @@ def check_block(root, block):
         yield f"{block.rtl}: no module {block.name} in it; name the module as the file"
     if str(block.doc) not in rtl:
         yield f"{block.rtl}: does not name its page; add {block.doc} to the head comment"
+    folder = f"testbench/{block.name}/defects"
     if not block.defects:
-        yield f"{block.rtl}: no seeded defect; add a parameter Defect and 'Defect == 1'"
-    elif block.defects != tuple(range(1, len(block.defects) + 1)):
-        yield f"{block.rtl}: defects are {list(block.defects)}; number them 1, 2, 3 without gaps"
+        yield f"{folder}: no seeded defect of {block.rtl}; add a patch, docs/testing.md says how"
+    elif isinstance(block.defects[0], Path):
+        for patch in block.defects:
+            try:
+                defects.summary(patch)
+            except defects.DefectError as error:
+                yield str(error).replace(f"{root}/", "", 1)
+        if re.search(r"\bDefect\b", rtl):
+            yield f"{block.rtl}: the word Defect; what breaks it is a patch in {folder}"
     if (root / block.doc).exists():
         links = linked_files(root, block.doc)
         for path in (block.rtl, block.twin, block.test):
@@ -158,7 +166,7 @@ def blocks_table(blocks):
         [
             "# Blocks",
             "",
-            "Every block has one name everywhere. The last column counts the seeded defects in",
+            "Every block has one name everywhere. The last column counts the seeded defects of",
             "its RTL; the block's test runs once against each and must fail. Written by",
             "`scripts/check_blocks.py --write`, which also fails when a sibling is missing.",
             "",

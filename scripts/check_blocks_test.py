@@ -12,7 +12,7 @@ import check_blocks
 PAGE = "[{0}](../../rtl/{0}.sv) [twin](../../model/include/feltgate/{0}.hpp) [test](../../{1})\n"
 RTL = (
     "// docs/blocks/{0}.md\n"
-    "module {0} #(parameter int Defect = 0);\n  // Defect == 9\n{1}endmodule\n"
+    "module {0};\n{1}endmodule\n"
 )
 LISTS = f"{check_blocks.BEGIN}\n{check_blocks.END}\n"
 CORE = "files:\n" + "".join(f"      {line}\n" for line in LISTS.splitlines())
@@ -38,7 +38,8 @@ class CheckBlocks(unittest.TestCase):
         (self.root / path).write_text(text, encoding="utf-8")
 
     def add_block(self, name, test):
-        self.put(f"rtl/{name}.sv", RTL.format(name, "  assign a = Defect == 1;\n"))
+        self.put(f"rtl/{name}.sv", RTL.format(name, ""))
+        self.put(f"testbench/{name}/defects/inverted.patch", "It is inverted.\n--- a/x\n")
         self.put(f"model/include/feltgate/{name}.hpp", "")
         self.put(test, "")
         self.put(f"docs/blocks/{name}.md", PAGE.format(name, test))
@@ -81,13 +82,16 @@ class CheckBlocks(unittest.TestCase):
         self.expect("testbench/scene_spring/scene_spring_test.cpp: missing")
 
     def test_defects(self):
+        self.put("rtl/alpha.sv", RTL.format("alpha", "  assign a = Defect == 1;\n"))
+        self.expect("rtl/alpha.sv: the word Defect")
+        self.put("testbench/alpha/defects/inverted.patch", "--- a/x\n")
+        self.expect("testbench/alpha/defects/inverted.patch: its first line does not say")
+        (self.root / "testbench/alpha/defects/inverted.patch").unlink()
         self.put("rtl/alpha.sv", RTL.format("alpha", ""))
-        self.expect("no seeded defect")
-        self.put("rtl/alpha.sv", RTL.format("alpha", "  assign a = Defect == 1 || Defect == 3;\n"))
-        self.expect("without gaps")
+        self.expect("testbench/alpha/defects: no seeded defect of rtl/alpha.sv")
 
     def test_module_name_and_page_name(self):
-        self.put("rtl/alpha.sv", "module beta;\nassign a = Defect == 1;\nendmodule\n")
+        self.put("rtl/alpha.sv", "module beta;\nendmodule\n")
         self.expect("no module alpha", "does not name its page")
 
     def test_links(self):

@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# feltgate_block_test(<block> DEFECTS <n> [NAME <test>] [DESIGN <design>] [SOURCES extra.sv...]
+# feltgate_block_test(<block> [WITH_DEFECTS] [NAME <test>] [DESIGN <design>] [SOURCES extra.sv...]
 #                     [PARAMS -GName=value...] [DEFINES NAME=value...] [LIBRARIES target...])
 # verilates rtl/<block>.sv, links testbench/<block>/<block>_test.cpp to it and adds the CTest <test>
-# (default <block>, labels unit and lockstep) and, for each N in 1..n, <test>.defect<N> (label
-# mutation): the same executable on -GDefect=N, which passes only when an assertion fails.
+# (default <block>, labels unit and lockstep). WITH_DEFECTS: also <test>.<defect> (label mutation) for
+# each patch in testbench/<block>/defects, which passes only when an assertion fails.
 # SOURCES are relative to the repository. PARAMS reach the RTL, DEFINES the test. docs/testing.md
 include_guard(GLOBAL)
 
 if(FELTGATE_RTL)
   include("${CMAKE_CURRENT_LIST_DIR}/verilate.cmake")
+  include("${CMAKE_CURRENT_LIST_DIR}/defects.cmake")
 endif()
 
 set(FELTGATE_EXPECT_FAILURE "${CMAKE_CURRENT_LIST_DIR}/expect_failure.cmake")
@@ -36,7 +37,7 @@ if(NOT TARGET feltgate_catch_main)
 endif()
 
 function(feltgate_block_test block)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "DEFECTS;NAME;DESIGN" "SOURCES;PARAMS;DEFINES;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "WITH_DEFECTS" "DEFECTS;NAME;DESIGN" "SOURCES;PARAMS;DEFINES;LIBRARIES")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "feltgate_block_test(${block}): unknown ${arg_UNPARSED_ARGUMENTS}")
   endif()
@@ -49,19 +50,16 @@ function(feltgate_block_test block)
   if(NOT arg_DEFECTS)
     set(arg_DEFECTS 0)
   endif()
-  set(sources "")
   set(package "${FELTGATE_ROOT}/rtl/generated/${arg_DESIGN}/feltgate_pkg.sv")
-  if(EXISTS "${package}")
-    list(APPEND sources "${package}")
-  endif()
+  set(sources "")
   foreach(source IN LISTS arg_SOURCES)
     get_filename_component(source "${source}" ABSOLUTE BASE_DIR "${FELTGATE_ROOT}")
     list(APPEND sources "${source}")
   endforeach()
   list(APPEND sources "${FELTGATE_ROOT}/rtl/${block}.sv")
 
-  # The ports do not depend on Defect, so one object of the test serves every variant.
-  feltgate_verilate(${arg_NAME}_rtl ${block} "${sources}" ${arg_PARAMS})
+  # A block with a defect has the same ports, so one object of the test serves both.
+  feltgate_verilate(${arg_NAME}_rtl ${block} "${package};${sources}" ${arg_PARAMS})
   add_library(${arg_NAME}_object OBJECT "${FELTGATE_ROOT}/testbench/${block}/${block}_test.cpp")
   target_compile_definitions(${arg_NAME}_object PRIVATE ${arg_DEFINES})
   target_compile_options(${arg_NAME}_object PRIVATE ${FELTGATE_WARNINGS} -O2)
@@ -77,12 +75,20 @@ function(feltgate_block_test block)
   add_test(NAME ${arg_NAME} COMMAND ${arg_NAME}_test)
   set_tests_properties(${arg_NAME} PROPERTIES LABELS "unit;lockstep" TIMEOUT 3600)
 
+  if(arg_WITH_DEFECTS)
+    feltgate_verilate_defects(${arg_NAME}_defects_rtl ${block} "${package}" "${sources}" ${arg_PARAMS})
+    add_executable(${arg_NAME}_defects $<TARGET_OBJECTS:${arg_NAME}_object>)
+    target_link_libraries(${arg_NAME}_defects PRIVATE
+      feltgate_catch_main ${arg_LIBRARIES} ${arg_NAME}_defects_rtl)
+    feltgate_same_class(${arg_NAME}_defects ${block} ${arg_NAME}_rtl ${arg_NAME}_defects_rtl)
+    feltgate_defect_tests(${arg_NAME} ${arg_NAME}_defects ${block})
+  endif()
   foreach(n RANGE 1 ${arg_DEFECTS})
     if(n GREATER arg_DEFECTS)
       break()
     endif()
     set(name ${arg_NAME}_defect${n})
-    feltgate_verilate(${name}_rtl ${block} "${sources}" ${arg_PARAMS} -GDefect=${n})
+    feltgate_verilate(${name}_rtl ${block} "${package};${sources}" ${arg_PARAMS} -GDefect=${n})
     add_executable(${name} $<TARGET_OBJECTS:${arg_NAME}_object>)
     target_link_libraries(${name} PRIVATE feltgate_catch_main ${arg_LIBRARIES} ${name}_rtl)
     add_test(NAME ${arg_NAME}.defect${n}

@@ -5,7 +5,7 @@
 it, with the cells' models flattened in (neither Verilator nor Icarus reads Yosys' cells_sim.v), and
 pair.sv, which drives netlist and RTL alike. Called by testbench/synth/CMakeLists.txt.
 
-  postsynth.py --root R --design lever --block dob --output DIR [--define D] [--parameter N=V]
+  postsynth.py --root R --design lever --block dob --output DIR [--defect PATCH] [--parameter N=V]
 """
 
 import argparse
@@ -13,6 +13,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
+import defects  # noqa: E402
 import synth_measure  # noqa: E402
 from synth_tools import ToolError, Tools  # noqa: E402
 
@@ -59,7 +60,7 @@ def main():
     parser.add_argument("--output", type=Path, required=True)
     parser.add_argument("--registered", action="store_true", help="MULT18X18D with its registers")
     parser.add_argument("--parameter", action="append", default=[], help="of RTL and netlist")
-    parser.add_argument("--defect", default="0", help="of the netlist alone")
+    parser.add_argument("--defect", type=Path, help="a patch, of the netlist alone")
     options = parser.parse_args()
     block, output = options.block, options.output
     output.mkdir(parents=True, exist_ok=True)
@@ -73,12 +74,15 @@ def main():
                 (Path(__file__).parent / model).read_text(encoding="utf-8"), encoding="utf-8"
             )
         values = [p.split("=") for p in options.parameter]
-        change = " ".join(f"-chparam {n} {v}" for n, v in [*values, ["Defect", options.defect]])
-        if block.startswith("scene_") or options.defect != "0" or values:
+        if options.defect:
+            for path, text in defects.patched(options.defect, options.root).items():
+                (output / path.name).write_text(text, encoding="utf-8")
+        change = " ".join(f"-chparam {n} {v}" for n, v in values)
+        if block.startswith("scene_") or values:
             read = [*read, f"hierarchy {change} -top {block}"]
         ports = tools.ports(block, read)
         tools.write_simulation(block, read, MODELS)
-    except ToolError as error:
+    except (ToolError, defects.DefectError) as error:
         print(error, file=sys.stderr)
         return 1
     parameters = ", ".join(f".{n}({v})" for n, v in values)

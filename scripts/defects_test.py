@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""defects.py must refuse what is no defect: each test gives it one patch of a small tree."""
+
+import difflib
+import tempfile
+import unittest
+from pathlib import Path
+
+import defects
+
+TOP = """module top #(
+    parameter int Width = 8  // bits, (even)
+) (
+    input  logic             clk_i,
+    input  logic [Width-1:0] a_i,  // one, two
+    output logic [Width-1:0] y_o
+);
+  child #(.Width(Width)) u_child (.clk_i(clk_i), .a_i(a_i), .y_o(y_o));
+endmodule
+"""
+CHILD = """module child #(parameter int Width = 1) (
+    input logic clk_i,
+    input logic [Width-1:0] a_i,
+    output logic [Width-1:0] y_o
+);
+  always_ff @(posedge clk_i) y_o <= a_i;  // late
+endmodule
+"""
+SOURCES = (Path("rtl/child.sv"), Path("rtl/top.sv"))
+
+
+class Defects(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name)
+        (self.root / "rtl").mkdir()
+        for path, text in zip(SOURCES, (CHILD, TOP)):
+            (self.root / path).write_text(text, encoding="utf-8")
+
+    def patch(self, old, new, path="rtl/child.sv", first="It is inverted.\n", name="inverted"):
+        text = (self.root / path).read_text(encoding="utf-8")
+        self.assertIn(old, text)
+        lines = [t.splitlines(True) for t in (text, text.replace(old, new))]
+        body = "".join(difflib.unified_diff(*lines, f"a/{path}", f"b/{path}", n=1))
+        patch = self.root / f"{name}.patch"
+        patch.write_text(first + body, encoding="utf-8")
+        return patch
+
+    def refused(self, patch, *words):
+        with self.assertRaises(defects.DefectError) as caught:
+            defects.patched(patch, self.root)
+        for word in (patch.name, *words):
+            self.assertIn(word, str(caught.exception))
+
+    def test_a_copy_has_the_defect_and_the_source_has_not(self):
+        patch = self.patch("<= a_i", "<= ~a_i")
+        (written,) = defects.write_copies(patch, self.root / "out", self.root)
+        self.assertEqual(written, self.root / "out/rtl/child.sv")
+        self.assertEqual(written.read_text(), CHILD.replace("<= a_i", "<= ~a_i"))
+        self.assertEqual((self.root / "rtl/child.sv").read_text(), CHILD)
+
+    def test_no_longer_applies(self):
+        patch = self.patch("<= a_i", "<= ~a_i")
+        for line in ("  always_ff @(negedge clk_i) y_o <= a_i;  // late", ");\n\n"):
+            with self.subTest(line):
+                old = "  always_ff @(posedge clk_i) y_o <= a_i;  // late" if "neg" in line else ");\n"
+                (self.root / "rtl/child.sv").write_text(CHILD.replace(old, line))
+                self.refused(patch, "does not apply", "rtl/child.sv")
+
+    def test_moved_lines_are_found(self):
+        patch = self.patch("<= a_i", "<= ~a_i")
+        (self.root / "rtl/child.sv").write_text("// a new head\n" + CHILD)
+        self.assertIn("<= ~a_i", defects.patched(patch, self.root)[SOURCES[0]])
+
+    def test_changes_nothing(self):
+        self.refused(self.patch("// late", "// a clock later"), "changes no code of rtl/child.sv")
+        self.refused(self.patch("y_o <= a_i", "y_o  <=  a_i"), "changes no code")
+        empty = self.root / "empty.patch"
+        empty.write_text("It breaks nothing.\n")
+        self.refused(empty, "changes no file")
+
+    def test_does_not_say_what_it_breaks(self):
+        self.refused(self.patch("<= a_i", "<= ~a_i", first=""), "first line")
+        self.refused(self.patch("<= a_i", "<= ~a_i", first="diff --git a/x b/x\n"), "first line")
+
+    def test_names(self):
+        for name in ("No-Word", "none"):
+            self.refused(self.patch("<= a_i", "<= ~a_i", name=name), "rename it")
+
+    def test_file_that_is_gone(self):
+        patch = self.patch("<= a_i", "<= ~a_i")
+        (self.root / "rtl/child.sv").unlink()
+        self.refused(patch, "rtl/child.sv, which is not there")
+
+    def test_block_holds_a_copy_for_each(self):
+        one = self.patch("<= a_i", "<= ~a_i", name="inverted")
+        two = self.patch(".a_i(a_i)", ".a_i('0)", path="rtl/top.sv", name="dead")
+        text = defects.block_of_defects("top", [one, two], SOURCES, self.root)
+        modules = [line.split()[1] for line in text.splitlines() if line.startswith("module ")]
+        self.assertEqual(
+            modules, ["top", "top_none", "top_dead", "child_inverted", "top_inverted"]
+        )
+        self.assertEqual(text.count("  child_inverted #("), 1)
+        self.assertEqual(text.count("  child #("), 2)  # of those without and with the other one
+        self.assertIn("top_dead #(.Width(Width)) u_dead (.clk_i(clock_1), .a_i(a_i)", text)
+        self.assertIn("assign clock_2 = clk_i && chosen[2];", text)
+        self.assertIn("chosen[1] ? out_1_y_o : chosen[2] ? out_2_y_o : out_0_y_o", text)
+
+    def test_block_without_the_file_of_the_patch(self):
+        patch = self.patch("<= a_i", "<= ~a_i")
+        with self.assertRaisesRegex(defects.DefectError, "not part of top's test"):
+            defects.block_of_defects("top", [patch], SOURCES[1:], self.root)
+
+    def test_classes(self):
+        one, other = self.root / "one.h", self.root / "other.h"
+        one.write_text('#include "a.h"\nclass V { int a, b; };\n')
+        other.write_text('#include "b.h"\nclass V { int a, b; };\n')
+        defects.check_same_class(one, other)
+        other.write_text("class V { int b, a; };\n")
+        with self.assertRaisesRegex(defects.DefectError, "differ"):
+            defects.check_same_class(one, other)
+
+
+if __name__ == "__main__":
+    unittest.main()

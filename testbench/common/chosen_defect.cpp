@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Which copy in a block of seeded defects is alive: the one that the environment variable
+// FELTGATE_DEFECT names. Called by what scripts/defects.py writes. Documentation: docs/testing.md
+#include <cstdlib>
+#include <iostream>
+#include <sstream>
+#include <string>
+
+/// The place of the chosen name among these.
+extern "C" int feltgate_chosen_defect(const char* names) {
+  const char* chosen = std::getenv("FELTGATE_DEFECT");
+  std::istringstream list(names);
+  std::string name;
+  for (int place = 0; list >> name; ++place) {
+    if (chosen != nullptr && name == chosen) return place;
+  }
+  std::cerr << "FELTGATE_DEFECT must be one of: " << names << std::endl;
+  std::abort();
+}

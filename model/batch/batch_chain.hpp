@@ -32,7 +32,8 @@ struct BatchLanes {
   using Row = LaneWords<Lanes>;
 
   /// The parameters of one lane as the laws read them.
-  struct Reader {
+  struct Reader : ParameterReader<D, Reader> {
+    Reader(const BatchLanes* of, std::size_t which) : batch(of), lane(which) {}
     const BatchLanes* batch;
     std::size_t lane;
     template <int Key>
@@ -68,7 +69,7 @@ template <bool Armed, class D, int Lanes>
 FELTGATE_LANES void estimate(BatchLanes<D, Lanes>& b) {
   auto& line = b.line[b.oldest];
   for (std::size_t k = 0; k < Lanes; ++k) {
-    const typename BatchLanes<D, Lanes>::Reader words{&b, k};
+    const typename BatchLanes<D, Lanes>::Reader words(&b, k);
     EstimatorStep<D, FixedLanes> estimator;
     estimator.velocity = number<D::f.velocity.key()>(b.velocity[k]);
     estimator.tick(words, travel_difference(b.travel[k], line[k]));
@@ -88,7 +89,7 @@ FELTGATE_LANES void estimate(BatchLanes<D, Lanes>& b) {
 template <int Scene, class D, int Lanes>
 FELTGATE_LANES void render(BatchLanes<D, Lanes>& b) {
   for (std::size_t k = 0; k < Lanes; ++k) {
-    const typename BatchLanes<D, Lanes>::Reader words{&b, k};
+    const typename BatchLanes<D, Lanes>::Reader words(&b, k);
     auto side = static_cast<MembraneSide>(b.side[k]);
     b.scene_torque[k] =
         ScenesLaw<D, FixedLanes>::torque(words, Scene, scene_position<D, FixedLanes>(b.position[k]),
@@ -101,17 +102,15 @@ FELTGATE_LANES void render(BatchLanes<D, Lanes>& b) {
 /// Limit and ramp.
 template <bool Armed, class D, int Lanes>
 FELTGATE_LANES void limit(BatchLanes<D, Lanes>& b, int scene) {
-  using A = typename D::A;
   if (scene != b.scene) b.ramping.fill(1);  // what begin() would find, said once for all lanes
   b.scene = scene;
   for (std::size_t k = 0; k < Lanes; ++k) {
-    const typename BatchLanes<D, Lanes>::Reader words{&b, k};
+    const typename BatchLanes<D, Lanes>::Reader words(&b, k);
     ScenesPort<D, FixedLanes> port;
     port.resume(scene, b.ramping[k] != 0, number<D::f.ramp.key()>(b.reference[k]));
     port.begin(Armed, scene);
-    port.limit(number<D::f.torque.key()>(b.scene_torque[k]),
-               words.template get<D::f.torque.key()>(A::torque_limit));
-    port.move(words.template get<D::f.ramp.key()>(A::ramp_step));
+    port.limit(number<D::f.torque.key()>(b.scene_torque[k]), words.torque_limit());
+    port.move(words.ramp_step());
     b.ramping[k] = port.ramping();
     b.reference[k] = port.reference().raw();
     b.tau_ref[k] = port.tau_ref().raw();
@@ -124,7 +123,7 @@ FELTGATE_LANES void limit(BatchLanes<D, Lanes>& b, int scene) {
 template <bool Armed, Mode M, class D, int Lanes>
 FELTGATE_LANES void drive(BatchLanes<D, Lanes>& b) {
   for (std::size_t k = 0; k < Lanes; ++k) {
-    const typename BatchLanes<D, Lanes>::Reader words{&b, k};
+    const typename BatchLanes<D, Lanes>::Reader words(&b, k);
     TorqueControlStep<D, FixedLanes> control;
     control.tick(words, Armed, M, number<D::f.torque.key()>(b.tau_ref[k]),
                  number<D::f.torque.key()>(b.tau_hat[k]),

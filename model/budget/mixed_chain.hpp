@@ -101,8 +101,6 @@ class MixedChain {
   Quad current() const { return to_quad(control_.current); }
 
  private:
-  using P = typename D::P;
-  using A = typename D::A;
   template <bool InFixed>
   using Policy = std::conditional_t<InFixed, Fixed, Real<Quad>>;
   using Velocity = VelocityLaw<D, Policy<VelocityN>>;
@@ -142,7 +140,7 @@ class MixedChain {
   void estimate(std::int16_t travel) {
     const std::int16_t counts = travel_difference(travel, line_.oldest());
     line_.push(travel);
-    const auto a1 = words<VelocityN>().template get<P::velocity_a1.key()>(A::velocity_a1);
+    const auto a1 = words<VelocityN>().velocity_a1();
     if constexpr (VelocityN) {
       bool saturated = false;
       const auto operand = Velocity::Filter::operand(Velocity::raw(counts, &saturated), velocity_);
@@ -156,13 +154,11 @@ class MixedChain {
     const auto& w = words<DobBlock>();
     const auto current = input<DobBlock, finer(D::f.current).key()>(control_.current);
     const auto velocity = input<DobBlock, finer(D::f.velocity).key()>(velocity_);
-    const auto drive = armed ? Observer::drive(current * w.template get<P::torque_constant.key()>(
-                                                             A::torque_constant))
-                             : typename Observer::Drive{};
-    const auto inertia =
-        Observer::inertia(velocity * w.template get<P::inertia_gain.key()>(A::inertia_gain));
+    const auto drive =
+        armed ? Observer::drive(current * w.torque_constant()) : typename Observer::Drive{};
+    const auto inertia = Observer::inertia(velocity * w.inertia_gain());
     const auto in = Observer::input(drive, inertia);
-    const auto a1 = w.template get<P::observer_a1.key()>(A::observer_a1);
+    const auto a1 = w.observer_a1();
     observer_ =
         armed ? Observer::Filter::next(observer_, Observer::Filter::operand(in, observer_) * a1)
               : in;

@@ -17,6 +17,9 @@ std::string systemverilog_package(const Elaborated& e);
 /// Text of model/include/feltgate/generated/NAME.hpp.
 std::string cpp_header(const Elaborated& e);
 
+/// Text of model/include/feltgate/generated/reader.hpp.
+std::string reader_header(const RegisterMap& map);
+
 /// A line per parameter: name, address, integer, exact value in its unit.
 std::string values_text(const Elaborated& e);
 

@@ -103,7 +103,8 @@ void generate_one(const Options& o, const feltgate::design::RegisterMap& registe
 
 /// Whether a file was stale.
 bool generate_all(const Options& o, const feltgate::design::RegisterMap& registers) {
-  bool stale = false;
+  bool stale = update(o.root / "model/include/feltgate/generated/reader.hpp",
+                      reader_header(registers), o.check_only);
   for (const auto& entry : fs::directory_iterator(o.root / "rtl/designs")) {
     if (entry.path().extension() != ".toml") continue;
     const auto e = elaborate(feltgate::design::read_design(entry.path().string()), registers);

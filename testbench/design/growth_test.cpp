@@ -12,6 +12,7 @@
 #include "feltgate/dob.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"
+#include "feltgate/generated/reader.hpp"
 #include "feltgate/torque_control.hpp"
 #include "feltgate/velocity_n.hpp"
 
@@ -188,7 +189,8 @@ void check_observer() {
 /// Every parameter at the upper end of its word, the observer's signed gain at either, and the duty
 /// limited to what its port holds.
 template <class D>
-struct CornerWords {
+struct CornerWords : ParameterReader<D, CornerWords<D>> {
+  explicit CornerWords(bool low) : observer_low(low) {}
   bool observer_low;
   template <int Key>
   fixed_of<Key> get(int address) const {
@@ -206,21 +208,18 @@ void check_control_at(const CornerWords<D>& words,
                       typename TorqueControlLaw<D, Fixed>::Torque tau_ref,
                       typename TorqueControlLaw<D, Fixed>::Torque tau_hat,
                       fixed_of<D::f.velocity.key()> w) {
-  using A = typename D::A;
   using P = typename D::P;
   using Law = TorqueControlLaw<D, Fixed>;
   TorqueControlStep<D, Fixed> step;
   step.tick(words, true, Mode::closed_loop, tau_ref, tau_hat, w);
   const double wanted_a =
-      real(tau_ref) * real(words.template get<P::torque_gain.key()>(0)) +
-      real(tau_hat) * real(words.template get<P::observer_gain.key()>(A::observer_gain));
+      real(tau_ref) * real(words.torque_gain()) + real(tau_hat) * real(words.observer_gain());
   check_value(step.current, clamped(wanted_a, real(fixed_of<D::f.current.key()>::max())), 2);
   const double limit = real(fixed_of<Law::kVoltageKey>::max());
-  const double slope = real(tau_ref) * real(words.template get<P::dead_voltage_slope.key()>(0));
-  const double wanted_v = real(w) * real(words.template get<P::emf_constant.key()>(0)) +
-                          clamped(slope, limit) +
-                          real(step.current) * real(words.template get<P::voltage_gain.key()>(0));
-  const double duty = clamped(wanted_v, limit) * real(words.template get<P::duty_gain.key()>(0));
+  const double slope = real(tau_ref) * real(words.dead_voltage_slope());
+  const double wanted_v = real(w) * real(words.emf_constant()) + clamped(slope, limit) +
+                          real(step.current) * real(words.voltage_gain());
+  const double duty = clamped(wanted_v, limit) * real(words.duty_gain());
   // What the truncated parts of the voltage lose, and the rounding of the duty.
   const int last_bits = 2 + static_cast<int>(std::ldexp(
                                 3.0, P::duty_gain.integer - Law::LimitedVoltage::format.fraction));
@@ -234,7 +233,7 @@ void check_control() {
     for (const auto tau_ref : corners<typename Law::Torque>()) {
       for (const auto tau_hat : corners<typename Law::Torque>()) {
         for (const auto w : corners<fixed_of<D::f.velocity.key()>>()) {
-          check_control_at<D>({low}, tau_ref, tau_hat, w);
+          check_control_at<D>(CornerWords<D>(low), tau_ref, tau_hat, w);
         }
       }
     }

@@ -74,7 +74,7 @@ class Loop {
 };
 
 /// Exact parameters for the law in quad precision; the voltage set-point is an input, not a gain.
-struct ExactWords {
+struct ExactWords : ParameterReader<Design, ExactWords> {
   explicit ExactWords(const Words& words)
       : setpoint(static_cast<quad>(words.at(A::voltage_setpoint)) * lsb(14)) {}
   template <int Key>

@@ -11,6 +11,7 @@
 
 #include "../lowpass/exact.hpp"
 #include "../mult/shared_mult.hpp"
+#include "feltgate/generated/reader.hpp"
 #include "feltgate/torque_control.hpp"
 #include "lock_step.hpp"
 
@@ -25,7 +26,7 @@ using Voltage = fixed_of<Design::f.voltage.key()>;
 using Velocity = fixed_of<Design::f.velocity.key()>;
 
 /// The parameter words of a wave as the 32-bit bus carries them, by address.
-struct Words {
+struct Words : ParameterReader<Design, Words> {
   Words() {
     for (std::size_t k = 0; k < raw.size(); ++k) {
       const ParameterInfo& p = parameter(static_cast<int>(k));

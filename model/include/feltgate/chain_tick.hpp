@@ -22,15 +22,14 @@ struct EstimatorStep {
   typename VelocityLaw<D, N>::Velocity velocity{};
   bool limit = false;  ///< the counts saturated
 
-  /// `counts`: the travel of the last m1 ticks. W gives the parameters: w.template
-  /// get<Key>(address).
+  /// `counts`: the travel of the last m1 ticks. W gives the parameters: a ParameterReader.
   template <class W>
   void tick(const W& w, std::int16_t counts) {
     using Law = VelocityLaw<D, N>;
     limit = false;
     const auto raw = Law::raw(counts, &limit);
     constexpr int a1 = D::P::velocity_a1.key();
-    velocity = Law::Filter::template step<a1>(raw, velocity, w.template get<a1>(D::A::velocity_a1));
+    velocity = Law::Filter::template step<a1>(raw, velocity, w.velocity_a1());
   }
 };
 
@@ -45,17 +44,11 @@ struct ObserverStep {
   template <class W, class Current, class Velocity>
   void tick(const W& w, bool armed, Current current, Velocity velocity) {
     using Law = DobLaw<D, N>;
-    using P = typename D::P;
-    using A = typename D::A;
-    const auto drive =
-        armed ? Law::drive(current * w.template get<P::torque_constant.key()>(A::torque_constant))
-              : typename Law::Drive{};
-    const auto inertia =
-        Law::inertia(velocity * w.template get<P::inertia_gain.key()>(A::inertia_gain));
+    const auto drive = armed ? Law::drive(current * w.torque_constant()) : typename Law::Drive{};
+    const auto inertia = Law::inertia(velocity * w.inertia_gain());
     const auto input = Law::input(drive, inertia);
-    constexpr int a1 = P::observer_a1.key();
-    state = armed ? Law::Filter::template step<a1>(input, state, w.template get<a1>(A::observer_a1))
-                  : input;
+    constexpr int a1 = D::P::observer_a1.key();
+    state = armed ? Law::Filter::template step<a1>(input, state, w.observer_a1()) : input;
     limit = false;
     tau_hat = Law::tau_hat(state, inertia, &limit);
   }

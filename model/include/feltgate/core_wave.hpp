@@ -46,8 +46,7 @@ class CoreWave {
         break;
       case 24:
         if (mode == Mode::voltage) {
-          out.voltage = static_cast<std::int32_t>(
-              chain_.words().template get<D::f.voltage.key()>(D::A::voltage_setpoint).raw());
+          out.voltage = static_cast<std::int32_t>(chain_.words().voltage_setpoint().raw());
         }
         break;
       case 25:

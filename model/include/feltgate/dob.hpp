@@ -25,22 +25,20 @@ struct DobLaw {
   /// Ktn*I, truncated below the observer's last bit.
   template <class Product>
   static constexpr Drive drive(Product ktn_times_current) {
-    return quantise<N, D::f.drive_torque.key(), Round::truncate, Overflow::wrap>(ktn_times_current);
+    return quantise<N, Drive, Round::truncate, Overflow::wrap>(ktn_times_current);
   }
   /// g*Jn*w, truncated; it enters and leaves the observer alike, so what is cut cancels at rest.
   template <class Product>
   static constexpr Inertia inertia(Product gain_times_velocity) {
-    return quantise<N, D::f.inertia_torque.key(), Round::truncate, Overflow::wrap>(
-        gain_times_velocity);
+    return quantise<N, Inertia, Round::truncate, Overflow::wrap>(gain_times_velocity);
   }
   /// Filter input: exact.
   static constexpr State input(Drive drive, Inertia inertia) {
-    return quantise<N, D::f.observer.key(), Round::truncate, Overflow::wrap>(drive + inertia);
+    return quantise<N, State, Round::truncate, Overflow::wrap>(drive + inertia);
   }
   /// tau_hat, rounded and saturated to the torque format.
   static constexpr Torque tau_hat(State state, Inertia inertia, bool* saturated) {
-    return quantise<N, D::f.torque.key(), D::rounding, Overflow::saturate>(state - inertia,
-                                                                           saturated);
+    return quantise<N, Torque, D::rounding, Overflow::saturate>(state - inertia, saturated);
   }
 };
 

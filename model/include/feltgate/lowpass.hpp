@@ -20,20 +20,20 @@ struct LowpassLaw {
 
   /// x - y as the multiplier takes it: low bits are given up where it is narrower (truncation).
   static constexpr Operand operand(State x, State y) {
-    return quantise<N, OperandKey, Round::truncate, Overflow::wrap>(x - y);
+    return quantise<N, Operand, Round::truncate, Overflow::wrap>(x - y);
   }
 
   /// The new state from the old one and a1 * operand.
   template <class Product>
   static constexpr State next(State y, Product a1_times_operand) {
-    return quantise<N, StateKey, R, Overflow::wrap>(y + a1_times_operand);
+    return quantise<N, State, R, Overflow::wrap>(y + a1_times_operand);
   }
 
   /// The same from the input. Where stays_between() holds nothing can wrap, and nothing looks.
   template <int CoefficientKey, class A1>
   static constexpr State step(State x, State y, A1 a1) {
     if constexpr (stays_between(Format::from_key(CoefficientKey))) {
-      return quantise<N, StateKey, R, Overflow::never>(y + operand(x, y) * a1);
+      return quantise<N, State, R, Overflow::never>(y + operand(x, y) * a1);
     } else {
       return next(y, operand(x, y) * a1);
     }

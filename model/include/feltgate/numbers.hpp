@@ -81,6 +81,17 @@ constexpr typename N::template num<Key> quantise(X x, bool* saturated = nullptr)
   }
 }
 
+/// The same, To being a num of N, which knows its format where there is one.
+template <class N, class To, Round R, Overflow O, class X>
+constexpr To quantise(X x, bool* saturated = nullptr) {
+  if constexpr (N::is_fixed) {
+    return N::template narrowed<To::format.key(), R, O>(x, saturated);
+  } else {
+    (void)saturated;
+    return x;
+  }
+}
+
 /// An integer as a number of the integer format Key (fraction 0); exact in both policies as long as
 /// it lies in the format's range.
 template <class N, int Key>
@@ -90,6 +101,14 @@ constexpr typename N::template num<Key> from_integer(std::int64_t v) {
     return N::template from_raw<Key>(v);
   } else {
     return static_cast<typename N::template num<Key>>(v);
+  }
+}
+template <class N, class To>
+constexpr To from_integer(std::int64_t v) {
+  if constexpr (N::is_fixed) {
+    return from_integer<N, To::format.key()>(v);
+  } else {
+    return static_cast<To>(v);
   }
 }
 

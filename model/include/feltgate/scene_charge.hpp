@@ -20,8 +20,6 @@ constexpr std::int64_t charge_quotient(std::int64_t strength, std::int64_t squar
 /// The law, in number policy N, for design D. Distances here are centre - position, that is -x.
 template <class D, class N>
 struct SceneChargeLaw {
-  using P = typename D::P;
-  using A = typename D::A;
   static constexpr Format force_format{1, 0, D::f.charge.fraction};
   using Torque = typename N::template num<D::f.torque.key()>;
   using Offset = typename N::template num<D::f.scene_offset.key()>;
@@ -31,8 +29,8 @@ struct SceneChargeLaw {
 
   /// centre - position [count], saturated; the centre's fraction is ignored.
   static Distance distance(std::int32_t position, Offset centre) {
-    return quantise<N, D::f.scene_position.key(), Round::truncate, Overflow::saturate>(
-        whole(centre) - from_integer<N, D::f.scene_position.key()>(position));
+    return quantise<N, Distance, Round::truncate, Overflow::saturate>(
+        whole(centre) - from_integer<N, Distance>(position));
   }
   /// Whether the lever is in the core.
   template <class Width>
@@ -61,38 +59,28 @@ struct SceneChargeLaw {
     return saturated(-rounded);
   }
   static Torque torque(Force force) {
-    return quantise<N, D::f.torque.key(), Round::truncate, Overflow::saturate>(force);
+    return quantise<N, Torque, Round::truncate, Overflow::saturate>(force);
   }
   /// One tick.
   template <class W>
   static Torque torque(const W& w, bool attract, std::int32_t position) {
-    constexpr int offset = D::f.scene_offset.key();
-    constexpr int core = P::attract_core.key();
-    static_assert(P::attract_core == P::repel_core, "both cores are plain counts");
-    const Distance d =
-        distance(position, w.template get<offset>(attract ? A::attract_centre : A::repel_centre));
-    if (!near(d, w.template get<core>(attract ? A::attract_core : A::repel_core))) {
-      return torque(outside(
-          d, w.template get<D::f.charge.key()>(attract ? A::attract_strength : A::repel_strength),
-          attract));
+    const Distance d = distance(position, attract ? w.attract_centre() : w.repel_centre());
+    if (!near(d, attract ? w.attract_core() : w.repel_core())) {
+      return torque(outside(d, attract ? w.attract_strength() : w.repel_strength(), attract));
     }
-    if (attract) {
-      return torque(
-          inside(d * w.template get<P::attract_core_slope.key()>(A::attract_core_slope), true));
-    }
-    return torque(
-        inside(d * w.template get<P::repel_core_slope.key()>(A::repel_core_slope), false));
+    if (attract) return torque(inside(d * w.attract_core_slope(), true));
+    return torque(inside(d * w.repel_core_slope(), false));
   }
 
  private:
   template <class X>
   static Force saturated(X x) {
-    return quantise<N, force_format.key(), Round::truncate, Overflow::saturate>(x);
+    return quantise<N, Force, Round::truncate, Overflow::saturate>(x);
   }
   /// The whole counts of a position, downward.
   static Distance whole(Offset x) {
     if constexpr (N::is_fixed) {
-      return quantise<N, D::f.scene_position.key(), Round::truncate, Overflow::wrap>(x);
+      return quantise<N, Distance, Round::truncate, Overflow::wrap>(x);
     } else {
       const auto toward_zero = static_cast<Distance>(static_cast<std::int64_t>(x));
       return toward_zero > x ? toward_zero - 1 : toward_zero;

@@ -24,13 +24,13 @@ struct SceneDamperLaw {
   /// Rounded, then negated, then saturated: no torque below half a step on either side.
   template <class Product>
   static Torque torque(Product damping_times_velocity) {
-    return quantise<N, D::f.torque.key(), Round::truncate, Overflow::saturate>(
+    return quantise<N, Torque, Round::truncate, Overflow::saturate>(
         -quantise<N, steps.key(), D::rounding, Overflow::wrap>(damping_times_velocity));
   }
   /// One tick.
   template <class W>
   static Torque torque(const W& w, Velocity velocity) {
-    return torque(velocity * w.template get<D::P::damper_damping.key()>(D::A::damper_damping));
+    return torque(velocity * w.damper_damping());
   }
 };
 

@@ -39,14 +39,12 @@ struct SceneMembraneLaw {
   /// One tick; moves `side` on.
   template <class W>
   static Torque torque(const W& w, std::int32_t position, MembraneSide* side) {
-    const MembraneSide now =
-        where(position, w.template get<D::f.scene_offset.key()>(D::A::membrane_lower),
-              w.template get<D::f.scene_offset.key()>(D::A::membrane_upper));
+    const MembraneSide now = where(position, w.membrane_lower(), w.membrane_upper());
     if (now != MembraneSide::unknown) {
       *side = now;
       return Torque{};
     }
-    return inside(*side, w.template get<D::f.torque.key()>(D::A::membrane_torque));
+    return inside(*side, w.membrane_torque());
   }
 };
 

@@ -17,7 +17,7 @@ struct SceneSetpointLaw {
 
   template <class W>
   static Torque torque(const W& w) {
-    return w.template get<D::f.torque.key()>(D::A::setpoint_torque);
+    return w.setpoint_torque();
   }
 };
 

@@ -19,28 +19,21 @@ struct SceneSpringLaw {
 
   /// reference - position [count], saturated.
   static Offset operand(std::int32_t position, Offset reference) {
-    return quantise<N, D::f.scene_offset.key(), Round::truncate, Overflow::saturate>(
+    return quantise<N, Offset, Round::truncate, Overflow::saturate>(
         reference - from_integer<N, D::f.scene_position.key()>(position));
   }
   /// k * operand, rounded and saturated; a compressed spring only pushes.
   template <class Product>
   static Torque torque(Offset operand, Product k_times_operand, bool tension) {
     if (!tension && operand < Offset{}) return Torque{};
-    return quantise<N, D::f.torque.key(), D::rounding, Overflow::saturate>(k_times_operand);
+    return quantise<N, Torque, D::rounding, Overflow::saturate>(k_times_operand);
   }
   /// One tick.
   template <class W>
   static Torque torque(const W& w, bool tension, std::int32_t position) {
-    using P = typename D::P;
-    using A = typename D::A;
-    constexpr int offset = D::f.scene_offset.key();
-    const Offset x = operand(
-        position, w.template get<offset>(tension ? A::tension_rest : A::compression_contact));
-    if (tension) {
-      return torque(x, x * w.template get<P::tension_stiffness.key()>(A::tension_stiffness), true);
-    }
-    return torque(x, x * w.template get<P::compression_stiffness.key()>(A::compression_stiffness),
-                  false);
+    const Offset x = operand(position, tension ? w.tension_rest() : w.compression_contact());
+    if (tension) return torque(x, x * w.tension_stiffness(), true);
+    return torque(x, x * w.compression_stiffness(), false);
   }
 };
 

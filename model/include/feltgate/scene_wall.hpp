@@ -29,29 +29,26 @@ struct SceneWallLaw {
 
   /// contact - position [count], saturated; negative inside the wall.
   static Offset operand(std::int32_t position, Offset contact) {
-    return quantise<N, D::f.scene_offset.key(), Round::truncate, Overflow::saturate>(
+    return quantise<N, Offset, Round::truncate, Overflow::saturate>(
         contact - from_integer<N, D::f.scene_position.key()>(position));
   }
   /// One product, its bits below the guard bits dropped.
   template <class Product>
   static Part cut(Product product) {
-    return quantise<N, part.key(), Round::truncate, Overflow::wrap>(product);
+    return quantise<N, Part, Round::truncate, Overflow::wrap>(product);
   }
   /// The difference rounded and saturated; 0 outside, and where the wall would pull.
   static Torque torque(Offset operand, Part k_times_operand, Part b_times_velocity) {
     if (!(operand < Offset{})) return Torque{};
-    const Torque tau = quantise<N, D::f.torque.key(), D::rounding, Overflow::saturate>(
-        k_times_operand - b_times_velocity);
+    const Torque tau =
+        quantise<N, Torque, D::rounding, Overflow::saturate>(k_times_operand - b_times_velocity);
     return tau < Torque{} ? tau : Torque{};
   }
   /// One tick.
   template <class W>
   static Torque torque(const W& w, std::int32_t position, Velocity velocity) {
-    using P = typename D::P;
-    using A = typename D::A;
-    const Offset x = operand(position, w.template get<D::f.scene_offset.key()>(A::wall_contact));
-    return torque(x, cut(x * w.template get<P::wall_stiffness.key()>(A::wall_stiffness)),
-                  cut(velocity * w.template get<P::wall_damping.key()>(A::wall_damping)));
+    const Offset x = operand(position, w.wall_contact());
+    return torque(x, cut(x * w.wall_stiffness()), cut(velocity * w.wall_damping()));
   }
 };
 

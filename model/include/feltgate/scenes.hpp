@@ -48,7 +48,7 @@ class ScenesPort {
   void move(Ramp step) {
     limit_ramp_ = armed_ && ramping_;
     if (!limit_ramp_) {
-      reference_ = quantise<N, D::f.ramp.key(), Round::truncate, Overflow::wrap>(target_);
+      reference_ = quantise<N, Ramp, Round::truncate, Overflow::wrap>(target_);
       return;
     }
     if (step < Ramp{}) step = Ramp{};
@@ -56,15 +56,15 @@ class ScenesPort {
     if (excess <= step && -excess <= step) {
       ramping_ = false;
     } else if (excess > step) {
-      reference_ = quantise<N, D::f.ramp.key(), Round::truncate, Overflow::wrap>(reference_ - step);
+      reference_ = quantise<N, Ramp, Round::truncate, Overflow::wrap>(reference_ - step);
     } else {
-      reference_ = quantise<N, D::f.ramp.key(), Round::truncate, Overflow::wrap>(reference_ + step);
+      reference_ = quantise<N, Ramp, Round::truncate, Overflow::wrap>(reference_ + step);
     }
   }
 
   /// The reference, its bits below the torque format dropped.
   Torque tau_ref() const {
-    return quantise<N, D::f.torque.key(), Round::truncate, Overflow::wrap>(reference_);
+    return quantise<N, Torque, Round::truncate, Overflow::wrap>(reference_);
   }
   bool limit_torque() const { return limit_torque_; }
   bool limit_ramp() const { return limit_ramp_; }
@@ -99,9 +99,8 @@ class ScenesLaw {
   template <class W>
   void tick(const W& w, bool armed, int scene, std::int32_t position, Velocity velocity) {
     port_.begin(armed, scene);
-    port_.limit(torque(w, scene, position, velocity, &side_),
-                w.template get<D::f.torque.key()>(D::A::torque_limit));
-    port_.move(w.template get<D::f.ramp.key()>(D::A::ramp_step));
+    port_.limit(torque(w, scene, position, velocity, &side_), w.torque_limit());
+    port_.move(w.ramp_step());
   }
 
   /// Torque reference [Nm], positive toward counting up.

@@ -51,36 +51,36 @@ struct TorqueControlLaw {
   /// One product of the current, truncated to the current's last bit.
   template <class Product>
   static constexpr CurrentPart current_part(Product p) {
-    return quantise<N, D::f.current_part.key(), Round::truncate, Overflow::wrap>(p);
+    return quantise<N, CurrentPart, Round::truncate, Overflow::wrap>(p);
   }
   /// One product of the voltage, truncated to the voltage's last bit.
   template <class Product>
   static constexpr VoltagePart voltage_part(Product p) {
-    return quantise<N, D::f.voltage_part.key(), Round::truncate, Overflow::wrap>(p);
+    return quantise<N, VoltagePart, Round::truncate, Overflow::wrap>(p);
   }
   /// Clocks of on-time, rounded.
   template <class Product>
   static constexpr DutySum duty_sum(Product p) {
-    return quantise<N, D::f.duty_sum.key(), D::rounding, Overflow::wrap>(p);
+    return quantise<N, DutySum, D::rounding, Overflow::wrap>(p);
   }
   /// The set-point, or one product of the voltage truncated.
   template <class X>
   static constexpr Offset offset(X x) {
-    return quantise<N, offset_format.key(), Round::truncate, Overflow::wrap>(x);
+    return quantise<N, Offset, Round::truncate, Overflow::wrap>(x);
   }
   /// A part, or the exact sum of parts, as the adder holds it; it fits by construction of the
   /// formats.
   template <class X>
   static constexpr CurrentSum current_sum(X x) {
-    return quantise<N, D::f.current_sum.key(), Round::truncate, Overflow::wrap>(x);
+    return quantise<N, CurrentSum, Round::truncate, Overflow::wrap>(x);
   }
   template <class X>
   static constexpr VoltageSum voltage_sum(X x) {
-    return quantise<N, D::f.voltage_sum.key(), Round::truncate, Overflow::wrap>(x);
+    return quantise<N, VoltageSum, Round::truncate, Overflow::wrap>(x);
   }
   /// The limited voltage as the port shows it; the same number while the limit is in its format.
   static constexpr Voltage port_voltage(LimitedVoltage v) {
-    return quantise<N, D::f.voltage.key(), Round::truncate, Overflow::wrap>(v);
+    return quantise<N, Voltage, Round::truncate, Overflow::wrap>(v);
   }
   /// x in [-limit, limit] and in the format Key. A negative limit gives the limit itself.
   template <int Key, class X, class Limit>
@@ -104,13 +104,12 @@ struct ControlLimits {
   bool duty = false;
 };
 
-/// One tick of torque control. W gives the parameters: w.template get<Key>(address).
+/// One tick of torque control. W gives the parameters: a ParameterReader.
 /// Writes current, voltage and duty; in voltage mode the voltage set-point is limited too. Torques
 /// and velocity are the chain's, or fixed-point numbers with more fraction bits (error budgets).
 template <class D, class N>
 struct TorqueControlStep {
   using Law = TorqueControlLaw<D, N>;
-  using P = typename D::P;
   using A = typename D::A;
   typename Law::Current current{};
   typename Law::Voltage voltage{};
@@ -124,20 +123,16 @@ struct TorqueControlStep {
     typename Law::CurrentSum current_sum{};
     region_high = Law::region_high(tau_ref, w.template get<Law::kBorderKey>(A::region_torque));
     if (direct) {
-      voltage = w.template get<D::f.voltage.key()>(A::voltage_setpoint);
-      current_sum = Law::current_sum(
-          voltage * w.template get<P::voltage_to_current.key()>(A::voltage_to_current));
+      voltage = w.voltage_setpoint();
+      current_sum = Law::current_sum(voltage * w.voltage_to_current());
     } else {
-      const auto by_ref =
-          Law::current_part(tau_ref * w.template get<P::torque_gain.key()>(A::torque_gain));
-      const auto by_hat = mode == Mode::open_loop
-                              ? typename Law::CurrentPart{}
-                              : Law::current_part(tau_hat * w.template get<P::observer_gain.key()>(
-                                                                A::observer_gain));
+      const auto by_ref = Law::current_part(tau_ref * w.torque_gain());
+      const auto by_hat = mode == Mode::open_loop ? typename Law::CurrentPart{}
+                                                  : Law::current_part(tau_hat * w.observer_gain());
       current_sum = Law::current_sum(by_ref + by_hat);
     }
-    current = Law::template limited<D::f.current.key()>(
-        current_sum, w.template get<D::f.current.key()>(A::current_limit), &limit.current);
+    current =
+        Law::template limited<D::f.current.key()>(current_sum, w.current_limit(), &limit.current);
     if (!armed) {
       current = typename Law::Current{};
       limit.current = false;
@@ -147,9 +142,8 @@ struct TorqueControlStep {
     if (direct) {
       offset = Law::offset(voltage);
     } else {
-      offset = Law::offset(velocity * w.template get<P::emf_constant.key()>(A::emf_constant));
-      slope = Law::voltage_part(tau_ref *
-                                w.template get<P::dead_voltage_slope.key()>(A::dead_voltage_slope));
+      offset = Law::offset(velocity * w.emf_constant());
+      slope = Law::voltage_part(tau_ref * w.dead_voltage_slope());
     }
     bool linear = false;
     const auto dead = Law::template limited<Law::kVoltageKey>(
@@ -160,8 +154,8 @@ struct TorqueControlStep {
       voltage_sum = Law::voltage_sum(pair);
     } else {
       // Both are read: a choice between addresses would keep lanes from running side by side.
-      const auto gain = w.template get<P::voltage_gain.key()>(A::voltage_gain);
-      const auto gain_high = w.template get<P::voltage_gain.key()>(A::voltage_gain_high);
+      const auto gain = w.voltage_gain();
+      const auto gain_high = w.voltage_gain_high();
       const auto resistive = Law::voltage_part(current * (region_high ? gain_high : gain));
       voltage_sum = Law::voltage_sum(resistive + pair);
     }
@@ -172,9 +166,9 @@ struct TorqueControlStep {
       limit.voltage = false;
     }
     voltage = Law::port_voltage(applied);
-    duty = Law::template limited<D::f.duty.key()>(
-        Law::duty_sum(applied * w.template get<P::duty_gain.key()>(A::duty_gain)),
-        w.template get<Law::kDutyKey>(A::duty_limit), &limit.duty);
+    duty = Law::template limited<D::f.duty.key()>(Law::duty_sum(applied * w.duty_gain()),
+                                                  w.template get<Law::kDutyKey>(A::duty_limit),
+                                                  &limit.duty);
   }
 };
 

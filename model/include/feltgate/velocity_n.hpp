@@ -45,10 +45,10 @@ struct VelocityLaw {
   static constexpr Velocity raw(std::int16_t counts, bool* saturated) {
     const auto travel = from_integer<N, D::f.travel_difference.key()>(counts);
     if constexpr (D::velocity_gain == 0) {
-      return quantise<N, D::f.velocity.key(), Round::truncate, Overflow::saturate>(
+      return quantise<N, Velocity, Round::truncate, Overflow::saturate>(
           times_power_of_two<N, D::velocity_shift>(travel), saturated);
     } else if constexpr (N::is_fixed) {
-      return quantise<N, D::f.velocity.key(), Round::truncate, Overflow::saturate>(
+      return quantise<N, Velocity, Round::truncate, Overflow::saturate>(
           travel * N::template from_raw<D::base.velocity_gain.key()>(D::velocity_gain), saturated);
     } else {
       return travel * static_cast<Velocity>(D::velocity_gain_rad_s);

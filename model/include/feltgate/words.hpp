@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "feltgate/generated/reader.hpp"
 #include "feltgate/numbers.hpp"
 #include "feltgate/parameter.hpp"
 
@@ -24,8 +25,9 @@ constexpr std::int64_t decode_word(Format f, std::uint32_t word) {
 }
 
 /// Parameters of design D in number policy N (Fixed or Real<T>); starts with the design's values.
+/// A law reads words.torque_limit(); get() is for a word in another format than its own.
 template <class D, class N>
-class Words {
+class Words : public ParameterReader<D, Words<D, N>> {
  public:
   static constexpr int count = 512;
   /// What is stored: the 32-bit word in fixed point, the value in the parameter's unit in Real.

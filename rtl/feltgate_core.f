@@ -1,4 +1,5 @@
 // Sources of feltgate_core in order, relative to rtl/; the design's feltgate_pkg.sv comes first.
+generated/feltgate_map_pkg.sv
 mult.sv
 lowpass.sv
 sequencer.sv

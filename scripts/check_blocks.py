@@ -181,6 +181,7 @@ def blocks_table(blocks):
 def sources(root):
     """RTL of the core with the boards' design, packages first."""
     generated = sorted(root.glob(f"rtl/generated/{BOARD_DESIGN}/*.sv"))
+    generated += sorted(root.glob("rtl/generated/*.sv"))
     blocks = [p for p in sorted(root.glob("rtl/*.sv")) if p.stem not in CELL_WRAPPERS]
     both = [path.relative_to(root) for path in generated + blocks]
     return sorted(both, key=lambda path: not path.stem.endswith("_pkg"))

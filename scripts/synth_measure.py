@@ -39,7 +39,7 @@ class Target:
 
 
 def core_sources(root):
-    """File names of the core's RTL, in order."""
+    """Files of the core's RTL in rtl/, in order; the design's package comes before them."""
     lines = (root / "rtl/feltgate_core.f").read_text(encoding="utf-8").splitlines()
     return [line for line in lines if line and not line.startswith("//")]
 
@@ -48,7 +48,7 @@ def targets(root):
     rows = []
     for source in core_sources(root):
         name = Path(source).stem
-        if name == CORE:
+        if name == CORE or name.endswith("_pkg"):
             continue
         if name == "mult":
             rows.append(Target("mult, registered", name, registered=True))
@@ -84,8 +84,8 @@ def copy_sources(root, design, folder):
     names = [f"{CELL_WRAPPER}.sv", *core_sources(root)]
     shutil.copy(package, folder / "feltgate_pkg.sv")
     for name in names:
-        shutil.copy(root / "rtl" / name, folder / name)
-    return ["feltgate_pkg.sv", *names]
+        shutil.copy(root / "rtl" / name, folder)
+    return ["feltgate_pkg.sv", *(Path(name).name for name in names)]
 
 
 def read_commands(sources, target):

@@ -7,32 +7,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <functional>
 #include <sstream>
+
+#include "design/text_case.hpp"
 
 namespace feltgate::design {
 
 namespace {
-
-std::string upper(std::string s) {
-  std::transform(s.begin(), s.end(), s.begin(), [](unsigned char c) { return std::toupper(c); });
-  return s;
-}
-
-std::string camel(const std::string& s) {
-  std::string out;
-  bool start = true;
-  for (char c : s) {
-    if (c == '_' || c == '-') {
-      start = true;
-    } else {
-      out += start ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
-      start = false;
-    }
-  }
-  return out;
-}
 
 std::string exact(double v) {
   std::string s = fmt::format("{:.17g}", v);
@@ -50,11 +32,13 @@ unsigned scene_mask(const Elaborated& e) {
   return mask;
 }
 
-std::uint32_t control_reset(const Design& d) {
-  return (static_cast<std::uint32_t>(d.motor_polarity) << 8) |
-         (static_cast<std::uint32_t>(d.encoder_polarity) << 9) |
-         (static_cast<std::uint32_t>(d.pwm_mode) << 10) |
-         (static_cast<std::uint32_t>(d.filter_samples) << 11);
+std::uint32_t control_reset(const Elaborated& e) {
+  const auto at = [&](const char* field, int value) {
+    return static_cast<std::uint32_t>(value) << e.registers.control_bit("control", field);
+  };
+  const Design& d = e.design;
+  return at("motor_polarity", d.motor_polarity) | at("encoder_polarity", d.encoder_polarity) |
+         at("pwm_mode", d.pwm_mode) | at("filter", d.filter_samples);
 }
 
 /// How RTL and twin call a rounding mode.
@@ -68,14 +52,8 @@ RoundingName rounding(Round mode) {
   return {0, "half_up"};
 }
 
-std::string banner(const Elaborated& e, const char* what) {
-  return "// SPDX-License-Identifier: Apache-2.0\n"
-         "// SPDX-FileCopyrightText: 2026 the feltgate authors\n//\n"
-         "// Generated from rtl/designs/" +
-         e.design.name +
-         ".toml and rtl/registers.toml by\n"
-         "// `feltgate generate`: do not edit. " +
-         what + "\n";
+std::string banner(const Elaborated& e, const std::string& what) {
+  return generated_banner("rtl/designs/" + e.design.name + ".toml and rtl/registers.toml", what);
 }
 
 /// Plain integers that RTL and twin share: name, value, meaning.
@@ -107,7 +85,7 @@ std::vector<Constant> constants(const Elaborated& e) {
       {"pwm_period", d.pwm_period_clocks(), "clocks"},
       {"dead_clocks", d.dead_clocks(), "clocks"},
       {"scene_mask", scene_mask(e), "bit n: scene n is built"},
-      {"control_reset", control_reset(d), "control word after reset"},
+      {"control_reset", control_reset(e), "control word after reset"},
       {"coefficient_bits", d.coefficient_bits,
        "bits of a coefficient's mantissa, without its sign"},
       {"parallel_multipliers", d.parallel_multipliers ? 1 : 0, "1: each block has its own"},
@@ -219,7 +197,8 @@ std::string cpp_header(const Elaborated& e) {
   s << banner(e, "")
     << "#pragma once\n\n#include <cstdint>\n#include <string_view>\n\n#include "
        "\"feltgate/chain_formats.hpp\"\n"
-    << "#include \"feltgate/fixed.hpp\"\n#include \"feltgate/parameter.hpp\"\n\nnamespace feltgate "
+    << "#include \"feltgate/fixed.hpp\"\n#include \"feltgate/generated/map.hpp\"\n#include "
+       "\"feltgate/parameter.hpp\"\n\nnamespace feltgate "
        "{\n\n"
     << "/// " << d.description << ".\nstruct " << type << " {\n"
     << "  static constexpr const char* name = \"" << d.name << "\";\n"
@@ -238,37 +217,12 @@ std::string cpp_header(const Elaborated& e) {
   for (const Word& w : e.words) {
     s << "    static constexpr Format " << w.parameter.name << triple(w.format) << ";\n";
   }
-  s << "  };\n\n  /// Addresses of the parameters.\n  struct A {\n";
-  for (const Word& w : e.words) {
-    s << "    static constexpr int " << w.parameter.name << " = " << w.parameter.address << ";\n";
-  }
-  s << "  };\n\n  /// Scene numbers.\n  struct S {\n";
-  for (const Scene& scene : e.registers.scenes) {
-    s << "    static constexpr int " << scene.name << " = " << scene.number << ";\n";
-  }
-  s << "  };\n  /// Number of a scene by name, -1 when there is none.\n"
-    << "  static constexpr int scene_number(std::string_view scene) {\n";
-  for (const Scene& scene : e.registers.scenes) {
-    s << "    if (scene == \"" << scene.name << "\") return " << scene.number << ";\n";
-  }
-  s << "    return -1;\n";
-  s << "  }\n  /// All of them, built or not, in the order of their numbers.\n"
-    << "  static constexpr std::string_view scene_names[] = {";
-  for (const Scene& scene : e.registers.scenes) {
-    s << (&scene == &e.registers.scenes.front() ? "" : ",") << "\n      \"" << scene.name << "\"";
-  }
-  s << "};\n\n  /// Addresses of control and snapshot words, and bits of the control words.\n"
-    << "  struct C {\n";
-  for (const Control& c : e.registers.controls) {
-    s << "    static constexpr int " << c.name << " = " << c.address << ";\n";
-    for (const Field& f : c.fields) {
-      s << "    static constexpr int " << c.name << "_" << f.name << " = " << f.bit << ";\n";
-    }
-  }
-  for (const Snapshot& n : e.registers.snapshots) {
-    s << "    static constexpr int read_" << n.name << " = " << snapshot_base + n.slot << ";\n";
-  }
-  s << "  };\n\n  static constexpr BaseFormats base{\n"
+  s << "  };\n\n  // Equal in all designs.\n"
+    << "  using A = Map::A;\n  using S = Map::S;\n  using C = Map::C;\n"
+    << "  static constexpr int scene_number(std::string_view scene) {\n"
+    << "    return Map::scene_number(scene);\n  }\n"
+    << "  static constexpr const auto& scene_names = Map::scene_names;\n\n";
+  s << "  static constexpr BaseFormats base{\n"
     << "      " << triple(d.velocity) << ", " << triple(d.torque) << ", " << triple(d.current)
     << ", " << triple(d.voltage) << ",\n      " << d.observer_fraction
     << ", velocity_shift, velocity_gain != 0, " << triple(e.base.velocity_gain) << ",\n"

@@ -55,6 +55,20 @@ std::string register_page(const Elaborated& e) {
   for (const Snapshot& n : e.registers.snapshots) {
     s << "| " << hex(snapshot_base + n.slot) << " | `" << n.name << "` | " << n.doc << " |\n";
   }
+  s << "\n### Fields of the status\n\n| bits | field | meaning |\n|---|---|---|\n";
+  for (const Snapshot& n : e.registers.snapshots) {
+    for (const Field& f : n.fields) {
+      s << "| " << bits_text(f) << " | `" << n.name << "." << f.name << "` | " << f.doc << " |\n";
+    }
+  }
+  s << "\n### Limits\n\n| bit | limit | meaning |\n|---|---|---|\n";
+  for (const Cause& c : e.registers.limits) {
+    s << "| " << c.number << " | `" << c.name << "` | " << c.doc << " |\n";
+  }
+  s << "\n### Faults\n\n| number and bit | fault | meaning |\n|---|---|---|\n";
+  for (const Cause& c : e.registers.faults) {
+    s << "| " << c.number << " | `" << c.name << "` | " << c.doc << " |\n";
+  }
   s << "\n## Scenes\n\n| number | scene |\n|---|---|\n";
   for (const Scene& scene : e.registers.scenes) {
     s << "| " << scene.number << " | " << scene.name << " |\n";

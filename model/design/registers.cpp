@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <set>
+#include <stdexcept>
 
 #include "config/nearest.hpp"
 #include "config/toml_reader.hpp"
@@ -24,6 +25,23 @@ std::vector<std::string> RegisterMap::scene_names() const {
   std::vector<std::string> names;
   for (const Scene& s : scenes) names.push_back(s.name);
   return names;
+}
+
+int RegisterMap::control_bit(const std::string& control, const std::string& field) const {
+  for (const Control& c : controls) {
+    if (c.name != control) continue;
+    for (const Field& f : c.fields) {
+      if (f.name == field) return f.bit;
+    }
+  }
+  throw std::out_of_range(fmt::format("{}: no field {}.{}; list it", path, control, field));
+}
+
+const Parameter* RegisterMap::find(const std::string& parameter) const {
+  for (const Parameter& p : parameters) {
+    if (p.name == parameter) return &p;
+  }
+  return nullptr;
 }
 
 namespace {
@@ -65,11 +83,8 @@ Parameter read_parameter(config::TomlReader r, const RegisterMap& map, std::set<
   return p;
 }
 
-Control read_control(config::TomlReader r) {
-  Control c;
-  c.name = r.identifier("name");
-  c.address = small(r, "address", 0x2ff);
-  c.doc = r.text("doc");
+std::vector<Field> read_fields(config::TomlReader& r) {
+  std::vector<Field> fields;
   for (config::TomlReader& f : r.sections("fields")) {
     Field field;
     field.name = f.identifier("name");
@@ -79,10 +94,57 @@ Control read_control(config::TomlReader r) {
       f.fail("width", "the field ends beyond bit 31", "make it narrower");
     field.doc = f.text("doc");
     f.finish();
-    c.fields.push_back(field);
+    fields.push_back(field);
   }
+  return fields;
+}
+
+Control read_control(config::TomlReader r) {
+  Control c;
+  c.name = r.identifier("name");
+  c.address = small(r, "address", 0x2ff);
+  c.doc = r.text("doc");
+  c.fields = read_fields(r);
   r.finish();
   return c;
+}
+
+Snapshot read_snapshot(config::TomlReader r, const RegisterMap& map) {
+  Snapshot n;
+  n.name = r.identifier("name");
+  n.place = fmt::format("{}:{}", r.file(), r.line("name"));
+  if (r.has("with")) {
+    n.with = r.text("with");
+    const Parameter* p = map.find(n.with);
+    if (p == nullptr || !p->scene.empty()) {
+      r.fail("with", fmt::format("\"{}\" is no coefficient that all scenes share", n.with),
+             "name one, or write a slot");
+    }
+    n.slot = p->slot;
+  } else {
+    n.slot = small(r, "slot", 63);
+  }
+  n.doc = r.text("doc");
+  n.fields = read_fields(r);
+  r.finish();
+  return n;
+}
+
+/// Entries that count up from `first` under `key`.
+std::vector<Cause> read_causes(config::TomlReader& top, const std::string& section,
+                               const std::string& key, int first) {
+  std::vector<Cause> causes;
+  for (config::TomlReader& r : top.sections(section)) {
+    const int next = first + static_cast<int>(causes.size());
+    Cause c{r.identifier("name"), small(r, key, 7), r.text("doc")};
+    if (c.number != next) {
+      r.fail(key, fmt::format("{} follows {}", c.number, next - 1),
+             fmt::format("list them in order; this one is {}", next));
+    }
+    causes.push_back(c);
+    r.finish();
+  }
+  return causes;
 }
 
 }  // namespace
@@ -102,9 +164,10 @@ RegisterMap read_registers(const std::string& path) {
   }
   for (config::TomlReader& r : top.sections("control")) map.controls.push_back(read_control(r));
   for (config::TomlReader& r : top.sections("snapshot")) {
-    map.snapshots.push_back({r.identifier("name"), small(r, "slot", 63), r.text("doc")});
-    r.finish();
+    map.snapshots.push_back(read_snapshot(r, map));
   }
+  map.limits = read_causes(top, "limit", "bit", 0);
+  map.faults = read_causes(top, "fault", "number", 1);
   top.finish();
   return map;
 }

@@ -45,7 +45,18 @@ struct Control {
 
 struct Snapshot {
   std::string name;
-  int slot = 0;
+  int slot = 0;  ///< wave clock in which the word is on the operand bus
+  std::string
+      with;  ///< the coefficient that it is multiplied by then, empty where it only passes by
+  std::string doc;
+  std::vector<Field> fields;
+  std::string place;  ///< "file:line" of the entry, for errors
+};
+
+/// A bit of the limits, or a cause of fault by its number.
+struct Cause {
+  std::string name;
+  int number = 0;
   std::string doc;
 };
 
@@ -55,8 +66,13 @@ struct RegisterMap {
   std::vector<Scene> scenes;
   std::vector<Control> controls;
   std::vector<Snapshot> snapshots;
+  std::vector<Cause> limits;  ///< in the order of their bits
+  std::vector<Cause> faults;  ///< in the order of their numbers, from 1 on
 
-  int scene_number(const std::string& name) const;  ///< -1 when there is no such scene
+  /// Bit of a control word's field. Throws std::out_of_range where there is none.
+  int control_bit(const std::string& control, const std::string& field) const;
+  const Parameter* find(const std::string& parameter) const;  ///< nullptr: no such parameter
+  int scene_number(const std::string& name) const;            ///< -1 when there is no such scene
   std::vector<std::string> scene_names() const;
 };
 

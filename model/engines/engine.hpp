@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "feltgate/causes.hpp"  // IWYU pragma: export
+#include "feltgate/generated/causes.hpp"  // IWYU pragma: export
 #include "feltgate/core_ports.hpp"
 #include "feltgate/design_info.hpp"  // IWYU pragma: export
 #include "feltgate/encoder_source.hpp"

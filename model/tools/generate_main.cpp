@@ -15,6 +15,7 @@
 
 #include "config/toml_reader.hpp"
 #include "design/generate.hpp"
+#include "design/schedule.hpp"
 
 namespace fs = std::filesystem;
 using feltgate::config::ConfigError;
@@ -103,16 +104,21 @@ void generate_one(const Options& o, const feltgate::design::RegisterMap& registe
 
 /// Whether a file was stale.
 bool generate_all(const Options& o, const feltgate::design::RegisterMap& registers) {
-  bool stale = update(o.root / "model/include/feltgate/generated/reader.hpp",
-                      reader_header(registers), o.check_only);
+  const auto schedule =
+      feltgate::design::read_schedule((o.root / "rtl/schedule.toml").string(), registers);
+  const fs::path headers = o.root / "model/include/feltgate/generated";
+  bool stale = update(o.root / "rtl/generated/feltgate_map_pkg.sv",
+                      map_package(registers, schedule), o.check_only);
+  stale |= update(headers / "map.hpp", map_header(registers, schedule), o.check_only);
+  stale |= update(headers / "causes.hpp", causes_header(registers), o.check_only);
+  stale |= update(headers / "reader.hpp", reader_header(registers), o.check_only);
   for (const auto& entry : fs::directory_iterator(o.root / "rtl/designs")) {
     if (entry.path().extension() != ".toml") continue;
     const auto e = elaborate(feltgate::design::read_design(entry.path().string()), registers);
     const std::string& name = e.design.name;
     stale |= update(o.root / "rtl/generated" / name / "feltgate_pkg.sv", systemverilog_package(e),
                     o.check_only);
-    stale |= update(o.root / "model/include/feltgate/generated" / (name + ".hpp"), cpp_header(e),
-                    o.check_only);
+    stale |= update(headers / (name + ".hpp"), cpp_header(e), o.check_only);
     if (name == "lever")
       stale |= update(o.root / "docs/registers.md", register_page(e), o.check_only);
   }

@@ -50,13 +50,14 @@ function(feltgate_block_test block)
   if(NOT arg_DEFECTS)
     set(arg_DEFECTS 0)
   endif()
-  set(package "${FELTGATE_ROOT}/rtl/generated/${arg_DESIGN}/feltgate_pkg.sv")
+  set(package "${FELTGATE_ROOT}/rtl/generated/${arg_DESIGN}/feltgate_pkg.sv" "${FELTGATE_MAP_PACKAGE}")
   set(sources "")
   foreach(source IN LISTS arg_SOURCES)
     get_filename_component(source "${source}" ABSOLUTE BASE_DIR "${FELTGATE_ROOT}")
     list(APPEND sources "${source}")
   endforeach()
   list(APPEND sources "${FELTGATE_ROOT}/rtl/${block}.sv")
+  list(REMOVE_ITEM sources "${FELTGATE_MAP_PACKAGE}")  # among the sources of the core
 
   # A block with a defect has the same ports, so one object of the test serves both.
   feltgate_verilate(${arg_NAME}_rtl ${block} "${package};${sources}" ${arg_PARAMS})

@@ -11,7 +11,7 @@ foreach(mode "" _truncate _convergent)  # half up, floor, convergent
   list(LENGTH extremes_lowpass_modes rounding)
   math(EXPR rounding "${rounding} - 1")
   feltgate_verilate(extremes_lowpass${mode} lowpass
-    "${FELTGATE_ROOT}/rtl/generated/paper/feltgate_pkg.sv;${FELTGATE_ROOT}/rtl/lowpass.sv"
+    "${FELTGATE_ROOT}/rtl/generated/paper/feltgate_pkg.sv;${FELTGATE_MAP_PACKAGE};${FELTGATE_ROOT}/rtl/lowpass.sv"
     CLASS Vextremes_lowpass${mode} -GRounding=${rounding})
 endforeach()
 

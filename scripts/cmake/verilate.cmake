@@ -4,6 +4,8 @@
 # Verilator: its run-time as a library and feltgate_verilate(). docs/testing.md
 include_guard(GLOBAL)
 
+# Slots, clocks, addresses and bits, equal in all designs; a block's sources need it beside a package.
+set(FELTGATE_MAP_PACKAGE "${FELTGATE_ROOT}/rtl/generated/feltgate_map_pkg.sv")
 set(FELTGATE_JOIN_SOURCES "${CMAKE_CURRENT_LIST_DIR}/join_sources.cmake")
 
 find_package(verilator REQUIRED HINTS $ENV{VERILATOR_ROOT} /usr/share/verilator)

@@ -117,7 +117,10 @@ def sources_digest():
         paths = [*ROOT.glob("rtl/*.sv"), *ROOT.glob("model/**/*.hpp")]
         paths += [ROOT / "model/explore/point_main.cpp", Path(__file__)]
         paths += [BUILD / f"libfeltgate_{name}.a" for name in LIBRARIES]
-        for path in sorted(p for p in paths if "generated" not in p.parts):
+        paths = [p for p in paths if "generated" not in p.parts]
+        paths += [ROOT / "rtl/generated/feltgate_map_pkg.sv"]
+        paths += [ROOT / "model/include/feltgate/generated" / name for name in ("map.hpp", "causes.hpp")]
+        for path in sorted(paths):
             digest.update(path.read_bytes())
         _sources = digest.hexdigest()
     return _sources
@@ -188,7 +191,8 @@ def synthesis_inputs(generated, folder, tools):
     for name in names:
         shutil.copy(ROOT / "rtl" / name, folder)
     target = core_target()
-    read = synth_measure.read_commands(["feltgate_pkg.sv", *names], target)
+    names = ["feltgate_pkg.sv", *(Path(name).name for name in names)]
+    read = synth_measure.read_commands(names, target)
     ports = tools.ports(target.module, read)
     for kind, text in (
         ("area", synth_measure.area_top(target, ports)),

@@ -7,7 +7,7 @@ file(REMOVE_RECURSE "${COPY}")
 foreach(folder rtl/designs rtl/generated model/include/feltgate/generated)
   file(COPY "${ROOT}/${folder}/" DESTINATION "${COPY}/${folder}")
 endforeach()
-file(COPY "${ROOT}/rtl/registers.toml" DESTINATION "${COPY}/rtl")
+file(COPY "${ROOT}/rtl/registers.toml" "${ROOT}/rtl/schedule.toml" DESTINATION "${COPY}/rtl")
 file(COPY "${ROOT}/docs/registers.md" DESTINATION "${COPY}/docs")
 
 function(expect code what)

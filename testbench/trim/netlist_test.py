@@ -22,8 +22,9 @@ def modules(yosys, root, package):
         sources = [line for line in listed if line and not line.startswith("//")]
         shutil.copy(package, folder / "feltgate_pkg.sv")
         for source in sources:
-            shutil.copy(root / "rtl" / source, folder / source)
-        script = [f"read_verilog -sv {s}" for s in ("feltgate_pkg.sv", *sources)]
+            shutil.copy(root / "rtl" / source, folder)
+        names = ("feltgate_pkg.sv", *(Path(source).name for source in sources))
+        script = [f"read_verilog -sv {name}" for name in names]
         script += ["hierarchy -check -top feltgate_core", "proc", "tee -q -o modules.txt ls"]
         (folder / "list.ys").write_text("\n".join(script) + "\n", encoding="utf-8")
         subprocess.run([yosys, "-q", "-s", "list.ys"], cwd=folder, check=True)

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-#include "feltgate/causes.hpp"
+#include "feltgate/generated/causes.hpp"
 #include "feltgate/core_ports.hpp"
 #include "feltgate/design_info.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#include "feltgate/causes.hpp"
+#include "feltgate/generated/causes.hpp"
 #include "feltgate/numbers.hpp"
 
 namespace feltgate {

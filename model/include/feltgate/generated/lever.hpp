@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Generated from rtl/designs/lever.toml and rtl/registers.toml by
-// `feltgate generate`: do not edit. 
+// `feltgate generate`: do not edit.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 #include "feltgate/chain_formats.hpp"
 #include "feltgate/fixed.hpp"
+#include "feltgate/generated/map.hpp"
 #include "feltgate/parameter.hpp"
 
 namespace feltgate {
@@ -95,125 +96,14 @@ struct Lever {
     static constexpr Format wall_damping{0, -3, 20};
   };
 
-  /// Addresses of the parameters.
-  struct A {
-    static constexpr int velocity_a1 = 4;
-    static constexpr int inverse_resistance = 5;
-    static constexpr int emf_over_resistance = 7;
-    static constexpr int torque_constant = 8;
-    static constexpr int inertia_gain = 9;
-    static constexpr int nominal_current_squared = 17;
-    static constexpr int observer_a1 = 15;
-    static constexpr int overspeed = 16;
-    static constexpr int i2t_budget = 18;
-    static constexpr int polarity_speed = 19;
-    static constexpr int polarity_current = 20;
-    static constexpr int polarity_ticks = 21;
-    static constexpr int emf_constant = 22;
-    static constexpr int observer_gain = 23;
-    static constexpr int voltage_setpoint = 24;
-    static constexpr int torque_limit = 25;
-    static constexpr int ramp_step = 26;
-    static constexpr int voltage_to_current = 27;
-    static constexpr int torque_gain = 28;
-    static constexpr int dead_voltage_slope = 29;
-    static constexpr int region_torque = 30;
-    static constexpr int current_limit = 33;
-    static constexpr int voltage_gain = 34;
-    static constexpr int voltage_gain_high = 50;
-    static constexpr int dead_voltage = 35;
-    static constexpr int voltage_limit = 39;
-    static constexpr int duty_gain = 40;
-    static constexpr int duty_limit = 45;
-    static constexpr int watchdog_ticks = 46;
-    static constexpr int setpoint_torque = 74;
-    static constexpr int membrane_lower = 97;
-    static constexpr int membrane_upper = 98;
-    static constexpr int membrane_torque = 106;
-    static constexpr int compression_contact = 129;
-    static constexpr int compression_stiffness = 131;
-    static constexpr int tension_rest = 161;
-    static constexpr int tension_stiffness = 163;
-    static constexpr int damper_damping = 202;
-    static constexpr int attract_centre = 225;
-    static constexpr int attract_strength = 226;
-    static constexpr int attract_core = 236;
-    static constexpr int attract_core_slope = 230;
-    static constexpr int repel_centre = 257;
-    static constexpr int repel_strength = 258;
-    static constexpr int repel_core = 268;
-    static constexpr int repel_core_slope = 262;
-    static constexpr int wall_contact = 289;
-    static constexpr int wall_stiffness = 291;
-    static constexpr int wall_damping = 298;
-  };
-
-  /// Scene numbers.
-  struct S {
-    static constexpr int free = 0;
-    static constexpr int setpoint = 2;
-    static constexpr int membrane = 3;
-    static constexpr int spring_compression = 4;
-    static constexpr int spring_tension = 5;
-    static constexpr int damper = 6;
-    static constexpr int charge_attract = 7;
-    static constexpr int charge_repel = 8;
-    static constexpr int wall = 9;
-  };
-  /// Number of a scene by name, -1 when there is none.
+  // Equal in all designs.
+  using A = Map::A;
+  using S = Map::S;
+  using C = Map::C;
   static constexpr int scene_number(std::string_view scene) {
-    if (scene == "free") return 0;
-    if (scene == "setpoint") return 2;
-    if (scene == "membrane") return 3;
-    if (scene == "spring_compression") return 4;
-    if (scene == "spring_tension") return 5;
-    if (scene == "damper") return 6;
-    if (scene == "charge_attract") return 7;
-    if (scene == "charge_repel") return 8;
-    if (scene == "wall") return 9;
-    return -1;
+    return Map::scene_number(scene);
   }
-  /// All of them, built or not, in the order of their numbers.
-  static constexpr std::string_view scene_names[] = {
-      "free",
-      "setpoint",
-      "membrane",
-      "spring_compression",
-      "spring_tension",
-      "damper",
-      "charge_attract",
-      "charge_repel",
-      "wall"};
-
-  /// Addresses of control and snapshot words, and bits of the control words.
-  struct C {
-    static constexpr int control = 512;
-    static constexpr int control_host = 0;
-    static constexpr int control_arm = 1;
-    static constexpr int control_scene = 2;
-    static constexpr int control_mode = 6;
-    static constexpr int control_motor_polarity = 8;
-    static constexpr int control_encoder_polarity = 9;
-    static constexpr int control_pwm_mode = 10;
-    static constexpr int control_filter = 11;
-    static constexpr int command = 513;
-    static constexpr int command_set_zero = 0;
-    static constexpr int command_clear_faults = 1;
-    static constexpr int command_kick = 2;
-    static constexpr int command_freeze = 3;
-    static constexpr int command_thaw = 4;
-    static constexpr int read_tick = 768;
-    static constexpr int read_position = 769;
-    static constexpr int read_status = 770;
-    static constexpr int read_encoder = 782;
-    static constexpr int read_index = 779;
-    static constexpr int read_velocity = 777;
-    static constexpr int read_tau_hat = 791;
-    static constexpr int read_tau_ref = 796;
-    static constexpr int read_current_ref = 802;
-    static constexpr int read_voltage = 808;
-    static constexpr int read_duty = 814;
-  };
+  static constexpr const auto& scene_names = Map::scene_names;
 
   static constexpr BaseFormats base{
       {1, 10, 21}, {1, 4, 16}, {1, 5, 16}, {1, 5, 14},

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What all designs share: the package and the header of slots, clocks, addresses, bits and numbers.
+// Documentation: docs/designs.md
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "design/schedule.hpp"
+#include "design/text_case.hpp"
+
+namespace feltgate::design {
+
+namespace {
+
+constexpr const char* sources = "rtl/registers.toml and rtl/schedule.toml";
+
+/// A clock of the wave by its name without S_, M_, ...
+struct Clock {
+  std::string name;
+  int clock;
+};
+
+bool is_factor(const Parameter& p) { return p.kind == "coefficient" || p.kind == "signed"; }
+
+/// On the parameter bus: words, and the squares' slots on the operand bus.
+std::vector<Clock> slots(const RegisterMap& map, const Schedule& s) {
+  std::vector<Clock> all;
+  for (const Parameter& p : map.parameters) all.push_back({p.name, p.slot});
+  for (const Product& p : s.products) {
+    if (map.find(p.name) == nullptr) all.push_back({p.name, p.slot});
+  }
+  return all;
+}
+
+std::vector<Clock> products(const RegisterMap& map, const Schedule& s) {
+  std::vector<Clock> all;
+  for (const Parameter& p : map.parameters) {
+    if (is_factor(p) && p.slot < s.wave_length) {
+      all.push_back({p.name, p.slot + s.multiplier_latency});
+    }
+  }
+  for (const Product& p : s.products) {
+    if (map.find(p.name) == nullptr) all.push_back({p.name, p.slot + s.multiplier_latency});
+  }
+  return all;
+}
+
+std::vector<Clock> steps(const Schedule& s) {
+  std::vector<Clock> all;
+  for (const Step& step : s.steps) all.push_back({step.name, step.clock});
+  return all;
+}
+
+std::vector<Clock> words(const RegisterMap& map) {
+  std::vector<Clock> all;
+  for (const Snapshot& n : map.snapshots) all.push_back({n.name, n.slot});
+  return all;
+}
+
+/// What happens in a tick, in the order of its clocks. What is taken from a bus in a clock comes
+/// before what is new after it.
+std::vector<Clock> in_order(const RegisterMap& map, const Schedule& s) {
+  std::vector<Clock> all;
+  for (const Clock& c : words(map)) all.push_back({"read_" + c.name, c.clock});
+  for (const Product& p : s.products) all.push_back({"operand_" + p.name, p.slot});
+  for (const Clock& c : steps(s)) all.push_back(c);
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Clock& a, const Clock& b) { return a.clock < b.clock; });
+  return all;
+}
+
+void clocks_sv(std::ostringstream& s, const char* prefix, const char* doc,
+               const std::vector<Clock>& clocks) {
+  s << "\n  // " << doc << "\n";
+  for (const Clock& c : clocks) {
+    s << "  localparam int " << prefix << upper(c.name) << " = " << c.clock << ";\n";
+  }
+}
+
+void clocks_cpp(std::ostringstream& s, const char* type, const char* doc,
+                const std::vector<Clock>& clocks) {
+  s << "\n  /// " << doc << "\n  struct " << type << " {\n";
+  for (const Clock& c : clocks) {
+    s << "    static constexpr int " << c.name << " = " << c.clock << ";\n";
+  }
+  s << "  };\n";
+}
+
+constexpr const char* slots_doc = "Wave clocks in which a word, or a square, is on its bus.";
+constexpr const char* products_doc = "Wave clocks in which a product is on the product bus.";
+constexpr const char* steps_doc =
+    "Wave clocks of the steps; what a step gives is there a clock later.";
+constexpr const char* words_doc =
+    "Wave clocks in which the snapshot's words are on the operand bus.";
+
+void fields_sv(std::ostringstream& s, const std::string& word, const std::vector<Field>& fields) {
+  for (const Field& f : fields) {
+    s << "  localparam int B_" << upper(word + "_" + f.name) << " = " << f.bit << ";\n";
+  }
+}
+
+void fields_cpp(std::ostringstream& s, const std::string& word, const std::vector<Field>& fields) {
+  for (const Field& f : fields) {
+    s << "    static constexpr int " << word << "_" << f.name << " = " << f.bit << ";\n";
+  }
+}
+
+}  // namespace
+
+std::string map_package(const RegisterMap& map, const Schedule& schedule) {
+  std::ostringstream s;
+  s << generated_banner(sources, "Clocks, slots, addresses, bits, numbers of all designs.")
+    << "\n`default_nettype none\n\n"
+    << "/* verilator lint_off UNUSEDPARAM */  // a block uses the constants that concern it\n"
+    << "package feltgate_map_pkg;\n"
+    << "  localparam int WAVE_LENGTH = " << schedule.wave_length
+    << ";  // clocks; a tick is at least as long\n"
+    << "  localparam int FIRST_WAVE_CLOCK = " << schedule.first_wave_clock
+    << ";  // clock of the tick that is wave clock 0\n"
+    << "  localparam int MULTIPLIER_LATENCY = " << schedule.multiplier_latency
+    << ";  // clocks from the operands to the product\n"
+    << fmt::format(
+           "  localparam logic [63:0] SCENE_SLOTS = 64'h{:016x};  // bit n: slot n is read "
+           "from the scene's bank\n",
+           scene_slots(map));
+  clocks_sv(s, "S_", slots_doc, slots(map, schedule));
+  clocks_sv(s, "M_", products_doc, products(map, schedule));
+  clocks_sv(s, "T_", steps_doc, steps(schedule));
+  clocks_sv(s, "R_", words_doc, words(map));
+  s << "\n  // Scene numbers.\n";
+  for (const Scene& scene : map.scenes) {
+    s << "  localparam logic [3:0] SCENE_" << upper(scene.name) << " = 4'd" << scene.number
+      << ";\n";
+  }
+  s << "\n  // Addresses of the control words, and bits of the words' fields.\n";
+  for (const Control& c : map.controls) {
+    s << fmt::format("  localparam logic [11:0] A_{} = 12'h{:03x};\n", upper(c.name), c.address);
+    fields_sv(s, c.name, c.fields);
+  }
+  for (const Snapshot& n : map.snapshots) fields_sv(s, n.name, n.fields);
+  s << "\n  // Bits of the limits.\n";
+  for (const Cause& c : map.limits) {
+    s << "  localparam int L_" << upper(c.name) << " = " << c.number << ";  // " << c.doc << "\n";
+  }
+  s << "\n  // Causes of fault: numbers of the first fault, and bits of the faults.\n"
+    << "  localparam logic [3:0] FAULT_NONE = 4'd0;\n";
+  for (const Cause& c : map.faults) {
+    s << "  localparam logic [3:0] FAULT_" << upper(c.name) << " = 4'd" << c.number << ";  // "
+      << c.doc << "\n";
+  }
+  s << "endpackage\n/* verilator lint_on UNUSEDPARAM */\n\n`default_nettype wire\n";
+  return s.str();
+}
+
+std::string map_header(const RegisterMap& map, const Schedule& schedule) {
+  std::ostringstream s;
+  s << generated_banner(sources, "") << "#pragma once\n\n#include <cstdint>\n"
+    << "#include <string_view>\n\nnamespace feltgate {\n\n"
+    << "/// Clocks, slots, addresses, bits and numbers of all designs.\nstruct Map {\n"
+    << "  static constexpr int wave_length = " << schedule.wave_length
+    << ";       ///< clocks; a tick is at least as long\n"
+    << "  static constexpr int first_wave_clock = " << schedule.first_wave_clock
+    << ";  ///< clock of the tick that is wave clock 0\n"
+    << "  static constexpr int multiplier_latency = " << schedule.multiplier_latency
+    << ";  ///< clocks from the operands to the product\n"
+    << "  /// Bit n: slot n is read from the scene's bank.\n"
+    << fmt::format("  static constexpr std::uint64_t scene_slots = 0x{:x};\n", scene_slots(map));
+  clocks_cpp(s, "W", slots_doc, slots(map, schedule));
+  clocks_cpp(s, "M", products_doc, products(map, schedule));
+  clocks_cpp(s, "T", steps_doc, steps(schedule));
+  clocks_cpp(s, "R", words_doc, words(map));
+  const std::vector<Clock> order = in_order(map, schedule);
+  s << "\n  /// All that happens in a tick: words read into the snapshot, operands of products, "
+       "steps.\n  enum class Step {\n";
+  for (const Clock& c : order) s << "    " << c.name << ",\n";
+  s << "  };\n  struct StepAt {\n    Step step;\n    int clock;  ///< of the wave\n  };\n"
+    << "  /// In the order of the clocks; what is taken in a clock comes before what is new after "
+       "it.\n  static constexpr StepAt steps[] = {\n";
+  for (const Clock& c : order) s << "      {Step::" << c.name << ", " << c.clock << "},\n";
+  s << "  };\n\n  /// Addresses of the parameters.\n  struct A {\n";
+  for (const Parameter& p : map.parameters) {
+    s << "    static constexpr int " << p.name << " = " << p.address << ";\n";
+  }
+  s << "  };\n\n  /// Scene numbers.\n  struct S {\n";
+  for (const Scene& scene : map.scenes) {
+    s << "    static constexpr int " << scene.name << " = " << scene.number << ";\n";
+  }
+  s << "  };\n  /// Number of a scene by name, -1 when there is none.\n"
+    << "  static constexpr int scene_number(std::string_view scene) {\n";
+  for (const Scene& scene : map.scenes) {
+    s << "    if (scene == \"" << scene.name << "\") return " << scene.number << ";\n";
+  }
+  s << "    return -1;\n  }\n  /// All of them, built or not, in the order of their numbers.\n"
+    << "  static constexpr std::string_view scene_names[] = {";
+  for (const Scene& scene : map.scenes) {
+    s << (&scene == &map.scenes.front() ? "" : ",") << "\n      \"" << scene.name << "\"";
+  }
+  s << "};\n\n  /// Addresses of control and snapshot words, and bits of the words' fields.\n"
+    << "  struct C {\n";
+  for (const Control& c : map.controls) {
+    s << "    static constexpr int " << c.name << " = " << c.address << ";\n";
+    fields_cpp(s, c.name, c.fields);
+  }
+  for (const Snapshot& n : map.snapshots) {
+    s << "    static constexpr int read_" << n.name << " = " << snapshot_base + n.slot << ";\n";
+    fields_cpp(s, n.name, n.fields);
+  }
+  s << "  };\n\n  /// Bits of the limits.\n  struct L {\n";
+  for (const Cause& c : map.limits) {
+    s << "    static constexpr int " << c.name << " = " << c.number << ";\n";
+  }
+  s << "  };\n};\n\n}  // namespace feltgate\n";
+  return s.str();
+}
+
+std::string causes_header(const RegisterMap& map) {
+  std::ostringstream s;
+  s << generated_banner("rtl/registers.toml", "What holds the torque back and what closes the")
+    << "// gates, by bit and by name.\n"
+    << "#pragma once\n\n#include <array>\n#include <cstdint>\n\nnamespace feltgate {\n\n"
+    << "/// Bits of Snapshot::limits: which limit holds the torque now.\nnamespace limit {\n";
+  for (const Cause& c : map.limits) {
+    s << "constexpr unsigned " << c.name << " = " << (1 << c.number) << ";  ///< " << c.doc << "\n";
+  }
+  s << "/// By the number of the bit.\ninline constexpr std::array<const char*, "
+    << map.limits.size() << "> names{";
+  for (const Cause& c : map.limits) {
+    s << (&c == &map.limits.front() ? "" : ",") << "\n    \"" << c.name << "\"";
+  }
+  s << "};\n}  // namespace limit\n\n"
+    << "/// Numbers of the causes, as in first_fault and as bits of faults.\n"
+    << "enum class Fault : std::uint8_t {\n  none = 0,\n";
+  for (const Cause& c : map.faults) {
+    s << "  " << c.name << " = " << c.number << ",  ///< " << c.doc << "\n";
+  }
+  s << "};\n/// By the number of the cause.\ninline constexpr std::array<const char*, "
+    << map.faults.size() + 1 << "> fault_names{\n    \"none\"";
+  for (const Cause& c : map.faults) s << ",\n    \"" << c.name << "\"";
+  s << "};\n\n}  // namespace feltgate\n";
+  return s.str();
+}
+
+}  // namespace feltgate::design

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The schedule of a tick as read from rtl/schedule.toml, checked against the register map, and what
+// is written from both: equal in all designs. Documentation: docs/schedule.md (generated)
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "design/registers.hpp"
+
+namespace feltgate::design {
+
+/// A result that something needs: this tick's, or that of the tick before.
+struct Need {
+  std::string result;
+  bool previous = false;
+};
+
+/// A product: its operand is on the operand bus in clock `slot`, with its factor on the other one.
+struct Product {
+  std::string name;
+  Need operand;
+  std::vector<std::string> factors;  ///< words, of which one comes by; none: a square
+  std::vector<std::string> scenes;   ///< in which it is formed; none: in all
+  int slot = 0;
+  std::string by, doc, place;
+};
+
+/// Something that is done in a fixed clock of the wave; what it gives is there a clock later.
+struct Step {
+  std::string name;
+  int clock = 0;
+  std::vector<Need> needs;
+  std::vector<std::string> takes;  ///< words of the parameter bus
+  bool passes = false;             ///< there for one clock only
+  std::string shows_in;            ///< the result whose register it writes ahead of that result
+  std::string by, doc, place;
+};
+
+struct Schedule {
+  std::string path;
+  int wave_length = 0, first_wave_clock = 0, multiplier_latency = 0;
+  std::vector<Product> products;
+  std::vector<Step> steps;
+
+  const Product* product(const std::string& name) const;  ///< nullptr: no such product
+  const Step* step(const std::string& name) const;        ///< nullptr: no such step
+};
+
+/// Slots that are read from the bank of the scene: bit n is slot n.
+std::uint64_t scene_slots(const RegisterMap& map);
+
+/// Reads the schedule and refuses one that cannot work. Throws config::ConfigError with file, line
+/// and reason.
+Schedule read_schedule(const std::string& path, const RegisterMap& map);
+
+/// Text of rtl/generated/feltgate_map_pkg.sv.
+std::string map_package(const RegisterMap& map, const Schedule& s);
+/// Text of model/include/feltgate/generated/map.hpp.
+std::string map_header(const RegisterMap& map, const Schedule& s);
+/// Text of model/include/feltgate/generated/causes.hpp.
+std::string causes_header(const RegisterMap& map);
+
+}  // namespace feltgate::design

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What a schedule is refused for: a result that comes late, one that is overwritten too early,
+// words that meet on a bus, words in the wrong bank, clocks outside. Documentation:
+// docs/schedule.md
+#include "design/schedule_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "config/toml_reader.hpp"
+
+namespace feltgate::design {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& place, const std::string& what,
+                         const std::string& mend) {
+  throw config::ConfigError(fmt::format("{}: {}; {}", place, what, mend));
+}
+
+/// Something that wants a result in a clock.
+struct Use {
+  std::string what, place;
+  int clock;
+};
+
+void check_previous(const Schedule& s, const Need& need, const Use& use) {
+  for (const Step& step : s.steps) {
+    if (step.name != need.result && step.shows_in != need.result) continue;
+    if (use.clock > step.clock) {
+      refuse(use.place,
+             fmt::format("{} in clock {} is to see the {} of the tick before, but the new one is "
+                         "there from clock {} on (step {}, {})",
+                         use.what, use.clock, need.result, step.clock + 1, step.name, step.place),
+             "move it ahead, or the new one back");
+    }
+  }
+}
+
+void check_need(const Schedule& s, const Need& need, const Use& use) {
+  const Step* step = s.step(need.result);
+  if (step == nullptr) {
+    refuse(use.place, fmt::format("{} needs \"{}\", which no step gives", use.what, need.result),
+           "name a step");
+  }
+  if (need.previous) {
+    check_previous(s, need, use);
+    return;
+  }
+  const int ready = step->clock + 1;
+  if (use.clock < ready) {
+    refuse(use.place,
+           fmt::format("{} comes late for {}: it is there from clock {} on (step {}) and needed in "
+                       "clock {}",
+                       need.result, use.what, ready, step->place, use.clock),
+           "move the use back or the result ahead");
+  }
+  if (step->passes && use.clock != ready) {
+    refuse(use.place,
+           fmt::format("{} passes: it is there in clock {} alone (step {}), and {} needs it in "
+                       "clock {}",
+                       need.result, ready, step->place, use.what, use.clock),
+           "let both move together");
+  }
+  // What is written into the same register takes it away.
+  const Step* after = step->shows_in.empty() ? nullptr : s.step(step->shows_in);
+  if (after != nullptr && use.clock > after->clock) {
+    refuse(use.place,
+           fmt::format("{} is overwritten in clock {} by {} (step {}), and {} needs it in clock {}",
+                       need.result, after->clock, after->name, after->place, use.what, use.clock),
+           "move the use ahead");
+  }
+}
+
+void check_uses(const RegisterMap& map, const Schedule& s) {
+  for (const Product& p : s.products) {
+    check_need(s, p.operand, {fmt::format("the product {}", p.name), p.place, p.slot});
+  }
+  for (const Step& step : s.steps) {
+    for (const Need& need : step.needs) {
+      check_need(s, need, {fmt::format("the step {}", step.name), step.place, step.clock});
+    }
+    for (const std::string& name : step.takes) {
+      const Parameter* word = map.find(name);
+      if (word == nullptr) {
+        refuse(step.place, fmt::format("there is no word {} to take", name), "name a parameter");
+      }
+      if (word->slot != step.clock) {
+        refuse(
+            word->place,
+            fmt::format("{} is on the bus in clock {}, but the step {} ({}) takes it in clock {}",
+                        name, word->slot, step.name, step.place, step.clock),
+            "give it that slot");
+      }
+    }
+  }
+}
+
+bool share_a_scene(const Product& a, const Product& b) {
+  if (a.scenes.empty() || b.scenes.empty()) return true;
+  return std::any_of(a.scenes.begin(), a.scenes.end(), [&](const std::string& scene) {
+    return std::find(b.scenes.begin(), b.scenes.end(), scene) != b.scenes.end();
+  });
+}
+
+/// One operand bus, one multiplier.
+void check_buses(const RegisterMap& map, const Schedule& s) {
+  for (const Product& p : s.products) {
+    for (const Product& q : s.products) {
+      if (&p < &q && p.slot == q.slot && share_a_scene(p, q)) {
+        refuse(q.place,
+               fmt::format("two products are wanted of slot {} of the multiplier: {} ({}) and {}",
+                           q.slot, p.name, p.place, q.name),
+               "give one another slot");
+      }
+    }
+  }
+  for (const Snapshot& n : map.snapshots) {
+    for (const Snapshot& other : map.snapshots) {
+      if (&n < &other && n.slot == other.slot) {
+        refuse(other.place,
+               fmt::format("two words of the snapshot meet in slot {}: {} ({}) and {}", n.slot,
+                           n.name, n.place, other.name),
+               "give one another slot");
+      }
+    }
+    for (const Product& p : s.products) {
+      if (p.slot == n.slot && p.name != n.with) {
+        refuse(n.place,
+               fmt::format("two words meet on the operand bus in slot {}: {} of the snapshot and "
+                           "the operand of {} ({})",
+                           n.slot, n.name, p.name, p.place),
+               "give one another slot");
+      }
+    }
+    if (!n.with.empty() && s.product(n.with) == nullptr) {
+      refuse(n.place, fmt::format("{} passes by with {}, which is no product", n.name, n.with),
+             "name a product");
+    }
+  }
+}
+
+/// A slot is read from the scene's bank or from the common one.
+void check_banks(const RegisterMap& map, const Schedule& s) {
+  for (const Parameter& p : map.parameters) {
+    const bool of_scene = !p.scene.empty();
+    if (p.slot >= s.wave_length) continue;
+    for (const Parameter& other : map.parameters) {
+      if (of_scene && other.scene.empty() && other.slot == p.slot) {
+        refuse(p.place,
+               fmt::format("two words meet on the parameter bus in slot {}: {} lies in the bank of "
+                           "a scene, {} ({}) in the common one",
+                           p.slot, p.name, other.name, other.place),
+               "give one another slot");
+      }
+    }
+    // The last clock before wave clock 0 still fetches from the common bank.
+    if (of_scene && p.slot == 0) {
+      refuse(p.place, fmt::format("slot 0 cannot be a scene's, and {} is one's", p.name),
+             "give it a later one");
+    }
+  }
+}
+
+/// The wave ends before the next one: its last two clocks are those that fetch the next one's
+/// words.
+void check_ends(const RegisterMap& map, const Schedule& s) {
+  const int last = s.wave_length - s.first_wave_clock - 1;
+  const auto inside = [&](const std::string& place, const std::string& what, int clock) {
+    if (clock < 0 || clock > last) {
+      refuse(place,
+             fmt::format("{} lies in clock {}, outside the clocks 0 to {} of a tick of {} clocks",
+                         what, clock, last, s.wave_length),
+             "move it, or make the wave longer");
+    }
+  };
+  for (const Step& step : s.steps) inside(step.place, "the step " + step.name, step.clock);
+  for (const Product& p : s.products) {
+    inside(p.place, "the product " + p.name, p.slot + s.multiplier_latency);
+  }
+  for (const Snapshot& n : map.snapshots) {
+    inside(n.place, fmt::format("the word {} of the snapshot", n.name), n.slot);
+  }
+}
+
+}  // namespace
+
+void check_schedule(const RegisterMap& map, const Schedule& s) {
+  check_ends(map, s);
+  check_banks(map, s);
+  check_buses(map, s);
+  check_uses(map, s);
+}
+
+}  // namespace feltgate::design

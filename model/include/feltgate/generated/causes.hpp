@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Generated from rtl/registers.toml by
+// `feltgate generate`: do not edit. What holds the torque back and what closes the
+// gates, by bit and by name.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace feltgate {
+
+/// Bits of Snapshot::limits: which limit holds the torque now.
+namespace limit {
+constexpr unsigned torque = 1;  ///< torque reference at its limit
+constexpr unsigned ramp = 2;  ///< ramping after arming or a change of scene
+constexpr unsigned current = 4;  ///< current reference at its limit
+constexpr unsigned voltage = 8;  ///< voltage at its limit
+constexpr unsigned duty = 16;  ///< duty at its limit
+constexpr unsigned velocity = 32;  ///< the raw velocity saturated its format
+constexpr unsigned tau_hat = 64;  ///< tau_hat saturated its format
+constexpr unsigned gates_closed = 128;  ///< the gates are off
+/// By the number of the bit.
+inline constexpr std::array<const char*, 8> names{
+    "torque",
+    "ramp",
+    "current",
+    "voltage",
+    "duty",
+    "velocity",
+    "tau_hat",
+    "gates_closed"};
+}  // namespace limit
+
+/// Numbers of the causes, as in first_fault and as bits of faults.
+enum class Fault : std::uint8_t {
+  none = 0,
+  encoder = 1,  ///< too many illegal transitions
+  speed = 2,  ///< |w| above the limit
+  polarity = 3,  ///< fast against the commanded current for too long
+  i2t = 4,  ///< estimated current above nominal for too long
+  watchdog = 5,  ///< the host is silent
+  stop = 6,  ///< external stop
+};
+/// By the number of the cause.
+inline constexpr std::array<const char*, 7> fault_names{
+    "none",
+    "encoder",
+    "speed",
+    "polarity",
+    "i2t",
+    "watchdog",
+    "stop"};
+
+}  // namespace feltgate

@@ -1,0 +1,504 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Generated from rtl/registers.toml and rtl/schedule.toml by
+// `feltgate generate`: do not edit.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace feltgate {
+
+/// Clocks, slots, addresses, bits and numbers of all designs.
+struct Map {
+  static constexpr int wave_length = 50;       ///< clocks; a tick is at least as long
+  static constexpr int first_wave_clock = 2;  ///< clock of the tick that is wave clock 0
+  static constexpr int multiplier_latency = 4;  ///< clocks from the operands to the product
+  /// Bit n: slot n is read from the scene's bank.
+  static constexpr std::uint64_t scene_slots = 0x144e;
+
+  /// Wave clocks in which a word, or a square, is on its bus.
+  struct W {
+    static constexpr int velocity_a1 = 4;
+    static constexpr int inverse_resistance = 5;
+    static constexpr int emf_over_resistance = 7;
+    static constexpr int torque_constant = 8;
+    static constexpr int inertia_gain = 9;
+    static constexpr int nominal_current_squared = 17;
+    static constexpr int observer_a1 = 15;
+    static constexpr int overspeed = 16;
+    static constexpr int i2t_budget = 18;
+    static constexpr int polarity_speed = 19;
+    static constexpr int polarity_current = 20;
+    static constexpr int polarity_ticks = 21;
+    static constexpr int emf_constant = 22;
+    static constexpr int observer_gain = 23;
+    static constexpr int voltage_setpoint = 24;
+    static constexpr int torque_limit = 25;
+    static constexpr int ramp_step = 26;
+    static constexpr int voltage_to_current = 27;
+    static constexpr int torque_gain = 28;
+    static constexpr int dead_voltage_slope = 29;
+    static constexpr int region_torque = 30;
+    static constexpr int current_limit = 33;
+    static constexpr int voltage_gain = 34;
+    static constexpr int voltage_gain_high = 50;
+    static constexpr int dead_voltage = 35;
+    static constexpr int voltage_limit = 39;
+    static constexpr int duty_gain = 40;
+    static constexpr int duty_limit = 45;
+    static constexpr int watchdog_ticks = 46;
+    static constexpr int setpoint_torque = 10;
+    static constexpr int membrane_lower = 1;
+    static constexpr int membrane_upper = 2;
+    static constexpr int membrane_torque = 10;
+    static constexpr int compression_contact = 1;
+    static constexpr int compression_stiffness = 3;
+    static constexpr int tension_rest = 1;
+    static constexpr int tension_stiffness = 3;
+    static constexpr int damper_damping = 10;
+    static constexpr int attract_centre = 1;
+    static constexpr int attract_strength = 2;
+    static constexpr int attract_core = 12;
+    static constexpr int attract_core_slope = 6;
+    static constexpr int repel_centre = 1;
+    static constexpr int repel_strength = 2;
+    static constexpr int repel_core = 12;
+    static constexpr int repel_core_slope = 6;
+    static constexpr int wall_contact = 1;
+    static constexpr int wall_stiffness = 3;
+    static constexpr int wall_damping = 10;
+    static constexpr int scene_stiffness = 3;
+    static constexpr int charge_square = 3;
+    static constexpr int charge_slope = 6;
+    static constexpr int scene_damping = 10;
+    static constexpr int current_square = 13;
+  };
+
+  /// Wave clocks in which a product is on the product bus.
+  struct M {
+    static constexpr int velocity_a1 = 8;
+    static constexpr int inverse_resistance = 9;
+    static constexpr int emf_over_resistance = 11;
+    static constexpr int torque_constant = 12;
+    static constexpr int inertia_gain = 13;
+    static constexpr int observer_a1 = 19;
+    static constexpr int emf_constant = 26;
+    static constexpr int observer_gain = 27;
+    static constexpr int voltage_to_current = 31;
+    static constexpr int torque_gain = 32;
+    static constexpr int dead_voltage_slope = 33;
+    static constexpr int voltage_gain = 38;
+    static constexpr int duty_gain = 44;
+    static constexpr int compression_stiffness = 7;
+    static constexpr int tension_stiffness = 7;
+    static constexpr int damper_damping = 14;
+    static constexpr int attract_core_slope = 10;
+    static constexpr int repel_core_slope = 10;
+    static constexpr int wall_stiffness = 7;
+    static constexpr int wall_damping = 14;
+    static constexpr int scene_stiffness = 7;
+    static constexpr int charge_square = 7;
+    static constexpr int charge_slope = 10;
+    static constexpr int scene_damping = 14;
+    static constexpr int current_square = 17;
+  };
+
+  /// Wave clocks of the steps; what a step gives is there a clock later.
+  struct T {
+    static constexpr int sample = 0;
+    static constexpr int travel = 1;
+    static constexpr int velocity_raw = 2;
+    static constexpr int velocity_difference = 3;
+    static constexpr int velocity = 8;
+    static constexpr int drive_torque = 12;
+    static constexpr int observer_input = 13;
+    static constexpr int observer_difference = 14;
+    static constexpr int observer_state = 19;
+    static constexpr int observed = 20;
+    static constexpr int observed_rounded = 21;
+    static constexpr int tau_hat = 22;
+    static constexpr int scene_gap = 1;
+    static constexpr int scene_distance = 2;
+    static constexpr int scene_torque = 24;
+    static constexpr int torque_limited = 25;
+    static constexpr int ramp_excess = 26;
+    static constexpr int tau_ref = 27;
+    static constexpr int direct_voltage = 24;
+    static constexpr int voltage_part = 26;
+    static constexpr int current_part = 27;
+    static constexpr int border = 28;
+    static constexpr int border_early = 29;
+    static constexpr int region = 30;
+    static constexpr int gain_fetch = 32;
+    static constexpr int direct_current = 31;
+    static constexpr int direct_current_early = 32;
+    static constexpr int current_sum = 32;
+    static constexpr int current = 33;
+    static constexpr int dead_sum = 33;
+    static constexpr int dead_early = 34;
+    static constexpr int dead_voltage = 35;
+    static constexpr int voltage_offset = 36;
+    static constexpr int set_sum = 37;
+    static constexpr int set_early = 38;
+    static constexpr int voltage_sum = 38;
+    static constexpr int voltage = 39;
+    static constexpr int duty_sum = 44;
+    static constexpr int duty = 45;
+    static constexpr int estimate_part = 9;
+    static constexpr int current_estimate = 11;
+    static constexpr int speed_operand = 15;
+    static constexpr int speed = 17;
+    static constexpr int cooled = 17;
+    static constexpr int cooled_at_least_0 = 18;
+    static constexpr int current_squared = 17;
+    static constexpr int heat_operand = 17;
+    static constexpr int heat = 19;
+    static constexpr int polarity_speed = 20;
+    static constexpr int polarity_current = 21;
+    static constexpr int polarity = 22;
+    static constexpr int watchdog = 47;
+    static constexpr int position_word = 1;
+    static constexpr int status_word = 2;
+    static constexpr int duty_word = 46;
+    static constexpr int snapshot = 47;
+  };
+
+  /// Wave clocks in which the snapshot's words are on the operand bus.
+  struct R {
+    static constexpr int tick = 0;
+    static constexpr int position = 1;
+    static constexpr int status = 2;
+    static constexpr int encoder = 14;
+    static constexpr int index = 11;
+    static constexpr int velocity = 9;
+    static constexpr int tau_hat = 23;
+    static constexpr int tau_ref = 28;
+    static constexpr int current_ref = 34;
+    static constexpr int voltage = 40;
+    static constexpr int duty = 46;
+  };
+
+  /// All that happens in a tick: words read into the snapshot, operands of products, steps.
+  enum class Step {
+    read_tick,
+    sample,
+    read_position,
+    travel,
+    scene_gap,
+    position_word,
+    read_status,
+    velocity_raw,
+    scene_distance,
+    status_word,
+    operand_scene_stiffness,
+    operand_charge_square,
+    velocity_difference,
+    operand_velocity_a1,
+    operand_inverse_resistance,
+    operand_charge_slope,
+    operand_emf_over_resistance,
+    operand_torque_constant,
+    velocity,
+    read_velocity,
+    operand_inertia_gain,
+    estimate_part,
+    operand_scene_damping,
+    read_index,
+    current_estimate,
+    drive_torque,
+    operand_current_square,
+    observer_input,
+    read_encoder,
+    observer_difference,
+    operand_observer_a1,
+    speed_operand,
+    speed,
+    cooled,
+    current_squared,
+    heat_operand,
+    cooled_at_least_0,
+    observer_state,
+    heat,
+    observed,
+    polarity_speed,
+    observed_rounded,
+    polarity_current,
+    operand_emf_constant,
+    tau_hat,
+    polarity,
+    read_tau_hat,
+    operand_observer_gain,
+    scene_torque,
+    direct_voltage,
+    torque_limited,
+    ramp_excess,
+    voltage_part,
+    operand_voltage_to_current,
+    tau_ref,
+    current_part,
+    read_tau_ref,
+    operand_torque_gain,
+    border,
+    operand_dead_voltage_slope,
+    border_early,
+    region,
+    direct_current,
+    gain_fetch,
+    direct_current_early,
+    current_sum,
+    current,
+    dead_sum,
+    read_current_ref,
+    operand_voltage_gain,
+    dead_early,
+    dead_voltage,
+    voltage_offset,
+    set_sum,
+    set_early,
+    voltage_sum,
+    voltage,
+    read_voltage,
+    operand_duty_gain,
+    duty_sum,
+    duty,
+    read_duty,
+    duty_word,
+    watchdog,
+    snapshot,
+  };
+  struct StepAt {
+    Step step;
+    int clock;  ///< of the wave
+  };
+  /// In the order of the clocks; what is taken in a clock comes before what is new after it.
+  static constexpr StepAt steps[] = {
+      {Step::read_tick, 0},
+      {Step::sample, 0},
+      {Step::read_position, 1},
+      {Step::travel, 1},
+      {Step::scene_gap, 1},
+      {Step::position_word, 1},
+      {Step::read_status, 2},
+      {Step::velocity_raw, 2},
+      {Step::scene_distance, 2},
+      {Step::status_word, 2},
+      {Step::operand_scene_stiffness, 3},
+      {Step::operand_charge_square, 3},
+      {Step::velocity_difference, 3},
+      {Step::operand_velocity_a1, 4},
+      {Step::operand_inverse_resistance, 5},
+      {Step::operand_charge_slope, 6},
+      {Step::operand_emf_over_resistance, 7},
+      {Step::operand_torque_constant, 8},
+      {Step::velocity, 8},
+      {Step::read_velocity, 9},
+      {Step::operand_inertia_gain, 9},
+      {Step::estimate_part, 9},
+      {Step::operand_scene_damping, 10},
+      {Step::read_index, 11},
+      {Step::current_estimate, 11},
+      {Step::drive_torque, 12},
+      {Step::operand_current_square, 13},
+      {Step::observer_input, 13},
+      {Step::read_encoder, 14},
+      {Step::observer_difference, 14},
+      {Step::operand_observer_a1, 15},
+      {Step::speed_operand, 15},
+      {Step::speed, 17},
+      {Step::cooled, 17},
+      {Step::current_squared, 17},
+      {Step::heat_operand, 17},
+      {Step::cooled_at_least_0, 18},
+      {Step::observer_state, 19},
+      {Step::heat, 19},
+      {Step::observed, 20},
+      {Step::polarity_speed, 20},
+      {Step::observed_rounded, 21},
+      {Step::polarity_current, 21},
+      {Step::operand_emf_constant, 22},
+      {Step::tau_hat, 22},
+      {Step::polarity, 22},
+      {Step::read_tau_hat, 23},
+      {Step::operand_observer_gain, 23},
+      {Step::scene_torque, 24},
+      {Step::direct_voltage, 24},
+      {Step::torque_limited, 25},
+      {Step::ramp_excess, 26},
+      {Step::voltage_part, 26},
+      {Step::operand_voltage_to_current, 27},
+      {Step::tau_ref, 27},
+      {Step::current_part, 27},
+      {Step::read_tau_ref, 28},
+      {Step::operand_torque_gain, 28},
+      {Step::border, 28},
+      {Step::operand_dead_voltage_slope, 29},
+      {Step::border_early, 29},
+      {Step::region, 30},
+      {Step::direct_current, 31},
+      {Step::gain_fetch, 32},
+      {Step::direct_current_early, 32},
+      {Step::current_sum, 32},
+      {Step::current, 33},
+      {Step::dead_sum, 33},
+      {Step::read_current_ref, 34},
+      {Step::operand_voltage_gain, 34},
+      {Step::dead_early, 34},
+      {Step::dead_voltage, 35},
+      {Step::voltage_offset, 36},
+      {Step::set_sum, 37},
+      {Step::set_early, 38},
+      {Step::voltage_sum, 38},
+      {Step::voltage, 39},
+      {Step::read_voltage, 40},
+      {Step::operand_duty_gain, 40},
+      {Step::duty_sum, 44},
+      {Step::duty, 45},
+      {Step::read_duty, 46},
+      {Step::duty_word, 46},
+      {Step::watchdog, 47},
+      {Step::snapshot, 47},
+  };
+
+  /// Addresses of the parameters.
+  struct A {
+    static constexpr int velocity_a1 = 4;
+    static constexpr int inverse_resistance = 5;
+    static constexpr int emf_over_resistance = 7;
+    static constexpr int torque_constant = 8;
+    static constexpr int inertia_gain = 9;
+    static constexpr int nominal_current_squared = 17;
+    static constexpr int observer_a1 = 15;
+    static constexpr int overspeed = 16;
+    static constexpr int i2t_budget = 18;
+    static constexpr int polarity_speed = 19;
+    static constexpr int polarity_current = 20;
+    static constexpr int polarity_ticks = 21;
+    static constexpr int emf_constant = 22;
+    static constexpr int observer_gain = 23;
+    static constexpr int voltage_setpoint = 24;
+    static constexpr int torque_limit = 25;
+    static constexpr int ramp_step = 26;
+    static constexpr int voltage_to_current = 27;
+    static constexpr int torque_gain = 28;
+    static constexpr int dead_voltage_slope = 29;
+    static constexpr int region_torque = 30;
+    static constexpr int current_limit = 33;
+    static constexpr int voltage_gain = 34;
+    static constexpr int voltage_gain_high = 50;
+    static constexpr int dead_voltage = 35;
+    static constexpr int voltage_limit = 39;
+    static constexpr int duty_gain = 40;
+    static constexpr int duty_limit = 45;
+    static constexpr int watchdog_ticks = 46;
+    static constexpr int setpoint_torque = 74;
+    static constexpr int membrane_lower = 97;
+    static constexpr int membrane_upper = 98;
+    static constexpr int membrane_torque = 106;
+    static constexpr int compression_contact = 129;
+    static constexpr int compression_stiffness = 131;
+    static constexpr int tension_rest = 161;
+    static constexpr int tension_stiffness = 163;
+    static constexpr int damper_damping = 202;
+    static constexpr int attract_centre = 225;
+    static constexpr int attract_strength = 226;
+    static constexpr int attract_core = 236;
+    static constexpr int attract_core_slope = 230;
+    static constexpr int repel_centre = 257;
+    static constexpr int repel_strength = 258;
+    static constexpr int repel_core = 268;
+    static constexpr int repel_core_slope = 262;
+    static constexpr int wall_contact = 289;
+    static constexpr int wall_stiffness = 291;
+    static constexpr int wall_damping = 298;
+  };
+
+  /// Scene numbers.
+  struct S {
+    static constexpr int free = 0;
+    static constexpr int setpoint = 2;
+    static constexpr int membrane = 3;
+    static constexpr int spring_compression = 4;
+    static constexpr int spring_tension = 5;
+    static constexpr int damper = 6;
+    static constexpr int charge_attract = 7;
+    static constexpr int charge_repel = 8;
+    static constexpr int wall = 9;
+  };
+  /// Number of a scene by name, -1 when there is none.
+  static constexpr int scene_number(std::string_view scene) {
+    if (scene == "free") return 0;
+    if (scene == "setpoint") return 2;
+    if (scene == "membrane") return 3;
+    if (scene == "spring_compression") return 4;
+    if (scene == "spring_tension") return 5;
+    if (scene == "damper") return 6;
+    if (scene == "charge_attract") return 7;
+    if (scene == "charge_repel") return 8;
+    if (scene == "wall") return 9;
+    return -1;
+  }
+  /// All of them, built or not, in the order of their numbers.
+  static constexpr std::string_view scene_names[] = {
+      "free",
+      "setpoint",
+      "membrane",
+      "spring_compression",
+      "spring_tension",
+      "damper",
+      "charge_attract",
+      "charge_repel",
+      "wall"};
+
+  /// Addresses of control and snapshot words, and bits of the words' fields.
+  struct C {
+    static constexpr int control = 512;
+    static constexpr int control_host = 0;
+    static constexpr int control_arm = 1;
+    static constexpr int control_scene = 2;
+    static constexpr int control_mode = 6;
+    static constexpr int control_motor_polarity = 8;
+    static constexpr int control_encoder_polarity = 9;
+    static constexpr int control_pwm_mode = 10;
+    static constexpr int control_filter = 11;
+    static constexpr int command = 513;
+    static constexpr int command_set_zero = 0;
+    static constexpr int command_clear_faults = 1;
+    static constexpr int command_kick = 2;
+    static constexpr int command_freeze = 3;
+    static constexpr int command_thaw = 4;
+    static constexpr int read_tick = 768;
+    static constexpr int read_position = 769;
+    static constexpr int read_status = 770;
+    static constexpr int status_faults = 0;
+    static constexpr int status_first_fault = 8;
+    static constexpr int status_limits = 12;
+    static constexpr int status_scene = 20;
+    static constexpr int status_armed = 24;
+    static constexpr int status_mode = 25;
+    static constexpr int status_encoder_error = 27;
+    static constexpr int read_encoder = 782;
+    static constexpr int read_index = 779;
+    static constexpr int read_velocity = 777;
+    static constexpr int read_tau_hat = 791;
+    static constexpr int read_tau_ref = 796;
+    static constexpr int read_current_ref = 802;
+    static constexpr int read_voltage = 808;
+    static constexpr int read_duty = 814;
+  };
+
+  /// Bits of the limits.
+  struct L {
+    static constexpr int torque = 0;
+    static constexpr int ramp = 1;
+    static constexpr int current = 2;
+    static constexpr int voltage = 3;
+    static constexpr int duty = 4;
+    static constexpr int velocity = 5;
+    static constexpr int tau_hat = 6;
+    static constexpr int gates_closed = 7;
+  };
+};
+
+}  // namespace feltgate

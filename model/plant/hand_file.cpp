@@ -3,13 +3,15 @@
 //
 // Reads the [hand] table of a scene. Documentation: docs/plant.md
 #include "plant/hand_file.hpp"
-#include "plant/plant_table.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <utility>
+
+#include "plant/plant_table.hpp"
+#include "traces/error.hpp"
+#include "traces/table.hpp"
 
 namespace feltgate::plant {
 namespace {
@@ -140,37 +142,25 @@ HandPhase read_phase(config::TomlReader table, bool last) {
 
 }  // namespace
 
-Trace read_trace_file(const std::string& path) {
-  std::ifstream in(path);
-  std::string line;
-  if (!in || !std::getline(in, line)) {
-    throw config::ConfigError(path + ":0: cannot be read or is empty; give the path of a CSV file");
-  }
-  if (!line.empty() && line.back() == '\r') line.pop_back();
-  if (line != "time_s,theta_rad") {
-    throw config::ConfigError(path + ":1: unknown header; it must be \"time_s,theta_rad\"");
+Trace read_trace_file(const std::string& path) try {
+  traces::Table table(path);
+  const std::size_t time = table.use_time("time_s"), angle = table.find("theta_rad");
+  if (angle == table.columns().size()) {
+    table.fail("no column 'theta_rad'", table.columns_there("theta_rad"));
   }
   Trace trace;
-  for (int number = 2; std::getline(in, line); ++number) {
-    const std::string place = fmt::format("{}:{}: ", path, number);
-    try {
-      std::size_t end = 0;
-      const double time_s = std::stod(line, &end);
-      if (end >= line.size() || line[end] != ',') throw config::ConfigError("no comma");
-      const std::string second = line.substr(end + 1);
-      const double theta_rad = std::stod(second, &end);
-      if (end < second.size() && second[end] != '\r')
-        throw config::ConfigError("more than two columns");
-      if (!std::isfinite(time_s) || !(std::abs(theta_rad) <= kWay.max))
-        throw config::ConfigError("not finite");
-      trace.time_s.push_back(time_s);
-      trace.theta_rad.push_back(theta_rad);
-    } catch (const std::exception&) {
-      throw config::ConfigError(
-          place + "not two finite numbers, an angle up to 1e6 rad; write \"seconds,radians\"");
+  while (table.read()) {
+    const auto time_s = traces::parse_real(table.field(time));
+    const auto theta_rad = traces::parse_real(table.field(angle));
+    if (!time_s || !theta_rad || std::abs(*theta_rad) > kWay.max) {
+      table.fail("not two finite numbers, an angle up to 1e6 rad", "give seconds and radians");
     }
+    trace.time_s.push_back(*time_s);
+    trace.theta_rad.push_back(*theta_rad);
   }
   return trace;
+} catch (const traces::TraceError& error) {
+  throw config::ConfigError(error.what());
 }
 
 Hand read_hand(config::TomlReader table) {

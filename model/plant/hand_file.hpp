@@ -10,7 +10,7 @@
 
 namespace feltgate::plant {
 
-/// Reads a recorded motion: a CSV with the header "time_s,theta_rad".
+/// Reads a recorded motion: a text table with the columns time_s and theta_rad.
 /// Errors: config::ConfigError with file and line of the first bad row.
 Trace read_trace_file(const std::string& path);
 

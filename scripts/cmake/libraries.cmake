@@ -78,7 +78,8 @@ feltgate_sim_library(bounds bounds feltgate_design Boost::headers)
 
 # The plant itself reads no file; plant_files reads plants and hands.
 feltgate_sim_library(plant plant EXCEPT "_file\\.cpp$")
-feltgate_sim_library(plant_files plant ONLY "_file\\.cpp$" feltgate_plant feltgate_config)
+feltgate_sim_library(plant_files plant ONLY "_file\\.cpp$"
+  feltgate_plant feltgate_traces feltgate_config)
 
 if(FELTGATE_SIGROK)
   find_package(LibArchive REQUIRED)

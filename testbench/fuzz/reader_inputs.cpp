@@ -144,7 +144,9 @@ Ending use_scene(const fs::path& file) {
 }
 
 Ending use_motion(const fs::path& file) {
-  return config_ending([&] { (void)plant::read_trace_file(file.string()); });
+  Ending ending = config_ending([&] { (void)plant::read_trace_file(file.string()); });
+  if (fs::file_size(file) == 0) ending.trouble.clear();  // it has no line
+  return ending;
 }
 
 /// The options of a recording come from its bytes: the same input, the same options.

@@ -9,11 +9,7 @@
 
 `default_nettype none
 
-module dob #(
-    // 1: the other sign of inertia, 2: state kept while disarmed, 3: current counts while disarmed,
-    // 4: tau_hat wraps, 5: tau_hat truncated
-    parameter int Defect = 0
-) (
+module dob (
     input  logic                                                  clk_i,
     input  logic                                                  rst_ni,
     input  logic                                                  armed_i,
@@ -49,20 +45,16 @@ module dob #(
   assign inertia = InertiaW'(product_i >>> InertiaDrop);
   localparam logic [ObservedW-1:0] Below = (ObservedW'(1) << (TorqueDrop - 1)) - ObservedW'(1);
   assign beyond_half = (observed_q & Below) != '0;
-  assign up = (feltgate_pkg::ROUNDING == 0 ||
-               (feltgate_pkg::ROUNDING == 2 && (beyond_half || observed_q[TorqueDrop]))) &&
-              Defect != 5;
+  assign up = feltgate_pkg::ROUNDING == 0 ||
+              (feltgate_pkg::ROUNDING == 2 && (beyond_half || observed_q[TorqueDrop]));
 
   always_ff @(posedge clk_i) begin
-    if (valid_i) drive_q <= (armed_i || Defect == 3) ? DriveW'(product_i >>> DriveDrop) : '0;
+    if (valid_i) drive_q <= armed_i ? DriveW'(product_i >>> DriveDrop) : '0;
     if (stage_q[0]) begin
       inertia_q <= inertia;
       input_q   <= W'(drive_q) + W'(inertia);
     end
-    if (stage_q[7]) begin
-      observed_q <= (Defect == 1) ? ObservedW'(state) + ObservedW'(inertia_q)
-                                  : ObservedW'(state) - ObservedW'(inertia_q);
-    end
+    if (stage_q[7]) observed_q <= ObservedW'(state) - ObservedW'(inertia_q);
     // The bit below the last one is the carry, as far as the design rounds up.
     if (stage_q[8]) begin
       rounded_q <= RoundedW'(observed_q >>> TorqueDrop) +
@@ -79,7 +71,7 @@ module dob #(
       .clk_i(clk_i),
       .rst_ni(rst_ni),
       .valid_i(stage_q[1]),
-      .follow_i(!armed_i && Defect != 2),
+      .follow_i(!armed_i),
       .x_i(input_q),
       .operand_o(operand_o),
       .product_i(product_i),
@@ -87,8 +79,8 @@ module dob #(
   );
 
   logic over;
-  assign over = Defect != 4 && rounded_q[RoundedW-1:TorqueW-1] !=
-                               {(RoundedW - TorqueW + 1) {rounded_q[RoundedW-1]}};
+  assign over = rounded_q[RoundedW-1:TorqueW-1] !=
+                {(RoundedW - TorqueW + 1) {rounded_q[RoundedW-1]}};
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       tau_hat_o   <= '0;

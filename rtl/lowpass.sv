@@ -12,10 +12,7 @@ module lowpass #(
     parameter int OperandW    = 33,  // of the difference on the multiplier
     parameter int ProductDrop = 27,  // fraction bits of the product below those of y
     parameter int ProductW    = 53,
-    parameter int Rounding    = feltgate_pkg::ROUNDING,  // 0 half up, 1 floor, 2 convergent
-    // 1: truncates, 2: guard bits lost, 3: difference without its growth bit, 4: product a clock
-    // early
-    parameter int Defect      = 0
+    parameter int Rounding    = feltgate_pkg::ROUNDING  // 0 half up, 1 floor, 2 convergent
 ) (
     input  logic                       clk_i,
     input  logic                       rst_ni,
@@ -37,7 +34,7 @@ module lowpass #(
   /* verilator lint_on UNUSEDSIGNAL */
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) difference_q <= '0;
-    else if (valid_i) difference_q <= (Defect == 3) ? (Width + 1)'(Width'(x_i - y_q)) : x_i - y_q;
+    else if (valid_i) difference_q <= x_i - y_q;
   end
   assign operand_o = difference_q[Width-:OperandW];
 
@@ -50,15 +47,14 @@ module lowpass #(
   localparam logic [ProductW-1:0] Below = (ProductW'(1) << (ProductDrop - 1)) - ProductW'(1);
   assign beyond_half = (product_i & Below) != '0;
   assign odd         = y_q[0] ^ increment[1];
-  assign up          = (Rounding == 0 || (Rounding == 2 && (beyond_half || odd))) && Defect != 1;
+  assign up          = Rounding == 0 || (Rounding == 2 && (beyond_half || odd));
   assign sum         = {y_q, up} + increment;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       y_q <= '0;
-    end else if ((Defect == 4) ? stage_q[3] : stage_q[4]) begin
+    end else if (stage_q[4]) begin
       y_q <= follow_i ? x_i : $signed(sum[Width:1]);
-      if (Defect == 2) y_q[7:0] <= '0;
     end
   end
   assign y_o = y_q;

@@ -7,8 +7,7 @@
 `default_nettype none
 
 module registers #(
-  parameter int ReadBack = 1,  // 0: no snapshot, reads give 0
-  parameter int Defect   = 0   // test only: see testbench/registers
+  parameter int ReadBack = 1  // 0: no snapshot, reads give 0
 ) (
   input  logic        clk_i,
   input  logic        rst_ni,
@@ -41,7 +40,7 @@ module registers #(
 
   // The waiting write: where it goes (none set: nothing waits), and its word.
   logic        to_parameter_q, to_control_q, to_command_q;
-  logic        at_parameter, at_control, at_command, accept, commit;
+  logic        at_parameter, at_control, at_command, accept;
   logic [8:0]  address_q;
   logic [31:0] data_q;
 
@@ -50,7 +49,6 @@ module registers #(
   assign at_command   = reg_addr_i == feltgate_pkg::A_COMMAND;
   assign reg_busy_o   = to_parameter_q || to_control_q || to_command_q;
   assign accept       = reg_write_i && !reg_busy_o;
-  assign commit       = tick_i || (Defect == 1);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -65,22 +63,20 @@ module registers #(
         to_parameter_q <= at_parameter;
         to_control_q   <= at_control;
         to_command_q   <= at_command;
-      end else if (commit) begin
+        address_q      <= reg_addr_i[8:0];
+        data_q         <= reg_wdata_i;
+      end else if (tick_i) begin
         to_parameter_q <= 1'b0;
         to_control_q   <= 1'b0;
         to_command_q   <= 1'b0;
       end
-      if (accept || (reg_write_i && Defect == 4)) begin
-        address_q <= reg_addr_i[8:0];
-        data_q    <= reg_wdata_i;
-      end
-      if (commit && to_control_q) control_o <= data_q[14:0];
+      if (tick_i && to_control_q) control_o <= data_q[14:0];
     end
   end
 
-  assign set_zero_o     = commit && to_command_q && data_q[feltgate_pkg::B_COMMAND_SET_ZERO];
-  assign clear_faults_o = commit && to_command_q && data_q[feltgate_pkg::B_COMMAND_CLEAR_FAULTS];
-  assign kick_o         = commit && to_command_q && data_q[feltgate_pkg::B_COMMAND_KICK];
+  assign set_zero_o     = tick_i && to_command_q && data_q[feltgate_pkg::B_COMMAND_SET_ZERO];
+  assign clear_faults_o = tick_i && to_command_q && data_q[feltgate_pkg::B_COMMAND_CLEAR_FAULTS];
+  assign kick_o         = tick_i && to_command_q && data_q[feltgate_pkg::B_COMMAND_KICK];
 
   // Parameter RAM. It keeps what was written through a reset; only configuration loads the values
   // of the design. A word is written in a clock in which no block fetches a word of its own, so
@@ -93,7 +89,7 @@ module registers #(
   end
 
   always_ff @(posedge clk_i) begin
-    if (commit && to_parameter_q) parameter_ram[address_q] <= data_q;
+    if (tick_i && to_parameter_q) parameter_ram[address_q] <= data_q;
   end
 
   logic        high;
@@ -101,7 +97,7 @@ module registers #(
   logic [31:0] fetch_q;
   logic        warm_q;  // keeps what the RAM's own, unreset output register held off the bus
 
-  assign high = region_high_i && slot_fetch_i == LOW && (Defect != 5);
+  assign high = region_high_i && slot_fetch_i == LOW;
   assign fetch_address = scene_slot_fetch_i ? {scene_i, slot_fetch_i[4:0]}
                                             : {3'b000, high ? HIGH : slot_fetch_i};
 
@@ -131,7 +127,7 @@ module registers #(
       for (int i = 0; i < 128; i++) snapshot_ram[i] = 32'd0;
     end
 
-    assign read_bank   = (Defect == 3) ? write_bank_q : !write_bank_q;
+    assign read_bank   = !write_bank_q;
     assign at_snapshot = reg_addr_i[11:6] == 6'h0c;
 
     always_ff @(posedge clk_i) begin
@@ -151,8 +147,8 @@ module registers #(
         reg_rdata_o  <= 32'd0;
       end else begin
         // The tick that a freeze ends is the one that is held.
-        if (tick_i && (!frozen_q || Defect == 2)) write_bank_q <= !write_bank_q;
-        if (commit && to_command_q) begin
+        if (tick_i && !frozen_q) write_bank_q <= !write_bank_q;
+        if (tick_i && to_command_q) begin
           frozen_q <= data_q[feltgate_pkg::B_COMMAND_FREEZE] ||
                       (frozen_q && !data_q[feltgate_pkg::B_COMMAND_THAW]);
         end

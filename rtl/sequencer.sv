@@ -8,8 +8,7 @@
 module sequencer #(
   parameter int ClocksPerTick = feltgate_pkg::CLOCKS_PER_TICK,  // at least WaveLength
   parameter int WaveLength    = 50,
-  parameter int ResetTicks    = 0,  // test only: brings the wrap of the tick count near
-  parameter int Defect        = 0   // test only: see testbench/sequencer
+  parameter int ResetTicks    = 0  // test only: brings the wrap of the tick count near
 ) (
   input  logic                  clk_i,
   input  logic                  rst_ni,
@@ -22,7 +21,7 @@ module sequencer #(
 
   localparam int CLOCK_W = (ClocksPerTick > 64) ? $clog2(ClocksPerTick) : 6;
   localparam logic [CLOCK_W-1:0] BEFORE_LAST = CLOCK_W'(ClocksPerTick - 2);
-  localparam int FIRST_WAVE = (Defect == 1) ? 2 : 1;  // the clock before wave clock 0
+  localparam int FIRST_WAVE = 1;  // the clock before wave clock 0
   // Slots of the scene bank: 1, 2, 3, 6, 10, 11, 12 and 14.
   localparam logic [63:0] SCENE_SLOTS = 64'h0000_0000_0000_5c4e;
 
@@ -35,7 +34,7 @@ module sequencer #(
     // Past the last slot nothing is read: hold the word that no block uses.
     assign slot_fetch_o = (clock_q[CLOCK_W-1:6] != '0) ? 6'd63 : clock_q[5:0];
   end else begin : g_short_tick
-    assign slot_fetch_o = (Defect == 3) ? next_slot : clock_q[5:0];
+    assign slot_fetch_o = clock_q[5:0];
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -51,9 +50,7 @@ module sequencer #(
       // After the tick comes slot 0, which is not a scene's; neither is 63 nor its successor.
       scene_slot_fetch_o <= SCENE_SLOTS[next_slot] && !tick_o && (clock_q < CLOCK_W'(63));
       wave_o             <= {wave_o[WaveLength-2:0], clock_q == CLOCK_W'(FIRST_WAVE)};
-      if (tick_o && !(Defect == 2 && tick_count_o[15:0] == 16'hffff)) begin
-        tick_count_o <= tick_count_o + 32'd1;
-      end
+      if (tick_o) tick_count_o <= tick_count_o + 32'd1;
     end
   end
 

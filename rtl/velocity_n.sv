@@ -12,10 +12,7 @@ module velocity_n #(
     parameter int M1     = feltgate_pkg::M1,
     parameter int Shift  = feltgate_pkg::VELOCITY_SHIFT,
     parameter int Gain   = feltgate_pkg::VELOCITY_GAIN,   // 0: 2^Shift; else Gain * 2^-GainF
-    parameter int GainF  = feltgate_pkg::VELOCITY_GAIN_F,
-    // 1: line one entry long, 2: unfilled line is read, 3: wraps instead of saturating, 4: counter
-    // wrap taken for a glitch
-    parameter int Defect = 0
+    parameter int GainF  = feltgate_pkg::VELOCITY_GAIN_F
 ) (
     input  logic                                                  clk_i,
     input  logic                                                  rst_ni,
@@ -29,7 +26,6 @@ module velocity_n #(
   localparam int T = feltgate_pkg::TRAVEL_BITS;
   localparam int W = feltgate_pkg::VELOCITY_W;
   localparam int F = feltgate_pkg::VELOCITY_F;
-  localparam int Last = (Defect == 1) ? M1 : M1 - 1;
   localparam int AddressW = (M1 > 1) ? $clog2(M1 + 1) : 1;
 
   logic [2:0] stage_q;
@@ -53,7 +49,7 @@ module velocity_n #(
       pointer_q <= '0;
       filled_q  <= 1'b0;
     end else if (stage_q[2]) begin
-      if (pointer_q == AddressW'(Last)) begin
+      if (pointer_q == AddressW'(M1 - 1)) begin
         pointer_q <= '0;
         filled_q  <= 1'b1;
       end else begin
@@ -70,11 +66,9 @@ module velocity_n #(
     end else begin
       if (valid_i) begin
         travel_q <= travel_i;
-        oldest_q <= (filled_q || Defect == 2) ? line_q : '0;
+        oldest_q <= filled_q ? line_q : '0;
       end
-      if (stage_q[0]) begin
-        difference_q <= (Defect == 4 && travel_q < 0 && oldest_q > 0) ? '0 : travel_q - oldest_q;
-      end
+      if (stage_q[0]) difference_q <= travel_q - oldest_q;
     end
   end
 
@@ -103,9 +97,8 @@ module velocity_n #(
       raw_q       <= '0;
       saturated_o <= 1'b0;
     end else if (stage_q[1]) begin
-      raw_q       <= (over && Defect != 3) ? {difference_q[T-1], {(W - 1) {~difference_q[T-1]}}}
-                                           : raw;
-      saturated_o <= over && Defect != 3;
+      raw_q       <= over ? {difference_q[T-1], {(W - 1) {~difference_q[T-1]}}} : raw;
+      saturated_o <= over;
     end
   end
 

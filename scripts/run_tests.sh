@@ -19,7 +19,7 @@ a run of all tests says how long each group of them took. Exit code: 0 none fail
 
   ./feltgate test                 all of them: half an hour on two cores
   ./feltgate test scene.wall      what the scene 'wall' is tested with
-  ./feltgate test '^mult\.'        must fail inside to pass: the seeded defects of one block
+  ./feltgate test '^mult\.'       must fail inside to pass: the seeded defects of one block
 TEXT
 }
 

@@ -56,6 +56,7 @@ Parameter read_parameter(config::TomlReader r, const RegisterMap& map, std::set<
   Parameter p;
   p.name = r.identifier("name");
   p.place = fmt::format("{}:{}", r.file(), r.line("name"));
+  if (r.has("label")) p.label = r.text("label");
   if (r.has("scene")) p.scene = r.text("scene");
   p.slot = small(r, "slot", p.scene.empty() ? 63 : 31);
   p.kind = kinds[r.choice("kind", kinds)];
@@ -113,6 +114,7 @@ Snapshot read_snapshot(config::TomlReader r, const RegisterMap& map) {
   Snapshot n;
   n.name = r.identifier("name");
   n.place = fmt::format("{}:{}", r.file(), r.line("name"));
+  if (r.has("label")) n.label = r.text("label");
   if (r.has("with")) {
     n.with = r.text("with");
     const Parameter* p = map.find(n.with);

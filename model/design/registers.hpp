@@ -12,6 +12,7 @@ namespace feltgate::design {
 /// One word of the parameter RAM.
 struct Parameter {
   std::string name;
+  std::string label;           ///< in the timing diagram
   std::string scene;           ///< empty for a word that every scene shares
   int slot = 0;                ///< wave clock in which the word is on the parameter bus
   std::string kind;            ///< coefficient, signed, signal, counts or integer
@@ -45,9 +46,9 @@ struct Control {
 
 struct Snapshot {
   std::string name;
-  int slot = 0;  ///< wave clock in which the word is on the operand bus
-  std::string
-      with;  ///< the coefficient that it is multiplied by then, empty where it only passes by
+  int slot = 0;       ///< wave clock in which the word is on the operand bus
+  std::string label;  ///< in the timing diagram
+  std::string with;   ///< the coefficient that it is multiplied by then, or empty
   std::string doc;
   std::vector<Field> fields;
   std::string place;  ///< "file:line" of the entry, for errors

@@ -30,6 +30,8 @@ const Step* Schedule::step(const std::string& name) const {
   return nullptr;
 }
 
+int latency(const Schedule& s) { return s.step("duty")->clock + 1 - s.step("sample")->clock; }
+
 std::uint64_t scene_slots(const RegisterMap& map) {
   std::uint64_t slots = 0;
   for (const Parameter& p : map.parameters) {
@@ -78,6 +80,10 @@ Product read_product(config::TomlReader r, const RegisterMap& map) {
     }
   }
   if (p.factors.empty()) p.slot = static_cast<int>(r.integer("slot", 0, 63));
+  const std::vector<std::string> labels = r.texts("label");
+  if (labels.size() != 2) r.fail("label", "two labels are wanted", "write operand and product");
+  p.operand_label = labels[0];
+  p.label = labels[1];
   p.by = r.identifier("by");
   p.doc = r.text("doc");
   r.finish();
@@ -120,6 +126,7 @@ Step read_step(config::TomlReader r, const RegisterMap& map, const Schedule& s) 
   if (r.has("takes")) step.takes = r.texts("takes");
   step.passes = r.flag_or("passes", false);
   if (r.has("shows_in")) step.shows_in = r.text("shows_in");
+  if (r.has("output")) step.output = r.text("output");
   step.by = r.identifier("by");
   step.doc = r.text("doc");
   r.finish();
@@ -155,6 +162,9 @@ Schedule read_schedule(const std::string& path, const RegisterMap& map) {
     s.steps.push_back(read_step(r, map, s));
   }
   top.finish();
+  for (const char* name : {"sample", "duty", "snapshot"}) {
+    if (s.step(name) == nullptr) top.fail("step", fmt::format("no step {}", name), "list it");
+  }
   check_schedule(map, s);
   return s;
 }

@@ -26,6 +26,7 @@ struct Product {
   std::vector<std::string> factors;  ///< words, of which one comes by; none: a square
   std::vector<std::string> scenes;   ///< in which it is formed; none: in all
   int slot = 0;
+  std::string operand_label, label;  ///< in the timing diagram
   std::string by, doc, place;
 };
 
@@ -37,6 +38,7 @@ struct Step {
   std::vector<std::string> takes;  ///< words of the parameter bus
   bool passes = false;             ///< there for one clock only
   std::string shows_in;            ///< the result whose register it writes ahead of that result
+  std::string output;              ///< what the timing diagram calls the result; none: not shown
   std::string by, doc, place;
 };
 
@@ -49,6 +51,9 @@ struct Schedule {
   const Product* product(const std::string& name) const;  ///< nullptr: no such product
   const Step* step(const std::string& name) const;        ///< nullptr: no such step
 };
+
+/// Clocks from the sampled position to the duty register.
+int latency(const Schedule& s);
 
 /// Slots that are read from the bank of the scene: bit n is slot n.
 std::uint64_t scene_slots(const RegisterMap& map);
@@ -63,5 +68,9 @@ std::string map_package(const RegisterMap& map, const Schedule& s);
 std::string map_header(const RegisterMap& map, const Schedule& s);
 /// Text of model/include/feltgate/generated/causes.hpp.
 std::string causes_header(const RegisterMap& map);
+/// Text of docs/schedule.md.
+std::string schedule_page(const RegisterMap& map, const Schedule& s);
+/// Text of docs/images/tick.json, the source of the timing diagram.
+std::string timing_diagram(const RegisterMap& map, const Schedule& s);
 
 }  // namespace feltgate::design

@@ -111,6 +111,9 @@ bool generate_all(const Options& o, const feltgate::design::RegisterMap& registe
                       map_package(registers, schedule), o.check_only);
   stale |= update(headers / "map.hpp", map_header(registers, schedule), o.check_only);
   stale |= update(headers / "causes.hpp", causes_header(registers), o.check_only);
+  stale |= update(o.root / "docs/schedule.md", schedule_page(registers, schedule), o.check_only);
+  stale |=
+      update(o.root / "docs/images/tick.json", timing_diagram(registers, schedule), o.check_only);
   stale |= update(headers / "reader.hpp", reader_header(registers), o.check_only);
   for (const auto& entry : fs::directory_iterator(o.root / "rtl/designs")) {
     if (entry.path().extension() != ".toml") continue;

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The page and the timing diagram of the schedule. Documentation: docs/schedule.md (generated)
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <sstream>
+
+#include "design/schedule.hpp"
+
+namespace feltgate::design {
+
+namespace {
+
+/// Items joined by ", ".
+std::string joined(const std::vector<std::string>& items) {
+  std::string text;
+  for (const std::string& item : items) text += (text.empty() ? "" : ", ") + item;
+  return text;
+}
+
+/// Products in the order of their clocks.
+std::vector<Product> ordered(std::vector<Product> products) {
+  std::stable_sort(products.begin(), products.end(),
+                   [](const Product& a, const Product& b) { return a.slot < b.slot; });
+  return products;
+}
+
+void products_table(std::ostringstream& s, const Schedule& schedule) {
+  s << "| clock | operand | times | product taken in | by |\n|---|---|---|---|---|\n";
+  for (const Product& p : ordered(schedule.products)) {
+    std::vector<std::string> factors;
+    for (const std::string& name : p.factors) factors.push_back("`" + name + "`");
+    s << "| " << p.slot << " | " << p.doc << " | " << (factors.empty() ? "itself" : joined(factors))
+      << " | " << p.slot + schedule.multiplier_latency << " | " << p.by << " |\n";
+  }
+}
+
+void clocks_table(std::ostringstream& s, const RegisterMap& map, const Schedule& schedule) {
+  s << "| clock | parameter bus | snapshot | steps |\n|---|---|---|---|\n";
+  for (int clock = 0; clock < schedule.wave_length - schedule.first_wave_clock; ++clock) {
+    std::vector<std::string> words, read, steps;
+    for (const Parameter& p : map.parameters) {
+      if (p.slot == clock) words.push_back("`" + p.name + "`");
+    }
+    for (const Snapshot& n : map.snapshots) {
+      if (n.slot == clock) read.push_back("`" + n.name + "`");
+    }
+    for (const Step& step : schedule.steps) {
+      if (step.clock == clock) steps.push_back(fmt::format("**{}**: {}", step.name, step.doc));
+    }
+    std::string lines;
+    for (const std::string& step : steps) lines += (lines.empty() ? "" : "<br>") + step;
+    s << "| " << clock << " | " << joined(words) << " | " << joined(read) << " | " << lines
+      << " |\n";
+  }
+}
+
+/// Colours of the timing diagram.
+char colour(const std::string& by) {
+  if (by == "scenes") return '4';
+  return by == "supervisor" ? '9' : '5';
+}
+
+/// One lane, a character a period: the first is that many clocks ahead of wave clock 0.
+class Lane {
+ public:
+  Lane(std::string name, const Schedule& s, char idle)
+      : name_(std::move(name)),
+        ahead_(s.first_wave_clock),
+        wave_(static_cast<std::size_t>(s.wave_length + s.first_wave_clock), '.') {
+    wave_[0] = idle;
+  }
+  void put(int clock, char level, const std::string& label = "") {
+    wave_[static_cast<std::size_t>(clock + ahead_)] = level;
+    if (!label.empty()) labels_.push_back({clock, label});
+  }
+  /// As put(), and idle again in the next clock unless something stands there.
+  void pulse(int clock, char level, char idle, const std::string& label = "") {
+    put(clock, level, label);
+    const auto next = static_cast<std::size_t>(clock + ahead_ + 1);
+    if (next < wave_.size() && wave_[next] == '.') wave_[next] = idle;
+  }
+  std::string text() {
+    std::stable_sort(labels_.begin(), labels_.end(),
+                     [](const Label& a, const Label& b) { return a.clock < b.clock; });
+    std::vector<std::string> data;
+    for (const Label& l : labels_) data.push_back("\"" + l.text + "\"");
+    std::string line = fmt::format("    {{\"name\": \"{}\", \"wave\": \"{}\"", name_, wave_);
+    if (!data.empty()) line += fmt::format(", \"data\": [{}]", joined(data));
+    return line + "}";
+  }
+
+ private:
+  struct Label {
+    int clock;
+    std::string text;
+  };
+  std::string name_;
+  int ahead_;
+  std::string wave_;
+  std::vector<Label> labels_;
+};
+
+/// Who takes a word that all scenes share, by the step or product that uses it.
+char colour_of_word(const Parameter& p, const Schedule& s) {
+  if (!p.scene.empty()) return '4';
+  if (const Product* product = s.product(p.name)) {
+    return product->by == "supervisor" ? '9' : '=';
+  }
+  for (const Step& step : s.steps) {
+    // The supervisor looks at what its comparator says a clock after the word.
+    if (step.by == "supervisor" && (step.clock == p.slot || step.clock == p.slot + 1)) return '9';
+  }
+  return '=';
+}
+
+}  // namespace
+
+std::string schedule_page(const RegisterMap& map, const Schedule& schedule) {
+  std::ostringstream s;
+  s << "# Schedule of a tick\n\nGenerated from `rtl/schedule.toml` and `rtl/registers.toml` by "
+       "`feltgate generate`: do not edit.\nThe generator refuses a schedule in which a result "
+       "comes late, words meet on a bus, or a step lies outside\nthe tick. RTL and twin take "
+       "every clock from the same two files "
+       "([feltgate_map_pkg.sv](../rtl/generated/feltgate_map_pkg.sv),\n"
+       "[map.hpp](../model/include/feltgate/generated/map.hpp)).\n\n"
+       "![One tick, clock by clock](images/tick.svg)\n\n"
+    << fmt::format(
+           "Wave clock 0 is clock {} of the tick. A tick has {} clocks or more. From the sampled "
+           "position to the duty\nregister: {} clocks.\n\n",
+           schedule.first_wave_clock, schedule.wave_length, latency(schedule))
+    << "## Products\n\nOne multiplier for all: operand and factor in one clock, their product "
+    << schedule.multiplier_latency << " clocks later, in that clock only.\n\n";
+  products_table(s, schedule);
+  s << "\n## Clocks\n\nWhat a step gives is there from the next clock on.\n\n";
+  clocks_table(s, map, schedule);
+  return s.str();
+}
+
+std::string timing_diagram(const RegisterMap& map, const Schedule& schedule) {
+  Lane tick("tick", schedule, '0'), wave("wave[0]", schedule, '0');
+  Lane param("param", schedule, 'x'), operand("operand", schedule, 'x'),
+      product("product", schedule, 'x'), valid("snapshot_valid_o", schedule, '0');
+  const int last = schedule.wave_length - schedule.first_wave_clock - 1;
+  tick.pulse(last, '1', '0');
+  wave.pulse(0, '1', '0');
+  std::vector<int> drawn;
+  const auto once = [&drawn](int slot) {
+    if (std::find(drawn.begin(), drawn.end(), slot) != drawn.end()) return false;
+    drawn.push_back(slot);
+    return true;
+  };
+  for (const Parameter& p : map.parameters) {
+    if (p.slot < schedule.wave_length && once(p.slot)) {
+      param.pulse(p.slot, colour_of_word(p, schedule), 'x', p.scene.empty() ? p.label : "scene");
+    }
+  }
+  drawn.clear();
+  for (const Product& p : schedule.products) {
+    if (!once(p.slot)) continue;
+    operand.pulse(p.slot, colour(p.by), 'x', p.operand_label);
+    product.pulse(p.slot + schedule.multiplier_latency, colour(p.by), 'x', p.label);
+  }
+  for (const Snapshot& n : map.snapshots) {
+    if (n.with.empty()) operand.pulse(n.slot, '2', 'x', n.label);
+  }
+  valid.pulse(schedule.step("snapshot")->clock, '1', '0');
+  std::string lanes;
+  const auto add = [&lanes](const std::string& line) { lanes += line + ",\n"; };
+  add(tick.text());
+  add(wave.text());
+  add("    {}");
+  add(param.text());
+  add(operand.text());
+  add(product.text());
+  add("    {}");
+  std::vector<Step> shown;
+  for (const Step& step : schedule.steps) {
+    if (!step.output.empty()) shown.push_back(step);
+  }
+  std::stable_sort(shown.begin(), shown.end(),
+                   [](const Step& a, const Step& b) { return a.clock < b.clock; });
+  for (const Step& step : shown) {
+    Lane lane(step.output, schedule, '=');
+    lane.put(-schedule.first_wave_clock, '=', "tick k-1");
+    lane.put(step.clock + 1, step.by == "supervisor" ? '9' : '7', "tick k");
+    add(lane.text());
+  }
+  add("    {}");
+  lanes += valid.text() + "\n";
+  return "{\n  \"signal\": [\n" + lanes +
+         "  ],\n"
+         "  \"head\": {\"text\": \"One tick: clocks of the wave\", \"tock\": " +
+         fmt::format("{}", -schedule.first_wave_clock) +
+         "},\n"
+         "  \"foot\": {\"text\": \"blue: the chain; orange: the scene; red: the supervisor; white "
+         "operands: words that only pass by for the snapshot; hatched: not used\"},\n"
+         "  \"config\": {\"wrap\": 26}\n}\n";
+}
+
+}  // namespace feltgate::design

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A schedule that cannot work is refused, with the reason; one that can has its clocks everywhere.
+// Documentation: docs/schedule.md
+#include "design/schedule.hpp"
+
+#include <regex>
+
+#include "design_fixture.hpp"
+#include "feltgate/generated/map.hpp"
+
+using namespace feltgate;
+using namespace feltgate::design;
+
+namespace {
+
+struct Texts {
+  std::string registers = file_text(root_path("rtl/registers.toml"));
+  std::string schedule = file_text(root_path("rtl/schedule.toml"));
+
+  /// The word with another slot.
+  Texts& move(const std::string& word, int slot) {
+    const std::string entry = "name = \"" + word + "\"";
+    const auto at = registers.find("slot = ", registers.find(entry));
+    REQUIRE(at != std::string::npos);
+    const auto end = registers.find('\n', at);
+    registers.replace(at, end - at, "slot = " + std::to_string(slot));
+    return *this;
+  }
+  Texts& in_schedule(const std::string& from, const std::string& to) {
+    schedule = replaced(schedule, from, to);
+    return *this;
+  }
+  Texts& in_registers(const std::string& from, const std::string& to) {
+    registers = replaced(registers, from, to);
+    return *this;
+  }
+  /// The schedule's error without the folder, or "no error".
+  std::string error() const {
+    try {
+      const RegisterMap map = read_registers(written("moved_registers.toml", registers));
+      (void)read_schedule(written("moved_schedule.toml", schedule), map);
+    } catch (const config::ConfigError& error) {
+      return std::regex_replace(std::string(error.what()),
+                                std::regex(std::string(FELTGATE_TEST_FOLDER) + "/"), "");
+    }
+    return "no error";
+  }
+};
+
+void refused(const Texts& texts, const std::string& expression) {
+  const std::string error = texts.error();
+  INFO("error:    " << error);
+  INFO("expected: " << expression);
+  CHECK(std::regex_search(error, std::regex(expression)));
+}
+
+}  // namespace
+
+TEST_CASE("the shipped schedule and moves that change nothing else are let pass", "[schedule]") {
+  CHECK(Texts().error() == "no error");
+  CHECK(Texts().move("watchdog_ticks", 44).error() == "no error");
+  CHECK(Texts().move("emf_constant", 18).error() != "no error");
+  CHECK(Texts().move("emf_constant", 20).move("polarity_current", 22).error() != "no error");
+  CHECK(Texts().move("observer_a1", 16).move("overspeed", 15).error() != "no error");
+  CHECK(Texts().move("emf_constant", 24).move("voltage_setpoint", 22).error() == "no error");
+}
+
+TEST_CASE("a result that comes late is refused", "[schedule]") {
+  refused(Texts().move("torque_gain", 25).move("torque_limit", 28),
+          "schedule.toml:[0-9]+: .* comes late for the (product|step) [a-z_]+: it is there from "
+          "clock [0-9]+ on \\(step .*schedule.toml:[0-9]+\\) and needed in clock [0-9]+; move");
+  refused(Texts().move("observer_gain", 16).move("overspeed", 23),
+          "tau_hat comes late for the product observer_gain: it is there from clock 23 on .* and "
+          "needed in clock 16");
+  refused(Texts().move("torque_constant", 9).move("inertia_gain", 8),
+          "velocity comes late for the product inertia_gain: .* clock 9 on .* clock 8");
+}
+
+TEST_CASE("a result that passes must be taken in its clock", "[schedule]") {
+  refused(Texts().move("dead_voltage", 36),
+          "dead_early passes: it is there in clock 35 alone .* dead_voltage needs it in clock 36");
+  refused(Texts().move("duty_limit", 41).move("watchdog_ticks", 45), "duty_sum comes late");
+  refused(Texts().move("duty_limit", 47), "duty_sum passes|comes late");
+}
+
+TEST_CASE("the value of the tick before is gone once the new one is there", "[schedule]") {
+  refused(Texts().move("emf_over_resistance", 21).move("polarity_ticks", 7),
+          "is to see the velocity of the tick before, but the new one is there from clock 9 on");
+  refused(
+      Texts().in_registers("slot = 2\ndoc = \"what the core", "slot = 12\ndoc = \"what the core"),
+      "the step status_word in clock 12 is to see the velocity_raw of the tick before");
+  refused(Texts()
+              .move("inverse_resistance", 31)
+              .move("voltage_setpoint", 17)
+              .move("nominal_current_squared", 24),
+          "voltage of the tick before, but the new one is there from clock 18 on \\(step "
+          "direct_voltage");
+}
+
+TEST_CASE("words that meet on a bus are refused", "[schedule]") {
+  refused(Texts().move("overspeed", 17), "overspeed|nominal_current_squared");
+  refused(Texts().move("damper_damping", 11), "damper_damping comes by in slot 11");
+  refused(Texts().in_schedule("slot = 13\n", "slot = 15\n"),
+          "two products are wanted of slot 15 of the multiplier: current_square .* observer_a1");
+  refused(Texts().in_schedule("slot = 3\nscenes = [\"charge_attract\", \"charge_repel\"]",
+                              "slot = 3\nscenes = [\"charge_attract\", \"wall\"]"),
+          "two products are wanted of slot 3 of the multiplier: scene_stiffness .* charge_square");
+  refused(Texts().in_registers("slot = 11\n", "slot = 15\n"),
+          "two words meet on the operand bus in slot 15: index of the snapshot and the operand of "
+          "observer_a1");
+  refused(Texts().in_registers("slot = 11\n", "slot = 14\n"),
+          "two words of the snapshot meet in slot 14: encoder .* and index");
+}
+
+TEST_CASE("a word in the wrong bank is refused", "[schedule]") {
+  refused(Texts().move("membrane_torque", 8),
+          "two words meet on the parameter bus in slot 8: membrane_torque lies in the bank of a "
+          "scene, torque_constant .* in the common one");
+  refused(Texts().move("watchdog_ticks", 12), "slot 12: attract_core lies in the bank of a scene");
+  refused(Texts().move("membrane_torque", 0), "slot 0 cannot be a scene's");
+}
+
+TEST_CASE("what lies outside the wave is refused", "[schedule]") {
+  refused(Texts().move("watchdog_ticks", 47),
+          "the step watchdog lies in clock 48, outside the clocks 0 to 47 of a tick of 50 clocks");
+  refused(Texts().in_schedule("clocks = 50 ", "clocks = 48 "), "outside the clocks 0 to 45");
+}
+
+TEST_CASE("a schedule that says nonsense is refused where it stands", "[schedule]") {
+  refused(Texts().in_schedule("after = \"T_SAMPLE\"", "after = \"T_SIMPLE\""),
+          "schedule.toml:[0-9]+: there is no clock T_SIMPLE; name ");
+  refused(Texts().in_schedule("needs = [\"travel\"]", "needs = [\"gravel\"]"),
+          "the step velocity_raw needs \"gravel\", which no step gives");
+  refused(Texts().in_schedule("factor = [\"observer_a1\"]", "factor = [\"overspeed\"]"),
+          "\"overspeed\" is no coefficient");
+  refused(Texts().in_schedule("name = \"travel\"", "name = \"sample\""),
+          "\"sample\" is listed twice");
+  refused(Texts().in_registers("with = \"duty_gain\"", "with = \"duty_limit\""),
+          "voltage passes by with duty_limit, which is no product");
+  refused(Texts().in_registers("bit = 3\ndoc = \"voltage at", "bit = 4\ndoc = \"voltage at"),
+          "4 follows 2; list them in order; this one is 3");
+}
+
+TEST_CASE("the generated map says what the files say", "[schedule]") {
+  CHECK(Map::W::current_limit == 33);
+  CHECK(Map::M::observer_a1 == Map::W::observer_a1 + Map::multiplier_latency);
+  CHECK(Map::C::read_velocity == 0x300 + Map::W::inertia_gain);
+  CHECK(Map::T::duty + 1 - Map::T::sample == 46);
+  int clock = 0;
+  for (const Map::StepAt& step : Map::steps) {
+    CHECK(step.clock >= clock);
+    clock = step.clock;
+  }
+}

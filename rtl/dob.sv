@@ -4,7 +4,8 @@
 // Disturbance observer: tau_hat = LPF(Ktn*I + g*Jn*w) - g*Jn*w, the load that opposes positive
 // motor torque. Disarmed, the current counts as 0 and the filter follows its input, so that tau_hat
 // is 0 and arming in motion makes no jump.
-// Latency: Ktn*I in clock 0 (valid_i), g*Jn*w in 1, operand in 3, product in 7, tau_hat in 11.
+// Clocks are those of the wave: Ktn*I is taken in T_DRIVE_TORQUE, g*Jn*w in T_OBSERVER_INPUT, the
+// filter's product in T_OBSERVER_STATE.
 // docs/blocks/dob.md
 
 `default_nettype none
@@ -13,7 +14,9 @@ module dob (
     input  logic                                                  clk_i,
     input  logic                                                  rst_ni,
     input  logic                                                  armed_i,
-    input  logic                                                  valid_i,    // product_i is Ktn*I
+    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks
+    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0]       wave_i,
+    /* verilator lint_on UNUSEDSIGNAL */
     input  logic signed [feltgate_pkg::PRODUCT_BITS-1:0]          product_i,
     output logic signed [feltgate_pkg::OBSERVER_DIFFERENCE_W-1:0] operand_o,
     output logic signed [feltgate_pkg::TORQUE_W-1:0]              tau_hat_o,
@@ -30,12 +33,6 @@ module dob (
   localparam int TorqueDrop = F - feltgate_pkg::TORQUE_F;
   localparam int RoundedW = ObservedW - TorqueDrop + 1;
 
-  logic [9:0] stage_q;  // stage_q[k]: clock k + 1
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) stage_q <= '0;
-    else stage_q <= {stage_q[8:0], valid_i};
-  end
-
   logic signed [   DriveW-1:0] drive_q;
   logic signed [ InertiaW-1:0] inertia, inertia_q;
   logic signed [        W-1:0] input_q, state;
@@ -49,14 +46,18 @@ module dob (
               (feltgate_pkg::ROUNDING == 2 && (beyond_half || observed_q[TorqueDrop]));
 
   always_ff @(posedge clk_i) begin
-    if (valid_i) drive_q <= armed_i ? DriveW'(product_i >>> DriveDrop) : '0;
-    if (stage_q[0]) begin
+    if (wave_i[feltgate_map_pkg::T_DRIVE_TORQUE]) begin
+      drive_q <= armed_i ? DriveW'(product_i >>> DriveDrop) : '0;
+    end
+    if (wave_i[feltgate_map_pkg::T_OBSERVER_INPUT]) begin
       inertia_q <= inertia;
       input_q   <= W'(drive_q) + W'(inertia);
     end
-    if (stage_q[7]) observed_q <= ObservedW'(state) - ObservedW'(inertia_q);
+    if (wave_i[feltgate_map_pkg::T_OBSERVED]) begin
+      observed_q <= ObservedW'(state) - ObservedW'(inertia_q);
+    end
     // The bit below the last one is the carry, as far as the design rounds up.
-    if (stage_q[8]) begin
+    if (wave_i[feltgate_map_pkg::T_OBSERVED_ROUNDED]) begin
       rounded_q <= RoundedW'(observed_q >>> TorqueDrop) +
                    RoundedW'({1'b0, observed_q[TorqueDrop-1] && up});
     end
@@ -70,7 +71,8 @@ module dob (
   ) u_lowpass (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
-      .valid_i(stage_q[1]),
+      .valid_i(wave_i[feltgate_map_pkg::T_OBSERVER_DIFFERENCE]),
+      .update_i(wave_i[feltgate_map_pkg::T_OBSERVER_STATE]),
       .follow_i(!armed_i),
       .x_i(input_q),
       .operand_o(operand_o),
@@ -85,7 +87,7 @@ module dob (
     if (!rst_ni) begin
       tau_hat_o   <= '0;
       saturated_o <= 1'b0;
-    end else if (stage_q[9]) begin
+    end else if (wave_i[feltgate_map_pkg::T_TAU_HAT]) begin
       tau_hat_o   <= over ? {rounded_q[RoundedW-1], {(TorqueW - 1) {~rounded_q[RoundedW-1]}}}
                           : rounded_q[TorqueW-1:0];
       saturated_o <= over;

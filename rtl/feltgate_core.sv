@@ -171,7 +171,7 @@ module feltgate_core #(
   velocity_n u_velocity_n (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
-      .valid_i(wave[0]),
+      .wave_i(wave),
       .travel_i(travel),
       .operand_o(velocity_operand),
       .product_i(velocity_product),
@@ -186,7 +186,7 @@ module feltgate_core #(
       .clk_i(clk_i),
       .rst_ni(rst_ni),
       .armed_i(armed_o),
-      .valid_i(wave[12]),
+      .wave_i(wave),
       .product_i(dob_product),
       .operand_o(dob_operand),
       .tau_hat_o(tau_hat),

@@ -2,8 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // One-pole low-pass y += round(a1 * (x - y)), rounded as the design says, on the multiplier's bus.
-// Latency: x in clock v, operand in v + 1, product in v + 5, new y in v + 6. The difference gives
-// up low bits where it is wider than the multiplier. docs/blocks/lowpass.md
+// The block around it says when: x in the clock of valid_i, operand from the next one on, product in the
+// clock of update_i, new y from the next one on. The difference gives up low bits where it is wider
+// than the multiplier. docs/blocks/lowpass.md
 
 `default_nettype none
 
@@ -17,17 +18,14 @@ module lowpass #(
     input  logic                       clk_i,
     input  logic                       rst_ni,
     input  logic                       valid_i,    // x_i is new
+    input  logic                       update_i,   // product_i is that of the operand
     input  logic                       follow_i,   // y := x instead of filtering; held with x
     input  logic signed [   Width-1:0] x_i,        // held until the new y
     output logic signed [OperandW-1:0] operand_o,
     input  logic signed [ProductW-1:0] product_i,
     output logic signed [   Width-1:0] y_o
 );
-  logic [4:0] stage_q;  // stage_q[k]: k + 1 clocks after valid_i
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) stage_q <= '0;
-    else stage_q <= {stage_q[3:0], valid_i};
-  end
+  logic signed [Width-1:0] y_q;
 
   /* verilator lint_off UNUSEDSIGNAL */  // the low bits are given up where the operand is narrower
   logic signed [Width:0] difference_q;
@@ -40,7 +38,6 @@ module lowpass #(
 
   // {y,up} + {p,r} carries exactly when the rounding bit r and up are set: rounding without an
   // adder of its own. To even, a tie goes up only from an odd sum.
-  logic signed [Width-1:0] y_q;
   logic        [  Width:0] increment, sum;
   logic                    beyond_half, odd, up;
   assign increment = (Width + 1)'(product_i >>> (ProductDrop - 1));
@@ -53,7 +50,7 @@ module lowpass #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       y_q <= '0;
-    end else if (stage_q[4]) begin
+    end else if (update_i) begin
       y_q <= follow_i ? x_i : $signed(sum[Width:1]);
     end
   end

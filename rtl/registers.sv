@@ -22,7 +22,7 @@ module registers #(
   input  logic [5:0]  slot_fetch_i,
   input  logic        scene_slot_fetch_i,
   input  logic [3:0]  scene_i,             // the bank of the scene in force; not 1
-  input  logic        region_high_i,       // slot 34 comes from word 50
+  input  logic        region_high_i,       // the voltage gain is that of high torque
   output logic [31:0] param_o,
 
   output logic [14:0] control_o,
@@ -35,8 +35,8 @@ module registers #(
   input  logic [31:0] snap_data_i
 );
 
-  localparam logic [5:0] LOW  = 6'(feltgate_pkg::S_VOLTAGE_GAIN);
-  localparam logic [5:0] HIGH = 6'(feltgate_pkg::S_VOLTAGE_GAIN_HIGH);
+  localparam logic [5:0] LOW  = 6'(feltgate_map_pkg::S_VOLTAGE_GAIN);
+  localparam logic [5:0] HIGH = 6'(feltgate_map_pkg::S_VOLTAGE_GAIN_HIGH);
 
   // The waiting write: where it goes (none set: nothing waits), and its word.
   logic        to_parameter_q, to_control_q, to_command_q;
@@ -45,8 +45,8 @@ module registers #(
   logic [31:0] data_q;
 
   assign at_parameter = reg_addr_i[11:9] == 3'd0;
-  assign at_control   = reg_addr_i == feltgate_pkg::A_CONTROL;
-  assign at_command   = reg_addr_i == feltgate_pkg::A_COMMAND;
+  assign at_control   = reg_addr_i == feltgate_map_pkg::A_CONTROL;
+  assign at_command   = reg_addr_i == feltgate_map_pkg::A_COMMAND;
   assign reg_busy_o   = to_parameter_q || to_control_q || to_command_q;
   assign accept       = reg_write_i && !reg_busy_o;
 
@@ -74,9 +74,9 @@ module registers #(
     end
   end
 
-  assign set_zero_o     = tick_i && to_command_q && data_q[feltgate_pkg::B_COMMAND_SET_ZERO];
-  assign clear_faults_o = tick_i && to_command_q && data_q[feltgate_pkg::B_COMMAND_CLEAR_FAULTS];
-  assign kick_o         = tick_i && to_command_q && data_q[feltgate_pkg::B_COMMAND_KICK];
+  assign set_zero_o     = tick_i && to_command_q && data_q[feltgate_map_pkg::B_COMMAND_SET_ZERO];
+  assign clear_faults_o = tick_i && to_command_q && data_q[feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS];
+  assign kick_o         = tick_i && to_command_q && data_q[feltgate_map_pkg::B_COMMAND_KICK];
 
   // Parameter RAM. It keeps what was written through a reset; only configuration loads the values
   // of the design. A word is written in a clock in which no block fetches a word of its own, so
@@ -149,8 +149,8 @@ module registers #(
         // The tick that a freeze ends is the one that is held.
         if (tick_i && !frozen_q) write_bank_q <= !write_bank_q;
         if (tick_i && to_command_q) begin
-          frozen_q <= data_q[feltgate_pkg::B_COMMAND_FREEZE] ||
-                      (frozen_q && !data_q[feltgate_pkg::B_COMMAND_THAW]);
+          frozen_q <= data_q[feltgate_map_pkg::B_COMMAND_FREEZE] ||
+                      (frozen_q && !data_q[feltgate_map_pkg::B_COMMAND_THAW]);
         end
         source_q  <= {at_snapshot || at_control, at_parameter || at_control};
         source_q2 <= source_q;

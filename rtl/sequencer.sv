@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Counts the clocks of a tick, starts one wave per tick and reads the parameter slots ahead of it.
-// Clock c of a tick fetches slot c and is wave clock c-2. Documentation: docs/blocks/sequencer.md
+// Clock c of a tick fetches slot c and is wave clock c - FIRST_WAVE_CLOCK. Documentation: docs/blocks/sequencer.md
 `default_nettype none
 
 module sequencer #(
   parameter int ClocksPerTick = feltgate_pkg::CLOCKS_PER_TICK,  // at least WaveLength
-  parameter int WaveLength    = 50,
+  parameter int WaveLength    = feltgate_map_pkg::WAVE_LENGTH,
   parameter int ResetTicks    = 0  // test only: brings the wrap of the tick count near
 ) (
   input  logic                  clk_i,
@@ -21,9 +21,7 @@ module sequencer #(
 
   localparam int CLOCK_W = (ClocksPerTick > 64) ? $clog2(ClocksPerTick) : 6;
   localparam logic [CLOCK_W-1:0] BEFORE_LAST = CLOCK_W'(ClocksPerTick - 2);
-  localparam int FIRST_WAVE = 1;  // the clock before wave clock 0
-  // Slots of the scene bank: 1, 2, 3, 6, 10, 11, 12 and 14.
-  localparam logic [63:0] SCENE_SLOTS = 64'h0000_0000_0000_5c4e;
+  localparam int BEFORE_WAVE = feltgate_map_pkg::FIRST_WAVE_CLOCK - 1;
 
   logic [CLOCK_W-1:0] clock_q;
   logic [5:0]         next_slot;
@@ -48,8 +46,8 @@ module sequencer #(
       clock_q <= tick_o ? '0 : clock_q + CLOCK_W'(1);
       tick_o  <= clock_q == BEFORE_LAST;
       // After the tick comes slot 0, which is not a scene's; neither is 63 nor its successor.
-      scene_slot_fetch_o <= SCENE_SLOTS[next_slot] && !tick_o && (clock_q < CLOCK_W'(63));
-      wave_o             <= {wave_o[WaveLength-2:0], clock_q == CLOCK_W'(FIRST_WAVE)};
+      scene_slot_fetch_o <= feltgate_map_pkg::SCENE_SLOTS[next_slot] && !tick_o && (clock_q < CLOCK_W'(63));
+      wave_o             <= {wave_o[WaveLength-2:0], clock_q == CLOCK_W'(BEFORE_WAVE)};
       if (tick_o) tick_count_o <= tick_count_o + 32'd1;
     end
   end

@@ -3,7 +3,7 @@
 //
 // N-method velocity: 2^n (or a quantised gain) times the counts of the last m1 ticks, saturated,
 // through a low-pass.
-// Latency: travel sampled in clock 0 (valid_i), operand in 4, product in 8, velocity in 9.
+// Clocks are those of the wave: travel is taken in T_SAMPLE, the product in T_VELOCITY.
 // Formats: travel [1,15,0] wrapping, velocity as the design says. docs/blocks/velocity_n.md
 
 `default_nettype none
@@ -16,7 +16,9 @@ module velocity_n #(
 ) (
     input  logic                                                  clk_i,
     input  logic                                                  rst_ni,
-    input  logic                                                  valid_i,
+    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks
+    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0]       wave_i,
+    /* verilator lint_on UNUSEDSIGNAL */
     input  logic signed [feltgate_pkg::TRAVEL_BITS-1:0]           travel_i,
     output logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] operand_o,
     input  logic signed [feltgate_pkg::PRODUCT_BITS-1:0]          product_i,
@@ -28,12 +30,6 @@ module velocity_n #(
   localparam int F = feltgate_pkg::VELOCITY_F;
   localparam int AddressW = (M1 > 1) ? $clog2(M1 + 1) : 1;
 
-  logic [2:0] stage_q;
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) stage_q <= '0;
-    else stage_q <= {stage_q[1:0], valid_i};
-  end
-
   // Delay line of m1 entries; until it has filled, the position before reset stands for the oldest.
   logic        [       T-1:0] line    [2**AddressW];
   logic        [       T-1:0] line_q;
@@ -41,14 +37,14 @@ module velocity_n #(
   logic                       filled_q;
   logic signed [       T-1:0] travel_q, oldest_q, difference_q;
   always_ff @(posedge clk_i) begin
-    if (stage_q[1]) line[pointer_q] <= travel_q;
+    if (wave_i[feltgate_map_pkg::T_VELOCITY_RAW]) line[pointer_q] <= travel_q;
     line_q <= line[pointer_q];
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       pointer_q <= '0;
       filled_q  <= 1'b0;
-    end else if (stage_q[2]) begin
+    end else if (wave_i[feltgate_map_pkg::T_VELOCITY_DIFFERENCE]) begin
       if (pointer_q == AddressW'(M1 - 1)) begin
         pointer_q <= '0;
         filled_q  <= 1'b1;
@@ -64,11 +60,11 @@ module velocity_n #(
       oldest_q     <= '0;
       difference_q <= '0;
     end else begin
-      if (valid_i) begin
+      if (wave_i[feltgate_map_pkg::T_SAMPLE]) begin
         travel_q <= travel_i;
         oldest_q <= filled_q ? line_q : '0;
       end
-      if (stage_q[0]) difference_q <= travel_q - oldest_q;
+      if (wave_i[feltgate_map_pkg::T_TRAVEL]) difference_q <= travel_q - oldest_q;
     end
   end
 
@@ -96,7 +92,7 @@ module velocity_n #(
     if (!rst_ni) begin
       raw_q       <= '0;
       saturated_o <= 1'b0;
-    end else if (stage_q[1]) begin
+    end else if (wave_i[feltgate_map_pkg::T_VELOCITY_RAW]) begin
       raw_q       <= over ? {difference_q[T-1], {(W - 1) {~difference_q[T-1]}}} : raw;
       saturated_o <= over;
     end
@@ -110,7 +106,8 @@ module velocity_n #(
   ) u_lowpass (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
-      .valid_i(stage_q[2]),
+      .valid_i(wave_i[feltgate_map_pkg::T_VELOCITY_DIFFERENCE]),
+      .update_i(wave_i[feltgate_map_pkg::T_VELOCITY]),
       .follow_i(1'b0),
       .x_i(raw_q),
       .operand_o(operand_o),

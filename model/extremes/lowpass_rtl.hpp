@@ -44,7 +44,9 @@ class LowpassAlone {
     const std::int64_t operand = static_cast<std::int64_t>(rtl_->operand_o << 31) >> 31;
     for (int k = 0; k < 4; ++k) edge();
     rtl_->product_i = static_cast<std::uint64_t>(operand * a1) & ((std::uint64_t{1} << 53) - 1);
+    rtl_->update_i = 1;
     edge();
+    rtl_->update_i = 0;
     return static_cast<std::int32_t>(rtl_->y_o);
   }
   double seconds() const { return static_cast<double>(clocks_) * 20e-9; }

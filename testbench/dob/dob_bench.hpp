@@ -39,7 +39,7 @@ inline void tick(Observer& observer, const Wave& w) {
 struct Adapter {
   static void drive(Vdob& rtl, const Twin::In& in) {
     rtl.armed_i = in.port.armed;
-    rtl.valid_i = in.port.valid;
+    rtl.wave_i = in.port.wave;
     rtl.product_i = port_bits<53, std::uint64_t>(in.port.product);
   }
   template <class Check>
@@ -53,8 +53,10 @@ struct Adapter {
 
 using Bench = LockStep<Vdob, Twin, Adapter>;
 
-/// Waves of next(wave number), 16 clocks apart or more. Operands of current and velocity lead by
-/// four clocks.
+/// In this clock the step T is taken.
+inline bool at(const Twin::In& in, int t) { return ((in.port.wave >> t) & 1u) != 0; }
+
+/// The clocks of the observer in waves of next(wave number).
 template <class Next>
 struct Waves {
   Waves(std::uint64_t seed, Next n, std::uint32_t more_clocks)
@@ -69,15 +71,15 @@ struct Waves {
     if (clock == kStart) {
       in.aside = next(wave++);
       in.port.armed = in.aside.armed;
-      period = 16 + static_cast<int>(gaps.below(spread));
+      period = kShortest + static_cast<int>(gaps.below(spread));
     }
-    in.port.valid = clock == 0;
+    in.port.wave = clock < Map::wave_length ? std::uint64_t{1} << clock : 0;
     in.port.product = mult.product();
-    if (clock == -4) {
+    if (clock == Map::W::torque_constant) {
       mult.operands(in.aside.current, in.aside.torque_constant);
-    } else if (clock == -3) {
+    } else if (clock == Map::W::inertia_gain) {
       mult.operands(in.aside.velocity, in.aside.inertia_gain);
-    } else if (clock == 3) {
+    } else if (clock == Map::W::observer_a1) {
       mult.operands(out.port.operand, in.aside.a1);
     } else {
       mult.others();
@@ -86,14 +88,15 @@ struct Waves {
     return in;
   }
 
-  static constexpr int kStart = -4;
+  static constexpr int kStart = Map::W::torque_constant;
+  static constexpr int kShortest = Map::T::tau_hat + 2 - kStart;
   Next next;
   SharedMult mult;
   Random gaps;
   std::uint32_t spread;
   Twin::In in;
   std::int64_t resets = 0, wave = 0;
-  int clock = kStart, period = 16;
+  int clock = kStart, period = kShortest;
 };
 
 /// Currents and velocities of every size, held or jumping; coefficients of the design or any;
@@ -133,21 +136,18 @@ struct Tally {
   std::int64_t waves = 0, armed = 0, saturated = 0, arming = 0, disarmed_in_motion = 0;
 };
 
-/// tau_hat of tick() is due eleven clocks after valid; disarmed it is 0.
+/// tau_hat of tick() is due in the clock after its step; disarmed it is 0.
 struct TickBeside {
   Tally* tally;
   Observer shadow{};
-  int since_valid = 99;
   bool was_armed = false;
 
   const char* operator()(const Twin::In& in, const Vdob& rtl, const Twin&, bool in_reset) {
     if (in_reset) {
       shadow.reset();
-      since_valid = 99;
       return nullptr;
     }
-    since_valid = in.port.valid ? 0 : since_valid + 1;
-    if (since_valid != 10) return nullptr;
+    if (!at(in, Map::T::tau_hat)) return nullptr;
     tick(shadow, in.aside);
     ++tally->waves;
     if (in.port.armed) ++tally->armed;

@@ -25,14 +25,12 @@ double nm(std::int64_t tau_hat) { return std::ldexp(static_cast<double>(tau_hat)
 template <class Next>
 std::vector<std::int64_t> observe(Next next, std::int64_t waves) {
   std::vector<std::int64_t> tau_hat;
-  int since_valid = 99;
   const auto keep = [&](const Twin::In& in, const Vdob& rtl, const Twin&, bool in_reset) {
-    since_valid = in.port.valid && !in_reset ? 0 : since_valid + 1;
-    if (since_valid == 10) tau_hat.push_back(sign_extend<21>(rtl.tau_hat_o));
+    if (!in_reset && at(in, Map::T::tau_hat)) tau_hat.push_back(sign_extend<21>(rtl.tau_hat_o));
     return static_cast<const char*>(nullptr);
   };
   Bench bench("dob", 3);
-  bench.run(Waves<Next>(3, next, 1), 16 * waves + 10, {}, keep);
+  bench.run(Waves<Next>(3, next, 1), Waves<Next>::kShortest * waves + 10, {}, keep);
   return tau_hat;
 }
 

@@ -40,6 +40,7 @@ struct Adapter {
 
   static void drive(Vlowpass& rtl, const Twin::In& in) {
     rtl.valid_i = in.port.valid;
+    rtl.update_i = in.port.update;
     rtl.follow_i = in.port.follow;
     rtl.x_i = port_bits<kState.width(), word<decltype(rtl.x_i)>>(in.port.x);
     rtl.product_i = port_bits<53, std::uint64_t>(in.port.product);
@@ -71,6 +72,7 @@ struct Samples {
       period = 6 + static_cast<int>(gaps.below(spread));
     }
     in.port.valid = clock == 0;
+    in.port.update = clock == kUpdate;
     in.port.product = mult.product();
     if (clock == 1) {
       mult.operands(out.port.operand, in.aside.a1);
@@ -81,6 +83,7 @@ struct Samples {
     return in;
   }
 
+  static constexpr int kUpdate = 5;  // the product of the operand that is there from clock 1 on
   Next next;
   SharedMult mult;
   Random gaps;
@@ -131,20 +134,17 @@ struct Tally {
   std::int64_t samples = 0, followed = 0, growth_bit_used = 0, still = 0, up = 0, down = 0;
 };
 
-/// y += floor(a1 * floor(d / 2^k) / 2^drop + 1/2) in plain integers, due six clocks after valid.
+/// y += floor(a1 * floor(d / 2^k) / 2^drop + 1/2) in plain integers, due a clock after update.
 struct PlainIntegers {
   Tally* tally;
   std::int64_t y = 0;
-  int since_valid = 99;
 
   const char* operator()(const Twin::In& in, const Vlowpass& rtl, const Twin&, bool in_reset) {
     if (in_reset) {
       y = 0;
-      since_valid = 99;
       return nullptr;
     }
-    since_valid = in.port.valid ? 0 : since_valid + 1;
-    if (since_valid == 5) sample(in);
+    if (in.port.update) sample(in);
     return sign_extend<kState.width()>(rtl.y_o) == y ? nullptr : "y of the law in plain integers";
   }
   void sample(const Twin::In& in) {

@@ -37,7 +37,7 @@ TEST_CASE("registers: after configuration the RAM holds the design's values") {
   for (std::uint8_t scene = 0; scene < 16; ++scene) {
     host.scene = scene;
     for (int slot = 0; slot < 48; ++slot) {
-      const bool of_scene = slot < 16 && ((0x5c4e >> slot) & 1) != 0;
+      const bool of_scene = ((feltgate::Map::scene_slots >> slot) & 1u) != 0;
       const int address = of_scene ? scene * 32 + slot : slot;
       REQUIRE(host.bus(slot) == host.twin().parameter(address));
     }

@@ -27,7 +27,7 @@ inline A1 design_a1() { return A1::from_raw(parameter(Design::A::velocity_a1).ra
 
 struct Adapter {
   static void drive(Vvelocity_n& rtl, const Twin::In& in) {
-    rtl.valid_i = in.port.valid;
+    rtl.wave_i = in.port.wave;
     rtl.travel_i = port_bits<16, std::uint16_t>(in.port.travel);
     rtl.product_i = port_bits<53, std::uint64_t>(in.port.product);
   }
@@ -41,6 +41,9 @@ struct Adapter {
 };
 
 using Bench = LockStep<Vvelocity_n, Twin, Adapter>;
+
+/// Travel is taken in this clock.
+inline bool sampled(const Twin::In& in) { return ((in.port.wave >> Map::T::sample) & 1u) != 0; }
 
 /// The last bits of a count that never stops.
 inline std::int16_t wrapped_travel(std::int64_t count) {
@@ -61,14 +64,14 @@ struct Waves {
       tick = 0;
     }
     Twin::In in;
-    in.port.valid = clock == 0;
+    in.port.wave = std::uint64_t{1} << clock;
     in.port.travel = wrapped_travel(static_cast<std::int64_t>(random.bits() >> 1));
     if (clock == 0) {
       in.port.travel = wrapped_travel(count(tick++));
-      period = 10 + static_cast<int>(random.below(spread));
+      period = kShortest + static_cast<int>(random.below(spread));
     }
     in.port.product = mult.product();
-    if (clock == 4) {
+    if (clock == Map::W::velocity_a1) {
       mult.operands(out.port.operand, design_a1().raw());
     } else {
       mult.others();
@@ -77,12 +80,13 @@ struct Waves {
     return in;
   }
 
+  static constexpr int kShortest = Map::T::velocity + 2;
   Count count;
   SharedMult mult;
   Random random;
   std::uint32_t spread;
   std::int64_t resets = 0, tick = 0;
-  int clock = 0, period = 10;
+  int clock = 0, period = kShortest;
 };
 
 /// A hand on the encoder: rest, slow, fast, faster than the format, reversals; rarely a count that
@@ -114,13 +118,13 @@ struct Tally {
   std::int64_t last_velocity = 0;
 };
 
-/// tick() beside clock(), and the N-method in plain integers, both due in clock 9 of a wave.
+/// tick() beside clock(), and the N-method in plain integers, both due in the clock after the
+/// velocity's step.
 struct Reference {
   Tally* tally;
   std::vector<std::int64_t> counts{};  // of every tick since reset, as 16-bit numbers
   Velocity shadow{};
   std::int64_t y = 0;
-  int since_valid = 99;
 
   const char* operator()(const Twin::In& in, const Vvelocity_n& rtl, const Twin& twin,
                          bool in_reset) {
@@ -128,17 +132,15 @@ struct Reference {
       shadow.reset();
       counts.clear();
       y = 0;
-      since_valid = 99;
       return nullptr;
     }
-    since_valid = in.port.valid ? 0 : since_valid + 1;
-    if (in.port.valid) {
+    if (sampled(in)) {
       shadow.tick(in.port.travel, design_a1());
       counts.push_back(in.port.travel);
     }
     const std::int64_t velocity = sign_extend<Design::f.velocity.width()>(rtl.velocity_o);
     tally->last_velocity = velocity;
-    if (since_valid == 8) {
+    if (((in.port.wave >> Map::T::velocity) & 1u) != 0) {
       y = next();
       if (shadow.velocity() != twin.block.velocity())
         return "velocity of tick() is that of clock()";

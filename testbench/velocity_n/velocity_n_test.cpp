@@ -88,7 +88,7 @@ TEST_CASE("velocity_n: the counter's wrap does not show") {
     constexpr std::int64_t per_count = exact_ticks();
     const std::int64_t last = 32768 * per_count + 3000;
     const auto watch = [&](const Twin::In& in, const Vvelocity_n& rtl, const Twin&, bool in_reset) {
-      if (in_reset || !in.port.valid) return static_cast<const char*>(nullptr);
+      if (in_reset || !sampled(in)) return static_cast<const char*>(nullptr);
       const std::int64_t velocity = sign_extend<32>(rtl.velocity_o);
       if (++ticks == 60000) settled = velocity;
       if (ticks > 60000 && velocity != settled) ++changes;
@@ -112,7 +112,7 @@ TEST_CASE("velocity_n: right from the first tick after reset") {
     if (in_reset) {
       tick = 0;
       exact_velocity = 0;
-    } else if (in.port.valid) {
+    } else if (sampled(in)) {
       // The velocity on the port belongs to the tick before.
       const quad error = magnitude(exact_velocity - quad{rad_s(sign_extend<32>(rtl.velocity_o))});
       if (error > worst) worst = error;

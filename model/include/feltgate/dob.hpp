@@ -8,6 +8,7 @@
 
 #include <cstdint>
 
+#include "feltgate/generated/map.hpp"
 #include "feltgate/lowpass.hpp"
 #include "feltgate/numbers.hpp"
 
@@ -55,8 +56,8 @@ class Dob {
 
   struct In {
     bool armed = false;
-    bool valid = false;  ///< product is Ktn*I; the next clock's is g*Jn*w
-    std::int64_t product = 0;
+    std::uint64_t wave = 0;
+    std::int64_t product = 0;  ///< Ktn*I in T::drive_torque, g*Jn*w in T::observer_input
   };
   struct Out {
     std::int64_t operand = 0;
@@ -66,25 +67,24 @@ class Dob {
 
   void reset() {
     filter_.reset();
-    stage_ = 0;
     tau_hat_ = typename Law::Torque{};
     out_ = {};
   }
 
   void clock(const In& in) {
-    const bool done = (stage_ & 0x200u) != 0;
-    filter_.clock(
-        {(stage_ & 2u) != 0, !in.armed, static_cast<std::int64_t>(input_.raw()), in.product});
-    if (done) observe();
-    if ((stage_ & 1u) != 0) {
+    const auto at = [&in](int t) { return ((in.wave >> t) & 1u) != 0; };
+    using T = Map::T;
+    filter_.clock({at(T::observer_difference), at(T::observer_state), !in.armed,
+                   static_cast<std::int64_t>(input_.raw()), in.product});
+    if (at(T::tau_hat)) observe();
+    if (at(T::observer_input)) {
       inertia_ = Law::inertia(decltype(Velocity{} * InertiaGain{})::from_raw(in.product));
       input_ = Law::input(drive_, inertia_);
     }
-    if (in.valid) {
+    if (at(T::drive_torque)) {
       drive_ = in.armed ? Law::drive(decltype(Current{} * TorqueConstant{})::from_raw(in.product))
                         : typename Law::Drive{};
     }
-    stage_ = ((stage_ << 1) | (in.valid ? 1u : 0u)) & 0x3ffu;
     out_.operand = filter_.out().operand;
   }
 
@@ -112,7 +112,6 @@ class Dob {
 
   Lowpass<D::f.observer.key(), D::f.observer_difference.key(), D::P::observer_a1.key(), D::rounding>
       filter_;
-  unsigned stage_ = 0;
   typename Law::Drive drive_{};
   typename Law::Inertia inertia_{};
   typename Law::State input_{};

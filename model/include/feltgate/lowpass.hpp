@@ -62,10 +62,11 @@ class Lowpass {
   using Product = decltype(typename Law::Operand{} * fixed_of<CoefficientKey>{});
 
   struct In {
-    bool valid = false;        ///< x is new
-    bool follow = false;       ///< y := x instead of filtering
-    std::int64_t x = 0;        ///< held until the new y
-    std::int64_t product = 0;  ///< five clocks after valid: a1 * operand
+    bool valid = false;   ///< x is new
+    bool update = false;  ///< product is a1 * operand
+    bool follow = false;  ///< y := x instead of filtering
+    std::int64_t x = 0;   ///< held until the new y
+    std::int64_t product = 0;
   };
   struct Out {
     std::int64_t operand = 0;
@@ -73,17 +74,14 @@ class Lowpass {
   };
 
   void reset() {
-    stage_ = 0;
     y_ = State{};
     out_ = {};
   }
 
   void clock(const In& in) {
-    const bool take = (stage_ & 0x10u) != 0;
     const State x = State::from_raw(static_cast<typename State::raw_type>(in.x));
     if (in.valid) out_.operand = static_cast<std::int64_t>(Law::operand(x, y_).raw());
-    if (take) y_ = in.follow ? x : Law::next(y_, Product::from_raw(in.product));
-    stage_ = ((stage_ << 1) | (in.valid ? 1u : 0u)) & 0x1fu;
+    if (in.update) y_ = in.follow ? x : Law::next(y_, Product::from_raw(in.product));
     out_.y = static_cast<std::int64_t>(y_.raw());
   }
 
@@ -96,7 +94,6 @@ class Lowpass {
   }
 
  private:
-  unsigned stage_ = 0;
   State y_{};
   Out out_;
 };

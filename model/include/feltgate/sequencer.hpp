@@ -2,14 +2,16 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/sequencer.sv: clocks of a tick, waves, slots to fetch. Clock c of a tick fetches slot
-// c and is wave clock c-2. Documentation: docs/blocks/sequencer.md
+// c and is wave clock c - Map::first_wave_clock. Documentation: docs/blocks/sequencer.md
 #pragma once
 
 #include <cstdint>
 
+#include "feltgate/generated/map.hpp"
+
 namespace feltgate {
 
-/// Counts ticks of ClocksPerTick clocks (at least 50) from a reset on.
+/// Counts ticks of ClocksPerTick clocks (at least Map::wave_length) from a reset on.
 template <int ClocksPerTick, std::uint32_t ResetTicks = 0>
 class Sequencer {
  public:
@@ -18,12 +20,12 @@ class Sequencer {
     bool tick = false;              ///< last clock of a tick
     int slot_fetch = 0;             ///< slot whose word is on the bus two clocks later, 0..63
     bool scene_slot_fetch = false;  ///< that slot lies in the scene's bank
-    std::uint64_t wave = 0;         ///< one-hot: bit t in wave clock t, 0..49
+    std::uint64_t wave = 0;         ///< one-hot: bit t in wave clock t
     std::uint32_t tick_count = 0;   ///< ticks since reset, wraps
   };
 
-  /// Slots of the scene bank: 1, 2, 3, 6, 10, 11, 12, 14.
-  static constexpr std::uint64_t kSceneSlots = 0x5c4e;
+  /// Slots of the scene bank.
+  static constexpr std::uint64_t kSceneSlots = Map::scene_slots;
 
   Sequencer() { reset(); }
 
@@ -63,9 +65,9 @@ class Sequencer {
   }
 
  private:
-  static constexpr int kWaveLength = 50;
+  static constexpr int kWaveLength = Map::wave_length;
   static_assert(ClocksPerTick >= kWaveLength, "a wave must end before the next one starts");
-  static constexpr int kFirstWaveClock = 2;  // wave clock 0
+  static constexpr int kFirstWaveClock = Map::first_wave_clock;
   static constexpr std::uint64_t kWaveMask = (std::uint64_t{1} << kWaveLength) - 1;
 
   /// Outputs of the clock, once a tick has run since the reset.

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 
+#include "feltgate/generated/map.hpp"
 #include "feltgate/lowpass.hpp"
 #include "feltgate/numbers.hpp"
 
@@ -71,9 +72,9 @@ class VelocityN {
   using A1 = fixed_of<D::P::velocity_a1.key()>;
 
   struct In {
-    bool valid = false;  ///< clock 0 of the wave: travel is sampled
-    std::int16_t travel = 0;
-    std::int64_t product = 0;  ///< in clock 8: a1 * operand
+    std::uint64_t wave = 0;
+    std::int16_t travel = 0;   ///< taken in T::sample
+    std::int64_t product = 0;  ///< in T::velocity: a1 * operand
   };
   struct Out {
     std::int64_t operand = 0;
@@ -84,25 +85,25 @@ class VelocityN {
   void reset() {
     line_.reset();
     filter_.reset();
-    stage_ = 0;
     travel_ = oldest_ = difference_ = 0;
     raw_ = Velocity{};
     out_ = {};
   }
 
   void clock(const In& in) {
-    filter_.clock({(stage_ & 4u) != 0, false, raw_.raw(), in.product});
-    if ((stage_ & 4u) != 0) line_.push(travel_);
-    if ((stage_ & 2u) != 0) {
+    const auto at = [&in](int t) { return ((in.wave >> t) & 1u) != 0; };
+    using T = Map::T;
+    filter_.clock({at(T::velocity_difference), at(T::velocity), false, raw_.raw(), in.product});
+    if (at(T::velocity_difference)) line_.push(travel_);
+    if (at(T::velocity_raw)) {
       out_.saturated = false;
       raw_ = Law::raw(difference_, &out_.saturated);
     }
-    if ((stage_ & 1u) != 0) difference_ = travel_difference(travel_, oldest_);
-    if (in.valid) {
+    if (at(T::travel)) difference_ = travel_difference(travel_, oldest_);
+    if (at(T::sample)) {
       travel_ = in.travel;
       oldest_ = line_.oldest();
     }
-    stage_ = ((stage_ << 1) | (in.valid ? 1u : 0u)) & 7u;
     out_.operand = filter_.out().operand;
     out_.velocity = filter_.out().y;
   }
@@ -125,7 +126,6 @@ class VelocityN {
   DelayLine<D::m1> line_;
   Lowpass<D::f.velocity.key(), D::f.velocity_difference.key(), D::P::velocity_a1.key(), D::rounding>
       filter_;
-  unsigned stage_ = 0;
   std::int16_t travel_ = 0, oldest_ = 0, difference_ = 0;
   Velocity raw_{};
   Out out_;

@@ -66,6 +66,7 @@ module feltgate_core #(
   logic [               49:0] wave;
   logic [               31:0] param;
   logic signed [OperandW-1:0] operand;
+  logic                       snap_valid;
   logic signed [ProductW-1:0] velocity_product, dob_product, scene_product, control_product;
   logic signed [ProductW-1:0] supervisor_product;  // all the same where one multiplier is shared
 
@@ -382,7 +383,6 @@ module feltgate_core #(
                        .product_o(supervisor_product));
   end
 
-  logic snap_valid;
   assign snap_valid =
       wave[feltgate_pkg::R_TICK] || wave[feltgate_pkg::R_POSITION] || wave[feltgate_pkg::R_STATUS] ||
       wave[feltgate_pkg::R_ENCODER] || wave[feltgate_pkg::R_INDEX] ||

@@ -88,7 +88,7 @@ module registers #(
     for (int i = 0; i < 512; i++) parameter_ram[i] = feltgate_pkg::parameter_reset(9'(i));
   end
 
-  always_ff @(posedge clk_i) begin
+  always @(posedge clk_i) begin  // not always_ff: the values of the design are written by another process
     if (tick_i && to_parameter_q) parameter_ram[address_q] <= data_q;
   end
 
@@ -130,7 +130,7 @@ module registers #(
     assign read_bank   = !write_bank_q;
     assign at_snapshot = reg_addr_i[11:6] == 6'h0c;
 
-    always_ff @(posedge clk_i) begin
+    always @(posedge clk_i) begin
       if (snap_valid_i) snapshot_ram[{write_bank_q, snap_slot_i}] <= snap_data_i;
     end
     always_ff @(posedge clk_i) snapshot_q <= snapshot_ram[{read_bank, reg_addr_i[5:0]}];

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# Configures and builds out of tree with CMake and Ninja; the Python venv of synth. Sourced by
+# Configures and builds out of tree with CMake and Ninja; Python venvs. Sourced by
 # feltgate. All messages go to stderr, so that the program's stdout stays its own.
 
 # Copies stdin to a log; shows its newest line on a terminal, or one line every ten seconds.
@@ -72,17 +72,20 @@ build() {
   exec 9>&-
 }
 
-# The pinned Yosys and nextpnr, in a venv that is remade when scripts/requirements.txt changes.
+# need_venv GROUP: the packages that scripts/requirements.txt pins for the group, in a venv of their own
+# that is remade when the pins change. FELTGATE_VENV is its folder.
 need_venv() {
-  local venv=$BUILD/venv pins=$ROOT/scripts/requirements.txt
-  if ! cmp -s "$pins" "$venv/requirements.txt"; then
+  local group=$1 venv=$BUILD/venv-$1 pins
+  pins=$(sed -n "/^# $group: /,/^# [a-z]*: /{/^[^#]/p}" "$ROOT/scripts/requirements.txt")
+  if [[ ! -f $venv/requirements.txt || $(<"$venv/requirements.txt") != "$pins" ]]; then
     lock_build
-    say "fetching Yosys and nextpnr for ECP5 from PyPI into $venv, once"
+    say "fetching $(sed -n "s/^# $group: //p" "$ROOT/scripts/requirements.txt") from PyPI, once"
     rm -rf "$venv"
-    run_logged "Python venv" "$STATE/venv.log" "$FELTGATE_PYTHON" -m venv "$venv" || exit
-    run_logged "Python packages" "$STATE/pip.log" "$venv/bin/pip" install \
-      --disable-pip-version-check -r "$pins" || exit
-    cp "$pins" "$venv/requirements.txt"
+    run_logged "Python venv" "$STATE/venv-$group.log" "$FELTGATE_PYTHON" -m venv "$venv" || exit
+    printf '%s\n' "$pins" >"$STATE/requirements-$group.txt"
+    run_logged "Python packages" "$STATE/pip-$group.log" "$venv/bin/pip" install \
+      --disable-pip-version-check -r "$STATE/requirements-$group.txt" || exit
+    cp "$STATE/requirements-$group.txt" "$venv/requirements.txt"
     exec 9>&-
   fi
   export FELTGATE_VENV=$venv PATH=$venv/bin:$PATH

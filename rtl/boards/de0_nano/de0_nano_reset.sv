@@ -14,17 +14,11 @@ module de0_nano_reset #(
   output logic rst_no
 );
 
-  logic                open_meta_q, open_q;
-  logic [HoldBits-1:0] hold_q;
-  logic                rst_n_q;
-
   // The FPGA's configuration loads these; nothing else resets the reset.
-  initial begin
-    open_meta_q = 1'b0;
-    open_q      = 1'b0;
-    hold_q      = '0;
-    rst_n_q     = 1'b0;
-  end
+  logic                open_meta_q = 1'b0;
+  logic                open_q      = 1'b0;
+  logic [HoldBits-1:0] hold_q      = '0;
+  logic                rst_n_q     = 1'b0;
 
   always_ff @(posedge clk_i or negedge key_ni) begin
     if (!key_ni) begin

@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "feltgate/dob.hpp"
+#include "feltgate/generated/map.hpp"
 #include "feltgate/scenes.hpp"
 #include "feltgate/torque_control.hpp"
 #include "feltgate/velocity_n.hpp"
@@ -127,13 +128,14 @@ class ChainTick {
   bool limit_ramp() const { return scenes_.limit_ramp(); }
   bool limit_velocity() const { return estimator_.limit; }
   bool limit_tau_hat() const { return observer_.limit; }
-  /// The same as bits 0 to 6 of the limits word: torque, ramp, current, voltage, duty, velocity,
-  /// tau_hat.
+  /// The same as bits of the limits word.
   std::uint8_t limits() const {
-    return static_cast<std::uint8_t>(limit_torque() | limit_ramp() << 1 |
-                                     control_.limit.current << 2 | control_.limit.voltage << 3 |
-                                     control_.limit.duty << 4 | estimator_.limit << 5 |
-                                     observer_.limit << 6);
+    using L = Map::L;
+    return static_cast<std::uint8_t>(
+        limit_torque() << L::torque | limit_ramp() << L::ramp |
+        control_.limit.current << L::current | control_.limit.voltage << L::voltage |
+        control_.limit.duty << L::duty | estimator_.limit << L::velocity |
+        observer_.limit << L::tau_hat);
   }
 
  private:

@@ -20,7 +20,7 @@ void FeltgateCore<D, ReadBack>::run(const In& in, std::int64_t clocks, OnSnapsho
   constexpr int tick = D::clocks_per_tick;
   bool settled = false;  // as far as known; holds until a clock() changes the decoder's inputs
   while (clocks > 0) {
-    const int from = sequencer_.clock_of_tick();
+    const int from = clock_;
     const bool at_rest = !registers_.out().reg_busy && !zero_pending_;
     if (!can_pass(in) || (from == tick - 1 && !at_rest)) {
       clock(in);
@@ -40,7 +40,6 @@ void FeltgateCore<D, ReadBack>::run(const In& in, std::int64_t clocks, OnSnapsho
         pass_tick<true>(in, on_snapshot);
         registers_.skip_tick(in.reg_addr);
       }
-      sequencer_.skip_ticks(ticks);
       show();
       clocks -= std::int64_t{ticks} * tick;
     } else {
@@ -56,10 +55,9 @@ void FeltgateCore<D, ReadBack>::run(const In& in, std::int64_t clocks, OnSnapsho
 /// Nothing is under way that asks for clock(): an error or a stop, or the first tick.
 template <class D, bool ReadBack>
 bool FeltgateCore<D, ReadBack>::can_pass(const In& in) const {
-  return sequencer_.out().tick_count != 0 && supervisor_.steady(in.stop) &&
+  return out_.tick_count != 0 && supervisor_.steady(in.stop) &&
          !(in.stop && supervisor_.out().gates_enable) && !decoder_.out().illegal &&
-         !(in_supervisor_wave(sequencer_.clock_of_tick()) &&
-           passed_to_ != sequencer_.clock_of_tick());
+         !(amid_supervisor() && passed_to_ != clock_);
 }
 
 /// As long as the inputs hold, `clocks` clocks from now change neither the duty in force nor the
@@ -67,7 +65,7 @@ bool FeltgateCore<D, ReadBack>::can_pass(const In& in) const {
 /// is always right.
 template <class D, bool ReadBack>
 bool FeltgateCore<D, ReadBack>::calm(const In& in, std::int64_t clocks) const {
-  if (sequencer_.clock_of_tick() != 0 || clocks >= kSnapshot || gates_.clocks_to_duty() < clocks ||
+  if (clock_ != 0 || clocks >= kSnapshot || gates_.clocks_to_duty() < clocks ||
       registers_.out().reg_busy || zero_pending_ || !can_pass(in) ||
       !decoder_.settled(decoder_inputs(in, false, false))) {
     return false;
@@ -83,67 +81,68 @@ bool FeltgateCore<D, ReadBack>::calm(const In& in, std::int64_t clocks) const {
 /// The next clock after `from` in which the wave looks at the decoder.
 template <class D, bool ReadBack>
 int FeltgateCore<D, ReadBack>::next_look_at_decoder(int from) {
-  for (const int t : {0, 2, 11, 14}) {
-    if (from < t + kWave) return t + kWave;
+  using R = Map::R;
+  int next = D::clocks_per_tick;
+  for (const int t : {T::sample, R::status, R::index, R::encoder}) {
+    const int look = core_steps::clock_of(t);
+    if (from < look) next = std::min(next, look);
   }
-  return D::clocks_per_tick;
+  return next;
 }
 
-/// A whole tick but for registers and sequencer, the decoder at rest. `Read`: the host may see its
-/// words.
+/// A step in a stretch; each of the supervisor's stands for all its clocks up to this one.
+template <class D, bool ReadBack>
+template <bool Read, class OnSnapshot>
+[[gnu::always_inline]] inline void FeltgateCore<D, ReadBack>::take_in(
+    Stretch& s, Step step, const QuadDecoder::Out& decoded, OnSnapshot&& on_snapshot) {
+  const auto& words = supervisor_words_;
+  const auto velocity = static_cast<std::int32_t>(out_.velocity);
+  switch (step) {
+    case Step::speed:
+      if (s.to < after(T::polarity)) before_wave_ = supervisor_;
+      if (supervisor_.at_speed(words, operand_v_, operand_w_, velocity)) s.close(after(T::speed));
+      return;
+    case Step::heat:
+      if (supervisor_.at_heat(words)) s.close(after(T::heat));
+      return;
+    case Step::polarity:
+      if (supervisor_.at_polarity(words, velocity, out_.current_ref)) s.close(after(T::polarity));
+      return;
+    case Step::watchdog:
+      if (supervisor_.at_watchdog(words)) s.close(after(T::watchdog));
+      return;
+    case Step::duty:
+      gates_to(s, after(T::duty));
+      break;
+    case Step::snapshot:
+      if (kSnapshotLast) return;
+      gates_to(s, kSnapshot);
+      show_state();
+      out_.snapshot_valid = true;
+      on_snapshot();
+      out_.snapshot_valid = false;
+      return;
+    default:
+      break;
+  }
+  take<Read>(step, decoded);
+}
+
+/// A whole tick but for the registers, the decoder at rest. `Read`: the host may see its words.
 template <class D, bool ReadBack>
 template <bool Read, class OnSnapshot>
 void FeltgateCore<D, ReadBack>::pass_tick(const In& in, OnSnapshot&& on_snapshot) {
-  constexpr int tick = D::clocks_per_tick;
-  const QuadDecoder::Out& decoded = decoder_.out();
-  const auto keep = [&](std::initializer_list<int> clocks) {
-    if (!Read) return;
-    for (const int t : clocks) registers_.write_snapshot(t, snapshot_word(t, decoded));
-  };
-  keep({0, 2});  // the status before this tick's limits
-  operand_v_ = out_.voltage * factor(supervisor_words_.inverse_resistance);
-  operand_w_ = out_.velocity * factor(supervisor_words_.emf_over_resistance);
-  const std::int32_t current_before = out_.current_ref;
-  const std::int16_t duty_before = out_.duty;
-  wave_.tick(decoded.position, static_cast<std::int16_t>(decoded.travel), mode(), out_);
-  keep({1, 9, 11, 14, 23, 28, 34, 40, 46});
-
-  const auto velocity = static_cast<std::int32_t>(out_.velocity);
-  const bool enabled = out_.gates_enable;
-  int open = enabled ? kNever : 0;  // the gates are open before this clock
-  if (supervisor_.at_speed(supervisor_words_, operand_v_, operand_w_, velocity)) open = kSpeed;
-  if (supervisor_.at_heat(supervisor_words_)) open = kHeat;
-  if (supervisor_.at_polarity(supervisor_words_, velocity, current_before)) open = kPolarity;
-  const bool quiet = (open == kNever || !enabled) && gates_.quiet_for(tick, enabled);
-  if (!quiet) advance_gates_by_duty(open, duty_before);
-  show_state();
-  out_.snapshot_valid = true;
-  on_snapshot();
-  out_.snapshot_valid = false;
-  if (supervisor_.at_watchdog(supervisor_words_)) open = kWatchdog;
-  end_of_tick(in);
-  const bool live = supervisor_.out().gates_enable;
-  if (quiet && live == enabled) {
-    gates_.pass(tick);
-  } else {
-    advance_gates(quiet ? 0 : kSnapshot, tick - 1, open, out_.duty);
-    gates_.advance(pwm_inputs(tick - 1 < open, out_.duty), 1, live);
-  }
+  Stretch s = stretch(0, D::clocks_per_tick);
+  core_steps::for_each_step(
+      [&](Step step) { take_in<Read>(s, step, decoder_.out(), on_snapshot); });
+  finish(in, s);
   out_.armed = supervisor_.out().armed;
-  out_.gates_enable = live;
+  out_.gates_enable = supervisor_.out().gates_enable;
   ++out_.tick_count;
-}
-
-/// Gates of a tick up to the snapshot.
-template <class D, bool ReadBack>
-void FeltgateCore<D, ReadBack>::advance_gates_by_duty(int open, std::int16_t duty_before) {
-  // In most ticks no duty is taken after the new one has come.
-  const int taken = gates_.clocks_to_duty();
-  if (D::pwm_period >= kSnapshot && (taken < kDuty || taken >= kSnapshot)) {
-    advance_gates(0, kSnapshot, open, duty_before);
-  } else {
-    advance_gates(0, kDuty, open, duty_before);
-    advance_gates(kDuty, kSnapshot, open, out_.duty);
+  out_.snapshot_valid = kSnapshotLast;
+  if (kSnapshotLast) {
+    show_state();
+    on_snapshot();
   }
 }
 
@@ -163,67 +162,17 @@ template <class OnSnapshot>
 int FeltgateCore<D, ReadBack>::pass(const In& in, int from, int to, OnSnapshot&& on_snapshot) {
   const QuadDecoder::Out decoded = decoder_.out();
   to = advance_decoder(in, from, to);
-  const auto has = [from, to](int t) { return from <= t + kWave && t + kWave < to; };
-  const auto keep = [&](int t) {
-    if (ReadBack && has(t)) registers_.write_snapshot(t, snapshot_word(t, decoded));
-  };
-  const auto wave = [&](int t) {
-    if (has(t)) {
-      wave_.clock(t, decoded.position, static_cast<std::int16_t>(decoded.travel), mode(), out_);
-    }
-  };
-  int open = supervisor_.out().gates_enable ? kNever : 0;  // the gates are open before this clock
-  out_.snapshot_valid = false;
-  keep(0);
-  wave(0);
-  keep(1);
-  keep(2);
-  wave(2);
-  if (has(5)) operand_v_ = out_.voltage * factor(supervisor_words_.inverse_resistance);
-  if (has(7)) operand_w_ = out_.velocity * factor(supervisor_words_.emf_over_resistance);
-  wave(8);
-  for (const int t : {9, 11, 14}) keep(t);
-  const auto velocity = static_cast<std::int32_t>(out_.velocity);
-  if (has(17)) {
-    before_wave_ = supervisor_;
-    if (supervisor_.at_speed(supervisor_words_, operand_v_, operand_w_, velocity)) open = kSpeed;
-  }
-  if (has(19) && supervisor_.at_heat(supervisor_words_)) open = kHeat;
-  if (has(22) && supervisor_.at_polarity(supervisor_words_, velocity, out_.current_ref)) {
-    open = kPolarity;
-  }
-  wave(22);
-  keep(23);
-  for (const int t : {24, 25, 27}) wave(t);
-  keep(28);
-  wave(33);
-  keep(34);
-  wave(39);
-  keep(40);
-  const std::int16_t duty_before = out_.duty;
-  wave(45);
-  keep(46);
-  int gates_at = advance_gates(from, std::min(to, kDuty), open, duty_before);
-  if (has(46)) {
-    gates_at = advance_gates(gates_at, kSnapshot, open, out_.duty);
-    show_state();
-    out_.snapshot_valid = true;
-    on_snapshot();
-    out_.snapshot_valid = to == kSnapshot;
-  }
-  if (has(47) && supervisor_.at_watchdog(supervisor_words_)) open = kWatchdog;
+  Stretch s = stretch(from, to);
+  core_steps::for_each_step(from, to,
+                            [&](Step step) { take_in<ReadBack>(s, step, decoded, on_snapshot); });
   registers_.skip(in.reg_addr, to - from);
-  if (to == D::clocks_per_tick) {
-    advance_gates(gates_at, to - 1, open, out_.duty);
-    end_of_tick(in);
-    gates_.advance(pwm_inputs(to - 1 < open, out_.duty), 1, supervisor_.out().gates_enable);
-    registers_.skip_end_of_tick();
-  } else {
-    advance_gates(gates_at, to, open, out_.duty);
-  }
-  sequencer_.skip(to - from);
-  passed_to_ = sequencer_.clock_of_tick();
+  finish(in, s);
+  if (to == D::clocks_per_tick) registers_.skip_end_of_tick();
+  advance_clock(to - from);
+  passed_to_ = clock_;
+  out_.snapshot_valid = to == kSnapshot;
   show();
+  if (kSnapshotLast && out_.snapshot_valid) on_snapshot();
   return to;
 }
 
@@ -239,29 +188,51 @@ int FeltgateCore<D, ReadBack>::advance_decoder(const In& in, int from, int to) {
   return to;
 }
 
-/// Gates of the clocks [from, to), open before the clock `open`; returns the clock reached. A fall
-/// shows in the outputs with the clock that makes it.
+/// Gates to the clock `to`. A fall shows in the outputs with the clock that makes it.
 template <class D, bool ReadBack>
-int FeltgateCore<D, ReadBack>::advance_gates(int from, int to, int open, std::int16_t duty) {
-  const int end = std::min(to, open);
-  if (from < end) gates_.advance(pwm_inputs(true, duty), end - from, end < open);
-  from = std::max(from, end);
-  if (from < to) gates_.advance(pwm_inputs(false, duty), to - from, false);
-  return std::max(from, to);
+void FeltgateCore<D, ReadBack>::gates_to(Stretch& s, int to) {
+  if (s.quiet) return;
+  const int end = std::min(to, s.open);
+  if (s.gates_at < end) {
+    gates_.advance(pwm_inputs(true, out_.duty), end - s.gates_at, end < s.open);
+    s.gates_at = end;
+  }
+  if (s.gates_at < to) {
+    gates_.advance(pwm_inputs(false, out_.duty), to - s.gates_at, false);
+    s.gates_at = to;
+  }
+}
+
+/// Gates to the end of the stretch; in the last clock of a tick arming and scene.
+template <class D, bool ReadBack>
+void FeltgateCore<D, ReadBack>::finish(const In& in, Stretch& s) {
+  bool same = true;
+  const bool whole = s.to == D::clocks_per_tick;
+  if (whole) {
+    end_of_tick(in);
+    same = supervisor_.out().gates_enable == (s.open > 0);
+  }
+  if (s.quiet && same) return gates_.pass(s.to - s.from);
+  s.quiet = false;
+  gates_to(s, whole ? s.to - 1 : s.to);
+  if (whole) {
+    gates_.advance(pwm_inputs(s.to - 1 < s.open, out_.duty), 1, supervisor_.out().gates_enable);
+  }
 }
 
 /// Before a clock() that follows a pass(): the supervisor's registers between its steps, by its own
 /// clocks, whose inputs have not changed since.
 template <class D, bool ReadBack>
-void FeltgateCore<D, ReadBack>::catch_up(int c) {
-  if (passed_to_ != c) return;
+void FeltgateCore<D, ReadBack>::catch_up() {
+  if (passed_to_ != clock_) return;
   passed_to_ = -1;
-  const bool watchdog = c > 45 + kWave;
-  if (!in_supervisor_wave(c) && !watchdog) return;
-  if (!watchdog && c > 17 + kWave) supervisor_ = before_wave_;
+  const bool watchdog = clock_ > kWatchdogOperand;
+  if (!amid_supervisor() && !watchdog) return;
+  if (!watchdog && clock_ > core_steps::clock_of(T::speed)) supervisor_ = before_wave_;
   const bool stop = supervisor_.steady(true);
-  for (int t = watchdog ? 45 : kSupervisorWave; t < c - kWave; ++t) {
-    typename Supervisor<D>::In sup = supervisor_inputs(t);
+  const int first = watchdog ? kWatchdogOperand : core_steps::clock_of(T::estimate_part);
+  for (int c = first; c < clock_; ++c) {
+    typename Supervisor<D>::In sup = supervisor_inputs(c);
     sup.stop = stop;
     supervisor_.clock(sup);
   }

@@ -12,10 +12,10 @@
 
 #include "feltgate/core_gates.hpp"
 #include "feltgate/core_ports.hpp"
+#include "feltgate/core_steps.hpp"
 #include "feltgate/core_wave.hpp"
 #include "feltgate/quad_decoder.hpp"
 #include "feltgate/registers.hpp"
-#include "feltgate/sequencer.hpp"
 #include "feltgate/supervisor.hpp"
 
 namespace feltgate {
@@ -28,14 +28,13 @@ class FeltgateCore {
   using Out = CoreOut;
 
   FeltgateCore() {
-    static_assert(map_fits_sequencer(), "rtl/registers.toml: a slot lies in the wrong bank");
     reset();
     note_supervisor_words();
   }
 
   /// The parameter RAM keeps its words, as in the RTL.
   void reset() {
-    sequencer_.reset();
+    clock_ = 0;
     registers_.reset();
     decoder_.reset();
     wave_.reset();
@@ -50,24 +49,15 @@ class FeltgateCore {
   }
 
   void clock(const In& in) {
-    const int c = sequencer_.clock_of_tick();
-    catch_up(c);
-    const bool tick = c == D::clocks_per_tick - 1;
-    const int t = c - kWave;  // clock of the wave
+    catch_up();
+    const bool tick = clock_ == D::clocks_per_tick - 1;
     const std::uint32_t control = registers_.out().control;
     const bool host = bit(control, D::C::control_host);
-
-    // What the rest of the core sees of the registers in this clock, before the edge.
-    const typename Registers<D, ReadBack>::In reg = register_inputs(in, t, tick);
     const bool zero = tick && (registers_.commands(D::C::command_set_zero) || zero_pending_);
     const bool clear = tick && registers_.commands(D::C::command_clear_faults);
-    const std::int16_t travel = static_cast<std::int16_t>(decoder_.out().travel);
-    const std::int32_t position = decoder_.out().position;
 
-    // Supervisor and PWM see the registers of the clock before.
-    if (t == 5) operand_v_ = out_.voltage * factor(supervisor_words_.inverse_resistance);
-    if (t == 7) operand_w_ = out_.velocity * factor(supervisor_words_.emf_over_resistance);
-    typename Supervisor<D>::In sup = supervisor_inputs(t);
+    // Each sees the others' registers before the edge.
+    typename Supervisor<D>::In sup = supervisor_inputs(clock_);
     sup.tick = tick;
     sup.arm = host ? bit(control, D::C::control_arm) : in.arm;
     sup.stop = in.stop;
@@ -75,14 +65,15 @@ class FeltgateCore {
     sup.kick = tick && registers_.commands(D::C::command_kick);
     sup.encoder_error = decoder_.out().illegal;
     gates_.clock(pwm_inputs(supervisor_.out().gates_enable, out_.duty));
+    out_.snapshot_valid = false;
+    core_steps::for_each_step(clock_, clock_ + 1,
+                              [this](Step step) { take<true>(step, decoder_.out()); });
     supervisor_.clock(sup);
     const QuadDecoder::In d = decoder_inputs(in, zero, clear);
     if (!decoder_.settled(d)) decoder_.clock(d);
 
-    wave_.clock(t, position, travel, mode(), out_);
-
     const bool committed = tick && registers_.out().reg_busy;
-    registers_.clock(reg);
+    registers_.clock(register_inputs(in, tick));
     if (tick) {
       const unsigned wanted = host ? (control >> D::C::control_scene) & 15u : in.scene;
       out_.scene = static_cast<std::uint8_t>(wanted);
@@ -96,10 +87,9 @@ class FeltgateCore {
     }
     if (in.reg_write && !out_.reg_busy) pending_address_ = in.reg_addr;
     zero_pending_ = in.set_zero || (zero_pending_ && !tick);
-    sequencer_.clock({});
     gates_.show(supervisor_.out().gates_enable);
+    advance_clock(1);
     show();
-    out_.snapshot_valid = t == 46;
   }
 
   /// `clocks` clocks with the inputs held; reg_write and set_zero must be low. The same as so many
@@ -118,35 +108,20 @@ class FeltgateCore {
   /// Register writes carried out so far.
   std::int64_t writes() const { return writes_; }
   /// The clock of the tick that comes next, 0 .. clocks_per_tick - 1.
-  int clock_of_tick() const { return sequencer_.clock_of_tick(); }
+  int clock_of_tick() const { return clock_; }
 
  private:
-  static constexpr int kWave = 2;            // clock of the tick that is wave clock 0
-  static constexpr int kSupervisorWave = 9;  // first wave clock of the supervisor
-  // Clocks of the tick by which something has come up.
-  static constexpr int kSpeed = 17 + kWave + 1, kHeat = 19 + kWave + 1, kPolarity = 22 + kWave + 1;
-  static constexpr int kDuty = 45 + kWave + 1, kSnapshot = 46 + kWave + 1;
-  static constexpr int kWatchdog = 47 + kWave + 1, kNever = 1 << 30;
+  using Step = Map::Step;
+  using T = Map::T;
 
-  static constexpr std::uint64_t slot_bit(int read_address) {
-    return std::uint64_t{1} << (read_address & 63);
-  }
-  /// Wave clocks in which a word of the snapshot passes by.
-  static constexpr std::uint64_t kSnapshotSlots =
-      slot_bit(D::C::read_tick) | slot_bit(D::C::read_position) | slot_bit(D::C::read_status) |
-      slot_bit(D::C::read_encoder) | slot_bit(D::C::read_index) | slot_bit(D::C::read_velocity) |
-      slot_bit(D::C::read_tau_hat) | slot_bit(D::C::read_tau_ref) |
-      slot_bit(D::C::read_current_ref) | slot_bit(D::C::read_voltage) | slot_bit(D::C::read_duty);
-  /// The register map keeps to the sequencer: a scene's words in the scene's slots, others outside.
-  static constexpr bool map_fits_sequencer() {
-    for (const ParameterInfo& p : D::parameters) {
-      const bool of_scene = p.address >= 64;
-      const int slot = of_scene ? p.address % 32 : p.address;
-      const bool in_bank = ((Sequencer<D::clocks_per_tick>::kSceneSlots >> slot) & 1u) != 0;
-      if (in_bank != of_scene) return false;
-    }
-    return true;
-  }
+  /// The clock of the tick after the one in which a step is taken.
+  static constexpr int after(int t) { return core_steps::clock_of(t) + 1; }
+  static constexpr int kSnapshot = core_steps::clock_of(T::snapshot);
+  /// It comes up with the last clock of the tick.
+  static constexpr bool kSnapshotLast = kSnapshot == D::clocks_per_tick;
+  static constexpr int kNever = 1 << 30;
+  /// First clock of the tick in which the supervisor looks at its watchdog.
+  static constexpr int kWatchdogOperand = core_steps::clock_of(Map::W::watchdog_ticks) - 1;
 
   static bool bit(std::uint32_t word, int n) { return ((word >> n) & 1u) != 0; }
   static std::int64_t factor(std::uint32_t param) {
@@ -166,71 +141,87 @@ class FeltgateCore {
     return static_cast<Mode>((registers_.out().control >> D::C::control_mode) & 3u);
   }
 
-  /// What the wave brings to the supervisor in its clock t; its words come from the RAM as the bus
-  /// would bring them.
-  typename Supervisor<D>::In supervisor_inputs(int t) const {
+  /// What the wave brings to the supervisor in clock c of the tick; its words come from the RAM as
+  /// the bus would bring them.
+  typename Supervisor<D>::In supervisor_inputs(int c) const {
+    using M = Map::M;
     typename Supervisor<D>::In sup;
-    if (t < 0 || t >= 50) return sup;
+    const int t = c - Map::first_wave_clock;
+    if (t < 0 || t >= Map::wave_length) return sup;
     sup.wave = std::uint64_t{1} << t;
     sup.param = registers_.parameter(t);
     sup.velocity = static_cast<std::int32_t>(out_.velocity);
     sup.current_ref = out_.current_ref;
-    if (t == 9) sup.product = operand_v_;
-    if (t == 11) sup.product = operand_w_;
-    if (t == 17) {
+    if (t == M::inverse_resistance) sup.product = operand_v_;
+    if (t == M::emf_over_resistance) sup.product = operand_w_;
+    if (t == M::current_square) {
       const std::int64_t estimate = supervisor_.out().current_estimate;
       sup.product = estimate * estimate;
     }
     return sup;
   }
 
-  typename Registers<D, ReadBack>::In register_inputs(const In& in, int t, bool tick) const {
+  typename Registers<D, ReadBack>::In register_inputs(const In& in, bool tick) const {
     typename Registers<D, ReadBack>::In reg;
     reg.tick = tick;
     reg.reg_addr = in.reg_addr;
     reg.reg_wdata = in.reg_wdata;
     reg.reg_write = in.reg_write;
-    if (ReadBack && t >= 0 && t < 50 && ((kSnapshotSlots >> t) & 1u) != 0) {
-      reg.snap_valid = true;
-      reg.snap_slot = static_cast<std::uint8_t>(t);
-      reg.snap_data = snapshot_word(t, decoder_.out());
-    }
     return reg;
   }
 
-  std::uint32_t snapshot_word(int t, const QuadDecoder::Out& decoded) const {
-    switch (t) {
-      case 0:
-        return out_.tick_count;
-      case 1:
-        return static_cast<std::uint32_t>(out_.position);
-      case 2:
-        return status(decoded.error);
-      case 9:
-        return static_cast<std::uint32_t>(out_.velocity);
-      case 11:
-        return static_cast<std::uint32_t>(decoded.index_position);
-      case 14:
-        return static_cast<std::uint32_t>(decoded.rejected_count) << 16 | decoded.error_count;
-      case 23:
-        return static_cast<std::uint32_t>(out_.tau_hat);
-      case 28:
-        return static_cast<std::uint32_t>(out_.tau_ref);
-      case 34:
-        return static_cast<std::uint32_t>(out_.current_ref);
-      case 40:
-        return static_cast<std::uint32_t>(out_.voltage);
+  /// A step, but for the supervisor's. Read: the host may see the snapshot's words.
+  template <bool Read>
+  [[gnu::always_inline]] void take(Step step, const QuadDecoder::Out& decoded) {
+    using R = Map::R;
+    const auto keep = [this](int slot, auto word) {
+      if (Read) registers_.write_snapshot(slot, static_cast<std::uint32_t>(word));
+    };
+    switch (step) {
+      case Step::read_tick:
+        return keep(R::tick, out_.tick_count);
+      case Step::read_position:
+        return keep(R::position, out_.position);
+      case Step::read_status:
+        return keep(R::status, status(decoded.error));
+      case Step::read_velocity:
+        return keep(R::velocity, out_.velocity);
+      case Step::read_index:
+        return keep(R::index, decoded.index_position);
+      case Step::read_encoder:
+        return keep(R::encoder, std::uint32_t{decoded.rejected_count} << 16 | decoded.error_count);
+      case Step::read_tau_hat:
+        return keep(R::tau_hat, out_.tau_hat);
+      case Step::read_tau_ref:
+        return keep(R::tau_ref, out_.tau_ref);
+      case Step::read_current_ref:
+        return keep(R::current_ref, out_.current_ref);
+      case Step::read_voltage:
+        return keep(R::voltage, out_.voltage);
+      case Step::read_duty:
+        return keep(R::duty, out_.duty);
+      case Step::operand_inverse_resistance:
+        operand_v_ = out_.voltage * factor(supervisor_words_.inverse_resistance);
+        return;
+      case Step::operand_emf_over_resistance:
+        operand_w_ = out_.velocity * factor(supervisor_words_.emf_over_resistance);
+        return;
+      case Step::snapshot:
+        out_.snapshot_valid = true;
+        return;
       default:
-        return static_cast<std::uint32_t>(static_cast<std::int32_t>(out_.duty));
+        wave_.take(step, decoded.position, decoded.travel, mode(), out_);
     }
   }
 
   std::uint32_t status(bool encoder_error) const {
-    return static_cast<std::uint32_t>(encoder_error) << 27 |
-           static_cast<std::uint32_t>(mode()) << 25 | static_cast<std::uint32_t>(out_.armed) << 24 |
-           static_cast<std::uint32_t>(out_.scene) << 20 |
-           static_cast<std::uint32_t>(out_.limits) << 12 |
-           static_cast<std::uint32_t>(out_.first_fault) << 8 | out_.faults;
+    using C = typename D::C;
+    const auto& s = supervisor_.out();
+    const auto field = [](auto value, int at) { return static_cast<std::uint32_t>(value) << at; };
+    return field(s.faults, C::status_faults) | field(s.first_fault, C::status_first_fault) |
+           field(wave_.limits(s.gates_enable), C::status_limits) |
+           field(out_.scene, C::status_scene) | field(s.armed, C::status_armed) |
+           field(mode(), C::status_mode) | field(encoder_error, C::status_encoder_error);
   }
 
   QuadDecoder::In decoder_inputs(const In& in, bool zero, bool clear) const {
@@ -256,9 +247,25 @@ class FeltgateCore {
     return p;
   }
 
-  /// Where the supervisor's registers hold what a step of it has not yet used up.
-  static constexpr bool in_supervisor_wave(int c) {
-    return c > kSupervisorWave + kWave && c <= 22 + kWave;
+  /// Clocks of a tick that are taken at once.
+  struct Stretch {
+    int from, to;
+    int gates_at;  ///< the clock that the gates have reached
+    int open;      ///< they are open before this clock
+    bool quiet;    ///< nothing changes them but a fault: they wait for the end
+    void close(int clock) {
+      open = clock;
+      quiet = false;
+    }
+  };
+  Stretch stretch(int from, int to) const {
+    const bool enabled = supervisor_.out().gates_enable;
+    return {from, to, from, enabled ? kNever : 0, gates_.quiet_for(to - from, enabled)};
+  }
+
+  /// Amid the supervisor's steps its registers hold what only clock() goes on from.
+  bool amid_supervisor() const {
+    return clock_ > core_steps::clock_of(T::estimate_part) && clock_ < after(T::polarity);
   }
   bool can_pass(const In& in) const;
   static int next_look_at_decoder(int from);
@@ -266,16 +273,24 @@ class FeltgateCore {
   void pass_tick(const In& in, OnSnapshot&& on_snapshot);
   template <class OnSnapshot>
   int pass(const In& in, int from, int to, OnSnapshot&& on_snapshot);
-  void advance_gates_by_duty(int open, std::int16_t duty_before);
+  template <bool Read, class OnSnapshot>
+  void take_in(Stretch& s, Step step, const QuadDecoder::Out& decoded, OnSnapshot&& on_snapshot);
   void end_of_tick(const In& in);
   int advance_decoder(const In& in, int from, int to);
-  int advance_gates(int from, int to, int open, std::int16_t duty);
-  void catch_up(int c);
+  void gates_to(Stretch& s, int to);
+  void finish(const In& in, Stretch& s);
+  void catch_up();
+
+  void advance_clock(int clocks) {
+    clock_ += clocks;
+    if (clock_ < D::clocks_per_tick) return;
+    clock_ = 0;
+    ++out_.tick_count;
+  }
 
   /// Outputs after the edge.
   void show() {
     show_state();
-    out_.tick_count = sequencer_.out().tick_count;
     out_.reg_rdata = registers_.out().reg_rdata;
     out_.reg_busy = registers_.out().reg_busy;
   }
@@ -289,7 +304,6 @@ class FeltgateCore {
     out_.limits = wave_.limits(out_.gates_enable);
   }
 
-  Sequencer<D::clocks_per_tick> sequencer_;
   Registers<D, ReadBack> registers_;
   QuadDecoder decoder_;
   CoreWave<D> wave_;
@@ -300,6 +314,7 @@ class FeltgateCore {
   int pending_address_ = 0;
   bool zero_pending_ = false;
   std::int64_t writes_ = 0;
+  int clock_ = 0;       ///< of the tick
   int passed_to_ = -1;  ///< the clock that a pass() has reached, -1 after a clock()
   Out out_;
 };

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The steps of the schedule at which something of the core shows, by clocks of the tick: the one
+// order in which the core's twin goes through a tick. Documentation: docs/blocks/feltgate_core.md
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "feltgate/generated/map.hpp"
+
+namespace feltgate::core_steps {
+
+using Step = Map::Step;
+
+/// The clock of the tick in which wave clock t is.
+constexpr int clock_of(int t) { return t + Map::first_wave_clock; }
+
+/// The other steps lie inside a law or a block.
+constexpr bool shows(Step step) {
+  switch (step) {
+    case Step::read_tick:
+    case Step::read_position:
+    case Step::read_status:
+    case Step::read_velocity:
+    case Step::read_index:
+    case Step::read_encoder:
+    case Step::read_tau_hat:
+    case Step::read_tau_ref:
+    case Step::read_current_ref:
+    case Step::read_voltage:
+    case Step::read_duty:
+    case Step::sample:
+    case Step::velocity_raw:
+    case Step::operand_inverse_resistance:
+    case Step::operand_emf_over_resistance:
+    case Step::velocity:
+    case Step::speed:
+    case Step::heat:
+    case Step::polarity:
+    case Step::tau_hat:
+    case Step::direct_voltage:
+    case Step::torque_limited:
+    case Step::tau_ref:
+    case Step::current:
+    case Step::voltage:
+    case Step::duty:
+    case Step::watchdog:
+    case Step::snapshot:
+      return true;
+    default:
+      return false;
+  }
+}
+
+constexpr std::size_t count() {
+  std::size_t n = 0;
+  for (const Map::StepAt& s : Map::steps) n += shows(s.step) ? 1 : 0;
+  return n;
+}
+
+struct Table {
+  std::array<Step, count()> steps{};
+  std::array<std::uint8_t, Map::wave_length + 1> first{};  ///< by clock: first step not before it
+};
+
+constexpr Table make_table() {
+  Table table{};
+  std::size_t n = 0;
+  for (std::size_t clock = 0; clock < Map::wave_length; ++clock) {
+    table.first[clock] = static_cast<std::uint8_t>(n);
+    for (const Map::StepAt& s : Map::steps) {
+      // The outputs are all of one tick in the clock of this step, so after the clock before it.
+      const int at = clock_of(s.clock) - (s.step == Step::snapshot ? 1 : 0);
+      if (shows(s.step) && at == static_cast<int>(clock)) table.steps[n++] = s.step;
+    }
+  }
+  table.first[Map::wave_length] = static_cast<std::uint8_t>(n);
+  return table;
+}
+inline constexpr Table table = make_table();
+static_assert(table.first[Map::wave_length] == count(), "a step lies beyond the shortest tick");
+
+/// action(step) for the steps in the clocks [from, to) of a tick, in their order.
+template <class Action>
+void for_each_step(int from, int to, Action&& action) {
+  const auto first = [](int clock) {
+    return table.first[static_cast<std::size_t>(std::min(clock, Map::wave_length))];
+  };
+  const std::size_t end = first(to);
+  for (std::size_t k = first(from); k < end; ++k) action(table.steps[k]);
+}
+
+template <class Action, std::size_t... K>
+[[gnu::always_inline]] inline void for_these_steps(Action&& action, std::index_sequence<K...>) {
+  (action(table.steps[K]), ...);
+}
+/// The same for a whole tick, written out: in an inlined action each step is a constant.
+template <class Action>
+[[gnu::always_inline]] inline void for_each_step(Action&& action) {
+  for_these_steps(action, std::make_index_sequence<count()>());
+}
+
+}  // namespace feltgate::core_steps

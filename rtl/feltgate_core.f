@@ -1,10 +1,11 @@
-// Sources of feltgate_core in order, relative to rtl/; the design's feltgate_pkg.sv comes first.
+// The core; a design's feltgate_pkg.sv comes first; paths are relative to this folder.
+// sources: written by scripts/check_blocks.py --write
 generated/feltgate_map_pkg.sv
-mult.sv
-lowpass.sv
+feltgate_checks.sv
 sequencer.sv
 registers.sv
 quad_decoder.sv
+lowpass.sv
 velocity_n.sv
 dob.sv
 scene_setpoint.sv
@@ -17,4 +18,5 @@ scenes.sv
 torque_control.sv
 supervisor.sv
 pwm.sv
+mult.sv
 feltgate_core.sv

@@ -58,7 +58,7 @@ module feltgate_core #(
   localparam int OperandW = feltgate_pkg::MULTIPLIER_A_BITS;
   localparam int ProductW = feltgate_pkg::PRODUCT_BITS;
   localparam int SceneW = feltgate_pkg::SCENE_POSITION_W;
-
+  feltgate_checks u_checks ();
   // The wave and its two buses.
   logic                       tick;
   logic [                5:0] slot_fetch;

@@ -25,6 +25,13 @@ module pwm #(
   output logic signed [12:0] duty_active_o    // as taken
 );
 
+  if (!(Period >= 4 && Period <= 4094 && Period % 2 == 0)) begin : g_check_period
+    PWM_PERIOD_must_be_even_and_4_to_4094 missing ();
+  end
+  if (!(DeadClocks >= 1 && DeadClocks <= 64)) begin : g_check_dead_time
+    DEAD_CLOCKS_must_be_1_to_64 missing ();
+  end
+
   localparam logic signed [13:0] HALF = 14'(Period / 2);
   localparam logic        [10:0] LAST = 11'(Period / 2 - 1);
 

@@ -23,6 +23,14 @@ module sequencer #(
   localparam logic [CLOCK_W-1:0] BEFORE_LAST = CLOCK_W'(ClocksPerTick - 2);
   localparam int BEFORE_WAVE = feltgate_map_pkg::FIRST_WAVE_CLOCK - 1;
 
+  if (!(ClocksPerTick >= WaveLength && WaveLength >= feltgate_map_pkg::WAVE_LENGTH))
+  begin : g_check_tick
+    CLOCKS_PER_TICK_must_hold_the_wave missing ();
+  end
+  if (!(!feltgate_map_pkg::SCENE_SLOTS[0] && !feltgate_map_pkg::SCENE_SLOTS[63])) begin : g_check_slots
+    slots_0_and_63_must_not_be_a_scenes missing ();
+  end
+
   logic [CLOCK_W-1:0] clock_q;
   logic [5:0]         next_slot;
 

@@ -30,6 +30,14 @@ module velocity_n #(
   localparam int F = feltgate_pkg::VELOCITY_F;
   localparam int AddressW = (M1 > 1) ? $clog2(M1 + 1) : 1;
 
+  if (!(M1 >= 1 && M1 < 2 ** (T - 1))) begin : g_check_window
+    M1_must_be_1_to_32767 missing ();
+  end
+  if (!(Gain >= 0 && Gain < 2 ** 17 && (Gain != 0 ||
+        (F + Shift >= 1 && W - F - Shift >= 2 && W - F - Shift <= T)))) begin : g_check_gain
+    the_velocity_must_have_room_for_its_counts missing ();
+  end
+
   // Delay line of m1 entries; until it has filled, the position before reset stands for the oldest.
   logic        [       T-1:0] line    [2**AddressW];
   logic        [       T-1:0] line_q;

@@ -7,7 +7,7 @@ Every rtl/<b>.sv has model/include/feltgate/<b>.hpp, testbench/<b>/<b>_test.cpp 
 docs/blocks/<b>.md (scene_* blocks may share one folder testbench/scene*/), at least one seeded
 defect, and a page that links the other three. Beside that: no hand-written source of more than 400
 lines, no number formatted but by libfmt in model/, and the lists made from the blocks are fresh:
-docs/blocks.md, and the sources in feltgate.core and the boards' .qsf.
+docs/blocks.md, and the sources in rtl/*.f, feltgate.core and the boards' .qsf.
 
   check_blocks.py           check; one line 'path: what; mend' for each finding, status 1
   check_blocks.py --write   write the lists again, then check
@@ -21,10 +21,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import defects
+import rtl_sources
 
 MAX_LINES = 400
 SOURCE_SUFFIXES = {".sv", ".v", ".svh", ".cpp", ".hpp", ".h", ".py", ".sh", ".cmake", ".tcl"}
-CELL_WRAPPERS = {"mult18_ecp5"}  # one cell of one vendor: no block, and no other vendor's source
+EXEMPT = {*rtl_sources.CELL_WRAPPERS, *rtl_sources.NO_BLOCKS}
 SKIPPED_FOLDERS = {".git", "build", "generated", "__pycache__"}
 BOARD_DESIGN = "lever"
 # Headers that users of the library compile, who need no libfmt; they print integers only.
@@ -46,11 +47,6 @@ class Block:
     defects: tuple
 
 
-def code_only(text):
-    """SystemVerilog without comments."""
-    return re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.S)
-
-
 def shared_scene_test(root, name):
     """The first test in a folder testbench/scene*/ that names the block, if any."""
     for test in sorted(root.glob("testbench/scene*/*_test.cpp")):
@@ -63,8 +59,8 @@ def shared_scene_test(root, name):
 def find_blocks(root):
     blocks = []
     for rtl in sorted(root.glob("rtl/*.sv")):
-        code, name = code_only(rtl.read_text(encoding="utf-8")), rtl.stem
-        if name in CELL_WRAPPERS or not re.search(r"^\s*module\b", code, re.M):
+        code, name = rtl_sources.code_only(rtl.read_text(encoding="utf-8")), rtl.stem
+        if name in EXEMPT or not re.search(r"^\s*module\b", code, re.M):
             continue  # a package
         test = Path(f"testbench/{name}/{name}_test.cpp")
         if name.startswith("scene_") and not (root / test).exists():
@@ -179,12 +175,14 @@ def blocks_table(blocks):
 
 
 def sources(root):
-    """RTL of the core with the boards' design, packages first."""
+    """RTL of the core with the boards' design, in order."""
     generated = sorted(root.glob(f"rtl/generated/{BOARD_DESIGN}/*.sv"))
-    generated += sorted(root.glob("rtl/generated/*.sv"))
-    blocks = [p for p in sorted(root.glob("rtl/*.sv")) if p.stem not in CELL_WRAPPERS]
-    both = [path.relative_to(root) for path in generated + blocks]
-    return sorted(both, key=lambda path: not path.stem.endswith("_pkg"))
+    listed = [Path("rtl", name) for name in rtl_sources.core_files(root)]
+    return [*(path.relative_to(root) for path in generated), *listed]
+
+
+def file_list(head, names):
+    return "\n".join([f"// {head}; paths are relative to this folder.", f"// {BEGIN[2:]}", *names, ""])
 
 
 def replace_list(text, lines, indent=""):
@@ -199,6 +197,15 @@ def replace_list(text, lines, indent=""):
 def fresh_lists(root, blocks):
     """(path, wanted text) of everything that is made from the blocks."""
     yield Path("docs/blocks.md"), blocks_table(blocks)
+    yield (
+        Path("rtl/feltgate_core.f"),
+        file_list("The core; a design's feltgate_pkg.sv comes first", rtl_sources.core_files(root)),
+    )
+    if rtl_sources.cell_files(root):
+        yield (
+            Path("rtl/feltgate_ecp5.f"),
+            file_list("Beside it where FELTGATE_ECP5 is defined", rtl_sources.cell_files(root)),
+        )
     core = root / "feltgate.core"
     if core.exists():
         lines = [f"- {path}" for path in sources(root)]
@@ -231,6 +238,8 @@ def check(root, write=False):
     blocks = find_blocks(root)
     found = [] if blocks else ["rtl: no blocks; is this the root of the repository?"]
     found += check_lists(root, blocks, write)
+    for name in rtl_sources.modules(root)[1]:
+        found.append(f"rtl/{name}.sv: the core does not instantiate it; do, or remove it")
     for block in blocks:
         found += check_block(root, block)
     for page in sorted(root.glob("docs/**/*.md")):

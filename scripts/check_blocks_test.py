@@ -26,6 +26,8 @@ class CheckBlocks(unittest.TestCase):
         self.add_block("alpha", "testbench/alpha/alpha_test.cpp")
         self.add_block("scene_spring", "testbench/scene_all/scene_test.cpp")
         self.put("testbench/scene_all/scene_test.cpp", "SceneSpring twin;\n")
+        instance = "  scene_spring #(.N(1)) u_spring ();\n"  # so it is read before alpha
+        self.put("rtl/alpha.sv", RTL.format("alpha", instance))
         self.put("rtl/generated/lever/feltgate_pkg.sv", "package feltgate_pkg;\nendpackage\n")
         self.put("rtl/boards/toy/toy.sv", "module toy;\nendmodule\n")
         self.put("rtl/boards/toy/toy.qsf", "# head\n" + LISTS)
@@ -58,11 +60,13 @@ class CheckBlocks(unittest.TestCase):
             [line.split()[-1] for line in qsf if line.startswith("set_")],
             [
                 "../../generated/lever/feltgate_pkg.sv",
-                "../../alpha.sv",
                 "../../scene_spring.sv",
+                "../../alpha.sv",
                 "toy.sv",
             ],
         )
+        files = (self.root / "rtl/feltgate_core.f").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(files[2:], ["scene_spring.sv", "alpha.sv"])
         self.assertIn("      - rtl/alpha.sv\n", (self.root / "feltgate.core").read_text())
 
     def test_every_missing_sibling(self):
@@ -104,7 +108,21 @@ class CheckBlocks(unittest.TestCase):
 
     def test_stale_lists(self):
         self.add_block("beta", "testbench/beta/beta_test.cpp")
-        self.expect("blocks.md: stale", "feltgate.core: stale", "toy.qsf: stale")
+        lists = ("docs/blocks.md", "rtl/feltgate_core.f", "feltgate.core", "rtl/boards/toy/toy.qsf")
+        self.expect(*(f"{path}: stale" for path in lists))
+
+    def test_sources_that_the_core_does_not_reach(self):
+        self.put("rtl/feltgate_core.sv", "module feltgate_core;\n  alpha u_alpha ();\nendmodule\n")
+        self.put("rtl/stray.sv", "module stray;\nendmodule\n")
+        self.expect("rtl/stray.sv: the core does not instantiate it")
+        found = [line for line in check_blocks.check(self.root) if "does not instantiate" in line]
+        self.assertEqual(len(found), 1)
+
+    def test_a_cell_of_one_vendor_has_a_list_of_its_own(self):
+        self.put("rtl/mult18_ecp5.sv", "module mult18_ecp5;\nendmodule\n")
+        check_blocks.check(self.root, write=True)
+        self.assertIn("mult18_ecp5.sv\n", (self.root / "rtl/feltgate_ecp5.f").read_text())
+        self.assertNotIn("mult18", (self.root / "rtl/feltgate_core.f").read_text())
 
     def test_lost_markers(self):
         self.put("rtl/boards/toy/toy.qsf", "# head\n")

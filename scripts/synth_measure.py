@@ -9,10 +9,11 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import rtl_sources
 import synth_path
 
-CORE = "feltgate_core"
-CELL_WRAPPER = "mult18_ecp5"
+CORE = rtl_sources.CORE
+CELL_WRAPPER = rtl_sources.CELL_WRAPPERS[0]
 SCENE_ROW = "core without read-back, registered"
 # On a board nobody looks at these: they are there for simulation, or repeat what the register port
 # reads. Everything that only they need is left out of the core's figures.
@@ -48,7 +49,7 @@ def targets(root):
     rows = []
     for source in core_sources(root):
         name = Path(source).stem
-        if name == CORE or name.endswith("_pkg"):
+        if name == CORE or name.endswith("_pkg") or name in rtl_sources.NO_BLOCKS:
             continue
         if name == "mult":
             rows.append(Target("mult, registered", name, registered=True))

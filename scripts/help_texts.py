@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """docs/commands: what --help prints, so that ./feltgate can print it before anything is built.
 
-  ninja -C build feltgate feltgate_generate feltgate_bench && scripts/help_texts.py --write
+  ninja -C build feltgate feltgate_generate feltgate_bench feltgate_extremes && scripts/help_texts.py --write
 """
 
 import argparse
@@ -41,6 +41,7 @@ def commands(build):
         "test": ["bash", "-c", 'source "$0"; tests_usage', ROOT / "scripts/run_tests.sh"],
         "generate": [build / "feltgate_generate", ROOT],
         "bench": [build / "feltgate_bench"],
+        "extremes": [build / "feltgate_extremes"],
     }
     found = {name: own.get(name, [build / "feltgate", name]) for name in subcommands()}
     for verb in VERBS:

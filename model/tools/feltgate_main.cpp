@@ -17,7 +17,6 @@ int main(int argc, char** argv) {
   add_import(app, &exit_code);
   add_design(app, &exit_code);
   add_budget(app, &exit_code);
-  add_extremes(app, &exit_code);
   add_trim(app, &exit_code);
   add_stability(app, &exit_code);
   add_scripts(app, &exit_code);

@@ -1,23 +1,26 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# Extremes: decoder and low-pass alone as well, the decoder's count starting just below the wrap.
+# The cases of testbench/extremes and the program feltgate_extremes, which writes their page. With
+# decoder and low-pass alone, the decoder's count starting just below the wrap. docs/extremes.md
 include_guard(GLOBAL)
 
+set(extremes_folder "${FELTGATE_ROOT}/testbench/extremes")
 feltgate_verilate(extremes_decoder quad_decoder "${FELTGATE_ROOT}/rtl/quad_decoder.sv"
   CLASS Vextremes_decoder -GResetPosition=2147483000)
+set(extremes_blocks extremes_decoder)
 foreach(mode "" _truncate _convergent)  # half up, floor, convergent
-  list(APPEND extremes_lowpass_modes extremes_lowpass${mode})
-  list(LENGTH extremes_lowpass_modes rounding)
+  list(LENGTH extremes_blocks rounding)
   math(EXPR rounding "${rounding} - 1")
+  list(APPEND extremes_blocks extremes_lowpass${mode})
   feltgate_verilate(extremes_lowpass${mode} lowpass
-    "${FELTGATE_ROOT}/rtl/generated/paper/feltgate_pkg.sv;${FELTGATE_MAP_PACKAGE};${FELTGATE_ROOT}/rtl/lowpass.sv"
+    "${FELTGATE_ROOT}/rtl/generated/paper/feltgate_pkg.sv;${FELTGATE_ROOT}/rtl/lowpass.sv"
     CLASS Vextremes_lowpass${mode} -GRounding=${rounding})
 endforeach()
 
 # A core of its own, with gains wider than any design for use needs them.
 set(extremes_wide "${PROJECT_BINARY_DIR}/extremes_wide")
-set(extremes_wide_design "${FELTGATE_ROOT}/testbench/extremes/designs/wide.toml")
+set(extremes_wide_design "${extremes_folder}/designs/wide.toml")
 add_custom_command(OUTPUT "${extremes_wide}/feltgate_pkg.sv" "${extremes_wide}/wide.hpp"
   COMMAND feltgate_generate "${FELTGATE_ROOT}"
     --design "${extremes_wide_design}" --output "${extremes_wide}"
@@ -26,9 +29,16 @@ add_custom_command(OUTPUT "${extremes_wide}/feltgate_pkg.sv" "${extremes_wide}/w
 feltgate_verilate(extremes_wide_core feltgate_core
   "${extremes_wide}/feltgate_pkg.sv;${FELTGATE_CORE_SOURCES}" CLASS Vextremes_wide -O3)
 
-feltgate_library(feltgate_extremes extremes
-  feltgate_rtl feltgate_loop feltgate_design feltgate_stability)
-target_sources(feltgate_extremes PRIVATE "${extremes_wide}/wide.hpp")
-target_include_directories(feltgate_extremes PRIVATE "${extremes_wide}")
-target_link_libraries(feltgate_extremes PRIVATE extremes_decoder ${extremes_lowpass_modes}
-  extremes_wide_core nlohmann_json::nlohmann_json)
+file(GLOB extremes_sources CONFIGURE_DEPENDS "${extremes_folder}/*.cpp")
+list(FILTER extremes_sources EXCLUDE REGEX "_(main|test)\\.cpp$")
+add_library(feltgate_extreme_cases STATIC ${extremes_sources} "${extremes_wide}/wide.hpp")
+target_compile_options(feltgate_extreme_cases PRIVATE ${FELTGATE_WARNINGS})
+target_include_directories(feltgate_extreme_cases
+  PUBLIC "${FELTGATE_ROOT}/testbench" PRIVATE "${extremes_wide}")
+target_link_libraries(feltgate_extreme_cases
+  PUBLIC feltgate_rtl feltgate_loop feltgate_design feltgate_stability
+  PRIVATE ${extremes_blocks} extremes_wide_core nlohmann_json::nlohmann_json fmt::fmt)
+
+feltgate_program(feltgate_extremes "commands.cpp;command_line.cpp"
+  feltgate_files feltgate_extreme_cases CLI11::CLI11)
+target_sources(feltgate_extremes PRIVATE "${extremes_folder}/extremes_main.cpp")

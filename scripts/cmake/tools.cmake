@@ -36,14 +36,13 @@ feltgate_library(feltgate_stability stability feltgate_engines feltgate_plant_fi
 target_link_libraries(feltgate_stability PRIVATE nlohmann_json::nlohmann_json)
 
 feltgate_program(feltgate_generate generate_main.cpp feltgate_design)
-include(extremes)
 
 file(GLOB tool_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/tools"
   "${FELTGATE_ROOT}/model/tools/*.cpp")
 list(FILTER tool_sources EXCLUDE REGEX "_main\\.cpp$")
 feltgate_program(feltgate "feltgate_main.cpp;${tool_sources}"
   feltgate_rtl feltgate_files feltgate_budget feltgate_loop feltgate_stability feltgate_trim feltgate_design
-  feltgate_extremes nlohmann_json::nlohmann_json CLI11::CLI11)
+  nlohmann_json::nlohmann_json CLI11::CLI11)
 
 include(presets)
 
@@ -57,6 +56,8 @@ feltgate_library(feltgate_bench_parts bench feltgate_rtl feltgate_loop systemc)
 target_compile_definitions(feltgate_bench_parts PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
 feltgate_program(feltgate_bench "bench_main.cpp;checks.cpp;commands.cpp;command_line.cpp"
   feltgate_files feltgate_bench_parts nlohmann_json::nlohmann_json CLI11::CLI11)
+include(extremes)
 if(NOT FELTGATE_TESTS)
-  set_target_properties(feltgate_bench feltgate_bench_parts PROPERTIES EXCLUDE_FROM_ALL ON)
+  set_target_properties(feltgate_bench feltgate_bench_parts feltgate_extremes
+    feltgate_extreme_cases extremes_wide_core ${extremes_blocks} PROPERTIES EXCLUDE_FROM_ALL ON)
 endif()

@@ -45,8 +45,8 @@ def program_of(words, folder):
     command, rest = words[1], words[2:]
     if command == "generate":
         return [BUILD / "feltgate_generate", folder, *rest]
-    if command == "bench":
-        return [BUILD / "feltgate_bench", *rest]
+    if command in ("bench", "extremes"):
+        return [BUILD / f"feltgate_{command}", *rest]
     if command in ("help", "--help", "--version"):
         return ["bash", folder / "feltgate", command]
     return [BUILD / "feltgate", command, *rest]

@@ -2,9 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Every extreme as a named test: what it expects holds in RTL, twin and double, and
-// docs/extremes.md says the same. FELTGATE_DEFECT=N breaks stimulus or register of one group.
-// Documentation: docs/extremes.md
-#include <cstdlib>
+// docs/extremes.md says the same. Documentation: docs/extremes.md
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -34,10 +32,8 @@ std::string committed_page() {
 }
 
 void check(const std::string& name) {
-  const char* defect = std::getenv("FELTGATE_DEFECT");
   Settings settings;
   settings.root = FELTGATE_ROOT;
-  settings.defect = defect == nullptr ? 0 : std::atoi(defect);
   for (const Case& c : cases()) {
     if (name != c.name) continue;
     const Result r{c, c.run(settings)};
@@ -91,7 +87,6 @@ EXTREME(lever_inertia)
 EXTREME(border_015)
 EXTREME(lever_monotone)
 EXTREME(wall_edge)
-EXTREME(rest_period)
 EXTREME(clock_of_the_simulator)
 
 TEST_CASE("every short case is tested, and the page has no other", "[list]") {

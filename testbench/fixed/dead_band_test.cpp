@@ -10,7 +10,7 @@
 #include <cstdint>
 
 #include "catch.hpp"
-#include "extremes/dead_band.hpp"
+#include "../extremes/dead_band.hpp"
 #include "feltgate/fixed.hpp"
 #include "seeded_defect.hpp"
 

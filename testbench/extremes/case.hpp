@@ -46,18 +46,15 @@ struct Outcome {
 };
 
 struct Settings {
-  std::string root;  ///< the repository
-  /// Seeded defect, 0 for none: some case of each group must then fail.
-  int defect = 0;
-  std::string progress_file;  ///< of the long case: where it notes how far it is; may be empty
-  std::function<void(double done)> progress;  ///< 0..1, may be empty
+  std::string root;                           ///< the repository
+  std::function<void(double done)> progress;  ///< of a long case, 0..1; may be empty
 };
 
 struct Case {
   const char* group;
   const char* name;
   const char* about;  ///< one sentence for the page
-  bool long_only;     ///< minutes of CPU time: runs only with --long
+  bool long_only;     ///< an hour of CPU time: runs only with --long
   Outcome (*run)(const Settings&);
 };
 

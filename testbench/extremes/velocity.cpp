@@ -31,13 +31,12 @@ double dead_band(const DesignInfo& d) {
          std::ldexp(1.0, -d.velocity.fraction);
 }
 
-Outcome one_count_per_second(const Settings& s) {
+Outcome one_count_per_second(const Settings&) {
   Outcome o;
   for (const char* design : {"paper", "lever"}) {
     const Window w = window(design);
     const std::string in = std::string(" (") + design + ")";
     Bench b(design, Cores::lock_step);
-    if (s.defect == 1) b.set("velocity_a1", 4.7e-4);
     b.run(10);
     b.move(b.now() + 7, 1);
     double peak = 0, real_peak = 0;
@@ -106,7 +105,7 @@ std::pair<double, double> dither(Bench& b, std::int64_t half_ticks, int* positio
   return {worst, real};
 }
 
-Outcome dither_on_one_edge(const Settings& s) {
+Outcome dither_on_one_edge(const Settings&) {
   Outcome o;
   for (const char* design : {"paper", "lever"}) {
     const Window w = window(design);
@@ -115,7 +114,6 @@ Outcome dither_on_one_edge(const Settings& s) {
     const double worst = w.step_rad_s * std::tanh(cutoff * w.length_s / 2);
     int positions = 0;
     Bench b(design, Cores::lock_step);
-    if (s.defect == 2) b.set("velocity_a1", 5.2e-4);
     const auto [core, real] = dither(b, w.ticks, &positions);
     b.report(&o);
     o.findings.push_back(
@@ -149,11 +147,10 @@ Outcome dither_on_one_edge(const Settings& s) {
   return o;
 }
 
-Outcome speed_613_6(const Settings& s) {
+Outcome speed_613_6(const Settings&) {
   Outcome o;
   Bench b("lever", Cores::lock_step);
   b.set("overspeed", 700);
-  if (s.defect == 3) b.set("velocity_a1", 0);
   const Window w = window("lever");
   const double speed = 613.6;
   b.run(4);
@@ -189,7 +186,7 @@ double estimate(double speed, double t, const Window& w) {
   return ramp(t) - ramp(t - w.length_s);
 }
 
-Outcome speed_795(const Settings& s) {
+Outcome speed_795(const Settings&) {
   Outcome o;
   const Window w = window("lever");
   const double speed = 795;
@@ -200,7 +197,6 @@ Outcome speed_795(const Settings& s) {
     (estimate(speed, middle, w) < 613.6 ? low : high) = middle;
   }
   Bench b("lever", Cores::lock_step);
-  if (s.defect == 3) b.set("overspeed", 700);
   b.arm("free");
   const Clock begin = b.now();
   b.turn(begin, speed / count_rad, std::llround(speed / count_rad * 25e-3));

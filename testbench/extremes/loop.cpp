@@ -20,18 +20,17 @@ constexpr double count_rad = 6.283185307179586 / 4096;
 constexpr double g = 500, jn = 4.896e-4, ktn = 0.0605;
 constexpr double torque_lsb = 1.0 / 65536;
 
-/// Registers of `wide` for one Kp; the defect forgets that the observer's gain depends on it.
-std::map<std::string, double> gains(double kp, const Settings& s) {
-  const double nominal = s.defect == 9 ? 2500 : kp;
-  return {{"torque_gain", jn * kp / ktn}, {"observer_gain", (1 - jn * nominal) / ktn}};
+/// Registers of `wide` for one Kp.
+std::map<std::string, double> gains(double kp) {
+  return {{"torque_gain", jn * kp / ktn}, {"observer_gain", (1 - jn * kp) / ktn}};
 }
 
-Outcome stall_pole(const Settings& s) {
+Outcome stall_pole(const Settings&) {
   use_wide_design();
   Outcome o;
   for (const double kp : {0.0, 800.0, 1600.0, 3000.0, 4000.0}) {
     Bench b("wide", Cores::lock_step);
-    for (const auto& [name, value] : gains(kp, s)) b.set(name, value);
+    for (const auto& [name, value] : gains(kp)) b.set(name, value);
     b.set("current_limit", 31);
     b.set("setpoint_torque", 0);
     b.arm("setpoint");
@@ -91,7 +90,7 @@ struct LetGo {
   double late_share = 0;   ///< largest current of the last 20 ms over its limit; a trip counts as 1
   double speed_ratio = 0;  ///< speed at the end over that at release
 };
-LetGo let_go(const Settings& s, const std::string& design, const plant::Parameters& plant,
+LetGo let_go(const std::string& design, const plant::Parameters& plant,
              const std::map<std::string, double>& parameters, Driver driver, Outcome* o) {
   constexpr double seconds = 0.2, limit_a = 30;
   Scenario scene;
@@ -105,7 +104,7 @@ LetGo let_go(const Settings& s, const std::string& design, const plant::Paramete
   plant::HandPhase hand;
   hand.kind = plant::HandPhase::Kind::kPrescribed;
   hand.duration_s = 0.02;
-  hand.profile = {{plant::Segment::Kind::kRamp, 0.04, s.defect == 10 ? 0.0 : 0.8, 0, 0, 0}};
+  hand.profile = {{plant::Segment::Kind::kRamp, 0.04, 0.8, 0, 0, 0}};
   scene.hand.phases = {hand, plant::HandPhase{}};
   LetGo out;
   double at_release = 0;
@@ -147,7 +146,7 @@ Outcome inertia_ratio(const Settings& s) {
       f.chaotic = true;
       for (const Driver d : {p.rtl ? Driver::lock_step : Driver::twin, Driver::real}) {
         const auto plant = plant_at(s, jn, share * limit);
-        fill(&f, d, let_go(s, "wide", plant, gains(p.kp, s), d, &o).late_share);
+        fill(&f, d, let_go("wide", plant, gains(p.kp), d, &o).late_share);
       }
       o.findings.push_back(f);
     }
@@ -173,11 +172,8 @@ Outcome lever_inertia(const Settings& s) {
     Finding speed{
         "speed 180 ms after release over that at release" + in, "", between(0.5, 1.02), {}, {}, {}};
     Finding current{"share of the current's limit" + in, "", exactly(0), {}, {}, {}};
-    // The defect: five percent too much of the back-EMF given back.
-    std::map<std::string, double> set;
-    if (s.defect == 9) set["emf_constant"] = 0.0302 * 1.0345;
     for (const Driver d : {ratio == 50 ? Driver::lock_step : Driver::twin, Driver::real}) {
-      const LetGo l = let_go(s, "lever", plant, set, d, &o);
+      const LetGo l = let_go("lever", plant, {}, d, &o);
       fill(&speed, d, l.speed_ratio);
       fill(&current, d, l.late_share);
     }
@@ -202,12 +198,11 @@ double stall_voltage(Bench& b, double tau, double* real) {
   return core;
 }
 
-Outcome border_015(const Settings& s) {
+Outcome border_015(const Settings&) {
   Outcome o;
   Bench b("paper", Cores::lock_step);
   b.set("dead_voltage", 0);
   b.set("dead_voltage_slope", 0);
-  if (s.defect == 9) b.set("voltage_gain_high", 1.25);
   b.set("setpoint_torque", 0);
   b.arm("setpoint");
   double real_below = 0, real_above = 0;
@@ -230,11 +225,9 @@ Outcome border_015(const Settings& s) {
   return o;
 }
 
-Outcome lever_monotone(const Settings& s) {
+Outcome lever_monotone(const Settings&) {
   Outcome o;
   Bench b("lever", Cores::lock_step);
-  if (s.defect == 9) b.set("voltage_gain_high", 0.40);
-  if (s.defect == 9) b.set("region_torque", 0.15);
   b.set("setpoint_torque", 0);
   b.arm("setpoint");
   // A step of the reference per tick, from one limit to the other; no state lies in between.
@@ -318,9 +311,8 @@ Outcome wall_edge(const Settings& s) {
                  edge.stiffness_nm_rad};
   o.findings.push_back(border);
   for (const double share : {0.95, 1.05}) {
-    // The defect: the wall on the other side of the edge.
-    const double k = (s.defect == 10 ? 2 - share : share) * edge.stiffness_nm_rad;
-    const stability::Wall wall{share * edge.stiffness_nm_rad, damping, 1};
+    const double k = share * edge.stiffness_nm_rad;
+    const stability::Wall wall{k, damping, 1};
     const double sigma = stability::poles(model, wall).front().real();
     Finding f{"growth of the swing at " + number(share) + " of it; expected the eigenvalue's",
               "rad/s",

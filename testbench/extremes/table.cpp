@@ -145,9 +145,9 @@ std::string markdown(const Result& result) {
 std::string page(const std::vector<Result>& results, const std::string& before) {
   std::string out =
       "# Extremes\n\n"
-      "Code: [model/extremes](../model/extremes) · tests: "
-      "[testbench/extremes](../testbench/extremes) · this page is written by\n"
-      "`./feltgate extremes --markdown`; a test fails when a row is out of date.\n\n"
+      "Tests: [testbench/extremes](../testbench/extremes) · this page is written by "
+      "`./feltgate extremes --markdown`; a test\n"
+      "fails when a row is out of date.\n\n"
       "Each case takes the core to one of its limits. The expected value is computed by the case's "
       "own code, from what the\n"
       "text beside it says. *RTL* and *twin* run in lock-step where both have a value: every "

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The Verilated low-pass alone, one class per rounding mode, at its default widths: state of 32
-// bits, coefficient with 27 fraction bits; one sample takes six clocks. Documentation:
-// docs/extremes.md
+// The low-pass alone at its default widths, RTL and twin; a class of RTL per rounding mode, one
+// sample takes six clocks. Documentation: docs/extremes.md
 #pragma once
 
 #include <Vextremes_lowpass.h>
@@ -14,14 +13,37 @@
 #include <cstdint>
 #include <memory>
 
+#include "feltgate/lowpass.hpp"
+
 namespace feltgate::extremes {
+
+constexpr Format lowpass_state{1, 31, 0}, lowpass_operand{1, 32, 0}, lowpass_a1{0, -10, 27};
+
+/// The twin's law.
+template <Round R>
+class LowpassTwin {
+ public:
+  void start(std::int64_t y) { y_ = y; }
+  std::int64_t sample(std::int64_t x, std::int64_t a1) {
+    using Law = LowpassLaw<Fixed, lowpass_state.key(), lowpass_operand.key(), R>;
+    using A1 = fixed_of<lowpass_a1.key()>;
+    const auto word = [](std::int64_t raw) {
+      return Law::State::from_raw(static_cast<typename Law::State::raw_type>(raw));
+    };
+    y_ = Law::template step<lowpass_a1.key()>(word(x), word(y_),
+                                              A1::from_raw(static_cast<typename A1::raw_type>(a1)))
+             .raw();
+    return y_;
+  }
+
+ private:
+  std::int64_t y_ = 0;
+};
 
 /// Rtl is Verilator's class of lowpass with one rounding mode.
 template <class Rtl>
 class LowpassAlone {
  public:
-  static constexpr int coefficient_fraction = 27;
-
   LowpassAlone() : context_(new VerilatedContext), rtl_(new Rtl(context_.get())) {
     rtl_->rst_ni = 0;
     edge();

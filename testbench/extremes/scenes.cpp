@@ -29,14 +29,13 @@ double law(bool attract, int x, double core_rad) {
   return attract ? -pull : pull;
 }
 
-Outcome charge_through_zero(const Settings& s) {
+Outcome charge_through_zero(const Settings&) {
   Outcome o;
   for (const char* design : {"paper", "lever"}) {
     const bool raw = std::string(design) == "paper";
     for (const char* scene : {"charge_attract", "charge_repel"}) {
       const bool attract = std::string(scene) == "charge_attract";
       Bench b(design, Cores::lock_step);
-      if (s.defect == 8) b.set(attract ? "attract_strength" : "repel_strength", 8400);
       b.arm(scene);
       constexpr int reach = 260;
       for (int k = 1; k <= reach; ++k) b.move(b.now() + 40 * k, 1);
@@ -114,7 +113,7 @@ Outcome charge_limit_cycle(const Settings& s) {
   Finding core_rms{"root mean square of it", "Nm", at_most(2.5 * count_rad * 3), {}, {}, {}};
   for (Finding* f : {&raw, &core, &raw_rms, &core_rms}) f->chaotic = true;
   for (const Driver d : {Driver::lock_step, Driver::real}) {
-    hold_on_charge(s, s.defect == 8 ? 0.2 : 0.0, 0.2, &raw, &raw_rms, d, &o);
+    hold_on_charge(s, 0.0, 0.2, &raw, &raw_rms, d, &o);
     hold_on_charge(s, 0.2, 0.2, &core, &core_rms, d, &o);
   }
   o.findings = {raw, raw_rms, core, core_rms};

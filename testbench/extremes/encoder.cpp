@@ -22,7 +22,7 @@ void add(Outcome* o, const std::string& what, const std::string& unit, const Exp
 }
 
 /// States per clock at `quarters`/4; jumps of two are what a decoder can know to be lost.
-Outcome states_per_clock(const Settings& settings, const std::vector<int>& rates) {
+Outcome states_per_clock(const std::vector<int>& rates) {
   Outcome o;
   for (const int quarters : rates) {
     DecoderPair d;
@@ -36,8 +36,7 @@ Outcome states_per_clock(const Settings& settings, const std::vector<int>& rates
       doubles += jump == 2 ? 1 : 0;
       backs += jump == 3 ? 1 : 0;  // three forward look like one back
       state = next;
-      // The defect: every hundredth edge of the stimulus is lost.
-      d.clock(settings.defect == 1 && k % 100 == 0 ? state - 1 : state);
+      d.clock(state);
     }
     d.settle(state);
     const std::string at = " at " + number(quarters / 4.0) + " states a clock";
@@ -57,8 +56,8 @@ Outcome states_per_clock(const Settings& settings, const std::vector<int>& rates
   return o;
 }
 
-Outcome decoder_limit(const Settings& s) {
-  Outcome o = states_per_clock(s, {4});
+Outcome decoder_limit(const Settings&) {
+  Outcome o = states_per_clock({4});
   // One state a clock in radians.
   const double limit = count_rad * clock_hz;
   add(&o, "speed that this is, 1024 lines", "rad/s", near(76699, 0.5), limit, limit, limit);
@@ -66,16 +65,16 @@ Outcome decoder_limit(const Settings& s) {
   return o;
 }
 
-Outcome decoder_beyond(const Settings& s) {
-  Outcome o = states_per_clock(s, {5, 6, 7, 8});
+Outcome decoder_beyond(const Settings&) {
+  Outcome o = states_per_clock({5, 6, 7, 8});
   o.note =
       "A jump of two states is flagged and not counted, so true = counted + 2 x flagged. The "
       "double column is the motion itself.";
   return o;
 }
 
-Outcome decoder_aliasing(const Settings& s) {
-  Outcome o = states_per_clock(s, {10, 12, 14, 16});
+Outcome decoder_aliasing(const Settings&) {
+  Outcome o = states_per_clock({10, 12, 14, 16});
   o.note =
       "Beyond two states a clock nothing can be known: a jump of three is counted as one back and "
       "not flagged, a jump of four is invisible. The double column is the motion itself.";
@@ -101,12 +100,12 @@ std::pair<int, int> least_dwell(int filter) {
   return {rtl, twin};
 }
 
-Outcome filter_limit(const Settings& s) {
+Outcome filter_limit(const Settings&) {
   Outcome o;
   for (const int f : {0, 1, 4, 7, 8, 15}) {
     // A channel keeps its level for two states and is believed after F + 1 samples.
     const int expected = (f + 2) / 2;
-    const auto [rtl, twin] = least_dwell(s.defect == 2 ? std::max(0, f - 2) : f);
+    const auto [rtl, twin] = least_dwell(f);
     add(&o, "least clocks per state, filter " + number(f), "clock", exactly(expected), rtl, twin);
     if (f == 15) {
       add(&o, "speed that this is, 1024 lines", "rad/s", near(9587, 0.5),
@@ -117,7 +116,7 @@ Outcome filter_limit(const Settings& s) {
   return o;
 }
 
-Outcome wrap_16(const Settings& s) {
+Outcome wrap_16(const Settings&) {
   // The velocity's 16-bit travel wraps at 613.6 rad/s; the difference of a window must not notice.
   Outcome o;
   for (const char* design : {"lever", "paper"}) {
@@ -130,7 +129,7 @@ Outcome wrap_16(const Settings& s) {
     for (std::int64_t k = 0; k < fast; ++k) b.move(from + k, 1);
     b.run(b.ticks(28e-3));
     const double speed = 613.6;
-    b.turn(b.now(), speed / count_rad * (s.defect == 3 ? 0.97 : 1.0), slow);
+    b.turn(b.now(), speed / count_rad, slow);
     double low = 1e9, high = -1e9, real_low = 1e9, real_high = -1e9;
     std::int64_t position = 0, travel = 0, wrapped = 0, widest = 0;
     const std::int64_t settle = b.ticks(11e-3);
@@ -165,14 +164,14 @@ Outcome wrap_16(const Settings& s) {
   return o;
 }
 
-Outcome wrap_32(const Settings& s) {
+Outcome wrap_32(const Settings&) {
   Outcome o;
   DecoderPair d;
   d.settle(0);
   // Over 2^31 and back, one state a clock; counts modulo 2^32 stay exact.
   constexpr std::int64_t over = 2147483648LL - DecoderPair::reset_position;  // counts to the wrap
   for (std::int64_t k = 1; k <= over; ++k) d.clock(k);
-  d.settle(s.defect == 1 ? over + 1 : over);
+  d.settle(over);
   add(&o, "position after 2^31 counts", "count", exactly(-2147483648.0), d.rtl_position(),
       d.twin_position());
   for (std::int64_t k = over; k <= 3 * over; ++k) d.clock(k);

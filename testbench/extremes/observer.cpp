@@ -32,12 +32,11 @@ struct Releases {
   std::int64_t last_change_ticks = 0;  ///< after which nothing moved while blocked
 };
 
-Releases blocked(double seconds, Cores cores, const Settings& s, Outcome* o) {
+Releases blocked(double seconds, Cores cores, Outcome* o) {
   constexpr double limit_a = 1.8, pull_nm = 0.3, release_nm = -0.05;
   Bench b("paper", cores);
   b.set("current_limit", limit_a);
   b.set("setpoint_torque", 0);
-  if (s.defect == 6) b.set("observer_a1", 4e-4);
   b.arm("setpoint");
   b.set("setpoint_torque", pull_nm);
   Releases r;
@@ -93,18 +92,18 @@ void add_release(Outcome* o, const std::string& after, Cores cores, const Releas
   o->findings.push_back(finding(cores, "faults" + after, "", exactly(0), r.core.faults));
 }
 
-Outcome windup_1_ms(const Settings& s) {
+Outcome windup_1_ms(const Settings&) {
   Outcome o;
-  add_release(&o, " after 1 ms", Cores::lock_step, blocked(1e-3, Cores::lock_step, s, &o));
+  add_release(&o, " after 1 ms", Cores::lock_step, blocked(1e-3, Cores::lock_step, &o));
   return o;
 }
 
-Outcome windup_1_s(const Settings& s) {
+Outcome windup_1_s(const Settings&) {
   Outcome o;
-  const Releases all = blocked(1.0, Cores::twin, s, &o);
+  const Releases all = blocked(1.0, Cores::twin, &o);
   add_release(&o, " after 1 s", Cores::twin, all);
   // The RTL comes to the same state in a fraction of that: afterwards nothing moves any more.
-  const Releases part = blocked(60e-3, Cores::lock_step, s, &o);
+  const Releases part = blocked(60e-3, Cores::lock_step, &o);
   add_release(&o, " after 60 ms", Cores::lock_step, part);
   o.findings.push_back(finding(Cores::twin, "last change of any signal while blocked", "ms",
                                at_most(60), 1e-3 * static_cast<double>(all.last_change_ticks)));
@@ -114,9 +113,9 @@ Outcome windup_1_s(const Settings& s) {
   return o;
 }
 
-Outcome windup_60_s(const Settings& s) {
+Outcome windup_60_s(const Settings&) {
   Outcome o;
-  const Releases r = blocked(60.0, Cores::twin, s, &o);
+  const Releases r = blocked(60.0, Cores::twin, &o);
   add_release(&o, " after 60 s", Cores::twin, r);
   o.findings.push_back(finding(Cores::twin, "last change of any signal while blocked", "ms",
                                at_most(60), 1e-3 * static_cast<double>(r.last_change_ticks)));
@@ -141,14 +140,14 @@ double trip_time(double budget_a2_s, double tau_ref) {
   return static_cast<double>(k) * 1e-6;
 }
 
-Outcome windup_trip(const Settings& s) {
+Outcome windup_trip(const Settings&) {
   Outcome o;
   for (const double share : {1.0, 0.005}) {
     const Cores cores = share < 1 ? Cores::lock_step : Cores::twin;
     const double budget = 730 * share;
     Bench b("paper", cores);
     b.set("setpoint_torque", 0);
-    b.set("i2t_budget", budget * 1e6 * (s.defect == 6 ? 1.1 : 1.0));
+    b.set("i2t_budget", budget * 1e6);
     b.arm("setpoint");
     b.set("setpoint_torque", 0.5);
     const double expected = trip_time(budget, 0.5);
@@ -188,8 +187,6 @@ Outcome rest(const Settings& s) {
   {
     Bench b("paper", Cores::lock_step);
     b.arm("free");
-    if (s.defect == 7) b.set("setpoint_torque", 0.001);
-    if (s.defect == 7) b.control("setpoint", true);
     double tau_hat = 0, duty = 0, real = 0;
     b.run(b.ticks(20e-3), [&](const Sample& x) {
       tau_hat = std::max(tau_hat, std::abs(x.core.tau_hat_nm));

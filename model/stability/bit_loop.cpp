@@ -8,21 +8,14 @@
 #include <cmath>
 #include <limits>
 
+#include "engines/engine.hpp"
+#include "plant/drive.hpp"
+
 namespace feltgate::stability {
 
 namespace {
 
 constexpr double kLimitNm = 0.95;  ///< torque limit while measuring, from it follows the current
-
-plant::Drive drive_of(const design::Design& d) {
-  plant::Drive drive;
-  drive.clock_hz = static_cast<double>(d.clock_hz);
-  drive.pwm_hz = static_cast<double>(d.pwm_hz);
-  drive.dead_time_s = d.dead_time_s;
-  drive.switching = d.pwm_mode == 1 ? plant::Drive::Switching::kLockedAntiphase
-                                    : plant::Drive::Switching::kSignMagnitude;
-  return drive;
-}
 
 /// The largest value that fits a word.
 double largest(const design::Word& w) {
@@ -36,7 +29,7 @@ BitLoop::BitLoop(const design::Elaborated& design, const BitLoopSetting& s)
     : design_(design),
       wall_(s.wall),
       chain_(make_real_chain(design.design.name, s.chain)),
-      plant_(s.plant, s.plant.effects, drive_of(design.design), s.hand),
+      plant_(s.plant, s.plant.effects, plant::drive_of(design_named(design.design.name)), s.hand),
       count_rad_(design.design.count_rad()),
       pwm_ticks_(design.design.pwm_period_clocks() / design.design.clocks_per_tick()),
       pwm_clocks_(design.design.pwm_period_clocks()),

@@ -10,6 +10,7 @@
 #include "feltgate/fixed.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"
+#include "feltgate/quad.hpp"
 
 #ifndef FELTGATE_DESIGN
 #define FELTGATE_DESIGN Lever
@@ -46,11 +47,7 @@ constexpr double kRadSPerCount = Design::velocity_gain == 0
                                      : static_cast<double>(Design::velocity_gain) / 65536.0;
 constexpr bool kIsPaper = Design::m1 == Paper::m1;
 
-#ifdef __SIZEOF_FLOAT128__
-__extension__ typedef __float128 quad;
-#else
-typedef long double quad;
-#endif
+using quad = Quad;
 
 constexpr quad magnitude(quad x) { return x < 0 ? -x : x; }
 

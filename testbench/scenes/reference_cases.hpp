@@ -6,11 +6,10 @@
 #pragma once
 
 #include "catch.hpp"
+#include "feltgate/quad.hpp"
 #include "scenes_bench.hpp"
 
 namespace feltgate::test {
-
-__extension__ typedef __float128 Quad;
 
 /// Twin and reference side by side, both past the ramp; the largest distance in torque steps.
 class Comparison {

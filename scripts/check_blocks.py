@@ -3,11 +3,13 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """One block, one name everywhere: fails when a block lacks one of its siblings.
 
-Every rtl/<b>.sv has model/include/feltgate/<b>.hpp, testbench/<b>/<b>_test.cpp and
-docs/blocks/<b>.md (scene_* blocks may share one folder testbench/scene*/), at least one seeded
-defect, and a page that links the other three. Beside that: no hand-written source of more than 400
-lines, no number formatted but by libfmt in model/, and the lists made from the blocks are fresh:
-docs/blocks.md, and the sources in rtl/*.f, feltgate.core and the boards' .qsf.
+Every rtl/<b>.sv has a twin, testbench/<b>/<b>_test.cpp and docs/blocks/<b>.md (scene_* blocks may
+share one folder testbench/scene*/), at least one seeded defect, and a page that links the others. The
+twin is the class of the block's name: in model/include/feltgate/<b>.hpp where the product uses it,
+else in testbench/<b>/<b>_twin.hpp; the law that it evaluates, if any, is in the former then. Beside
+that: no hand-written source of more than 400 lines, no number formatted but by libfmt in model/, and
+the lists made from the blocks are fresh: docs/blocks.md, and the sources in rtl/*.f, feltgate.core
+and the boards' .qsf.
 
   check_blocks.py           check; one line 'path: what; mend' for each finding, status 1
   check_blocks.py --write   write the lists again, then check
@@ -41,17 +43,22 @@ class Block:
 
     name: str
     rtl: Path
+    law: Path  # None where it has none, or where the twin is in the same file
     twin: Path
     test: Path
     doc: Path
     defects: tuple
 
 
+def class_name(name):
+    return "".join(part.capitalize() for part in name.split("_"))
+
+
 def shared_scene_test(root, name):
     """The first test in a folder testbench/scene*/ that names the block, if any."""
     for test in sorted(root.glob("testbench/scene*/*_test.cpp")):
-        class_name = "".join(part.capitalize() for part in name.split("_"))
-        if re.search(rf"\b({name}|{class_name})(?![A-Za-z0-9])", test.read_text(encoding="utf-8")):
+        names = rf"\b({name}|{class_name(name)})(?![A-Za-z0-9])"
+        if re.search(names, test.read_text(encoding="utf-8")):
             return test.relative_to(root)
     return None
 
@@ -65,11 +72,15 @@ def find_blocks(root):
         test = Path(f"testbench/{name}/{name}_test.cpp")
         if name.startswith("scene_") and not (root / test).exists():
             test = shared_scene_test(root, name) or test
+        public = Path(f"model/include/feltgate/{name}.hpp")
+        beside = Path(f"testbench/{name}/{name}_twin.hpp")
+        tested = (root / beside).exists()
         blocks.append(
             Block(
                 name=name,
                 rtl=rtl.relative_to(root),
-                twin=Path(f"model/include/feltgate/{name}.hpp"),
+                law=public if tested and (root / public).exists() else None,
+                twin=beside if tested else public,
                 test=test,
                 doc=Path(f"docs/blocks/{name}.md"),
                 defects=tuple(sorted(root.glob(f"testbench/{name}/defects/*.patch")))
@@ -83,6 +94,10 @@ def check_block(root, block):
     for what, path in (("twin", block.twin), ("test", block.test), ("page", block.doc)):
         if not (root / path).exists():
             yield f"{path}: missing, the {what} of {block.rtl}; write it"
+    twin = root / block.twin
+    name = class_name(block.name)
+    if twin.exists() and not re.search(rf"\bclass {name}\b", twin.read_text(encoding="utf-8")):
+        yield f"{block.twin}: no class {name} in it; name the class as the block"
     rtl = (root / block.rtl).read_text(encoding="utf-8")
     if not re.search(rf"\bmodule\s+{block.name}\b", rtl):
         yield f"{block.rtl}: no module {block.name} in it; name the module as the file"
@@ -101,7 +116,7 @@ def check_block(root, block):
             yield f"{block.rtl}: the word Defect; what breaks it is a patch in {folder}"
     if (root / block.doc).exists():
         links = linked_files(root, block.doc)
-        for path in (block.rtl, block.twin, block.test):
+        for path in filter(None, (block.rtl, block.law, block.twin, block.test)):
             # A link to the test's folder is as good.
             if not {path, path.parent} & links:
                 yield f"{block.doc}: no link to {path}; link it in the first lines"
@@ -151,11 +166,11 @@ def check_formatting(root):
 
 def blocks_table(blocks):
     def link(path):
-        return f"[{path.name}]({os.path.relpath(path, 'docs')})"
+        return "" if path is None else f"[{path.name}]({os.path.relpath(path, 'docs')})"
 
     rows = [
-        f"| {b.name} | {link(b.rtl)} | {link(b.twin)} | {link(b.test)} | {link(b.doc)} "
-        f"| {len(b.defects)} |"
+        f"| {b.name} | {link(b.rtl)} | {link(b.law)} | {link(b.twin)} | {link(b.test)} "
+        f"| {link(b.doc)} | {len(b.defects)} |"
         for b in blocks
     ]
     return "\n".join(
@@ -166,8 +181,12 @@ def blocks_table(blocks):
             "its RTL; the block's test runs once against each and must fail. Written by",
             "`scripts/check_blocks.py --write`, which also fails when a sibling is missing.",
             "",
-            "| block | RTL | twin | test | page | seeded defects |",
-            "|---|---|---|---|---|---|",
+            "The twin is a class of the block's name, clock by clock. Where the core's twin evaluates",
+            "a law instead, the law is a template in the public headers, and the class, which only",
+            "tests use, is beside its test.",
+            "",
+            "| block | RTL | law | twin | test | page | seeded defects |",
+            "|---|---|---|---|---|---|---|",
             *rows,
             "",
         ]

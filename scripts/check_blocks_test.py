@@ -42,7 +42,8 @@ class CheckBlocks(unittest.TestCase):
     def add_block(self, name, test):
         self.put(f"rtl/{name}.sv", RTL.format(name, ""))
         self.put(f"testbench/{name}/defects/inverted.patch", "It is inverted.\n--- a/x\n")
-        self.put(f"model/include/feltgate/{name}.hpp", "")
+        class_name = check_blocks.class_name(name)
+        self.put(f"model/include/feltgate/{name}.hpp", f"class {class_name} {{}};\n")
         self.put(test, "")
         self.put(f"docs/blocks/{name}.md", PAGE.format(name, test))
 
@@ -80,6 +81,23 @@ class CheckBlocks(unittest.TestCase):
                 (self.root / path).unlink()
                 self.expect(f"{path}: missing")
                 self.put(path, saved)
+
+    def test_twin_beside_its_test(self):
+        public, beside = "model/include/feltgate/alpha.hpp", "testbench/alpha/alpha_twin.hpp"
+        self.put(beside, "class Alpha {};\n")
+        self.put(public, "struct AlphaLaw {};\n")
+        self.expect(f"docs/blocks/alpha.md: no link to {beside}", "blocks.md: stale")
+        page = PAGE.format("alpha", "testbench/alpha/alpha_test.cpp") + f"[twin](../../{beside})\n"
+        self.put("docs/blocks/alpha.md", page)
+        self.assertEqual(check_blocks.check(self.root, write=True), [])
+        table = (self.root / "docs/blocks.md").read_text(encoding="utf-8")
+        self.assertIn(f"[alpha.hpp](../{public}) | [alpha_twin.hpp](../{beside})", table)
+        self.put(beside, "class Alphabet {};\n")
+        self.expect(f"{beside}: no class Alpha in it")
+        (self.root / public).unlink()  # a block may have no law
+        self.put(beside, "class Alpha {};\n")
+        self.put("docs/blocks/alpha.md", page.replace(f"../../{public}", f"../../{beside}"))
+        self.assertEqual(check_blocks.check(self.root, write=True), [])
 
     def test_scene_that_no_shared_test_names(self):
         self.put("testbench/scene_all/scene_test.cpp", "SceneSpringy other;\n")

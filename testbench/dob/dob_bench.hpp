@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// dob of a design: adapter, random stimulus, and tick() beside clock(). docs/blocks/dob.md
+// dob of a design: adapter, random stimulus, and the chain beside clock(). docs/blocks/dob.md
 #pragma once
 
 #include <Vdob.h>
@@ -10,12 +10,13 @@
 
 #include "../lowpass/exact.hpp"
 #include "../mult/shared_mult.hpp"
-#include "feltgate/dob.hpp"
+#include "dob_twin.hpp"
 #include "lock_step.hpp"
 
 namespace feltgate::test {
 
 using Observer = Dob<Design>;
+using Chain = ObserverStep<Design, Fixed>;
 using Current = Observer::Current;
 using Velocity = Observer::Velocity;
 
@@ -29,11 +30,18 @@ struct Wave {
 };
 using Twin = Watched<Observer, Wave>;
 
-/// The wave as tick() takes it.
-inline void tick(Observer& observer, const Wave& w) {
-  observer.tick(w.armed, Current::from_raw(w.current), Velocity::from_raw(w.velocity),
-                Observer::TorqueConstant::from_raw(w.torque_constant),
-                Observer::InertiaGain::from_raw(w.inertia_gain), Observer::A1::from_raw(w.a1));
+/// The wave as the chain takes it.
+inline void tick(Chain& chain, const Wave& w) {
+  struct Coefficients {
+    const Wave& wave;
+    auto torque_constant() const {
+      return Observer::TorqueConstant::from_raw(wave.torque_constant);
+    }
+    auto inertia_gain() const { return Observer::InertiaGain::from_raw(wave.inertia_gain); }
+    auto observer_a1() const { return fixed_of<Design::P::observer_a1.key()>::from_raw(wave.a1); }
+  };
+  chain.tick(Coefficients{w}, w.armed, Current::from_raw(w.current),
+             Velocity::from_raw(w.velocity));
 }
 
 struct Adapter {
@@ -136,15 +144,15 @@ struct Tally {
   std::int64_t waves = 0, armed = 0, saturated = 0, arming = 0, disarmed_in_motion = 0;
 };
 
-/// tau_hat of tick() is due in the clock after its step; disarmed it is 0.
-struct TickBeside {
+/// The chain's tau_hat is due in the clock after its step; disarmed it is 0.
+struct ChainBeside {
   Tally* tally;
-  Observer shadow{};
+  Chain shadow{};
   bool was_armed = false;
 
   const char* operator()(const Twin::In& in, const Vdob& rtl, const Twin&, bool in_reset) {
     if (in_reset) {
-      shadow.reset();
+      shadow = {};
       return nullptr;
     }
     if (!at(in, Map::T::tau_hat)) return nullptr;
@@ -154,10 +162,10 @@ struct TickBeside {
     if (in.port.armed && !was_armed) ++tally->arming;
     if (!in.port.armed && in.aside.velocity != 0) ++tally->disarmed_in_motion;
     was_armed = in.port.armed;
-    if (shadow.out().saturated) ++tally->saturated;
+    if (shadow.limit) ++tally->saturated;
     const std::int64_t tau_hat = sign_extend<Design::f.torque.width()>(rtl.tau_hat_o);
-    if (tau_hat != shadow.out().tau_hat) return "tau_hat of tick() is that of clock()";
-    if ((rtl.saturated_o != 0) != shadow.out().saturated) return "saturated of tick()";
+    if (tau_hat != shadow.tau_hat.raw()) return "tau_hat of the chain is that of clock()";
+    if ((rtl.saturated_o != 0) != shadow.limit) return "saturated of the chain";
     if (!in.port.armed && tau_hat != 0) return "tau_hat is 0 while disarmed";
     return nullptr;
   }

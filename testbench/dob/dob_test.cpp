@@ -55,8 +55,8 @@ quad error_bound(quad largest_difference, quad current, quad velocity) {
 TEST_CASE("dob: random currents, velocities, coefficients, arming and resets") {
   Tally tally;
   Bench bench("dob", 1);
-  bench.run(Waves<RandomWaves>(2, {}, 30), scaled_clocks(1500000), {5000}, TickBeside{&tally});
-  bench.run(Waves<RandomWaves>(3, {}, 1), scaled_clocks(1000000), {100000}, TickBeside{&tally});
+  bench.run(Waves<RandomWaves>(2, {}, 30), scaled_clocks(1500000), {5000}, ChainBeside{&tally});
+  bench.run(Waves<RandomWaves>(3, {}, 1), scaled_clocks(1000000), {100000}, ChainBeside{&tally});
   INFO("waves " << tally.waves << ", armed " << tally.armed << ", saturated " << tally.saturated
                 << ", armed anew " << tally.arming);
   REQUIRE(tally.armed > tally.waves / 4);
@@ -150,8 +150,7 @@ TEST_CASE("dob: arming in motion makes no jump, disarming ends the estimate at o
 
 TEST_CASE("dob: distance from quad precision") {
   using Law = DobLaw<Design, Real<quad>>;
-  Observer twin;
-  twin.reset();
+  Chain twin;
   Random random(31);
   quad state = 0, worst = 0, largest_difference = 0;
   const auto si = [](int address) { return static_cast<quad>(parameter(address).si); };
@@ -164,7 +163,7 @@ TEST_CASE("dob: distance from quad precision") {
     if (random.one_in(2000)) target = random.between(-max_velocity, max_velocity);
     wave.velocity += (target - wave.velocity) / 512;
     tick(twin, wave);
-    if (twin.out().saturated) FAIL("saturated at wave " << k);
+    if (twin.limit) FAIL("saturated at wave " << k);
     const quad drive =
         Law::drive(si(Design::A::torque_constant) * exact(Current::from_raw(wave.current)));
     const quad inertia =
@@ -173,7 +172,7 @@ TEST_CASE("dob: distance from quad precision") {
     if (magnitude(difference) > largest_difference) largest_difference = magnitude(difference);
     state = Law::Filter::next(state, si(Design::A::observer_a1) * difference);
     bool unused = false;
-    const quad error = magnitude(exact(twin.tau_hat()) - Law::tau_hat(state, inertia, &unused));
+    const quad error = magnitude(exact(twin.tau_hat) - Law::tau_hat(state, inertia, &unused));
     if (error > worst) worst = error;
   }
   const quad bound = error_bound(largest_difference, 15, 20);

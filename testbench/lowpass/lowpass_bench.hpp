@@ -11,8 +11,8 @@
 
 #include "../mult/shared_mult.hpp"
 #include "exact.hpp"
-#include "feltgate/lowpass.hpp"
 #include "lock_step.hpp"
+#include "lowpass_twin.hpp"
 
 namespace feltgate::test {
 

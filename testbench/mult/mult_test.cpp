@@ -10,8 +10,8 @@
 
 #include "catch.hpp"
 #include "feltgate/fixed.hpp"
-#include "feltgate/mult.hpp"
 #include "lock_step.hpp"
+#include "mult_twin.hpp"
 
 using feltgate::int128_t;
 using feltgate::Mult;

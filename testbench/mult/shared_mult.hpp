@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "feltgate/mult.hpp"
+#include "mult_twin.hpp"
 #include "random.hpp"
 
 namespace feltgate::test {

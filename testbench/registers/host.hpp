@@ -8,9 +8,9 @@
 #include <Vregisters.h>
 
 #include "../sequencer/running_clock.hpp"
+#include "../sequencer/sequencer_twin.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/registers.hpp"
-#include "feltgate/sequencer.hpp"
 #include "lock_step.hpp"
 
 namespace feltgate::test {

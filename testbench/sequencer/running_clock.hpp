@@ -5,8 +5,8 @@
 // reset that LockStep<> makes, which it foresees from the same seed. Documentation: docs/testing.md
 #pragma once
 
-#include "feltgate/sequencer.hpp"
 #include "lock_step.hpp"
+#include "sequencer_twin.hpp"
 
 namespace feltgate::test {
 

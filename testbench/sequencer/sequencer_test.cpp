@@ -8,8 +8,8 @@
 #include <set>
 
 #include "catch.hpp"
-#include "feltgate/sequencer.hpp"
 #include "lock_step.hpp"
+#include "sequencer_twin.hpp"
 
 using namespace feltgate::test;
 using Twin = feltgate::Sequencer<CLOCKS_PER_TICK, RESET_TICKS>;
@@ -66,28 +66,5 @@ TEST_CASE("sequencer: resets at random times") {
   for (std::uint64_t seed = 2; seed < 12; ++seed) {
     Bench bench("sequencer", seed);
     bench.run(nothing, scaled_clocks(20000), {130}, Definition());
-  }
-}
-
-TEST_CASE("sequencer: skipping ticks is clocking through them") {
-  for (int phase = 0; phase < 2 * CLOCKS_PER_TICK; ++phase) {
-    Twin clocked;
-    for (int k = 0; k < phase; ++k) clocked.clock({});
-    for (std::uint32_t ticks = 1; ticks < 4; ++ticks) {
-      Twin skipped = clocked;
-      skipped.skip_ticks(ticks);
-      Twin other = clocked;
-      for (std::uint32_t k = 0; k < ticks * CLOCKS_PER_TICK; ++k) other.clock({});
-      for (int k = 0; k < 3 * CLOCKS_PER_TICK; ++k) {
-        REQUIRE(skipped.out().wave == other.out().wave);
-        REQUIRE(skipped.out().tick == other.out().tick);
-        REQUIRE(skipped.out().tick_count == other.out().tick_count);
-        REQUIRE(skipped.out().slot_fetch == other.out().slot_fetch);
-        REQUIRE(skipped.out().scene_slot_fetch == other.out().scene_slot_fetch);
-        REQUIRE(skipped.clock_of_tick() == other.clock_of_tick());
-        skipped.clock({});
-        other.clock({});
-      }
-    }
   }
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "feltgate/dob.hpp"
+#include "feltgate/words.hpp"
 #include "wave_bus.hpp"
 
 namespace feltgate::test {
@@ -46,20 +47,13 @@ struct Unlimited {
 template <class Driven>
 class Loop {
  public:
-  Loop() { observer_.reset(); }
-
   /// tau_hat in Nm after each tick.
   std::vector<double> run(Wave w, int ticks) {
     std::vector<double> tau_hat;
-    const auto word = [](int address) { return parameter(address).raw; };
-    using Observer = Dob<Design>;
     for (int k = 0; k < ticks; ++k) {
-      observer_.tick(w.armed, Current::from_raw(out_.current_ref), Velocity{},
-                     Observer::TorqueConstant::from_raw(word(A::torque_constant)),
-                     Observer::InertiaGain::from_raw(word(A::inertia_gain)),
-                     Observer::A1::from_raw(word(A::observer_a1)));
-      w.tau_hat = observer_.tau_hat().raw();
-      tau_hat.push_back(observer_.tau_hat().to_double());
+      observer_.tick(words_, w.armed, Current::from_raw(out_.current_ref), Velocity{});
+      w.tau_hat = observer_.tau_hat.raw();
+      tau_hat.push_back(observer_.tau_hat.to_double());
       out_ = driven_.run(w);
     }
     return tau_hat;
@@ -69,7 +63,8 @@ class Loop {
 
  private:
   Driven driven_;
-  Dob<Design> observer_;
+  feltgate::Words<Design, Fixed> words_;
+  ObserverStep<Design, Fixed> observer_;
   Control::Out out_;
 };
 

@@ -11,8 +11,9 @@
 
 #include "../lowpass/exact.hpp"
 #include "../mult/shared_mult.hpp"
-#include "feltgate/velocity_n.hpp"
+#include "feltgate/words.hpp"
 #include "lock_step.hpp"
+#include "velocity_n_twin.hpp"
 
 namespace feltgate::test {
 
@@ -118,12 +119,26 @@ struct Tally {
   std::int64_t last_velocity = 0;
 };
 
-/// tick() beside clock(), and the N-method in plain integers, both due in the clock after the
+/// The chain's velocity, tick by tick.
+struct Ticks {
+  Words<Design, Fixed> words;
+  DelayLine<Design::m1> line;
+  EstimatorStep<Design, Fixed> step;
+
+  void reset() { *this = Ticks{}; }
+  void tick(std::int16_t travel) {
+    const std::int16_t counts = travel_difference(travel, line.oldest());
+    line.push(travel);
+    step.tick(words, counts);
+  }
+};
+
+/// The chain beside clock(), and the N-method in plain integers, both due in the clock after the
 /// velocity's step.
 struct Reference {
   Tally* tally;
   std::vector<std::int64_t> counts{};  // of every tick since reset, as 16-bit numbers
-  Velocity shadow{};
+  Ticks shadow{};
   std::int64_t y = 0;
 
   const char* operator()(const Twin::In& in, const Vvelocity_n& rtl, const Twin& twin,
@@ -135,16 +150,16 @@ struct Reference {
       return nullptr;
     }
     if (sampled(in)) {
-      shadow.tick(in.port.travel, design_a1());
+      shadow.tick(in.port.travel);
       counts.push_back(in.port.travel);
     }
     const std::int64_t velocity = sign_extend<Design::f.velocity.width()>(rtl.velocity_o);
     tally->last_velocity = velocity;
     if (((in.port.wave >> Map::T::velocity) & 1u) != 0) {
       y = next();
-      if (shadow.velocity() != twin.block.velocity())
-        return "velocity of tick() is that of clock()";
-      if (shadow.out().saturated != twin.out().port.saturated) return "saturated of tick()";
+      if (shadow.step.velocity != twin.block.velocity())
+        return "velocity of the chain is that of clock()";
+      if (shadow.step.limit != twin.out().port.saturated) return "saturated of the chain";
     }
     return velocity == y ? nullptr : "velocity of the law in plain integers";
   }

@@ -17,44 +17,6 @@
 
 namespace feltgate {
 
-/// One tick of the velocity estimator behind its delay line.
-template <class D, class N>
-struct EstimatorStep {
-  typename VelocityLaw<D, N>::Velocity velocity{};
-  bool limit = false;  ///< the counts saturated
-
-  /// `counts`: the travel of the last m1 ticks. W gives the parameters: a ParameterReader.
-  template <class W>
-  void tick(const W& w, std::int16_t counts) {
-    using Law = VelocityLaw<D, N>;
-    limit = false;
-    const auto raw = Law::raw(counts, &limit);
-    constexpr int a1 = D::P::velocity_a1.key();
-    velocity = Law::Filter::template step<a1>(raw, velocity, w.velocity_a1());
-  }
-};
-
-/// One tick of the disturbance observer.
-template <class D, class N>
-struct ObserverStep {
-  typename DobLaw<D, N>::State state{};
-  typename DobLaw<D, N>::Torque tau_hat{};
-  bool limit = false;  ///< tau_hat saturated
-
-  /// `current`: the reference of the tick before.
-  template <class W, class Current, class Velocity>
-  void tick(const W& w, bool armed, Current current, Velocity velocity) {
-    using Law = DobLaw<D, N>;
-    const auto drive = armed ? Law::drive(current * w.torque_constant()) : typename Law::Drive{};
-    const auto inertia = Law::inertia(velocity * w.inertia_gain());
-    const auto input = Law::input(drive, inertia);
-    constexpr int a1 = D::P::observer_a1.key();
-    state = armed ? Law::Filter::template step<a1>(input, state, w.observer_a1()) : input;
-    limit = false;
-    tau_hat = Law::tau_hat(state, inertia, &limit);
-  }
-};
-
 /// Scenes see 18 bits of the position, saturated; in real arithmetic all of it.
 template <class D, class N>
 constexpr std::int32_t scene_position(std::int32_t position) {

@@ -49,36 +49,11 @@ class Sequencer {
   /// The clock of the tick that is running, 0..ClocksPerTick-1.
   int clock_of_tick() const { return clock_; }
 
-  /// As n*ClocksPerTick calls of clock(), at once; n >= 1.
-  void skip_ticks(std::uint32_t n) {
-    out_.tick_count += n;
-    show();
-  }
-  /// As n calls of clock() that go no further than the end of the tick; n >= 1.
-  void skip(int n) {
-    clock_ += n;
-    if (clock_ == ClocksPerTick) {
-      clock_ = 0;
-      ++out_.tick_count;
-    }
-    show();
-  }
-
  private:
   static constexpr int kWaveLength = Map::wave_length;
   static_assert(ClocksPerTick >= kWaveLength, "a wave must end before the next one starts");
   static constexpr int kFirstWaveClock = Map::first_wave_clock;
   static constexpr std::uint64_t kWaveMask = (std::uint64_t{1} << kWaveLength) - 1;
-
-  /// Outputs of the clock, once a tick has run since the reset.
-  void show() {
-    out_.tick = clock_ == ClocksPerTick - 1;
-    out_.slot_fetch = clock_ > 63 ? 63 : clock_;
-    out_.scene_slot_fetch = ((kSceneSlots >> out_.slot_fetch) & 1U) != 0;
-    // The first clocks of a tick may still be the last of the wave before.
-    const int t = clock_ - kFirstWaveClock + (clock_ < kFirstWaveClock ? ClocksPerTick : 0);
-    out_.wave = t < kWaveLength ? std::uint64_t{1} << t : 0;
-  }
 
   int clock_ = 0;
   Out out_;

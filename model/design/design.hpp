@@ -13,6 +13,7 @@
 #include "design/registers.hpp"
 #include "feltgate/chain_formats.hpp"
 #include "feltgate/fixed.hpp"
+#include "feltgate/generated/map.hpp"
 
 namespace feltgate::design {
 
@@ -109,9 +110,7 @@ Format coefficient_format(double value, bool is_signed, int bits = fabric::multi
 /// The most fraction bits that a coefficient may have.
 constexpr int coefficient_fraction_max = 48;
 
-/// Clocks from the sampled position to the duty register; a constant of the RTL.
-constexpr int latency_clocks = 46;
-/// Clocks that the whole wave needs before the next tick may start.
-constexpr int chain_clocks = latency_clocks + 4;
+/// Clocks from the sampled position to the duty register.
+constexpr int latency_clocks = Map::T::duty + 1 - Map::T::sample;
 
 }  // namespace feltgate::design

@@ -198,9 +198,9 @@ void check_word(const Design& d, const Word& w) {
 void check(const Elaborated& e) {
   const Design& d = e.design;
   for (const Word& w : e.words) check_word(d, w);
-  if (d.clocks_per_tick() < chain_clocks) {
+  if (d.clocks_per_tick() < Map::wave_length) {
     d.fail("clock.tick_hz",
-           fmt::format("the chain takes {} clocks and a tick has {}", chain_clocks,
+           fmt::format("the chain takes {} clocks and a tick has {}", Map::wave_length,
                        d.clocks_per_tick()),
            "lower tick_hz or raise clock_hz");
   }

@@ -95,7 +95,6 @@ std::vector<Constant> constants(const Elaborated& e) {
       {"narrow_w", narrow_width(e),
        "bits of the widest of current, torque, voltage and a scene's distance"},
       {"travel_bits", fabric::travel_bits, "bits"},
-      {"multiplier_latency", fabric::multiplier_latency, "clocks from the operands to the product"},
       {"wall_guard_bits", fabric::wall_guard_bits,
        "bits that the wall's products keep below a torque step"},
   };

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "design/design.hpp"
 #include "design/registers.hpp"
 
 namespace feltgate::design {
@@ -61,6 +62,9 @@ std::uint64_t scene_slots(const RegisterMap& map);
 /// Reads the schedule and refuses one that cannot work. Throws config::ConfigError with file, line
 /// and reason.
 Schedule read_schedule(const std::string& path, const RegisterMap& map);
+
+/// Throws config::ConfigError where the design's tick is shorter than the wave.
+void check_tick(const Design& design, const Schedule& s);
 
 /// Text of rtl/generated/feltgate_map_pkg.sv.
 std::string map_package(const RegisterMap& map, const Schedule& s);

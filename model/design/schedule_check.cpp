@@ -188,6 +188,14 @@ void check_ends(const RegisterMap& map, const Schedule& s) {
 
 }  // namespace
 
+void check_tick(const Design& d, const Schedule& s) {
+  if (d.clocks_per_tick() >= s.wave_length) return;
+  d.fail("clock.tick_hz",
+         fmt::format("the chain takes {} clocks and a tick has {}", s.wave_length,
+                     d.clocks_per_tick()),
+         "lower tick_hz or raise clock_hz");
+}
+
 void check_schedule(const RegisterMap& map, const Schedule& s) {
   check_ends(map, s);
   check_banks(map, s);

@@ -93,10 +93,16 @@ bool parse(int argc, char** argv, Options* o) {
           !(o->allow_coarse && o->design.empty()));
 }
 
+feltgate::design::Schedule read_schedule(const Options& o,
+                                         const feltgate::design::RegisterMap& registers) {
+  return feltgate::design::read_schedule((o.root / "rtl/schedule.toml").string(), registers);
+}
+
 void generate_one(const Options& o, const feltgate::design::RegisterMap& registers) {
   auto design = feltgate::design::read_design(o.design.string());
   design.allow_coarse = o.allow_coarse;
   const auto e = elaborate(design, registers);
+  check_tick(e.design, read_schedule(o, registers));
   update(o.output / "feltgate_pkg.sv", systemverilog_package(e), false);
   update(o.output / (e.design.name + ".hpp"), cpp_header(e), false);
   update(o.output / "values.txt", values_text(e), false);
@@ -104,8 +110,7 @@ void generate_one(const Options& o, const feltgate::design::RegisterMap& registe
 
 /// Whether a file was stale.
 bool generate_all(const Options& o, const feltgate::design::RegisterMap& registers) {
-  const auto schedule =
-      feltgate::design::read_schedule((o.root / "rtl/schedule.toml").string(), registers);
+  const auto schedule = read_schedule(o, registers);
   const fs::path headers = o.root / "model/include/feltgate/generated";
   bool stale = update(o.root / "rtl/generated/feltgate_map_pkg.sv",
                       map_package(registers, schedule), o.check_only);
@@ -118,6 +123,7 @@ bool generate_all(const Options& o, const feltgate::design::RegisterMap& registe
   for (const auto& entry : fs::directory_iterator(o.root / "rtl/designs")) {
     if (entry.path().extension() != ".toml") continue;
     const auto e = elaborate(feltgate::design::read_design(entry.path().string()), registers);
+    check_tick(e.design, schedule);
     const std::string& name = e.design.name;
     stale |= update(o.root / "rtl/generated" / name / "feltgate_pkg.sv", systemverilog_package(e),
                     o.check_only);

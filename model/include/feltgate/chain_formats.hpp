@@ -15,10 +15,9 @@ namespace fabric {
 constexpr int multiplier_a_bits = 35;  ///< data operand: two signed 18x18 multipliers
 constexpr int multiplier_b_bits = 18;  ///< coefficient operand
 constexpr int product_bits = multiplier_a_bits + multiplier_b_bits;
-constexpr int word_bits = 32;          ///< register port and parameter RAM
-constexpr int travel_bits = 16;        ///< free-running count of the velocity estimator
-constexpr int multiplier_latency = 4;  ///< clocks from operands on the bus to the product
-constexpr int wall_guard_bits = 2;     ///< bits that the wall's products keep below a torque step
+constexpr int word_bits = 32;       ///< register port and parameter RAM
+constexpr int travel_bits = 16;     ///< free-running count of the velocity estimator
+constexpr int wall_guard_bits = 2;  ///< bits that the wall's products keep below a torque step
 }  // namespace fabric
 
 /// What a design states (signals) and what its values imply (coefficients).

@@ -39,7 +39,6 @@ struct Lever {
   static constexpr int product_bits = 53;  // bits
   static constexpr int narrow_w = 22;  // bits of the widest of current, torque, voltage and a scene's distance
   static constexpr int travel_bits = 16;  // bits
-  static constexpr int multiplier_latency = 4;  // clocks from the operands to the product
   static constexpr int wall_guard_bits = 2;  // bits that the wall's products keep below a torque step
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
 

@@ -111,8 +111,7 @@ char colour_of_word(const Parameter& p, const Schedule& s) {
     return product->by == "supervisor" ? '9' : '=';
   }
   for (const Step& step : s.steps) {
-    // The supervisor looks at what its comparator says a clock after the word.
-    if (step.by == "supervisor" && (step.clock == p.slot || step.clock == p.slot + 1)) return '9';
+    if (step.by == "supervisor" && step.clock == p.slot) return '9';
   }
   return '=';
 }

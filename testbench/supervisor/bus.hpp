@@ -69,9 +69,9 @@ struct Scenario {
   bool clear_faults = false;  ///< these two at the end of each tick
   bool kick = false;
   bool encoder_error = false;
-  std::int32_t voltage = 0;      ///< raw; in force from wave clock 40 of the tick on
-  std::int32_t velocity = 0;     ///< raw; from 9 on
-  std::int32_t current_ref = 0;  ///< raw; from 34 on
+  std::int32_t voltage = 0;      ///< raw; in force once the wave has brought it
+  std::int32_t velocity = 0;     ///< raw; the same
+  std::int32_t current_ref = 0;  ///< raw; the same
   Twin::Words words = design_words();
 
   static Twin::Words design_words() {
@@ -113,21 +113,26 @@ class Bus {
     in.wave = now.wave;
     in.product = static_cast<std::int64_t>(noise_.bits()) >> 10;
     in.param = static_cast<std::uint32_t>(noise_.bits());
-    if (at(5)) v_over_r_ = std::int64_t{voltage} * (s.words.inverse_resistance & 0x1ffffU);
-    if (at(7)) w_over_r_ = std::int64_t{velocity} * (s.words.emf_over_resistance & 0x1ffffU);
-    if (at(9)) velocity = s.velocity;
-    if (at(34)) current_ref = s.current_ref;
-    if (at(40)) voltage = s.voltage;
-    if (at(9)) in.product = v_over_r_;
-    if (at(11)) in.product = w_over_r_;
-    if (at(17)) in.product = std::int64_t{current_estimate} * current_estimate;
-    if (at(16)) in.param = s.words.overspeed;
-    if (at(17)) in.param = s.words.nominal_current_squared;
-    if (at(18)) in.param = s.words.i2t_budget;
-    if (at(19)) in.param = s.words.polarity_speed;
-    if (at(20)) in.param = s.words.polarity_current;
-    if (at(21)) in.param = s.words.polarity_ticks;
-    if (at(46)) in.param = s.words.watchdog_ticks;
+    using W = Map::W;
+    using M = Map::M;
+    using T = Map::T;
+    if (at(W::inverse_resistance))
+      v_over_r_ = std::int64_t{voltage} * (s.words.inverse_resistance & 0x1ffffU);
+    if (at(W::emf_over_resistance))
+      w_over_r_ = std::int64_t{velocity} * (s.words.emf_over_resistance & 0x1ffffU);
+    if (at(T::velocity + 1)) velocity = s.velocity;
+    if (at(T::current + 1)) current_ref = s.current_ref;
+    if (at(T::voltage + 1)) voltage = s.voltage;
+    if (at(M::inverse_resistance)) in.product = v_over_r_;
+    if (at(M::emf_over_resistance)) in.product = w_over_r_;
+    if (at(M::current_square)) in.product = std::int64_t{current_estimate} * current_estimate;
+    if (at(W::overspeed)) in.param = s.words.overspeed;
+    if (at(W::nominal_current_squared)) in.param = s.words.nominal_current_squared;
+    if (at(W::i2t_budget)) in.param = s.words.i2t_budget;
+    if (at(W::polarity_speed)) in.param = s.words.polarity_speed;
+    if (at(W::polarity_current)) in.param = s.words.polarity_current;
+    if (at(W::polarity_ticks)) in.param = s.words.polarity_ticks;
+    if (at(W::watchdog_ticks)) in.param = s.words.watchdog_ticks;
     in.velocity = velocity;
     in.current_ref = current_ref;
     return in;
@@ -236,5 +241,19 @@ class Script {
   Twin twin_;
   std::vector<Part> parts_;
 };
+
+// Clocks from the start of a tick until the gates have fallen.
+inline constexpr int kSpeed = Twin::speed_clock + 1;
+inline constexpr int kHeat = Twin::heat_clock + 1;
+inline constexpr int kPolarity = Twin::polarity_clock + 1;
+inline constexpr int kWatchdog = Twin::watchdog_clock + 1;
+
+constexpr unsigned bit(Fault cause) { return 1U << static_cast<unsigned>(cause); }
+
+/// This cause and no other.
+inline bool only(const Script& script, Fault cause) {
+  return script.out().faults == bit(cause) &&
+         script.out().first_fault == static_cast<unsigned>(cause);
+}
 
 }  // namespace feltgate::test

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "feltgate/generated/causes.hpp"
+#include "feltgate/generated/map.hpp"
 #include "feltgate/numbers.hpp"
 
 namespace feltgate {
@@ -49,6 +50,12 @@ template <class D>
 class Supervisor {
  public:
   using Law = SupervisorLaw<Fixed, D>;
+  using T = Map::T;
+  /// Clocks of the tick after which a cause may have closed the gates.
+  static constexpr int speed_clock = Map::first_wave_clock + T::speed;
+  static constexpr int heat_clock = Map::first_wave_clock + T::heat;
+  static constexpr int polarity_clock = Map::first_wave_clock + T::polarity;
+  static constexpr int watchdog_clock = Map::first_wave_clock + T::watchdog;
 
   struct In {
     bool tick = false;  ///< last clock of a tick
@@ -99,20 +106,17 @@ class Supervisor {
   void clock(const In& in) {
     const bool live = out_.gates_enable;
     std::uint8_t trip = 0;
-    if (in.encoder_error && bucket_ == kBucket) trip |= bit(Fault::encoder);
+    if (in.encoder_error && errors_ == kBorne) trip |= bit(Fault::encoder);
     if (stop_2_ && live) trip |= bit(Fault::stop);
     if ((in.wave & kWaveClocks) != 0) wave_clock(in, &trip);
-    if (!warm_) sum_ = {};
-    warm_ = true;
-    if (in.encoder_error) bucket_ = bucket_ == kBucket ? 0 : bucket_ + 1;
+    if (in.encoder_error) errors_ = errors_ == kBorne ? 0 : errors_ + 1;
     if (in.tick) {
-      leak(!in.encoder_error);
+      forgive(!in.encoder_error);
       end_tick(in.arm, in.clear_faults, in.kick, trip);
     } else if (trip != 0) {
       latch(trip);
       out_.gates_enable = false;
     }
-    if (!live) rest_timers();
     stop_2_ = stop_1_;
     stop_1_ = in.stop;
   }
@@ -124,49 +128,44 @@ class Supervisor {
   // steps that change something; each stands for all clocks up to its own. The first four return
   // whether the gates fell with it.
 
-  /// Wave clock 17; the products are those of voltage and velocity of the tick before.
+  /// Clock speed_clock; the products are those of voltage and velocity of the tick before.
   bool at_speed(const Words& words, std::int64_t v_product, std::int64_t w_product,
                 std::int32_t velocity) {
     out_.current_estimate = static_cast<std::int32_t>(estimate_of(v_product, w_product));
-    return magnitude_over(velocity, words.overspeed) && trip(Fault::speed);
+    return over(velocity, words.overspeed) && trip(Fault::speed);
   }
-  /// Wave clock 19.
+  /// Clock heat_clock.
   bool at_heat(const Words& words) {
-    const Sum before = sum_;
+    const bool too_hot = sum_.raw() >= std::int64_t{words.i2t_budget};
     const std::int64_t estimate = out_.current_estimate;
-    sum_ = Law::heated(Law::cooled(before, nominal_of(words.nominal_current_squared)),
-                       square_of(estimate * estimate, before));
-    return before.raw() >= static_cast<std::int64_t>(words.i2t_budget) && trip(Fault::i2t);
+    sum_ = Law::heated(Law::cooled(sum_, nominal_of(words.nominal_current_squared)),
+                       square_of(estimate * estimate));
+    return too_hot && trip(Fault::i2t);
   }
-  /// Wave clock 22; the current is that of the tick before.
+  /// Clock polarity_clock; the current is that of the tick before.
   bool at_polarity(const Words& words, std::int32_t velocity, std::int32_t current_ref) {
-    runs_away_ = magnitude_over(velocity, words.polarity_speed) &&
-                 magnitude_over(current_ref, words.polarity_current) &&
-                 (velocity < 0) != (current_ref < 0);
-    const bool trips = out_.gates_enable && runs_away_ &&
-                       (polarity_ >= words.polarity_ticks || polarity_ > kLongestPolarity);
-    polarity_ = runs_away_ ? polarity_ + 1 : 1;
-    return trips && trip(Fault::polarity);
+    fast_ = over(velocity, words.polarity_speed);
+    strong_ = over(current_ref, words.polarity_current);
+    count_runaway(velocity, current_ref, words.polarity_ticks);
+    return out_.gates_enable && runs_away(velocity, current_ref) && long_enough_ &&
+           trip(Fault::polarity);
   }
-  /// Wave clock 47, where that is not the last clock of the tick.
+  /// Clock watchdog_clock, where that is not the last clock of the tick.
   bool at_watchdog(const Words& words) {
     return !kWatchdogLast && silent(words) && trip(Fault::watchdog);
   }
   /// The last clock; returns whether the watchdog closed the gates in it.
   bool at_end(const Words& words, bool arm, bool clear_faults = false, bool kick = false) {
-    const bool live = out_.gates_enable;
     const bool trips = kWatchdogLast && silent(words);
-    leak(true);
+    forgive(true);
     end_tick(arm, clear_faults, kick, trips ? bit(Fault::watchdog) : std::uint8_t{0});
-    if (!live) rest_timers();
-    warm_ = true;
     return trips;
   }
 
   /// Whether too much heat or a wrong polarity might trip in the wave to come.
   bool near_trip(const Words& words) const {
-    return sum_.raw() >= static_cast<std::int64_t>(words.i2t_budget) ||
-           polarity_ >= words.polarity_ticks || polarity_ > kLongestPolarity;
+    return sum_.raw() >= std::int64_t{words.i2t_budget} ||
+           expired(runaway_ticks_, words.polarity_ticks, kLongestRunaway);
   }
 
   /// All five. Returns the clock of the tick after which the gates fell, or -1.
@@ -177,31 +176,32 @@ class Supervisor {
     int fell = -1;
     if (at_speed(words, in.voltage_before * coefficient(words.inverse_resistance),
                  in.velocity_before * coefficient(words.emf_over_resistance), in.velocity)) {
-      fell = 17 + kFirstWaveClock;
+      fell = speed_clock;
     }
-    if (at_heat(words)) fell = 19 + kFirstWaveClock;
-    if (at_polarity(words, in.velocity, in.current_ref)) fell = 22 + kFirstWaveClock;
-    if (at_watchdog(words)) fell = kWatchdogClock;
-    if (at_end(words, in.arm, in.clear_faults, in.kick)) fell = kWatchdogClock;
+    if (at_heat(words)) fell = heat_clock;
+    if (at_polarity(words, in.velocity, in.current_ref)) fell = polarity_clock;
+    if (at_watchdog(words)) fell = watchdog_clock;
+    if (at_end(words, in.arm, in.clear_faults, in.kick)) fell = watchdog_clock;
     return fell;
   }
 
  private:
   using Sum = fixed_of<Law::sum_key>;
   using Squared = fixed_of<Law::squared_key>;
-  static constexpr int kFirstWaveClock = 2;  // clock of the tick that is wave clock 0
-  static constexpr int kWatchdogClock = 47 + kFirstWaveClock;
-  static constexpr bool kWatchdogLast = kWatchdogClock == D::clocks_per_tick - 1;
-  static constexpr int kBucket = 7;  // encoder errors that are borne
-  static constexpr std::uint32_t kLeakTicks = 1024;
-  static constexpr std::uint32_t kLongestPolarity = 0xffff;    // ticks
-  static constexpr std::uint32_t kLongestWatchdog = 0xffffff;  // ticks
-  static constexpr std::uint32_t kWatchdogMask = 0x1ffffff;
+  static constexpr bool kWatchdogLast = watchdog_clock == D::clocks_per_tick - 1;
+  static constexpr int kBorne = 7;  // encoder errors
+  static constexpr std::uint32_t kForgiveTicks = 1024;
+  static constexpr std::uint32_t kLongestRunaway = 1 << 16;  // ticks
+  static constexpr std::uint32_t kLongestKickless = 1 << 24;
+  static constexpr std::uint32_t kKicklessMask = 2 * kLongestKickless - 1;
 
   static constexpr std::uint64_t at(int t) { return std::uint64_t{1} << t; }
-  /// Wave clocks 9, 11, 15 to 22 and 45 to 47.
+  /// Wave clocks in which something is taken over or compared.
   static constexpr std::uint64_t kWaveClocks =
-      at(9) | at(11) | (at(23) - at(15)) | (at(48) - at(45));
+      at(T::estimate_part) | at(T::current_estimate) | at(T::speed_size) | at(T::too_fast) |
+      at(T::speed) | at(T::cooled) | at(T::current_squared) | at(T::too_hot) | at(T::heat) |
+      at(T::fast_size) | at(T::fast) | at(T::strong_size) | at(T::strong) | at(T::runaway_ticks) |
+      at(T::polarity) | at(T::silent) | at(T::watchdog);
   static constexpr std::uint8_t bit(Fault cause) {
     return static_cast<std::uint8_t>(1U << static_cast<unsigned>(cause));
   }
@@ -221,14 +221,18 @@ class Supervisor {
     return fixed<0, 32 - D::f.i2t.fraction, D::f.i2t.fraction>::from_raw(word);
   }
   /// I^2 of an armed tick; nothing is added to a sum above every budget.
-  Squared square_of(std::int64_t square, Sum sum) const {
-    if (!out_.armed || sum.raw() > 0xffffffffLL) return {};
+  Squared square_of(std::int64_t square) const {
+    if (!out_.armed || sum_.raw() > 0xffffffffLL) return {};
     return Law::squared(product<2 * D::f.current_estimate.fraction>(square));
   }
   /// |x| > limit, the limit a signed word: above a negative one everything is.
-  static bool magnitude_over(std::int32_t x, std::uint32_t limit) {
+  static bool over(std::int32_t x, std::uint32_t limit) {
     const std::int64_t wide = x;
     return (wide < 0 ? -wide : wide) > static_cast<std::int32_t>(limit);
+  }
+  /// A counter at its limit; `longest` is the limit of limits.
+  static bool expired(std::uint32_t ticks, std::uint32_t limit, std::uint32_t longest) {
+    return ticks >= limit || ticks >= longest;
   }
 
   /// A cause seen before the last clock of a tick; returns whether it closed the gates.
@@ -238,57 +242,56 @@ class Supervisor {
     out_.gates_enable = false;
     return live;
   }
+  bool runs_away(std::int32_t velocity, std::int32_t current_ref) const {
+    return fast_ && strong_ && (velocity < 0) != (current_ref < 0);
+  }
+  void count_runaway(std::int32_t velocity, std::int32_t current_ref, std::uint32_t limit) {
+    long_enough_ = expired(runaway_ticks_, limit, kLongestRunaway);
+    const bool counts = runs_away(velocity, current_ref) && out_.gates_enable;
+    runaway_ticks_ = counts ? runaway_ticks_ + 1 : 1;
+  }
   bool silent(const Words& words) const {
     return out_.gates_enable && awake_ &&
-           (watchdog_ >= words.watchdog_ticks || watchdog_ > kLongestWatchdog);
+           expired(kickless_ticks_, words.watchdog_ticks, kLongestKickless);
   }
 
-  /// Operands are taken over one clock before they are compared, the result is used one after.
+  /// What one clock of the wave takes over and compares; signals are taken a clock ahead.
   void wave_clock(const In& in, std::uint8_t* trip) {
-    const std::int64_t operand = operand_;
-    const bool over = over_;
-    const std::uint64_t w = in.wave;
-    if ((w & at(9)) != 0) v_product_ = in.product;
-    if ((w & at(11)) != 0) {
+    const auto now = [&in](int t) { return (in.wave & at(t)) != 0; };
+    if (now(T::estimate_part)) v_product_ = in.product;
+    if (now(T::current_estimate)) {
       out_.current_estimate = static_cast<std::int32_t>(estimate_of(v_product_, in.product));
     }
-    if ((w & (at(15) | at(18))) != 0) operand_ = in.velocity;
-    if ((w & at(19)) != 0) operand_ = in.current_ref;
-    if ((w & (at(16) | at(17))) != 0) operand_ = sum_.raw();
-    if ((w & at(20)) != 0) operand_ = polarity_;
-    if ((w & at(45)) != 0) operand_ = watchdog_;
-    if ((w & (at(16) | at(19) | at(20))) != 0) {
-      over_ = magnitude_over(static_cast<std::int32_t>(operand), in.param);
-    }
-    if ((w & (at(18) | at(21) | at(46))) != 0) over_ = operand >= std::int64_t{in.param};
-    if ((w & at(17)) != 0) {
-      if (over) *trip |= bit(Fault::speed);
-      cooled_ = Law::cooled(Sum::from_raw(operand), nominal_of(in.param));
-      square_ = square_of(in.product, sum_);
-    }
-    if ((w & at(19)) != 0) {
-      if (over) *trip |= bit(Fault::i2t);
+    if (now(T::speed) && too_fast_) *trip |= bit(Fault::speed);
+    if (now(T::too_fast)) too_fast_ = over(signal_, in.param);
+
+    if (now(T::heat)) {
+      if (too_hot_) *trip |= bit(Fault::i2t);
       sum_ = Law::heated(cooled_, square_);
     }
-    if ((w & at(20)) != 0) fast_ = over;
-    if ((w & at(21)) != 0) {
-      runs_away_ = over && fast_ && (in.velocity < 0) != (in.current_ref < 0);
+    if (now(T::cooled)) cooled_ = Law::cooled(sum_, nominal_of(in.param));
+    if (now(T::current_squared)) square_ = square_of(in.product);
+    if (now(T::too_hot)) too_hot_ = sum_.raw() >= std::int64_t{in.param};
+
+    if (now(T::polarity) && out_.gates_enable && runs_away(in.velocity, in.current_ref) &&
+        long_enough_) {
+      *trip |= bit(Fault::polarity);
     }
-    if ((w & at(22)) != 0) {
-      const bool long_enough = over || polarity_ > kLongestPolarity;
-      if (out_.gates_enable && runs_away_ && long_enough) *trip |= bit(Fault::polarity);
-      polarity_ = runs_away_ ? polarity_ + 1 : 1;
-    }
-    if ((w & at(47)) != 0 && out_.gates_enable && awake_ &&
-        (over || watchdog_ > kLongestWatchdog)) {
-      *trip |= bit(Fault::watchdog);
-    }
+    if (now(T::runaway_ticks)) count_runaway(in.velocity, in.current_ref, in.param);
+    if (now(T::fast)) fast_ = over(signal_, in.param);
+    if (now(T::strong)) strong_ = over(signal_, in.param);
+
+    if (now(T::watchdog) && out_.gates_enable && awake_ && silent_) *trip |= bit(Fault::watchdog);
+    if (now(T::silent)) silent_ = expired(kickless_ticks_, in.param, kLongestKickless);
+
+    if (now(T::speed_size) || now(T::fast_size)) signal_ = in.velocity;
+    if (now(T::strong_size)) signal_ = in.current_ref;
   }
 
   /// The end of a tick for the encoder errors.
-  void leak(bool undisturbed) {
-    leak_ticks_ = (leak_ticks_ + 1) % kLeakTicks;
-    if (leak_ticks_ == 0 && undisturbed && bucket_ > 0) --bucket_;
+  void forgive(bool undisturbed) {
+    forgive_ticks_ = (forgive_ticks_ + 1) % kForgiveTicks;
+    if (forgive_ticks_ == 0 && undisturbed && errors_ > 0) --errors_;
   }
   void latch(std::uint8_t trip) {
     if (out_.first_fault == 0) {
@@ -300,37 +303,34 @@ class Supervisor {
   void end_tick(bool arm, bool clear_faults, bool kick, std::uint8_t trip) {
     const bool arms = arm && !asked_ && out_.first_fault == 0 && !stop_2_;
     const bool armed = (arms || (arm && out_.gates_enable)) && trip == 0;
+    kickless_ticks_ = kick || !out_.gates_enable ? 0 : (kickless_ticks_ + 1) & kKicklessMask;
     if (clear_faults && !arm) out_.faults = out_.first_fault = 0;
     if (trip != 0) latch(trip);
     out_.gates_enable = out_.armed = armed;
     asked_ = arm;
     if (kick) awake_ = true;
-    watchdog_ = kick ? 0 : (watchdog_ + 1) & kWatchdogMask;
-  }
-  /// While the gates are off.
-  void rest_timers() {
-    polarity_ = 1;
-    watchdog_ = 0;
   }
 
   Out out_;
   bool stop_1_ = true;
   bool stop_2_ = true;
-  bool asked_ = true;  ///< the request of the tick before: high after a reset
-  bool warm_ = false;
+  bool asked_ = true;   ///< the request of the tick before: high after a reset
   bool awake_ = false;  ///< the watchdog has been kicked
-  int bucket_ = 0;
-  std::uint32_t leak_ticks_ = 0;
+  int errors_ = 0;      ///< of the encoder, not forgiven yet
+  std::uint32_t forgive_ticks_ = 0;
+  std::int32_t signal_ = 0;  ///< to be compared in the next clock
+  bool too_fast_ = false;
+  bool fast_ = false;
+  bool strong_ = false;
+  bool long_enough_ = false;
+  std::uint32_t runaway_ticks_ = 1;  ///< on end, with this one
   std::int64_t v_product_ = 0;
   Sum sum_;
   Sum cooled_;
   Squared square_;
-  bool fast_ = false;
-  bool runs_away_ = false;
-  std::uint32_t polarity_ = 1;
-  std::uint32_t watchdog_ = 0;
-  std::int64_t operand_ = 0;
-  bool over_ = false;
+  bool too_hot_ = false;
+  bool silent_ = false;
+  std::uint32_t kickless_ticks_ = 0;
 };
 
 }  // namespace feltgate

@@ -148,16 +148,21 @@ struct Map {
     static constexpr int duty = 45;
     static constexpr int estimate_part = 9;
     static constexpr int current_estimate = 11;
-    static constexpr int speed_operand = 15;
+    static constexpr int speed_size = 15;
+    static constexpr int too_fast = 16;
     static constexpr int speed = 17;
     static constexpr int cooled = 17;
     static constexpr int cooled_at_least_0 = 18;
     static constexpr int current_squared = 17;
-    static constexpr int heat_operand = 17;
+    static constexpr int too_hot = 18;
     static constexpr int heat = 19;
-    static constexpr int polarity_speed = 20;
-    static constexpr int polarity_current = 21;
+    static constexpr int fast_size = 18;
+    static constexpr int fast = 19;
+    static constexpr int strong_size = 19;
+    static constexpr int strong = 20;
+    static constexpr int runaway_ticks = 21;
     static constexpr int polarity = 22;
+    static constexpr int silent = 46;
     static constexpr int watchdog = 47;
     static constexpr int position_word = 1;
     static constexpr int status_word = 2;
@@ -213,18 +218,22 @@ struct Map {
     read_encoder,
     observer_difference,
     operand_observer_a1,
-    speed_operand,
+    speed_size,
+    too_fast,
     speed,
     cooled,
     current_squared,
-    heat_operand,
     cooled_at_least_0,
+    too_hot,
+    fast_size,
     observer_state,
     heat,
+    fast,
+    strong_size,
     observed,
-    polarity_speed,
+    strong,
     observed_rounded,
-    polarity_current,
+    runaway_ticks,
     operand_emf_constant,
     tau_hat,
     polarity,
@@ -264,6 +273,7 @@ struct Map {
     duty_sum,
     duty,
     read_duty,
+    silent,
     duty_word,
     watchdog,
     snapshot,
@@ -305,18 +315,22 @@ struct Map {
       {Step::read_encoder, 14},
       {Step::observer_difference, 14},
       {Step::operand_observer_a1, 15},
-      {Step::speed_operand, 15},
+      {Step::speed_size, 15},
+      {Step::too_fast, 16},
       {Step::speed, 17},
       {Step::cooled, 17},
       {Step::current_squared, 17},
-      {Step::heat_operand, 17},
       {Step::cooled_at_least_0, 18},
+      {Step::too_hot, 18},
+      {Step::fast_size, 18},
       {Step::observer_state, 19},
       {Step::heat, 19},
+      {Step::fast, 19},
+      {Step::strong_size, 19},
       {Step::observed, 20},
-      {Step::polarity_speed, 20},
+      {Step::strong, 20},
       {Step::observed_rounded, 21},
-      {Step::polarity_current, 21},
+      {Step::runaway_ticks, 21},
       {Step::operand_emf_constant, 22},
       {Step::tau_hat, 22},
       {Step::polarity, 22},
@@ -356,6 +370,7 @@ struct Map {
       {Step::duty_sum, 44},
       {Step::duty, 45},
       {Step::read_duty, 46},
+      {Step::silent, 46},
       {Step::duty_word, 46},
       {Step::watchdog, 47},
       {Step::snapshot, 47},

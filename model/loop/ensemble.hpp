@@ -37,6 +37,8 @@ class Ensemble {
   void set_parameter(const std::string& name, double value);
   void set_control(int scene, int mode, bool arm);
   void command(std::uint32_t bits);
+  /// Register writes wait for their ticks.
+  bool writes_wait() const { return !pending_.empty(); }
   /// Appends every later write to `log`.
   void note_writes(std::vector<HostWrite>* log) { log_ = log; }
   /// From the next tick on errors are also collected apart for the ticks that this covers.
@@ -58,9 +60,18 @@ class Ensemble {
     }
   }
 
-  /// What the engine that drives the motor says in the tick of `s`.
-  EngineSignals signals(const Snapshot& s) const {
-    return choice_.rider_drives ? of_chain(riders_[0].chain->out()) : of_core(s);
+  /// What the engine that drives the motor says in the tick of `s`, but for voltage and duty, which
+  /// only a row of output needs: fill().
+  void signals(EngineSignals& e, const Snapshot& s) const {
+    if (choice_.rider_drives) {
+      e = of_chain(riders_[0].chain->out());
+      return;
+    }
+    e.velocity_rad_s = velocity_rad_s(s);
+    e.tau_ref_nm = torque_nm(s.tau_ref);
+    e.tau_hat_nm = torque_nm(s.tau_hat);
+    e.current_a = current_a(s);
+    e.torque_nm = design().torque_constant_nm_a * e.current_a;
   }
   /// Position, limits, faults and the signals of every engine in the tick of `s`.
   void fill(Row& row, const Snapshot& s) const;

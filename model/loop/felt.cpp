@@ -31,7 +31,8 @@ std::string Expected::wanted() const {
 
 FeltMeter::FeltMeter(double tick_s)
     : tick_s_(tick_s),
-      window_ticks_(std::max<std::int64_t>(1, std::llround(felt_window_s / tick_s))) {}
+      window_ticks_(std::max<std::int64_t>(1, std::llround(felt_window_s / tick_s))),
+      window_left_(window_ticks_) {}
 
 void FeltMeter::end_window() {
   const double ticks = static_cast<double>(window_ticks_);
@@ -40,6 +41,7 @@ void FeltMeter::end_window() {
   hand_.add(hand_nm_s_ / (ticks * tick_s_), begin);
   motor_error_.add((motor_sum_nm_ - asked_sum_nm_) / ticks);
   hand_nm_s_ = motor_sum_nm_ = asked_sum_nm_ = 0;
+  window_left_ = window_ticks_;
 }
 
 Felt FeltMeter::felt() {

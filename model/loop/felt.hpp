@@ -132,7 +132,7 @@ class FeltMeter {
   void motor(double motor_nm, double asked_nm) {
     motor_sum_nm_ += motor_nm;
     asked_sum_nm_ += asked_nm;
-    if (ticks_ % window_ticks_ == 0) end_window();
+    if (--window_left_ == 0) end_window();
   }
 
   /// Expectations and errors are left empty.
@@ -152,6 +152,7 @@ class FeltMeter {
 
   double tick_s_;
   std::int64_t window_ticks_;
+  std::int64_t window_left_;  ///< ticks
   std::int64_t ticks_ = 0;
   double hand_nm_s_ = 0, motor_sum_nm_ = 0, asked_sum_nm_ = 0;  ///< of the window so far
   double taken_j_ = 0, returned_j_ = 0, highest_j_ = 0, lowest_j_ = 0;

@@ -17,6 +17,7 @@
 #include "config/toml_reader.hpp"
 #include "loop/ensemble.hpp"
 #include "loop/scenario_check.hpp"
+#include "loop/step_plan.hpp"
 #include "plant/drive.hpp"
 #include "plant/period_mean.hpp"
 #include "plant/plant.hpp"
@@ -52,11 +53,14 @@ class ScenarioRun {
                scenario.hand),
         core_(options.design, choice_, options.seed, plant_.encoder().pins(),
               Waveform{options.fst, options.fst_from, options.fst_to}),
-        mean_(core_.design().pwm_period),
+        plan_(plan(scenario, plant, core_.design(), choice_)),
+        mean_(core_.design().pwm_period, plan_.phase()),
         felt_(1.0 / static_cast<double>(core_.design().tick_hz)),
         scene_(scene_number(core_.design(), scenario.scene)),
         mode_(scenario.mode),
-        counter_(plant_.encoder().pins()) {}
+        counter_(plant_.encoder().pins()) {
+    last_.theta_rad = plant_.observables().theta_rad;
+  }
 
   RunResult run() {
     const DesignInfo& d = core_.design();
@@ -88,7 +92,11 @@ class ScenarioRun {
         apply(s_.events[next_event++]);
         event_at = event_clock(next_event);
       }
-      step(std::min<Clock>(s_.step_clocks, end - now));
+      // What is asked for is done by the end of a tick, and so is what follows from it.
+      if (core_.writes_wait()) plan_.stir(now, 2 * d.clocks_per_tick);
+      Clock corner = std::min(event_at, plant_.next_corner());
+      if (now < arm_at) corner = std::min(corner, arm_at);
+      step(plan_.end_of_step(now, corner, end) - now);
       if (options_.progress && now >= next_report) {
         options_.progress(static_cast<double>(now) / static_cast<double>(end));
         next_report = now + d.clock_hz / 100;
@@ -100,6 +108,14 @@ class ScenarioRun {
   }
 
  private:
+  /// Gates and real chains change their mind within a period of the PWM: equal steps for them.
+  static StepPlan plan(const Scenario& s, const plant::Parameters& plant, const DesignInfo& d,
+                       const EngineChoice& choice) {
+    if (s.step_given || s.switched || choice.rider_drives) return StepPlan(s.step_clocks);
+    return {s.step_clocks, longest_step_clocks(s, plant, static_cast<double>(d.clock_hz)),
+            d.pwm_period};
+  }
+
   Clock clock_of(double seconds) const {
     constexpr double never = 0x1p62;  // and no sum with it overflows
     return std::llround(std::min(seconds * static_cast<double>(core_.design().clock_hz), never));
@@ -120,6 +136,7 @@ class ScenarioRun {
       Panel panel;
       panel.stop = *e.stop;
       core_.set_panel(panel);
+      plan_.stir(core_.lead().now(), 2 * core_.design().clocks_per_tick);
     }
     if (e.scene || e.mode || e.arm) {
       if (e.scene) scene_ = scene_number(core_.design(), *e.scene);
@@ -164,16 +181,17 @@ class ScenarioRun {
   // The bridge of the last interval drives the motor in this one: no edge depends on its own
   // future.
   void step(Clock clocks) {
+    const plant::Observables& o = plant_.observables();
+    before_ = {o.theta_rad, o.omega_rad_s, o.hand_torque_nm, mean_.mean()};
     plant_.advance(bridge(last_clocks_), clocks);
     if (clocks != last_clocks_) {
+      longest_step_clocks_ = std::max(longest_step_clocks_, clocks);
       dt_s_ = static_cast<double>(clocks) / static_cast<double>(core_.design().clock_hz);
     }
     last_clocks_ = clocks;
-    const plant::Observables& o = plant_.observables();
     if (options_.plant_step) options_.plant_step(clocks, o);
     mean_.add(clocks, o.motor_torque_mean_nm);
     felt_.step(dt_s_, o.hand_torque_nm, o.omega_rad_s);
-    absorbed_j_ -= last_.tau_ref_nm * o.omega_rad_s * dt_s_;
     const auto& events = plant_.events();
     if (options_.inputs != nullptr) {
       auto& edges = options_.inputs->edges;
@@ -187,12 +205,20 @@ class ScenarioRun {
                   [this](const Snapshot& s) { tick(s); });
   }
 
+  /// A step of the plant may last for several ticks, and between its ends all is as good as
+  /// straight.
   void tick(const Snapshot& s) {
     const plant::Observables& o = plant_.observables();
     Row& r = last_;
-    r.theta_rad = o.theta_rad;
-    r.motor_torque_nm = mean_.mean();
-    static_cast<EngineSignals&>(r) = core_.signals(s);
+    const Clock left = plant_.now() - (ticks_ + 1) * core_.design().clocks_per_tick;
+    const double back =
+        left > 0 ? static_cast<double>(left) / static_cast<double>(last_clocks_) : 0.0;
+    const auto then = [back](double now, double before) { return now - back * (now - before); };
+    const double theta_rad = then(o.theta_rad, before_.theta_rad);
+    absorbed_j_ -= r.tau_ref_nm * (theta_rad - r.theta_rad);
+    r.theta_rad = theta_rad;
+    r.motor_torque_nm = left > 0 ? before_.motor_mean_nm : mean_.mean();
+    core_.signals(r, s);
     felt_.tick(r.tau_ref_nm, r.torque_nm, s.limits, s.faults);
     felt_.motor(r.motor_torque_nm, r.tau_ref_nm);
     faults_ |= s.faults;
@@ -206,8 +232,8 @@ class ScenarioRun {
     }
     if (options_.row && ticks_ % options_.row_every == 0) {
       r.time_s = static_cast<double>(ticks_) / static_cast<double>(core_.design().tick_hz);
-      r.omega_rad_s = o.omega_rad_s;
-      r.hand_torque_nm = o.hand_torque_nm;
+      r.omega_rad_s = then(o.omega_rad_s, before_.omega_rad_s);
+      r.hand_torque_nm = then(o.hand_torque_nm, before_.hand_torque_nm);
       core_.fill(r, s);
       options_.row(r);
     }
@@ -222,6 +248,7 @@ class ScenarioRun {
     out.clocks = clocks;
     out.ticks = ticks_;
     out.simulated_s = static_cast<double>(clocks) / static_cast<double>(d.clock_hz);
+    out.longest_step_clocks = longest_step_clocks_;
     out.plant_states = plant_.state_size();
     out.evaluations = plant_.evaluations();
     out.lock_step = choice_.lead == "lockstep";
@@ -297,6 +324,7 @@ class ScenarioRun {
   EngineChoice choice_;
   plant::Plant plant_;
   Ensemble core_;
+  StepPlan plan_;
   plant::PeriodMean mean_;
   FeltMeter felt_;
   int scene_, mode_;
@@ -304,7 +332,12 @@ class ScenarioRun {
   std::unique_ptr<traces::VectorWriter> recorder_;
   bool armed_ = false, arm_done_ = false;
   Clock last_clocks_ = 0;  ///< none yet
+  Clock longest_step_clocks_ = 0;
   double dt_s_ = 0;
+  /// What the plant showed at the beginning of its last step.
+  struct {
+    double theta_rad = 0, omega_rad_s = 0, hand_torque_nm = 0, motor_mean_nm = 0;
+  } before_;
   int duty_clocks_ = 0;  ///< of the bridge, and what it is of a period
   double duty_ = 0;
   std::int64_t ticks_ = 0;

@@ -69,6 +69,7 @@ struct RunResult {
   std::map<std::string, double> figures;  ///< what scene files put bounds on
   std::vector<std::string> broken;  ///< expectations and bounds that do not hold, one line each
   double simulated_s = 0;
+  Clock longest_step_clocks = 0;   ///< of the plant
   std::size_t plant_states = 0;    ///< continuous states of the plant at the end
   plant::Evaluations evaluations;  ///< of the plant's effects
 };

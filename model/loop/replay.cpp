@@ -36,7 +36,8 @@ RunResult run_replay(EncoderSource& source, const std::string& subject,
   Row row;
   const auto tick = [&](const Snapshot& s) {
     ++out.ticks;
-    const EngineSignals now = core.signals(s);
+    EngineSignals now;
+    core.signals(now, s);
     felt.tick(now.tau_ref_nm, now.torque_nm, s.limits, s.faults);
     if (!options.row || (out.ticks - 1) % options.row_every != 0) return;
     row.time_s = static_cast<double>(out.ticks) / static_cast<double>(d.tick_hz);

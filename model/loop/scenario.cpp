@@ -93,8 +93,8 @@ Scenario read_scenario(const std::string& path) {
   s.about = top.paragraph("about");
   s.duration_s = top.number("duration_s", {1e-5, 1e5});
   s.plant = top.has("plant") ? top.text("plant") : "p24";
-  s.step_clocks =
-      top.has("step_clocks") ? static_cast<int>(top.integer("step_clocks", 1, 250)) : 25;
+  s.step_given = top.has("step_clocks");
+  if (s.step_given) s.step_clocks = static_cast<int>(top.integer("step_clocks", 1, 250));
   if (top.has("bridge")) s.switched = top.choice("bridge", {"averaged", "switched"}) == 1;
   {
     config::TomlReader core = top.section("core");

@@ -48,8 +48,10 @@ struct EffectSetting {
 struct Scenario {
   std::string name, path, title, about;
   double duration_s = 0;
-  std::string plant;      ///< name of the plant file
-  int step_clocks = 25;   ///< plant step
+  std::string plant;     ///< name of the plant file
+  int step_clocks = 25;  ///< plant step
+  bool step_given =
+      false;              ///< every step is so long; else those in which nothing happens are longer
   bool switched = false;  ///< gates drive the plant instead of the mean duty
   std::string scene = "free";
   int scene_line = 0;  ///< of the file; 0: not of a file

@@ -32,6 +32,7 @@ Clock HandRun::end_of(std::size_t index) const {
 }
 
 void HandRun::begin_phase(const Shaft& lever) {
+  corner_ = 0;
   const HandPhase& phase = hand_.phases[index_];
   const bool goes_on = started_ && kind_ == Kind::kImpedance && phase.kind == Kind::kImpedance;
   kind_ = phase.kind;
@@ -63,6 +64,17 @@ void HandRun::begin_phase(const Shaft& lever) {
     case Kind::kLocked:
     case Kind::kCord:
       break;
+  }
+}
+
+void HandRun::find_corner(Clock now) {
+  constexpr Clock never = Clock{1} << 62;
+  corner_ = last_ ? never : phase_end_;
+  if (kind_ != Kind::kPrescribed && kind_ != Kind::kTorque && kind_ != Kind::kImpedance) return;
+  const double begin_s = static_cast<double>(now - phase_begin_) * clock_s_;
+  const double clocks = std::ceil(profile_.next_corner_s(begin_s) * clock_hz_);
+  if (clocks < static_cast<double>(never)) {
+    corner_ = std::min(corner_, std::max(now + 1, phase_begin_ + static_cast<Clock>(clocks)));
   }
 }
 

@@ -21,6 +21,13 @@ class HandRun {
   /// first step at or after its time; profiles run from the time itself, so nothing drifts.
   void begin_step(Clock now, double dt_s, const Shaft& lever);
 
+  /// The first clock after `now` at which the hand does something else: a phase or a segment of its
+  /// motion ends. Later than any run: nothing of that kind.
+  Clock next_corner(Clock now) {
+    if (corner_ <= now) find_corner(now);
+    return corner_;
+  }
+
   HandPhase::Kind kind() const { return kind_; }
   /// The lever is where the hand puts it: target() at the end of the step.
   bool imposes() const {
@@ -50,6 +57,7 @@ class HandRun {
 
  private:
   void begin_phase(const Shaft& lever);
+  void find_corner(Clock now);
   Clock end_of(std::size_t index) const;
 
   Hand hand_;
@@ -60,6 +68,7 @@ class HandRun {
   bool started_ = false;
   Clock phase_begin_ = 0;
   Clock phase_end_ = 0;
+  Clock corner_ = 0;  ///< next_corner() as long as it lies ahead
   bool last_ = true;
   HandPhase::Kind kind_ = HandPhase::Kind::kFree;
   ProfileRun profile_;

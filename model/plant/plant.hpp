@@ -60,6 +60,10 @@ class Plant {
   /// fastest; recommended 25 clocks (0.5 us), at most 250 (5 us). Errors: MotionError.
   void advance(const Bridge& bridge, Clock clocks);
 
+  /// The first clock after now() at which the hand begins something else: between two of these a
+  /// long step is as good as many short ones.
+  Clock next_corner() { return hand_.next_corner(now_); }
+
   /// Time since the start, in clocks. Seconds come from it alone.
   Clock now() const { return now_; }
   /// Pin changes during the last step; valid until the next advance().

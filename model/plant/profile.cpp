@@ -5,6 +5,7 @@
 #include "plant/profile.hpp"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace feltgate::plant {
@@ -65,6 +66,15 @@ ProfileSample ProfileRun::at(double time_s) {
     ++index_;
   }
   return {start_, 0.0};
+}
+
+double ProfileRun::next_corner_s(double time_s) const {
+  double end_s = begin_s_;
+  for (std::size_t i = index_; i < profile_.size(); ++i) {
+    end_s += profile_[i].duration_s;
+    if (end_s > time_s) return end_s;
+  }
+  return std::numeric_limits<double>::infinity();
 }
 
 double TraceRun::slope(std::size_t i) const {

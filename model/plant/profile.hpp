@@ -41,6 +41,8 @@ class ProfileRun {
   ProfileRun() = default;
   ProfileRun(Profile profile, double start);
   ProfileSample at(double time_s);
+  /// When the next segment after `time_s` begins or the last one ends; infinite: never.
+  double next_corner_s(double time_s) const;
 
  private:
   Profile profile_;

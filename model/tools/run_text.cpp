@@ -196,7 +196,9 @@ std::string run_text(const RunResult& r, const RunLabels& labels) {
   text += fmt::format("\nencoder: {} steps, {} illegal, {} reversals\n", r.position.steps,
                       r.position.illegal, r.position.reversals);
   if (r.felt.closed_loop) {
-    text += fmt::format("plant: steps of {} clocks; effects off: {}\n", labels.step_clocks,
+    const bool longer = r.longest_step_clocks > labels.step_clocks;
+    text += fmt::format("plant: steps of {}{} clocks; effects off: {}\n", labels.step_clocks,
+                        longer ? fmt::format(" to {}", r.longest_step_clocks) : "",
                         labels.effects_off.empty()
                             ? "none"
                             : fmt::format("{}", fmt::join(labels.effects_off, " ")));

@@ -71,6 +71,7 @@ Felt feel(const Scenario& scene, const plant::Parameters& plant, const std::stri
   s.effects = model.effects;
   s.switched = model.gates;
   s.step_clocks = model.step_clocks;
+  s.step_given = true;
   const Clock window = std::llround(window_s * static_cast<double>(design_named(design).clock_hz));
   Means torque(window), position(window), force(window);
   const double start_rad = s.hand.initial_rad();

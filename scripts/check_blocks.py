@@ -22,7 +22,7 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-import defects
+from seeding import patches
 import rtl_sources
 
 MAX_LINES = 400
@@ -109,8 +109,8 @@ def check_block(root, block):
     elif isinstance(block.defects[0], Path):
         for patch in block.defects:
             try:
-                defects.summary(patch)
-            except defects.DefectError as error:
+                patches.summary(patch)
+            except patches.DefectError as error:
                 yield str(error).replace(f"{root}/", "", 1)
         if re.search(r"\bDefect\b", rtl):
             yield f"{block.rtl}: the word Defect; what breaks it is a patch in {folder}"

@@ -8,7 +8,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-import defects
+from seeding import block, headers, patches
 
 TOP = """module top #(
     parameter int Width = 8  // bits, (even)
@@ -50,14 +50,14 @@ class Defects(unittest.TestCase):
         return patch
 
     def refused(self, patch, *words):
-        with self.assertRaises(defects.DefectError) as caught:
-            defects.patched(patch, self.root)
+        with self.assertRaises(patches.DefectError) as caught:
+            patches.patched(patch, self.root)
         for word in (patch.name, *words):
             self.assertIn(word, str(caught.exception))
 
     def test_a_copy_has_the_defect_and_the_source_has_not(self):
         patch = self.patch("<= a_i", "<= ~a_i")
-        (written,) = defects.write_copies(patch, self.root / "out", self.root)
+        (written,) = patches.write_copies(patch, self.root / "out", self.root)
         self.assertEqual(written, self.root / "out/rtl/child.sv")
         self.assertEqual(written.read_text(), CHILD.replace("<= a_i", "<= ~a_i"))
         self.assertEqual((self.root / "rtl/child.sv").read_text(), CHILD)
@@ -73,7 +73,7 @@ class Defects(unittest.TestCase):
     def test_moved_lines_are_found(self):
         patch = self.patch("<= a_i", "<= ~a_i")
         (self.root / "rtl/child.sv").write_text("// a new head\n" + CHILD)
-        self.assertIn("<= ~a_i", defects.patched(patch, self.root)[SOURCES[0]])
+        self.assertIn("<= ~a_i", patches.patched(patch, self.root)[SOURCES[0]])
 
     def test_changes_nothing(self):
         self.refused(self.patch("// late", "// a clock later"), "changes no code of rtl/child.sv")
@@ -98,7 +98,7 @@ class Defects(unittest.TestCase):
     def test_block_holds_a_copy_for_each(self):
         one = self.patch("<= a_i", "<= ~a_i", name="inverted")
         two = self.patch(".a_i(a_i)", ".a_i('0)", path="rtl/top.sv", name="dead")
-        text = defects.block_of_defects("top", [one, two], SOURCES, self.root)
+        text = block.block_of_defects("top", [one, two], SOURCES, self.root)
         modules = [line.split()[1] for line in text.splitlines() if line.startswith("module ")]
         self.assertEqual(
             modules, ["top", "top_none", "top_dead", "child_inverted", "top_inverted"]
@@ -111,17 +111,53 @@ class Defects(unittest.TestCase):
 
     def test_block_without_the_file_of_the_patch(self):
         patch = self.patch("<= a_i", "<= ~a_i")
-        with self.assertRaisesRegex(defects.DefectError, "not part of top's test"):
-            defects.block_of_defects("top", [patch], SOURCES[1:], self.root)
+        with self.assertRaisesRegex(patches.DefectError, "not part of top's test"):
+            block.block_of_defects("top", [patch], SOURCES[1:], self.root)
+
+    def header(self, changes, text):
+        """The text of a header with the statements of these patches, without its first line."""
+        (self.root / "model").mkdir()
+        (self.root / "model/a.hpp").write_text(text)
+        (self.root / "model/b.hpp").write_text("// as it is\n")
+        made = [
+            self.patch(*change, path="model/a.hpp", name=name) for name, change in changes.items()
+        ]
+        headers.write_headers(made, self.root / "out", self.root)
+        self.assertTrue((self.root / "out/model/b.hpp").is_symlink())
+        return (self.root / "out/model/a.hpp").read_text().partition("\n")[2]
+
+    def test_header_holds_the_statements_of_all(self):
+        text = self.header(
+            {"late": ("return x;", "return x + 1;"), "odd": ("return x;", "return x | 1;")},
+            "int f(int x) {\n  return x;\n}\n",
+        )
+        self.assertEqual(
+            text.split(),
+            "int f(int x) { if (feltgate_seeded::is(1)) { return x + 1; } else "
+            "if (feltgate_seeded::is(2)) { return x | 1; } else { return x; } }".split(),
+        )
+        choice = (self.root / "out/seeded_choice.hpp").read_text()
+        self.assertIn('feltgate_chosen_defect("none late odd")', choice)
+
+    def test_statements_are_whole(self):
+        text = self.header(
+            {"sign": ("    -x,", "    x,"), "gone": ("  ++n;  // counts\n", "")},
+            "int f(int x) {\n  ++n;  // counts\n  return g(\n    -x,\n    2);\n}\n",
+        )
+        self.assertEqual(
+            text.split(),
+            "int f(int x) { if (feltgate_seeded::is(2)) { } else { ++n; // counts } "
+            "if (feltgate_seeded::is(1)) { return g( x, 2); } else { return g( -x, 2); } }".split(),
+        )
 
     def test_classes(self):
         one, other = self.root / "one.h", self.root / "other.h"
         one.write_text('#include "a.h"\nclass V { int a, b; };\n')
         other.write_text('#include "b.h"\nclass V { int a, b; };\n')
-        defects.check_same_class(one, other)
+        block.check_same_class(one, other)
         other.write_text("class V { int b, a; };\n")
-        with self.assertRaisesRegex(defects.DefectError, "differ"):
-            defects.check_same_class(one, other)
+        with self.assertRaisesRegex(patches.DefectError, "differ"):
+            block.check_same_class(one, other)
 
 
 if __name__ == "__main__":

@@ -11,10 +11,9 @@ include_guard(GLOBAL)
 
 if(FELTGATE_RTL)
   include("${CMAKE_CURRENT_LIST_DIR}/verilate.cmake")
-  include("${CMAKE_CURRENT_LIST_DIR}/defects.cmake")
 endif()
+include("${CMAKE_CURRENT_LIST_DIR}/defects.cmake")
 
-set(FELTGATE_EXPECT_FAILURE "${CMAKE_CURRENT_LIST_DIR}/expect_failure.cmake")
 find_package(Catch2 QUIET)
 if(NOT Catch2_FOUND)
   # Version 2 is headers, which do where this is compiled for another machine; 3 is a library.
@@ -82,7 +81,8 @@ function(feltgate_block_test block)
     target_link_libraries(${arg_NAME}_defects PRIVATE
       feltgate_catch_main ${arg_LIBRARIES} ${arg_NAME}_defects_rtl)
     feltgate_same_class(${arg_NAME}_defects ${block} ${arg_NAME}_rtl ${arg_NAME}_defects_rtl)
-    feltgate_defect_tests(${arg_NAME} ${arg_NAME}_defects ${block})
+    feltgate_patches(patches ${block})
+    feltgate_defect_tests(${arg_NAME} ${arg_NAME}_defects PATCHES ${patches})
   endif()
   foreach(n RANGE 1 ${arg_DEFECTS})
     if(n GREATER arg_DEFECTS)

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# Seeded defects of the RTL: patches in testbench/<block>/defects, all in one model of the block.
+# Seeded defects: patches in testbench/<block>/defects, all of a block in one model, all of a test's headers
+# in one program.
 # docs/testing.md
 include_guard(GLOBAL)
 find_package(Python3 3.11 COMPONENTS Interpreter REQUIRED)
 
 set(FELTGATE_DEFECTS "${FELTGATE_ROOT}/scripts/defects.py")
+file(GLOB FELTGATE_SEEDING CONFIGURE_DEPENDS "${FELTGATE_ROOT}/scripts/seeding/*.py")
+list(APPEND FELTGATE_SEEDING "${FELTGATE_DEFECTS}")
 set(FELTGATE_EXPECT_FAILURE "${CMAKE_CURRENT_LIST_DIR}/expect_failure.cmake")
 set(FELTGATE_EXPECT_QUIET "${CMAKE_CURRENT_LIST_DIR}/expect_quiet.cmake")
 
@@ -31,7 +34,7 @@ function(feltgate_verilate_defects target block package sources)
   add_custom_command(OUTPUT "${copies}"
     COMMAND ${Python3_EXECUTABLE} -B "${FELTGATE_DEFECTS}" block ${block} --root "${FELTGATE_ROOT}"
             --output "${copies}" --patches ${patches} --sources ${sources}
-    DEPENDS ${patches} ${sources} "${FELTGATE_DEFECTS}"
+    DEPENDS ${patches} ${sources} ${FELTGATE_SEEDING}
     COMMENT "Seeding defects into ${block}" VERBATIM)
   list(FILTER sources EXCLUDE REGEX "/${block}\\.sv$")
   # A defect may leave signals unused; what does not elaborate is an error.
@@ -49,23 +52,47 @@ function(feltgate_same_class target block library other)
     "${CMAKE_CURRENT_BINARY_DIR}/${other}.verilated/V${block}.h")
   add_custom_command(OUTPUT "${stamp}"
     COMMAND ${Python3_EXECUTABLE} -B "${FELTGATE_DEFECTS}" same-class ${headers} --output "${stamp}"
-    DEPENDS ${headers} "${FELTGATE_DEFECTS}" VERBATIM)
+    DEPENDS ${headers} ${FELTGATE_SEEDING} VERBATIM)
   target_sources(${target} PRIVATE "${stamp}")
 endfunction()
 
-# feltgate_defect_tests(<test> <program> <block>): <test>.<patch> passes when an assertion fails,
-# <test>.none when the same program finds nothing in the copy without a defect.
-function(feltgate_defect_tests test program block)
-  feltgate_patches(patches ${block})
-  foreach(patch IN LISTS patches)
+# feltgate_defect_program(<target> PATCHES p... SOURCES s... [LIBRARIES l...]): a Catch2 program of these
+# sources on headers that hold the statements of all patches; FELTGATE_DEFECT says which are executed.
+function(feltgate_defect_program target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "PATCHES;SOURCES;LIBRARIES")
+  set(copies "${CMAKE_CURRENT_BINARY_DIR}/${target}.headers")
+  set(changed "")
+  foreach(patch IN LISTS arg_PATCHES)
+    file(STRINGS "${patch}" files REGEX "^\\+\\+\\+ b/")
+    list(TRANSFORM files REPLACE "^\\+\\+\\+ b/([^ \t]+).*" "${FELTGATE_ROOT}/\\1")
+    list(APPEND changed ${files})
+  endforeach()
+  add_custom_command(OUTPUT "${copies}/seeded_choice.hpp"
+    COMMAND ${CMAKE_COMMAND} -E rm -rf "${copies}"
+    COMMAND ${Python3_EXECUTABLE} -B "${FELTGATE_DEFECTS}" headers ${arg_PATCHES}
+            --root "${FELTGATE_ROOT}" --output "${copies}"
+    DEPENDS ${arg_PATCHES} ${changed} ${FELTGATE_SEEDING}
+    COMMENT "Seeding defects for ${target}" VERBATIM)
+  add_executable(${target} ${arg_SOURCES} "${copies}/seeded_choice.hpp")
+  target_include_directories(${target} BEFORE PRIVATE "${copies}/model/include" "${copies}/model")
+  target_compile_options(${target} PRIVATE -w -O0)
+  target_link_libraries(${target} PRIVATE
+    feltgate_catch_main feltgate_model feltgate_chosen_defect ${arg_LIBRARIES})
+endfunction()
+
+# feltgate_defect_tests(<test> <program> PATCHES p... [CASES tag]): <test>.<patch> passes when an assertion
+# fails, <test>.none when the same program finds nothing in the copy without a defect.
+function(feltgate_defect_tests test program)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "CASES" "PATCHES")
+  set(command "-DTEST=${CMAKE_CROSSCOMPILING_EMULATOR};$<TARGET_FILE:${program}>;${arg_CASES}")
+  foreach(patch IN LISTS arg_PATCHES)
     get_filename_component(name "${patch}" NAME_WE)
     add_test(NAME ${test}.${name}
-      COMMAND ${CMAKE_COMMAND} -DTEST=$<TARGET_FILE:${program}> -P "${FELTGATE_EXPECT_FAILURE}")
+      COMMAND ${CMAKE_COMMAND} "${command}" -P "${FELTGATE_EXPECT_FAILURE}")
     set_tests_properties(${test}.${name} PROPERTIES LABELS mutation TIMEOUT 3600
       ENVIRONMENT "FELTGATE_DEFECT=${name};FELTGATE_MISMATCH_DIR=${PROJECT_BINARY_DIR}/mismatch/${name}")
   endforeach()
-  add_test(NAME ${test}.none
-    COMMAND ${CMAKE_COMMAND} -DTEST=$<TARGET_FILE:${program}> -P "${FELTGATE_EXPECT_QUIET}")
+  add_test(NAME ${test}.none COMMAND ${CMAKE_COMMAND} "${command}" -P "${FELTGATE_EXPECT_QUIET}")
   set_tests_properties(${test}.none PROPERTIES LABELS mutation TIMEOUT 3600
     ENVIRONMENT "FELTGATE_DEFECT=none")
 endfunction()

@@ -2,14 +2,12 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Each lane of a batch against a chain of its own: every result of every tick, lanes with counts
-// and parameter words of their own. FELTGATE_DEFECT=1..3 breaks one lane. Documentation:
-// docs/engines.md
+// and parameter words of their own. Documentation: docs/engines.md
 #include "batch/batch_chain.hpp"
 
 #include <memory>
 #include <vector>
 
-#include "../fixed/seeded_defect.hpp"
 #include "catch.hpp"
 #include "chain_life.hpp"
 #include "feltgate/generated/lever.hpp"
@@ -28,17 +26,8 @@ ChainResults results_of_lane(const BatchLanes<D, Lanes>& b, std::size_t k) {
           b.limit_tau_hat[k]};
 }
 
-/// The lane that a defect breaks, and how.
-constexpr int broken_lane = 5;
-enum BatchDefect {
-  kNeighboursWord = 1,   ///< a word is written to the next lane
-  kNeighboursCount = 2,  ///< the lane samples one count too many
-  kLateScene = 3         ///< a change of scene is seen a tick late
-};
-
 template <class D, int Lanes>
 void compare(std::uint64_t seed, long ticks) {
-  const int defect = seeded_defect();
   auto batch = std::make_unique<BatchChain<D, Lanes>>();
   std::vector<std::unique_ptr<Laws<D, Fixed>>> laws;
   std::vector<ChainLife<D>> lives;
@@ -47,25 +36,19 @@ void compare(std::uint64_t seed, long ticks) {
     lives.emplace_back(seed + static_cast<std::uint64_t>(k));
   }
   ChainComparison seen;
-  ChainIn before;
-  for (long tick = 0; tick < ticks; ++tick) {
+  for (long tick = 0; tick < ticks && seen.first_divergence.empty(); ++tick) {
     for (int k = 0; k < Lanes; ++k) {
       const auto lane = static_cast<std::size_t>(k);
-      const bool broken = k == broken_lane;
       if (const auto word = lives[lane].next()) {
         laws[lane]->write(word->address, word->data);
-        const int to = broken && defect == kNeighboursWord ? k + 1 : k;
-        batch->set_word(to, word->address, word->data);
+        batch->set_word(k, word->address, word->data);
       }
       const ChainIn& in = lives[lane].in();
-      const int more = broken && defect == kNeighboursCount && tick > 1000 ? 1 : 0;
-      batch->set_counts(k, in.position + more, in.travel);
+      batch->set_counts(k, in.position, in.travel);
     }
     // The life of lane 0 arms and changes the scene for all.
     const ChainIn common = lives[0].in();
-    batch->tick(common.armed, (defect == kLateScene ? before : common).scene,
-                static_cast<Mode>(common.mode));
-    before = common;
+    batch->tick(common.armed, common.scene, static_cast<Mode>(common.mode));
     for (std::size_t k = 0; k < Lanes; ++k) {
       ChainIn in = lives[k].in();
       in.armed = common.armed;

@@ -2,9 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The chain written by hand in shifts against the laws in `fixed`: every result of every tick of a
-// random life. FELTGATE_DEFECT=1..3 breaks one of the words. Documentation: docs/bench.md
+// random life. Documentation: docs/bench.md
 #include "bench/shift_chain.hpp"
-#include "../fixed/seeded_defect.hpp"
 #include "catch.hpp"
 #include "chain_life.hpp"
 
@@ -13,10 +12,10 @@ namespace {
 using namespace feltgate;
 using namespace feltgate::test;
 
-/// The hand-written chain; its words are the right ones, or with a defect.
+/// The hand-written chain as compare_lives() drives one.
 class Shifts {
  public:
-  void write(int address, std::uint32_t data) { chain_.set_word(address, seeded(address, data)); }
+  void write(int address, std::uint32_t data) { chain_.set_word(address, data); }
   ChainResults tick(const ChainIn& in) {
     chain_.tick(in);
     return {chain_.velocity,         chain_.tau_hat,    chain_.tau_ref,
@@ -27,19 +26,6 @@ class Shifts {
   }
 
  private:
-  static std::uint32_t seeded(int address, std::uint32_t word) {
-    switch (seeded_defect()) {
-      case 1:
-        return address == Lever::A::damper_damping ? word ^ 1u : word;
-      case 2:
-        return address == Lever::A::voltage_limit ? word + 1 : word;
-      case 3:
-        return address == Lever::A::observer_a1 ? word + 1 : word;
-      default:
-        return word;
-    }
-  }
-
   ShiftChain chain_;
 };
 

@@ -100,7 +100,7 @@ template <class D, class A, class B>
 ChainComparison compare_lives(std::uint64_t seed, long ticks, A& a, B& b) {
   ChainLife<D> life(seed);
   ChainComparison c;
-  for (long k = 0; k < ticks; ++k) {
+  for (long k = 0; k < ticks && c.first_divergence.empty(); ++k) {
     if (const auto word = life.next()) {
       a.write(word->address, word->data);
       b.write(word->address, word->data);

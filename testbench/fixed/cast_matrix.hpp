@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "feltgate/fixed.hpp"
 #include "random.hpp"
-#include "seeded_defect.hpp"
 
 namespace feltgate::test {
 
@@ -33,7 +33,7 @@ template <class From, class To, Round R, Overflow O>
 CastResult run_cast(int128_t raw) {
   CastResult result{0, false};
   const From x = From::from_raw(static_cast<typename From::raw_type>(raw));
-  result.raw = narrow_under_test<To, R, O>(x, &result.saturated).raw();
+  result.raw = narrow<To, R, O>(x, &result.saturated).raw();
   return result;
 }
 

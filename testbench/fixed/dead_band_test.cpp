@@ -3,7 +3,6 @@
 //
 // Dead band of the one-pole low-pass y += round(a*(x-y)) per rounding mode and guard bits, its
 // dyadic trap, slow poles, and the worst-case bound of its rounding error.
-// FELTGATE_DEFECT=1 takes a wrong rounding mode, 2 rounds b*y and a*x apart, 3 drops a guard bit.
 // Documentation: docs/fixed-point.md
 #include <algorithm>
 #include <cmath>
@@ -12,12 +11,10 @@
 #include "catch.hpp"
 #include "../extremes/dead_band.hpp"
 #include "feltgate/fixed.hpp"
-#include "seeded_defect.hpp"
 
 namespace {
 
 using namespace feltgate;
-using namespace feltgate::test;
 
 using Sample = fixed<1, 15, 0>;  ///< input and output: 16 bits, one LSB = 1
 
@@ -32,32 +29,14 @@ class LowPass {
   /// One sample; true when the state has moved.
   bool step(Sample x) {
     const State before = state_;
-    if (seeded_defect() == 1) {
-      state_ = next < R == Round::truncate ? Round::half_up : Round::truncate > (x);
-    } else if (seeded_defect() == 2) {
-      const auto b = fixed<0, 1, 0>::from_raw(1) - a_;
-      state_ = narrow<State, R, Overflow::saturate>(rounded(b * state_) + rounded(a_ * x));
-    } else {
-      state_ = next<R>(x);
-    }
-    if (seeded_defect() == 3) state_ = State::from_raw(state_.raw() / 2 * 2);
+    const auto step = narrow<fixed<1, 16, G>, R, Overflow::wrap>(a_ * (x - state_));
+    state_ = narrow<State, R, Overflow::saturate>(state_ + step);
     return state_ != before;
   }
 
   State state() const { return state_; }
 
  private:
-  template <Round Mode>
-  State next(Sample x) const {
-    const auto step = narrow<fixed<1, 16, G>, Mode, Overflow::wrap>(a_ * (x - state_));
-    return narrow<State, Mode, Overflow::saturate>(state_ + step);
-  }
-
-  template <class Product>
-  static State rounded(Product p) {
-    return narrow<State, R, Overflow::saturate>(p);
-  }
-
   Coefficient a_;
   State state_;
 };

@@ -15,7 +15,11 @@ using boost::multiprecision::cpp_int;
 using namespace feltgate;
 using namespace feltgate::test;
 
-cpp_int power(int k) { return cpp_int(1) << k; }
+cpp_int power(int k) {
+  cpp_int p = 1;
+  p <<= k;
+  return p;
+}
 
 cpp_int exact(int128_t x) {
   const int128_t high = x >> 64;

@@ -3,7 +3,7 @@
 //
 // narrow() and the exact operators against SystemC's sc_fix / sc_ufix: every value of the small
 // casts, 425 600 random wide casts, and sums, differences and products of wide words.
-// FELTGATE_DEFECT=1..5 breaks narrow(). Documentation: docs/fixed-point.md
+// Documentation: docs/fixed-point.md
 #include "cast_matrix.hpp"
 #include "catch.hpp"
 #include "systemc_value.hpp"

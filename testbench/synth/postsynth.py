@@ -13,8 +13,8 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
-import defects  # noqa: E402
 import synth_measure  # noqa: E402
+from seeding import patches  # noqa: E402
 from synth_tools import ToolError, Tools  # noqa: E402
 
 MODELS = ("mult18x18d_model.sv", "dp16kd_model.sv")
@@ -75,14 +75,14 @@ def main():
             )
         values = [p.split("=") for p in options.parameter]
         if options.defect:
-            for path, text in defects.patched(options.defect, options.root).items():
+            for path, text in patches.patched(options.defect, options.root).items():
                 (output / path.name).write_text(text, encoding="utf-8")
         change = " ".join(f"-chparam {n} {v}" for n, v in values)
         if block.startswith("scene_") or values:
             read = [*read, f"hierarchy {change} -top {block}"]
         ports = tools.ports(block, read)
         tools.write_simulation(block, read, MODELS)
-    except (ToolError, defects.DefectError) as error:
+    except (ToolError, patches.DefectError) as error:
         print(error, file=sys.stderr)
         return 1
     parameters = ", ".join(f".{n}({v})" for n, v in values)

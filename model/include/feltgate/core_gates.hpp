@@ -25,18 +25,6 @@ class CoreGates {
     clocks_ = {};
   }
 
-  /// One clock of the PWM; show() follows.
-  void clock(const Pwm::In& in) {
-    settle();
-    pwm_.clock(in);
-    quiet_ = 0;
-  }
-  /// The gates after that clock, with the enable of the next one.
-  void show(bool enable) {
-    take(bits(enable));
-    ++held_;
-  }
-
   /// `clocks` clocks with `in` held; in the last of them the gates show `enable_after`.
   void advance(const Pwm::In& in, int clocks, bool enable_after) {
     if (quiet_for(clocks, in.enable) && in.enable == enable_after) {
@@ -94,7 +82,8 @@ class CoreGates {
   /// The last clock shows another enable than those before it.
   void take_last(bool enable) {
     --held_;
-    show(enable);
+    take(bits(enable));
+    ++held_;
   }
   std::uint8_t bits(bool enable) const {
     Pwm::In in;

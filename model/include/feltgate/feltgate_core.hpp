@@ -64,7 +64,7 @@ class FeltgateCore {
     sup.clear_faults = clear;
     sup.kick = tick && registers_.commands(D::C::command_kick);
     sup.encoder_error = decoder_.out().illegal;
-    gates_.clock(pwm_inputs(supervisor_.out().gates_enable, out_.duty));
+    const Pwm::In pwm = pwm_inputs(supervisor_.out().gates_enable, out_.duty);
     out_.snapshot_valid = false;
     core_steps::for_each_step(clock_, clock_ + 1,
                               [this](Step step) { take<true>(step, decoder_.out()); });
@@ -87,7 +87,7 @@ class FeltgateCore {
     }
     if (in.reg_write && !out_.reg_busy) pending_address_ = in.reg_addr;
     zero_pending_ = in.set_zero || (zero_pending_ && !tick);
-    gates_.show(supervisor_.out().gates_enable);
+    gates_.advance(pwm, 1, supervisor_.out().gates_enable);
     advance_clock(1);
     show();
   }

@@ -25,6 +25,18 @@ function(feltgate_patches variable block)
   set(${variable} "${patches}" PARENT_SCOPE)
 endfunction()
 
+# feltgate_patched_files(<variable> <patches>...): what they change, relative to the repository.
+function(feltgate_patched_files variable)
+  set(all "")
+  foreach(patch IN LISTS ARGN)
+    file(STRINGS "${patch}" files REGEX "^\\+\\+\\+ b/")
+    list(TRANSFORM files REPLACE "^\\+\\+\\+ b/([^ \t]+).*" "\\1")
+    list(APPEND all ${files})
+  endforeach()
+  list(REMOVE_DUPLICATES all)
+  set(${variable} "${all}" PARENT_SCOPE)
+endfunction()
+
 # feltgate_verilate_defects(<target> <block> <package> <sources> [verilator arguments...]): a library
 # with the class V<block>, which is what the environment variable FELTGATE_DEFECT names: the block with
 # the defect of a patch, or with none. Copies of the block side by side, of which one has a clock.
@@ -61,12 +73,8 @@ endfunction()
 function(feltgate_defect_program target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "PATCHES;SOURCES;LIBRARIES")
   set(copies "${CMAKE_CURRENT_BINARY_DIR}/${target}.headers")
-  set(changed "")
-  foreach(patch IN LISTS arg_PATCHES)
-    file(STRINGS "${patch}" files REGEX "^\\+\\+\\+ b/")
-    list(TRANSFORM files REPLACE "^\\+\\+\\+ b/([^ \t]+).*" "${FELTGATE_ROOT}/\\1")
-    list(APPEND changed ${files})
-  endforeach()
+  feltgate_patched_files(changed ${arg_PATCHES})
+  list(TRANSFORM changed PREPEND "${FELTGATE_ROOT}/")
   add_custom_command(OUTPUT "${copies}/seeded_choice.hpp"
     COMMAND ${CMAKE_COMMAND} -E rm -rf "${copies}"
     COMMAND ${Python3_EXECUTABLE} -B "${FELTGATE_DEFECTS}" headers ${arg_PATCHES}

@@ -114,7 +114,7 @@ def sources_digest():
     if _sources is None:
         digest = hashlib.sha256(f"{OPTIMISE} {tool_version(compiler())}".encode())
         digest.update(f"{tool_version('verilator')} {synth_tools.version(yosys())}".encode())
-        paths = [*ROOT.glob("rtl/*.sv"), *ROOT.glob("model/**/*.hpp")]
+        paths = [*rtl_sources(), *ROOT.glob("rtl/*.sv"), *ROOT.glob("model/**/*.hpp")]
         paths += [ROOT / "model/explore/point_main.cpp", Path(__file__)]
         paths += [BUILD / f"libfeltgate_{name}.a" for name in LIBRARIES]
         paths = [p for p in paths if "generated" not in p.parts]
@@ -126,13 +126,13 @@ def sources_digest():
     return _sources
 
 
-def structure_key(package, defect=0):
+def structure_key(package):
     """What RTL and program depend on: the package without the values that registers carry."""
     text = re.sub(
         r"function automatic logic \[31:0\] parameter_reset.*?endfunction", "", package, flags=re.S
     )
     text = re.sub(r"^//.*$", "", text, flags=re.M)
-    return hashlib.sha256(f"{sources_digest()} {defect} {text}".encode()).hexdigest()[:16]
+    return hashlib.sha256(f"{sources_digest()} {text}".encode()).hexdigest()[:16]
 
 
 def rtl_sources():
@@ -144,12 +144,12 @@ def verilator_root():
     return Path(root or "/usr/share/verilator")
 
 
-def build_program(generated, folder, defect):
+def build_program(generated, folder):
     """Verilates the core and compiles the program of the structure; it is FOLDER/point."""
     rtl = folder / "rtl"
     command = ["verilator", "--cc", "--prefix", "Vpoint", "--top-module", "feltgate_core"]
     command += ["--Mdir", rtl, "-O3", "--x-initial", "unique", "--x-assign", "unique"]
-    command += ["--output-split", "0", "-Wno-fatal", f"-GDefect={defect}"]
+    command += ["--output-split", "0", "-Wno-fatal"]
     run([*command, generated / "feltgate_pkg.sv", *rtl_sources()])
     joined = rtl / "all.cpp"
     names = sorted(p.name for p in rtl.glob("*.cpp"))
@@ -224,10 +224,10 @@ def place_and_route(generated, folder):
 class Structure:
     """The folder of one structure; parts are made by whoever comes first, others wait."""
 
-    def __init__(self, workdir, generated, defect):
+    def __init__(self, workdir, generated):
         package = (generated / "feltgate_pkg.sv").read_text(encoding="utf-8")
-        self.generated, self.defect = generated, defect
-        self.key = structure_key(package, defect)
+        self.generated = generated
+        self.key = structure_key(package)
         self.folder = Path(workdir) / "structures" / self.key
         self.folder.mkdir(parents=True, exist_ok=True)
 
@@ -246,7 +246,7 @@ class Structure:
         return path
 
     def program(self):
-        return self.part("point", lambda f: build_program(self.generated, f, self.defect))
+        return self.part("point", lambda f: build_program(self.generated, f))
 
     def area(self):
         path = self.part("area.json", lambda f: synthesize(self.generated, f))
@@ -274,7 +274,7 @@ def bounds(design, result):
     return found
 
 
-def evaluate_design(text, workdir, route=False, area=True, defect=0):
+def evaluate_design(text, workdir, route=False, area=True):
     """What is measured at the design of a TOML text; docs/explore.md has the keys."""
     Path(workdir).mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=".point-", dir=workdir) as temporary:
@@ -284,7 +284,7 @@ def evaluate_design(text, workdir, route=False, area=True, defect=0):
         coarse, refusal = generate(design, folder)
         if refusal is not None:
             return {"status": "refused", "reason": refusal}
-        structure = Structure(workdir, folder, defect)
+        structure = Structure(workdir, folder)
         command = [structure.program(), folder / "values.txt", ROOT / "vectors/plants/linear.toml"]
         done = interrupts.run(command, **interrupts.CAPTURED)
         if done.returncode not in (0, 1) or not done.stdout:

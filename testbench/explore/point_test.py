@@ -7,10 +7,12 @@ import tempfile
 import tomllib
 import unittest
 from pathlib import Path
+from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 from exploring import point  # noqa: E402
+from seeding import patches  # noqa: E402
 
 COARSE = {
     "clock.tick_hz": 10000,
@@ -85,7 +87,14 @@ class Evaluation(unittest.TestCase):
         self.assertEqual(self.evaluate(COARSE), result)
 
     def test_a_defect_of_the_rtl_fails_the_point(self):
-        result = self.evaluate({}, defect=1)
+        defect = ROOT / "testbench/dob/defects/other_sign_of_inertia.patch"
+        copies = {p.name: p for p in patches.write_copies(defect, Path(self.folder.name, "defect"))}
+        sources = [copies.get(path.name, path) for path in point.rtl_sources()]
+        with (
+            mock.patch.object(point, "rtl_sources", return_value=sources),
+            mock.patch.object(point, "_sources", None),
+        ):
+            result = self.evaluate({})
         self.assertEqual(result["status"], "mismatch")
         self.assertGreater(result["mismatches"], 0)
         self.assertIn("clock", result["first_mismatch"])

@@ -7,9 +7,7 @@
 `timescale 1ns / 1ps
 `default_nettype none
 
-module core_tb #(
-    parameter int Defect = 0  // of the core
-);
+module core_tb;
   localparam int InputBits = 56;
   localparam int OutputBits = 284;
 
@@ -29,9 +27,7 @@ module core_tb #(
   wire [7:0] limits, faults;
   wire a_hi, a_lo, b_hi, b_lo, armed, gates_enable, snapshot_valid, busy;
 
-  feltgate_core #(
-      .Defect(Defect)
-  ) dut (
+  feltgate_core dut (
       .clk_i(clk),
       .rst_ni(rst_n),
       .enc_a_i(inputs[48]),

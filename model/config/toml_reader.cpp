@@ -9,9 +9,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <utility>
 
 #include "config/nearest.hpp"
+#include "config/toml_text.hpp"
 
 namespace feltgate::config {
 namespace {
@@ -43,6 +46,13 @@ toml::table parse_toml_file(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
     throw ConfigError(path + ":0: is a folder; give the path of one TOML file");
+  }
+  std::ifstream in(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (const int line = stray_line(text)) {
+    throw ConfigError(fmt::format(
+        "{}:{}: not TOML (a letter beyond ASCII outside quotation marks); correct this line", path,
+        line));
   }
   try {
     return toml::parse_file(path);

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <set>
-#include <stdexcept>
 
 #include "config/nearest.hpp"
 #include "config/toml_reader.hpp"
@@ -34,7 +33,7 @@ int RegisterMap::control_bit(const std::string& control, const std::string& fiel
       if (f.name == field) return f.bit;
     }
   }
-  throw std::out_of_range(fmt::format("{}: no field {}.{}; list it", path, control, field));
+  throw config::ConfigError(fmt::format("{}:1: no field {}.{}; list it", path, control, field));
 }
 
 const Parameter* RegisterMap::find(const std::string& parameter) const {
@@ -42,6 +41,15 @@ const Parameter* RegisterMap::find(const std::string& parameter) const {
     if (p.name == parameter) return &p;
   }
   return nullptr;
+}
+
+std::string plain_text(config::TomlReader& r, const std::string& key) {
+  std::string text = r.text(key);
+  if (text.find_first_of("\"\\") != std::string::npos) {
+    r.fail(key, fmt::format("a {} with \" or \\ cannot be written into a program", key),
+           "write it without");
+  }
+  return text;
 }
 
 namespace {
@@ -56,17 +64,14 @@ Parameter read_parameter(config::TomlReader r, const RegisterMap& map, std::set<
   Parameter p;
   p.name = r.identifier("name");
   p.place = fmt::format("{}:{}", r.file(), r.line("name"));
-  if (r.has("label")) p.label = r.text("label");
+  if (r.has("label")) p.label = plain_text(r, "label");
   if (r.has("scene")) p.scene = r.text("scene");
   p.slot = small(r, "slot", p.scene.empty() ? 63 : 31);
   p.kind = kinds[r.choice("kind", kinds)];
   if (p.kind == "signal") p.signal = r.text("format");
   if (r.has("same_format_as")) p.same_format_as = r.text("same_format_as");
   if (r.has("headroom_bits")) p.headroom_bits = small(r, "headroom_bits", 8);
-  p.unit = r.text("unit");
-  if (p.unit.find_first_of("\"\\") != std::string::npos) {
-    r.fail("unit", "a unit with \" or \\ cannot be written into a program", "write it without");
-  }
+  p.unit = plain_text(r, "unit");
   p.doc = r.text("doc");
   p.address = p.slot;
   if (!p.scene.empty()) {
@@ -114,7 +119,7 @@ Snapshot read_snapshot(config::TomlReader r, const RegisterMap& map) {
   Snapshot n;
   n.name = r.identifier("name");
   n.place = fmt::format("{}:{}", r.file(), r.line("name"));
-  if (r.has("label")) n.label = r.text("label");
+  if (r.has("label")) n.label = plain_text(r, "label");
   if (r.has("with")) {
     n.with = r.text("with");
     const Parameter* p = map.find(n.with);
@@ -138,7 +143,7 @@ std::vector<Cause> read_causes(config::TomlReader& top, const std::string& secti
   std::vector<Cause> causes;
   for (config::TomlReader& r : top.sections(section)) {
     const int next = first + static_cast<int>(causes.size());
-    Cause c{r.identifier("name"), small(r, key, 7), r.text("doc")};
+    Cause c{r.identifier("name"), small(r, key, 7), plain_text(r, "doc")};
     if (c.number != next) {
       r.fail(key, fmt::format("{} follows {}", c.number, next - 1),
              fmt::format("list them in order; this one is {}", next));

@@ -7,7 +7,14 @@
 #include <string>
 #include <vector>
 
+namespace feltgate::config {
+class TomlReader;
+}
+
 namespace feltgate::design {
+
+/// A text that may stand in generated code between quotation marks.
+std::string plain_text(config::TomlReader& r, const std::string& key);
 
 /// One word of the parameter RAM.
 struct Parameter {
@@ -70,7 +77,7 @@ struct RegisterMap {
   std::vector<Cause> limits;  ///< in the order of their bits
   std::vector<Cause> faults;  ///< in the order of their numbers, from 1 on
 
-  /// Bit of a control word's field. Throws std::out_of_range where there is none.
+  /// Bit of a control word's field. Throws config::ConfigError where there is none.
   int control_bit(const std::string& control, const std::string& field) const;
   const Parameter* find(const std::string& parameter) const;  ///< nullptr: no such parameter
   int scene_number(const std::string& name) const;            ///< -1 when there is no such scene

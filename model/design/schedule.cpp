@@ -82,6 +82,11 @@ Product read_product(config::TomlReader r, const RegisterMap& map) {
   if (p.factors.empty()) p.slot = static_cast<int>(r.integer("slot", 0, 63));
   const std::vector<std::string> labels = r.texts("label");
   if (labels.size() != 2) r.fail("label", "two labels are wanted", "write operand and product");
+  for (const std::string& label : labels) {
+    if (label.find_first_of("\"\\") != std::string::npos) {
+      r.fail("label", "a label with \" or \\ cannot be drawn", "write it without");
+    }
+  }
   p.operand_label = labels[0];
   p.label = labels[1];
   p.by = r.identifier("by");
@@ -126,7 +131,7 @@ Step read_step(config::TomlReader r, const RegisterMap& map, const Schedule& s) 
   if (r.has("takes")) step.takes = r.texts("takes");
   step.passes = r.flag_or("passes", false);
   if (r.has("shows_in")) step.shows_in = r.text("shows_in");
-  if (r.has("output")) step.output = r.text("output");
+  if (r.has("output")) step.output = plain_text(r, "output");
   step.by = r.identifier("by");
   step.doc = r.text("doc");
   r.finish();

@@ -12,6 +12,7 @@
 
 #include "config/toml_reader.hpp"
 #include "design/generate.hpp"
+#include "design/schedule.hpp"
 #include "faulty_reader.hpp"
 #include "loop/scenario_check.hpp"
 #include "plant/hand_file.hpp"
@@ -108,6 +109,7 @@ Ending config_ending(Use use) {
 
 /// Elaborates as far as it goes and makes every text that would be written.
 void make_all(const design::Design& d, const design::RegisterMap& registers) {
+  (void)causes_header(registers);
   const design::Elaborated e = elaborate(d, registers);
   (void)systemverilog_package(e);
   (void)cpp_header(e);
@@ -122,6 +124,17 @@ Ending use_design(const fs::path& file) {
 
 Ending use_registers(const fs::path& file) {
   return config_ending([&] { make_all(shipped().design, design::read_registers(file.string())); });
+}
+
+Ending use_schedule(const fs::path& file) {
+  return config_ending([&] {
+    const design::RegisterMap& map = shipped().registers;
+    const design::Schedule s = design::read_schedule(file.string(), map);
+    (void)design::map_package(map, s);
+    (void)design::map_header(map, s);
+    (void)design::schedule_page(map, s);
+    (void)design::timing_diagram(map, s);
+  });
 }
 
 Ending use_plant(const fs::path& file) {
@@ -214,6 +227,7 @@ const std::vector<Reader>& readers() {
   static const std::vector<Reader> all{
       {"design", "input.toml", as_it_is, use_design},
       {"registers", "input.toml", as_it_is, use_registers},
+      {"schedule", "input.toml", as_it_is, use_schedule},
       {"plant", "input.toml", as_it_is, use_plant},
       {"scene", "input.toml", as_it_is, use_scene},
       {"motion", "input.csv", as_it_is, use_motion},

@@ -115,7 +115,6 @@ template <bool Read, class OnSnapshot>
       gates_to(s, after(T::duty));
       break;
     case Step::snapshot:
-      if (kSnapshotLast) return;
       gates_to(s, kSnapshot);
       show_state();
       out_.snapshot_valid = true;
@@ -139,11 +138,6 @@ void FeltgateCore<D, ReadBack>::pass_tick(const In& in, OnSnapshot&& on_snapshot
   out_.armed = supervisor_.out().armed;
   out_.gates_enable = supervisor_.out().gates_enable;
   ++out_.tick_count;
-  out_.snapshot_valid = kSnapshotLast;
-  if (kSnapshotLast) {
-    show_state();
-    on_snapshot();
-  }
 }
 
 /// Arming and scene in the last clock of a tick.
@@ -172,7 +166,6 @@ int FeltgateCore<D, ReadBack>::pass(const In& in, int from, int to, OnSnapshot&&
   passed_to_ = clock_;
   out_.snapshot_valid = to == kSnapshot;
   show();
-  if (kSnapshotLast && out_.snapshot_valid) on_snapshot();
   return to;
 }
 
@@ -226,11 +219,12 @@ template <class D, bool ReadBack>
 void FeltgateCore<D, ReadBack>::catch_up() {
   if (passed_to_ != clock_) return;
   passed_to_ = -1;
-  const bool watchdog = clock_ > kWatchdogOperand;
-  if (!amid_supervisor() && !watchdog) return;
-  if (!watchdog && clock_ > core_steps::clock_of(T::speed)) supervisor_ = before_wave_;
+  const bool watchdog = clock_ > kWatchdogOperand && clock_ <= core_steps::clock_of(T::watchdog);
+  const bool amid = amid_supervisor();
+  if (!amid && !watchdog) return;
+  if (amid && clock_ > core_steps::clock_of(T::speed)) supervisor_ = before_wave_;
   const bool stop = supervisor_.steady(true);
-  const int first = watchdog ? kWatchdogOperand : core_steps::clock_of(T::estimate_part);
+  const int first = amid ? core_steps::clock_of(T::estimate_part) : kWatchdogOperand;
   for (int c = first; c < clock_; ++c) {
     typename Supervisor<D>::In sup = supervisor_inputs(c);
     sup.stop = stop;

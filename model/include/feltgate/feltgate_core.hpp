@@ -117,8 +117,7 @@ class FeltgateCore {
   /// The clock of the tick after the one in which a step is taken.
   static constexpr int after(int t) { return core_steps::clock_of(t) + 1; }
   static constexpr int kSnapshot = core_steps::clock_of(T::snapshot);
-  /// It comes up with the last clock of the tick.
-  static constexpr bool kSnapshotLast = kSnapshot == D::clocks_per_tick;
+  static_assert(kSnapshot < D::clocks_per_tick, "a tick's snapshot lies in it");
   static constexpr int kNever = 1 << 30;
   /// First clock of the tick in which the supervisor looks at its watchdog.
   static constexpr int kWatchdogOperand = core_steps::clock_of(Map::W::watchdog_ticks) - 1;

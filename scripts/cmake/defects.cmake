@@ -66,6 +66,7 @@ function(feltgate_same_class target block library other)
     COMMAND ${Python3_EXECUTABLE} -B "${FELTGATE_DEFECTS}" same-class ${headers} --output "${stamp}"
     DEPENDS ${headers} ${FELTGATE_SEEDING} VERBATIM)
   target_sources(${target} PRIVATE "${stamp}")
+  set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS "${stamp}")  # it compiles nothing itself
 endfunction()
 
 # feltgate_defect_program(<target> PATCHES p... SOURCES s... [LIBRARIES l...]): a Catch2 program of these

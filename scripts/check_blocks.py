@@ -107,11 +107,6 @@ def check_block(root, block):
     if not block.defects:
         yield f"{folder}: no seeded defect of {block.rtl}; add a patch, docs/testing.md says how"
     elif isinstance(block.defects[0], Path):
-        for patch in block.defects:
-            try:
-                patches.summary(patch)
-            except patches.DefectError as error:
-                yield str(error).replace(f"{root}/", "", 1)
         if re.search(r"\bDefect\b", rtl):
             yield f"{block.rtl}: the word Defect; what breaks it is a patch in {folder}"
     if (root / block.doc).exists():
@@ -120,6 +115,20 @@ def check_block(root, block):
             # A link to the test's folder is as good.
             if not {path, path.parent} & links:
                 yield f"{block.doc}: no link to {path}; link it in the first lines"
+
+
+def check_defects(root):
+    """Each patch says what it breaks, and a test is built with it."""
+    for patch in sorted(root.glob("testbench/*/defects/*.patch")):
+        relative = patch.relative_to(root)
+        try:
+            patches.summary(patch)
+        except patches.DefectError as error:
+            yield str(error).replace(str(patch), str(relative))
+        rules = patch.parents[1] / "CMakeLists.txt"
+        text = rules.read_text(encoding="utf-8") if rules.exists() else ""
+        if not re.search(rf"WITH_DEFECTS|feltgate_patches|\b{patch.stem}\b", text):
+            yield f"{relative}: no test is built with it; name it in {rules.relative_to(root)}"
 
 
 def linked_files(root, page):
@@ -264,6 +273,7 @@ def check(root, write=False):
     for page in sorted(root.glob("docs/**/*.md")):
         if page != root / "docs/blocks.md":  # its links are the siblings, checked above
             found += check_links(root, page.relative_to(root))
+    found += check_defects(root)
     found += check_lengths(root)
     found += check_formatting(root)
     return found

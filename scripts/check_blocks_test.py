@@ -42,6 +42,7 @@ class CheckBlocks(unittest.TestCase):
     def add_block(self, name, test):
         self.put(f"rtl/{name}.sv", RTL.format(name, ""))
         self.put(f"testbench/{name}/defects/inverted.patch", "It is inverted.\n--- a/x\n")
+        self.put(f"testbench/{name}/CMakeLists.txt", f"feltgate_block_test({name} WITH_DEFECTS)\n")
         class_name = check_blocks.class_name(name)
         self.put(f"model/include/feltgate/{name}.hpp", f"class {class_name} {{}};\n")
         self.put(test, "")
@@ -108,6 +109,8 @@ class CheckBlocks(unittest.TestCase):
         self.expect("rtl/alpha.sv: the word Defect")
         self.put("testbench/alpha/defects/inverted.patch", "--- a/x\n")
         self.expect("testbench/alpha/defects/inverted.patch: its first line does not say")
+        self.put("testbench/alpha/CMakeLists.txt", "feltgate_block_test(alpha)\n")
+        self.expect("testbench/alpha/defects/inverted.patch: no test is built with it")
         (self.root / "testbench/alpha/defects/inverted.patch").unlink()
         self.put("rtl/alpha.sv", RTL.format("alpha", ""))
         self.expect("testbench/alpha/defects: no seeded defect of rtl/alpha.sv")

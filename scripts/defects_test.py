@@ -109,6 +109,14 @@ class Defects(unittest.TestCase):
         self.assertIn("assign clock_2 = clk_i && chosen[2];", text)
         self.assertIn("chosen[1] ? out_1_y_o : chosen[2] ? out_2_y_o : out_0_y_o", text)
 
+    def test_block_without_a_clock(self):
+        text = "module sum (\n    input logic [1:0] a_i,\n    output logic y_o\n);\n"
+        (self.root / "rtl/sum.sv").write_text(text + "  assign y_o = ^a_i;\nendmodule\n")
+        patch = self.patch("^a_i", "|a_i", path="rtl/sum.sv")
+        made = block.block_of_defects("sum", [patch], [Path("rtl/sum.sv")], self.root)
+        self.assertIn("sum_inverted u_inverted (.a_i(a_i), .y_o(out_1_y_o));", made)
+        self.assertNotIn("clk_i", made)
+
     def test_block_without_the_file_of_the_patch(self):
         patch = self.patch("<= a_i", "<= ~a_i")
         with self.assertRaisesRegex(patches.DefectError, "not part of top's test"):

@@ -53,8 +53,7 @@ class Head:
             if not port:
                 raise DefectError(f"{name}: port '{part}' is not 'direction type name'")
             self.ports.append((port.group(1), " ".join(port.group(2).split()), port.group(3)))
-        if "clk_i" not in [port[2] for port in self.ports]:
-            raise DefectError(f"{name}: no port clk_i")
+        self.clocked = "clk_i" in [port[2] for port in self.ports]  # else combinational
 
 
 def modules_of(texts):
@@ -95,7 +94,9 @@ def renamed_copy(texts, change, suffix, block):
 
 def instance(head, block, k, name):
     """One copy: its outputs as wires of its own, a clock only if it is the chosen one."""
-    lines = [f"  logic clock_{k};", f"  assign clock_{k} = clk_i && chosen[{k}];"]
+    lines = []
+    if head.clocked:
+        lines += [f"  logic clock_{k};", f"  assign clock_{k} = clk_i && chosen[{k}];"]
     ports = []
     for direction, kind, port in head.ports:
         wire = f"clock_{k}" if port == "clk_i" else port
@@ -117,10 +118,11 @@ def chooser(block, head, names):
         '  import "DPI-C" function int feltgate_chosen_defect(input string names);',
         f"  logic [{len(names) - 1}:0] chosen;",
         f"  initial chosen = {len(names)}'d1 << feltgate_chosen_defect(\"{' '.join(names)}\");",
-        # Verilator orders the members of its class by what is a clock: clk_i must be one here, too.
-        "  always @(posedge clk_i) if (chosen == 0) $stop;",
         *(instance(head, block, k, name) for k, name in enumerate(names)),
     ]
+    if head.clocked:
+        # Verilator orders the members of its class by what is a clock: clk_i must be one here, too.
+        lines.append("  always @(posedge clk_i) if (chosen == 0) $stop;")
     for direction, _, port in head.ports:
         if direction == "output":
             choice = "".join(f"chosen[{k}] ? out_{k}_{port} : " for k in range(1, len(names)))

@@ -26,10 +26,11 @@ struct EngineResult {
   std::string name;
   bool integer = false;
   Spread ns_per_tick;
-  Spread speed;                        ///< simulated seconds per second of CPU
-  std::optional<Spread> clocks_per_s;  ///< of engines with a clock
-  std::vector<double> samples;         ///< ns per tick, one per repetition
-  bool compared = false;               ///< the errors below were taken
+  Spread speed;  ///< simulated seconds per second of CPU
+  /// Of engines with a clock: clocks, and what a user pays for, ticks with all that the core does.
+  std::optional<Spread> clocks_per_s, updates_per_s;
+  std::vector<double> samples;  ///< ns per tick, one per repetition
+  bool compared = false;        ///< the errors below were taken
   ErrorFigure velocity_rad_s, tau_hat_nm, torque_nm;
   std::uint64_t hash = 0;  ///< over every result of every tick; integer engines
 };

@@ -71,6 +71,7 @@ std::string json(const Result& r, const std::vector<Work>& works, const Circumst
          {"ns_per_tick", spread_json(e.ns_per_tick)},
          {"simulated_s_per_s", spread_json(e.speed)}};
     if (e.clocks_per_s) o["clocks_per_s"] = spread_json(*e.clocks_per_s);
+    if (e.updates_per_s) o["updates_per_s"] = spread_json(*e.updates_per_s);
     if (e.compared) {
       o["velocity_error_rad_s"] = error_json(e.velocity_rad_s);
       o["tau_hat_error_nm"] = error_json(e.tau_hat_nm);
@@ -138,6 +139,12 @@ std::string text(const Result& r, const std::vector<Work>& works, const Circumst
     print(&s, "equal in every bit of every tick: {} (hash {})\n", names.c_str(), hex(hash).c_str());
   } else {
     print(&s, "DIFFERENT: {}\n", r.divergence.c_str());
+  }
+  for (const EngineResult& e : r.engines) {
+    if (!e.updates_per_s) continue;
+    const Spread& u = *e.updates_per_s;
+    print(&s, "million control updates simulated per second, {}: {:.3g} ({:.3g} .. {:.3g})\n",
+          e.name.c_str(), 1e-6 * u.median, 1e-6 * u.low, 1e-6 * u.high);
   }
   for (const LoopResult& l : r.loops) {
     print(&s, "closed loop, {}: {:.3g} times real time ({:.3g} .. {:.3g})\n", l.scene.c_str(),

@@ -4,15 +4,12 @@
 // The Verilated core of one design behind the twin's types. Documentation: docs/architecture.md
 #pragma once
 
-#include <verilated.h>
-#include <verilated_fst_c.h>
-
 #include <algorithm>
-#include <memory>
-#include <stdexcept>
+#include <optional>
 #include <string>
 
 #include "feltgate/feltgate_core.hpp"
+#include "rtl_model.hpp"
 #include "rtl_ports.hpp"
 
 namespace feltgate {
@@ -22,37 +19,23 @@ template <class Rtl, class D>
 class RtlCore {
  public:
   RtlCore() { power_up(1, {}); }
-  ~RtlCore() { close_trace(); }
-  RtlCore(const RtlCore&) = delete;
-  RtlCore& operator=(const RtlCore&) = delete;
 
   /// A new chip: registers filled with random bits of `seed`, four clocks of reset.
   void power_up(std::uint64_t seed, EncoderPins pins) {
-    close_trace();
-    rtl_.reset();  // before its context
-    context_ = std::make_unique<VerilatedContext>();
-    context_->randReset(2);
-    context_->randSeed(static_cast<int>(seed % 0x7ffffffeU) + 1);
-    context_->traceEverOn(true);
-    rtl_ = std::make_unique<Rtl>(context_.get());
+    rtl_.emplace(seed);
     CoreIn in;
     in.encoder = pins;
-    drive_inputs(*rtl_, in);
-    rtl_->rst_ni = 1;
-    rtl_->clk_i = 0;
-    rtl_->eval();
-    now_ = before_trace;
-    reset(4);
+    drive(in);
+    rtl_->reset(4);
     now_ = 0;
   }
 
   /// `clocks` clocks with the reset held.
   void reset(int clocks) {
-    rtl_->rst_ni = 0;
+    (*rtl_)->rst_ni = 0;
     for (int k = 0; k < clocks; ++k) edge();
-    rtl_->clk_i = 0;
-    rtl_->eval();
-    rtl_->rst_ni = 1;
+    rtl_->low();
+    (*rtl_)->rst_ni = 1;
   }
 
   void clock(const CoreIn& in) {
@@ -60,22 +43,20 @@ class RtlCore {
     edge();
   }
   /// The inputs of the coming clocks.
-  void drive(const CoreIn& in) { drive_inputs(*rtl_, in); }
+  void drive(const CoreIn& in) { drive_inputs(**rtl_, in); }
   /// One clock with the inputs that were driven.
   void edge() {
     const bool dumping = !trace_path_.empty() && now_ >= std::max<Clock>(trace_from_, 0) &&
                          (trace_to_ < 0 || now_ <= trace_to_);
-    if (dumping && !fst_) open_trace();
-    rtl_->clk_i = 0;
-    rtl_->eval();
-    if (dumping) fst_->dump(picoseconds(2 * now_));
-    rtl_->clk_i = 1;
-    rtl_->eval();
-    if (dumping) fst_->dump(picoseconds(2 * now_ + 1));
+    if (dumping && !rtl_->tracing()) rtl_->trace(trace_path_, "1ps");
+    rtl_->low();
+    if (dumping) rtl_->dump(picoseconds(2 * now_));
+    rtl_->high();
+    if (dumping) rtl_->dump(picoseconds(2 * now_ + 1));
     ++now_;
   }
 
-  CoreOut out() const { return read_outputs<D>(*rtl_); }
+  CoreOut out() const { return read_outputs<D>(**rtl_); }
 
   /// Writes the clocks [from, to] after the next power_up() to an FST file; to < 0: to the end.
   /// Clock n begins at n periods of the design's clock and rises in their middle.
@@ -92,26 +73,9 @@ class RtlCore {
     const int128_t ps = int128_t{half_clocks} * 1'000'000'000'000 + half_clocks_per_s / 2;
     return static_cast<std::uint64_t>(ps / half_clocks_per_s);
   }
-  void open_trace() {
-    fst_ = std::make_unique<VerilatedFstC>();
-    rtl_->trace(fst_.get(), 99);
-    fst_->set_time_unit("1ps");
-    fst_->set_time_resolution("1ps");
-    fst_->open(trace_path_.c_str());
-    if (!fst_->isOpen()) {
-      throw std::runtime_error(trace_path_ + ": cannot be written; check the folder and the disk");
-    }
-  }
-  void close_trace() {
-    if (fst_) fst_->close();
-    fst_.reset();
-  }
 
-  std::unique_ptr<VerilatedContext> context_;
-  std::unique_ptr<Rtl> rtl_;
-  std::unique_ptr<VerilatedFstC> fst_;
+  std::optional<RtlModel<Rtl>> rtl_;
   std::string trace_path_;
-  static constexpr Clock before_trace = -1000;  ///< the reset comes before clock 0, unseen
   Clock trace_from_ = 0, trace_to_ = -1, now_ = 0;
 };
 

@@ -10,12 +10,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "engines/make_engines.hpp"
-#include "engines/rtl_ports.hpp"
+#include "engines/lock_step_core.hpp"
 #include "explore/measurement.hpp"
 #include "explore/stimulus.hpp"
 #include "feltgate/feltgate_core.hpp"
@@ -23,8 +21,8 @@
 
 namespace feltgate::explore {
 
-/// Rtl is Verilator's class of feltgate_core for design D, Context its context.
-template <class Rtl, class D, class Context>
+/// Rtl is Verilator's class of feltgate_core for design D.
+template <class Rtl, class D>
 class LockStepRun {
  public:
   LockStepRun(const std::vector<Value>& values, Measurement* m) : values_(values), m_(m) {}
@@ -33,7 +31,8 @@ class LockStepRun {
   /// tau_hat fed back, the modes, disarming and a fault. The lever slews from one window to the
   /// next as fast as the encoder may, so velocity and torque see their ends too.
   void run() {
-    power_up();
+    core_.power_up(1, {});
+    chain_.reset();
     for (const Value& v : values_) write(v.address, v.raw);
     write(D::A::ramp_step, fixed_of<D::f.ramp.key()>::max_raw() / 2);
     // The slews are no motion of a lever: they must not trip the supervisor before its turn.
@@ -64,42 +63,22 @@ class LockStepRun {
     control(0, Mode::closed_loop, true);
     write(D::A::overspeed, 0);
     play(last, window / 8);
+    core_.follow();
+    if (core_.mismatches() > 0) m_->first_mismatch = core_.first_mismatch();
+    m_->mismatches += core_.mismatches();
   }
 
  private:
-  void power_up() {
-    context_ = std::make_unique<Context>();
-    context_->randReset(2);
-    context_->randSeed(1);
-    rtl_ = std::make_unique<Rtl>(context_.get());
-    drive_inputs(*rtl_, in_);
-    rtl_->clk_i = 0;
-    rtl_->rst_ni = 1;
-    rtl_->eval();
-    rtl_->rst_ni = 0;
-    for (int k = 0; k < 4; ++k) edge();
-    rtl_->clk_i = 0;
-    rtl_->eval();
-    rtl_->rst_ni = 1;
-    chain_.reset();
-  }
-  void edge() {
-    rtl_->clk_i = 0;
-    rtl_->eval();
-    rtl_->clk_i = 1;
-    rtl_->eval();
-  }
-
   /// One write, early in a tick, and the rest of that tick.
   void write(int address, std::int64_t raw) {
-    while (twin_.clock_of_tick() != 5) clock();
+    while (core_.twin().clock_of_tick() != 5) clock();
     in_.reg_addr = static_cast<std::uint16_t>(address);
     in_.reg_wdata = static_cast<std::uint32_t>(raw);
     in_.reg_write = true;
     pending_ = {address, in_.reg_wdata};
     clock();
     in_.reg_write = false;
-    while (twin_.clock_of_tick() != 0) clock();
+    while (core_.twin().clock_of_tick() != 0) clock();
     carry_out();
   }
   /// The write that the core has carried out, for the chain.
@@ -144,19 +123,13 @@ class LockStepRun {
   }
 
   void clock() {
-    drive_inputs(*rtl_, in_);
-    edge();
-    twin_.clock(in_);
-    const CoreOut rtl = read_outputs<D>(*rtl_);
-    const CoreOut& twin = twin_.out();
-    if (!(rtl == twin))
-      note(fmt::format("clock {}, {}", m_->clocks_compared, difference(rtl, twin)));
+    core_.lead(in_, 1, [this] { compare_chain(core_.twin().out()); });
+    if (core_.room() == 0) core_.follow();
     ++m_->clocks_compared;
-    m_->clocks_armed += twin.armed ? 1 : 0;
-    if (twin.snapshot_valid) compare_chain(twin);
+    m_->clocks_armed += core_.twin().out().armed ? 1 : 0;
   }
   void compare_chain(const CoreOut& twin) {
-    chain_.tick({twin.position, twin_.sampled_travel(), twin.armed, twin.scene, mode_});
+    chain_.tick({twin.position, core_.twin().sampled_travel(), twin.armed, twin.scene, mode_});
     const bool same =
         chain_.velocity().raw() == twin.velocity && chain_.tau_hat().raw() == twin.tau_hat &&
         chain_.tau_ref().raw() == twin.tau_ref &&
@@ -175,9 +148,7 @@ class LockStepRun {
 
   const std::vector<Value>& values_;
   Measurement* m_;
-  std::unique_ptr<Context> context_;
-  std::unique_ptr<Rtl> rtl_;
-  FeltgateCore<D> twin_;
+  LockStepCore<Rtl, D> core_;
   ControlChain<D, Fixed> chain_;
   CoreIn in_;
   Write pending_;

@@ -4,8 +4,6 @@
 // One design point: RTL against twin, the error against the exact design, delays. Compiled once per
 // structure with POINT_HEADER, POINT_TYPE and the Verilated class Vpoint; the values of the point
 // come at run time. Used by scripts/exploring/point.py. Documentation: docs/explore.md
-#include <verilated.h>
-
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -30,7 +28,7 @@ feltgate::explore::Measurement measure(const std::string& values_path, const std
   const double tick_s = 1.0 / static_cast<double>(D::tick_hz);
   const double cutoff_rad_s = -std::log1p(-value(values, "velocity_a1").si) / tick_s;
   m.estimator_delay_s = 0.5 * D::m1 * tick_s + 1.0 / cutoff_rad_s;
-  LockStepRun<Vpoint, D, VerilatedContext>(values, &m).run();
+  LockStepRun<Vpoint, D>(values, &m).run();
   if (m.mismatches > 0) return m;
   ErrorRun<D>(values).run(&m);
   m.torque_settling_s = torque_settling_s<D>(values, feltgate::plant::read_plant_file(plant).motor);

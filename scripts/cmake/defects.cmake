@@ -59,9 +59,9 @@ endfunction()
 # feltgate_same_class(<target> <block> <library> <other>): the target, compiled with V<block> of one library,
 # is linked with that of another; the build fails where the two are not laid out alike.
 function(feltgate_same_class target block library other)
-  set(stamp "${CMAKE_CURRENT_BINARY_DIR}/${target}.same_class")
-  set(headers "${CMAKE_CURRENT_BINARY_DIR}/${library}.verilated/V${block}.h"
-    "${CMAKE_CURRENT_BINARY_DIR}/${other}.verilated/V${block}.h")
+  set(stamp "${CMAKE_CURRENT_BINARY_DIR}/${target}.${block}.same_class")
+  set(headers "$<TARGET_PROPERTY:${library},BINARY_DIR>/${library}.verilated/V${block}.h"
+    "$<TARGET_PROPERTY:${other},BINARY_DIR>/${other}.verilated/V${block}.h")
   add_custom_command(OUTPUT "${stamp}"
     COMMAND ${Python3_EXECUTABLE} -B "${FELTGATE_DEFECTS}" same-class ${headers} --output "${stamp}"
     DEPENDS ${headers} ${FELTGATE_SEEDING} VERBATIM)

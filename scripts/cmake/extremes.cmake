@@ -7,7 +7,7 @@ include_guard(GLOBAL)
 
 set(extremes_folder "${FELTGATE_ROOT}/testbench/extremes")
 feltgate_verilate(extremes_decoder quad_decoder "${FELTGATE_ROOT}/rtl/quad_decoder.sv"
-  CLASS Vextremes_decoder -GResetPosition=2147483000)
+  -GResetPosition=2147483000)
 set(extremes_blocks extremes_decoder)
 foreach(mode "" _truncate _convergent)  # half up, floor, convergent
   list(LENGTH extremes_blocks rounding)
@@ -15,7 +15,7 @@ foreach(mode "" _truncate _convergent)  # half up, floor, convergent
   list(APPEND extremes_blocks extremes_lowpass${mode})
   feltgate_verilate(extremes_lowpass${mode} lowpass
     "${FELTGATE_ROOT}/rtl/generated/paper/feltgate_pkg.sv;${FELTGATE_ROOT}/rtl/lowpass.sv"
-    CLASS Vextremes_lowpass${mode} -GRounding=${rounding})
+    CLASS Vlowpass${mode} -GRounding=${rounding})
 endforeach()
 
 # A core of its own, with gains wider than any design for use needs them.
@@ -30,15 +30,21 @@ feltgate_verilate(extremes_wide_core feltgate_core
   "${extremes_wide}/feltgate_pkg.sv;${FELTGATE_CORE_SOURCES}" CLASS Vextremes_wide -O3)
 
 file(GLOB extremes_sources CONFIGURE_DEPENDS "${extremes_folder}/*.cpp")
-list(FILTER extremes_sources EXCLUDE REGEX "_(main|test)\\.cpp$")
+list(FILTER extremes_sources EXCLUDE REGEX "_(main|test|defects)\\.cpp$")
 add_library(feltgate_extreme_cases STATIC ${extremes_sources} "${extremes_wide}/wide.hpp")
 target_compile_options(feltgate_extreme_cases PRIVATE ${FELTGATE_WARNINGS})
 target_include_directories(feltgate_extreme_cases
-  PUBLIC "${FELTGATE_ROOT}/testbench" PRIVATE "${extremes_wide}")
+  PUBLIC "${FELTGATE_ROOT}/testbench" "${FELTGATE_ROOT}/testbench/common" PRIVATE "${extremes_wide}")
 target_link_libraries(feltgate_extreme_cases
   PUBLIC feltgate_rtl feltgate_loop feltgate_design feltgate_stability
-  PRIVATE ${extremes_blocks} extremes_wide_core nlohmann_json::nlohmann_json fmt::fmt)
+  PRIVATE extremes_wide_core nlohmann_json::nlohmann_json fmt::fmt)
+# Whoever links the cases links these blocks, or others with defects.
+add_dependencies(feltgate_extreme_cases ${extremes_blocks})
+foreach(block IN LISTS extremes_blocks)
+  target_include_directories(feltgate_extreme_cases SYSTEM PRIVATE
+    "$<TARGET_PROPERTY:${block},INTERFACE_INCLUDE_DIRECTORIES>")
+endforeach()
 
 feltgate_program(feltgate_extremes "commands.cpp;command_line.cpp"
-  feltgate_files feltgate_extreme_cases CLI11::CLI11)
+  feltgate_files feltgate_extreme_cases ${extremes_blocks} CLI11::CLI11)
 target_sources(feltgate_extremes PRIVATE "${extremes_folder}/extremes_main.cpp")

@@ -8,14 +8,17 @@
 #include <sstream>
 #include <string>
 
-/// The place of the chosen name among these.
+/// The place of the chosen name among these. Where one program has several blocks with defects, it
+/// names several: the last one that a block has is chosen there.
 extern "C" int feltgate_chosen_defect(const char* names) {
   const char* chosen = std::getenv("FELTGATE_DEFECT");
-  std::istringstream list(names);
-  std::string name;
-  for (int place = 0; list >> name; ++place) {
-    if (chosen != nullptr && name == chosen) return place;
+  std::istringstream words(chosen == nullptr ? "" : chosen);
+  int found = -1;
+  for (std::string word, name; words >> word;) {
+    std::istringstream list(names);
+    for (int place = 0; list >> name; ++place) found = name == word ? place : found;
   }
+  if (found >= 0) return found;
   std::cerr << "FELTGATE_DEFECT must be one of: " << names << std::endl;
   std::abort();
 }

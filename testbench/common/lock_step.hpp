@@ -8,14 +8,11 @@
 // Documentation: docs/testing.md
 #pragma once
 
-#include <verilated.h>
-#include <verilated_fst_c.h>
-
-#include <memory>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "engines/rtl_model.hpp"
 #include "mismatch.hpp"
 #include "random.hpp"
 
@@ -109,19 +106,11 @@ class LockStep {
 
   struct Session {
     Session(const LockStep& bench, ResetPlan plan)
-        : twin(bench.prototype_), resets(bench.seed_ ^ 0x7265736574U), reset_plan(plan) {
-      context.randReset(2);
-      context.randSeed(static_cast<int>(bench.seed_ % 0x7ffffffeU) + 1);
-      context.traceEverOn(true);
-      rtl = std::make_unique<Rtl>(&context);
-      rtl->rst_ni = 1;  // so that the first reset is an edge, from a random state
-      rtl->clk_i = 0;
-      rtl->eval();
+        : rtl(bench.seed_),
+          twin(bench.prototype_),
+          resets(bench.seed_ ^ 0x7265736574U),
+          reset_plan(plan) {
       twin.reset();
-    }
-    ~Session() {
-      if (fst) fst->close();
-      rtl->final();
     }
 
     template <class Stimulus, class Observer>
@@ -140,8 +129,7 @@ class LockStep {
       }
       Adapter::drive(*rtl, in);
       rtl->rst_ni = in_reset ? 0 : 1;
-      rtl->clk_i = 0;
-      rtl->eval();
+      rtl.low();
       if (in_reset) twin.reset();
       if constexpr (kPeek) {
         Adapter::compare(check, *rtl, twin.peek(in));
@@ -150,8 +138,7 @@ class LockStep {
       }
       if (__builtin_expect(check.failed(), 0)) note("before the edge");
       dump(20 * cycle);
-      rtl->clk_i = 1;
-      rtl->eval();
+      rtl.high();
       if (!in_reset) twin.clock(in);
       if constexpr (kPeek) {
         Adapter::compare(check, *rtl, twin.peek(in));
@@ -176,20 +163,14 @@ class LockStep {
       check.first().instant = instant;
     }
     void trace_from(const std::string& path, std::int64_t found) {
-      fst = std::make_unique<VerilatedFstC>();
-      rtl->trace(fst.get(), 99);
-      fst->set_time_unit("1ns");
-      fst->set_time_resolution("1ns");
-      fst->open(path.c_str());
+      rtl.trace(path, "1ns");
       dump_from = 20 * (found - 200);
     }
     void dump(std::int64_t time) {
-      if (fst && time >= dump_from) fst->dump(static_cast<std::uint64_t>(time));
+      if (rtl.tracing() && time >= dump_from) rtl.dump(static_cast<std::uint64_t>(time));
     }
 
-    VerilatedContext context;
-    std::unique_ptr<Rtl> rtl;
-    std::unique_ptr<VerilatedFstC> fst;
+    RtlModel<Rtl> rtl;
     Twin twin;
     Random resets;
     ResetPlan reset_plan;

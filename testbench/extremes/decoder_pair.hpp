@@ -5,14 +5,10 @@
 // count can start anywhere. Documentation: docs/extremes.md
 #pragma once
 
-#include <Vextremes_decoder.h>
-#include <verilated.h>
-
-#include <memory>
 #include <string>
 
 #include "extremes/bench.hpp"
-#include "feltgate/quad_decoder.hpp"
+#include "quad_decoder/adapter.hpp"
 
 namespace feltgate::extremes {
 
@@ -21,19 +17,7 @@ class DecoderPair {
   /// The RTL was verilated with this ResetPosition.
   static constexpr std::int32_t reset_position = 2147483000;
 
-  DecoderPair() : context_(new VerilatedContext), rtl_(new Vextremes_decoder(context_.get())) {
-    rtl_->clk_i = 0;
-    rtl_->rst_ni = 0;
-    rtl_->eval();
-    rtl_->clk_i = 1;
-    rtl_->eval();
-    rtl_->clk_i = 0;
-    rtl_->eval();
-    rtl_->rst_ni = 1;
-  }
-  ~DecoderPair() { rtl_->final(); }
-  DecoderPair(const DecoderPair&) = delete;
-  DecoderPair& operator=(const DecoderPair&) = delete;
+  DecoderPair() { rtl_.reset(1); }
 
   void set_filter(int samples) { in_.filter = static_cast<std::uint8_t>(samples); }
 
@@ -42,26 +26,15 @@ class DecoderPair {
     const EncoderPins pins = pins_at(state);
     in_.a = pins.a;
     in_.b = pins.b;
-    rtl_->a_i = in_.a;
-    rtl_->b_i = in_.b;
-    rtl_->z_i = 0;
-    rtl_->filter_i = in_.filter;
-    rtl_->polarity_i = 0;
-    rtl_->set_zero_i = 0;
-    rtl_->clear_error_i = 0;
-    rtl_->clk_i = 1;
-    rtl_->eval();
-    rtl_->clk_i = 0;
-    rtl_->eval();
+    test::QuadDecoderAdapter::drive(*rtl_, in_);
+    rtl_.clock();
     twin_.clock(in_);
+    test::Check check;
+    test::QuadDecoderAdapter::compare(check, *rtl_, twin_.out());
+    mismatches_ += check.failed() ? 1 : 0;
     ++clocks_;
     rtl_flags_ += rtl_->illegal_o != 0 ? 1 : 0;
     twin_flags_ += twin_.out().illegal ? 1 : 0;
-    const bool same = static_cast<std::int32_t>(rtl_->position_o) == twin_.out().position &&
-                      rtl_->travel_o == twin_.out().travel &&
-                      (rtl_->illegal_o != 0) == twin_.out().illegal &&
-                      (rtl_->error_o != 0) == twin_.out().error;
-    mismatches_ += same ? 0 : 1;
   }
   /// The state held, until every counter has seen it.
   void settle(std::int64_t state) {
@@ -90,8 +63,7 @@ class DecoderPair {
     return static_cast<std::int32_t>(d);
   }
 
-  std::unique_ptr<VerilatedContext> context_;
-  std::unique_ptr<Vextremes_decoder> rtl_;
+  RtlModel<Vquad_decoder> rtl_{1};
   QuadDecoder twin_{reset_position};
   QuadDecoder::In in_;
   std::int64_t clocks_ = 0, mismatches_ = 0, rtl_flags_ = 0, twin_flags_ = 0;

@@ -79,8 +79,8 @@ Outcome dead_bands(const Settings&) {
                         {"half up", Round::half_up, twin_rest<Round::half_up>, 11},
                         {"convergent", Round::convergent, twin_rest<Round::convergent>, 11}};
   LowpassRtl half_up;
-  LowpassAlone<Vextremes_lowpass_truncate> truncate;
-  LowpassAlone<Vextremes_lowpass_convergent> convergent;
+  LowpassAlone<Vlowpass_truncate> truncate;
+  LowpassAlone<Vlowpass_convergent> convergent;
   for (const Mode& m : modes) {
     const Band expected = dead_band(m.round, a1, fraction);
     const Rest twin = m.twin(40000, a1);
@@ -114,7 +114,7 @@ Outcome dyadic_trap(const Settings&) {
   const std::int64_t a1 = std::int64_t{1} << (fraction - 11);
   LowpassRtl rtl;
   LowpassTwin<Round::half_up> half_up;
-  LowpassAlone<Vextremes_lowpass_convergent> convergent;
+  LowpassAlone<Vlowpass_convergent> convergent;
   LowpassTwin<Round::convergent> convergent_twin;
   const Rest hardware = rest(rtl, 40000, a1), twin = rest(half_up, 40000, a1);
   add(&o, "highest rest, a1 = 2^-11: exactly half of 2^11", "state LSB", exactly(1024),

@@ -5,14 +5,13 @@
 // sample takes six clocks. Documentation: docs/extremes.md
 #pragma once
 
-#include <Vextremes_lowpass.h>
-#include <Vextremes_lowpass_convergent.h>
-#include <Vextremes_lowpass_truncate.h>
-#include <verilated.h>
+#include <Vlowpass.h>
+#include <Vlowpass_convergent.h>
+#include <Vlowpass_truncate.h>
 
 #include <cstdint>
-#include <memory>
 
+#include "engines/rtl_model.hpp"
 #include "feltgate/lowpass.hpp"
 
 namespace feltgate::extremes {
@@ -44,14 +43,7 @@ class LowpassTwin {
 template <class Rtl>
 class LowpassAlone {
  public:
-  LowpassAlone() : context_(new VerilatedContext), rtl_(new Rtl(context_.get())) {
-    rtl_->rst_ni = 0;
-    edge();
-    rtl_->rst_ni = 1;
-  }
-  ~LowpassAlone() { rtl_->final(); }
-  LowpassAlone(const LowpassAlone&) = delete;
-  LowpassAlone& operator=(const LowpassAlone&) = delete;
+  LowpassAlone() { rtl_.reset(1); }
 
   /// The state is put to `y`.
   void start(std::int64_t y) { sample(y, 0, true); }
@@ -75,18 +67,14 @@ class LowpassAlone {
 
  private:
   void edge() {
-    rtl_->clk_i = 0;
-    rtl_->eval();
-    rtl_->clk_i = 1;
-    rtl_->eval();
+    rtl_.clock();
     ++clocks_;
   }
 
-  std::unique_ptr<VerilatedContext> context_;
-  std::unique_ptr<Rtl> rtl_;
+  RtlModel<Rtl> rtl_{1};
   std::int64_t clocks_ = 0;
 };
 
-using LowpassRtl = LowpassAlone<Vextremes_lowpass>;  ///< half up, as in every shipped design
+using LowpassRtl = LowpassAlone<Vlowpass>;  ///< half up, as in every shipped design
 
 }  // namespace feltgate::extremes

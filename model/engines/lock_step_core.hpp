@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// RTL and twin of the core on the same inputs, every output compared on every clock.
+// Documentation: docs/architecture.md
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "feltgate/feltgate_core.hpp"
+#include "rtl_core.hpp"
+
+namespace feltgate {
+
+/// Every output of the core, in the order in which a difference is looked for.
+#define FELTGATE_EACH_OUTPUT(apply)                                                              \
+  apply(tick_count) apply(position) apply(velocity) apply(tau_hat) apply(tau_ref)                \
+      apply(current_ref) apply(voltage) apply(duty) apply(duty_active) apply(gates) apply(scene) \
+          apply(limits) apply(faults) apply(first_fault) apply(armed) apply(gates_enable)        \
+              apply(snapshot_valid) apply(reg_busy) apply(reg_rdata)
+
+/// Does not compile when an output came or went: then the list above lacks it too.
+inline void count_outputs(const CoreOut& out) {
+  [[maybe_unused]] const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s] = out;
+#define FELTGATE_ONE(name) +1
+  static_assert(FELTGATE_EACH_OUTPUT(FELTGATE_ONE) == 19, "an output is not in the list above");
+#undef FELTGATE_ONE
+}
+
+/// Name of the first output in which two cores differ, with both values.
+inline std::string difference(const CoreOut& rtl, const CoreOut& twin) {
+#define FELTGATE_TELL(name)                                                                   \
+  if (rtl.name != twin.name) {                                                                \
+    return #name ": rtl " + std::to_string(rtl.name) + ", twin " + std::to_string(twin.name); \
+  }
+  FELTGATE_EACH_OUTPUT(FELTGATE_TELL)
+#undef FELTGATE_TELL
+  return {};
+}
+
+/// The outputs of `Clocks` clocks, each in an array of its own: word for word, as the twin has just
+/// written them. Copied in wider pieces, each copy would wait for the words to reach the cache.
+template <std::size_t Clocks>
+class OutputLog {
+ public:
+  void put(std::size_t clock, const CoreOut& out) {
+#define FELTGATE_PUT(name) name##_[clock] = out.name;
+    FELTGATE_EACH_OUTPUT(FELTGATE_PUT)
+#undef FELTGATE_PUT
+  }
+  bool holds(std::size_t clock, const CoreOut& out) const {
+    std::int64_t difference = 0;
+#define FELTGATE_COMPARE(name) difference |= std::int64_t{name##_[clock]} ^ std::int64_t{out.name};
+    FELTGATE_EACH_OUTPUT(FELTGATE_COMPARE)
+#undef FELTGATE_COMPARE
+    return difference == 0;
+  }
+  CoreOut at(std::size_t clock) const {
+    CoreOut out;
+#define FELTGATE_GET(name) out.name = name##_[clock];
+    FELTGATE_EACH_OUTPUT(FELTGATE_GET)
+#undef FELTGATE_GET
+    return out;
+  }
+
+ private:
+#define FELTGATE_KEEP(name) std::array<decltype(CoreOut::name), Clocks> name##_;
+  FELTGATE_EACH_OUTPUT(FELTGATE_KEEP)
+#undef FELTGATE_KEEP
+};
+#undef FELTGATE_EACH_OUTPUT
+
+/// The twin leads; the RTL follows in stretches of its own, long enough that the code of each half
+/// stays in the processor's cache, and is compared with what the twin has shown.
+template <class Rtl, class D>
+class LockStepCore {
+ public:
+  void power_up(std::uint64_t seed, EncoderPins pins) {
+    clear();
+    rtl_.power_up(seed, pins);
+    clock_ = mismatches_ = 0;
+    first_.clear();
+    twin_ = FeltgateCore<D>();
+  }
+  /// A waveform of the RTL, as RtlCore::trace().
+  void trace(const std::string& path, Clock from, Clock to) { rtl_.trace(path, from, to); }
+
+  const FeltgateCore<D>& twin() const { return twin_; }
+
+  /// Clocks that the twin may lead before the RTL follows.
+  Clock room() const { return static_cast<Clock>(longest - shown_); }
+  /// The twin runs `clocks` clocks, at most room(); on_snapshot() after each that shows one.
+  template <class OnSnapshot>
+  [[gnu::flatten]] void lead(const CoreIn& in, Clock clocks, OnSnapshot&& on_snapshot) {
+    held_.push_back({in, static_cast<std::size_t>(clocks)});
+    for (Clock k = 0; k < clocks; ++k) {
+      twin_.clock(in);
+      const CoreOut& out = twin_.out();
+      shown_outputs_.put(shown_++, out);
+      if (out.snapshot_valid) on_snapshot();
+    }
+  }
+  void follow() {
+    const auto begin = std::chrono::steady_clock::now();
+    compare();
+    busy_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    clear();
+  }
+
+  // Of the clocks that the RTL has followed:
+  std::int64_t mismatches() const { return mismatches_; }
+  Clock first_mismatch_clock() const { return first_clock_; }
+  const std::string& first_mismatch() const { return first_; }
+  double rtl_busy_s() const { return busy_s_; }
+
+ private:
+  struct Inputs {
+    CoreIn in;
+    std::size_t clocks;
+  };
+  static constexpr std::size_t longest = 1000;
+
+  void clear() {
+    shown_ = 0;
+    held_.clear();
+  }
+  /// Flat: the outputs are compared where they are, not copied first.
+  [[gnu::flatten]] void compare() {
+    std::size_t n = 0;
+    for (const Inputs& inputs : held_) {
+      rtl_.drive(inputs.in);
+      for (const std::size_t end = n + inputs.clocks; n < end; ++n) {
+        rtl_.edge();
+        if (!shown_outputs_.holds(n, rtl_.out())) miss(n);
+      }
+    }
+    clock_ += static_cast<Clock>(n);
+  }
+  [[gnu::noinline, gnu::cold]] void miss(std::size_t n) {
+    if (mismatches_++ > 0) return;
+    first_clock_ = clock_ + static_cast<Clock>(n);
+    first_ = "clock " + std::to_string(first_clock_) + ", " +
+             difference(rtl_.out(), shown_outputs_.at(n));
+  }
+
+  FeltgateCore<D> twin_;
+  RtlCore<Rtl, D> rtl_;
+  std::vector<Inputs> held_;
+  OutputLog<longest> shown_outputs_;
+  std::size_t shown_ = 0;  ///< of them, clocks
+  Clock clock_ = 0;        ///< to which the first of them belongs
+  std::int64_t mismatches_ = 0;
+  Clock first_clock_ = 0;
+  std::string first_;
+  double busy_s_ = 0;
+};
+
+}  // namespace feltgate

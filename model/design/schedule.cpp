@@ -129,7 +129,9 @@ Step read_step(config::TomlReader r, const RegisterMap& map, const Schedule& s) 
     for (const std::string& text : r.texts("needs")) step.needs.push_back(need(text));
   }
   if (r.has("takes")) step.takes = r.texts("takes");
-  step.passes = r.flag_or("passes", false);
+  if (r.has("reads")) step.reads = r.texts("reads");
+  if (r.flag_or("passes", false)) step.lasts = 1;
+  if (r.has("lasts")) step.lasts = static_cast<int>(r.integer("lasts", 1, 62));
   if (r.has("shows_in")) step.shows_in = r.text("shows_in");
   if (r.has("output")) step.output = plain_text(r, "output");
   step.by = r.identifier("by");

@@ -37,7 +37,8 @@ struct Step {
   int clock = 0;
   std::vector<Need> needs;
   std::vector<std::string> takes;  ///< words of the parameter bus
-  bool passes = false;             ///< there for one clock only
+  std::vector<std::string> reads;  ///< words of the snapshot
+  int lasts = 0;                   ///< clocks for which the result is there; 0: held
   std::string shows_in;            ///< the result whose register it writes ahead of that result
   std::string output;              ///< what the timing diagram calls the result; none: not shown
   std::string by, doc, place;

@@ -58,12 +58,13 @@ void check_need(const Schedule& s, const Need& need, const Use& use) {
                        need.result, use.what, ready, step->place, use.clock),
            "move the use back or the result ahead");
   }
-  if (step->passes && use.clock != ready) {
-    refuse(use.place,
-           fmt::format("{} passes: it is there in clock {} alone (step {}), and {} needs it in "
-                       "clock {}",
-                       need.result, ready, step->place, use.what, use.clock),
-           "let both move together");
+  if (step->lasts > 0 && use.clock >= ready + step->lasts) {
+    refuse(
+        use.place,
+        fmt::format("{} passes: it is there from clock {} to {} (step {}), and {} needs it in "
+                    "clock {}",
+                    need.result, ready, ready + step->lasts - 1, step->place, use.what, use.clock),
+        "let both move together");
   }
   // What is written into the same register takes it away.
   const Step* after = step->shows_in.empty() ? nullptr : s.step(step->shows_in);
@@ -94,6 +95,22 @@ void check_uses(const RegisterMap& map, const Schedule& s) {
             fmt::format("{} is on the bus in clock {}, but the step {} ({}) takes it in clock {}",
                         name, word->slot, step.name, step.place, step.clock),
             "give it that slot");
+      }
+    }
+  }
+}
+
+/// Words of the snapshot that a step puts on the operand bus.
+void check_reads(const RegisterMap& map, const Schedule& s) {
+  for (const Step& step : s.steps) {
+    for (const std::string& name : step.reads) {
+      for (const Snapshot& n : map.snapshots) {
+        if (n.name != name || n.slot == step.clock) continue;
+        refuse(n.place,
+               fmt::format("{} of the snapshot is in slot {}, but the step {} ({}) reads it in "
+                           "clock {}",
+                           name, n.slot, step.name, step.place, step.clock),
+               "give it that slot");
       }
     }
   }
@@ -200,6 +217,7 @@ void check_schedule(const RegisterMap& map, const Schedule& s) {
   check_ends(map, s);
   check_banks(map, s);
   check_buses(map, s);
+  check_reads(map, s);
   check_uses(map, s);
 }
 

@@ -80,7 +80,7 @@ TEST_CASE("a result that comes late is refused", "[schedule]") {
 
 TEST_CASE("a result that passes must be taken in its clock", "[schedule]") {
   refused(Texts().move("dead_voltage", 36),
-          "dead_early passes: it is there in clock 35 alone .* dead_voltage needs it in clock 36");
+          "dead_early passes: it is there from clock 35 to 35 .* dead_voltage needs it in clock 36");
   refused(Texts().move("duty_limit", 41).move("watchdog_ticks", 45), "duty_sum comes late");
   refused(Texts().move("duty_limit", 47), "duty_sum passes|comes late");
 }

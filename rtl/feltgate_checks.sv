@@ -10,7 +10,6 @@
 
 module feltgate_checks;
   localparam int A = feltgate_pkg::MULTIPLIER_A_BITS;
-  localparam int Narrow = feltgate_pkg::NARROW_W;
 
   if (!(feltgate_map_pkg::MULTIPLIER_LATENCY == 4 && feltgate_map_pkg::FIRST_WAVE_CLOCK == 2))
   begin : g_check_map
@@ -64,16 +63,15 @@ module feltgate_checks;
   if (!(feltgate_pkg::DUTY_W == 13 && feltgate_pkg::DUTY_F == 0)) begin : g_check_duty
     DUTY_must_be_the_13_bits_of_the_bridge missing ();
   end
-  if (!(feltgate_pkg::TORQUE_W <= feltgate_pkg::CURRENT_W &&
-        feltgate_pkg::VOLTAGE_W <= feltgate_pkg::CURRENT_W &&
-        feltgate_pkg::DUTY_W <= feltgate_pkg::CURRENT_W)) begin : g_check_limiter
-    CURRENT_W_must_hold_torque_voltage_and_duty missing ();
+  if (!(feltgate_pkg::TORQUE_W <= feltgate_pkg::LIMITER_W &&
+        feltgate_pkg::CURRENT_W <= feltgate_pkg::LIMITER_W &&
+        feltgate_pkg::VOLTAGE_W <= feltgate_pkg::LIMITER_W &&
+        feltgate_pkg::DUTY_W <= feltgate_pkg::LIMITER_W)) begin : g_check_limiter
+    LIMITER_W_must_hold_torque_current_voltage_and_duty missing ();
   end
-  if (!(Narrow <= A && Narrow >= feltgate_pkg::CURRENT_W && Narrow >= feltgate_pkg::TORQUE_W &&
-        Narrow >= feltgate_pkg::VOLTAGE_W && Narrow >= feltgate_pkg::DUTY_W &&
-        Narrow >= feltgate_pkg::CURRENT_ESTIMATE_W && Narrow >= feltgate_pkg::SCENE_POSITION_W))
-  begin : g_check_narrow
-    NARROW_W_must_hold_every_narrow_operand missing ();
+  if (!(feltgate_pkg::LIMITER_W <= A && feltgate_pkg::SCENE_DISTANCE_W <= A &&
+        feltgate_pkg::VELOCITY_W <= A)) begin : g_check_operands
+    every_operand_must_fit_the_multiplier missing ();
   end
   if (!(feltgate_pkg::CURRENT_ESTIMATE_W <= 18 &&
         feltgate_pkg::CURRENT_ESTIMATE_W == feltgate_pkg::CURRENT_ESTIMATE_PART_W + 1 &&

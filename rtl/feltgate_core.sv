@@ -9,8 +9,7 @@
 `default_nettype none
 
 module feltgate_core #(
-    parameter int ReadBack = 1,  // 0: no snapshot RAM, the host can only write
-    parameter int Defect   = 0   // 1: tau_hat of the tick before, 2: scene operand late, 3: gates open on a fault
+    parameter int ReadBack = 1  // 0: no snapshot RAM, the host can only write
 ) (
     input  logic clk_i,
     input  logic rst_ni,
@@ -55,8 +54,6 @@ module feltgate_core #(
     output logic signed [      feltgate_pkg::DUTY_W-1:0] duty_active_o,   // in force in the bridge
     output logic                                         gates_enable_o
 );
-  localparam int OperandW = feltgate_pkg::MULTIPLIER_A_BITS;
-  localparam int ProductW = feltgate_pkg::PRODUCT_BITS;
   localparam int SceneW = feltgate_pkg::SCENE_POSITION_W;
   feltgate_checks u_checks ();
   // The wave and its two buses.
@@ -65,10 +62,9 @@ module feltgate_core #(
   logic                       scene_slot_fetch;
   logic [               49:0] wave;
   logic [               31:0] param;
-  logic signed [OperandW-1:0] operand;
-  logic                       snap_valid;
-  logic signed [ProductW-1:0] velocity_product, dob_product, scene_product, control_product;
-  logic signed [ProductW-1:0] supervisor_product;  // all the same where one multiplier is shared
+  logic signed [feltgate_pkg::MULTIPLIER_A_BITS-1:0] operand;
+  logic signed [feltgate_pkg::PRODUCT_BITS-1:0] velocity_product, dob_product, scene_product;
+  logic signed [feltgate_pkg::PRODUCT_BITS-1:0] control_product, supervisor_product;
 
   // What the registers and the panel ask for.
   logic [14:0] control;
@@ -76,6 +72,8 @@ module feltgate_core #(
   logic [ 1:0] mode;
   logic host, arm_request, set_zero, zero_pending_q, host_zero, clear_faults, kick, region_high;
   logic [3:0] scene_q;
+  logic       snap_valid;
+  logic [5:0] snap_slot;
   assign host         = control[feltgate_pkg::B_CONTROL_HOST];
   assign mode         = control[feltgate_pkg::B_CONTROL_MODE+:2];
   assign arm_request  = host ? control[feltgate_pkg::B_CONTROL_ARM] : arm_i;
@@ -121,7 +119,7 @@ module feltgate_core #(
       .set_zero_o(host_zero),
       .clear_faults_o(clear_faults),
       .kick_o(kick),
-      .snap_slot_i(slot_fetch - 6'd2),
+      .snap_slot_i(snap_slot),
       .snap_valid_i(snap_valid),
       .snap_data_i(operand[31:0])
   );
@@ -167,21 +165,20 @@ module feltgate_core #(
     end
   end
 
-  logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] velocity_operand;
+  logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] velocity_difference;
   logic velocity_saturated;
   velocity_n u_velocity_n (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
       .wave_i(wave),
       .travel_i(travel),
-      .operand_o(velocity_operand),
+      .operand_o(velocity_difference),
       .product_i(velocity_product),
       .velocity_o(velocity_o),
       .saturated_o(velocity_saturated)
   );
 
-  logic signed [feltgate_pkg::OBSERVER_DIFFERENCE_W-1:0] dob_operand;
-  logic signed [feltgate_pkg::TORQUE_W-1:0] tau_hat;
+  logic signed [feltgate_pkg::OBSERVER_DIFFERENCE_W-1:0] observer_difference;
   logic tau_hat_saturated;
   dob u_dob (
       .clk_i(clk_i),
@@ -189,31 +186,61 @@ module feltgate_core #(
       .armed_i(armed_o),
       .wave_i(wave),
       .product_i(dob_product),
-      .operand_o(dob_operand),
-      .tau_hat_o(tau_hat),
+      .operand_o(observer_difference),
+      .tau_hat_o(tau_hat_o),
       .saturated_o(tau_hat_saturated)
   );
-  assign tau_hat_o = tau_hat;
 
-  logic signed [feltgate_pkg::SCENE_OFFSET_W-1:0] scene_operand;
-  logic scene_square, limit_torque, limit_ramp;
+  logic signed [feltgate_pkg::LIMITER_W-1:0] limited;
+  logic beyond;
+  logic signed [feltgate_pkg::SCENE_DISTANCE_W-1:0] distance;
+  logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] scene_ahead;
+  logic signed [feltgate_pkg::TORQUE_W-1:0] scene_late;
+  logic square;
   scenes u_scenes (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
       .armed_i(armed_o),
       .scene_i(scene_q),
-      .start_i(wave[1]),
+      .wave_i(wave),
       .position_i(scene_position_q),
       .param_i(param),
       .product_i(scene_product),
-      .operand_o(scene_operand),
-      .square_o(scene_square),
+      .beyond_i(beyond),
+      .distance_o(distance),
+      .square_o(square),
+      .ahead_o(scene_ahead),
+      .late_o(scene_late)
+  );
+
+  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] control_ahead, control_late;
+  limiter u_limiter (
+      .clk_i(clk_i),
+      .valid_i(wave[feltgate_map_pkg::S_TORQUE_LIMIT-1] ||
+               wave[feltgate_map_pkg::S_CURRENT_LIMIT-1] || wave[feltgate_map_pkg::S_DEAD_VOLTAGE-1] ||
+               wave[feltgate_map_pkg::S_VOLTAGE_LIMIT-1] || wave[feltgate_map_pkg::S_DUTY_LIMIT-1]),
+      .ahead_i(control_ahead | feltgate_pkg::LIMITER_INPUT_W'(scene_ahead)),
+      .late_i(control_late | feltgate_pkg::LIMITER_INPUT_W'(scene_late)),
+      .param_i(param),
+      .limited_o(limited),
+      .beyond_o(beyond)
+  );
+
+  logic limit_torque, limit_ramp;
+  ramp u_ramp (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .armed_i(armed_o),
+      .scene_i(scene_q),
+      .wave_i(wave),
+      .param_i(param),
+      .limited_i(limited),
+      .beyond_i(beyond),
       .tau_ref_o(tau_ref_o),
       .limit_torque_o(limit_torque),
       .limit_ramp_o(limit_ramp)
   );
 
-  logic signed [feltgate_pkg::CURRENT_W-1:0] control_operand;
   logic limit_current, limit_voltage, limit_duty;
   torque_control u_torque_control (
       .clk_i(clk_i),
@@ -224,8 +251,11 @@ module feltgate_core #(
       .param_i(param),
       .product_i(control_product),
       .tau_ref_i(tau_ref_o),
+      .ahead_o(control_ahead),
+      .late_o(control_late),
+      .limited_i(limited),
+      .beyond_i(beyond),
       .region_high_o(region_high),
-      .operand_o(control_operand),
       .current_ref_o(current_ref_o),
       .voltage_o(voltage_o),
       .duty_o(duty_o),
@@ -263,7 +293,7 @@ module feltgate_core #(
   ) u_pwm (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
-      .enable_i((Defect == 3) ? armed_o : gates_enable),
+      .enable_i(gates_enable),
       .mode_i(control[feltgate_pkg::B_CONTROL_PWM_MODE]),
       .polarity_i(control[feltgate_pkg::B_CONTROL_MOTOR_POLARITY]),
       .duty_i(duty_o),
@@ -275,120 +305,77 @@ module feltgate_core #(
       .duty_active_o(duty_active_o)
   );
 
-  // Operand bus: who holds the wave drives it. Between the products pass the snapshot's words.
-  logic [31:0] status;
+  logic [31:0] status, snapshot_word;
   assign status = {4'd0, encoder_error, mode, armed_o, scene_q, limits_o, first_fault_o, faults_o};
-  logic signed [feltgate_pkg::TORQUE_W-1:0] tau_hat_bus;
-  if (Defect == 1) begin : gen_stale
-    logic signed [feltgate_pkg::TORQUE_W-1:0] stale_q;
-    always_ff @(posedge clk_i) if (wave[0]) stale_q <= tau_hat;
-    assign tau_hat_bus = stale_q;
-  end else begin : gen_fresh
-    assign tau_hat_bus = tau_hat;
-  end
-  // Selects are registered one clock ahead. Words that are narrow share one sign extension.
-  logic take_velocity_q, take_velocity_operand_q, take_scene_q, take_square_q, take_voltage_q;
-  logic take_control_q, take_current_q, take_estimate_q, take_dob_q, take_tau_hat_q, take_tau_ref_q;
-  logic take_tick_q, take_position_q, take_status_q, take_index_q, take_errors_q, take_duty_q;
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      {take_velocity_q, take_velocity_operand_q, take_scene_q, take_square_q, take_voltage_q,
-       take_control_q, take_current_q, take_estimate_q, take_dob_q, take_tau_hat_q,
-       take_tau_ref_q, take_tick_q, take_position_q, take_status_q, take_index_q, take_errors_q,
-       take_duty_q} <= '0;
-    end else begin
-      take_velocity_q         <= wave[6] || wave[8] || wave[9] || wave[21];
-      take_velocity_operand_q <= wave[3];
-      take_scene_q            <= (wave[2] && !(scene_square && Defect != 2)) || wave[5];
-      take_square_q           <= wave[2] && scene_square;
-      take_voltage_q          <= wave[4] || wave[26];
-      take_control_q          <= wave[39];
-      take_current_q          <= wave[7] || wave[33];
-      take_estimate_q         <= wave[12];
-      take_dob_q              <= wave[14];
-      take_tau_hat_q          <= wave[22];
-      take_tau_ref_q          <= wave[27] || wave[28];
-      take_tick_q             <= ReadBack != 0 && slot_fetch == 6'd1;  // before wave clock 0
-      take_position_q         <= ReadBack != 0 && wave[0];
-      take_status_q           <= ReadBack != 0 && wave[1];
-      take_index_q            <= ReadBack != 0 && wave[10];
-      take_errors_q           <= ReadBack != 0 && wave[13];
-      take_duty_q             <= ReadBack != 0 && wave[45];
-    end
-  end
+  snapshot #(
+      .ReadBack(ReadBack)
+  ) u_snapshot (
+      .clk_i(clk_i),
+      .slot_fetch_i(slot_fetch),
+      .wave_i(wave),
+      .status_i(status),
+      .position_i(position_o),
+      .tick_count_i(tick_count_o),
+      .index_position_i(index_position),
+      .error_count_i(error_count),
+      .rejected_count_i(rejected_count),
+      .word_o(snapshot_word),
+      .valid_o(snap_valid),
+      .slot_o(snap_slot)
+  );
 
-  localparam int NarrowW = feltgate_pkg::NARROW_W;  // holds each of these
-  logic signed [NarrowW-1:0] narrow;
-  assign narrow =
-      ({NarrowW{take_square_q && Defect != 2}} &
-       NarrowW'(scene_operand >>> feltgate_pkg::SCENE_OFFSET_F)) |
-      ({NarrowW{take_voltage_q}} & NarrowW'(voltage_o)) |
-      ({NarrowW{take_control_q}} & NarrowW'(control_operand)) |
-      ({NarrowW{take_current_q}} & NarrowW'(current_ref_o)) |
-      ({NarrowW{take_estimate_q}} & NarrowW'(current_estimate)) |
-      ({NarrowW{take_tau_hat_q}} & NarrowW'(tau_hat_bus)) |
-      ({NarrowW{take_tau_ref_q}} & NarrowW'(tau_ref_o)) |
-      ({NarrowW{take_duty_q}} & NarrowW'(duty_o));
-  assign operand =
-      OperandW'(narrow) |
-      ({OperandW{take_velocity_q}} & OperandW'(velocity_o)) |
-      ({OperandW{take_velocity_operand_q}} & OperandW'(velocity_operand)) |
-      ({OperandW{take_scene_q}} & OperandW'(scene_operand)) |
-      ({OperandW{take_dob_q}} & OperandW'(dob_operand)) |
-      ({OperandW{take_tick_q}} & OperandW'($signed(tick_count_o))) |
-      ({OperandW{take_position_q}} & OperandW'(position_o)) |
-      ({OperandW{take_status_q}} & OperandW'($signed(status))) |
-      ({OperandW{take_index_q}} & OperandW'(index_position)) |
-      ({OperandW{take_errors_q}} & OperandW'($signed({rejected_count, error_count})));
+  logic signed [feltgate_pkg::MULTIPLIER_A_BITS-1:0] dob_operand, scene_operand, control_operand;
+  logic signed [feltgate_pkg::MULTIPLIER_A_BITS-1:0] supervisor_operand;
+  logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate_operand;
+  logic signed_word, square_estimate;
+  operand_bus u_operand_bus (
+      .clk_i(clk_i),
+      .wave_i(wave),
+      .velocity_difference_i(velocity_difference),
+      .observer_difference_i(observer_difference),
+      .distance_i(distance),
+      .limited_i(limited),
+      .velocity_i(velocity_o),
+      .tau_hat_i(tau_hat_o),
+      .tau_ref_i(tau_ref_o),
+      .current_ref_i(current_ref_o),
+      .voltage_i(voltage_o),
+      .current_estimate_i(current_estimate),
+      .snapshot_i(snapshot_word),
+      .operand_o(operand),
+      .dob_o(dob_operand),
+      .scene_o(scene_operand),
+      .control_o(control_operand),
+      .supervisor_o(supervisor_operand),
+      .signed_o(signed_word),
+      .estimate_o(estimate_operand),
+      .square_estimate_o(square_estimate)
+  );
 
-  // A coefficient has no sign but in slot 23.
-  logic signed [17:0] coefficient;
-  assign coefficient = 18'($signed({param[feltgate_pkg::COEFFICIENT_BITS] && take_tau_hat_q,
-                                    param[feltgate_pkg::COEFFICIENT_BITS-1:0]}));
-  // A square takes its own operand as the factor, past the operand bus.
-  logic signed [17:0] scene_factor, supervisor_factor, plain_factor;
-  assign scene_factor = {18{take_square_q}} & scene_operand[feltgate_pkg::SCENE_OFFSET_F+:18];
-  assign supervisor_factor = {18{take_estimate_q}} & 18'(current_estimate);
-  assign plain_factor = {18{!take_square_q && !take_estimate_q}} & coefficient;
-  if (feltgate_pkg::PARALLEL_MULTIPLIERS == 0) begin : gen_shared
-    logic signed [ProductW-1:0] product;
-    mult u_mult (.clk_i(clk_i), .a_i(operand),
-                 .b_i(scene_factor | supervisor_factor | plain_factor), .product_o(product));
-    assign {velocity_product, dob_product, scene_product, control_product, supervisor_product} =
-        {5{product}};
-  end else begin : gen_parallel
-    // Each block its own, in the same clocks: no operand passes through a mux of the whole core.
-    wire unused = ^operand[OperandW-1:32];  // the bus remains for the snapshot
-    logic signed [OperandW-1:0] of_dob, of_scene, of_torque, of_supervisor;
-    assign of_dob = take_velocity_q ? OperandW'(velocity_o) :
-                    take_current_q  ? OperandW'(current_ref_o) : OperandW'(dob_operand);
-    assign of_scene = take_velocity_q ? OperandW'(velocity_o) :
-                      take_square_q   ? OperandW'(scene_factor) : OperandW'(scene_operand);
-    logic signed [NarrowW-1:0] control_narrow, supervisor_narrow;
-    assign control_narrow = ({NarrowW{take_tau_hat_q}} & NarrowW'(tau_hat_bus)) |
-                            ({NarrowW{take_voltage_q}} & NarrowW'(voltage_o)) |
-                            ({NarrowW{take_tau_ref_q}} & NarrowW'(tau_ref_o)) |
-                            ({NarrowW{take_current_q}} & NarrowW'(current_ref_o)) |
-                            ({NarrowW{take_control_q}} & NarrowW'(control_operand));
-    assign of_torque = take_velocity_q ? OperandW'(velocity_o) : OperandW'(control_narrow);
-    assign supervisor_narrow = take_estimate_q ? NarrowW'(current_estimate) : NarrowW'(voltage_o);
-    assign of_supervisor = take_velocity_q ? OperandW'(velocity_o) : OperandW'(supervisor_narrow);
-    mult u_velocity (.clk_i(clk_i), .a_i(OperandW'(velocity_operand)), .b_i(coefficient),
-                     .product_o(velocity_product));
-    mult u_dob (.clk_i(clk_i), .a_i(of_dob), .b_i(coefficient), .product_o(dob_product));
-    mult u_scene (.clk_i(clk_i), .a_i(of_scene), .b_i(scene_factor | plain_factor),
-                  .product_o(scene_product));
-    mult u_control (.clk_i(clk_i), .a_i(of_torque), .b_i(coefficient), .product_o(control_product));
-    mult u_supervisor (.clk_i(clk_i), .a_i(of_supervisor), .b_i(supervisor_factor | plain_factor),
-                       .product_o(supervisor_product));
+  logic square_q;
+  always_ff @(posedge clk_i) begin
+    square_q <= square && wave[feltgate_map_pkg::S_CHARGE_SQUARE-1];
   end
-
-  assign snap_valid =
-      wave[feltgate_pkg::R_TICK] || wave[feltgate_pkg::R_POSITION] || wave[feltgate_pkg::R_STATUS] ||
-      wave[feltgate_pkg::R_ENCODER] || wave[feltgate_pkg::R_INDEX] ||
-      wave[feltgate_pkg::R_VELOCITY] || wave[feltgate_pkg::R_TAU_HAT] ||
-      wave[feltgate_pkg::R_TAU_REF] || wave[feltgate_pkg::R_CURRENT_REF] ||
-      wave[feltgate_pkg::R_VOLTAGE] || wave[feltgate_pkg::R_DUTY];
+  multipliers u_multipliers (
+      .clk_i(clk_i),
+      .operand_i(operand),
+      .velocity_i(velocity_difference),
+      .dob_i(dob_operand),
+      .scene_i(scene_operand),
+      .control_i(control_operand),
+      .supervisor_i(supervisor_operand),
+      .signed_i(signed_word),
+      .param_i(param),
+      .square_distance_i(square_q),
+      .distance_i(distance[feltgate_pkg::SCENE_DISTANCE_F+:18]),
+      .square_estimate_i(square_estimate),
+      .estimate_i(estimate_operand),
+      .velocity_product_o(velocity_product),
+      .dob_product_o(dob_product),
+      .scene_product_o(scene_product),
+      .control_product_o(control_product),
+      .supervisor_product_o(supervisor_product)
+  );
 
   assign scene_o          = scene_q;
   assign gates_enable_o   = gates_enable;

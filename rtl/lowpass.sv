@@ -35,9 +35,9 @@ module lowpass #(
   /* verilator lint_off UNUSEDSIGNAL */  // the low bits are given up where the operand is narrower
   logic signed [Width:0] difference_q;
   /* verilator lint_on UNUSEDSIGNAL */
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) difference_q <= '0;
-    else if (valid_i) difference_q <= x_i - y_q;
+  always_ff @(posedge clk_i) begin
+    if (!valid_i) difference_q <= '0;
+    else difference_q <= x_i - y_q;
   end
   assign operand_o = difference_q[Width-:OperandW];
 

@@ -1,228 +1,202 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The port of the scenes: selects one, limits its torque, and ramps it after arming and after a
-// change of scene; between them nothing is slowed. A scene that is not built renders nothing.
-// Latency: start in wave clock 1, limit in 25, ramp step in 26, torque reference in 28 and held.
-// docs/blocks/scenes.md
+// The port of the scenes: one distance from the reference for all of them, one sum of what they
+// render, one rounding. A scene that is not built renders nothing.
+// Latency: distance_o one clock after the reference's word and for two clocks; torque_o in the clock
+// of the torque limit and only there. docs/blocks/scenes.md
 
 `default_nettype none
 
 module scenes #(
-    parameter int Mask = feltgate_pkg::SCENE_MASK,  // bit n: scene n is built
-    // 1: no ramp on a change of scene, 2: limit on one side only,
-    // 3: disarming keeps the torque, 4: ramp never ends, 5: ramp twice as fast downward,
-    // 6: a step whatever the distance
-    parameter int Defect = 0
+    parameter int Mask = feltgate_pkg::SCENE_MASK  // bit n: scene n is built
 ) (
     input  logic                                             clk_i,
     input  logic                                             rst_ni,
     input  logic                                             armed_i,
     input  logic        [                               3:0] scene_i,
-    input  logic                                             start_i,
-    input  logic signed [feltgate_pkg::SCENE_POSITION_W-1:0] position_i,
+    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
+    input  logic        [                              49:0] wave_i,
     input  logic        [                              31:0] param_i,
+    /* verilator lint_on UNUSEDSIGNAL */
+    input  logic signed [feltgate_pkg::SCENE_POSITION_W-1:0] position_i,
     input  logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] product_i,
-    output logic signed [  feltgate_pkg::SCENE_OFFSET_W-1:0] operand_o,
-    output logic                                             square_o,
-    output logic signed [        feltgate_pkg::TORQUE_W-1:0] tau_ref_o,
-    output logic                                             limit_torque_o,
-    output logic                                             limit_ramp_o
+    input  logic                                             beyond_i,    // the limiter's
+    output logic signed [feltgate_pkg::SCENE_DISTANCE_W-1:0] distance_o,
+    output logic                                             square_o,    // distance times itself
+    output logic signed [  feltgate_pkg::SCENE_TORQUE_W-1:0] ahead_o,     // to the limiter, a clock before
+    output logic signed [        feltgate_pkg::TORQUE_W-1:0] late_o       // in the clock of the limit
 );
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
-  localparam int RampW = feltgate_pkg::RAMP_W;
-  localparam int Fine = feltgate_pkg::RAMP_F - feltgate_pkg::TORQUE_F;
+  localparam int PartW = feltgate_pkg::SCENE_PART_W;
+  localparam int OffsetW = feltgate_pkg::SCENE_OFFSET_W;
+  localparam int OffsetF = feltgate_pkg::SCENE_OFFSET_F;
+  localparam int GapW = feltgate_pkg::SCENE_POSITION_W + 1;
+  localparam int Guard = feltgate_pkg::SCENE_GUARD_BITS;
+  localparam int Reference = feltgate_map_pkg::T_SCENE_DISTANCE;
+  localparam int Sum = feltgate_map_pkg::T_SCENE_SUM;
+  localparam int Rounded = feltgate_map_pkg::T_SCENE_ROUNDED;
 
-  // The scenes. A torque is 0 unless its scene is selected, so that they may be ored.
-  logic signed [feltgate_pkg::SCENE_OFFSET_W-1:0] spring_operand, charge_operand, wall_operand;
-  logic signed [TorqueW-1:0] setpoint_tau, membrane_tau, spring_tau, damper_tau, charge_tau,
-                             wall_tau;
-  logic tension, attract, spring, charge;
-  assign tension   = scene_i == feltgate_pkg::SCENE_SPRING_TENSION;
-  assign spring    = (Mask[{1'b0, feltgate_pkg::SCENE_SPRING_TENSION}] && tension) ||
-                     (Mask[{1'b0, feltgate_pkg::SCENE_SPRING_COMPRESSION}] &&
-                      scene_i == feltgate_pkg::SCENE_SPRING_COMPRESSION);
-  assign attract   = scene_i == feltgate_pkg::SCENE_CHARGE_ATTRACT;
-  assign charge    = (Mask[{1'b0, feltgate_pkg::SCENE_CHARGE_ATTRACT}] && attract) ||
-                     (Mask[{1'b0, feltgate_pkg::SCENE_CHARGE_REPEL}] &&
-                      scene_i == feltgate_pkg::SCENE_CHARGE_REPEL);
-  assign square_o  = charge;
-  assign operand_o = charge ? charge_operand : spring_operand;
+  logic setpoint, membrane, compression, tension, damper, attract, repel, wall;
+  assign setpoint    = Mask[{1'b0, feltgate_map_pkg::SCENE_SETPOINT}] &&
+                       scene_i == feltgate_map_pkg::SCENE_SETPOINT;
+  assign membrane    = Mask[{1'b0, feltgate_map_pkg::SCENE_MEMBRANE}] &&
+                       scene_i == feltgate_map_pkg::SCENE_MEMBRANE;
+  assign compression = Mask[{1'b0, feltgate_map_pkg::SCENE_SPRING_COMPRESSION}] &&
+                       scene_i == feltgate_map_pkg::SCENE_SPRING_COMPRESSION;
+  assign tension     = Mask[{1'b0, feltgate_map_pkg::SCENE_SPRING_TENSION}] &&
+                       scene_i == feltgate_map_pkg::SCENE_SPRING_TENSION;
+  assign damper      = Mask[{1'b0, feltgate_map_pkg::SCENE_DAMPER}] &&
+                       scene_i == feltgate_map_pkg::SCENE_DAMPER;
+  assign attract     = Mask[{1'b0, feltgate_map_pkg::SCENE_CHARGE_ATTRACT}] &&
+                       scene_i == feltgate_map_pkg::SCENE_CHARGE_ATTRACT;
+  assign repel       = Mask[{1'b0, feltgate_map_pkg::SCENE_CHARGE_REPEL}] &&
+                       scene_i == feltgate_map_pkg::SCENE_CHARGE_REPEL;
+  assign wall        = Mask[{1'b0, feltgate_map_pkg::SCENE_WALL}] &&
+                       scene_i == feltgate_map_pkg::SCENE_WALL;
+  assign square_o    = attract || repel;
 
-  if (Mask[{1'b0, feltgate_pkg::SCENE_SETPOINT}]) begin : gen_setpoint
-    scene_setpoint u_setpoint (
-        .clk_i(clk_i),
-        .rst_ni(rst_ni),
-        .select_i(scene_i == feltgate_pkg::SCENE_SETPOINT),
-        .start_i(start_i),
-        .param_i(param_i),
-        .tau_o(setpoint_tau)
-    );
-  end else begin : gen_no_setpoint
-    assign setpoint_tau = '0;
+  // Reference minus position. Only the whole counts are subtracted: a position has no fraction, and
+  // a charge's centre none that counts.
+  logic signed [    GapW-1:0] gap, gap_q;
+  logic        [OffsetF-1:0] fraction;
+  logic                      held_q;
+  assign gap      = GapW'($signed(param_i[OffsetW-1:OffsetF])) - GapW'(position_i);
+  assign fraction = param_i[OffsetF-1:0];
+  always_ff @(posedge clk_i) begin
+    if (wave_i[Reference]) gap_q <= gap;
+    held_q <= wave_i[Reference];
+    if (wave_i[Reference]) distance_o <= {gap, square_o ? {OffsetF{1'b0}} : fraction};
+    else if (!held_q) distance_o <= '0;
   end
 
-  if (Mask[{1'b0, feltgate_pkg::SCENE_MEMBRANE}]) begin : gen_membrane
+  logic signed [TorqueW-1:0] setpoint_plus, membrane_plus, membrane_minus;
+  logic signed [PartW-1:0] spring_plus, damper_minus, charge_plus, charge_minus, wall_plus, wall_minus;
+
+  if (Mask[{1'b0, feltgate_map_pkg::SCENE_SETPOINT}]) begin : gen_setpoint
+    scene_setpoint u_setpoint (
+        .clk_i(clk_i),
+        .select_i(setpoint),
+        .wave_i(wave_i),
+        .param_i(param_i),
+        .plus_o(setpoint_plus)
+    );
+  end else begin : gen_no_setpoint
+    assign setpoint_plus = '0;
+  end
+
+  if (Mask[{1'b0, feltgate_map_pkg::SCENE_MEMBRANE}]) begin : gen_membrane
     scene_membrane u_membrane (
         .clk_i(clk_i),
         .rst_ni(rst_ni),
-        .select_i(scene_i == feltgate_pkg::SCENE_MEMBRANE),
-        .start_i(start_i),
-        .position_i(position_i),
+        .select_i(membrane),
+        .gap_negative_i(gap[GapW-1]),
+        .gap_zero_i(gap == '0),
+        .wave_i(wave_i),
         .param_i(param_i),
-        .tau_o(membrane_tau)
+        .plus_o(membrane_plus),
+        .minus_o(membrane_minus)
     );
   end else begin : gen_no_membrane
-    assign membrane_tau = '0;
+    assign membrane_plus  = '0;
+    assign membrane_minus = '0;
   end
 
-  if (Mask[{1'b0, feltgate_pkg::SCENE_SPRING_COMPRESSION}] ||
-      Mask[{1'b0, feltgate_pkg::SCENE_SPRING_TENSION}]) begin : gen_spring
+  if (Mask[{1'b0, feltgate_map_pkg::SCENE_SPRING_COMPRESSION}] ||
+      Mask[{1'b0, feltgate_map_pkg::SCENE_SPRING_TENSION}]) begin : gen_spring
     scene_spring u_spring (
         .clk_i(clk_i),
-        .rst_ni(rst_ni),
-        .select_i(spring),
         .tension_i(tension),
-        .start_i(start_i),
-        .position_i(position_i),
-        .param_i(param_i),
+        .compression_i(compression),
+        .behind_i(gap_q[GapW-1]),
+        .wave_i(wave_i),
         .product_i(product_i),
-        .operand_o(spring_operand),
-        .tau_o(spring_tau)
+        .plus_o(spring_plus)
     );
   end else begin : gen_no_spring
-    assign spring_operand = wall_operand;  // both are reference - position
-    assign spring_tau     = '0;
+    assign spring_plus = '0;
   end
 
-  if (Mask[{1'b0, feltgate_pkg::SCENE_DAMPER}]) begin : gen_damper
+  if (Mask[{1'b0, feltgate_map_pkg::SCENE_DAMPER}]) begin : gen_damper
     scene_damper u_damper (
         .clk_i(clk_i),
-        .rst_ni(rst_ni),
-        .select_i(scene_i == feltgate_pkg::SCENE_DAMPER),
-        .start_i(start_i),
+        .select_i(damper),
+        .wave_i(wave_i),
         .product_i(product_i),
-        .tau_o(damper_tau)
+        .minus_o(damper_minus)
     );
   end else begin : gen_no_damper
-    assign damper_tau = '0;
+    assign damper_minus = '0;
   end
 
-  if (Mask[{1'b0, feltgate_pkg::SCENE_CHARGE_ATTRACT}] ||
-      Mask[{1'b0, feltgate_pkg::SCENE_CHARGE_REPEL}]) begin : gen_charge
+  if (Mask[{1'b0, feltgate_map_pkg::SCENE_CHARGE_ATTRACT}] ||
+      Mask[{1'b0, feltgate_map_pkg::SCENE_CHARGE_REPEL}]) begin : gen_charge
     scene_charge u_charge (
         .clk_i(clk_i),
         .rst_ni(rst_ni),
-        .select_i(charge),
         .attract_i(attract),
-        .start_i(start_i),
-        .position_i(position_i),
+        .repel_i(repel),
+        .gap_i(gap_q),
+        .wave_i(wave_i),
         .param_i(param_i),
         .product_i(product_i),
-        .operand_o(charge_operand),
-        .tau_o(charge_tau)
+        .beyond_i(beyond_i),
+        .plus_o(charge_plus),
+        .minus_o(charge_minus),
+        .outside_o(late_o),
+        .armed_i(armed_i)
     );
   end else begin : gen_no_charge
-    assign charge_operand = '0;
-    assign charge_tau     = '0;
+    assign charge_plus  = '0;
+    assign charge_minus = '0;
+    assign late_o       = '0;
   end
 
-  if (Mask[{1'b0, feltgate_pkg::SCENE_WALL}]) begin : gen_wall
+  if (Mask[{1'b0, feltgate_map_pkg::SCENE_WALL}]) begin : gen_wall
     scene_wall u_wall (
         .clk_i(clk_i),
-        .rst_ni(rst_ni),
-        .select_i(scene_i == feltgate_pkg::SCENE_WALL),
-        .start_i(start_i),
-        .position_i(position_i),
-        .param_i(param_i),
+        .select_i(wall),
+        .behind_i(gap_q[GapW-1]),
+        .wave_i(wave_i),
         .product_i(product_i),
-        .operand_o(wall_operand),
-        .tau_o(wall_tau)
+        .plus_o(wall_plus),
+        .minus_o(wall_minus)
     );
   end else begin : gen_no_wall
-    assign wall_operand = '0;
-    assign wall_tau     = '0;
+    assign wall_plus  = '0;
+    assign wall_minus = '0;
   end
 
-  logic signed [TorqueW-1:0] tau;
-  // All but the divider are ready long before clock 25: one level of logic less on its way.
-  logic signed [TorqueW-1:0] early_tau_q;
-  always_ff @(posedge clk_i) early_tau_q <= setpoint_tau | membrane_tau | spring_tau | damper_tau | wall_tau;
-  assign tau = early_tau_q | charge_tau;
-
-  logic [25:0] stage_q;  // stage_q[k]: wave clock k + 2
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) stage_q <= '0;
-    else stage_q <= {stage_q[24:0], start_i};
-  end
-
-  // Clock 25: the limit. What is kept is the target with its sign turned, as a word and a carry:
-  // -L is ~L + 1, tau is -(~tau + 1), so that no clock needs two additions.
-  logic signed [TorqueW-1:0] limit, minus_target_q;
-  logic signed [  TorqueW:0] upper_gap, lower_gap;
-  logic                      above, below, carry_q;
-  assign limit     = param_i[TorqueW-1:0];
-  assign upper_gap = (TorqueW + 1)'(limit) - (TorqueW + 1)'(tau);
-  assign lower_gap = (TorqueW + 1)'(limit) + (TorqueW + 1)'(tau);
-  assign above     = upper_gap[TorqueW];
-  assign below     = lower_gap[TorqueW] && !above && Defect != 2;
+  // At most one scene's terms are not 0, so that they may be ored.
+  logic signed [TorqueW-1:0] word_plus;
+  logic signed [  PartW-1:0] plus, minus;
+  logic signed [    PartW:0] sum_q;
+  assign word_plus = setpoint_plus | membrane_plus;
+  assign plus  = spring_plus | charge_plus | wall_plus | (PartW'(word_plus) <<< Guard);
+  assign minus = damper_minus | charge_minus | wall_minus | (PartW'(membrane_minus) <<< Guard);
   always_ff @(posedge clk_i) begin
-    if (stage_q[23]) begin
-      // Disarmed the target is 0; a negative limit counts as 0.
-      if ((!armed_i && Defect != 3) || limit[TorqueW-1]) minus_target_q <= '1;
-      else minus_target_q <= above ? ~limit : below ? limit : ~tau;
-      carry_q <= !armed_i || limit[TorqueW-1] || !below;
-    end
+    if (wave_i[Sum]) sum_q <= (PartW + 1)'(plus) - (PartW + 1)'(minus);
   end
 
-  // Clock 26: how far the reference is above the target.
-  logic signed [RampW-1:0] ramp_q;
-  logic signed [  RampW:0] excess_q;
-  logic        [RampW-2:0] step_q;
+  // The negative of a rounded product where a scene renders one; a wall never pulls.
+  logic up;
+  rounding #(
+      .Drop(Guard)
+  ) u_rounding (
+      .low_i(sum_q[Guard:0]),
+      .negated_i(damper || repel),
+      .up_o(up)
+  );
+  logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] rounded_q;
+  logic signed [                        GapW-1:0] width_q;
   always_ff @(posedge clk_i) begin
-    excess_q <= {(TorqueW + 1)'($signed(ramp_q[RampW-1:Fine])) + (TorqueW + 1)'(minus_target_q) +
-                 (TorqueW + 1)'({1'b0, carry_q}), ramp_q[Fine-1:0]};
-    // A negative step counts as 0.
-    if (param_i[RampW-1]) step_q <= '0;
-    else step_q <= param_i[RampW-2:0];
+    if (!wave_i[Rounded] || !armed_i || (wall && !sum_q[PartW])) rounded_q <= '0;
+    else rounded_q <= feltgate_pkg::SCENE_TORQUE_W'($signed(sum_q[PartW:Guard])) +
+                      feltgate_pkg::SCENE_TORQUE_W'({1'b0, up});
+    if (!wave_i[feltgate_map_pkg::T_CHARGE_WIDTH]) width_q <= '0;
+    else width_q <= gap_q;
   end
-
-  // Clock 27: one step towards the target, or all of it. The tick in which the distance is found to
-  // be within one step ends the ramp; the reference moves on with the next.
-  logic signed [RampW:0] step, change, beyond;
-  logic                  ramping_q, stepping, down, reached;
-  logic            [3:0] scene_q;
-  assign stepping = ramping_q && armed_i;
-  assign down     = !excess_q[RampW];
-  assign step     = (Defect == 5 && down) ? {1'b0, step_q, 1'b0} : {2'b0, step_q};
-  assign change   = stepping ? (step ^ {(RampW + 1) {down}}) : ~excess_q;
-  assign beyond   = excess_q + change;
-  assign reached  = beyond[RampW] == down && Defect != 6;
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      ramp_q         <= '0;
-      ramping_q      <= 1'b1;
-      scene_q        <= '0;
-      limit_torque_o <= 1'b0;
-      limit_ramp_o   <= 1'b0;
-    end else begin
-      if (start_i) scene_q <= scene_i;
-      if (start_i && (!armed_i || (scene_i != scene_q && Defect != 1))) ramping_q <= 1'b1;
-      else if (stage_q[25] && stepping && reached && Defect != 4) ramping_q <= 1'b0;
-      if (stage_q[25] && !(stepping && reached)) begin
-        ramp_q <= ramp_q + change[RampW-1:0] + RampW'({1'b0, down || !stepping});
-      end
-      if (stage_q[23]) limit_torque_o <= armed_i && (above || below);
-      if (stage_q[25]) limit_ramp_o <= stepping;
-    end
-  end
-  assign tau_ref_o = ramp_q[RampW-1:Fine];
-
-  // The second line: what no scene uses where few are built.
-  logic unused;
-  assign unused = ^{param_i[31:RampW], upper_gap[TorqueW-1:0], lower_gap[TorqueW-1:0],
-                    position_i, product_i, tension, attract, spring, beyond[RampW-1:0],
-                    wall_operand};
+  assign ahead_o = rounded_q | feltgate_pkg::SCENE_TORQUE_W'(width_q);
 endmodule
 
 `default_nettype wire

@@ -148,17 +148,14 @@ void check_drops(const Elaborated& e) {
         d.observer_fraction + 1);
   drops("formats.velocity", f.velocity_difference, e.word("velocity_a1"), d.velocity.fraction + 1);
   drops("formats.voltage", d.voltage, e.word("duty_gain"), 1);
-  drops("formats.torque", f.scene_offset, e.word("compression_stiffness"), d.torque.fraction + 1);
-  drops("formats.torque", f.scene_offset, e.word("tension_stiffness"), d.torque.fraction + 1);
-  drops("formats.torque", d.velocity, e.word("damper_damping"), d.torque.fraction + 1);
-  drops("formats.torque", f.scene_offset, e.word("wall_stiffness"),
-        d.torque.fraction + fabric::wall_guard_bits);
-  drops("formats.torque", d.velocity, e.word("wall_damping"),
-        d.torque.fraction + fabric::wall_guard_bits);
-  drops("formats.coefficient_bits", f.scene_offset, e.word("attract_core_slope"),
-        f.charge.fraction + 1);
-  drops("formats.coefficient_bits", f.scene_offset, e.word("repel_core_slope"),
-        f.charge.fraction + 1);
+  const int scene_fraction = f.scene_part.fraction;
+  for (const char* stiffness : {"compression_stiffness", "tension_stiffness", "wall_stiffness",
+                                "attract_core_slope", "repel_core_slope"}) {
+    drops("formats.torque", f.scene_distance, e.word(stiffness), scene_fraction);
+  }
+  for (const char* damping : {"damper_damping", "wall_damping"}) {
+    drops("formats.torque", d.velocity, e.word(damping), scene_fraction);
+  }
   if (d.observer_fraction <= d.torque.fraction) {
     d.fail("formats.observer_fraction",
            fmt::format("the observer has {} fraction bits and its torque takes {}",
@@ -304,7 +301,14 @@ Elaborated elaborate(const Design& design, const RegisterMap& registers) {
             f("voltage_gain"),        f("emf_constant"),
             f("dead_voltage_slope"),  f("voltage_to_current"),
             f("duty_gain"),           f("inverse_resistance"),
-            f("emf_over_resistance")};
+            f("emf_over_resistance"),
+            f("compression_stiffness"),
+            f("tension_stiffness"),
+            f("attract_core_slope"),
+            f("repel_core_slope"),
+            f("wall_stiffness"),
+            f("damper_damping"),
+            f("wall_damping")};
   e.formats = derive(e.base);
   check(e);
   return e;

@@ -63,17 +63,6 @@ struct Constant {
   std::string doc;
 };
 
-/// What the core's bus of narrow words must hold.
-int narrow_width(const Elaborated& e) {
-  const Formats& f = e.formats;
-  int width = 0;
-  for (const Format& word :
-       {f.current, f.torque, f.voltage, f.current_estimate, f.scene_position}) {
-    width = std::max(width, word.width());
-  }
-  return width;
-}
-
 std::vector<Constant> constants(const Elaborated& e) {
   const Design& d = e.design;
   return {
@@ -92,11 +81,9 @@ std::vector<Constant> constants(const Elaborated& e) {
       {"multiplier_a_bits", fabric::multiplier_a_bits, "bits"},
       {"multiplier_b_bits", fabric::multiplier_b_bits, "bits"},
       {"product_bits", fabric::product_bits, "bits"},
-      {"narrow_w", narrow_width(e),
-       "bits of the widest of current, torque, voltage and a scene's distance"},
       {"travel_bits", fabric::travel_bits, "bits"},
-      {"wall_guard_bits", fabric::wall_guard_bits,
-       "bits that the wall's products keep below a torque step"},
+      {"scene_guard_bits", fabric::scene_guard_bits,
+       "bits that a scene's terms keep below a torque step"},
   };
 }
 
@@ -106,6 +93,9 @@ std::vector<std::pair<std::string, Format>> named_formats(const Formats& f) {
   return {{"position", f.position},
           {"scene_position", f.scene_position},
           {"scene_offset", f.scene_offset},
+          {"scene_distance", f.scene_distance},
+          {"scene_part", f.scene_part},
+          {"scene_torque", f.scene_torque},
           {"travel_difference", f.travel_difference},
           {"velocity_raw", f.velocity_raw},
           {"velocity", f.velocity},
@@ -125,6 +115,8 @@ std::vector<std::pair<std::string, Format>> named_formats(const Formats& f) {
           {"voltage_sum", f.voltage_sum},
           {"duty", f.duty},
           {"duty_sum", f.duty_sum},
+          {"limiter", f.limiter},
+          {"limiter_input", f.limiter_input},
           {"current_estimate_part", f.current_estimate_part},
           {"current_estimate", f.current_estimate},
           {"current_squared", f.current_squared},
@@ -228,7 +220,9 @@ std::string cpp_header(const Elaborated& e) {
     << "      P::velocity_a1, P::torque_constant, P::inertia_gain, P::observer_a1,\n"
     << "      P::torque_gain, P::observer_gain, P::voltage_gain, P::emf_constant,\n"
     << "      P::dead_voltage_slope, P::voltage_to_current, P::duty_gain,\n"
-    << "      P::inverse_resistance, P::emf_over_resistance};\n"
+    << "      P::inverse_resistance, P::emf_over_resistance, P::compression_stiffness,\n"
+    << "      P::tension_stiffness, P::attract_core_slope, P::repel_core_slope, P::wall_stiffness,\n"
+    << "      P::damper_damping, P::wall_damping};\n"
     << "  static constexpr Formats f = derive(base);\n\n"
     << "  /// Parameters: name, unit, address, format, exact value, integer.\n"
     << "  static constexpr ParameterInfo parameters[] = {\n";

@@ -38,7 +38,7 @@ class Lowpass {
 
   void clock(const In& in) {
     const State x = State::from_raw(static_cast<typename State::raw_type>(in.x));
-    if (in.valid) out_.operand = static_cast<std::int64_t>(Law::operand(x, y_).raw());
+    out_.operand = in.valid ? static_cast<std::int64_t>(Law::operand(x, y_).raw()) : 0;
     if (in.update) y_ = in.follow ? x : Law::next(y_, Product::from_raw(in.product));
     out_.y = static_cast<std::int64_t>(y_.raw());
   }

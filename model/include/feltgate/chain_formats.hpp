@@ -15,9 +15,9 @@ namespace fabric {
 constexpr int multiplier_a_bits = 35;  ///< data operand: two signed 18x18 multipliers
 constexpr int multiplier_b_bits = 18;  ///< coefficient operand
 constexpr int product_bits = multiplier_a_bits + multiplier_b_bits;
-constexpr int word_bits = 32;       ///< register port and parameter RAM
-constexpr int travel_bits = 16;     ///< free-running count of the velocity estimator
-constexpr int wall_guard_bits = 2;  ///< bits that the wall's products keep below a torque step
+constexpr int word_bits = 32;        ///< register port and parameter RAM
+constexpr int travel_bits = 16;      ///< free-running count of the velocity estimator
+constexpr int scene_guard_bits = 2;  ///< bits that a scene's terms keep below a torque step
 }  // namespace fabric
 
 /// What a design states (signals) and what its values imply (coefficients).
@@ -43,32 +43,44 @@ struct BaseFormats {
   Format duty_gain;
   Format inverse_resistance;
   Format emf_over_resistance;
+  Format compression_stiffness;
+  Format tension_stiffness;
+  Format attract_core_slope;
+  Format repel_core_slope;
+  Format wall_stiffness;
+  Format damper_damping;
+  Format wall_damping;
 };
 
 /// Every format of the chain, in the order of the wave.
 struct Formats {
-  Format position;             ///< count, wraps
-  Format scene_position;       ///< count, saturated: what a scene sees
-  Format scene_offset;         ///< count: a scene's distance from its reference, and its parameters
-  Format travel_difference;    ///< count in m1 ticks
-  Format velocity_raw;         ///< rad/s before the low-pass, exact
-  Format velocity;             ///< rad/s, also the low-pass state
-  Format velocity_difference;  ///< low-pass input minus state, as the multiplier takes it
-  Format inertia_torque;       ///< g*Jn*w
-  Format drive_torque;         ///< Ktn*I
-  Format observer;             ///< observer input and state
-  Format observer_difference;  ///< observer input minus state, as the multiplier takes it
-  Format observed;             ///< state minus inertia torque, before it is narrowed
-  Format torque;               ///< Nm
-  Format ramp;                 ///< Nm, the torque while it ramps
-  Format current;              ///< A
-  Format current_part;         ///< A: one of the two products that make the current
-  Format current_sum;          ///< A, before the limit
-  Format voltage;              ///< V
-  Format voltage_part;         ///< V: one product of the voltage law
-  Format voltage_sum;          ///< V, before the limit
-  Format duty;                 ///< clock
-  Format duty_sum;             ///< clock, before the limit
+  Format position;               ///< count, wraps
+  Format scene_position;         ///< count, saturated: what a scene sees
+  Format scene_offset;           ///< count: a scene's parameters
+  Format scene_distance;         ///< count: reference minus position, exact
+  Format scene_part;             ///< Nm: one term of a scene's torque, as it leaves the multiplier
+  Format scene_torque;           ///< Nm: a scene's torque, rounded and not yet limited
+  Format travel_difference;      ///< count in m1 ticks
+  Format velocity_raw;           ///< rad/s before the low-pass, exact
+  Format velocity;               ///< rad/s, also the low-pass state
+  Format velocity_difference;    ///< low-pass input minus state, as the multiplier takes it
+  Format inertia_torque;         ///< g*Jn*w
+  Format drive_torque;           ///< Ktn*I
+  Format observer;               ///< observer input and state
+  Format observer_difference;    ///< observer input minus state, as the multiplier takes it
+  Format observed;               ///< state minus inertia torque, before it is narrowed
+  Format torque;                 ///< Nm
+  Format ramp;                   ///< Nm, the torque while it ramps
+  Format current;                ///< A
+  Format current_part;           ///< A: one of the two products that make the current
+  Format current_sum;            ///< A, before the limit
+  Format voltage;                ///< V
+  Format voltage_part;           ///< V: one product of the voltage law
+  Format voltage_sum;            ///< V, before the limit
+  Format duty;                   ///< clock
+  Format duty_sum;               ///< clock, before the limit
+  Format limiter;                ///< what the limiter lets through; the binary point is the input's
+  Format limiter_input;          ///< what it takes in
   Format current_estimate_part;  ///< A: one product of the estimate
   Format current_estimate;       ///< A: (V - Ke*w)/R
   Format current_squared;        ///< A^2
@@ -95,6 +107,7 @@ constexpr Formats derive(const BaseFormats& b) {
   f.position = {1, 31, 0};
   f.scene_position = {1, 17, 0};
   f.scene_offset = {1, 17, 8};
+  f.scene_distance = growth::difference(f.scene_offset, f.scene_position);
   f.travel_difference = {1, fabric::travel_bits - 1, 0};
   f.velocity_raw = b.has_velocity_gain ? growth::product(f.travel_difference, b.velocity_gain)
                                        : growth::scaled(f.travel_difference, b.velocity_shift);
@@ -124,10 +137,29 @@ constexpr Formats derive(const BaseFormats& b) {
                     b.voltage.fraction};
   f.voltage_sum = {1, f.voltage_part.integer + 2, b.voltage.fraction};  // three parts
   f.duty = {1, 12, 0};
-  // The limiter is as wide as the current; rounding up may need one bit more.
-  const Format limited_voltage = {1, b.current.width() - 1 - b.voltage.fraction,
-                                  b.voltage.fraction};
+  int integer = 0;
+  for (const Format& k : {b.compression_stiffness, b.tension_stiffness, b.attract_core_slope,
+                          b.repel_core_slope, b.wall_stiffness}) {
+    integer = growth::max_of(integer, growth::product(f.scene_distance, k).integer);
+  }
+  for (const Format& k : {b.damper_damping, b.wall_damping}) {
+    integer = growth::max_of(integer, growth::product(b.velocity, k).integer);
+  }
+  f.scene_part = {1, growth::max_of(integer, b.torque.integer),
+                  b.torque.fraction + fabric::scene_guard_bits};
+  // Two parts, and rounding up may need one bit more.
+  f.scene_torque = {1, f.scene_part.integer + 2, b.torque.fraction};
+  f.limiter = {
+      1, growth::max_of(growth::max_of(b.current.width(), b.torque.width()), b.voltage.width()) - 1,
+      0};
+  // Rounding up may need one bit more.
+  const Format limited_voltage = {1, f.limiter.integer - b.voltage.fraction, b.voltage.fraction};
   f.duty_sum = {1, growth::product(limited_voltage, b.duty_gain).integer + 1, 0};
+  f.limiter_input = {1,
+                     growth::max_of(growth::max_of(f.current_sum.width(), f.voltage_sum.width()),
+                                    growth::max_of(f.scene_torque.width(), f.duty_sum.width())) -
+                         1,
+                     0};
   const Format estimate_v = growth::product(b.voltage, b.inverse_resistance);
   const Format estimate_w = growth::product(b.velocity, b.emf_over_resistance);
   f.current_estimate_part = {1, growth::max_of(estimate_v.integer, estimate_w.integer), 8};

@@ -44,8 +44,9 @@ constexpr bool shows(Step step) {
     case Step::polarity:
     case Step::tau_hat:
     case Step::direct_voltage:
-    case Step::torque_limited:
+    case Step::ramp_excess:
     case Step::tau_ref:
+    case Step::current_limited:
     case Step::current:
     case Step::voltage:
     case Step::duty:

@@ -53,7 +53,7 @@ class CoreWave {
           out.voltage = static_cast<std::int32_t>(chain_.words().voltage_setpoint().raw());
         }
         break;
-      case Step::torque_limited:
+      case Step::ramp_excess:
         chain_.render(out.armed, out.scene, out.position);
         set(Map::L::torque, chain_.limit_torque());
         break;
@@ -61,17 +61,19 @@ class CoreWave {
         out.tau_ref = static_cast<std::int32_t>(chain_.tau_ref().raw());
         set(Map::L::ramp, chain_.limit_ramp());
         break;
-      case Step::current:
+      case Step::current_limited:
         chain_.drive(out.armed, mode);
-        out.current_ref = static_cast<std::int32_t>(chain_.control().current.raw());
+        break;
+      case Step::current:
+        out.current_ref = current();
         set(Map::L::current, chain_.control().limit.current);
         break;
       case Step::voltage:
-        out.voltage = static_cast<std::int32_t>(chain_.control().voltage.raw());
+        out.voltage = voltage();
         set(Map::L::voltage, chain_.control().limit.voltage);
         break;
       case Step::duty:
-        out.duty = static_cast<std::int16_t>(chain_.control().duty.raw());
+        out.duty = duty();
         set(Map::L::duty, chain_.control().limit.duty);
         break;
       default:
@@ -79,6 +81,14 @@ class CoreWave {
     }
   }
 
+  /// As the limiter gives them, a clock before they show.
+  std::int32_t current() const {
+    return static_cast<std::int32_t>(chain_.control().current.raw());
+  }
+  std::int32_t voltage() const {
+    return static_cast<std::int32_t>(chain_.control().voltage.raw());
+  }
+  std::int16_t duty() const { return static_cast<std::int16_t>(chain_.control().duty.raw()); }
   /// What the velocity's low-pass would take in now, raw: the next velocity lies between it and the
   /// last.
   std::int64_t velocity_input(std::int16_t travel) const { return chain_.velocity_input(travel); }

@@ -194,11 +194,11 @@ class FeltgateCore {
       case Step::read_tau_ref:
         return keep(R::tau_ref, out_.tau_ref);
       case Step::read_current_ref:
-        return keep(R::current_ref, out_.current_ref);
+        return keep(R::current_ref, wave_.current());
       case Step::read_voltage:
-        return keep(R::voltage, out_.voltage);
+        return keep(R::voltage, wave_.voltage());
       case Step::read_duty:
-        return keep(R::duty, out_.duty);
+        return keep(R::duty, wave_.duty());
       case Step::operand_inverse_resistance:
         operand_v_ = out_.voltage * factor(supervisor_words_.inverse_resistance);
         return;

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#include "feltgate/words.hpp"
+#include "feltgate/scene_part.hpp"
 
 namespace feltgate {
 
@@ -21,6 +21,7 @@ enum class MembraneSide : std::uint8_t {
 /// The law, in number policy N, for design D.
 template <class D, class N>
 struct SceneMembraneLaw {
+  using Scene = ScenePart<D, N>;
   using Torque = typename N::template num<D::f.torque.key()>;
   using Offset = typename N::template num<D::f.scene_offset.key()>;
 
@@ -38,72 +39,14 @@ struct SceneMembraneLaw {
   }
   /// One tick; moves `side` on.
   template <class W>
-  static Torque torque(const W& w, std::int32_t position, MembraneSide* side) {
+  static typename Scene::Torque torque(const W& w, std::int32_t position, MembraneSide* side) {
     const MembraneSide now = where(position, w.membrane_lower(), w.membrane_upper());
     if (now != MembraneSide::unknown) {
       *side = now;
-      return Torque{};
+      return {};
     }
-    return inside(*side, w.membrane_torque());
+    return Scene::whole(inside(*side, w.membrane_torque()));
   }
-};
-
-/// Clocked twin. A wave is: start and the lower face in clock 1, the upper face in 2, the torque
-/// in 10.
-template <class D>
-class SceneMembrane {
- public:
-  using Law = SceneMembraneLaw<D, Fixed>;
-
-  struct In {
-    bool select = false;  ///< stable during a wave
-    bool start = false;
-    std::int32_t position = 0;  ///< counts, 18 bits, stable during a wave
-    std::uint32_t param = 0;
-  };
-  struct Out {
-    std::int64_t tau = 0;
-  };
-
-  void reset() { *this = SceneMembrane{}; }
-
-  void clock(const In& in) {
-    if ((stage_ & stage(13)) != 0) {
-      const bool engaged = in.select && now_ == MembraneSide::unknown;
-      out_.tau = engaged ? Law::inside(side_, torque_).raw() : 0;
-    }
-    if ((stage_ & stage(10)) != 0) {
-      torque_ = Law::Torque::from_raw(decode_word(D::f.torque, in.param));
-    }
-    if ((stage_ & stage(3)) != 0 && now_ != MembraneSide::unknown) side_ = now_;
-    if (!in.select) side_ = MembraneSide::unknown;
-    if ((stage_ & stage(2)) != 0) now_ = Law::where(in.position, lower_, face(in.param));
-    if (in.start) lower_ = face(in.param);
-    stage_ = (stage_ << 1) | (in.start ? 1u : 0u);
-  }
-
-  /// A whole wave at once.
-  void tick(const Words<D, Fixed>& w, bool select, std::int32_t position) {
-    if (!select) side_ = MembraneSide::unknown;
-    out_.tau = select ? Law::torque(w, position, &side_).raw() : 0;
-  }
-
-  const Out& out() const { return out_; }
-  MembraneSide side() const { return side_; }
-  void set_side(MembraneSide side) { side_ = side; }
-
- private:
-  using Offset = typename Law::Offset;
-  static constexpr std::uint32_t stage(int clock) { return 1u << (clock - 2); }
-  static Offset face(std::uint32_t word) {
-    return Offset::from_raw(decode_word(D::f.scene_offset, word));
-  }
-
-  std::uint32_t stage_ = 0;
-  MembraneSide side_ = MembraneSide::unknown, now_ = MembraneSide::unknown;
-  Offset lower_{};
-  typename Law::Torque torque_{};
-  Out out_;
 };
 
 }  // namespace feltgate

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 
+#include "feltgate/limiter.hpp"
 #include "feltgate/numbers.hpp"
 
 namespace feltgate {
@@ -38,14 +39,13 @@ struct TorqueControlLaw {
   using Duty = typename N::template num<D::f.duty.key()>;
   using DutySum = typename N::template num<D::f.duty_sum.key()>;
 
-  // One limiter, as wide as the current, reads every limit and border at the sum's binary point.
-  static constexpr int kLimiterBits = D::f.current.width();
-  static constexpr int kCurrentKey = D::f.current.key();
-  static constexpr int kBorderKey =
-      Format{1, kLimiterBits - 1 - D::f.torque.fraction, D::f.torque.fraction}.key();
-  static constexpr int kVoltageKey =
-      Format{1, kLimiterBits - 1 - D::f.voltage.fraction, D::f.voltage.fraction}.key();
-  static constexpr int kDutyKey = Format{1, kLimiterBits - 1, 0}.key();
+  // The limiter reads every limit and border at the sum's binary point.
+  template <int Fraction>
+  static constexpr int limit_key = Limiter<D, N>::template key<Fraction>;
+  static constexpr int kCurrentKey = limit_key<D::f.current.fraction>;
+  static constexpr int kBorderKey = limit_key<D::f.torque.fraction>;
+  static constexpr int kVoltageKey = limit_key<D::f.voltage.fraction>;
+  static constexpr int kDutyKey = limit_key<0>;
   using LimitedVoltage = typename N::template num<kVoltageKey>;
 
   /// One product of the current, truncated to the current's last bit.
@@ -82,13 +82,10 @@ struct TorqueControlLaw {
   static constexpr Voltage port_voltage(LimitedVoltage v) {
     return quantise<N, Voltage, Round::truncate, Overflow::wrap>(v);
   }
-  /// x in [-limit, limit] and in the format Key. A negative limit gives the limit itself.
-  template <int Key, class X, class Limit>
-  static constexpr typename N::template num<Key> limited(X x, Limit limit, bool* hit) {
-    *hit = beyond<N>(x, limit);
-    if (x > limit) return quantise<N, Key, Round::truncate, Overflow::wrap>(limit);
-    if (x < -limit) return quantise<N, Key, Round::truncate, Overflow::wrap>(-limit);
-    return quantise<N, Key, Round::truncate, Overflow::wrap>(x);
+  /// x in [-limit, limit] as a To.
+  template <class To, class X, class Limit>
+  static constexpr To limited(X x, Limit limit, bool* hit) {
+    return Limiter<D, N>::template limited<To>(x, limit, hit);
   }
   /// Whether tau_ref lies in the high-torque region; at the border the low one holds.
   template <class X, class Border>
@@ -131,8 +128,8 @@ struct TorqueControlStep {
                                                   : Law::current_part(tau_hat * w.observer_gain());
       current_sum = Law::current_sum(by_ref + by_hat);
     }
-    current =
-        Law::template limited<D::f.current.key()>(current_sum, w.current_limit(), &limit.current);
+    current = Law::template limited<typename Law::Current>(
+        current_sum, w.template get<Law::kCurrentKey>(A::current_limit), &limit.current);
     if (!armed) {
       current = typename Law::Current{};
       limit.current = false;
@@ -146,7 +143,7 @@ struct TorqueControlStep {
       slope = Law::voltage_part(tau_ref * w.dead_voltage_slope());
     }
     bool linear = false;
-    const auto dead = Law::template limited<Law::kVoltageKey>(
+    const auto dead = Law::template limited<typename Law::LimitedVoltage>(
         slope, w.template get<Law::kVoltageKey>(A::dead_voltage), &linear);
     const auto pair = offset + dead;
     typename Law::VoltageSum voltage_sum{};
@@ -159,171 +156,17 @@ struct TorqueControlStep {
       const auto resistive = Law::voltage_part(current * (region_high ? gain_high : gain));
       voltage_sum = Law::voltage_sum(resistive + pair);
     }
-    auto applied = Law::template limited<Law::kVoltageKey>(
+    auto applied = Law::template limited<typename Law::LimitedVoltage>(
         voltage_sum, w.template get<Law::kVoltageKey>(A::voltage_limit), &limit.voltage);
     if (!armed) {
       applied = {};
       limit.voltage = false;
     }
     voltage = Law::port_voltage(applied);
-    duty = Law::template limited<D::f.duty.key()>(Law::duty_sum(applied * w.duty_gain()),
-                                                  w.template get<Law::kDutyKey>(A::duty_limit),
-                                                  &limit.duty);
+    duty = Law::template limited<typename Law::Duty>(Law::duty_sum(applied * w.duty_gain()),
+                                                     w.template get<Law::kDutyKey>(A::duty_limit),
+                                                     &limit.duty);
   }
-};
-
-/// Clocked twin. `wave` is the clock of the wave, -1 between waves.
-template <class D>
-class TorqueControl {
- public:
-  using Law = TorqueControlLaw<D, Fixed>;
-  using P = typename D::P;
-  template <int Key>
-  using Word = fixed_of<Key>;
-
-  struct In {
-    bool armed = false;
-    Mode mode = Mode::closed_loop;
-    int wave = -1;
-    std::int64_t param = 0;    ///< parameter bus
-    std::int64_t product = 0;  ///< of the operands four clocks ago
-    std::int64_t tau_ref = 0;
-  };
-  struct Out {
-    bool region_high = false;
-    std::int64_t operand = 0;  ///< I in clock 34, V in clock 40
-    std::int64_t current_ref = 0;
-    std::int64_t voltage = 0;
-    std::int64_t duty = 0;
-    ControlLimits limit;
-  };
-
-  void reset() { *this = TorqueControl{}; }
-
-  void clock(const In& in) {
-    const bool direct = in.mode == Mode::voltage;
-    switch (in.wave) {
-      case 24:
-        if (direct) voltage_ = word<D::f.voltage.key()>(in.param);
-        break;
-      case 26:
-        offset_ = direct ? Law::offset(voltage_)
-                         : Law::offset(product<D::f.velocity.key(), P::emf_constant.key()>(in));
-        break;
-      case 27:
-        kept_ = in.mode == Mode::open_loop
-                    ? CurrentPart{}
-                    : Law::current_part(product<D::f.torque.key(), P::observer_gain.key()>(in));
-        break;
-      case 30:
-        out_.region_high =
-            Law::region_high(Torque::from_raw(in.tau_ref), word<Law::kBorderKey>(in.param));
-        break;
-      case 31:
-        current_sum_ =
-            Law::current_sum(product<D::f.voltage.key(), P::voltage_to_current.key()>(in));
-        break;
-      case 32:
-        if (!direct) {
-          current_sum_ = Law::current_sum(
-              Law::current_part(product<D::f.torque.key(), P::torque_gain.key()>(in)) + kept_);
-        }
-        break;
-      case 33:
-        limit_current(in);
-        break;
-      case 35:
-        dead_ = limited<Law::kVoltageKey>(voltage_sum_, in, nullptr);
-        out_.operand = dead_.raw();
-        break;
-      case 36:
-        voltage_sum_ = Law::voltage_sum(offset_ + dead_);
-        break;
-      case 38:
-        if (!direct) {
-          voltage_sum_ = Law::voltage_sum(
-              Law::voltage_part(product<D::f.current.key(), P::voltage_gain.key()>(in)) +
-              voltage_sum_);
-        }
-        break;
-      case 39:
-        limit_voltage(in);
-        break;
-      case 44:
-        duty_sum_ = Law::duty_sum(product<Law::kVoltageKey, P::duty_gain.key()>(in));
-        break;
-      case 45:
-        out_.duty = narrow<Duty, Round::truncate, Overflow::wrap>(
-                        limited<Law::kDutyKey>(duty_sum_, in, &out_.limit.duty))
-                        .raw();
-        break;
-      default:
-        break;
-    }
-    out_.voltage = voltage_.raw();
-  }
-
-  const Out& out() const { return out_; }
-
- private:
-  using CurrentPart = typename Law::CurrentPart;
-  using Offset = typename Law::Offset;
-  using CurrentSum = typename Law::CurrentSum;
-  using VoltageSum = typename Law::VoltageSum;
-  using DutySum = typename Law::DutySum;
-
-  using Torque = typename Law::Torque;
-  using Duty = typename Law::Duty;
-
-  /// The low bits of a word of the bus as a number.
-  template <int Key>
-  static Word<Key> word(std::int64_t raw) {
-    return narrow<Word<Key>, Round::truncate, Overflow::wrap>(
-        fixed<1, 63 - Word<Key>::format.fraction, Word<Key>::format.fraction>::from_raw(raw));
-  }
-  /// The product on the bus as the number it is: a signal times a coefficient.
-  template <int SignalKey, int CoefficientKey>
-  static auto product(const In& in) {
-    return decltype(Word<SignalKey>{} * Word<CoefficientKey>{})::from_raw(in.product);
-  }
-  /// x limited by the word on the bus.
-  template <int Key, class X>
-  static Word<Key> limited(X x, const In& in, bool* hit) {
-    bool unused = false;
-    return Law::template limited<Key>(x, word<Key>(in.param), hit != nullptr ? hit : &unused);
-  }
-
-  void limit_current(const In& in) {
-    auto current = limited<Law::kCurrentKey>(current_sum_, in, &out_.limit.current);
-    if (!in.armed) {
-      current = {};
-      out_.limit.current = false;
-    }
-    out_.current_ref = out_.operand = current.raw();
-    voltage_sum_ = in.mode == Mode::voltage
-                       ? VoltageSum{}
-                       : Law::voltage_sum(Law::voltage_part(
-                             product<D::f.torque.key(), P::dead_voltage_slope.key()>(in)));
-  }
-
-  void limit_voltage(const In& in) {
-    auto applied = limited<Law::kVoltageKey>(voltage_sum_, in, &out_.limit.voltage);
-    if (!in.armed) {
-      applied = {};
-      out_.limit.voltage = false;
-    }
-    out_.operand = applied.raw();
-    voltage_ = Law::port_voltage(applied);
-  }
-
-  typename Law::Voltage voltage_{};
-  typename Law::LimitedVoltage dead_{};
-  CurrentSum current_sum_{};
-  CurrentPart kept_{};
-  VoltageSum voltage_sum_{};
-  Offset offset_{};
-  DutySum duty_sum_{};
-  Out out_;
 };
 
 }  // namespace feltgate

@@ -22,9 +22,8 @@ package feltgate_pkg;
   localparam int MULTIPLIER_A_BITS = 35;  // bits
   localparam int MULTIPLIER_B_BITS = 18;  // bits
   localparam int PRODUCT_BITS = 53;  // bits
-  localparam int NARROW_W = 24;  // bits of the widest of current, torque, voltage and a scene's distance
   localparam int TRAVEL_BITS = 16;  // bits
-  localparam int WALL_GUARD_BITS = 2;  // bits that the wall's products keep below a torque step
+  localparam int SCENE_GUARD_BITS = 2;  // bits that a scene's terms keep below a torque step
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
 
   // Widths (W) and fraction bits (F) of the signals.
@@ -34,6 +33,12 @@ package feltgate_pkg;
   localparam int SCENE_POSITION_F = 0;
   localparam int SCENE_OFFSET_W = 26;  // [1,17,8]
   localparam int SCENE_OFFSET_F = 8;
+  localparam int SCENE_DISTANCE_W = 27;  // [1,18,8]
+  localparam int SCENE_DISTANCE_F = 8;
+  localparam int SCENE_PART_W = 36;  // [1,15,20]
+  localparam int SCENE_PART_F = 20;
+  localparam int SCENE_TORQUE_W = 36;  // [1,17,18]
+  localparam int SCENE_TORQUE_F = 18;
   localparam int TRAVEL_DIFFERENCE_W = 16;  // [1,15,0]
   localparam int TRAVEL_DIFFERENCE_F = 0;
   localparam int VELOCITY_RAW_W = 33;  // [1,19,13]
@@ -72,6 +77,10 @@ package feltgate_pkg;
   localparam int DUTY_F = 0;
   localparam int DUTY_SUM_W = 15;  // [1,14,0]
   localparam int DUTY_SUM_F = 0;
+  localparam int LIMITER_W = 24;  // [1,23,0]
+  localparam int LIMITER_F = 0;
+  localparam int LIMITER_INPUT_W = 36;  // [1,35,0]
+  localparam int LIMITER_INPUT_F = 0;
   localparam int CURRENT_ESTIMATE_PART_W = 16;  // [1,7,8]
   localparam int CURRENT_ESTIMATE_PART_F = 8;
   localparam int CURRENT_ESTIMATE_W = 17;  // [1,8,8]
@@ -121,9 +130,9 @@ package feltgate_pkg;
   localparam int S_POLARITY_TICKS = 21;
   localparam int S_EMF_CONSTANT = 22;
   localparam int S_OBSERVER_GAIN = 23;
-  localparam int S_VOLTAGE_SETPOINT = 24;
-  localparam int S_TORQUE_LIMIT = 25;
-  localparam int S_RAMP_STEP = 26;
+  localparam int S_VOLTAGE_SETPOINT = 13;
+  localparam int S_TORQUE_LIMIT = 24;
+  localparam int S_RAMP_STEP = 25;
   localparam int S_VOLTAGE_TO_CURRENT = 27;
   localparam int S_TORQUE_GAIN = 28;
   localparam int S_DEAD_VOLTAGE_SLOPE = 29;
@@ -164,9 +173,9 @@ package feltgate_pkg;
   localparam int B_COMMAND_KICK = 2;
   localparam int B_COMMAND_FREEZE = 3;
   localparam int B_COMMAND_THAW = 4;
-  localparam int R_TICK = 0;
+  localparam int R_TICK = 6;
   localparam int R_POSITION = 1;
-  localparam int R_STATUS = 2;
+  localparam int R_STATUS = 0;
   localparam int R_ENCODER = 14;
   localparam int R_INDEX = 11;
   localparam int R_VELOCITY = 9;
@@ -193,9 +202,9 @@ package feltgate_pkg;
       9'd21: parameter_reset = 32'd500;  // polarity_ticks
       9'd22: parameter_reset = 32'd126668;  // emf_constant
       9'd23: parameter_reset = 32'd0;  // observer_gain
-      9'd24: parameter_reset = 32'd0;  // voltage_setpoint
-      9'd25: parameter_reset = 32'd131072;  // torque_limit
-      9'd26: parameter_reset = 32'd839;  // ramp_step
+      9'd13: parameter_reset = 32'd0;  // voltage_setpoint
+      9'd24: parameter_reset = 32'd131072;  // torque_limit
+      9'd25: parameter_reset = 32'd839;  // ramp_step
       9'd27: parameter_reset = 32'd78019;  // voltage_to_current
       9'd28: parameter_reset = 32'd67815;  // torque_gain
       9'd29: parameter_reset = 32'd99840;  // dead_voltage_slope
@@ -213,20 +222,20 @@ package feltgate_pkg;
       9'd98: parameter_reset = 32'd116820;  // membrane_upper
       9'd106: parameter_reset = 32'd131072;  // membrane_torque
       9'd129: parameter_reset = 32'd83443;  // compression_contact
-      9'd131: parameter_reset = 32'd102944;  // compression_stiffness
+      9'd130: parameter_reset = 32'd102944;  // compression_stiffness
       9'd161: parameter_reset = 32'd0;  // tension_rest
-      9'd163: parameter_reset = 32'd102944;  // tension_stiffness
+      9'd162: parameter_reset = 32'd102944;  // tension_stiffness
       9'd202: parameter_reset = 32'd125829;  // damper_damping
       9'd225: parameter_reset = 32'd0;  // attract_centre
       9'd226: parameter_reset = 32'd557019098;  // attract_strength
-      9'd236: parameter_reset = 32'd131;  // attract_core
-      9'd230: parameter_reset = 32'd128680;  // attract_core_slope
+      9'd230: parameter_reset = 32'd131;  // attract_core
+      9'd227: parameter_reset = 32'd128680;  // attract_core_slope
       9'd257: parameter_reset = 32'd0;  // repel_centre
       9'd258: parameter_reset = 32'd557019098;  // repel_strength
-      9'd268: parameter_reset = 32'd131;  // repel_core
-      9'd262: parameter_reset = 32'd128680;  // repel_core_slope
+      9'd262: parameter_reset = 32'd131;  // repel_core
+      9'd259: parameter_reset = 32'd128680;  // repel_core_slope
       9'd289: parameter_reset = 32'd83443;  // wall_contact
-      9'd291: parameter_reset = 32'd6434;  // wall_stiffness
+      9'd290: parameter_reset = 32'd6434;  // wall_stiffness
       9'd298: parameter_reset = 32'd5243;  // wall_damping
       default: parameter_reset = 32'd0;
     endcase

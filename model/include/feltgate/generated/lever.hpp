@@ -37,9 +37,8 @@ struct Lever {
   static constexpr int multiplier_a_bits = 35;  // bits
   static constexpr int multiplier_b_bits = 18;  // bits
   static constexpr int product_bits = 53;  // bits
-  static constexpr int narrow_w = 22;  // bits of the widest of current, torque, voltage and a scene's distance
   static constexpr int travel_bits = 16;  // bits
-  static constexpr int wall_guard_bits = 2;  // bits that the wall's products keep below a torque step
+  static constexpr int scene_guard_bits = 2;  // bits that a scene's terms keep below a torque step
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
 
   /// Formats of the parameters.
@@ -110,7 +109,9 @@ struct Lever {
       P::velocity_a1, P::torque_constant, P::inertia_gain, P::observer_a1,
       P::torque_gain, P::observer_gain, P::voltage_gain, P::emf_constant,
       P::dead_voltage_slope, P::voltage_to_current, P::duty_gain,
-      P::inverse_resistance, P::emf_over_resistance};
+      P::inverse_resistance, P::emf_over_resistance, P::compression_stiffness,
+      P::tension_stiffness, P::attract_core_slope, P::repel_core_slope, P::wall_stiffness,
+      P::damper_damping, P::wall_damping};
   static constexpr Formats f = derive(base);
 
   /// Parameters: name, unit, address, format, exact value, integer.

@@ -16,7 +16,7 @@ struct Map {
   static constexpr int first_wave_clock = 2;  ///< clock of the tick that is wave clock 0
   static constexpr int multiplier_latency = 4;  ///< clocks from the operands to the product
   /// Bit n: slot n is read from the scene's bank.
-  static constexpr std::uint64_t scene_slots = 0x144e;
+  static constexpr std::uint64_t scene_slots = 0x44e;
 
   /// Wave clocks in which a word, or a square, is on its bus.
   struct W {
@@ -34,9 +34,9 @@ struct Map {
     static constexpr int polarity_ticks = 21;
     static constexpr int emf_constant = 22;
     static constexpr int observer_gain = 23;
-    static constexpr int voltage_setpoint = 24;
-    static constexpr int torque_limit = 25;
-    static constexpr int ramp_step = 26;
+    static constexpr int voltage_setpoint = 13;
+    static constexpr int torque_limit = 24;
+    static constexpr int ramp_step = 25;
     static constexpr int voltage_to_current = 27;
     static constexpr int torque_gain = 28;
     static constexpr int dead_voltage_slope = 29;
@@ -54,24 +54,24 @@ struct Map {
     static constexpr int membrane_upper = 2;
     static constexpr int membrane_torque = 10;
     static constexpr int compression_contact = 1;
-    static constexpr int compression_stiffness = 3;
+    static constexpr int compression_stiffness = 2;
     static constexpr int tension_rest = 1;
-    static constexpr int tension_stiffness = 3;
+    static constexpr int tension_stiffness = 2;
     static constexpr int damper_damping = 10;
     static constexpr int attract_centre = 1;
     static constexpr int attract_strength = 2;
-    static constexpr int attract_core = 12;
-    static constexpr int attract_core_slope = 6;
+    static constexpr int attract_core = 6;
+    static constexpr int attract_core_slope = 3;
     static constexpr int repel_centre = 1;
     static constexpr int repel_strength = 2;
-    static constexpr int repel_core = 12;
-    static constexpr int repel_core_slope = 6;
+    static constexpr int repel_core = 6;
+    static constexpr int repel_core_slope = 3;
     static constexpr int wall_contact = 1;
-    static constexpr int wall_stiffness = 3;
+    static constexpr int wall_stiffness = 2;
     static constexpr int wall_damping = 10;
-    static constexpr int scene_stiffness = 3;
-    static constexpr int charge_square = 3;
-    static constexpr int charge_slope = 6;
+    static constexpr int scene_stiffness = 2;
+    static constexpr int charge_square = 2;
+    static constexpr int charge_slope = 3;
     static constexpr int scene_damping = 10;
     static constexpr int current_square = 13;
   };
@@ -91,16 +91,16 @@ struct Map {
     static constexpr int dead_voltage_slope = 33;
     static constexpr int voltage_gain = 38;
     static constexpr int duty_gain = 44;
-    static constexpr int compression_stiffness = 7;
-    static constexpr int tension_stiffness = 7;
+    static constexpr int compression_stiffness = 6;
+    static constexpr int tension_stiffness = 6;
     static constexpr int damper_damping = 14;
-    static constexpr int attract_core_slope = 10;
-    static constexpr int repel_core_slope = 10;
-    static constexpr int wall_stiffness = 7;
+    static constexpr int attract_core_slope = 7;
+    static constexpr int repel_core_slope = 7;
+    static constexpr int wall_stiffness = 6;
     static constexpr int wall_damping = 14;
-    static constexpr int scene_stiffness = 7;
-    static constexpr int charge_square = 7;
-    static constexpr int charge_slope = 10;
+    static constexpr int scene_stiffness = 6;
+    static constexpr int charge_square = 6;
+    static constexpr int charge_slope = 7;
     static constexpr int scene_damping = 14;
     static constexpr int current_square = 17;
   };
@@ -119,33 +119,46 @@ struct Map {
     static constexpr int observed = 20;
     static constexpr int observed_rounded = 21;
     static constexpr int tau_hat = 22;
-    static constexpr int scene_gap = 1;
-    static constexpr int scene_distance = 2;
-    static constexpr int scene_torque = 24;
-    static constexpr int torque_limited = 25;
-    static constexpr int ramp_excess = 26;
+    static constexpr int scene_distance = 1;
+    static constexpr int membrane_side = 3;
+    static constexpr int membrane_torque = 10;
+    static constexpr int charge_width = 4;
+    static constexpr int charge_width_ahead = 5;
+    static constexpr int charge_width_limited = 6;
+    static constexpr int charge_core = 7;
+    static constexpr int scene_sum = 15;
+    static constexpr int scene_rounded = 22;
+    static constexpr int scene_ahead = 23;
+    static constexpr int scene_torque = 23;
+    static constexpr int torque_limited = 24;
+    static constexpr int ramp_excess = 25;
+    static constexpr int ramp_change = 26;
     static constexpr int tau_ref = 27;
-    static constexpr int direct_voltage = 24;
+    static constexpr int direct_voltage = 13;
     static constexpr int voltage_part = 26;
     static constexpr int current_part = 27;
     static constexpr int border = 28;
-    static constexpr int border_early = 29;
-    static constexpr int region = 30;
+    static constexpr int border_ahead = 29;
+    static constexpr int region_limited = 30;
+    static constexpr int region = 31;
     static constexpr int gain_fetch = 32;
     static constexpr int direct_current = 31;
-    static constexpr int direct_current_early = 32;
+    static constexpr int direct_ahead = 32;
     static constexpr int current_sum = 32;
-    static constexpr int current = 33;
+    static constexpr int current_limited = 33;
+    static constexpr int current = 34;
     static constexpr int dead_sum = 33;
-    static constexpr int dead_early = 34;
+    static constexpr int dead_ahead = 34;
     static constexpr int dead_voltage = 35;
     static constexpr int voltage_offset = 36;
     static constexpr int set_sum = 37;
-    static constexpr int set_early = 38;
+    static constexpr int set_ahead = 38;
     static constexpr int voltage_sum = 38;
-    static constexpr int voltage = 39;
+    static constexpr int voltage_limited = 39;
+    static constexpr int voltage = 40;
     static constexpr int duty_sum = 44;
-    static constexpr int duty = 45;
+    static constexpr int duty_limited = 45;
+    static constexpr int duty = 46;
     static constexpr int estimate_part = 9;
     static constexpr int current_estimate = 11;
     static constexpr int speed_size = 15;
@@ -165,16 +178,16 @@ struct Map {
     static constexpr int silent = 46;
     static constexpr int watchdog = 47;
     static constexpr int position_word = 1;
-    static constexpr int status_word = 2;
+    static constexpr int status_word = 0;
     static constexpr int duty_word = 46;
     static constexpr int snapshot = 47;
   };
 
   /// Wave clocks in which the snapshot's words are on the operand bus.
   struct R {
-    static constexpr int tick = 0;
+    static constexpr int tick = 6;
     static constexpr int position = 1;
-    static constexpr int status = 2;
+    static constexpr int status = 0;
     static constexpr int encoder = 14;
     static constexpr int index = 11;
     static constexpr int velocity = 9;
@@ -187,37 +200,44 @@ struct Map {
 
   /// All that happens in a tick: words read into the snapshot, operands of products, steps.
   enum class Step {
-    read_tick,
+    read_status,
     sample,
+    status_word,
     read_position,
     travel,
-    scene_gap,
-    position_word,
-    read_status,
-    velocity_raw,
     scene_distance,
-    status_word,
+    position_word,
     operand_scene_stiffness,
     operand_charge_square,
-    velocity_difference,
-    operand_velocity_a1,
-    operand_inverse_resistance,
+    velocity_raw,
     operand_charge_slope,
+    velocity_difference,
+    membrane_side,
+    operand_velocity_a1,
+    charge_width,
+    operand_inverse_resistance,
+    charge_width_ahead,
+    read_tick,
+    charge_width_limited,
     operand_emf_over_resistance,
+    charge_core,
     operand_torque_constant,
     velocity,
     read_velocity,
     operand_inertia_gain,
     estimate_part,
     operand_scene_damping,
+    membrane_torque,
     read_index,
     current_estimate,
     drive_torque,
     operand_current_square,
     observer_input,
+    direct_voltage,
     read_encoder,
     observer_difference,
     operand_observer_a1,
+    scene_sum,
     speed_size,
     too_fast,
     speed,
@@ -236,13 +256,15 @@ struct Map {
     runaway_ticks,
     operand_emf_constant,
     tau_hat,
+    scene_rounded,
     polarity,
     read_tau_hat,
     operand_observer_gain,
+    scene_ahead,
     scene_torque,
-    direct_voltage,
     torque_limited,
     ramp_excess,
+    ramp_change,
     voltage_part,
     operand_voltage_to_current,
     tau_ref,
@@ -251,28 +273,32 @@ struct Map {
     operand_torque_gain,
     border,
     operand_dead_voltage_slope,
-    border_early,
+    border_ahead,
+    region_limited,
     region,
     direct_current,
     gain_fetch,
-    direct_current_early,
+    direct_ahead,
     current_sum,
-    current,
+    current_limited,
     dead_sum,
     read_current_ref,
     operand_voltage_gain,
-    dead_early,
+    current,
+    dead_ahead,
     dead_voltage,
     voltage_offset,
     set_sum,
-    set_early,
+    set_ahead,
     voltage_sum,
-    voltage,
+    voltage_limited,
     read_voltage,
     operand_duty_gain,
+    voltage,
     duty_sum,
-    duty,
+    duty_limited,
     read_duty,
+    duty,
     silent,
     duty_word,
     watchdog,
@@ -284,37 +310,44 @@ struct Map {
   };
   /// In the order of the clocks; what is taken in a clock comes before what is new after it.
   static constexpr StepAt steps[] = {
-      {Step::read_tick, 0},
+      {Step::read_status, 0},
       {Step::sample, 0},
+      {Step::status_word, 0},
       {Step::read_position, 1},
       {Step::travel, 1},
-      {Step::scene_gap, 1},
+      {Step::scene_distance, 1},
       {Step::position_word, 1},
-      {Step::read_status, 2},
+      {Step::operand_scene_stiffness, 2},
+      {Step::operand_charge_square, 2},
       {Step::velocity_raw, 2},
-      {Step::scene_distance, 2},
-      {Step::status_word, 2},
-      {Step::operand_scene_stiffness, 3},
-      {Step::operand_charge_square, 3},
+      {Step::operand_charge_slope, 3},
       {Step::velocity_difference, 3},
+      {Step::membrane_side, 3},
       {Step::operand_velocity_a1, 4},
+      {Step::charge_width, 4},
       {Step::operand_inverse_resistance, 5},
-      {Step::operand_charge_slope, 6},
+      {Step::charge_width_ahead, 5},
+      {Step::read_tick, 6},
+      {Step::charge_width_limited, 6},
       {Step::operand_emf_over_resistance, 7},
+      {Step::charge_core, 7},
       {Step::operand_torque_constant, 8},
       {Step::velocity, 8},
       {Step::read_velocity, 9},
       {Step::operand_inertia_gain, 9},
       {Step::estimate_part, 9},
       {Step::operand_scene_damping, 10},
+      {Step::membrane_torque, 10},
       {Step::read_index, 11},
       {Step::current_estimate, 11},
       {Step::drive_torque, 12},
       {Step::operand_current_square, 13},
       {Step::observer_input, 13},
+      {Step::direct_voltage, 13},
       {Step::read_encoder, 14},
       {Step::observer_difference, 14},
       {Step::operand_observer_a1, 15},
+      {Step::scene_sum, 15},
       {Step::speed_size, 15},
       {Step::too_fast, 16},
       {Step::speed, 17},
@@ -333,13 +366,15 @@ struct Map {
       {Step::runaway_ticks, 21},
       {Step::operand_emf_constant, 22},
       {Step::tau_hat, 22},
+      {Step::scene_rounded, 22},
       {Step::polarity, 22},
       {Step::read_tau_hat, 23},
       {Step::operand_observer_gain, 23},
-      {Step::scene_torque, 24},
-      {Step::direct_voltage, 24},
-      {Step::torque_limited, 25},
-      {Step::ramp_excess, 26},
+      {Step::scene_ahead, 23},
+      {Step::scene_torque, 23},
+      {Step::torque_limited, 24},
+      {Step::ramp_excess, 25},
+      {Step::ramp_change, 26},
       {Step::voltage_part, 26},
       {Step::operand_voltage_to_current, 27},
       {Step::tau_ref, 27},
@@ -348,28 +383,32 @@ struct Map {
       {Step::operand_torque_gain, 28},
       {Step::border, 28},
       {Step::operand_dead_voltage_slope, 29},
-      {Step::border_early, 29},
-      {Step::region, 30},
+      {Step::border_ahead, 29},
+      {Step::region_limited, 30},
+      {Step::region, 31},
       {Step::direct_current, 31},
       {Step::gain_fetch, 32},
-      {Step::direct_current_early, 32},
+      {Step::direct_ahead, 32},
       {Step::current_sum, 32},
-      {Step::current, 33},
+      {Step::current_limited, 33},
       {Step::dead_sum, 33},
       {Step::read_current_ref, 34},
       {Step::operand_voltage_gain, 34},
-      {Step::dead_early, 34},
+      {Step::current, 34},
+      {Step::dead_ahead, 34},
       {Step::dead_voltage, 35},
       {Step::voltage_offset, 36},
       {Step::set_sum, 37},
-      {Step::set_early, 38},
+      {Step::set_ahead, 38},
       {Step::voltage_sum, 38},
-      {Step::voltage, 39},
+      {Step::voltage_limited, 39},
       {Step::read_voltage, 40},
       {Step::operand_duty_gain, 40},
+      {Step::voltage, 40},
       {Step::duty_sum, 44},
-      {Step::duty, 45},
+      {Step::duty_limited, 45},
       {Step::read_duty, 46},
+      {Step::duty, 46},
       {Step::silent, 46},
       {Step::duty_word, 46},
       {Step::watchdog, 47},
@@ -392,9 +431,9 @@ struct Map {
     static constexpr int polarity_ticks = 21;
     static constexpr int emf_constant = 22;
     static constexpr int observer_gain = 23;
-    static constexpr int voltage_setpoint = 24;
-    static constexpr int torque_limit = 25;
-    static constexpr int ramp_step = 26;
+    static constexpr int voltage_setpoint = 13;
+    static constexpr int torque_limit = 24;
+    static constexpr int ramp_step = 25;
     static constexpr int voltage_to_current = 27;
     static constexpr int torque_gain = 28;
     static constexpr int dead_voltage_slope = 29;
@@ -412,20 +451,20 @@ struct Map {
     static constexpr int membrane_upper = 98;
     static constexpr int membrane_torque = 106;
     static constexpr int compression_contact = 129;
-    static constexpr int compression_stiffness = 131;
+    static constexpr int compression_stiffness = 130;
     static constexpr int tension_rest = 161;
-    static constexpr int tension_stiffness = 163;
+    static constexpr int tension_stiffness = 162;
     static constexpr int damper_damping = 202;
     static constexpr int attract_centre = 225;
     static constexpr int attract_strength = 226;
-    static constexpr int attract_core = 236;
-    static constexpr int attract_core_slope = 230;
+    static constexpr int attract_core = 230;
+    static constexpr int attract_core_slope = 227;
     static constexpr int repel_centre = 257;
     static constexpr int repel_strength = 258;
-    static constexpr int repel_core = 268;
-    static constexpr int repel_core_slope = 262;
+    static constexpr int repel_core = 262;
+    static constexpr int repel_core_slope = 259;
     static constexpr int wall_contact = 289;
-    static constexpr int wall_stiffness = 291;
+    static constexpr int wall_stiffness = 290;
     static constexpr int wall_damping = 298;
   };
 
@@ -483,9 +522,9 @@ struct Map {
     static constexpr int command_kick = 2;
     static constexpr int command_freeze = 3;
     static constexpr int command_thaw = 4;
-    static constexpr int read_tick = 768;
+    static constexpr int read_tick = 774;
     static constexpr int read_position = 769;
-    static constexpr int read_status = 770;
+    static constexpr int read_status = 768;
     static constexpr int status_faults = 0;
     static constexpr int status_first_fault = 8;
     static constexpr int status_limits = 12;

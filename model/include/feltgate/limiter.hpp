@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Law of rtl/limiter.sv: the core's one limiter. Documentation: docs/blocks/limiter.md
+#pragma once
+
+#include "feltgate/format.hpp"
+#include "feltgate/numbers.hpp"
+
+namespace feltgate {
+
+/// In number policy N, for design D. It reads a limit as so many low bits of its word, at the
+/// binary point of what is limited.
+template <class D, class N>
+struct Limiter {
+  /// Format of a limit whose signal has `Fraction` fraction bits.
+  template <int Fraction>
+  static constexpr int key = Format{1, D::f.limiter.width() - 1 - Fraction, Fraction}.key();
+
+  /// x in [-limit, limit] as a To, which holds it; sets *hit to whether x lay outside. A negative
+  /// limit counts as 0.
+  template <class To, class X, class Limit>
+  static constexpr To limited(X x, Limit limit, bool* hit) {
+    *hit = beyond<N>(x, limit);
+    if (limit < Limit{}) return To{};
+    if (x > limit) return quantise<N, To, Round::truncate, Overflow::wrap>(limit);
+    if (x < -limit) return quantise<N, To, Round::truncate, Overflow::wrap>(-limit);
+    return quantise<N, To, Round::truncate, Overflow::wrap>(x);
+  }
+};
+
+}  // namespace feltgate

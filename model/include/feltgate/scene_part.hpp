@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What the laws of the scenes share: the distance from a reference, and a torque as it is before
+// the limit. RTL: rtl/scene_part.sv, rtl/scenes.sv. Documentation: docs/blocks/scenes.md
+#pragma once
+
+#include <cstdint>
+
+#include "feltgate/words.hpp"
+
+namespace feltgate {
+
+/// In number policy N, for design D.
+template <class D, class N>
+struct ScenePart {
+  using Offset = typename N::template num<D::f.scene_offset.key()>;
+  using Distance = typename N::template num<D::f.scene_distance.key()>;
+  using Part = typename N::template num<D::f.scene_part.key()>;
+  /// A scene's torque, rounded; wide enough for all that its parameters allow.
+  using Torque = typename N::template num<D::f.scene_torque.key()>;
+
+  /// reference - position [count], exact.
+  static Distance distance(std::int32_t position, Offset reference) {
+    using Position = typename N::template num<D::f.scene_position.key()>;
+    return quantise<N, Distance, Round::truncate, Overflow::wrap>(
+        reference - from_integer<N, Position>(position));
+  }
+  /// A product whose bits below the guard bits are dropped.
+  template <class Product>
+  static Part part(Product product) {
+    return quantise<N, Part, Round::truncate, Overflow::wrap>(product);
+  }
+  /// The one rounding; neither a product nor a difference of two parts can overflow it.
+  template <class X>
+  static Torque rounded(X x) {
+    return quantise<N, Torque, D::rounding, Overflow::wrap>(x);
+  }
+  /// A word as it is.
+  template <class Word>
+  static Torque whole(Word word) {
+    return quantise<N, Torque, Round::truncate, Overflow::wrap>(word);
+  }
+};
+
+}  // namespace feltgate

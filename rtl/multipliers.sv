@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The multiplier on the operand bus, or one per block in the same clocks. A square takes its own
+// operand as the factor, past the operand bus. Latency: that of mult.
+// Documentation: docs/blocks/multipliers.md
+
+`default_nettype none
+
+module multipliers (
+    input  logic                                                  clk_i,
+    input  logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] operand_i,  // the whole bus
+    /* verilator lint_off UNUSEDSIGNAL */  // where one multiplier is shared
+    input  logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] velocity_i,
+    input  logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] dob_i,
+    input  logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] scene_i,
+    input  logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] control_i,
+    input  logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] supervisor_i,
+    /* verilator lint_on UNUSEDSIGNAL */
+    input  logic                                                  signed_i,  // the word has a sign
+    /* verilator lint_off UNUSEDSIGNAL */  // as many bits as a coefficient has
+    input  logic        [                                   31:0] param_i,
+    /* verilator lint_on UNUSEDSIGNAL */
+    input  logic                                                  square_distance_i,
+    input  logic signed [                                   17:0] distance_i,
+    input  logic                                                  square_estimate_i,
+    input  logic signed [   feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate_i,
+    output logic signed [         feltgate_pkg::PRODUCT_BITS-1:0] velocity_product_o,
+    output logic signed [         feltgate_pkg::PRODUCT_BITS-1:0] dob_product_o,
+    output logic signed [         feltgate_pkg::PRODUCT_BITS-1:0] scene_product_o,
+    output logic signed [         feltgate_pkg::PRODUCT_BITS-1:0] control_product_o,
+    output logic signed [         feltgate_pkg::PRODUCT_BITS-1:0] supervisor_product_o
+);
+  logic signed [17:0] coefficient, scene_factor, supervisor_factor;
+  assign coefficient = 18'($signed({param_i[feltgate_pkg::COEFFICIENT_BITS] && signed_i,
+                                    param_i[feltgate_pkg::COEFFICIENT_BITS-1:0]}));
+  assign scene_factor      = square_distance_i ? distance_i : '0;
+  assign supervisor_factor = 18'(estimate_i);  // 0 outside its clock
+
+  if (feltgate_pkg::PARALLEL_MULTIPLIERS == 0) begin : gen_shared
+    logic signed [17:0] plain_factor;
+    logic signed [feltgate_pkg::PRODUCT_BITS-1:0] product;
+    assign plain_factor = (square_distance_i || square_estimate_i) ? '0 : coefficient;
+    mult u_mult (
+        .clk_i(clk_i),
+        .a_i(operand_i),
+        .b_i(scene_factor | supervisor_factor | plain_factor),
+        .product_o(product)
+    );
+    assign velocity_product_o   = product;
+    assign dob_product_o        = product;
+    assign scene_product_o      = product;
+    assign control_product_o    = product;
+    assign supervisor_product_o = product;
+  end else begin : gen_parallel
+    // Each block its own, in the same clocks: no operand passes through the bus of the whole core.
+    mult u_velocity (
+        .clk_i(clk_i),
+        .a_i(feltgate_pkg::MULTIPLIER_A_BITS'(velocity_i)),
+        .b_i(coefficient),
+        .product_o(velocity_product_o)
+    );
+    mult u_dob (
+        .clk_i(clk_i),
+        .a_i(dob_i),
+        .b_i(coefficient),
+        .product_o(dob_product_o)
+    );
+    mult u_scene (
+        .clk_i(clk_i),
+        .a_i(scene_i),
+        .b_i(square_distance_i ? distance_i : coefficient),
+        .product_o(scene_product_o)
+    );
+    mult u_control (
+        .clk_i(clk_i),
+        .a_i(control_i),
+        .b_i(coefficient),
+        .product_o(control_product_o)
+    );
+    mult u_supervisor (
+        .clk_i(clk_i),
+        .a_i(supervisor_i),
+        .b_i(square_estimate_i ? supervisor_factor : coefficient),
+        .product_o(supervisor_product_o)
+    );
+    logic unused;
+    assign unused = ^{operand_i, scene_factor};
+  end
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The operand bus: who holds a clock of the wave drives it. What is held longer enters by a copy that
+// is 0 outside its clocks, so that the bus is but an or. Between the operands pass the snapshot's words.
+// Documentation: docs/blocks/operand_bus.md
+
+`default_nettype none
+
+module operand_bus (
+    input  logic                                                  clk_i,
+    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks off the wave
+    input  logic        [                                   49:0] wave_i,
+    /* verilator lint_on UNUSEDSIGNAL */
+    // 0 outside their clocks
+    input  logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] velocity_difference_i,
+    input  logic signed [feltgate_pkg::OBSERVER_DIFFERENCE_W-1:0] observer_difference_i,
+    input  logic signed [    feltgate_pkg::SCENE_DISTANCE_W-1:0]  distance_i,
+    input  logic signed [            feltgate_pkg::LIMITER_W-1:0] limited_i,
+    // held
+    input  logic signed [           feltgate_pkg::VELOCITY_W-1:0] velocity_i,
+    input  logic signed [             feltgate_pkg::TORQUE_W-1:0] tau_hat_i,
+    input  logic signed [             feltgate_pkg::TORQUE_W-1:0] tau_ref_i,
+    input  logic signed [            feltgate_pkg::CURRENT_W-1:0] current_ref_i,
+    input  logic signed [            feltgate_pkg::VOLTAGE_W-1:0] voltage_i,
+    input  logic signed [   feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate_i,
+    input  logic        [                                   31:0] snapshot_i,  // 0 outside its clocks
+    // Of the whole core, and what each block brings of it.
+    output logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] operand_o,
+    output logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] dob_o,
+    output logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] scene_o,
+    output logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] control_o,
+    output logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] supervisor_o,
+    output logic                                                  signed_o,  // the factor has a sign
+    output logic signed [   feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate_o,  // to be squared
+    output logic                                                  square_estimate_o
+);
+  localparam int W = feltgate_pkg::MULTIPLIER_A_BITS;
+
+  logic signed [           feltgate_pkg::VELOCITY_W-1:0] velocity;
+  logic signed [             feltgate_pkg::TORQUE_W-1:0] tau_hat, tau_ref;
+  logic signed [            feltgate_pkg::CURRENT_W-1:0] current_q;
+  logic signed [            feltgate_pkg::VOLTAGE_W-1:0] voltage_q;
+  logic signed [   feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate_q;
+  logic take_velocity_q, take_tau_hat_q, take_tau_ref_q, square_estimate_q;
+  // Selects of what is new in its first clock are made a clock ahead; the others are copied then.
+  always_ff @(posedge clk_i) begin
+    take_velocity_q <= wave_i[feltgate_map_pkg::S_EMF_OVER_RESISTANCE-1] ||
+                       wave_i[feltgate_map_pkg::S_INERTIA_GAIN-1] ||
+                       wave_i[feltgate_map_pkg::S_DAMPER_DAMPING-1] ||
+                       wave_i[feltgate_map_pkg::S_EMF_CONSTANT-1];
+    take_tau_hat_q  <= wave_i[feltgate_map_pkg::S_OBSERVER_GAIN-1];
+    take_tau_ref_q  <= wave_i[feltgate_map_pkg::S_TORQUE_GAIN-1] ||
+                       wave_i[feltgate_map_pkg::S_DEAD_VOLTAGE_SLOPE-1];
+    if (!wave_i[feltgate_map_pkg::S_TORQUE_CONSTANT-1]) current_q <= '0;
+    else current_q <= current_ref_i;
+    if (!(wave_i[feltgate_map_pkg::S_INVERSE_RESISTANCE-1] ||
+          wave_i[feltgate_map_pkg::S_VOLTAGE_TO_CURRENT-1])) voltage_q <= '0;
+    else voltage_q <= voltage_i;
+    square_estimate_q <= wave_i[feltgate_map_pkg::S_CURRENT_SQUARE-1];
+    if (!wave_i[feltgate_map_pkg::S_CURRENT_SQUARE-1]) estimate_q <= '0;
+    else estimate_q <= current_estimate_i;
+  end
+  assign velocity  = take_velocity_q ? velocity_i : '0;
+  assign tau_hat   = take_tau_hat_q ? tau_hat_i : '0;
+  assign tau_ref   = take_tau_ref_q ? tau_ref_i : '0;
+  assign signed_o  = take_tau_hat_q;
+  assign square_estimate_o = square_estimate_q;
+  assign dob_o        = W'(observer_difference_i) | W'(current_q) | W'(velocity);
+  assign scene_o      = W'(distance_i) | W'(velocity);
+  assign control_o    = W'(limited_i) | W'(tau_hat) | W'(tau_ref) | W'(voltage_q) | W'(velocity);
+  assign supervisor_o = W'(estimate_q) | W'(voltage_q) | W'(velocity);
+  assign operand_o    = W'(velocity_difference_i) | dob_o | scene_o | control_o | supervisor_o |
+                        W'($signed(snapshot_i));
+  assign estimate_o   = estimate_q;
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The torque reference: follows the limited torque of the scene, in steps of one word per tick after
+// arming and after a change of scene; between them nothing is slowed.
+// Latency: target in the clock of the step's word, tau_ref three clocks later and held.
+// docs/blocks/ramp.md
+
+`default_nettype none
+
+module ramp (
+    input  logic                                      clk_i,
+    input  logic                                      rst_ni,
+    input  logic                                      armed_i,
+    input  logic        [                        3:0] scene_i,
+    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
+    input  logic        [                       49:0] wave_i,
+    input  logic        [                       31:0] param_i,
+    input  logic signed [feltgate_pkg::LIMITER_W-1:0] limited_i,
+    /* verilator lint_on UNUSEDSIGNAL */
+    input  logic                                      beyond_i,
+    output logic signed [ feltgate_pkg::TORQUE_W-1:0] tau_ref_o,
+    output logic                                      limit_torque_o,
+    output logic                                      limit_ramp_o
+);
+  localparam int TorqueW = feltgate_pkg::TORQUE_W;
+  localparam int W = feltgate_pkg::RAMP_W;
+  localparam int Fine = feltgate_pkg::RAMP_F - feltgate_pkg::TORQUE_F;
+  localparam int Excess = feltgate_map_pkg::T_RAMP_EXCESS;  // the step's word comes by
+
+  logic signed [W-1:0] ramp_q;
+  assign tau_ref_o = ramp_q[W-1:Fine];
+
+  // How far the reference is above the target.
+  // A negative step counts as 0.
+  logic signed [W:0] excess_q;
+  logic      [W-2:0] step_q;
+  always_ff @(posedge clk_i) begin
+    if (param_i[W-1]) step_q <= '0;
+    else step_q <= param_i[W-2:0];
+    if (wave_i[Excess]) begin
+      excess_q <= {(TorqueW + 1)'(tau_ref_o) - (TorqueW + 1)'($signed(limited_i[TorqueW-1:0])),
+                   ramp_q[Fine-1:0]};
+    end
+  end
+
+  // One step towards the target, or all of it. The tick in which the distance is found to be within
+  // one step ends the ramp; the reference moves on with the next.
+  logic signed [W:0] step, change, beyond;
+  logic signed [W-1:0] change_q;
+  logic              ramping_q, stepping_q, down, reached, carry_q, stay_q;
+  always_ff @(posedge clk_i) stepping_q <= ramping_q && armed_i;
+  assign down     = !excess_q[W];
+  assign step     = {2'b0, step_q};
+  assign change   = stepping_q ? (step ^ {(W + 1) {down}}) : ~excess_q;
+  assign beyond   = excess_q + change;
+  assign reached  = beyond[W] == down;
+  always_ff @(posedge clk_i) begin
+    if (wave_i[Excess+1]) begin
+      change_q <= change[W-1:0];
+      carry_q  <= down || !stepping_q;
+      stay_q   <= stepping_q && reached;
+    end
+  end
+
+  logic [3:0] scene_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      ramp_q       <= '0;
+      ramping_q    <= 1'b1;
+      scene_q      <= '0;
+      limit_torque_o <= 1'b0;
+      limit_ramp_o <= 1'b0;
+    end else begin
+      if (wave_i[Excess]) limit_torque_o <= beyond_i && armed_i;
+      if (wave_i[feltgate_map_pkg::T_SAMPLE+1]) scene_q <= scene_i;
+      if (wave_i[feltgate_map_pkg::T_SAMPLE+1] && (!armed_i || scene_i != scene_q)) ramping_q <= 1'b1;
+      else if (wave_i[Excess+2] && stay_q) ramping_q <= 1'b0;
+      if (wave_i[Excess+2] && !stay_q) ramp_q <= ramp_q + change_q + W'({1'b0, carry_q});
+      if (wave_i[Excess+2]) limit_ramp_o <= stepping_q;
+    end
+  end
+
+  logic unused;
+  assign unused = ^beyond[W-1:0];
+endmodule
+
+`default_nettype wire

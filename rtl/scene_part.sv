@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A product as one term of a scene's torque: its bits below the guard bits are dropped. Where the
+// design rounds to even and the term is Exact, the lowest guard bit tells whether any of them was set, so
+// that the one rounding that follows gives what it would give of the whole product.
+// Combinational. docs/blocks/scene_part.md
+
+`default_nettype none
+
+module scene_part #(
+    parameter int Fraction = 30,  // fraction bits of the product
+    parameter int Exact    = 1
+) (
+    input  logic signed [feltgate_pkg::PRODUCT_BITS-1:0] product_i,
+    output logic signed [feltgate_pkg::SCENE_PART_W-1:0] part_o
+);
+  localparam int W = feltgate_pkg::SCENE_PART_W;
+  localparam int Drop = Fraction - feltgate_pkg::SCENE_PART_F;
+
+  logic signed [W-1:0] whole;
+  logic                rest;
+  assign whole = W'(product_i >>> Drop);
+  if (Exact != 0 && feltgate_pkg::ROUNDING != 0) begin : gen_rest
+    localparam logic [feltgate_pkg::PRODUCT_BITS-1:0] Below =
+        (feltgate_pkg::PRODUCT_BITS'(1) << Drop) - feltgate_pkg::PRODUCT_BITS'(1);
+    assign rest = (product_i & Below) != '0;
+  end else begin : gen_no_rest
+    assign rest = 1'b0;
+  end
+  assign part_o = {whole[W-1:1], whole[0] || rest};
+endmodule
+
+`default_nettype wire

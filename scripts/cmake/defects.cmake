@@ -49,9 +49,10 @@ function(feltgate_verilate_defects target block package sources)
     DEPENDS ${patches} ${sources} ${FELTGATE_SEEDING}
     COMMENT "Seeding defects into ${block}" VERBATIM)
   list(FILTER sources EXCLUDE REGEX "/${block}\\.sv$")
-  # A defect may leave signals unused; what does not elaborate is an error.
+  # A defect may leave signals unused; what does not elaborate is an error. Flat: modules that stay are
+  # members of the class.
   feltgate_verilate(${target} ${block} "${package};${sources};${copies}"
-    -Wno-fatal -Wno-lint -Wno-style --trace-depth 1 ${ARGN})
+    -Wno-fatal -Wno-lint -Wno-style --trace-depth 1 --flatten ${ARGN})
   target_compile_options(${target} PRIVATE -O1)
   target_link_libraries(${target} PUBLIC feltgate_chosen_defect)
 endfunction()

@@ -81,11 +81,13 @@ struct Lanes {
   using Design = Lever;
   template <class Results>
   static TickResult lane(const Results& b, std::size_t k) {
+    using L = Map::L;
     return of_integers({b.velocity[k], b.tau_hat[k], b.tau_ref[k], b.current[k], b.voltage[k],
                         b.duty[k],
-                        b.limit_torque[k] | b.limit_ramp[k] << 1 | b.limit_current[k] << 2 |
-                            b.limit_voltage[k] << 3 | b.limit_duty[k] << 4 |
-                            b.limit_velocity[k] << 5 | b.limit_tau_hat[k] << 6});
+                        b.limit_torque[k] << L::torque | b.limit_ramp[k] << L::ramp |
+                            b.limit_current[k] << L::current | b.limit_voltage[k] << L::voltage |
+                            b.limit_duty[k] << L::duty | b.limit_velocity[k] << L::velocity |
+                            b.limit_tau_hat[k] << L::tau_hat});
   }
 };
 

@@ -12,6 +12,7 @@
 
 #include "explore/measurement.hpp"
 #include "explore/stimulus.hpp"
+#include "feltgate/generated/causes.hpp"
 #include "feltgate/scenes.hpp"
 #include "reference/chain.hpp"
 
@@ -60,7 +61,7 @@ class ErrorRun {
         m->limited[bit] += (limits >> bit) & 1u;
       }
       // What left its format is no rounding; the filters carry it on.
-      if ((limits & 0x60u) != 0) {
+      if ((limits & (limit::velocity | limit::tau_hat)) != 0) {
         m->ticks_left_out += ticks - k;
         return;
       }

@@ -88,7 +88,7 @@ module pwm #(
       threshold_q  <= 14'sd0;
       antiphase_q2 <= 1'b0;
       switch_b_q2  <= 1'b0;
-    end else begin
+    end else if (period_start_o) begin  // the duty has just been taken
       threshold_q  <= threshold_d;
       antiphase_q2 <= antiphase_q;
       switch_b_q2  <= switch_b_q;
@@ -96,16 +96,16 @@ module pwm #(
   end
 
   // threshold - carrier lies in -5643..4095: its sign alone compares them.
-  logic        high, above;
+  logic        above;
   logic [12:0] unused_difference;
   logic [1:0]  high_q;  // leg A, leg B: wanted high
 
   assign {above, unused_difference} = threshold_q - {2'b00, level_q, rising_q};
-  assign high = !above;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) high_q <= 2'b00;
-    else high_q <= antiphase_q2 ? {!high, high} : {high && switch_b_q2, high && !switch_b_q2};
+    else if (above) high_q <= {antiphase_q2, 1'b0};
+    else high_q <= {switch_b_q2 && !antiphase_q2, !switch_b_q2 || antiphase_q2};
   end
 
   // One leg: both gates are off for DeadClocks whenever the wanted level changes or while disabled.
@@ -113,28 +113,31 @@ module pwm #(
   localparam int DEAD_BITS = (DeadClocks > 1) ? $clog2(DeadClocks) : 1;
   localparam logic [DEAD_BITS:0] DEAD = (DEAD_BITS + 1)'(2 ** DEAD_BITS - (DeadClocks - 1));
 
-  logic [1:0] hi_q, lo_q;
+  logic [1:0] wanted_q, changes, elapsed, hi_q, lo_q;
+
+  assign changes = high_q ^ wanted_q;
 
   for (genvar l = 0; l < 2; l++) begin : g_leg
-    logic               wanted_q, changes, elapsed;
     logic [DEAD_BITS:0] dead_q;
 
-    assign changes = high_q[l] != wanted_q;
-    assign elapsed = dead_q[DEAD_BITS];
+    assign elapsed[l] = dead_q[DEAD_BITS];
 
     always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) begin
-        wanted_q <= 1'b0;
-        dead_q   <= DEAD;
-        hi_q[l]  <= 1'b0;
-        lo_q[l]  <= 1'b0;
-      end else begin
-        wanted_q <= high_q[l];
-        if (!enable_i || changes) dead_q <= DEAD;
-        else if (!elapsed) dead_q <= dead_q + 1'b1;
-        hi_q[l] <= enable_i && !changes && elapsed && wanted_q;
-        lo_q[l] <= enable_i && !wanted_q && !changes && elapsed;
-      end
+      if (!rst_ni) dead_q <= DEAD;
+      else if (!enable_i || changes[l]) dead_q <= DEAD;
+      else if (!dead_q[DEAD_BITS]) dead_q <= dead_q + 1'b1;
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      wanted_q <= 2'b00;
+      hi_q     <= 2'b00;
+      lo_q     <= 2'b00;
+    end else begin
+      wanted_q <= high_q;
+      hi_q     <= {2{enable_i}} & ~changes & elapsed & wanted_q;
+      lo_q     <= {2{enable_i}} & ~changes & elapsed & ~wanted_q;
     end
   end
 

@@ -51,26 +51,34 @@ module quad_decoder #(
     end
   end
 
-  // A level that differs from the accepted one must last while `wait_q` runs from filter_i to 0.
+  // A level that differs from the accepted one must last while its wait_q runs from filter_i to 0.
+  // Whole words, not bit by bit: a simulator then has a third of the work.
+  logic [2:0] differs, elapsed_q, ends, reload, accept;  // elapsed_q: wait_q is 0
+
+  assign differs  = sync_q ^ level_q;
+  assign changed  = differs & elapsed_q & {3{primed_q}};
+  assign rejected = ~differs & (previous_q ^ sync_q) & {3{primed_q}};
+  assign accept   = elapsed_q | {3{!primed_q}};  // the first sample counts as no edge
+  assign reload   = ~differs | accept;
+
   for (genvar c = 0; c < 3; c++) begin : g_filter
     logic [3:0] wait_q;
-    logic       differs, elapsed_q, reload;  // elapsed_q: wait_q is 0
 
-    assign differs     = sync_q[c] != level_q[c];
-    assign changed[c]  = differs && elapsed_q && primed_q;
-    assign rejected[c] = !differs && (previous_q[c] != sync_q[c]) && primed_q;
-    assign reload      = !differs || elapsed_q || !primed_q;
+    assign ends[c] = wait_q == 4'd1;
 
     always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) begin
-        wait_q     <= 4'd0;
-        elapsed_q  <= 1'b1;
-        level_q[c] <= 1'b0;
-      end else begin
-        wait_q    <= reload ? filter_i : wait_q - 4'd1;
-        elapsed_q <= reload ? filter_i == 4'd0 : wait_q == 4'd1;
-        if (elapsed_q || !primed_q) level_q[c] <= sync_q[c];  // the first sample counts as no edge
-      end
+      if (!rst_ni) wait_q <= 4'd0;
+      else wait_q <= reload[c] ? filter_i : wait_q - 4'd1;
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      elapsed_q <= 3'b111;
+      level_q   <= 3'b000;
+    end else begin
+      elapsed_q <= (reload & {3{filter_i == 4'd0}}) | (~reload & ends);
+      level_q   <= (accept & sync_q) | (~accept & level_q);
     end
   end
 

@@ -106,16 +106,18 @@ FELTGATE_LANES void limit(BatchLanes<D, Lanes>& b, int scene) {
   b.scene = scene;
   for (std::size_t k = 0; k < Lanes; ++k) {
     const typename BatchLanes<D, Lanes>::Reader words(&b, k);
-    ScenesPort<D, FixedLanes> port;
-    port.resume(scene, b.ramping[k] != 0, number<D::f.ramp.key()>(b.reference[k]));
-    port.begin(Armed, scene);
-    port.limit(number<D::f.torque.key()>(b.scene_torque[k]), words.torque_limit());
-    port.move(words.ramp_step());
-    b.ramping[k] = port.ramping();
-    b.reference[k] = port.reference().raw();
-    b.tau_ref[k] = port.tau_ref().raw();
-    b.limit_torque[k] = port.limit_torque();
-    b.limit_ramp[k] = port.limit_ramp();
+    using Ramp = RampLaw<D, FixedLanes>;
+    Ramp ramp;
+    ramp.resume(scene, b.ramping[k] != 0, number<D::f.ramp.key()>(b.reference[k]));
+    ramp.begin(Armed, scene);
+    ramp.limit(number<D::f.scene_torque.key()>(b.scene_torque[k]),
+               words.template get<Ramp::kLimitKey>(D::A::torque_limit));
+    ramp.move(words.ramp_step());
+    b.ramping[k] = ramp.ramping();
+    b.reference[k] = ramp.reference().raw();
+    b.tau_ref[k] = ramp.tau_ref().raw();
+    b.limit_torque[k] = ramp.limit_torque();
+    b.limit_ramp[k] = ramp.limit_ramp();
   }
 }
 

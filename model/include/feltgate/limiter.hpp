@@ -12,7 +12,7 @@ namespace feltgate {
 /// In number policy N, for design D. It reads a limit as so many low bits of its word, at the
 /// binary point of what is limited.
 template <class D, class N>
-struct Limiter {
+struct LimiterLaw {
   /// Format of a limit whose signal has `Fraction` fraction bits.
   template <int Fraction>
   static constexpr int key = Format{1, D::f.limiter.width() - 1 - Fraction, Fraction}.key();

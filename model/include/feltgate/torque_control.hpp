@@ -41,7 +41,7 @@ struct TorqueControlLaw {
 
   // The limiter reads every limit and border at the sum's binary point.
   template <int Fraction>
-  static constexpr int limit_key = Limiter<D, N>::template key<Fraction>;
+  static constexpr int limit_key = LimiterLaw<D, N>::template key<Fraction>;
   static constexpr int kCurrentKey = limit_key<D::f.current.fraction>;
   static constexpr int kBorderKey = limit_key<D::f.torque.fraction>;
   static constexpr int kVoltageKey = limit_key<D::f.voltage.fraction>;
@@ -85,7 +85,7 @@ struct TorqueControlLaw {
   /// x in [-limit, limit] as a To.
   template <class To, class X, class Limit>
   static constexpr To limited(X x, Limit limit, bool* hit) {
-    return Limiter<D, N>::template limited<To>(x, limit, hit);
+    return LimiterLaw<D, N>::template limited<To>(x, limit, hit);
   }
   /// Whether tau_ref lies in the high-torque region; at the border the low one holds.
   template <class X, class Border>

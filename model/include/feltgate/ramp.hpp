@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Law of rtl/ramp.sv: the torque reference follows the limited torque of the scene, in steps after
+// arming and after a change of scene. Documentation: docs/blocks/ramp.md
+#pragma once
+
+#include "feltgate/limiter.hpp"
+#include "feltgate/numbers.hpp"
+
+namespace feltgate {
+
+/// In number policy N, for design D: what stands between a scene and the torque reference, its
+/// limit included.
+template <class D, class N>
+class RampLaw {
+ public:
+  using Torque = typename N::template num<D::f.torque.key()>;
+  using Ramp = typename N::template num<D::f.ramp.key()>;
+  /// The torque limit as the limiter reads it.
+  static constexpr int kLimitKey = LimiterLaw<D, N>::template key<D::f.torque.fraction>;
+
+  /// Start of a wave: whether a ramp begins.
+  void begin(bool armed, int scene) {
+    if (!armed || scene != scene_) ramping_ = true;
+    scene_ = scene;
+    armed_ = armed;
+  }
+  /// The scene's torque in [-limit, limit]; a negative limit counts as 0.
+  template <class Rendered, class Limit>
+  void limit(Rendered tau, Limit limit) {
+    bool beyond = false;
+    const auto target =
+        LimiterLaw<D, N>::template limited<Torque>(armed_ ? tau : Rendered{}, limit, &beyond);
+    aim(target, beyond);
+  }
+  /// The target, and whether it was beyond the limit.
+  void aim(Torque target, bool beyond) {
+    target_ = target;
+    limit_torque_ = armed_ && beyond;
+  }
+  /// The reference's way to the target. A negative step counts as 0. The tick in which the target
+  /// is found to be within one step ends the ramp; the reference moves on with the next.
+  void move(Ramp step) {
+    limit_ramp_ = armed_ && ramping_;
+    if (!limit_ramp_) {
+      reference_ = quantise<N, Ramp, Round::truncate, Overflow::wrap>(target_);
+      return;
+    }
+    if (step < Ramp{}) step = Ramp{};
+    const auto excess = reference_ - target_;
+    if (excess <= step && -excess <= step) {
+      ramping_ = false;
+    } else if (excess > step) {
+      reference_ = quantise<N, Ramp, Round::truncate, Overflow::wrap>(reference_ - step);
+    } else {
+      reference_ = quantise<N, Ramp, Round::truncate, Overflow::wrap>(reference_ + step);
+    }
+  }
+
+  /// The reference, its bits below the torque format dropped.
+  Torque tau_ref() const {
+    return quantise<N, Torque, Round::truncate, Overflow::wrap>(reference_);
+  }
+  bool limit_torque() const { return limit_torque_; }
+  bool limit_ramp() const { return limit_ramp_; }
+
+  /// What lasts from tick to tick beside the scene, for those who keep it elsewhere.
+  const Ramp& reference() const { return reference_; }
+  bool ramping() const { return ramping_; }
+  void resume(int scene, bool ramping, Ramp reference) {
+    scene_ = scene;
+    ramping_ = ramping;
+    reference_ = reference;
+  }
+
+ private:
+  int scene_ = 0;
+  bool armed_ = false, ramping_ = true, limit_torque_ = false, limit_ramp_ = false;
+  Torque target_{};
+  Ramp reference_{};
+};
+
+}  // namespace feltgate

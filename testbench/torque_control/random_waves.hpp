@@ -42,7 +42,7 @@ struct RandomWaves {
     if (kind >= 1) {
       w.words.set(A::current_limit, limit<Current>());
       w.words.set(A::voltage_limit, limit<Voltage>());
-      w.words.set(A::duty_limit, random.between(0, 4095));
+      w.words.set(A::duty_limit, random.between(0, 4095) >> random.below(12));
     }
     w.words.set(A::voltage_setpoint, any<Voltage>());
     if (kind == 3 && random.one_in(4)) {
@@ -54,7 +54,7 @@ struct RandomWaves {
     w.tau_hat = random.coin() ? any<Torque>() : random.between(-40000, 40000);
     w.velocity = any<Velocity>();
     if (random.one_in(4)) {
-      const std::int64_t border = w.words.get<Design::f.torque.key()>(A::region_torque).raw();
+      const std::int64_t border = w.words.get<Step::Law::kBorderKey>(A::region_torque).raw();
       w.tau_ref = (random.coin() ? border : -border) + random.between(-1, 1);
       if (w.tau_ref > Torque::max_raw()) w.tau_ref = Torque::max_raw();
       if (w.tau_ref < Torque::min_raw()) w.tau_ref = Torque::min_raw();
@@ -66,32 +66,35 @@ struct RandomWaves {
 using Twin = Watched<Control, Wave>;
 using Bench = LockStep<Vtorque_control, Twin, Adapter>;
 
-/// A wave of 50 clocks, then up to `spread` - 1 clocks of rest.
+/// A wave, then up to `spread` - 1 clocks of rest. The one that follows a reset is disarmed, as in
+/// the core: the sums have no reset.
 struct Waves {
   Waves(std::uint64_t seed, std::uint32_t more_clocks)
-      : next{Random(seed)}, mult(seed + 1), garbage(seed + 2), spread(more_clocks) {}
+      : next{Random(seed)}, shared(seed + 1), spread(more_clocks) {}
 
   Twin::In operator()(std::int64_t, const Twin::Out& out) {
-    if (out.resets != resets) {
+    const bool first = out.resets != resets;
+    if (first) {
       resets = out.resets;
       clock = 0;
     }
     if (clock == 0) {
       in.aside = next();
-      period = 50 + static_cast<int>(garbage.below(spread));
+      if (first) in.aside.armed = false;
+      period = kShortest + static_cast<int>(shared.garbage.below(spread));
     }
-    in.port = wave_inputs(in.aside, clock, out.port, mult, garbage);
+    in.port = wave_inputs(in.aside, clock, out.port, shared);
     clock = clock + 1 == period ? 0 : clock + 1;
     return in;
   }
 
+  static constexpr int kShortest = Map::T::duty + 2;
   RandomWaves next;
-  SharedMult mult;
-  Random garbage;
+  Shared shared;
   std::uint32_t spread;
   Twin::In in;
   std::int64_t resets = 0;
-  int clock = 0, period = 50;
+  int clock = 0, period = kShortest;
 };
 
 /// By sign where it has one: [0] negative, [1] positive.
@@ -100,13 +103,13 @@ struct Tally {
                duty[2] = {}, dead[2] = {}, dead_linear = 0, border[2] = {}, high[2] = {};
 };
 
-/// tick() is due when the duty is: after clock 45.
+/// tick() is due when the duty is.
 struct TickBeside {
   Tally* tally;
 
   const char* operator()(const Twin::In& in, const Vtorque_control& rtl, const Twin&,
                          bool in_reset) {
-    if (in_reset || in.port.wave != 45) return nullptr;
+    if (in_reset || ((in.port.wave >> Map::T::duty) & 1u) == 0) return nullptr;
     Step step;
     tick(step, in.aside);
     count(in.aside, step);
@@ -127,10 +130,10 @@ struct TickBeside {
     ++tally->waves;
     if (!w.armed) ++tally->disarmed;
     ++tally->modes[static_cast<int>(w.mode)];
-    if (step.limit.current) ++tally->current[step.current.raw() > 0];
-    if (step.limit.voltage) ++tally->voltage[step.voltage.raw() > 0];
-    if (step.limit.duty) ++tally->duty[step.duty.raw() > 0];
-    const std::int64_t border = w.words.get<Design::f.torque.key()>(A::region_torque).raw();
+    if (step.limit.current && step.current.raw() != 0) ++tally->current[step.current.raw() > 0];
+    if (step.limit.voltage && step.voltage.raw() != 0) ++tally->voltage[step.voltage.raw() > 0];
+    if (step.limit.duty && step.duty.raw() != 0) ++tally->duty[step.duty.raw() > 0];
+    const std::int64_t border = w.words.get<Step::Law::kBorderKey>(A::region_torque).raw();
     if (w.tau_ref == border || w.tau_ref == -border) ++tally->border[w.tau_ref > 0];
     if (step.region_high) ++tally->high[w.tau_ref > 0];
     const double slope =

@@ -31,8 +31,8 @@ Wave stall(double tau_ref) {
 TEST_CASE("torque_control: random waves, words, modes, arming and resets") {
   Tally t;
   Bench bench("torque_control", 1);
-  bench.run(Waves(2, 20), scaled_clocks(2000000), {20000}, TickBeside{&t});
-  bench.run(Waves(3, 1), scaled_clocks(1500000), {400}, TickBeside{&t});
+  bench.run(Waves(2, 20), scaled_clocks(1000000), {20000}, TickBeside{&t});
+  bench.run(Waves(3, 1), scaled_clocks(900000), {400}, TickBeside{&t});
   const auto often = [&t](const std::int64_t count[2], std::int64_t one_in) {
     return count[0] * one_in > t.waves && count[1] * one_in > t.waves;
   };
@@ -123,7 +123,7 @@ TEST_CASE("torque_control: voltage mode and disarming") {
 TEST_CASE("torque_control: distance from quad precision") {
   Worst worst;
   RandomWaves random{Random(51)};
-  for (std::int64_t k = 0; k < scaled_clocks(100000); ++k) {
+  for (std::int64_t k = 0; k < scaled_clocks(50000); ++k) {
     Wave w;  // the design's words
     w.mode = static_cast<Mode>(random.random.below(3));
     w.tau_ref = random.random.between(-32768, 32768);  // +-0.5 Nm

@@ -2,23 +2,29 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // torque_control of a design as it sits in the core: the words of a wave on the parameter bus, its
-// operands on the shared multiplier, and the adapter. Documentation: docs/blocks/torque_control.md
+// operands on the shared multiplier, its sums in the shared limiter, and the adapter.
+// Documentation: docs/blocks/torque_control.md
 #pragma once
 
 #include <Vtorque_control.h>
 
+#include <algorithm>
 #include <array>
+#include <initializer_list>
 
+#include "../limiter/shared_limiter.hpp"
 #include "../lowpass/exact.hpp"
 #include "../mult/shared_mult.hpp"
 #include "feltgate/generated/reader.hpp"
-#include "feltgate/torque_control.hpp"
 #include "lock_step.hpp"
+#include "torque_control_twin.hpp"
+#include "unreset.hpp"
 
 namespace feltgate::test {
 
 using A = Design::A;
-using Control = TorqueControl<Design>;
+/// What it gives to the limiter is known from the first clock on.
+using Control = Filled<TorqueControl<Design>, 1>;
 using Step = TorqueControlStep<Design, Fixed>;
 using Torque = fixed_of<Design::f.torque.key()>;
 using Current = fixed_of<Design::f.current.key()>;
@@ -60,41 +66,64 @@ inline void tick(Step& step, const Wave& w) {
             Velocity::from_raw(w.velocity));
 }
 
-/// The inputs of clock `clock` of a wave, given the outputs; to be called once per clock. After the
-/// wave's last clock (49) the bus carries garbage.
-inline Control::In wave_inputs(const Wave& w, int clock, const Control::Out& out, SharedMult& mult,
-                               Random& garbage) {
+/// What torque_control shares, and what it sees of it when the others use it.
+struct Shared {
+  explicit Shared(std::uint64_t seed) : mult(seed), limiter(seed + 1), garbage(seed + 2) {}
+  SharedMult mult;
+  SharedLimiter<Design> limiter;
+  Random garbage;
+};
+
+/// The inputs of clock `clock` of a wave, given the outputs; to be called once per clock. In the
+/// clocks of others, and after the last of the wave, the buses carry garbage.
+inline Control::In wave_inputs(const Wave& w, int clock, const Control::Out& out, Shared& shared) {
+  using W = Map::W;
+  const auto is_one_of = [clock](std::initializer_list<int> slots) {
+    return std::find(slots.begin(), slots.end(), clock) != slots.end();
+  };
+  const auto ahead_of = [clock](std::initializer_list<int> slots) {
+    return std::find(slots.begin(), slots.end(), clock + 1) != slots.end();
+  };
   Control::In in;
   in.armed = w.armed;
   in.mode = w.mode;
-  in.wave = clock < 50 ? clock : -1;
-  in.tau_ref = w.tau_ref;
-  in.product = mult.product();
-  in.param = static_cast<std::int32_t>(garbage.bits() >> 32);
-  const bool has_word = (clock >= 22 && clock <= 30) || clock == 33 || clock == 34 || clock == 35 ||
-                        clock == 39 || clock == 40 || clock == 45;
-  if (has_word) {
-    in.param =
-        w.words.at(clock == A::voltage_gain && out.region_high ? A::voltage_gain_high : clock);
+  in.wave = clock < Map::wave_length ? std::uint64_t{1} << clock : 0;
+  in.tau_ref = clock > Map::T::tau_ref ? w.tau_ref : shared.garbage.between(-1000000, 1000000);
+  in.product = shared.mult.product();
+  in.limited = shared.limiter.limited();
+  in.beyond = shared.limiter.beyond();
+  in.param = static_cast<std::uint32_t>(shared.garbage.bits() >> 32);
+  const bool limits =
+      is_one_of({W::current_limit, W::dead_voltage, W::voltage_limit, W::duty_limit});
+  const bool compares = clock == W::region_torque;
+  if (limits || compares ||
+      is_one_of({W::voltage_setpoint, W::emf_constant, W::observer_gain, W::voltage_to_current,
+                 W::torque_gain, W::dead_voltage_slope, W::voltage_gain, W::duty_gain})) {
+    const bool high = clock == W::voltage_gain && out.region_high;
+    in.param = static_cast<std::uint32_t>(w.words.at(high ? A::voltage_gain_high : clock));
   }
-  const std::int64_t unsigned_word = in.param & 0x1ffff;
+  const bool valid = ahead_of({W::current_limit, W::dead_voltage, W::voltage_limit, W::duty_limit});
+  shared.limiter.clock(limits || compares, {valid, out.ahead, out.late, in.param});
+
+  const std::int64_t coefficient = in.param & ((1u << Design::coefficient_bits) - 1);
+  SharedMult& mult = shared.mult;
   switch (clock) {
-    case A::emf_constant:
-      mult.operands(w.velocity, unsigned_word);
+    case W::emf_constant:
+      mult.operands(w.velocity, coefficient);
       break;
-    case A::observer_gain:
+    case W::observer_gain:
       mult.operands(w.tau_hat, w.words.get<Design::P::observer_gain.key()>(clock).raw());
       break;
-    case A::voltage_to_current:
-      mult.operands(out.voltage, unsigned_word);
+    case W::voltage_to_current:
+      mult.operands(out.voltage, coefficient);
       break;
-    case A::torque_gain:
-    case A::dead_voltage_slope:
-      mult.operands(w.tau_ref, unsigned_word);
+    case W::torque_gain:
+    case W::dead_voltage_slope:
+      mult.operands(w.tau_ref, coefficient);
       break;
-    case A::voltage_gain:
-    case A::duty_gain:
-      mult.operands(out.operand, unsigned_word);
+    case W::voltage_gain:
+    case W::duty_gain:
+      mult.operands(in.limited, coefficient);
       break;
     default:
       mult.others();
@@ -110,16 +139,19 @@ struct Adapter {
   static void set_ports(Vtorque_control& rtl, const Control::In& in) {
     rtl.armed_i = in.armed;
     rtl.mode_i = static_cast<std::uint8_t>(in.mode);
-    rtl.wave_i = in.wave < 0 ? 0 : std::uint64_t{1} << in.wave;
-    rtl.param_i = static_cast<std::uint32_t>(in.param & 0xffffffff);
+    rtl.wave_i = in.wave;
+    rtl.param_i = in.param;
     rtl.product_i = port_bits<53, std::uint64_t>(in.product);
-    rtl.tau_ref_i = port_bits<21>(in.tau_ref);
+    rtl.tau_ref_i = port_bits<Torque::width>(in.tau_ref);
+    rtl.limited_i = port_bits<Design::f.limiter.width()>(in.limited);
+    rtl.beyond_i = in.beyond;
   }
   /// The RTL's outputs as the twin's.
   static Control::Out outputs(const Vtorque_control& rtl) {
     Control::Out out;
     out.region_high = rtl.region_high_o != 0;
-    out.operand = sign_extend<Design::f.current.width()>(rtl.operand_o);
+    out.ahead = sign_extend<Design::f.limiter_input.width()>(rtl.ahead_o);
+    out.late = sign_extend<Design::f.limiter_input.width()>(rtl.late_o);
     out.current_ref = sign_extend<Design::f.current.width()>(rtl.current_ref_o);
     out.voltage = sign_extend<Design::f.voltage.width()>(rtl.voltage_o);
     out.duty = sign_extend<Design::f.duty.width()>(rtl.duty_o);
@@ -130,7 +162,10 @@ struct Adapter {
   static void compare(Check& check, const Vtorque_control& rtl, const Out& seen) {
     const Control::Out out = outputs(rtl);
     check("region_high", out.region_high, seen.port.region_high);
-    check("operand", out.operand, seen.port.operand);
+    if (seen.port.known) {
+      check("ahead", out.ahead, seen.port.ahead);
+      check("late", out.late, seen.port.late);
+    }
     check("current_ref", out.current_ref, seen.port.current_ref);
     check("voltage", out.voltage, seen.port.voltage);
     check("duty", out.duty, seen.port.duty);
@@ -143,7 +178,7 @@ struct Adapter {
 /// The RTL alone, wave by wave: for closed loops, in which its outputs come back.
 class RtlAlone {
  public:
-  RtlAlone() : rtl_(&context_), mult_(41), garbage_(42) {
+  RtlAlone() : rtl_(&context_), shared_(41) {
     rtl_.rst_ni = 1;
     rtl_.eval();
     rtl_.rst_ni = 0;
@@ -153,8 +188,8 @@ class RtlAlone {
   ~RtlAlone() { rtl_.final(); }
 
   Control::Out run(const Wave& wave) {
-    for (int k = 22; k < 47; ++k) {
-      clock(wave_inputs(wave, k, Adapter::outputs(rtl_), mult_, garbage_));
+    for (int k = Map::W::voltage_setpoint; k <= Map::T::duty; ++k) {
+      clock(wave_inputs(wave, k, Adapter::outputs(rtl_), shared_));
     }
     return Adapter::outputs(rtl_);
   }
@@ -169,8 +204,7 @@ class RtlAlone {
   }
   VerilatedContext context_;
   Vtorque_control rtl_;
-  SharedMult mult_;
-  Random garbage_;
+  Shared shared_;
 };
 
 }  // namespace feltgate::test

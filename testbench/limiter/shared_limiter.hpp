@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The core's one limiter as a block under test sees it: its own results in the clock after the
+// limit's word, those of others in every other clock, so that taking one a clock early or late
+// shows. Documentation: docs/blocks/limiter.md
+#pragma once
+
+#include "limiter_twin.hpp"
+#include "random.hpp"
+
+namespace feltgate::test {
+
+template <class D>
+class SharedLimiter {
+ public:
+  explicit SharedLimiter(std::uint64_t seed) : random_(seed) {}
+
+  /// What the block sees in this clock. Call clock() once after that.
+  std::int64_t limited() const { return out_.limited; }
+  bool beyond() const { return out_.beyond; }
+
+  /// `own`: the limit's word of the block under test is on the bus.
+  void clock(bool own, const typename Limiter<D>::In& in) {
+    limiter_.clock(in);
+    out_ = limiter_.out();
+    if (!own) {
+      constexpr int unused = 64 - D::f.limiter.width();
+      out_.limited = static_cast<std::int64_t>(random_.bits()) >> unused;
+      out_.beyond = random_.coin();
+    }
+  }
+
+ private:
+  Random random_;
+  Limiter<D> limiter_;
+  typename Limiter<D>::Out out_;
+};
+
+}  // namespace feltgate::test

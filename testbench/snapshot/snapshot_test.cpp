@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// snapshot: RTL against twin on every clock, and both against the list of words.
+// Documentation: docs/blocks/snapshot.md
+#include <Vsnapshot.h>
+
+#include <array>
+#include <set>
+
+#include "catch.hpp"
+#include "lock_step.hpp"
+#include "snapshot_twin.hpp"
+#include "unreset.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+using R = Map::R;
+using Twin = FilledPeek<Snapshot<READ_BACK != 0>, 1>;
+using Rtl = Unreset<Vsnapshot>;
+
+struct Adapter {
+  static void drive(Rtl& rtl, const Twin::In& in) {
+    rtl.slot_fetch_i = static_cast<std::uint8_t>(in.slot_fetch);
+    rtl.wave_i = in.wave;
+    rtl.status_i = in.status;
+    rtl.position_i = in.position;
+    rtl.tick_count_i = in.tick_count;
+    rtl.index_position_i = in.index_position;
+    rtl.error_count_i = in.error_count;
+    rtl.rejected_count_i = in.rejected_count;
+  }
+  template <class Check>
+  static void compare(Check& check, const Rtl& rtl, const Twin::Out& out) {
+    if (!out.known) return;
+    check("word", rtl.word_o, out.word);
+    check("valid", rtl.valid_o, out.valid);
+    check("slot", rtl.slot_o, out.slot);
+  }
+};
+
+using Bench = LockStep<Rtl, Twin, Adapter>;
+
+/// Ticks of 50 clocks or more; words that are new in every clock.
+struct Ticks {
+  Random random;
+  int clock = 0, period = Map::wave_length;
+
+  Twin::In operator()(std::int64_t) {
+    Twin::In in;
+    in.slot_fetch = clock & 63;
+    const int t = clock - Map::first_wave_clock;
+    in.wave = t >= 0 && t < Map::wave_length ? std::uint64_t{1} << t : 0;
+    in.status = static_cast<std::uint32_t>(random.bits());
+    in.position = static_cast<std::uint32_t>(random.bits());
+    in.tick_count = static_cast<std::uint32_t>(random.bits());
+    in.index_position = static_cast<std::uint32_t>(random.bits());
+    in.error_count = static_cast<std::uint16_t>(random.bits());
+    in.rejected_count = static_cast<std::uint16_t>(random.bits());
+    if (++clock >= period) {
+      clock = 0;
+      period = Map::wave_length + static_cast<int>(random.below(12));
+    }
+    return in;
+  }
+};
+
+/// What the words of a tick are, in the RTL before the edge: seen after it with the next inputs, so
+/// the twin's part of the comparison is the words by their clocks.
+struct Words {
+  std::array<std::int64_t, Map::wave_length>* seen;
+
+  const char* operator()(const Twin::In& in, const Rtl& rtl, const Twin&, bool in_reset) {
+    if (in_reset || in.wave == 0) return nullptr;
+    int t = 0;
+    while (((in.wave >> t) & 1u) == 0) ++t;
+    static const std::set<int> own{R::status, R::position, R::tick, R::index, R::encoder};
+    static const std::set<int> operands{R::velocity,    R::tau_hat, R::tau_ref,
+                                        R::current_ref, R::voltage, R::duty};
+    const bool stored = READ_BACK != 0 && (own.count(t) + operands.count(t)) != 0;
+    if ((rtl.valid_o != 0) != stored) return "valid in the clocks of the words";
+    if (rtl.slot_o != t) return "the slot is the clock of the wave";
+    // After the edge the word is that of the clock that comes.
+    const bool comes = READ_BACK != 0 && own.count(t + 1) != 0;
+    if ((rtl.word_o != 0) != comes) return "a word in its clock alone";
+    if (stored) ++(*seen)[static_cast<std::size_t>(t)];
+    return nullptr;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("snapshot: the words in their clocks, and nothing between them") {
+  std::array<std::int64_t, Map::wave_length> seen{};
+  const std::int64_t clocks = scaled_clocks(400000);
+  Bench bench("snapshot", 1);
+  bench.run(Ticks{Random(2)}, clocks, {3000}, Words{&seen});
+  int words = 0;
+  for (const std::int64_t count : seen) words += count * 100 > clocks;
+  REQUIRE(words == (READ_BACK != 0 ? 11 : 0));
+}

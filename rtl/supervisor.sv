@@ -158,8 +158,8 @@ module supervisor (
   assign i2t_trip       = wave_i[feltgate_map_pkg::T_HEAT] && too_hot_q;
 
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::T_COOLED]) cooled_q <= sum_less_param;
-    else if (wave_i[feltgate_map_pkg::T_COOLED_AT_LEAST_0] && cooled_q < 0) cooled_q <= '0;
+    if (wave_i[feltgate_map_pkg::T_COOLED_AT_LEAST_0] && cooled_q < 0) cooled_q <= '0;
+    else if (wave_i[feltgate_map_pkg::T_COOLED]) cooled_q <= sum_less_param;
   end
   always_ff @(posedge clk_i) begin
     if (wave_i[feltgate_map_pkg::S_I2T_BUDGET]) too_hot_q <= sum_less_param >= 0;

@@ -38,7 +38,7 @@ class Core {
   void run(long clocks) {
     for (const long end = now_ + clocks; now_ < end; ++now_) {
       if (now_ % 50 == 3) {
-        const long tick = now_ / 50, scene = tick / 4000 % 9;
+        const long tick = now_ / 50, scene = tick / 4000 % 10;
         rtl_.arm_i = tick > 20 && tick % 4000 > 10;
         rtl_.scene_i = scene == 1 ? 0 : static_cast<std::uint8_t>(scene);
       }

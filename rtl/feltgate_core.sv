@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The whole core: encoder pins to gate pins. Once per tick a wave runs through quad_decoder,
-// velocity_n, dob, scenes and torque_control. They share one parameter bus and, unless each has its
-// own, one multiplier, by clocks of the wave. Sampled position (clock 0) to duty: 46 clocks.
+// velocity_n, dob, scenes, limiter, ramp and torque_control. They share one parameter bus and, unless each
+// has its own, one multiplier, by clocks of the wave. Sampled position (clock 0) to duty: 47 clocks.
 // docs/blocks/feltgate_core.md, docs/architecture.md
 
 `default_nettype none

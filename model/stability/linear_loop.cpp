@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <unsupported/Eigen/MatrixFunctions>
 
 namespace feltgate::stability {
 
@@ -86,29 +85,50 @@ int period_ticks(const LoopModel& m, const Wall& wall) {
   return std::lcm(m.pwm_ticks, wall.scene_ticks);
 }
 
+/// exp(a*t) - 1, by a Taylor series and doubling.
+Eigen::Matrix4d exp_minus_one(const Eigen::Matrix4d& a, double t) {
+  const int doublings = std::max(0, std::ilogb(a.cwiseAbs().maxCoeff() * t) + 4);
+  const Eigen::Matrix4d step = a * std::ldexp(t, -doublings);
+  Eigen::Matrix4d term = step, sum = Eigen::Matrix4d::Zero();
+  for (int n = 2; n < 20; ++n) {
+    sum += term;
+    term = term * step / n;
+  }
+  for (int n = 0; n < doublings; ++n) sum = (2 * sum + sum * sum).eval();
+  return sum;
+}
+
+double back_emf_of(const plant::Parameters& p) {
+  return p.effects.back_emf ? p.motor.back_emf_constant_v_s_rad : 0.0;
+}
+
+/// The plant's change over one tick in which the voltage is held.
+Eigen::Matrix4d change_of(const plant::Parameters& p, double damping_nm_s_rad, double tick_s) {
+  const double r = p.motor.resistance_ohm, l = p.motor.inductance_h, j = p.lever.inertia_kg_m2;
+  const double kt = p.motor.torque_constant_nm_a, ke = back_emf_of(p), b = damping_nm_s_rad;
+  Eigen::Matrix4d rate = Eigen::Matrix4d::Zero();
+  if (p.effects.inductance) {
+    rate.row(LinearLoop::kCurrent) << -r / l, -ke / l, 0, 1 / l;
+    rate.row(LinearLoop::kSpeed) << kt / j, -b / j, 0, 0;
+  } else {
+    rate.row(LinearLoop::kSpeed) << 0, -(kt * ke / r + b) / j, 0, kt / (r * j);
+  }
+  rate(LinearLoop::kAngle, LinearLoop::kSpeed) = 1;
+  Eigen::Matrix4d change = exp_minus_one(rate, tick_s);
+  // A current that follows at once is no state: nothing of it remains after a tick.
+  if (!p.effects.inductance) change.row(LinearLoop::kCurrent) << -1, 0, 0, 0;
+  return change;
+}
+
 }  // namespace
 
-LoopModel make_model(const design::Elaborated& e, const plant::Parameters& p) {
-  const design::Design& d = e.design;
+LinearLoop make_linear_loop(const design::Elaborated& e, const plant::Parameters& p) {
   const auto word = [&](const char* name) { return e.word(name).quantised(); };
-  LoopModel m;
-  m.tick_s = d.tick_s();
-  m.m1 = d.m1;
-  m.pwm_ticks = d.pwm_period_clocks() / d.clocks_per_tick();
-  const double r = p.motor.resistance_ohm, kt = p.motor.torque_constant_nm_a;
-  const double ke = p.effects.back_emf ? p.motor.back_emf_constant_v_s_rad : 0.0;
-  const double l = p.effects.inductance ? p.motor.inductance_h : 1e-3 * r * m.tick_s;
-  m.inertia_kg_m2 = p.lever.inertia_kg_m2;
-  m.viscous_nm_s_rad = p.effects.viscous ? p.lever.viscous_nm_s_rad : 0.0;
-  m.torque_per_volt = kt / r;
-  m.motor_damping_nm_s_rad = kt * ke / r;
-  m.electrical_s = p.effects.inductance ? l / r : 0.0;
-  const double j = m.inertia_kg_m2;
-  Eigen::Matrix4d rate = Eigen::Matrix4d::Zero();
-  rate.row(0) << -r / l, -ke / l, 0, 1 / l;
-  rate.row(1) << kt / j, -m.viscous_nm_s_rad / j, 0, 0;
-  rate(2, 1) = 1;
-  m.plant = Eigen::Matrix4d((rate * m.tick_s).exp()).topRows<3>();
+  LinearLoop m;
+  m.tick_s = e.design.tick_s();
+  m.m1 = e.design.m1;
+  m.damping_nm_s_rad = plant::smooth_damping_nm_s_rad(p, p.effects);
+  m.change = change_of(p, m.damping_nm_s_rad, m.tick_s);
   const double two_pi = 6.283185307179586;
   m.raw_rad_s_rad = 4.0 * p.encoder.lines / two_pi * e.rad_s_per_count();
   m.velocity_a1 = word("velocity_a1");
@@ -117,9 +137,23 @@ LoopModel make_model(const design::Elaborated& e, const plant::Parameters& p) {
   m.inertia_gain = word("inertia_gain");
   m.torque_gain = word("torque_gain");
   m.observer_gain = word("observer_gain");
-  m.voltage_gain = word("voltage_gain");
   m.emf_constant = word("emf_constant");
-  m.applied = p.supply.voltage_v / d.supply_v;
+  m.applied = p.supply.voltage_v / e.design.supply_v;
+  return m;
+}
+
+LoopModel make_model(const design::Elaborated& e, const plant::Parameters& p) {
+  LoopModel m;
+  static_cast<LinearLoop&>(m) = make_linear_loop(e, p);
+  m.pwm_ticks = e.design.pwm_period_clocks() / e.design.clocks_per_tick();
+  m.voltage_gain = e.word("voltage_gain").quantised();
+  m.plant = (Eigen::Matrix4d::Identity() + m.change).topRows<3>();
+  const double r = p.motor.resistance_ohm, kt = p.motor.torque_constant_nm_a;
+  const double ke = back_emf_of(p);
+  m.inertia_kg_m2 = p.lever.inertia_kg_m2;
+  m.torque_per_volt = kt / r;
+  m.motor_damping_nm_s_rad = kt * ke / r;
+  m.electrical_s = p.effects.inductance ? p.motor.inductance_h / r : 0.0;
   m.compensated = ke == 0 ? 0.0 : m.emf_constant * m.applied / ke;
   // The estimator: a window of m1 ticks, then one pole.
   const double window_s = m.m1 * m.tick_s, pole_s = m.tick_s / m.velocity_a1;
@@ -205,7 +239,7 @@ double actuator_delay_s(const LoopModel& m, int scene_ticks) {
 namespace {
 
 double left_of_motor(const LoopModel& m) {
-  return m.motor_damping_nm_s_rad * (1 - m.compensated) + m.viscous_nm_s_rad;
+  return m.motor_damping_nm_s_rad * (1 - m.compensated) + m.damping_nm_s_rad;
 }
 
 double time_s(const LoopModel& m, int scene_ticks) {
@@ -236,7 +270,7 @@ double free_impedance_nm_rad(const LoopModel& m, double rad_s) {
   // The motor's torque per unit of speed, taken as a resistance.
   const Pole motor = m.motor_damping_nm_s_rad - m.torque_per_volt * m.applied * estimator *
                                                     (m.emf_constant + m.voltage_gain * reference);
-  return std::abs(s * (s * m.inertia_kg_m2 + m.viscous_nm_s_rad + motor));
+  return std::abs(s * (s * m.inertia_kg_m2 + m.damping_nm_s_rad + motor));
 }
 
 }  // namespace feltgate::stability

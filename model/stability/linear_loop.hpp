@@ -27,18 +27,31 @@ struct Wall {
 constexpr int host_ticks = 2;
 
 /// Constants of the loop, from a design with its quantised words and a linear plant.
-struct LoopModel {
+struct LinearLoop {
+  /// States of the motor with its lever, and its input.
+  enum : Eigen::Index { kCurrent, kSpeed, kAngle, kVoltage };
   double tick_s = 0;
-  int m1 = 0, pwm_ticks = 0;
-  Eigen::Matrix<double, 3, 4>
-      plant;                 ///< (current, speed, angle) after a tick, from those and volts
+  int m1 = 0;
+  /// By what they change over a tick: without the 1 of what stays, so that slow poles keep digits.
+  Eigen::Matrix4d change;
   double raw_rad_s_rad = 0;  ///< raw velocity per radian of travel in m1 ticks
   double velocity_a1 = 0, observer_a1 = 0;
   double torque_constant = 0, inertia_gain = 0, torque_gain = 0, observer_gain = 0;
-  double voltage_gain = 0, emf_constant = 0;
-  double applied = 0;  ///< plant volts per commanded volt
-  // For the closed forms:
-  double inertia_kg_m2 = 0, viscous_nm_s_rad = 0;
+  double emf_constant = 0;
+  double applied = 0;           ///< plant volts per commanded volt
+  double damping_nm_s_rad = 0;  ///< of the lever
+};
+
+/// Of the plant count: inductance, back-EMF, and friction that grows with speed.
+LinearLoop make_linear_loop(const design::Elaborated& e, const plant::Parameters& plant);
+
+/// The same with a voltage gain and PWM periods, and what the closed forms need.
+struct LoopModel : LinearLoop {
+  int pwm_ticks = 0;
+  double voltage_gain = 0;
+  Eigen::Matrix<double, 3, 4>
+      plant;  ///< (current, speed, angle) after a tick, from those and volts
+  double inertia_kg_m2 = 0;
   double torque_per_volt = 0;         ///< Kt/R of the plant, Nm/V
   double motor_damping_nm_s_rad = 0;  ///< Kt*Ke/R of the plant
   double compensated = 0;             ///< share of it that the voltage law takes away at rest
@@ -47,7 +60,7 @@ struct LoopModel {
   double velocity_moment_s2 = 0;  ///< half the second moment of the estimator's impulse response
 };
 
-/// Of the plant count: inductance, back-EMF, viscous friction. Of two voltage gains, the low one.
+/// Of two voltage gains, the low one.
 LoopModel make_model(const design::Elaborated& e, const plant::Parameters& plant);
 
 /// An eigenvalue as a pole, rad/s.

@@ -62,7 +62,7 @@ void borders(std::string& out, const Study& s) {
       "{:.4g};\ntd = {:.4g} us at 1 MHz, {:.4g} us behind a host; estimator lag {:.4g} ms, J = "
       "{:.3g} kg "
       "m^2\n",
-      m.viscous_nm_s_rad, m.motor_damping_nm_s_rad, m.compensated, 1e6 * actuator_delay_s(m, 1),
+      m.damping_nm_s_rad, m.motor_damping_nm_s_rad, m.compensated, 1e6 * actuator_delay_s(m, 1),
       1e6 * actuator_delay_s(m, 2), 1e3 * m.velocity_delay_s, m.inertia_kg_m2);
 }
 

@@ -9,13 +9,13 @@
 #include <memory>
 
 #include "bounds/error_bounds.hpp"
-#include "design/for_plant.hpp"
 #include "design/for_scenes.hpp"
 #include "design/generate.hpp"
-#include "design/loop_poles.hpp"
 #include "files/output_file.hpp"
 #include "loop/scenario.hpp"
 #include "plant/plant_file.hpp"
+#include "stability/for_plant.hpp"
+#include "stability/loop_poles.hpp"
 #include "tools/commands.hpp"
 
 namespace feltgate {
@@ -97,7 +97,7 @@ int design_for_plant(const DesignArguments& a, const design::RegisterMap& regist
   const std::string plant_path = find_file(a.for_plant, "vectors/plants");
   const std::string name = name_for(plant_path, a.output);
   const std::string path = a.output.empty() || a.output == "-" ? name + ".toml" : a.output;
-  const design::PlantDesign made = design::design_for_plant(
+  const stability::PlantDesign made = stability::design_for_plant(
       base_path, plant::read_plant_file(plant_path), a.for_plant, path, registers);
   files::Outputs outputs;
   outputs.reads(base_path);
@@ -106,7 +106,7 @@ int design_for_plant(const DesignArguments& a, const design::RegisterMap& regist
   outputs.commit();
   std::string told =
       fmt::format("{}: {} with the constants of {}; stable around it\n", path, base, a.for_plant);
-  for (const design::Constant& c : made.changed) {
+  for (const stability::Constant& c : made.changed) {
     told += fmt::format("  {:<18} {:.6g} instead of {:.6g} {}\n", c.name, c.of_plant, c.of_design,
                         c.unit);
   }
@@ -120,8 +120,8 @@ int table_of(const DesignArguments& a, const design::RegisterMap& registers) {
   std::string text = design_table(e) + "\n" + bound_table(bounds::error_bounds(e));
   if (!a.plant.empty()) {
     const auto p = plant::read_plant_file(find_file(a.plant, "vectors/plants"));
-    refuse_unstable(e, p);
-    text += loop_table(closed_loop(e, p));
+    stability::refuse_unstable(e, p);
+    text += stability::loop_table(stability::closed_loop(e, p));
   }
   std::fputs(text.c_str(), stdout);
   return exit_ok;

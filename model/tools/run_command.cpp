@@ -106,7 +106,7 @@ int run(const RunArguments& a) {
   options.progress = [&progress](double done) { progress.update(done); };
   const RunResult result = run_within_bounds(elaborated, scenario, plant, options);
   RunLabels labels{"scene", plant.name, "", scenario.step_clocks, effects_off(scenario)};
-  labels.differing = design::differing_constants(elaborated.design, plant, scenario.effects);
+  labels.differing = stability::differing_constants(elaborated.design, plant, scenario.effects);
   labels.plant_as_named = scenario.plant;
   for (files::OutputFile* file : {json, report_json}) {
     if (file != nullptr) file->write(run_json(result, labels));

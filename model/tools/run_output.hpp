@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "design/for_plant.hpp"
 #include "loop/loop.hpp"
+#include "stability/for_plant.hpp"
 
 namespace feltgate {
 
@@ -24,10 +24,10 @@ constexpr const char* every_help =
 struct RunLabels {
   std::string subject_key;  ///< "scene" or "trace"
   std::string plant, probes;
-  int step_clocks = 0;                           ///< of the plant
-  std::vector<std::string> effects_off = {};     ///< of the plant
-  std::vector<design::Constant> differing = {};  ///< constants in which design and plant differ
-  std::string plant_as_named = {};               ///< by the user, for the command that mends it
+  int step_clocks = 0;                              ///< of the plant
+  std::vector<std::string> effects_off = {};        ///< of the plant
+  std::vector<stability::Constant> differing = {};  ///< constants in which design and plant differ
+  std::string plant_as_named = {};                  ///< by the user, for the command that mends it
 };
 
 /// The JSON object, pretty-printed.

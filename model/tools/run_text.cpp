@@ -174,7 +174,7 @@ namespace {
 std::string differing_lines(const RunLabels& labels) {
   if (labels.differing.empty()) return {};
   std::string text = "the plant is not the one that the design counts on:\n";
-  for (const design::Constant& c : labels.differing) {
+  for (const stability::Constant& c : labels.differing) {
     text += fmt::format("  {:<18} design {:.4g}, plant {:.4g} {}", c.name, c.of_design, c.of_plant,
                         c.unit);
     if (std::isfinite(c.excess())) text += fmt::format(" ({:+.1f} %)", 100 * c.excess());

@@ -5,12 +5,12 @@
 // published voltage gain, a wall at the edge of stability. Documentation: docs/extremes.md
 #include <cmath>
 
-#include "design/loop_poles.hpp"
 #include "extremes/closed_loop.hpp"
 #include "extremes/table.hpp"
 #include "extremes/wide_design.hpp"
 #include "stability/bit_loop.hpp"
 #include "stability/linear_loop.hpp"
+#include "stability/loop_poles.hpp"
 
 namespace feltgate::extremes {
 
@@ -80,7 +80,7 @@ double first_unstable_ratio(double kp, double about, const Settings& s) {
   double low = 0.9 * about, high = 1.1 * about;
   for (int i = 0; i < 8; ++i) {
     const double middle = (low + high) / 2;
-    (closed_loop(e, plant_at(s, jn, middle)).stable() ? low : high) = middle;
+    (stability::closed_loop(e, plant_at(s, jn, middle)).stable() ? low : high) = middle;
   }
   return (low + high) / 2;
 }
@@ -166,7 +166,7 @@ Outcome lever_inertia(const Settings& s) {
     const plant::Parameters plant = plant_at(s, 1.22e-4, ratio);
     const std::string in = ", Jn/J = " + number(ratio);
     int unstable = 0;
-    for (const auto& region : closed_loop(e, plant).regions) unstable += region.unstable;
+    for (const auto& region : stability::closed_loop(e, plant).regions) unstable += region.unstable;
     Finding poles{"unstable poles" + in, "", exactly(0), {}, {}, static_cast<double>(unstable)};
     o.findings.push_back(poles);
     Finding speed{

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A design and a plant. Documentation: docs/designs.md
-#include "design/for_plant.hpp"
+#include "stability/for_plant.hpp"
 
 #include <fmt/format.h>
 
@@ -12,10 +12,12 @@
 #include <optional>
 
 #include "config/toml_reader.hpp"
-#include "design/loop_poles.hpp"
 #include "design/text_edit.hpp"
+#include "stability/loop_poles.hpp"
 
-namespace feltgate::design {
+namespace feltgate::stability {
+
+using namespace design;
 
 namespace {
 
@@ -197,4 +199,4 @@ PlantDesign design_for_plant(const std::string& base, const Parameters& p,
   return made;
 }
 
-}  // namespace feltgate::design
+}  // namespace feltgate::stability

@@ -3,20 +3,22 @@
 //
 // A design for a plant: which constants differ, the design that has the plant's, its checks.
 // Documentation: docs/designs.md
-#include "design/for_plant.hpp"
+#include "stability/for_plant.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "catch.hpp"
 #include "config/toml_reader.hpp"
-#include "design/loop_poles.hpp"
 #include "plant/plant_file.hpp"
+#include "stability/loop_poles.hpp"
 
 namespace {
 
 using namespace feltgate;
-using design::Constant;
+using stability::closed_loop;
+using stability::Constant;
+using stability::differing_constants;
 
 const std::string kRoot = FELTGATE_ROOT;
 
@@ -28,10 +30,10 @@ plant::Parameters plant_file(const std::string& name) {
   return plant::read_plant_file(kRoot + "/vectors/plants/" + name + ".toml");
 }
 
-design::PlantDesign made_for(const plant::Parameters& p, const std::string& name = "my motor",
-                             const std::string& base = "lever") {
-  return design::design_for_plant(design_path(base), p, name, "mine.toml",
-                                  design::read_registers(kRoot + "/rtl/registers.toml"));
+stability::PlantDesign made_for(const plant::Parameters& p, const std::string& name = "my motor",
+                                const std::string& base = "lever") {
+  return stability::design_for_plant(design_path(base), p, name, "mine.toml",
+                                     design::read_registers(kRoot + "/rtl/registers.toml"));
 }
 
 /// A plant in which everything is another: encoder without a power of two, more friction.
@@ -78,7 +80,7 @@ TEST_CASE("lever is for p24, and on p48 it is told which constants are others") 
 
 TEST_CASE("a design for a plant has its constants, and the checker and the poles pass it") {
   const plant::Parameters p = other_plant();
-  const design::PlantDesign made = made_for(p);
+  const stability::PlantDesign made = made_for(p);
   const design::Design& d = made.design.design;
   CHECK(d.torque_constant_nm_a == p.motor.torque_constant_nm_a);
   CHECK(d.emf_constant_v_s_rad == p.motor.back_emf_constant_v_s_rad);
@@ -114,7 +116,7 @@ TEST_CASE("twice the lines move the binary point, four times the current widens 
 }
 
 TEST_CASE("the design for its own plant is the base") {
-  const design::PlantDesign made = made_for(plant_file("p24"));
+  const stability::PlantDesign made = made_for(plant_file("p24"));
   CHECK(made.changed.empty());
   CHECK(made.design.design.n == 1);
   CHECK(made.design.design.wall_nm_rad == 4.0);

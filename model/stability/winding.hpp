@@ -9,7 +9,7 @@
 #include <functional>
 #include <vector>
 
-namespace feltgate::design {
+namespace feltgate::stability {
 
 using Complex = std::complex<double>;
 /// Analytic in the region asked for, f(conj(s)) = conj(f(s)).
@@ -24,4 +24,4 @@ int zeros_right_of(const AnalyticFunction& f, double real, double top, int piece
 /// multiplicity, to 1e-9 of its size. The border should be free of zeros.
 std::vector<Complex> zeros_in(const AnalyticFunction& f, Complex low, Complex high);
 
-}  // namespace feltgate::design
+}  // namespace feltgate::stability

@@ -11,7 +11,7 @@
 #include "design/design.hpp"
 #include "plant/parameters.hpp"
 
-namespace feltgate::design {
+namespace feltgate::stability {
 
 /// A constant that design and plant both have.
 struct Constant {
@@ -27,13 +27,13 @@ constexpr double noticeable = 0.01;
 
 /// Those of `plant` that the voltage law, the observer or the encoder of `d` counts on and that
 /// differ noticeably; an effect that is off in `effects` does not count.
-std::vector<Constant> differing_constants(const Design& d, const plant::Parameters& plant,
+std::vector<Constant> differing_constants(const design::Design& d, const plant::Parameters& plant,
                                           const plant::Effects& effects);
 
 /// A design for a plant, not written yet.
 struct PlantDesign {
   std::string text;  ///< of the file
-  Elaborated design;
+  design::Elaborated design;
   std::vector<Constant> changed;   ///< of_design: of the base
   std::vector<std::string> notes;  ///< what a plant file does not say and a user should look at
 };
@@ -44,6 +44,6 @@ struct PlantDesign {
 /// voltage law than motor_model, a value out of range, an unstable loop.
 PlantDesign design_for_plant(const std::string& base, const plant::Parameters& plant,
                              const std::string& plant_name, const std::string& path,
-                             const RegisterMap& registers);
+                             const design::RegisterMap& registers);
 
-}  // namespace feltgate::design
+}  // namespace feltgate::stability

@@ -12,7 +12,7 @@
 #include "design/design.hpp"
 #include "plant/parameters.hpp"
 
-namespace feltgate::design {
+namespace feltgate::stability {
 
 /// The loop in one region of the voltage law.
 struct LoopRegion {
@@ -43,13 +43,13 @@ constexpr double pole_range_rad_s = 1e4;
 
 /// The loop of the quantised design around a plant whose wiring is what the design's polarity flags
 /// say. Of the plant count: inductance, back-EMF and viscous friction where its effects have them.
-ClosedLoop closed_loop(const Elaborated& e, const plant::Parameters& plant);
+ClosedLoop closed_loop(const design::Elaborated& e, const plant::Parameters& plant);
 
 /// Throws config::ConfigError at the line to change when the loop is unstable; the message names
 /// the pole and the changes of the design, each tried, that make it stable.
-void refuse_unstable(const Elaborated& e, const plant::Parameters& plant);
+void refuse_unstable(const design::Elaborated& e, const plant::Parameters& plant);
 
 /// What `feltgate design --plant` prints.
 std::string loop_table(const ClosedLoop& loop);
 
-}  // namespace feltgate::design
+}  // namespace feltgate::stability

@@ -6,13 +6,14 @@
 // exactly 1 and without the tick of delay; hence the tolerances. Documentation: docs/designs.md
 #include <cmath>
 
-#include "design/loop_poles.hpp"
-#include "design/winding.hpp"
-#include "design_fixture.hpp"
+#include "../design/design_fixture.hpp"
 #include "plant/plant_file.hpp"
+#include "stability/loop_poles.hpp"
+#include "stability/winding.hpp"
 
 using namespace feltgate;
 using namespace feltgate::design;
+using namespace feltgate::stability;
 
 namespace {
 

@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Counting and finding zeros by the argument principle. Documentation: docs/designs.md
-#include "design/winding.hpp"
+#include "stability/winding.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace feltgate::design {
+namespace feltgate::stability {
 
 namespace {
 
@@ -109,4 +109,4 @@ std::vector<Complex> zeros_in(const AnalyticFunction& f, Complex low, Complex hi
   return found;
 }
 
-}  // namespace feltgate::design
+}  // namespace feltgate::stability

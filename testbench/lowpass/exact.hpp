@@ -89,15 +89,18 @@ struct Watched {
   struct Out {
     typename Block::Out port;
     std::int64_t resets = 0;
+    bool clocked = false;  ///< since the last reset: what has none is known
   };
   void reset() {
     block.reset();
     seen.port = block.out();
     ++seen.resets;
+    seen.clocked = false;
   }
   void clock(const In& in) {
     block.clock(in.port);
     seen.port = block.out();
+    seen.clocked = true;
   }
   const Out& out() const { return seen; }
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# feltgate_block_test(<block> [WITH_DEFECTS] [NAME <test>] [DESIGN <design>] [SOURCES extra.sv...]
-#                     [PARAMS -GName=value...] [DEFINES NAME=value...] [LIBRARIES target...])
+# feltgate_block_test(<block> [WITH_DEFECTS] [NAME <test>] [DESIGN <design> | PACKAGE <feltgate_pkg.sv>]
+#                     [SOURCES extra.sv...] [PARAMS -GName=value...] [DEFINES NAME=value...] [LIBRARIES target...])
 # verilates rtl/<block>.sv, links testbench/<block>/<block>_test.cpp to it and adds the CTest <test>
 # (default <block>, labels unit and lockstep). WITH_DEFECTS: also <test>.<defect> (label mutation) for
 # each patch in testbench/<block>/defects, which passes only when an assertion fails.

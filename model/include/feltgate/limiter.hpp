@@ -22,7 +22,7 @@ struct LimiterLaw {
   template <class To, class X, class Limit>
   static constexpr To limited(X x, Limit limit, bool* hit) {
     *hit = beyond<N>(x, limit);
-    if (limit < Limit{}) return To{};
+    if (limit < Limit{}) limit = Limit{};
     if (x > limit) return quantise<N, To, Round::truncate, Overflow::wrap>(limit);
     if (x < -limit) return quantise<N, To, Round::truncate, Overflow::wrap>(-limit);
     return quantise<N, To, Round::truncate, Overflow::wrap>(x);

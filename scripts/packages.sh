@@ -13,7 +13,7 @@ PACKAGES=(
   "build|python3|runs the build's small scripts"
   "build|verilator|turns the SystemVerilog core into a C++ simulation"
   "build|libboost-dev|intervals for the proven bounds, 128-bit floats (headers)"
-  "build|libeigen3-dev|eigenvalues of loops: feltgate stability (headers)"
+  "build|libeigen3-dev|poles of loops: feltgate stability and design (headers)"
   "build|libtomlplusplus-dev|reads designs, plants and scenes (TOML)"
   "build|libarchive-dev|reads sigrok recordings (zip)"
   "build|nlohmann-json3-dev|writes the JSON results"

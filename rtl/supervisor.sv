@@ -58,11 +58,13 @@ module supervisor (
   // 2|x| - 1 > 2 * limit says |x| > limit. Above a negative limit everything is.
   logic signed [31:0] signal;
   logic        [31:0] twice_size_q;
-  logic               over_limit;
 
-  assign signal     = wave_i[feltgate_map_pkg::T_STRONG_SIZE] ? 32'(current_ref_i) :
-                                                                 32'(velocity_i);
-  assign over_limit = param_i[31] || {param_i[30:0], 1'b0} < twice_size_q;
+  function automatic logic over(input logic [31:0] twice_size, input logic [31:0] limit);
+    over = limit[31] || {limit[30:0], 1'b0} < twice_size;
+  endfunction
+
+  assign signal = wave_i[feltgate_map_pkg::T_STRONG_SIZE] ? 32'(current_ref_i) :
+                                                             32'(velocity_i);
 
   always_ff @(posedge clk_i) begin
     if (wave_i[feltgate_map_pkg::T_SPEED_SIZE] || wave_i[feltgate_map_pkg::T_FAST_SIZE] ||
@@ -76,7 +78,7 @@ module supervisor (
   assign speed_trip = wave_i[feltgate_map_pkg::T_SPEED] && too_fast_q;
 
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::S_OVERSPEED]) too_fast_q <= over_limit;
+    if (wave_i[feltgate_map_pkg::S_OVERSPEED]) too_fast_q <= over(twice_size_q, param_i);
   end
 
   // Two times, in ticks, share an adder and a comparator: that of cause 3 in the clock in which its
@@ -106,10 +108,10 @@ module supervisor (
                          long_enough_q;
 
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::S_POLARITY_SPEED]) fast_q <= over_limit;
+    if (wave_i[feltgate_map_pkg::S_POLARITY_SPEED]) fast_q <= over(twice_size_q, param_i);
   end
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::S_POLARITY_CURRENT]) strong_q <= over_limit;
+    if (wave_i[feltgate_map_pkg::S_POLARITY_CURRENT]) strong_q <= over(twice_size_q, param_i);
   end
   always_ff @(posedge clk_i) begin
     if (wave_i[feltgate_map_pkg::S_POLARITY_TICKS]) long_enough_q <= expired;
@@ -150,19 +152,19 @@ module supervisor (
   localparam int SUM_W = feltgate_pkg::I2T_W + 1;  // a sum at the budget may still grow by I^2
 
   logic        [SUM_W-1:0]     sum_q;
-  logic signed [SUM_W:0]       sum_less_param, cooled_q;
+  logic signed [SUM_W:0]       cooled_q;
   logic        [SQUARED_W-1:0] square_q;
   logic                        too_hot_q;
 
-  assign sum_less_param = $signed({1'b0, sum_q}) - $signed((SUM_W + 1)'(param_i));
-  assign i2t_trip       = wave_i[feltgate_map_pkg::T_HEAT] && too_hot_q;
+  assign i2t_trip = wave_i[feltgate_map_pkg::T_HEAT] && too_hot_q;
 
   always_ff @(posedge clk_i) begin
     if (wave_i[feltgate_map_pkg::T_COOLED_AT_LEAST_0] && cooled_q < 0) cooled_q <= '0;
-    else if (wave_i[feltgate_map_pkg::T_COOLED]) cooled_q <= sum_less_param;
+    else if (wave_i[feltgate_map_pkg::T_COOLED])
+      cooled_q <= $signed({1'b0, sum_q}) - $signed((SUM_W + 1)'(param_i));
   end
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::S_I2T_BUDGET]) too_hot_q <= sum_less_param >= 0;
+    if (wave_i[feltgate_map_pkg::S_I2T_BUDGET]) too_hot_q <= sum_q >= SUM_W'(param_i);
   end
   always_ff @(posedge clk_i) begin
     if (wave_i[feltgate_map_pkg::T_CURRENT_SQUARED])

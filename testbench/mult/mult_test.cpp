@@ -12,6 +12,7 @@
 #include "feltgate/fixed.hpp"
 #include "lock_step.hpp"
 #include "mult_twin.hpp"
+#include "unreset.hpp"
 
 using feltgate::int128_t;
 using feltgate::Mult;
@@ -22,29 +23,8 @@ namespace {
 constexpr std::int64_t kMaxA = (std::int64_t{1} << 34) - 1;
 constexpr std::int64_t kMaxB = (std::int64_t{1} << 17) - 1;
 
-/// The multiplier has no reset; the bench wants to drive one.
-struct Rtl : Vmult {
-  using Vmult::Vmult;
-  int rst_ni = 0;
-};
-
-/// The twin, and for how many clocks its pipeline has been filled.
-struct Twin {
-  using In = Mult::In;
-  struct Out {
-    std::int64_t product = 0;
-    int known = 0;
-  };
-  void reset() { seen.known = 0; }
-  void clock(const In& in) {
-    mult.clock(in);
-    seen.product = mult.out().product;
-    if (seen.known < 4) ++seen.known;
-  }
-  const Out& out() const { return seen; }
-  Mult mult;
-  Out seen;
-};
+using Rtl = Unreset<Vmult>;
+using Twin = Filled<Mult, 4>;
 
 struct Adapter {
   static void drive(Rtl& rtl, const Mult::In& in) {
@@ -53,7 +33,7 @@ struct Adapter {
   }
   template <class Check>
   static void compare(Check& check, const Rtl& rtl, const Twin::Out& out) {
-    if (out.known == 4) check("product", sign_extend<53>(rtl.product_o), out.product);
+    if (out.known) check("product", sign_extend<53>(rtl.product_o), out.product);
   }
 };
 

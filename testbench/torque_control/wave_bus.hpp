@@ -18,13 +18,11 @@
 #include "feltgate/generated/reader.hpp"
 #include "lock_step.hpp"
 #include "torque_control_twin.hpp"
-#include "unreset.hpp"
 
 namespace feltgate::test {
 
 using A = Design::A;
-/// What it gives to the limiter is known from the first clock on.
-using Control = Filled<TorqueControl<Design>, 1>;
+using Control = TorqueControl<Design>;
 using Step = TorqueControlStep<Design, Fixed>;
 using Torque = fixed_of<Design::f.torque.key()>;
 using Current = fixed_of<Design::f.current.key()>;
@@ -162,7 +160,7 @@ struct Adapter {
   static void compare(Check& check, const Vtorque_control& rtl, const Out& seen) {
     const Control::Out out = outputs(rtl);
     check("region_high", out.region_high, seen.port.region_high);
-    if (seen.port.known) {
+    if (seen.clocked) {
       check("ahead", out.ahead, seen.port.ahead);
       check("late", out.late, seen.port.late);
     }

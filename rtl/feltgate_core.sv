@@ -60,7 +60,7 @@ module feltgate_core #(
   logic                       tick;
   logic [                5:0] slot_fetch;
   logic                       scene_slot_fetch;
-  logic [               49:0] wave;
+  logic [feltgate_map_pkg::WAVE_LENGTH-1:0] wave;
   logic [               31:0] param;
   logic signed [feltgate_pkg::MULTIPLIER_A_BITS-1:0] operand;
   logic signed [feltgate_pkg::PRODUCT_BITS-1:0] velocity_product, dob_product, scene_product;
@@ -68,16 +68,14 @@ module feltgate_core #(
 
   // What the registers and the panel ask for.
   logic [14:0] control;
-  logic [ 3:0] scene_wanted;
+  logic [ 3:0] scene_wanted, scene_q;
   logic [ 1:0] mode;
-  logic host, arm_request, set_zero, zero_pending_q, host_zero, clear_faults, kick, region_high;
-  logic [3:0] scene_q;
-  logic       snap_valid;
-  logic [5:0] snap_slot;
-  assign host         = control[feltgate_pkg::B_CONTROL_HOST];
-  assign mode         = control[feltgate_pkg::B_CONTROL_MODE+:2];
-  assign arm_request  = host ? control[feltgate_pkg::B_CONTROL_ARM] : arm_i;
-  assign scene_wanted = host ? control[feltgate_pkg::B_CONTROL_SCENE+:4] : scene_i;
+  logic host, arm_request, set_zero, zero_pending_q, host_zero, clear_faults, kick, region_high, snap_valid;
+  logic [ 5:0] snap_slot;
+  assign host         = control[feltgate_map_pkg::B_CONTROL_HOST];
+  assign mode         = control[feltgate_map_pkg::B_CONTROL_MODE+:2];
+  assign arm_request  = host ? control[feltgate_map_pkg::B_CONTROL_ARM] : arm_i;
+  assign scene_wanted = host ? control[feltgate_map_pkg::B_CONTROL_SCENE+:4] : scene_i;
   assign set_zero     = tick && (host_zero || zero_pending_q);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -136,8 +134,8 @@ module feltgate_core #(
       .a_i(enc_a_i),
       .b_i(enc_b_i),
       .z_i(enc_z_i),
-      .filter_i(control[feltgate_pkg::B_CONTROL_FILTER+:4]),
-      .polarity_i(control[feltgate_pkg::B_CONTROL_ENCODER_POLARITY]),
+      .filter_i(control[feltgate_map_pkg::B_CONTROL_FILTER+:4]),
+      .polarity_i(control[feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY]),
       .set_zero_i(set_zero),
       .clear_error_i(clear_faults),
       .position_o(position),
@@ -158,7 +156,7 @@ module feltgate_core #(
     if (!rst_ni) begin
       position_o       <= '0;
       scene_position_q <= '0;
-    end else if (wave[0]) begin
+    end else if (wave[feltgate_map_pkg::T_SAMPLE]) begin
       position_o       <= position;
       scene_position_q <= position_over ? {position[31], {(SceneW - 1) {~position[31]}}}
                                         : position[SceneW-1:0];
@@ -166,7 +164,7 @@ module feltgate_core #(
   end
 
   logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] velocity_difference;
-  logic velocity_saturated;
+  logic velocity_saturated, tau_hat_saturated;
   velocity_n u_velocity_n (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
@@ -179,7 +177,6 @@ module feltgate_core #(
   );
 
   logic signed [feltgate_pkg::OBSERVER_DIFFERENCE_W-1:0] observer_difference;
-  logic tau_hat_saturated;
   dob u_dob (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
@@ -294,8 +291,8 @@ module feltgate_core #(
       .clk_i(clk_i),
       .rst_ni(rst_ni),
       .enable_i(gates_enable),
-      .mode_i(control[feltgate_pkg::B_CONTROL_PWM_MODE]),
-      .polarity_i(control[feltgate_pkg::B_CONTROL_MOTOR_POLARITY]),
+      .mode_i(control[feltgate_map_pkg::B_CONTROL_PWM_MODE]),
+      .polarity_i(control[feltgate_map_pkg::B_CONTROL_MOTOR_POLARITY]),
       .duty_i(duty_o),
       .gate_a_hi_o(gate_a_hi_o),
       .gate_a_lo_o(gate_a_lo_o),
@@ -306,7 +303,25 @@ module feltgate_core #(
   );
 
   logic [31:0] status, snapshot_word;
-  assign status = {4'd0, encoder_error, mode, armed_o, scene_q, limits_o, first_fault_o, faults_o};
+  always_comb begin
+    limits_o = '0;
+    limits_o[feltgate_map_pkg::L_TORQUE]       = limit_torque;
+    limits_o[feltgate_map_pkg::L_RAMP]         = limit_ramp;
+    limits_o[feltgate_map_pkg::L_CURRENT]      = limit_current;
+    limits_o[feltgate_map_pkg::L_VOLTAGE]      = limit_voltage;
+    limits_o[feltgate_map_pkg::L_DUTY]         = limit_duty;
+    limits_o[feltgate_map_pkg::L_VELOCITY]     = velocity_saturated;
+    limits_o[feltgate_map_pkg::L_TAU_HAT]      = tau_hat_saturated;
+    limits_o[feltgate_map_pkg::L_GATES_CLOSED] = !gates_enable;
+    status = '0;
+    status[feltgate_map_pkg::B_STATUS_FAULTS+:8]      = faults_o;
+    status[feltgate_map_pkg::B_STATUS_FIRST_FAULT+:4] = first_fault_o;
+    status[feltgate_map_pkg::B_STATUS_LIMITS+:8]      = limits_o;
+    status[feltgate_map_pkg::B_STATUS_SCENE+:4]       = scene_q;
+    status[feltgate_map_pkg::B_STATUS_ARMED]          = armed_o;
+    status[feltgate_map_pkg::B_STATUS_MODE+:2]        = mode;
+    status[feltgate_map_pkg::B_STATUS_ENCODER_ERROR]  = encoder_error;
+  end
   snapshot #(
       .ReadBack(ReadBack)
   ) u_snapshot (
@@ -377,11 +392,9 @@ module feltgate_core #(
       .supervisor_product_o(supervisor_product)
   );
 
-  assign scene_o          = scene_q;
-  assign gates_enable_o   = gates_enable;
-  assign snapshot_valid_o = wave[47];
-  assign limits_o = {!gates_enable, tau_hat_saturated, velocity_saturated, limit_duty,
-                     limit_voltage, limit_current, limit_ramp, limit_torque};
+  assign scene_o = scene_q;
+  assign gates_enable_o = gates_enable;
+  assign snapshot_valid_o = wave[feltgate_map_pkg::T_SNAPSHOT];
 endmodule
 
 `default_nettype wire

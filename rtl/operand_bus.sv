@@ -10,7 +10,7 @@
 module operand_bus (
     input  logic                                                  clk_i,
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks off the wave
-    input  logic        [                                   49:0] wave_i,
+    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     /* verilator lint_on UNUSEDSIGNAL */
     // 0 outside their clocks
     input  logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] velocity_difference_i,

@@ -14,7 +14,7 @@ module ramp (
     input  logic                                      armed_i,
     input  logic        [                        3:0] scene_i,
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
-    input  logic        [                       49:0] wave_i,
+    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input  logic        [                       31:0] param_i,
     input  logic signed [feltgate_pkg::LIMITER_W-1:0] limited_i,
     /* verilator lint_on UNUSEDSIGNAL */

@@ -18,7 +18,7 @@ module scene_charge (
     input  logic                                            repel_i,
     input  logic signed [feltgate_pkg::SCENE_POSITION_W:0]  gap_i,      // whole counts, held
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
-    input  logic        [                             49:0] wave_i,
+    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input  logic        [                             31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic signed [   feltgate_pkg::PRODUCT_BITS-1:0] product_i,

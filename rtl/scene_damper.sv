@@ -11,7 +11,7 @@ module scene_damper (
     input  logic                                         clk_i,
     input  logic                                         select_i,
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clock off the wave
-    input  logic        [                          49:0] wave_i,
+    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic signed [feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     output logic signed [feltgate_pkg::SCENE_PART_W-1:0] minus_o

@@ -15,7 +15,7 @@ module scene_membrane (
     input  logic                                     gap_negative_i,  // of the face on the bus
     input  logic                                     gap_zero_i,      // but for its fraction
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
-    input  logic        [                      49:0] wave_i,
+    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input  logic        [                      31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */
     output logic signed [feltgate_pkg::TORQUE_W-1:0] plus_o,   // from above

@@ -11,7 +11,7 @@ module scene_setpoint (
     input  logic                                     clk_i,
     input  logic                                     select_i,
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clock and bits off the buses
-    input  logic        [                      49:0] wave_i,
+    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input  logic        [                      31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */
     output logic signed [feltgate_pkg::TORQUE_W-1:0] plus_o

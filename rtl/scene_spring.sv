@@ -14,7 +14,7 @@ module scene_spring (
     input  logic                                         compression_i,
     input  logic                                         behind_i,       // distance is negative
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks off the wave
-    input  logic        [                          49:0] wave_i,
+    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic signed [feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     output logic signed [feltgate_pkg::SCENE_PART_W-1:0] plus_o

@@ -16,7 +16,7 @@ module scenes #(
     input  logic                                             armed_i,
     input  logic        [                               3:0] scene_i,
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
-    input  logic        [                              49:0] wave_i,
+    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input  logic        [                              31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic signed [feltgate_pkg::SCENE_POSITION_W-1:0] position_i,

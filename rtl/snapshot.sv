@@ -12,7 +12,7 @@ module snapshot #(
     input  logic               clk_i,
     input  logic        [ 5:0] slot_fetch_i,
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks off the wave
-    input  logic        [49:0] wave_i,
+    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic        [31:0] status_i,
     input  logic signed [31:0] position_i,

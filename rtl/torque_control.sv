@@ -17,7 +17,7 @@ module torque_control (
     input  logic                                                   armed_i,
     input  logic        [                                     1:0] mode_i,  // 0 closed, 1 open, 2 voltage
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
-    input  logic        [                                    49:0] wave_i,
+    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input  logic        [                                    31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic signed [          feltgate_pkg::PRODUCT_BITS-1:0] product_i,

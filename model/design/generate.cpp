@@ -126,7 +126,7 @@ std::vector<std::pair<std::string, Format>> named_formats(const Formats& f) {
 
 std::string systemverilog_package(const Elaborated& e) {
   std::ostringstream s;
-  s << banner(e, "Formats [S,I,F], slots, constants.") << "\n`default_nettype none\n\n"
+  s << banner(e, "Formats [S,I,F] and constants.") << "\n`default_nettype none\n\n"
     << "/* verilator lint_off UNUSEDPARAM */  // a block uses the constants that concern it\n"
     << "package feltgate_pkg;\n";
   for (const Constant& c : constants(e)) {
@@ -146,28 +146,6 @@ std::string systemverilog_package(const Elaborated& e) {
       s << "  localparam int P_" << upper(w.parameter.name) << "_F = " << w.format.fraction
         << ";\n";
     }
-  }
-  s << "\n  // Wave clocks in which a word is on the parameter bus.\n";
-  for (const Word& w : e.words) {
-    if (w.parameter.scene.empty()) {
-      s << "  localparam int S_" << upper(w.parameter.name) << " = " << w.parameter.slot << ";\n";
-    }
-  }
-  s << "\n  // Scene numbers.\n";
-  for (const Scene& scene : e.registers.scenes) {
-    s << "  localparam logic [3:0] SCENE_" << upper(scene.name) << " = 4'd" << scene.number
-      << ";\n";
-  }
-  s << "\n  // Addresses of control and snapshot words, and bits of the control words.\n";
-  for (const Control& c : e.registers.controls) {
-    s << "  localparam logic [11:0] A_" << upper(c.name) << " = 12'h" << std::hex << c.address
-      << std::dec << ";\n";
-    for (const Field& f : c.fields) {
-      s << "  localparam int B_" << upper(c.name + "_" + f.name) << " = " << f.bit << ";\n";
-    }
-  }
-  for (const Snapshot& n : e.registers.snapshots) {
-    s << "  localparam int R_" << upper(n.name) << " = " << n.slot << ";\n";
   }
   s << "\n  // Parameter RAM after reset: the design's values, quantised.\n"
     << "  function automatic logic [31:0] parameter_reset(input logic [8:0] address);\n"

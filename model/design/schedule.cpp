@@ -132,6 +132,10 @@ Step read_step(config::TomlReader r, const RegisterMap& map, const Schedule& s) 
   if (r.has("reads")) step.reads = r.texts("reads");
   if (r.flag_or("passes", false)) step.lasts = 1;
   if (r.has("lasts")) step.lasts = static_cast<int>(r.integer("lasts", 1, 62));
+  step.on_operand_bus = r.flag_or("on_operand_bus", false);
+  if (step.on_operand_bus && step.lasts == 0) {
+    r.fail("on_operand_bus", "what is held would keep the operand bus", "say how long it lasts");
+  }
   if (r.has("shows_in")) step.shows_in = r.text("shows_in");
   if (r.has("output")) step.output = plain_text(r, "output");
   step.by = r.identifier("by");

@@ -39,6 +39,7 @@ struct Step {
   std::vector<std::string> takes;  ///< words of the parameter bus
   std::vector<std::string> reads;  ///< words of the snapshot
   int lasts = 0;                   ///< clocks for which the result is there; 0: held
+  bool on_operand_bus = false;     ///< and nothing else may be there as long as it lasts
   std::string shows_in;            ///< the result whose register it writes ahead of that result
   std::string output;              ///< what the timing diagram calls the result; none: not shown
   std::string by, doc, place;

@@ -102,8 +102,10 @@ void check_uses(const RegisterMap& map, const Schedule& s) {
 
 /// Words of the snapshot that a step puts on the operand bus.
 void check_reads(const RegisterMap& map, const Schedule& s) {
+  std::vector<std::string> pinned;
   for (const Step& step : s.steps) {
     for (const std::string& name : step.reads) {
+      pinned.push_back(name);
       for (const Snapshot& n : map.snapshots) {
         if (n.name != name || n.slot == step.clock) continue;
         refuse(n.place,
@@ -114,6 +116,19 @@ void check_reads(const RegisterMap& map, const Schedule& s) {
       }
     }
   }
+  // What goes to the operand bus is selected a clock ahead.
+  for (const Snapshot& n : map.snapshots) {
+    if (n.slot > 0 || std::find(pinned.begin(), pinned.end(), n.name) != pinned.end()) continue;
+    refuse(n.place,
+           fmt::format("{} of the snapshot in slot 0 would be selected before the wave", n.name),
+           "give it a later slot");
+  }
+  for (const Product& p : s.products) {
+    if (p.slot > 0) continue;
+    refuse(p.place,
+           fmt::format("the operand of {} in slot 0 would be selected before the wave", p.name),
+           "give it a later slot");
+  }
 }
 
 bool share_a_scene(const Product& a, const Product& b) {
@@ -121,6 +136,43 @@ bool share_a_scene(const Product& a, const Product& b) {
   return std::any_of(a.scenes.begin(), a.scenes.end(), [&](const std::string& scene) {
     return std::find(b.scenes.begin(), b.scenes.end(), scene) != b.scenes.end();
   });
+}
+
+/// Whether the word or operand in a clock is the result that is on the operand bus.
+bool reads_result(const Schedule& s, const Step& on_bus, const Snapshot& n) {
+  const Product* product = s.product(n.with);
+  if (product != nullptr && product->operand.result == on_bus.name) return true;
+  return std::any_of(s.steps.begin(), s.steps.end(), [&](const Step& step) {
+    const auto is = [&](const Need& need) { return need.result == on_bus.name; };
+    return std::find(step.reads.begin(), step.reads.end(), n.name) != step.reads.end() &&
+           std::any_of(step.needs.begin(), step.needs.end(), is);
+  });
+}
+
+/// Results that are on the operand bus as long as they last.
+void check_results_on_bus(const RegisterMap& map, const Schedule& s) {
+  for (const Step& step : s.steps) {
+    if (!step.on_operand_bus) continue;
+    const auto there = [&step](int slot) {
+      return slot > step.clock && slot <= step.clock + step.lasts;
+    };
+    const auto meets = [&step](const std::string& place, const std::string& what, int slot) {
+      refuse(place,
+             fmt::format("two words meet on the operand bus in slot {}: {} and {} ({})", slot, what,
+                         step.name, step.place),
+             "move one of them");
+    };
+    for (const Product& p : s.products) {
+      if (there(p.slot) && p.operand.result != step.name) {
+        meets(p.place, "the operand of " + p.name, p.slot);
+      }
+    }
+    for (const Snapshot& n : map.snapshots) {
+      if (there(n.slot) && !reads_result(s, step, n)) {
+        meets(n.place, n.name + " of the snapshot", n.slot);
+      }
+    }
+  }
 }
 
 /// One operand bus, one multiplier.
@@ -217,6 +269,7 @@ void check_schedule(const RegisterMap& map, const Schedule& s) {
   check_ends(map, s);
   check_banks(map, s);
   check_buses(map, s);
+  check_results_on_bus(map, s);
   check_reads(map, s);
   check_uses(map, s);
 }

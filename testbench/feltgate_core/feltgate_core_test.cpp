@@ -116,7 +116,8 @@ TEST_CASE("core: sampled position to duty register in the clocks that the schedu
                            1u << D::C::control_arm |
                            static_cast<std::uint32_t>(D::S::spring_tension) << D::C::control_scene);
   for (int k = 0; k < 500; ++k) twin.clock(in);
-  while (twin.clock_of_tick() != 0) twin.clock(in);
+  constexpr int sample = feltgate::Map::first_wave_clock + feltgate::Map::T::sample;
+  while (twin.clock_of_tick() != sample + 1) twin.clock(in);
   // The step is decoded during this tick, sampled by the next wave.
   for (int step = 0; step < 40; ++step) {
     in.encoder.b = (step & 1) == 0 ? !in.encoder.a : in.encoder.a;
@@ -124,8 +125,7 @@ TEST_CASE("core: sampled position to duty register in the clocks that the schedu
     twin.clock(in);
   }
   const auto before = twin.out().duty;
-  while (twin.clock_of_tick() != feltgate::Map::first_wave_clock)
-    twin.clock(in);  // ends with the sample
+  while (twin.clock_of_tick() != sample) twin.clock(in);
   int clocks = 0;
   while (twin.out().duty == before && clocks < 100) {
     twin.clock(in);

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Generated from rtl/designs/exact.toml and rtl/registers.toml by
-// `feltgate generate`: do not edit. Formats [S,I,F], slots, constants.
+// `feltgate generate`: do not edit. Formats [S,I,F] and constants.
 
 `default_nettype none
 
@@ -114,76 +114,6 @@ package feltgate_pkg;
   localparam int P_REPEL_CORE_SLOPE_F = 25;
   localparam int P_WALL_STIFFNESS_F = 20;
   localparam int P_WALL_DAMPING_F = 20;
-
-  // Wave clocks in which a word is on the parameter bus.
-  localparam int S_VELOCITY_A1 = 4;
-  localparam int S_INVERSE_RESISTANCE = 5;
-  localparam int S_EMF_OVER_RESISTANCE = 7;
-  localparam int S_TORQUE_CONSTANT = 8;
-  localparam int S_INERTIA_GAIN = 9;
-  localparam int S_NOMINAL_CURRENT_SQUARED = 17;
-  localparam int S_OBSERVER_A1 = 15;
-  localparam int S_OVERSPEED = 16;
-  localparam int S_I2T_BUDGET = 18;
-  localparam int S_POLARITY_SPEED = 19;
-  localparam int S_POLARITY_CURRENT = 20;
-  localparam int S_POLARITY_TICKS = 21;
-  localparam int S_EMF_CONSTANT = 22;
-  localparam int S_OBSERVER_GAIN = 23;
-  localparam int S_VOLTAGE_SETPOINT = 13;
-  localparam int S_TORQUE_LIMIT = 24;
-  localparam int S_RAMP_STEP = 25;
-  localparam int S_VOLTAGE_TO_CURRENT = 27;
-  localparam int S_TORQUE_GAIN = 28;
-  localparam int S_DEAD_VOLTAGE_SLOPE = 29;
-  localparam int S_REGION_TORQUE = 30;
-  localparam int S_CURRENT_LIMIT = 33;
-  localparam int S_VOLTAGE_GAIN = 34;
-  localparam int S_VOLTAGE_GAIN_HIGH = 50;
-  localparam int S_DEAD_VOLTAGE = 35;
-  localparam int S_VOLTAGE_LIMIT = 39;
-  localparam int S_DUTY_GAIN = 40;
-  localparam int S_DUTY_LIMIT = 45;
-  localparam int S_WATCHDOG_TICKS = 46;
-
-  // Scene numbers.
-  localparam logic [3:0] SCENE_FREE = 4'd0;
-  localparam logic [3:0] SCENE_SETPOINT = 4'd2;
-  localparam logic [3:0] SCENE_MEMBRANE = 4'd3;
-  localparam logic [3:0] SCENE_SPRING_COMPRESSION = 4'd4;
-  localparam logic [3:0] SCENE_SPRING_TENSION = 4'd5;
-  localparam logic [3:0] SCENE_DAMPER = 4'd6;
-  localparam logic [3:0] SCENE_CHARGE_ATTRACT = 4'd7;
-  localparam logic [3:0] SCENE_CHARGE_REPEL = 4'd8;
-  localparam logic [3:0] SCENE_WALL = 4'd9;
-
-  // Addresses of control and snapshot words, and bits of the control words.
-  localparam logic [11:0] A_CONTROL = 12'h200;
-  localparam int B_CONTROL_HOST = 0;
-  localparam int B_CONTROL_ARM = 1;
-  localparam int B_CONTROL_SCENE = 2;
-  localparam int B_CONTROL_MODE = 6;
-  localparam int B_CONTROL_MOTOR_POLARITY = 8;
-  localparam int B_CONTROL_ENCODER_POLARITY = 9;
-  localparam int B_CONTROL_PWM_MODE = 10;
-  localparam int B_CONTROL_FILTER = 11;
-  localparam logic [11:0] A_COMMAND = 12'h201;
-  localparam int B_COMMAND_SET_ZERO = 0;
-  localparam int B_COMMAND_CLEAR_FAULTS = 1;
-  localparam int B_COMMAND_KICK = 2;
-  localparam int B_COMMAND_FREEZE = 3;
-  localparam int B_COMMAND_THAW = 4;
-  localparam int R_TICK = 6;
-  localparam int R_POSITION = 1;
-  localparam int R_STATUS = 0;
-  localparam int R_ENCODER = 14;
-  localparam int R_INDEX = 11;
-  localparam int R_VELOCITY = 9;
-  localparam int R_TAU_HAT = 23;
-  localparam int R_TAU_REF = 28;
-  localparam int R_CURRENT_REF = 34;
-  localparam int R_VOLTAGE = 40;
-  localparam int R_DUTY = 46;
 
   // Parameter RAM after reset: the design's values, quantised.
   function automatic logic [31:0] parameter_reset(input logic [8:0] address);

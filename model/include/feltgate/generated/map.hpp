@@ -120,12 +120,23 @@ struct Map {
     static constexpr int observed_rounded = 21;
     static constexpr int tau_hat = 22;
     static constexpr int scene_distance = 1;
+    static constexpr int scene_gap = 1;
+    static constexpr int membrane_lower = 1;
+    static constexpr int membrane_upper = 2;
+    static constexpr int charge_strength = 2;
+    static constexpr int charge_divide = 6;
+    static constexpr int spring_part = 6;
+    static constexpr int charge_part = 7;
+    static constexpr int damper_part = 14;
+    static constexpr int setpoint_part = 10;
     static constexpr int membrane_side = 3;
     static constexpr int membrane_torque = 10;
     static constexpr int charge_width = 4;
     static constexpr int charge_width_ahead = 5;
+    static constexpr int charge_quotient = 8;
     static constexpr int charge_width_limited = 6;
     static constexpr int charge_core = 7;
+    static constexpr int charge_chosen = 8;
     static constexpr int scene_sum = 15;
     static constexpr int scene_rounded = 22;
     static constexpr int scene_ahead = 23;
@@ -135,6 +146,9 @@ struct Map {
     static constexpr int ramp_change = 26;
     static constexpr int tau_ref = 27;
     static constexpr int direct_voltage = 13;
+    static constexpr int setpoint_to_bus = 26;
+    static constexpr int voltage_to_bus = 4;
+    static constexpr int current_to_bus = 7;
     static constexpr int voltage_part = 26;
     static constexpr int current_part = 27;
     static constexpr int border = 28;
@@ -161,6 +175,7 @@ struct Map {
     static constexpr int duty = 46;
     static constexpr int estimate_part = 9;
     static constexpr int current_estimate = 11;
+    static constexpr int estimate_to_bus = 12;
     static constexpr int speed_size = 15;
     static constexpr int too_fast = 16;
     static constexpr int speed = 17;
@@ -206,36 +221,50 @@ struct Map {
     read_position,
     travel,
     scene_distance,
+    scene_gap,
+    membrane_lower,
     position_word,
     operand_scene_stiffness,
     operand_charge_square,
     velocity_raw,
+    membrane_upper,
+    charge_strength,
     operand_charge_slope,
     velocity_difference,
     membrane_side,
     operand_velocity_a1,
     charge_width,
+    voltage_to_bus,
     operand_inverse_resistance,
     charge_width_ahead,
     read_tick,
+    charge_divide,
+    spring_part,
     charge_width_limited,
     operand_emf_over_resistance,
+    charge_part,
     charge_core,
+    current_to_bus,
     operand_torque_constant,
     velocity,
+    charge_quotient,
+    charge_chosen,
     read_velocity,
     operand_inertia_gain,
     estimate_part,
     operand_scene_damping,
+    setpoint_part,
     membrane_torque,
     read_index,
     current_estimate,
     drive_torque,
+    estimate_to_bus,
     operand_current_square,
     observer_input,
     direct_voltage,
     read_encoder,
     observer_difference,
+    damper_part,
     operand_observer_a1,
     scene_sum,
     speed_size,
@@ -265,6 +294,7 @@ struct Map {
     torque_limited,
     ramp_excess,
     ramp_change,
+    setpoint_to_bus,
     voltage_part,
     operand_voltage_to_current,
     tau_ref,
@@ -316,36 +346,50 @@ struct Map {
       {Step::read_position, 1},
       {Step::travel, 1},
       {Step::scene_distance, 1},
+      {Step::scene_gap, 1},
+      {Step::membrane_lower, 1},
       {Step::position_word, 1},
       {Step::operand_scene_stiffness, 2},
       {Step::operand_charge_square, 2},
       {Step::velocity_raw, 2},
+      {Step::membrane_upper, 2},
+      {Step::charge_strength, 2},
       {Step::operand_charge_slope, 3},
       {Step::velocity_difference, 3},
       {Step::membrane_side, 3},
       {Step::operand_velocity_a1, 4},
       {Step::charge_width, 4},
+      {Step::voltage_to_bus, 4},
       {Step::operand_inverse_resistance, 5},
       {Step::charge_width_ahead, 5},
       {Step::read_tick, 6},
+      {Step::charge_divide, 6},
+      {Step::spring_part, 6},
       {Step::charge_width_limited, 6},
       {Step::operand_emf_over_resistance, 7},
+      {Step::charge_part, 7},
       {Step::charge_core, 7},
+      {Step::current_to_bus, 7},
       {Step::operand_torque_constant, 8},
       {Step::velocity, 8},
+      {Step::charge_quotient, 8},
+      {Step::charge_chosen, 8},
       {Step::read_velocity, 9},
       {Step::operand_inertia_gain, 9},
       {Step::estimate_part, 9},
       {Step::operand_scene_damping, 10},
+      {Step::setpoint_part, 10},
       {Step::membrane_torque, 10},
       {Step::read_index, 11},
       {Step::current_estimate, 11},
       {Step::drive_torque, 12},
+      {Step::estimate_to_bus, 12},
       {Step::operand_current_square, 13},
       {Step::observer_input, 13},
       {Step::direct_voltage, 13},
       {Step::read_encoder, 14},
       {Step::observer_difference, 14},
+      {Step::damper_part, 14},
       {Step::operand_observer_a1, 15},
       {Step::scene_sum, 15},
       {Step::speed_size, 15},
@@ -375,6 +419,7 @@ struct Map {
       {Step::torque_limited, 24},
       {Step::ramp_excess, 25},
       {Step::ramp_change, 26},
+      {Step::setpoint_to_bus, 26},
       {Step::voltage_part, 26},
       {Step::operand_voltage_to_current, 27},
       {Step::tau_ref, 27},

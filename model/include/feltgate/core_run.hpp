@@ -111,7 +111,7 @@ template <bool Read, class OnSnapshot>
     case Step::watchdog:
       if (supervisor_.at_watchdog(words)) s.close(after(T::watchdog));
       return;
-    case Step::duty:
+    case Step::duty:  // the PWM looks at it in one clock of a period alone
       gates_to(s, after(T::duty));
       break;
     case Step::snapshot:
@@ -132,8 +132,9 @@ template <class D, bool ReadBack>
 template <bool Read, class OnSnapshot>
 void FeltgateCore<D, ReadBack>::pass_tick(const In& in, OnSnapshot&& on_snapshot) {
   Stretch s = stretch(0, D::clocks_per_tick);
-  core_steps::for_each_step(
-      [&](Step step) { take_in<Read>(s, step, decoder_.out(), on_snapshot); });
+  core_steps::for_each_step(0, D::clocks_per_tick, [&](Step step) {
+    take_in<Read>(s, step, decoder_.out(), on_snapshot);
+  });
   finish(in, s);
   out_.armed = supervisor_.out().armed;
   out_.gates_enable = supervisor_.out().gates_enable;

@@ -5,7 +5,6 @@
 // order in which the core's twin goes through a tick. Documentation: docs/blocks/feltgate_core.md
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -66,18 +65,21 @@ constexpr std::size_t count() {
 
 struct Table {
   std::array<Step, count()> steps{};
+  std::array<int, count()> clocks{};                       ///< of the tick, in order
   std::array<std::uint8_t, Map::wave_length + 1> first{};  ///< by clock: first step not before it
 };
 
 constexpr Table make_table() {
   Table table{};
   std::size_t n = 0;
-  for (std::size_t clock = 0; clock < Map::wave_length; ++clock) {
-    table.first[clock] = static_cast<std::uint8_t>(n);
+  for (int clock = 0; clock < Map::wave_length; ++clock) {
+    table.first[static_cast<std::size_t>(clock)] = static_cast<std::uint8_t>(n);
     for (const Map::StepAt& s : Map::steps) {
       // The outputs are all of one tick in the clock of this step, so after the clock before it.
       const int at = clock_of(s.clock) - (s.step == Step::snapshot ? 1 : 0);
-      if (shows(s.step) && at == static_cast<int>(clock)) table.steps[n++] = s.step;
+      if (!shows(s.step) || at != clock) continue;
+      table.steps[n] = s.step;
+      table.clocks[n++] = at;
     }
   }
   table.first[Map::wave_length] = static_cast<std::uint8_t>(n);
@@ -86,24 +88,25 @@ constexpr Table make_table() {
 inline constexpr Table table = make_table();
 static_assert(table.first[Map::wave_length] == count(), "a step lies beyond the shortest tick");
 
-/// action(step) for the steps in the clocks [from, to) of a tick, in their order.
+/// action(step) for the steps of one clock of a tick, in their order.
 template <class Action>
-void for_each_step(int from, int to, Action&& action) {
-  const auto first = [](int clock) {
-    return table.first[static_cast<std::size_t>(std::min(clock, Map::wave_length))];
-  };
-  const std::size_t end = first(to);
-  for (std::size_t k = first(from); k < end; ++k) action(table.steps[k]);
+void for_each_step_of(int clock, Action&& action) {
+  if (clock >= Map::wave_length) return;
+  const auto at = static_cast<std::size_t>(clock);
+  for (std::size_t k = table.first[at]; k < table.first[at + 1]; ++k) action(table.steps[k]);
 }
 
 template <class Action, std::size_t... K>
-[[gnu::always_inline]] inline void for_these_steps(Action&& action, std::index_sequence<K...>) {
-  (action(table.steps[K]), ...);
+[[gnu::always_inline]] inline void for_these_steps(int from, int to, Action&& action,
+                                                   std::index_sequence<K...>) {
+  const auto within = [from, to](int clock) { return from <= clock && clock < to; };
+  ((within(table.clocks[K]) ? action(table.steps[K]) : void()), ...);
 }
-/// The same for a whole tick, written out: in an inlined action each step is a constant.
+/// action(step) for the steps in the clocks [from, to) of a tick, in their order. Written out: in
+/// an inlined action each step is a constant, and in a whole tick there is nothing to ask.
 template <class Action>
-[[gnu::always_inline]] inline void for_each_step(Action&& action) {
-  for_these_steps(action, std::make_index_sequence<count()>());
+[[gnu::always_inline]] inline void for_each_step(int from, int to, Action&& action) {
+  for_these_steps(from, to, action, std::make_index_sequence<count()>());
 }
 
 }  // namespace feltgate::core_steps

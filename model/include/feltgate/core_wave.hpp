@@ -82,12 +82,8 @@ class CoreWave {
   }
 
   /// As the limiter gives them, a clock before they show.
-  std::int32_t current() const {
-    return static_cast<std::int32_t>(chain_.control().current.raw());
-  }
-  std::int32_t voltage() const {
-    return static_cast<std::int32_t>(chain_.control().voltage.raw());
-  }
+  std::int32_t current() const { return static_cast<std::int32_t>(chain_.control().current.raw()); }
+  std::int32_t voltage() const { return static_cast<std::int32_t>(chain_.control().voltage.raw()); }
   std::int16_t duty() const { return static_cast<std::int16_t>(chain_.control().duty.raw()); }
   /// What the velocity's low-pass would take in now, raw: the next velocity lies between it and the
   /// last.

@@ -66,8 +66,7 @@ class FeltgateCore {
     sup.encoder_error = decoder_.out().illegal;
     const Pwm::In pwm = pwm_inputs(supervisor_.out().gates_enable, out_.duty);
     out_.snapshot_valid = false;
-    core_steps::for_each_step(clock_, clock_ + 1,
-                              [this](Step step) { take<true>(step, decoder_.out()); });
+    core_steps::for_each_step_of(clock_, [this](Step step) { take<true>(step, decoder_.out()); });
     supervisor_.clock(sup);
     const QuadDecoder::In d = decoder_inputs(in, zero, clear);
     if (!decoder_.settled(d)) decoder_.clock(d);

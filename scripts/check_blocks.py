@@ -83,8 +83,7 @@ def find_blocks(root):
                 twin=beside if tested else public,
                 test=test,
                 doc=Path(f"docs/blocks/{name}.md"),
-                defects=tuple(sorted(root.glob(f"testbench/{name}/defects/*.patch")))
-                or tuple(sorted({int(n) for n in re.findall(r"\bDefect\s*[=!]=\s*(\d+)", code)})),
+                defects=tuple(sorted(root.glob(f"testbench/{name}/defects/*.patch"))),
             )
         )
     return blocks
@@ -106,9 +105,8 @@ def check_block(root, block):
     folder = f"testbench/{block.name}/defects"
     if not block.defects:
         yield f"{folder}: no seeded defect of {block.rtl}; add a patch, docs/testing.md says how"
-    elif isinstance(block.defects[0], Path):
-        if re.search(r"\bDefect\b", rtl):
-            yield f"{block.rtl}: the word Defect; what breaks it is a patch in {folder}"
+    if re.search(r"\bDefect\b", rtl):
+        yield f"{block.rtl}: the word Defect; what breaks it is a patch in {folder}"
     if (root / block.doc).exists():
         links = linked_files(root, block.doc)
         for path in filter(None, (block.rtl, block.law, block.twin, block.test)):

@@ -46,6 +46,14 @@ class Slang(unittest.TestCase):
             with self.subTest(design):
                 self.assertEqual(lint("feltgate_core", package(design), *core()), "")
 
+    def test_a_multiplier_for_each_block(self):
+        text = package("lever").read_text(encoding="utf-8")
+        self.assertIn("PARALLEL_MULTIPLIERS = 0;", text)
+        with tempfile.TemporaryDirectory() as folder:
+            parallel = Path(folder, "feltgate_pkg.sv")
+            parallel.write_text(text.replace("PARALLEL_MULTIPLIERS = 0;", "PARALLEL_MULTIPLIERS = 1;"))
+            self.assertEqual(lint("feltgate_core", parallel, *core()), "")
+
     def test_every_board(self):
         for board in BOARDS:
             files = sorted((RTL / "boards" / board).glob("*.sv"))

@@ -45,8 +45,9 @@ module scene_charge (
   assign select = attract_i || repel_i;
 
   // Restoring division of the 32-bit strength by x^2. Its upper bits preset the remainder. A square
-  // that needs more than 32 bits, or of a distance beyond 18 bits, never fits; once the quotient is
-  // seen to saturate the square becomes 0, which always does.
+  // that needs more than 32 bits never fits, nor does that of a distance beyond 18 bits: one factor
+  // wraps to the other sign, the product is negative. Once the quotient is seen to saturate the
+  // square becomes 0, which always fits.
   logic [14:0] preset_q;
   logic [16:0] rest_q;
   logic [30:0] remainder_q;
@@ -61,7 +62,7 @@ module scene_charge (
   always_ff @(posedge clk_i) bring_q <= (rest_q & wave_i[Last-1:First-1]) != '0;
   assign difference = {2'b0, remainder_q, bring_q} - {1'b0, square_q};
   assign fits       = !difference[33];
-  assign huge       = product_i[DistanceF+34:DistanceF+32] != '0 || gap_i[GapW-1] != gap_i[GapW-2];
+  assign huge       = product_i[DistanceF+34:DistanceF+32] != '0;
   always_ff @(posedge clk_i) begin
     if (wave_i[Strength]) preset_q <= param_i[31:17];
     else preset_q <= '0;

@@ -21,7 +21,7 @@ module scene_part #(
   logic signed [W-1:0] whole;
   logic                rest;
   assign whole = W'(product_i >>> Drop);
-  if (Exact != 0 && feltgate_pkg::ROUNDING != 0) begin : gen_rest
+  if (Exact != 0 && feltgate_pkg::ROUNDING == 2) begin : gen_rest
     localparam logic [feltgate_pkg::PRODUCT_BITS-1:0] Below =
         (feltgate_pkg::PRODUCT_BITS'(1) << Drop) - feltgate_pkg::PRODUCT_BITS'(1);
     assign rest = (product_i & Below) != '0;

@@ -197,6 +197,10 @@ module scenes #(
     else width_q <= gap_q;
   end
   assign ahead_o = rounded_q | feltgate_pkg::SCENE_TORQUE_W'(width_q);
+
+  // With fewer scenes.
+  logic unused;
+  assign unused = ^{rst_ni, beyond_i, product_i, setpoint, membrane, compression, tension};
 endmodule
 
 `default_nettype wire

@@ -2,11 +2,13 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
 # feltgate_block_test(<block> [WITH_DEFECTS] [NAME <test>] [DESIGN <design> | PACKAGE <feltgate_pkg.sv>]
-#                     [SOURCES extra.sv...] [PARAMS -GName=value...] [DEFINES NAME=value...] [LIBRARIES target...])
+#                     [ROUNDING <mode>] [SOURCES extra.sv...] [PARAMS -GName=value...]
+#                     [DEFINES NAME=value...] [LIBRARIES target...])
 # verilates rtl/<block>.sv, links testbench/<block>/<block>_test.cpp to it and adds the CTest <test>
 # (default <block>, labels unit and lockstep). WITH_DEFECTS: also <test>.<defect> (label mutation) for
 # each patch in testbench/<block>/defects, which passes only when an assertion fails.
-# SOURCES are relative to the repository. PARAMS reach the RTL, DEFINES the test. docs/testing.md
+# ROUNDING is another value of the package's constant. SOURCES are relative to the repository. PARAMS
+# reach the RTL, DEFINES the test. docs/testing.md
 include_guard(GLOBAL)
 
 if(FELTGATE_RTL)
@@ -35,8 +37,18 @@ if(NOT TARGET feltgate_catch_main)
   target_link_libraries(feltgate_catch_main PUBLIC Catch2::Catch2)
 endif()
 
+# feltgate_rounding_package(<variable> <package> <mode>): the package with another constant ROUNDING.
+function(feltgate_rounding_package variable package mode)
+  set(changed "${CMAKE_CURRENT_BINARY_DIR}/rounding_${mode}/feltgate_pkg.sv")
+  file(READ "${package}" text)
+  string(REGEX REPLACE "ROUNDING = [0-9]+;" "ROUNDING = ${mode};" text "${text}")
+  file(CONFIGURE OUTPUT "${changed}" CONTENT "${text}" @ONLY)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${package}")
+  set(${variable} "${changed}" PARENT_SCOPE)
+endfunction()
+
 function(feltgate_block_test block)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "WITH_DEFECTS" "DEFECTS;NAME;DESIGN;PACKAGE" "SOURCES;PARAMS;DEFINES;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "WITH_DEFECTS" "DEFECTS;NAME;DESIGN;PACKAGE;ROUNDING" "SOURCES;PARAMS;DEFINES;LIBRARIES")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "feltgate_block_test(${block}): unknown ${arg_UNPARSED_ARGUMENTS}")
   endif()
@@ -51,6 +63,9 @@ function(feltgate_block_test block)
   endif()
   if(NOT arg_PACKAGE)
     set(arg_PACKAGE "${FELTGATE_ROOT}/rtl/generated/${arg_DESIGN}/feltgate_pkg.sv")
+  endif()
+  if(DEFINED arg_ROUNDING)
+    feltgate_rounding_package(arg_PACKAGE "${arg_PACKAGE}" ${arg_ROUNDING})
   endif()
   set(package "${arg_PACKAGE}" "${FELTGATE_MAP_PACKAGE}")
   set(sources "")

@@ -1,84 +1,87 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// scene_charge: RTL against twin on every clock, clock() against tick(), the division against plain
-// integers, signs and symmetry. Documentation: docs/blocks/scene_charge.md
+// scene_charge: RTL against twin on every clock, and against law and plain integers in every wave;
+// the law's signs, symmetry and border. Documentation: docs/blocks/scene_charge.md
 #include <Vscene_charge.h>
 
-#include "../scenes/scene_wave.hpp"
+#include "../scenes/scene_bench.hpp"
 #include "catch.hpp"
-#include "feltgate/scene_charge.hpp"
+#include "scene_charge_twin.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
 
 namespace {
 
-using Twin = SceneCharge<Design>;
-using A = Design::A;
-constexpr int kAttract = Design::S::charge_attract;
-constexpr int kRepel = Design::S::charge_repel;
+using Law = SceneChargeLaw<Design, Fixed>;
 
-struct Block {
+struct Block : BlockOf<Vscene_charge, SceneCharge<Design>> {
   static Twin::In in(const Wave& wave, const Bus& bus) {
-    return {wave.scene == kAttract || wave.scene == kRepel,
-            wave.scene == kAttract,
-            bus.start,
-            wave.position,
+    return {bus.armed,
+            wave.scene == S::charge_attract,
+            wave.scene == S::charge_repel,
+            bus.gap,
+            bus.wave,
             bus.param,
-            bus.product};
+            bus.product,
+            bus.beyond};
   }
-  static std::int64_t operand(const Twin::Out& out) { return out.operand; }
-  static void drive(Vscene_charge& rtl, const Twin::In& in) {
-    rtl.select_i = in.select;
+  static void drive(Rtl& rtl, const Twin::In& in) {
+    rtl.armed_i = in.armed;
     rtl.attract_i = in.attract;
-    rtl.start_i = in.start;
-    rtl.position_i = port_bits<18>(in.position);
+    rtl.repel_i = in.repel;
+    rtl.gap_i = port_bits<19>(in.gap);
+    rtl.wave_i = in.wave;
     rtl.param_i = in.param;
     rtl.product_i = port_bits<53, std::uint64_t>(in.product);
+    rtl.beyond_i = in.beyond;
   }
   template <class Check>
-  static void compare(Check& check, const Vscene_charge& rtl, const Twin::Out& out) {
-    check("operand", sign_extend<26>(rtl.operand_o), out.operand);
-    check("tau", sign_extend<kTorque.width()>(rtl.tau_o), out.tau);
+  static void compare(Check& check, const Rtl& rtl, const Twin::Out& out) {
+    check("plus", sign_extend<kPartWidth>(rtl.plus_o), out.plus);
+    check("minus", sign_extend<kPartWidth>(rtl.minus_o), out.minus);
+    check("outside", sign_extend<kTorque.width()>(rtl.outside_o), out.outside);
   }
 };
 
 struct Tally {
-  std::int64_t waves = 0, outside = 0, saturated = 0, at_centre = 0, far = 0;
-  std::int64_t core = 0, border = 0, core_saturated = 0, up = 0, down = 0;
+  std::int64_t waves = 0, outside = 0, saturated = 0, at_centre = 0, far = 0, disarmed = 0;
+  std::int64_t core = 0, border = 0, core_large = 0, up = 0, down = 0;
 };
 
-std::int64_t magnitude(std::int64_t x) { return x < 0 ? -x : x; }
+std::int64_t size(std::int64_t x) { return x < 0 ? -x : x; }
+
+/// The core's half-width as the limiter reads it.
+std::int64_t half_width(const Memory& memory, int scene) {
+  return decode_word(Format::from_key(Law::kWidthKey),
+                     memory.slot(scene, Map::T::charge_width_limited));
+}
 
 /// The torque by its definition, in 64-bit integers.
-std::int64_t oracle(const Memory& memory, bool attract, std::int32_t position, Tally* tally) {
-  const int bank = 32 * (attract ? kAttract : kRepel);
-  const std::int64_t centre = decode_word(Design::f.scene_offset, memory.word(bank + 1)) >> 8;
-  std::int64_t x = position - centre;  // the block saturates centre - position
-  tally->far += x > 131072 || x < -131071;
-  x = x > 131072 ? 131072 : x < -131071 ? -131071 : x;
-  const std::int64_t core = memory.word(bank + 12) & 0x7fffffff;
-  tally->border += magnitude(x) == core;
-  std::int64_t away = 0;
-  if (magnitude(x) < core) {
-    const std::int64_t slope = memory.word(bank + 6) & 0x1ffff;
+std::int64_t oracle(const Memory& memory, int scene, std::int32_t position, Tally* tally) {
+  const bool attract = scene == S::charge_attract;
+  const std::int64_t x = position - (memory.reference(scene) >> 8);
+  tally->far += x > kEnd + 1 || x < -kEnd - 1;
+  const std::int64_t core = half_width(memory, scene);
+  tally->border += core > 0 && size(x) == core;
+  if (core > 0 && size(x) <= core) {
+    const std::int64_t slope = memory.factor(scene, Map::W::charge_slope);
     const int drop =
         (attract ? Design::P::attract_core_slope : Design::P::repel_core_slope).fraction - 16;
     // Half up on the pull towards the centre.
     const std::int64_t half = drop > 0 ? std::int64_t{1} << (drop - 1) : 0;
     const std::int64_t pull = (-x * slope + half) >> drop;
-    std::int64_t tau = attract ? pull : -pull;
     ++tally->core;
-    tally->core_saturated += tau > 65535 || tau < -65536;
-    return tau > 65535 ? 65535 : tau < -65536 ? -65536 : tau;
+    tally->core_large += size(pull) > 65535;
+    return attract ? pull : -pull;
   }
-  const std::int64_t strength = memory.word(bank + 2);
+  const std::int64_t strength = memory.slot(scene, Map::W::attract_strength);
+  std::int64_t away = 65535;
   ++tally->outside;
   tally->at_centre += x == 0;
   if (x == 0 || strength / (x * x) > 65535) {
     ++tally->saturated;
-    away = 65535;
   } else {
     away = strength / (x * x);
   }
@@ -86,21 +89,29 @@ std::int64_t oracle(const Memory& memory, bool attract, std::int32_t position, T
   return attract ? -away : away;
 }
 
-struct TickBeside {
+struct LawBeside {
   Tally* tally;
-  Twin beside{};
-  void forget() { beside.reset(); }
-  const char* operator()(const Probe& p, const Vscene_charge& rtl, const Twin& twin) {
-    const bool attract = p.wave.scene == kAttract;
-    const bool selected = attract || p.wave.scene == kRepel;
-    beside.tick(p.memory.words(), selected, attract, p.wave.position);
-    if (beside.out().tau != twin.out().tau) return "tick() differs from clock()";
-    const std::int64_t tau = sign_extend<kTorque.width()>(rtl.tau_o);
+  void forget() {}
+  const char* at(const Probe& p, const Block::Rtl& rtl, const Block::Twin&) {
+    if (p.t != kRendered) return nullptr;
+    const Wave& w = p.wave;
+    const std::int64_t outside = sign_extend<kTorque.width()>(rtl.outside_o);
+    const std::int64_t core = rounded(sign_extend<kPartWidth>(rtl.plus_o)) -
+                              rounded(sign_extend<kPartWidth>(rtl.minus_o));
+    const std::int64_t tau = core + outside;
     ++tally->waves;
+    if (!is_charge(w.scene)) return tau == 0 ? nullptr : "a torque while not selected";
+    if (!w.armed || w.disarmed_from <= kRendered) {
+      ++tally->disarmed;
+      return outside == 0 ? nullptr : "a torque while disarmed";
+    }
+    if (core != 0 && outside != 0) return "both laws at once";
     tally->up += tau > 0;
     tally->down += tau < 0;
-    const std::int64_t wanted = selected ? oracle(p.memory, attract, p.wave.position, tally) : 0;
-    return tau == wanted ? nullptr : "torque is not what integers give";
+    const bool attract = w.scene == S::charge_attract;
+    if (tau != Law::torque(p.memory.words(), attract, w.position).raw()) return "the law's torque";
+    return tau == oracle(p.memory, w.scene, w.position, tally) ? nullptr
+                                                               : "torque is not what integers give";
   }
 };
 
@@ -109,28 +120,37 @@ struct Next {
   Wave operator()(Memory& memory, std::int64_t) {
     Wave wave;
     wave.scene = random.one_in(10) ? static_cast<int>(random.below(16))
-                 : random.coin()   ? kAttract
-                                   : kRepel;
+                 : random.coin()   ? S::charge_attract
+                                   : S::charge_repel;
+    wave.armed = !random.one_in(20);
+    if (random.one_in(20)) wave.disarmed_from = static_cast<int>(random.below(kRendered + 1));
     const int bank = wave.scene * 32;
-    if (random.one_in(4))
-      memory.write(bank + 1, random.one_in(4) ? any_word(random) : random.between(-400000, 400000));
-    if (random.one_in(4)) memory.write(bank + 2, any_word(random));
-    if (random.one_in(4))
-      memory.write(bank + 6, random.below(std::uint64_t{1} << random.below(18)));
-    if (random.one_in(4))
-      memory.write(bank + 12, random.coin() ? any_word(random) : random.below(2048));
+    if (is_charge(wave.scene)) change(memory, bank);
     wave.position = any_position(random, memory, wave.scene);
-    const std::int64_t centre = decode_word(Design::f.scene_offset, memory.word(bank + 1)) >> 8;
-    const std::int64_t core = memory.word(bank + 12) & 0x7fffffff;
+    const std::int64_t centre = memory.reference(wave.scene) >> 8;
+    const std::int64_t core = half_width(memory, wave.scene);
     if (random.one_in(3)) wave.position = static_cast<std::int32_t>(random.between(-30, 30));
-    if (random.one_in(4) && core < 100000 && centre > -30000 && centre < 30000) {
+    if (random.one_in(4) && core > -100 && core < 100000 && centre > -30000 && centre < 30000) {
       wave.position = static_cast<std::int32_t>(centre + (random.coin() ? core : -core) +
                                                 random.between(-1, 1));
     }
-    if (random.one_in(20))
-      wave.position = static_cast<std::int32_t>(centre > 131071 ? 131071 : centre);
-    wave.length = static_cast<int>(random.between(30, 36));
+    if (random.one_in(20)) wave.position = static_cast<std::int32_t>(centre);
+    wave.length = static_cast<int>(random.between(Wave::kShortest, 30));
     return wave;
+  }
+  void change(Memory& memory, int bank) {
+    if (random.one_in(4)) {
+      memory.write(bank + Map::T::scene_distance,
+                   random.one_in(4) ? any_word(random) : random.between(-400000, 400000));
+    }
+    if (random.one_in(4)) memory.write(bank + Map::W::attract_strength, any_word(random));
+    if (random.one_in(4)) {
+      memory.write(bank + Map::W::charge_slope, random.below(std::uint64_t{1} << random.below(18)));
+    }
+    if (random.one_in(4)) {
+      memory.write(bank + Map::W::attract_core,
+                   random.one_in(3) ? any_word(random) : random.below(2048));
+    }
   }
 };
 
@@ -138,14 +158,13 @@ struct Next {
 
 TEST_CASE("scene_charge: random charges, positions, scenes and resets") {
   Tally tally;
-  const auto probe = std::make_shared<Probe>();
-  LockStep<Vscene_charge, Twin, Block> bench("scene_charge", 1);
-  bench.run(Waves<Block, Next>(2, Next{Random(3)}, probe), scaled_clocks(3000000), {5000},
-            AfterWave<TickBeside>(probe, {&tally}));
+  run_waves<Block>("scene_charge", 1, Next{Random(3)}, LawBeside{&tally}, scaled_clocks(3000000),
+                   5000);
   INFO("waves " << tally.waves << ", outside " << tally.outside << ", saturated " << tally.saturated
                 << ", at the centre " << tally.at_centre << ", far " << tally.far << ", core "
-                << tally.core << ", border " << tally.border << ", core saturated "
-                << tally.core_saturated << ", up " << tally.up << ", down " << tally.down);
+                << tally.core << ", border " << tally.border << ", core large " << tally.core_large
+                << ", up " << tally.up << ", down " << tally.down << ", disarmed "
+                << tally.disarmed);
   REQUIRE(tally.outside > 10000);
   REQUIRE(tally.saturated > 1000);
   REQUIRE(tally.saturated < tally.outside / 2);
@@ -153,10 +172,10 @@ TEST_CASE("scene_charge: random charges, positions, scenes and resets") {
   REQUIRE(tally.far > 300);
   REQUIRE(tally.core > 10000);
   REQUIRE(tally.border > 1000);
-  REQUIRE(tally.core_saturated > 1000);
-  REQUIRE(tally.core_saturated < tally.core * 2 / 3);
+  REQUIRE(tally.core_large > 1000);
   REQUIRE(tally.up > 10000);
   REQUIRE(tally.down > 10000);
+  REQUIRE(tally.disarmed > 3000);
 }
 
 namespace {
@@ -169,8 +188,7 @@ struct Sweep {
     Wave wave;
     wave.scene = scene;
     wave.position = number <= 6000 ? static_cast<std::int32_t>(number - 3000)
-                                   : static_cast<std::int32_t>(random.between(-131072, 131071));
-    wave.length = 30;
+                                   : static_cast<std::int32_t>(random.between(-kEnd - 1, kEnd));
     return wave;
   }
 };
@@ -178,40 +196,77 @@ struct Sweep {
 }  // namespace
 
 TEST_CASE("scene_charge: the design's charge at every small distance") {
-  for (const int scene : {kAttract, kRepel}) {
+  for (const int scene : {S::charge_attract, S::charge_repel}) {
     Tally tally;
-    const auto probe = std::make_shared<Probe>();
-    LockStep<Vscene_charge, Twin, Block> bench("scene_charge", 4);
-    bench.run(Waves<Block, Sweep>(2, {Random(5), scene}, probe), 30 * 8000, {},
-              AfterWave<TickBeside>(probe, {&tally}));
+    run_waves<Block>("scene_charge", 4, Sweep{Random(5), scene}, LawBeside{&tally},
+                     Wave::kShortest * 8000);
     REQUIRE(tally.waves > 7990);
     REQUIRE(tally.up > 2000);
     REQUIRE(tally.down > 2000);
   }
 }
 
-TEST_CASE("scene_charge: sign table") {
-  Memory memory;
-  for (const int bank : {32 * kAttract, 32 * kRepel}) {
-    memory.write(bank + 1, 100 * 256 + 77);  // the fraction is ignored
-    memory.write(bank + 2, std::int64_t{1000} * 65536);
-    memory.write(bank + 12, 0);
+namespace {
+
+/// A charge at 100 counts whose strength is 1000 Nm count^2 and whose slope is the design's.
+struct Charge {
+  explicit Charge(std::int64_t core) {
+    for (const int scene : {S::charge_attract, S::charge_repel}) {
+      const int bank = 32 * scene;
+      memory.write(bank + Map::T::scene_distance, 100 * 256 + 77);  // the fraction is ignored
+      memory.write(bank + Map::W::attract_strength, std::int64_t{1000} * 65536);
+      memory.write(bank + Map::W::attract_core, core);
+    }
   }
-  Twin twin;
-  const auto tau = [&](bool attract, std::int32_t x) {
-    twin.tick(memory.words(), true, attract, 100 + x);
-    return twin.out().tau;
-  };
-  REQUIRE(tau(true, 0) == -65535);  // sgn(0) = +1
-  REQUIRE(tau(false, 0) == 65535);
+  std::int64_t tau(bool attract, std::int32_t x) const {
+    return Law::torque(memory.words(), attract, 100 + x).raw();
+  }
+  Memory memory;
+};
+
+std::int64_t outside(std::int64_t x) {
+  const std::int64_t q = std::int64_t{65536000} / (x * x);
+  return q > 65535 ? 65535 : q;
+}
+
+}  // namespace
+
+TEST_CASE("scene_charge: sign table") {
+  const Charge charge(0);
+  REQUIRE(charge.tau(true, 0) == -65535);  // sgn(0) = +1
+  REQUIRE(charge.tau(false, 0) == 65535);
   for (std::int32_t x = 1; x < 20000; x += x < 300 ? 1 : 77) {
-    const std::int64_t size = tau(false, x);
-    REQUIRE(size >= 0);
-    REQUIRE(size == (std::int64_t{65536000} / (std::int64_t{x} * x) > 65535
-                         ? 65535
-                         : std::int64_t{65536000} / (std::int64_t{x} * x)));
-    REQUIRE(tau(false, -x) == -size);
-    REQUIRE(tau(true, x) == -size);
-    REQUIRE(tau(true, -x) == size);
+    const std::int64_t away = charge.tau(false, x);
+    REQUIRE(away == outside(x));
+    REQUIRE(charge.tau(false, -x) == -away);
+    REQUIRE(charge.tau(true, x) == -away);
+    REQUIRE(charge.tau(true, -x) == away);
+  }
+}
+
+TEST_CASE("scene_charge: the core holds up to and including its half-width; 0 or less is none") {
+  for (const std::int64_t core : {1, 2, 50, 1000}) {
+    const Charge charge(core);
+    for (const bool attract : {true, false}) {
+      const std::int64_t slope =
+          charge.memory.factor(attract ? S::charge_attract : S::charge_repel, Map::W::charge_slope);
+      const int drop =
+          (attract ? Design::P::attract_core_slope : Design::P::repel_core_slope).fraction - 16;
+      const std::int64_t half = std::int64_t{1} << (drop - 1);
+      for (const std::int64_t x : {core, -core}) {
+        const std::int64_t pull = (-x * slope + half) >> drop;
+        REQUIRE(charge.tau(attract, static_cast<std::int32_t>(x)) == (attract ? pull : -pull));
+      }
+      for (const int sign : {1, -1}) {
+        const std::int64_t away = sign * outside(core + 1);
+        REQUIRE(charge.tau(attract, static_cast<std::int32_t>(sign * (core + 1))) ==
+                (attract ? -away : away));
+      }
+      REQUIRE(charge.tau(attract, 0) == 0);
+    }
+  }
+  for (const std::int64_t core : {0, -1, -1000}) {
+    REQUIRE(Charge(core).tau(true, 0) == -65535);
+    REQUIRE(Charge(core).tau(false, 1) == 65535);
   }
 }

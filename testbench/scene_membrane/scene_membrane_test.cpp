@@ -1,38 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// scene_membrane: RTL against twin on every clock, clock() against tick(), entries from every side,
-// and its energy balance. Documentation: docs/blocks/scene_membrane.md
+// scene_membrane: RTL against twin on every clock, and against the law in every wave; the law's
+// entries from every side and its energy balance. Documentation: docs/blocks/scene_membrane.md
 #include <Vscene_membrane.h>
 
 #include <vector>
 
-#include "../scenes/scene_wave.hpp"
+#include "../scenes/scene_bench.hpp"
 #include "catch.hpp"
-#include "feltgate/scene_membrane.hpp"
+#include "scene_membrane_twin.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
 
 namespace {
 
-using Twin = SceneMembrane<Design>;
-constexpr int kMembrane = Design::S::membrane;
+using Law = SceneMembraneLaw<Design, Fixed>;
 
-struct Block {
+struct Block : BlockOf<Vscene_membrane, SceneMembrane<Design>> {
   static Twin::In in(const Wave& wave, const Bus& bus) {
-    return {wave.scene == kMembrane, bus.start, wave.position, bus.param};
+    return {wave.scene == S::membrane, bus.face_gap < 0, bus.face_gap == 0, bus.wave, bus.param};
   }
-  static std::int64_t operand(const Twin::Out&) { return 0; }
-  static void drive(Vscene_membrane& rtl, const Twin::In& in) {
+  static void drive(Rtl& rtl, const Twin::In& in) {
     rtl.select_i = in.select;
-    rtl.start_i = in.start;
-    rtl.position_i = port_bits<18>(in.position);
+    rtl.gap_negative_i = in.gap_negative;
+    rtl.gap_zero_i = in.gap_zero;
+    rtl.wave_i = in.wave;
     rtl.param_i = in.param;
   }
   template <class Check>
-  static void compare(Check& check, const Vscene_membrane& rtl, const Twin::Out& out) {
-    check("tau", sign_extend<kTorque.width()>(rtl.tau_o), out.tau);
+  static void compare(Check& check, const Rtl& rtl, const Twin::Out& out) {
+    check("plus", sign_extend<kTorque.width()>(rtl.plus_o), out.plus);
+    check("minus", sign_extend<kTorque.width()>(rtl.minus_o), out.minus);
   }
 };
 
@@ -40,18 +40,26 @@ struct Tally {
   std::int64_t waves = 0, up = 0, down = 0, unknown = 0;
 };
 
-struct TickBeside {
+struct LawBeside {
   Tally* tally;
-  Twin beside{};
-  void forget() { beside.reset(); }
-  const char* operator()(const Probe& p, const Vscene_membrane&, const Twin& twin) {
-    const bool selected = p.wave.scene == kMembrane;
-    beside.tick(p.memory.words(), selected, p.wave.position);
+  MembraneSide side = MembraneSide::unknown;
+  void forget() { side = MembraneSide::unknown; }
+  const char* at(const Probe& p, const Block::Rtl& rtl, const Block::Twin&) {
+    if (p.t != kRendered) return nullptr;
+    const bool selected = p.wave.scene == S::membrane;
+    std::int64_t wanted = 0;
+    if (selected) {
+      wanted = Law::torque(p.memory.words(), p.wave.position, &side).raw();
+    } else {
+      side = MembraneSide::unknown;
+    }
+    const std::int64_t tau =
+        sign_extend<kTorque.width()>(rtl.plus_o) - sign_extend<kTorque.width()>(rtl.minus_o);
     ++tally->waves;
-    tally->up += twin.out().tau > 0;
-    tally->down += twin.out().tau < 0;
-    tally->unknown += selected && twin.side() == MembraneSide::unknown;
-    return beside.out().tau == twin.out().tau ? nullptr : "tick() differs from clock()";
+    tally->up += tau > 0;
+    tally->down += tau < 0;
+    tally->unknown += selected && side == MembraneSide::unknown;
+    return tau == wanted ? nullptr : "the law's torque";
   }
 };
 
@@ -62,22 +70,22 @@ struct Next {
   Wave operator()(Memory& memory, std::int64_t number) {
     if (number == 0 || random.one_in(40)) {
       const std::int64_t lower = random.between(-40000, 40000);
-      memory.write(Design::A::membrane_lower, lower);
-      memory.write(Design::A::membrane_upper, lower + random.between(-300, 256 * 60));
-      memory.write(Design::A::membrane_torque,
-                   random.one_in(4) ? any_word(random) : random.below(65536));
-      if (random.one_in(16)) memory.write(Design::A::membrane_lower, any_word(random));
+      memory.write(A::membrane_lower, lower);
+      memory.write(A::membrane_upper, lower + random.between(-300, 256 * 60));
+      memory.write(A::membrane_torque, random.one_in(4) ? any_word(random) : random.below(65536));
+      if (random.one_in(16)) memory.write(A::membrane_lower, any_word(random));
     }
-    if (random.one_in(20))
-      wave.scene = random.coin() ? kMembrane : static_cast<int>(random.below(9));
-    if (number == 0) wave.scene = kMembrane;
+    if (random.one_in(20)) {
+      wave.scene = random.coin() ? S::membrane : static_cast<int>(random.below(9));
+    }
+    if (number == 0) wave.scene = S::membrane;
     if (random.one_in(12)) {
-      wave.position = any_position(random, memory, kMembrane);
+      wave.position = any_position(random, memory, S::membrane);
     } else {
       wave.position += static_cast<std::int32_t>(random.between(-12, 12));
-      if (wave.position > 131071 || wave.position < -131072) wave.position = 0;
+      if (wave.position > kEnd || wave.position < -kEnd - 1) wave.position = 0;
     }
-    wave.length = static_cast<int>(random.between(30, 34));
+    wave.length = static_cast<int>(random.between(Wave::kShortest, 30));
     return wave;
   }
 };
@@ -88,19 +96,18 @@ constexpr std::int64_t kNm = 20000;
 /// A membrane over [100, 110] of torque kNm, both faces with the fraction given in 1/256 count.
 Memory membrane(int lower_fraction = 0, int upper_fraction = 0) {
   Memory memory;
-  memory.write(Design::A::membrane_lower, kLower * 256 + lower_fraction);
-  memory.write(Design::A::membrane_upper, kUpper * 256 + upper_fraction);
-  memory.write(Design::A::membrane_torque, kNm);
+  memory.write(A::membrane_lower, kLower * 256 + lower_fraction);
+  memory.write(A::membrane_upper, kUpper * 256 + upper_fraction);
+  memory.write(A::membrane_torque, kNm);
   return memory;
 }
 
 /// Torques along a path.
 std::vector<std::int64_t> felt(const Memory& memory, const std::vector<std::int32_t>& path) {
-  Twin twin;
+  auto side = MembraneSide::unknown;
   std::vector<std::int64_t> tau;
   for (const std::int32_t position : path) {
-    twin.tick(memory.words(), true, position);
-    tau.push_back(twin.out().tau);
+    tau.push_back(Law::torque(memory.words(), position, &side).raw());
   }
   return tau;
 }
@@ -111,10 +118,8 @@ using Torques = std::vector<std::int64_t>;
 
 TEST_CASE("scene_membrane: random faces, motions, scenes and resets") {
   Tally tally;
-  const auto probe = std::make_shared<Probe>();
-  LockStep<Vscene_membrane, Twin, Block> bench("scene_membrane", 1);
-  bench.run(Waves<Block, Next>(2, Next{Random(3)}, probe), scaled_clocks(1500000), {5000},
-            AfterWave<TickBeside>(probe, {&tally}));
+  run_waves<Block>("scene_membrane", 1, Next{Random(3)}, LawBeside{&tally}, scaled_clocks(1500000),
+                   5000);
   INFO("waves " << tally.waves << ", up " << tally.up << ", down " << tally.down << ", unknown "
                 << tally.unknown);
   REQUIRE(tally.up > 1000);
@@ -144,7 +149,7 @@ TEST_CASE("scene_membrane: faces are compared with their fraction") {
 
 TEST_CASE("scene_membrane: a negative torque word counts as 0") {
   Memory memory = membrane();
-  memory.write(Design::A::membrane_torque, -1);
+  memory.write(A::membrane_torque, -1);
   REQUIRE(felt(memory, {99, 105}) == Torques{0, 0});
 }
 
@@ -154,7 +159,7 @@ TEST_CASE("scene_membrane: absorbs energy over any motion of at most a count per
     Random random(seed);
     const Memory memory =
         membrane(static_cast<int>(random.below(256)), static_cast<int>(random.below(256)));
-    Twin twin;
+    auto side = MembraneSide::unknown;
     std::int32_t position = static_cast<std::int32_t>(random.between(80, 130));
     std::int64_t tau = 0, twice_work = 0, crossings = 0;
     std::int32_t direction = 1;
@@ -163,10 +168,10 @@ TEST_CASE("scene_membrane: absorbs energy over any motion of at most a count per
       if (position < 70) direction = 1;
       if (position > 140) direction = -1;
       position += direction;
-      twin.tick(memory.words(), true, position);
-      twice_work += (tau + twin.out().tau) * direction;
-      crossings += tau == 0 && twin.out().tau != 0;
-      tau = twin.out().tau;
+      const std::int64_t now = Law::torque(memory.words(), position, &side).raw();
+      twice_work += (tau + now) * direction;
+      crossings += tau == 0 && now != 0;
+      tau = now;
       REQUIRE(twice_work <= 0);
     }
     REQUIRE(crossings > 50);

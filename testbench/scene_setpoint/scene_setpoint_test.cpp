@@ -1,34 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// scene_setpoint: RTL against twin on every clock, clock() against tick().
+// scene_setpoint: RTL against twin on every clock, and against the law.
 // Documentation: docs/blocks/scene_setpoint.md
 #include <Vscene_setpoint.h>
 
-#include "../scenes/scene_wave.hpp"
+#include "../scenes/scene_bench.hpp"
 #include "catch.hpp"
 #include "feltgate/scene_setpoint.hpp"
+#include "scene_setpoint_twin.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
 
 namespace {
 
-using Twin = SceneSetpoint<Design>;
+using Law = SceneSetpointLaw<Design, Fixed>;
 
-struct Block {
+struct Block : BlockOf<Vscene_setpoint, SceneSetpoint<Design>> {
   static Twin::In in(const Wave& wave, const Bus& bus) {
-    return {wave.scene == Design::S::setpoint, bus.start, bus.param};
+    return {wave.scene == S::setpoint, bus.wave, bus.param};
   }
-  static std::int64_t operand(const Twin::Out&) { return 0; }
-  static void drive(Vscene_setpoint& rtl, const Twin::In& in) {
+  static void drive(Rtl& rtl, const Twin::In& in) {
     rtl.select_i = in.select;
-    rtl.start_i = in.start;
+    rtl.wave_i = in.wave;
     rtl.param_i = in.param;
   }
   template <class Check>
-  static void compare(Check& check, const Vscene_setpoint& rtl, const Twin::Out& out) {
-    check("tau", sign_extend<kTorque.width()>(rtl.tau_o), out.tau);
+  static void compare(Check& check, const Rtl& rtl, const Twin::Out& out) {
+    check("plus", sign_extend<kTorque.width()>(rtl.plus_o), out.plus);
   }
 };
 
@@ -36,31 +36,31 @@ struct Tally {
   std::int64_t waves = 0, selected = 0, left = 0;
 };
 
-struct TickBeside {
+struct LawBeside {
   Tally* tally;
-  Twin beside{};
   bool before = false;
-  void forget() { beside.reset(); }
-  const char* operator()(const Probe& p, const Vscene_setpoint&, const Twin& twin) {
-    const bool selected = p.wave.scene == Design::S::setpoint;
-    beside.tick(p.memory.words(), selected);
+  void forget() {}
+  const char* at(const Probe& p, const Block::Rtl& rtl, const Block::Twin&) {
+    if (p.t != kRendered) return nullptr;
+    const bool selected = p.wave.scene == S::setpoint;
     ++tally->waves;
     tally->selected += selected;
     tally->left += before && !selected;
     before = selected;
-    return beside.out().tau == twin.out().tau ? nullptr : "tick() differs from clock()";
+    const std::int64_t wanted = selected ? Law::torque(p.memory.words()).raw() : 0;
+    return sign_extend<kTorque.width()>(rtl.plus_o) == wanted ? nullptr : "the law's torque";
   }
 };
 
 struct Next {
   Random random;
-  int scene = Design::S::setpoint;
+  int scene = S::setpoint;
   Wave operator()(Memory& memory, std::int64_t) {
-    memory.write(Design::A::setpoint_torque, any_word(random));
+    memory.write(A::setpoint_torque, any_word(random));
     if (random.one_in(5)) scene = static_cast<int>(random.below(9));
     Wave wave;
     wave.scene = scene;
-    wave.length = static_cast<int>(random.between(30, 50));
+    wave.length = static_cast<int>(random.between(Wave::kShortest, 50));
     return wave;
   }
 };
@@ -69,10 +69,8 @@ struct Next {
 
 TEST_CASE("scene_setpoint: random words, scenes and resets") {
   Tally tally;
-  const auto probe = std::make_shared<Probe>();
-  LockStep<Vscene_setpoint, Twin, Block> bench("scene_setpoint", 1);
-  bench.run(Waves<Block, Next>(2, Next{Random(3)}, probe), scaled_clocks(300000), {3000},
-            AfterWave<TickBeside>(probe, {&tally}));
+  run_waves<Block>("scene_setpoint", 1, Next{Random(3)}, LawBeside{&tally}, scaled_clocks(300000),
+                   3000);
   INFO("waves " << tally.waves << ", selected " << tally.selected << ", left " << tally.left);
   REQUIRE(tally.waves > 6000);
   REQUIRE(tally.selected > 500);
@@ -80,13 +78,9 @@ TEST_CASE("scene_setpoint: random words, scenes and resets") {
 }
 
 TEST_CASE("scene_setpoint: the word is the torque, whatever lies above its bits") {
-  Twin twin;
   for (const std::int64_t raw : {0, 1, -1, 32768, -32768, 1048575, -1048576}) {
     Memory memory;
-    memory.write(Design::A::setpoint_torque, (raw & 0x1fffff) | 0x5a800000);
-    twin.tick(memory.words(), true);
-    REQUIRE(twin.out().tau == raw);
-    twin.tick(memory.words(), false);
-    REQUIRE(twin.out().tau == 0);
+    memory.write(A::setpoint_torque, (raw & 0x1fffff) | 0x5a800000);
+    REQUIRE(Law::torque(memory.words()).raw() == raw);
   }
 }

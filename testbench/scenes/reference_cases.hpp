@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Test cases of scenes: the twin against the laws in 113-bit arithmetic with the design's exact
-// values, given position and velocity. Documentation: docs/blocks/scenes.md
+// Test cases of scenes: the laws in fixed point against those in 113-bit arithmetic with the
+// design's exact values, given position and velocity. Documentation: docs/blocks/scenes.md
 #pragma once
 
 #include "catch.hpp"
@@ -26,7 +26,8 @@ class Comparison {
     at(0, 0);
   }
   void at(std::int32_t position, std::int64_t velocity) {
-    fixed_.tick(fixed_words_, true, scene_, position, Twin::Velocity::from_raw(velocity));
+    fixed_.tick(fixed_words_, true, scene_, position,
+                ScenesLaw<Design, Fixed>::Velocity::from_raw(velocity));
     const Quad exact_velocity = static_cast<Quad>(velocity) /
                                 static_cast<Quad>(std::int64_t{1} << Design::f.velocity.fraction);
     real_.tick(real_words_, true, scene_, position, exact_velocity);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Waves for a scene block: what sequencer, parameter RAM and multiplier show it, clock by clock,
-// and a second twin that runs the same waves by tick(). Documentation: docs/blocks/scenes.md
+// Waves for a scene block: what sequencer, parameter RAM, multiplier and limiter show it, clock by
+// clock. Documentation: docs/blocks/scenes.md
 #pragma once
 
 #include <array>
@@ -17,10 +17,25 @@
 
 namespace feltgate::test {
 
+#ifdef FELTGATE_ROUNDING
+/// The design with another rounding.
+struct Design : FELTGATE_DESIGN {
+  static constexpr Round rounding = FELTGATE_ROUNDING;
+};
+#else
 using Design = FELTGATE_DESIGN;
+#endif
+using A = Design::A;
+using S = Design::S;
 constexpr Format kTorque = Design::f.torque;
+constexpr int kPartWidth = Design::f.scene_part.width();
+constexpr std::int32_t kEnd = 131071;  ///< of the positions
 
-/// The parameter RAM: the words as they are and as tick() takes them.
+constexpr bool is_charge(int scene) {
+  return scene == S::charge_attract || scene == S::charge_repel;
+}
+
+/// The parameter RAM: the words as they are and as a law takes them.
 class Memory {
  public:
   Memory() {
@@ -33,9 +48,16 @@ class Memory {
   std::uint32_t word(int address) const { return ram_[static_cast<std::size_t>(address)]; }
   /// What is on the bus in clock t of a wave.
   std::uint32_t slot(int scene, int t) const {
-    constexpr std::uint64_t scene_slots = 0x5c4e;
-    if (t < 0 || t > 62) return 0;
-    return word(((scene_slots >> t) & 1u) != 0 ? scene * 32 + t : t);
+    if (t < 0 || t >= Map::wave_length) return 0;
+    return word(((Map::scene_slots >> t) & 1u) != 0 ? scene * 32 + t : t);
+  }
+  /// A coefficient of the scene, without sign.
+  std::int64_t factor(int scene, int t) const {
+    return slot(scene, t) & ((std::uint32_t{1} << Design::coefficient_bits) - 1);
+  }
+  /// The scene's reference, in 1/256 count.
+  std::int64_t reference(int scene) const {
+    return decode_word(Design::f.scene_offset, slot(scene, Map::T::scene_distance));
   }
   const Words<Design, Fixed>& words() const { return words_; }
 
@@ -48,93 +70,119 @@ class Memory {
 struct Wave {
   bool armed = true;
   int scene = 0;
-  std::int32_t position = 0;  ///< 18 bits
-  std::int64_t velocity = 0;  ///< raw
-  int length = 32;            ///< clocks, at least 30
+  std::int32_t position = 0;             ///< 18 bits
+  std::int64_t velocity = 0;             ///< raw
+  int length = kShortest;                ///< clocks
+  int disarmed_from = Map::wave_length;  ///< the clock in which a fault takes the arming away
+
+  static constexpr int kShortest = Map::T::torque_limited + 2;
 };
 
 /// What the stimulus shares with the observer.
 struct Probe {
   Memory memory;
-  Wave wave;  ///< before the first one an idle one, while the block is reset
-  int t = -1;
+  Wave wave;
+  int t = -1;  ///< clock of the wave; -1 in reset
 };
 
-/// Buses of one clock.
+/// What a scene block is shown in one clock.
 struct Bus {
-  bool start = false;
+  bool armed = false;
+  std::uint64_t wave = 0;
   std::uint32_t param = 0;
   std::int64_t product = 0;
+  std::int64_t face_gap = 0;  ///< whole counts of what is on the parameter bus, less the position
+  std::int64_t gap = 0;       ///< the same of the reference, held
+  bool beyond = false;        ///< from the limiter
 };
 
+/// reference - position, in 1/256 count; a charge's centre has no fraction that counts.
+inline std::int64_t distance_of(const Memory& memory, const Wave& wave) {
+  const std::int64_t reference = memory.reference(wave.scene);
+  return (is_charge(wave.scene) ? reference & ~std::int64_t{255} : reference) -
+         std::int64_t{256} * wave.position;
+}
+
 /// Waves from next(memory, wave_number), which may write the memory. Block turns a wave and a bus
-/// into inputs: In in(const Wave&, const Bus&); and shows an operand: operand(const Out&).
+/// into inputs: static In in(const Wave&, const Bus&). On average every `reset_distance` clocks the
+/// block is reset, if that is not 0; a wave that this breaks begins anew.
 template <class Block, class Next>
 class Waves {
  public:
-  Waves(std::uint64_t seed, Next next, std::shared_ptr<Probe> probe)
-      : random_(seed), next_(std::move(next)), probe_(std::move(probe)) {}
+  Waves(std::uint64_t seed, Next next, std::shared_ptr<Probe> probe, std::uint32_t reset_distance)
+      : random_(seed), next_(std::move(next)), probe_(std::move(probe)), resets_(reset_distance) {}
 
-  template <class Out>
-  auto operator()(std::int64_t clock, const Out& out) {
+  auto operator()(std::int64_t clock) {
     Probe& p = *probe_;
     if (clock == 0) p = Probe{};  // a run starts: from the design's words
-    if (++p.t >= p.wave.length) {
+    if (clock > kIdle && left_ == 0 && resets_ != 0 && random_.one_in(resets_)) {
+      left_ = 1 + static_cast<int>(random_.below(8));
+    }
+    const bool reset = clock < kIdle || left_ > 0;
+    if (left_ > 0) --left_;
+    if (reset) {
+      p.t = -1;
+    } else if (p.t < 0 || ++p.t >= p.wave.length) {
       p.wave = next_(p.memory, number_++);
       p.t = 0;
     }
-    const int scene = p.wave.scene;
-    if (p.t == 3) operand_ = Block::operand(out);
-    if (p.t == 6) slope_operand_ = Block::operand(out);
-    Bus bus;
-    bus.start = p.t == 1;
-    bus.param = p.memory.slot(scene, p.t);
-    bus.product = product(p);
-    return Block::in(p.wave, bus);
+    return typename Block::Clocked::In{Block::in(p.wave, bus(p)), reset};
   }
 
  private:
-  static std::int64_t factor(std::uint32_t word) { return word & 0x1ffffu; }
-  /// The multiplier's result, four clocks after its operands; noise where nobody listens.
+  static constexpr std::int64_t kIdle = 6;  // in reset at power-up
+
+  Bus bus(const Probe& p) {
+    const Wave& w = p.wave;
+    Bus bus;
+    bus.armed = w.armed && p.t < w.disarmed_from;
+    bus.wave = p.t < 0 ? 0 : std::uint64_t{1} << p.t;
+    bus.param = p.memory.slot(w.scene, p.t);
+    bus.product = product(p);
+    bus.face_gap = (decode_word(Design::f.scene_offset, bus.param) >> 8) - w.position;
+    bus.gap = gap_;
+    if (p.t == Map::T::scene_distance) gap_ = bus.face_gap;
+    bus.beyond = p.t == Map::T::charge_core ? beyond_ : random_.coin();
+    if (p.t == Map::T::charge_width_limited) {
+      constexpr Format width{1, Design::f.limiter.width() - 1, 0};
+      const std::int64_t limit = decode_word(width, bus.param);
+      beyond_ = gap_ > limit || gap_ < -limit;
+    }
+    return bus;
+  }
+  /// The multiplier's result; noise where nobody listens.
   std::int64_t product(const Probe& p) {
-    const int scene = p.wave.scene;
-    const bool charge = scene == Design::S::charge_attract || scene == Design::S::charge_repel;
-    if (p.t == 7 && charge) return (operand_ / 256) * (operand_ / 256);
-    if (p.t == 7) return operand_ * factor(p.memory.slot(scene, 3));
-    if (p.t == 10) return slope_operand_ * factor(p.memory.slot(scene, 6));
-    if (p.t == 14) return p.wave.velocity * factor(p.memory.slot(scene, 10));
+    const Wave& w = p.wave;
+    const std::int64_t distance = distance_of(p.memory, w);
+    if (p.t == Map::M::charge_square && is_charge(w.scene)) {
+      return distance * decode_word({1, 17, 0}, static_cast<std::uint32_t>(distance >> 8));
+    }
+    if (p.t == Map::M::scene_stiffness) {
+      return distance * p.memory.factor(w.scene, Map::W::scene_stiffness);
+    }
+    if (p.t == Map::M::charge_slope) {
+      return distance * p.memory.factor(w.scene, Map::W::charge_slope);
+    }
+    if (p.t == Map::M::scene_damping) {
+      return w.velocity * p.memory.factor(w.scene, Map::W::scene_damping);
+    }
     return static_cast<std::int64_t>(random_.bits()) / 2048;
   }
 
   Random random_;
   Next next_;
   std::shared_ptr<Probe> probe_;
-  std::int64_t number_ = 0, operand_ = 0, slope_operand_ = 0;
+  std::uint32_t resets_;
+  std::int64_t number_ = 0, gap_ = 0;
+  int left_ = 0;
+  bool beyond_ = false;
 };
 
-/// Observer: at the end of every wave that no reset broke, calls check(probe, rtl, twin), which
-/// returns nullptr or the property that is broken; forget() at every reset.
-template <class Check>
-class AfterWave {
- public:
-  AfterWave(std::shared_ptr<Probe> probe, Check check)
-      : probe_(std::move(probe)), check_(std::move(check)) {}
-
-  template <class In, class Rtl, class Twin>
-  const char* operator()(const In&, const Rtl& rtl, const Twin& twin, bool in_reset) {
-    if (in_reset) {
-      whole_ = false;
-      check_.forget();
-    } else if (probe_->t == 1) {
-      whole_ = true;
-    }
-    return whole_ && probe_->t == 28 ? check_(*probe_, rtl, twin) : nullptr;
-  }
-
- private:
-  std::shared_ptr<Probe> probe_;
-  Check check_;
-  bool whole_ = false;
+/// Waves that a test lists by number.
+template <class F>
+struct Listed {
+  F f;
+  Wave operator()(Memory& memory, std::int64_t number) { return f(memory, number); }
 };
 
 /// A number with the low bits of `low` and, now and then, an extreme one.
@@ -157,16 +205,20 @@ inline std::int64_t any_word(Random& random) {
 
 /// Positions: anywhere, at the ends, or near one of the scene's own counts.
 inline std::int32_t any_position(Random& random, const Memory& memory, int scene) {
-  constexpr std::int32_t end = 131071;
-  if (random.one_in(16)) return random.coin() ? end : -end - 1;
-  if (random.one_in(8)) return static_cast<std::int32_t>(random.between(-end - 1, end));
-  const int slot = static_cast<int>(1 + random.below(2));
+  if (random.one_in(16)) return random.coin() ? kEnd : -kEnd - 1;
+  if (random.one_in(8)) return static_cast<std::int32_t>(random.between(-kEnd - 1, kEnd));
+  const int slot = static_cast<int>(Map::T::scene_distance + random.below(2));
   const std::int64_t face =
       decode_word(Design::f.scene_offset, memory.word(scene * 32 + slot)) >> 8;
   const std::int64_t spread = std::int64_t{1} << random.below(12);
-  std::int64_t p = face + random.between(-spread, spread);
-  p = p > end ? end : p < -end - 1 ? -end - 1 : p;
-  return static_cast<std::int32_t>(p);
+  const std::int64_t p = face + random.between(-spread, spread);
+  return static_cast<std::int32_t>(p > kEnd ? kEnd : p < -kEnd - 1 ? -kEnd - 1 : p);
+}
+
+/// Velocities of every size and sign, the ends among them.
+inline std::int64_t any_velocity(Random& random) {
+  if (random.one_in(8)) return random.coin() ? INT32_MAX : INT32_MIN;
+  return static_cast<std::int32_t>(random.bits()) >> random.below(24);
 }
 
 }  // namespace feltgate::test

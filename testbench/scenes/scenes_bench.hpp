@@ -7,11 +7,10 @@
 
 #include <Vscenes.h>
 
-#include <algorithm>
 #include <array>
 
-#include "feltgate/scenes.hpp"
-#include "scene_wave.hpp"
+#include "scene_bench.hpp"
+#include "scenes_twin.hpp"
 
 namespace feltgate::test {
 
@@ -23,80 +22,89 @@ struct Built : Design {
 #else
 using Built = Design;
 #endif
-using Twin = Scenes<Built>;
-using A = Design::A;
-using S = Design::S;
 
-struct Block {
+struct Block : BlockOf<Vscenes, Scenes<Built>> {
   static Twin::In in(const Wave& wave, const Bus& bus) {
-    return {wave.armed, wave.scene, bus.start, wave.position, bus.param, bus.product};
+    return {bus.armed, wave.scene, bus.wave, bus.param, wave.position, bus.product, bus.beyond};
   }
-  static std::int64_t operand(const Twin::Out& out) { return out.operand; }
-  static void drive(Vscenes& rtl, const Twin::In& in) {
+  static void drive(Rtl& rtl, const Twin::In& in) {
     rtl.armed_i = in.armed;
     rtl.scene_i = static_cast<std::uint8_t>(in.scene);
-    rtl.start_i = in.start;
-    rtl.position_i = port_bits<18>(in.position);
+    rtl.wave_i = in.wave;
     rtl.param_i = in.param;
+    rtl.position_i = port_bits<18>(in.position);
     rtl.product_i = port_bits<53, std::uint64_t>(in.product);
+    rtl.beyond_i = in.beyond;
   }
   template <class Check>
-  static void compare(Check& check, const Vscenes& rtl, const Twin::Out& out) {
-    check("operand", sign_extend<26>(rtl.operand_o), out.operand);
+  static void compare(Check& check, const Rtl& rtl, const Twin::Out& out) {
+    check("distance", sign_extend<Design::f.scene_distance.width()>(rtl.distance_o), out.distance);
     check("square", rtl.square_o, out.square);
-    check("tau_ref", sign_extend<kTorque.width()>(rtl.tau_ref_o), out.tau_ref);
-    check("limit_torque", rtl.limit_torque_o, out.limit_torque);
-    check("limit_ramp", rtl.limit_ramp_o, out.limit_ramp);
+    check("ahead", sign_extend<Design::f.scene_torque.width()>(rtl.ahead_o), out.ahead);
+    check("late", sign_extend<kTorque.width()>(rtl.late_o), out.late);
   }
 };
 
 struct Tally {
-  std::int64_t waves = 0, disarmed = 0, limited = 0, ramping = 0, free = 0, ends = 0;
-  std::array<std::int64_t, 16> acting{};  ///< waves with a torque, by scene
+  std::int64_t waves = 0, disarmed = 0, halted = 0;
+  std::array<std::int64_t, 16> up{}, down{};  ///< waves with a torque, by scene
 };
 
-/// tick() gives the same; and the properties of limit and ramp.
-struct TickBeside {
+/// The law of the scene; what holds of its torque whatever the law; each word in its clock alone.
+struct LawBeside {
+  using Law = ScenesLaw<Built, Fixed>;
+  using T = Map::T;
   Tally* tally;
-  Twin beside{};
-  std::int64_t before = 0;
-  bool ramp_before = true;
-  void forget() {
-    beside.reset();
-    before = 0;
-    ramp_before = true;
-  }
-  const char* operator()(const Probe& p, const Vscenes& rtl, const Twin&) {
+  MembraneSide side = MembraneSide::unknown;
+  std::int64_t seen = 0;
+
+  void forget() { side = MembraneSide::unknown; }
+  const char* at(const Probe& p, const Vscenes& rtl, const Scenes<Built>&) {
     const Wave& w = p.wave;
-    beside.tick(p.memory.words(), w.armed, w.scene, w.position,
-                Twin::Velocity::from_raw(w.velocity));
-    const std::int64_t tau = sign_extend<kTorque.width()>(rtl.tau_ref_o);
-    const std::int64_t limit = decode_word(kTorque, p.memory.word(A::torque_limit));
-    const std::int64_t step = decode_word(Design::f.ramp, p.memory.word(A::ramp_step));
+    const std::int64_t distance = distance_of(p.memory, w);
+    const bool shows = p.t == T::scene_distance || p.t == T::scene_distance + 1;
+    const bool built = scene_built<Built>(w.scene);
+    const std::int64_t wanted =
+        is_charge(w.scene) && !built ? distance | (p.memory.reference(w.scene) & 255) : distance;
+    if (sign_extend<Design::f.scene_distance.width()>(rtl.distance_o) != (shows ? wanted : 0)) {
+      return "the distance, in two clocks alone";
+    }
+    if ((rtl.square_o != 0) != (is_charge(w.scene) && built)) return "the square is the charges'";
+    const std::int64_t ahead = sign_extend<Design::f.scene_torque.width()>(rtl.ahead_o);
+    if (p.t == T::scene_rounded) {
+      seen = ahead;
+    } else if (ahead != (p.t == T::charge_width ? distance >> 8 : 0)) {
+      return "the distance in whole counts, and nothing in other clocks";
+    }
+    return p.t == kRendered ? whole(p, sign_extend<kTorque.width()>(rtl.late_o)) : nullptr;
+  }
+
+ private:
+  const char* whole(const Probe& p, std::int64_t late) {
+    const Wave& w = p.wave;
+    const std::int64_t tau = seen + late;
+    const auto velocity = Law::Velocity::from_raw(w.velocity);
+    const auto law = Law::torque(p.memory.words(), w.scene, w.position, velocity, &side).raw();
+    const auto scene = static_cast<std::size_t>(w.scene);
     ++tally->waves;
+    tally->up[scene] += tau > 0;
+    tally->down[scene] += tau < 0;
     tally->disarmed += !w.armed;
-    tally->limited += rtl.limit_torque_o;
-    tally->ramping += rtl.limit_ramp_o;
-    tally->free += w.armed && !rtl.limit_ramp_o;
-    tally->ends += w.armed && ramp_before && !rtl.limit_ramp_o;
-    tally->acting[static_cast<std::size_t>(w.scene)] += tau != 0;
-    const std::int64_t moved = tau > before ? tau - before : before - tau;
-    const bool ramped = rtl.limit_ramp_o != 0;
-    before = tau;
-    ramp_before = ramped;
-    if (beside.tau_ref().raw() != tau) return "tick() gives another torque";
-    if (beside.limit_torque() != (rtl.limit_torque_o != 0)) return "tick() gives another limit";
-    if (beside.limit_ramp() != ramped) return "tick() gives another ramp";
-    if (!w.armed && tau != 0) return "a torque while disarmed";
-    if (!ramped &&
-        (tau > std::max<std::int64_t>(limit, 0) || tau < -std::max<std::int64_t>(limit, 0)))
-      return "beyond the limit";
-    if (ramped && moved > (std::max<std::int64_t>(step, 0) + 255) / 256)
-      return "faster than the ramp";
+    if (seen != 0 && late != 0) return "two torques at once";
+    if (!w.armed) return tau == 0 ? nullptr : "a torque while disarmed";
+    if (w.disarmed_from <= kRendered) {
+      ++tally->halted;
+      return late == 0 && (seen == 0 || w.disarmed_from == kRendered) ? nullptr
+                                                                      : "a torque once disarmed";
+    }
+    if (tau != law) return "the law's torque";
+    if (w.scene == S::wall && tau > 0) return "a wall pulls";
+    if (w.scene == S::spring_compression && tau < 0) return "a compressed spring pulls";
+    if (w.scene == S::damper && ((tau > 0 && w.velocity > 0) || (tau < 0 && w.velocity < 0))) {
+      return "a damper drives";
+    }
     return nullptr;
   }
 };
-
-using Bench = LockStep<Vscenes, Twin, Block>;
 
 }  // namespace feltgate::test

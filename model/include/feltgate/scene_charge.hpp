@@ -20,7 +20,7 @@ constexpr std::int64_t charge_quotient(std::int64_t strength, std::int64_t squar
 /// The law, in number policy N, for design D. Distances here are centre - position, that is -x.
 template <class D, class N>
 struct SceneChargeLaw {
-  using Scene = ScenePart<D, N>;
+  using Scene = ScenePartLaw<D, N>;
   static constexpr Format force_format{1, 0, D::f.charge.fraction};
   static constexpr Format gap_format{1, D::f.scene_distance.integer, 0};
   using Offset = typename Scene::Offset;

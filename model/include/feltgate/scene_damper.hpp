@@ -11,7 +11,7 @@ namespace feltgate {
 /// The law, in number policy N, for design D.
 template <class D, class N>
 struct SceneDamperLaw {
-  using Scene = ScenePart<D, N>;
+  using Scene = ScenePartLaw<D, N>;
   using Velocity = typename N::template num<D::f.velocity.key()>;
 
   /// Rounded, then negated: no torque below half a step on either side.

@@ -21,7 +21,7 @@ enum class MembraneSide : std::uint8_t {
 /// The law, in number policy N, for design D.
 template <class D, class N>
 struct SceneMembraneLaw {
-  using Scene = ScenePart<D, N>;
+  using Scene = ScenePartLaw<D, N>;
   using Torque = typename N::template num<D::f.torque.key()>;
   using Offset = typename N::template num<D::f.scene_offset.key()>;
 

@@ -13,7 +13,7 @@ namespace feltgate {
 
 /// In number policy N, for design D.
 template <class D, class N>
-struct ScenePart {
+struct ScenePartLaw {
   using Offset = typename N::template num<D::f.scene_offset.key()>;
   using Distance = typename N::template num<D::f.scene_distance.key()>;
   using Part = typename N::template num<D::f.scene_part.key()>;

@@ -11,7 +11,7 @@ namespace feltgate {
 /// The law, in number policy N, for design D.
 template <class D, class N>
 struct SceneSetpointLaw {
-  using Scene = ScenePart<D, N>;
+  using Scene = ScenePartLaw<D, N>;
 
   template <class W>
   static typename Scene::Torque torque(const W& w) {

@@ -14,7 +14,7 @@ namespace feltgate {
 /// The law, in number policy N, for design D.
 template <class D, class N>
 struct SceneSpringLaw {
-  using Scene = ScenePart<D, N>;
+  using Scene = ScenePartLaw<D, N>;
   using Distance = typename Scene::Distance;
 
   /// k * distance, rounded; a compressed spring only pushes.

@@ -14,7 +14,7 @@ namespace feltgate {
 /// The law, in number policy N, for design D.
 template <class D, class N>
 struct SceneWallLaw {
-  using Scene = ScenePart<D, N>;
+  using Scene = ScenePartLaw<D, N>;
   using Distance = typename Scene::Distance;
   using Part = typename Scene::Part;
   using Velocity = typename N::template num<D::f.velocity.key()>;

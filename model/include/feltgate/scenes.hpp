@@ -30,7 +30,7 @@ class ScenesLaw {
  public:
   using S = typename D::S;
   using Torque = typename N::template num<D::f.torque.key()>;
-  using Rendered = typename ScenePart<D, N>::Torque;
+  using Rendered = typename ScenePartLaw<D, N>::Torque;
   using Velocity = typename N::template num<D::f.velocity.key()>;
 
   void reset() { *this = ScenesLaw{}; }

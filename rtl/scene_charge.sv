@@ -4,8 +4,9 @@
 // Scene: a point charge at a fixed position, tau = -+strength * sgn(x) / x^2 outside a linear core
 // and -+slope * x inside it (upper sign attracts). The division is an integer one: floor, 16 bits,
 // saturating; one quotient bit per clock.
-// Latency: plus_o or minus_o, of the core and not yet rounded, one clock after their product, held;
-// outside_o, a whole torque, in the clock of the torque limit; 0 while the scene is not selected.
+// Latency: plus_o or minus_o, of the core and not yet rounded, two clocks after their product, held;
+// outside_o, a whole torque, in the clock of the torque limit, bits of it in the clocks before; 0 while
+// the scene is not selected.
 // docs/blocks/scene_charge.md
 
 `default_nettype none

@@ -3,8 +3,9 @@
 //
 // The port of the scenes: one distance from the reference for all of them, one sum of what they
 // render, one rounding. A scene that is not built renders nothing.
-// Latency: distance_o one clock after the reference's word and for two clocks; torque_o in the clock
-// of the torque limit and only there. docs/blocks/scenes.md
+// Latency: distance_o [1,18,8] one clock after the reference's word and for two clocks; the torque,
+// rounded and not limited, as ahead_o in the clock before the torque limit's word or as late_o in it.
+// docs/blocks/scenes.md
 
 `default_nettype none
 

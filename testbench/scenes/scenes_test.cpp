@@ -38,6 +38,7 @@ struct Next {
     memory.write(A::setpoint_torque, random.between(-60000, 60000));
     memory.write(A::membrane_torque, random.below(60000));
     memory.write(A::tension_rest, random.between(-300000, 300000));
+    memory.write(A::attract_centre, random.between(-300000, 300000));
     memory.write(A::attract_core, random.below(400));
     memory.write(A::repel_core, random.below(400));
     memory.write(A::damper_damping, random.below(131072));

@@ -4,6 +4,8 @@
 // Law of rtl/limiter.sv: the core's one limiter. Documentation: docs/blocks/limiter.md
 #pragma once
 
+#include <type_traits>
+
 #include "feltgate/format.hpp"
 #include "feltgate/numbers.hpp"
 
@@ -22,6 +24,9 @@ struct LimiterLaw {
   template <class To, class X, class Limit>
   static constexpr To limited(X x, Limit limit, bool* hit) {
     *hit = beyond<N>(x, limit);
+    if constexpr (!std::is_same_v<N, FixedLanes>) {  // most ticks; beyond a negative limit is all
+      if (!*hit) return quantise<N, To, Round::truncate, Overflow::wrap>(x);
+    }
     if (limit < Limit{}) limit = Limit{};
     if (x > limit) return quantise<N, To, Round::truncate, Overflow::wrap>(limit);
     if (x < -limit) return quantise<N, To, Round::truncate, Overflow::wrap>(-limit);

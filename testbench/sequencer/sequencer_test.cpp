@@ -34,7 +34,7 @@ struct Definition {
   std::int64_t n = 0;
 
   const char* operator()(const Twin::In&, const Vsequencer& rtl, const Twin&, bool in_reset) {
-    static const std::set<std::int64_t> scene_slots = {1, 2, 3, 6, 10, 12};
+    static const std::set<std::int64_t> scene_slots = {1, 2, 3, 6, 10};
     n = in_reset ? 0 : n + 1;
     const std::int64_t c = n % CLOCKS_PER_TICK;
     if ((rtl.tick_o != 0) != (c == CLOCKS_PER_TICK - 1)) return "tick in the last clock";

@@ -22,7 +22,7 @@ module multipliers (
     input  logic        [                                   31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic                                                  square_distance_i,
-    input  logic signed [                                   17:0] distance_i,
+    input  logic signed [                                   17:0] distance_i,  // 0 where estimate_i is not
     input  logic                                                  square_estimate_i,
     input  logic signed [   feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate_i,
     output logic signed [         feltgate_pkg::PRODUCT_BITS-1:0] velocity_product_o,
@@ -31,20 +31,17 @@ module multipliers (
     output logic signed [         feltgate_pkg::PRODUCT_BITS-1:0] control_product_o,
     output logic signed [         feltgate_pkg::PRODUCT_BITS-1:0] supervisor_product_o
 );
-  logic signed [17:0] coefficient, scene_factor, supervisor_factor;
+  logic signed [17:0] coefficient, supervisor_factor;
   assign coefficient = 18'($signed({param_i[feltgate_pkg::COEFFICIENT_BITS] && signed_i,
                                     param_i[feltgate_pkg::COEFFICIENT_BITS-1:0]}));
-  assign scene_factor      = square_distance_i ? distance_i : '0;
   assign supervisor_factor = 18'(estimate_i);  // 0 outside its clock
 
   if (feltgate_pkg::PARALLEL_MULTIPLIERS == 0) begin : gen_shared
-    logic signed [17:0] plain_factor;
     logic signed [feltgate_pkg::PRODUCT_BITS-1:0] product;
-    assign plain_factor = (square_distance_i || square_estimate_i) ? '0 : coefficient;
     mult u_mult (
         .clk_i(clk_i),
         .a_i(operand_i),
-        .b_i(scene_factor | supervisor_factor | plain_factor),
+        .b_i((square_distance_i || square_estimate_i) ? distance_i | supervisor_factor : coefficient),
         .product_o(product)
     );
     assign velocity_product_o   = product;
@@ -85,7 +82,7 @@ module multipliers (
         .product_o(supervisor_product_o)
     );
     logic unused;
-    assign unused = ^{operand_i, scene_factor};
+    assign unused = ^operand_i;
   end
 endmodule
 

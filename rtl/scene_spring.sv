@@ -19,28 +19,17 @@ module scene_spring (
     input  logic signed [feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     output logic signed [feltgate_pkg::SCENE_PART_W-1:0] plus_o
 );
-  localparam int DistanceF = feltgate_pkg::SCENE_DISTANCE_F;
-
-  logic signed [feltgate_pkg::SCENE_PART_W-1:0] compression, tension;
+  logic signed [feltgate_pkg::SCENE_PART_W-1:0] part;
   scene_part #(
-      .Fraction(DistanceF + feltgate_pkg::P_COMPRESSION_STIFFNESS_F)
-  ) u_compression (
+      .Fraction(feltgate_pkg::SCENE_DISTANCE_F + feltgate_pkg::P_COMPRESSION_STIFFNESS_F)
+  ) u_part (
       .product_i(product_i),
-      .part_o(compression)
-  );
-  scene_part #(
-      .Fraction(DistanceF + feltgate_pkg::P_TENSION_STIFFNESS_F)
-  ) u_tension (
-      .product_i(product_i),
-      .part_o(tension)
+      .part_o(part)
   );
 
   always_ff @(posedge clk_i) begin
     if (!tension_i && (!compression_i || behind_i)) plus_o <= '0;
-    else if (tension_i ? wave_i[feltgate_map_pkg::M_TENSION_STIFFNESS]
-                       : wave_i[feltgate_map_pkg::M_COMPRESSION_STIFFNESS]) begin
-      plus_o <= tension_i ? tension : compression;
-    end
+    else if (wave_i[feltgate_map_pkg::M_SCENE_STIFFNESS]) plus_o <= part;
   end
 endmodule
 

@@ -169,11 +169,9 @@ module scenes #(
   end
 
   // At most one scene's terms are not 0, so that they may be ored.
-  logic signed [TorqueW-1:0] word_plus;
   logic signed [  PartW-1:0] plus, minus;
   logic signed [    PartW:0] sum_q;
-  assign word_plus = setpoint_plus | membrane_plus;
-  assign plus  = spring_plus | charge_plus | wall_plus | (PartW'(word_plus) <<< Guard);
+  assign plus  = spring_plus | charge_plus | wall_plus | (PartW'(membrane_plus) <<< Guard);
   assign minus = damper_minus | charge_minus | wall_minus | (PartW'(membrane_minus) <<< Guard);
   always_ff @(posedge clk_i) begin
     if (wave_i[Sum]) sum_q <= (PartW + 1)'(plus) - (PartW + 1)'(minus);
@@ -189,15 +187,19 @@ module scenes #(
       .up_o(up)
   );
   logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] rounded_q;
+  logic signed [                     TorqueW-1:0] word_q;  // a whole torque needs no rounding
   logic signed [                        GapW-1:0] width_q;
   always_ff @(posedge clk_i) begin
     if (!wave_i[Rounded] || !armed_i || (wall && !sum_q[PartW])) rounded_q <= '0;
     else rounded_q <= feltgate_pkg::SCENE_TORQUE_W'($signed(sum_q[PartW:Guard])) +
                       feltgate_pkg::SCENE_TORQUE_W'({1'b0, up});
+    if (!wave_i[Rounded] || !armed_i) word_q <= '0;
+    else word_q <= setpoint_plus;
     if (!wave_i[feltgate_map_pkg::T_CHARGE_WIDTH]) width_q <= '0;
     else width_q <= gap_q;
   end
-  assign ahead_o = rounded_q | feltgate_pkg::SCENE_TORQUE_W'(width_q);
+  assign ahead_o = rounded_q | feltgate_pkg::SCENE_TORQUE_W'(word_q) |
+                   feltgate_pkg::SCENE_TORQUE_W'(width_q);
 
   // With fewer scenes.
   logic unused;

@@ -94,7 +94,10 @@ struct Stimulus {
     in.is_signed = what == kSignedWord;
     in.square_distance = what == kSquareDistance;
     in.square_estimate = what == kSquareEstimate;
-    if (what == kSquareEstimate) in.estimate = any<kEstimate>();
+    if (what == kSquareEstimate) {  // of the two that are squared one is 0
+      in.estimate = any<kEstimate>();
+      in.distance = 0;
+    }
     return in;
   }
 };

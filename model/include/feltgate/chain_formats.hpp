@@ -139,7 +139,7 @@ constexpr Formats derive(const BaseFormats& b) {
   f.duty = {1, 12, 0};
   int integer = 0;
   for (const Format& k : {b.compression_stiffness, b.tension_stiffness, b.attract_core_slope,
-                          b.repel_core_slope, b.wall_stiffness}) {
+                          b.repel_core_slope}) {
     integer = growth::max_of(integer, growth::product(f.scene_distance, k).integer);
   }
   for (const Format& k : {b.damper_damping, b.wall_damping}) {

@@ -26,10 +26,10 @@ struct ScenePartLaw {
     return quantise<N, Distance, Round::truncate, Overflow::wrap>(
         reference - from_integer<N, Position>(position));
   }
-  /// A product whose bits below the guard bits are dropped.
+  /// A product whose bits below the guard bits are dropped, saturated far beyond any limit.
   template <class Product>
   static Part part(Product product) {
-    return quantise<N, Part, Round::truncate, Overflow::wrap>(product);
+    return quantise<N, Part, Round::truncate, Overflow::saturate>(product);
   }
   /// The one rounding; neither a product nor a difference of two parts can overflow it.
   template <class X>

@@ -35,9 +35,9 @@ package feltgate_pkg;
   localparam int SCENE_OFFSET_F = 8;
   localparam int SCENE_DISTANCE_W = 27;  // [1,18,8]
   localparam int SCENE_DISTANCE_F = 8;
-  localparam int SCENE_PART_W = 34;  // [1,15,18]
+  localparam int SCENE_PART_W = 29;  // [1,10,18]
   localparam int SCENE_PART_F = 18;
-  localparam int SCENE_TORQUE_W = 34;  // [1,17,16]
+  localparam int SCENE_TORQUE_W = 29;  // [1,12,16]
   localparam int SCENE_TORQUE_F = 16;
   localparam int TRAVEL_DIFFERENCE_W = 16;  // [1,15,0]
   localparam int TRAVEL_DIFFERENCE_F = 0;
@@ -79,7 +79,7 @@ package feltgate_pkg;
   localparam int DUTY_SUM_F = 0;
   localparam int LIMITER_W = 22;  // [1,21,0]
   localparam int LIMITER_F = 0;
-  localparam int LIMITER_INPUT_W = 34;  // [1,33,0]
+  localparam int LIMITER_INPUT_W = 29;  // [1,28,0]
   localparam int LIMITER_INPUT_F = 0;
   localparam int CURRENT_ESTIMATE_PART_W = 16;  // [1,7,8]
   localparam int CURRENT_ESTIMATE_PART_F = 8;
@@ -108,7 +108,7 @@ package feltgate_pkg;
   localparam int P_VOLTAGE_GAIN_HIGH_F = 18;
   localparam int P_DUTY_GAIN_F = 11;
   localparam int P_COMPRESSION_STIFFNESS_F = 26;
-  localparam int P_TENSION_STIFFNESS_F = 27;
+  localparam int P_TENSION_STIFFNESS_F = 26;
   localparam int P_DAMPER_DAMPING_F = 22;
   localparam int P_ATTRACT_CORE_SLOPE_F = 25;
   localparam int P_REPEL_CORE_SLOPE_F = 25;
@@ -154,7 +154,7 @@ package feltgate_pkg;
       9'd129: parameter_reset = 32'd83443;  // compression_contact
       9'd130: parameter_reset = 32'd102944;  // compression_stiffness
       9'd161: parameter_reset = 32'd0;  // tension_rest
-      9'd162: parameter_reset = 32'd102944;  // tension_stiffness
+      9'd162: parameter_reset = 32'd51472;  // tension_stiffness
       9'd202: parameter_reset = 32'd125829;  // damper_damping
       9'd225: parameter_reset = 32'd0;  // attract_centre
       9'd226: parameter_reset = 32'd557019098;  // attract_strength

@@ -108,7 +108,7 @@ package feltgate_pkg;
   localparam int P_VOLTAGE_GAIN_HIGH_F = 16;
   localparam int P_DUTY_GAIN_F = 10;
   localparam int P_COMPRESSION_STIFFNESS_F = 26;
-  localparam int P_TENSION_STIFFNESS_F = 27;
+  localparam int P_TENSION_STIFFNESS_F = 26;
   localparam int P_DAMPER_DAMPING_F = 22;
   localparam int P_ATTRACT_CORE_SLOPE_F = 17;
   localparam int P_REPEL_CORE_SLOPE_F = 17;
@@ -154,7 +154,7 @@ package feltgate_pkg;
       9'd129: parameter_reset = 32'd83443;  // compression_contact
       9'd130: parameter_reset = 32'd102944;  // compression_stiffness
       9'd161: parameter_reset = 32'd0;  // tension_rest
-      9'd162: parameter_reset = 32'd102944;  // tension_stiffness
+      9'd162: parameter_reset = 32'd51472;  // tension_stiffness
       9'd202: parameter_reset = 32'd125829;  // damper_damping
       9'd225: parameter_reset = 32'd0;  // attract_centre
       9'd226: parameter_reset = 32'd557019098;  // attract_strength

@@ -79,7 +79,7 @@ struct Exact {
     static constexpr Format compression_contact{1, 17, 8};
     static constexpr Format compression_stiffness{0, -9, 26};
     static constexpr Format tension_rest{1, 17, 8};
-    static constexpr Format tension_stiffness{0, -10, 27};
+    static constexpr Format tension_stiffness{0, -9, 26};
     static constexpr Format damper_damping{0, -5, 22};
     static constexpr Format attract_centre{1, 17, 8};
     static constexpr Format attract_strength{0, 16, 16};
@@ -189,7 +189,7 @@ struct Exact {
       {"tension_rest", "count", A::tension_rest, P::tension_rest,
        0.0, 0},
       {"tension_stiffness", "Nm/count", A::tension_stiffness, P::tension_stiffness,
-       0.00076699039394282058, 102944},
+       0.00076699039394282058, 51472},
       {"damper_damping", "Nm s/rad", A::damper_damping, P::damper_damping,
        0.029999999999999999, 125829},
       {"attract_centre", "count", A::attract_centre, P::attract_centre,

@@ -69,9 +69,9 @@ module feltgate_checks;
         feltgate_pkg::DUTY_W <= feltgate_pkg::LIMITER_W)) begin : g_check_limiter
     LIMITER_W_must_hold_torque_current_voltage_and_duty missing ();
   end
-  if (!(feltgate_pkg::LIMITER_W <= A && feltgate_pkg::SCENE_DISTANCE_W <= A &&
-        feltgate_pkg::VELOCITY_W <= A)) begin : g_check_operands
-    every_operand_must_fit_the_multiplier missing ();
+  if (!(feltgate_pkg::LIMITER_W <= 32 && feltgate_pkg::SCENE_DISTANCE_W <= 32 &&
+        feltgate_pkg::VELOCITY_W <= 32)) begin : g_check_operands
+    every_operand_but_a_difference_must_fit_32_bits missing ();
   end
   if (!(feltgate_pkg::CURRENT_ESTIMATE_W <= 18 &&
         feltgate_pkg::CURRENT_ESTIMATE_W == feltgate_pkg::CURRENT_ESTIMATE_PART_W + 1 &&

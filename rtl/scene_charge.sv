@@ -47,14 +47,14 @@ module scene_charge (
 
   // Restoring division of the 32-bit strength by x^2. Its upper bits preset the remainder. A square
   // that needs more than 32 bits never fits, nor does that of a distance beyond 18 bits: one factor
-  // wraps to the other sign, the product is negative. Once the quotient is seen to saturate the
-  // square becomes 0, which always fits.
+  // wraps to the other sign, the product is negative. Where it fits at once the quotient saturates:
+  // then nothing is taken off and the square becomes 0, which always fits.
   logic [14:0] preset_q;
   logic [16:0] rest_q;
   logic [30:0] remainder_q;
   logic [32:0] square_q;
   logic [33:0] difference;
-  logic        busy_q, bring_q, fits, huge;
+  logic        busy_q, bring_q, fits, takes_q, saturated_q, huge;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) busy_q <= 1'b0;
     else busy_q <= wave_i[First-1] || (busy_q && !wave_i[Last]);
@@ -71,11 +71,13 @@ module scene_charge (
       for (int k = 0; k < 17; k++) rest_q[k] <= param_i[16-k];  // the highest comes first
       minus_q <= attract_i != (!gap_i[GapW-1] && gap_i != '0);  // sgn(0) is +1
     end
-    if (wave_i[First] && fits) square_q <= '0;
+    takes_q     <= !wave_i[First-1];
+    saturated_q <= wave_i[First] && fits;
+    if (saturated_q) square_q <= '0;
     else if (wave_i[First-1]) square_q <= {huge, product_i[DistanceF+:32]};
     if (wave_i[Strength]) remainder_q <= '0;
     else if (wave_i[Strength+1] || busy_q) begin
-      remainder_q <= (fits ? difference[30:0] : {remainder_q[29:0], bring_q}) | 31'(preset_q);
+      remainder_q <= (fits && takes_q ? difference[30:0] : {remainder_q[29:0], bring_q}) | 31'(preset_q);
     end
   end
 

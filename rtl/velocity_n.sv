@@ -62,16 +62,17 @@ module velocity_n #(
     end
   end
 
+  // Not reset: what a block RAM reads comes late in the clock and has no logic on its way.
+  always_ff @(posedge clk_i) begin
+    if (!filled_q) oldest_q <= '0;
+    else if (wave_i[feltgate_map_pkg::T_SAMPLE]) oldest_q <= line_q;
+  end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       travel_q     <= '0;
-      oldest_q     <= '0;
       difference_q <= '0;
     end else begin
-      if (wave_i[feltgate_map_pkg::T_SAMPLE]) begin
-        travel_q <= travel_i;
-        oldest_q <= filled_q ? line_q : '0;
-      end
+      if (wave_i[feltgate_map_pkg::T_SAMPLE]) travel_q <= travel_i;
       if (wave_i[feltgate_map_pkg::T_TRAVEL]) difference_q <= travel_q - oldest_q;
     end
   end

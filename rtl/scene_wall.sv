@@ -39,15 +39,17 @@ module scene_wall (
   localparam int W = feltgate_pkg::SCENE_PART_W;
   localparam int Top = feltgate_pkg::SCENE_DISTANCE_F + feltgate_pkg::P_WALL_STIFFNESS_F -
                        feltgate_pkg::SCENE_PART_F + W - 1;
-  logic negative, over_q;
+  logic negative, over;
   assign negative = product_i[feltgate_pkg::PRODUCT_BITS-1];
+  assign over     = negative && product_i[feltgate_pkg::PRODUCT_BITS-1:Top] != '1;
   always_ff @(posedge clk_i) begin
     if (!select_i || !behind_i) plus_o[W-1] <= 1'b0;
     else if (wave_i[feltgate_map_pkg::M_WALL_STIFFNESS]) plus_o[W-1] <= negative;
-    over_q <= wave_i[feltgate_map_pkg::M_WALL_STIFFNESS] && negative &&
-              product_i[feltgate_pkg::PRODUCT_BITS-1:Top] != '1;
-    if (!select_i || !behind_i || over_q) plus_o[W-2:0] <= '0;
-    else if (wave_i[feltgate_map_pkg::M_WALL_STIFFNESS]) plus_o[W-2:0] <= spring[W-2:0];
+    if (!select_i || !behind_i || (wave_i[feltgate_map_pkg::M_WALL_STIFFNESS] && over)) begin
+      plus_o[W-2:0] <= '0;
+    end else if (wave_i[feltgate_map_pkg::M_WALL_STIFFNESS]) begin
+      plus_o[W-2:0] <= spring[W-2:0];
+    end
     if (!select_i || !behind_i) minus_o <= '0;
     else if (wave_i[feltgate_map_pkg::M_WALL_DAMPING]) minus_o <= damper;
   end

@@ -4,6 +4,7 @@
 // What a design makes of every parameter. Documentation: docs/designs.md
 #include "design/parameter_values.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace feltgate::design {
@@ -32,8 +33,8 @@ std::map<std::string, Value> parameter_values(const Design& d) {
   const double core_slope =
       d.charge_core_rad > 0 ? d.charge_nm_rad2 / std::pow(d.charge_core_rad, 3) * q : 0.0;
   const double charge = d.charge_nm_rad2 / (q * q);
-  // |x| < core on whole counts is |x| < ceil(core).
-  const double core = std::ceil(d.charge_core_rad / q);
+  // |x| < core on whole counts is |x| <= ceil(core) - 1.
+  const double core = std::max(0.0, std::ceil(d.charge_core_rad / q) - 1);
   return {
       {"velocity_a1", {low_pass_a1(d.velocity_cutoff_rad_s, d.tick_s()), "velocity.cutoff_rad_s"}},
       {"observer_a1", {low_pass_a1(d.observer_cutoff_rad_s, d.tick_s()), "observer.cutoff_rad_s"}},

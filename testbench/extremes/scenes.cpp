@@ -3,7 +3,6 @@
 //
 // Extremes of the scenes: 1/x^2 through zero, its limit cycle with a hand and the core that ends
 // it, and the border in the published voltage gain. Documentation: docs/extremes.md
-#include <algorithm>
 #include <cmath>
 
 #include "extremes/closed_loop.hpp"
@@ -20,9 +19,8 @@ constexpr double charge = 0.02;  // Nm rad^2
 double law(bool attract, int x, double core_rad) {
   const double rad = x * count_rad;
   double pull;  // towards the charge, along -x
-  // The core reaches to its half-width in whole counts, that count included.
-  if (core_rad > 0 && std::abs(x) <= std::ceil(core_rad / count_rad)) {
-    pull = std::clamp(charge * rad / (core_rad * core_rad * core_rad), -0.5, 0.5);
+  if (core_rad > 0 && std::abs(rad) < core_rad) {
+    pull = charge * rad / (core_rad * core_rad * core_rad);
   } else if (x == 0) {
     pull = 0.5;  // sgn(0) = +1
   } else {

@@ -56,7 +56,10 @@ std::int64_t oracle(const Memory& memory, std::int32_t position, std::int64_t ve
   constexpr int fine = kTorque.fraction + 2;
   constexpr int spring_drop = 8 + Design::P::wall_stiffness.fraction - fine;
   constexpr int damper_drop = Design::f.velocity.fraction + Design::P::wall_damping.fraction - fine;
-  const int128_t quarters = ((static_cast<int128_t>(x) * k) >> spring_drop) -
+  // The spring's part saturates at its format, far beyond any limit.
+  constexpr int128_t least = -(int128_t{1} << (kPartWidth - 1));
+  const int128_t spring = (static_cast<int128_t>(x) * k) >> spring_drop;
+  const int128_t quarters = (spring < least ? least : spring) -
                             ((static_cast<int128_t>(velocity) * b) >> damper_drop);
   tally->ties += (quarters & 3) == 2;
   const int128_t tau = (quarters + 2) >> 2;

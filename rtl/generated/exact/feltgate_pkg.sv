@@ -158,11 +158,11 @@ package feltgate_pkg;
       9'd202: parameter_reset = 32'd125829;  // damper_damping
       9'd225: parameter_reset = 32'd0;  // attract_centre
       9'd226: parameter_reset = 32'd557019098;  // attract_strength
-      9'd230: parameter_reset = 32'd131;  // attract_core
+      9'd230: parameter_reset = 32'd130;  // attract_core
       9'd227: parameter_reset = 32'd128680;  // attract_core_slope
       9'd257: parameter_reset = 32'd0;  // repel_centre
       9'd258: parameter_reset = 32'd557019098;  // repel_strength
-      9'd262: parameter_reset = 32'd131;  // repel_core
+      9'd262: parameter_reset = 32'd130;  // repel_core
       9'd259: parameter_reset = 32'd128680;  // repel_core_slope
       9'd289: parameter_reset = 32'd83443;  // wall_contact
       9'd290: parameter_reset = 32'd6434;  // wall_stiffness

@@ -144,7 +144,7 @@ class Package(unittest.TestCase):
         install(prefix, "core")
         found = f"-DCMAKE_PREFIX_PATH={prefix}"
         text = (
-            "find_package(feltgate 0.1 REQUIRED COMPONENTS core)\nadd_executable(main main.cpp)\n"
+            "find_package(feltgate 0.2 REQUIRED COMPONENTS core)\nadd_executable(main main.cpp)\n"
         )
         text += "target_link_libraries(main PRIVATE feltgate::core)\n"
         folder = project(self.folder / "alone", text, CORE_PROGRAM)

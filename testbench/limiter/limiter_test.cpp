@@ -6,6 +6,7 @@
 #include <Vlimiter.h>
 
 #include <algorithm>
+#include <type_traits>
 #include <vector>
 
 #include "../lowpass/exact.hpp"
@@ -30,8 +31,10 @@ using Rtl = Unreset<Vlimiter>;
 struct Adapter {
   static void drive(Rtl& rtl, const Twin::In& in) {
     rtl.valid_i = in.valid;
-    rtl.ahead_i = port_bits<kWide, std::uint64_t>(in.ahead);
-    rtl.late_i = port_bits<kWide, std::uint64_t>(in.late);
+    // The width of the port is the design's: 32 or 64 bits of a word.
+    using Port = std::remove_reference_t<decltype(rtl.ahead_i)>;
+    rtl.ahead_i = port_bits<kWide, Port>(in.ahead);
+    rtl.late_i = port_bits<kWide, Port>(in.late);
     rtl.param_i = in.param;
   }
   template <class Check>

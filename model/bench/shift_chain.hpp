@@ -89,9 +89,11 @@ class ShiftChain {
     const Word sign = Word{1} << (bits - 1);
     return ((x & (2 * sign - 1)) ^ sign) - sign;
   }
+  /// A negative limit counts as 0.
   static Word limited(Word x, Word limit, bool* hit) {
     *hit = x > limit || x < -limit;
-    return x > limit ? limit : (x < -limit ? -limit : x);
+    const Word bound = limit < 0 ? 0 : limit;
+    return x > bound ? bound : (x < -bound ? -bound : x);
   }
 
   int travel_difference(std::int16_t travel) {
@@ -110,25 +112,22 @@ class ShiftChain {
       case Lever::S::membrane:
         return membrane(theta * 256);
       case Lever::S::spring_compression: {
-        const Word x = saturated(p_.compression_contact - theta * 256, 25);  // .8
+        const Word x = p_.compression_contact - theta * 256;  // .8
         return x < 0 ? 0
-                     : saturated(half_up(x * p_.compression_stiffness,
-                                         drop(P::compression_stiffness, 8, 16)),
-                                 20);
+                     : half_up(x * p_.compression_stiffness, drop(P::compression_stiffness, 8, 16));
       }
       case Lever::S::spring_tension: {
-        const Word x = saturated(p_.tension_rest - theta * 256, 25);
-        return saturated(half_up(x * p_.tension_stiffness, drop(P::tension_stiffness, 8, 16)), 20);
+        const Word x = p_.tension_rest - theta * 256;
+        return half_up(x * p_.tension_stiffness, drop(P::tension_stiffness, 8, 16));
       }
       case Lever::S::damper:
-        return saturated(-half_up(velocity * p_.damper_damping, drop(P::damper_damping, 21, 16)),
-                         20);
+        return -half_up(velocity * p_.damper_damping, drop(P::damper_damping, 21, 16));
       case Lever::S::charge_attract:
-        return charge(saturated((p_.attract_centre >> 8) - theta, 17), true);
+        return charge((p_.attract_centre >> 8) - theta, true);
       case Lever::S::charge_repel:
-        return charge(saturated((p_.repel_centre >> 8) - theta, 17), false);
+        return charge((p_.repel_centre >> 8) - theta, false);
       case Lever::S::wall:
-        return wall(saturated(p_.wall_contact - theta * 256, 25));
+        return wall(p_.wall_contact - theta * 256);
       default:
         return 0;
     }
@@ -136,11 +135,11 @@ class ShiftChain {
 
   Word wall(Word x) const {
     if (x >= 0) return 0;
-    // Both parts keep two bits below the torque.
-    const Word tau = half_up(((x * p_.wall_stiffness) >> drop(P::wall_stiffness, 8, 18)) -
-                                 ((velocity * p_.wall_damping) >> drop(P::wall_damping, 21, 18)),
-                             2);
-    return tau < 0 ? saturated(tau, 20) : 0;
+    // Both parts keep two bits below the torque; the spring's has 29 bits.
+    const Word spring = saturated((x * p_.wall_stiffness) >> drop(P::wall_stiffness, 8, 18), 28);
+    const Word tau =
+        half_up(spring - ((velocity * p_.wall_damping) >> drop(P::wall_damping, 21, 18)), 2);
+    return tau < 0 ? tau : 0;
   }
 
   Word membrane(Word theta) {
@@ -154,10 +153,10 @@ class ShiftChain {
 
   Word charge(Word distance, bool attract) const {
     const Word core = attract ? p_.attract_core : p_.repel_core;
-    if (distance < core && distance > -core) {
+    if (core > 0 && distance <= core && distance >= -core) {
       const Word pull = half_up(distance * (attract ? p_.attract_core_slope : p_.repel_core_slope),
                                 drop(attract ? P::attract_core_slope : P::repel_core_slope, 0, 16));
-      return saturated(attract ? pull : -pull, 16);
+      return attract ? pull : -pull;
     }
     const Word strength = attract ? p_.attract_strength : p_.repel_strength;
     const Word square = distance * distance;
@@ -168,9 +167,8 @@ class ShiftChain {
   void limit_and_ramp(bool armed, int scene, Word tau) {
     if (!armed || scene != scene_) ramping_ = true;
     scene_ = scene;
-    limit_torque = armed && (tau > p_.torque_limit || tau < -p_.torque_limit);
-    const Word bound = p_.torque_limit < 0 ? 0 : p_.torque_limit;
-    const Word target = (!armed ? 0 : tau > bound ? bound : tau < -bound ? -bound : tau) * 256;
+    const Word target = wrapped(limited(armed ? tau : 0, p_.torque_limit, &limit_torque), 21) * 256;
+    limit_torque = limit_torque && armed;
     limit_ramp = armed && ramping_;
     if (!limit_ramp) {
       reference_ = target;

@@ -83,7 +83,7 @@ TEST_CASE("core: random motion, scenes, modes and register traffic") {
   CHECK(total.armed_share() > 0.3);
   CHECK(total.duty_pinned_share() < 0.2);
   CHECK(total.tau_ref_pinned_share() < 0.5);
-  CHECK(total.scenes_seen() == 8);
+  CHECK(total.scenes_seen() == 9);
   CHECK(total.faults_seen() >= 3);
 }
 

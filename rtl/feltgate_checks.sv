@@ -69,8 +69,8 @@ module feltgate_checks;
         feltgate_pkg::DUTY_W <= feltgate_pkg::LIMITER_W)) begin : g_check_limiter
     LIMITER_W_must_hold_torque_current_voltage_and_duty missing ();
   end
-  if (!(feltgate_pkg::LIMITER_W <= 32 && feltgate_pkg::SCENE_DISTANCE_W <= 32 &&
-        feltgate_pkg::VELOCITY_W <= 32)) begin : g_check_operands
+  if (!(feltgate_pkg::LIMITER_W <= 32 && feltgate_pkg::SCENE_DISTANCE_W <= 32))
+  begin : g_check_operands
     every_operand_but_a_difference_must_fit_32_bits missing ();
   end
   if (!(feltgate_pkg::CURRENT_ESTIMATE_W <= 18 &&
@@ -98,6 +98,17 @@ module feltgate_checks;
         feltgate_pkg::P_VOLTAGE_GAIN_HIGH_F == feltgate_pkg::P_VOLTAGE_GAIN_F &&
         feltgate_pkg::VOLTAGE_F + feltgate_pkg::P_DUTY_GAIN_F >= 1)) begin : g_check_control_products
     a_product_of_torque_control_must_have_the_bits_that_are_dropped missing ();
+  end
+  if (!(feltgate_pkg::P_TENSION_STIFFNESS_F == feltgate_pkg::P_COMPRESSION_STIFFNESS_F))
+  begin : g_check_springs
+    both_springs_must_have_one_format missing ();
+  end
+  if (!(feltgate_pkg::SCENE_GUARD_BITS >= 1 &&
+        feltgate_pkg::SCENE_PART_F == feltgate_pkg::TORQUE_F + feltgate_pkg::SCENE_GUARD_BITS &&
+        feltgate_pkg::SCENE_TORQUE_W >= feltgate_pkg::SCENE_POSITION_W + 1 &&
+        feltgate_pkg::LIMITER_INPUT_W >= feltgate_pkg::SCENE_TORQUE_W &&
+        feltgate_pkg::LIMITER_INPUT_W > feltgate_pkg::LIMITER_W)) begin : g_check_scene_torque
+    a_scenes_torque_must_hold_its_terms_and_fit_the_limiter missing ();
   end
 endmodule
 

@@ -216,6 +216,9 @@ module feltgate_core #(
       .valid_i(wave[feltgate_map_pkg::S_TORQUE_LIMIT-1] ||
                wave[feltgate_map_pkg::S_CURRENT_LIMIT-1] || wave[feltgate_map_pkg::S_DEAD_VOLTAGE-1] ||
                wave[feltgate_map_pkg::S_VOLTAGE_LIMIT-1] || wave[feltgate_map_pkg::S_DUTY_LIMIT-1]),
+      .torque_i(wave[feltgate_map_pkg::S_TORQUE_LIMIT-1]),
+      .voltage_i(wave[feltgate_map_pkg::S_VOLTAGE_LIMIT-1]),
+      .duty_i(wave[feltgate_map_pkg::S_DUTY_LIMIT-1]),
       .ahead_i(control_ahead | feltgate_pkg::LIMITER_INPUT_W'(scene_ahead)),
       .late_i(control_late | feltgate_pkg::LIMITER_INPUT_W'(scene_late)),
       .param_i(param),

@@ -56,7 +56,7 @@ module ramp (
   assign beyond   = excess_q + change;
   assign reached  = beyond[W] == down;
   always_ff @(posedge clk_i) begin
-    if (wave_i[Excess+1]) begin
+    if (wave_i[feltgate_map_pkg::T_RAMP_CHANGE]) begin
       change_q <= change[W-1:0];
       carry_q  <= down || !stepping_q;
       stay_q   <= stepping_q && reached;
@@ -73,11 +73,11 @@ module ramp (
       limit_ramp_o <= 1'b0;
     end else begin
       if (wave_i[Excess]) limit_torque_o <= beyond_i && armed_i;
-      if (wave_i[feltgate_map_pkg::T_SAMPLE+1]) scene_q <= scene_i;
-      if (wave_i[feltgate_map_pkg::T_SAMPLE+1] && (!armed_i || scene_i != scene_q)) ramping_q <= 1'b1;
-      else if (wave_i[Excess+2] && stay_q) ramping_q <= 1'b0;
-      if (wave_i[Excess+2] && !stay_q) ramp_q <= ramp_q + change_q + W'({1'b0, carry_q});
-      if (wave_i[Excess+2]) limit_ramp_o <= stepping_q;
+      if (wave_i[feltgate_map_pkg::T_RAMP_BEGIN]) scene_q <= scene_i;
+      if (wave_i[feltgate_map_pkg::T_RAMP_BEGIN] && (!armed_i || scene_i != scene_q)) ramping_q <= 1'b1;
+      else if (wave_i[feltgate_map_pkg::T_TAU_REF] && stay_q) ramping_q <= 1'b0;
+      if (wave_i[feltgate_map_pkg::T_TAU_REF] && !stay_q) ramp_q <= ramp_q + change_q + W'({1'b0, carry_q});
+      if (wave_i[feltgate_map_pkg::T_TAU_REF]) limit_ramp_o <= stepping_q;
     end
   end
 

@@ -37,8 +37,9 @@ module scene_wall (
 
   // Behind the contact the spring's term is negative; one that does not fit its format saturates.
   localparam int W = feltgate_pkg::SCENE_PART_W;
-  localparam int Top = feltgate_pkg::SCENE_DISTANCE_F + feltgate_pkg::P_WALL_STIFFNESS_F -
-                       feltgate_pkg::SCENE_PART_F + W - 1;
+  localparam int PartTop = feltgate_pkg::SCENE_DISTANCE_F + feltgate_pkg::P_WALL_STIFFNESS_F -
+                           feltgate_pkg::SCENE_PART_F + W - 1;
+  localparam int Top = (PartTop < feltgate_pkg::PRODUCT_BITS) ? PartTop : feltgate_pkg::PRODUCT_BITS - 1;
   logic negative, over;
   assign negative = product_i[feltgate_pkg::PRODUCT_BITS-1];
   assign over     = negative && product_i[feltgate_pkg::PRODUCT_BITS-1:Top] != '1;

@@ -29,8 +29,9 @@ module snapshot #(
   if (ReadBack != 0) begin : gen_words
     logic take_status_q, take_position_q, take_tick_q, take_index_q, take_encoder_q;
     always_ff @(posedge clk_i) begin
-      // The clock before the wave's first.
-      take_status_q   <= slot_fetch_i == 6'(feltgate_map_pkg::FIRST_WAVE_CLOCK - 1);
+      // Perhaps before the wave's first clock.
+      take_status_q   <= slot_fetch_i == 6'(feltgate_map_pkg::FIRST_WAVE_CLOCK +
+                                            feltgate_map_pkg::R_STATUS - 1);
       take_position_q <= wave_i[feltgate_map_pkg::R_POSITION-1];
       take_tick_q     <= wave_i[feltgate_map_pkg::R_TICK-1];
       take_index_q    <= wave_i[feltgate_map_pkg::R_INDEX-1];

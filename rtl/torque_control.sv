@@ -59,11 +59,8 @@ module torque_control (
   localparam int Gain = feltgate_map_pkg::M_VOLTAGE_GAIN;
   localparam int Duty = feltgate_map_pkg::M_DUTY_GAIN;
   localparam int SetPoint = feltgate_map_pkg::S_VOLTAGE_SETPOINT;
-  localparam int Border = feltgate_map_pkg::S_REGION_TORQUE;
   localparam int CurrentLimit = feltgate_map_pkg::S_CURRENT_LIMIT;
-  localparam int Dead = feltgate_map_pkg::S_DEAD_VOLTAGE;
   localparam int VoltageLimit = feltgate_map_pkg::S_VOLTAGE_LIMIT;
-  localparam int DutyLimit = feltgate_map_pkg::S_DUTY_LIMIT;
 
   localparam logic [1:0] Open = 2'd1;
   localparam logic [1:0] Voltage = 2'd2;
@@ -90,7 +87,7 @@ module torque_control (
     if (mode_i == Open || wave_i[CurrentLimit]) kept_q <= '0;
     else if (wave_i[TauHat]) kept_q <= CurrentSumW'(product_i >>> TauHatDrop);
     if (wave_i[VoltageLimit]) fixed_q <= '0;
-    else if (wave_i[Dead+1]) fixed_q <= VoltageSumW'(limited_i) + emf_q;
+    else if (wave_i[feltgate_map_pkg::T_VOLTAGE_OFFSET]) fixed_q <= VoltageSumW'(limited_i) + emf_q;
   end
 
   // Terms, each 0 outside its clock, so that the limiter's input is but an or: clearing a register
@@ -104,13 +101,13 @@ module torque_control (
   assign base    = SumW'(kept_q) | SumW'(fixed_q);
   assign product = wave_i[Gain] ? SumW'(product_i >>> GainDrop) : SumW'(product_i >>> TauRefDrop);
   always_ff @(posedge clk_i) begin
-    if (!wave_i[Border-2]) border_q <= '0;
+    if (!wave_i[feltgate_map_pkg::T_BORDER]) border_q <= '0;
     else border_q <= tau_ref_i;
     if (!(wave_i[Direct] && direct && armed_i)) direct_q <= '0;
     else direct_q <= CurrentSumW'(product_i >>> DirectDrop);
     if (!(wave_i[Slope] && !direct)) dead_q <= '0;
     else dead_q <= VoltageSumW'(product_i >>> DeadDrop);
-    if (!(wave_i[VoltageLimit-2] && direct && armed_i)) set_q <= '0;
+    if (!(wave_i[feltgate_map_pkg::T_SET_SUM] && direct && armed_i)) set_q <= '0;
     else set_q <= voltage_o;
     if (!((wave_i[TauRef] || wave_i[Gain]) && follows)) sum_q <= '0;
     else sum_q <= product + base;
@@ -131,15 +128,15 @@ module torque_control (
       limit_duty_o    <= 1'b0;
     end else begin
       // The region of the voltage gain, decided before its word is fetched.
-      if (wave_i[Border+1]) region_high_o <= beyond_i;
-      if (wave_i[CurrentLimit+1]) begin
+      if (wave_i[feltgate_map_pkg::T_REGION]) region_high_o <= beyond_i;
+      if (wave_i[feltgate_map_pkg::T_CURRENT]) begin
         current_ref_o   <= limited_i[feltgate_pkg::CURRENT_W-1:0];
         limit_current_o <= beyond_i && armed_i;
       end
       if (wave_i[SetPoint] && direct) voltage_o <= param_i[feltgate_pkg::VOLTAGE_W-1:0];
-      else if (wave_i[VoltageLimit+1]) voltage_o <= limited_i[feltgate_pkg::VOLTAGE_W-1:0];
-      if (wave_i[VoltageLimit+1]) limit_voltage_o <= beyond_i && armed_i;
-      if (wave_i[DutyLimit+1]) begin
+      else if (wave_i[feltgate_map_pkg::T_VOLTAGE]) voltage_o <= limited_i[feltgate_pkg::VOLTAGE_W-1:0];
+      if (wave_i[feltgate_map_pkg::T_VOLTAGE]) limit_voltage_o <= beyond_i && armed_i;
+      if (wave_i[feltgate_map_pkg::T_DUTY]) begin
         duty_o       <= limited_i[feltgate_pkg::DUTY_W-1:0];
         limit_duty_o <= beyond_i;
       end

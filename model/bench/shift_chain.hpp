@@ -89,10 +89,11 @@ class ShiftChain {
     const Word sign = Word{1} << (bits - 1);
     return ((x & (2 * sign - 1)) ^ sign) - sign;
   }
-  /// A negative limit counts as 0.
-  static Word limited(Word x, Word limit, bool* hit) {
-    *hit = x > limit || x < -limit;
-    const Word bound = limit < 0 ? 0 : limit;
+  /// A negative limit counts as 0, and one of more than `bits`.
+  static Word limited(Word x, Word limit, bool* hit, int bits = 22) {
+    const bool misfit = limit >= Word{1} << (bits - 1);
+    *hit = misfit || x > limit || x < -limit;
+    const Word bound = limit < 0 || misfit ? 0 : limit;
     return x > bound ? bound : (x < -bound ? -bound : x);
   }
 
@@ -167,7 +168,8 @@ class ShiftChain {
   void limit_and_ramp(bool armed, int scene, Word tau) {
     if (!armed || scene != scene_) ramping_ = true;
     scene_ = scene;
-    const Word target = wrapped(limited(armed ? tau : 0, p_.torque_limit, &limit_torque), 21) * 256;
+    const Word target =
+        wrapped(limited(armed ? tau : 0, p_.torque_limit, &limit_torque, 21), 21) * 256;
     limit_torque = limit_torque && armed;
     limit_ramp = armed && ramping_;
     if (!limit_ramp) {
@@ -207,12 +209,12 @@ class ShiftChain {
     if (!direct)
       volts += (current * (high ? p_.voltage_gain_high : p_.voltage_gain)) >>
                drop(P::voltage_gain, 16, 14);
-    const Word limit = wrapped(limited(volts, p_.voltage_limit, &limit_voltage), 22);
+    const Word limit = wrapped(limited(volts, p_.voltage_limit, &limit_voltage, 20), 22);
     const Word applied = armed ? limit : 0;
     limit_voltage = limit_voltage && armed;
     voltage = wrapped(applied, 20);
     duty = wrapped(limited(half_up(applied * p_.duty_gain, drop(P::duty_gain, 14, 0)),
-                           p_.duty_limit, &limit_duty),
+                           p_.duty_limit, &limit_duty, 13),
                    13);
   }
 

@@ -81,6 +81,11 @@ void check_uses(const RegisterMap& map, const Schedule& s) {
     check_need(s, p.operand, {fmt::format("the product {}", p.name), p.place, p.slot});
   }
   for (const Step& step : s.steps) {
+    if (!step.shows_in.empty() && s.step(step.shows_in) == nullptr) {
+      refuse(step.place,
+             fmt::format("{} shows in \"{}\", which is no step", step.name, step.shows_in),
+             "name a step");
+    }
     for (const Need& need : step.needs) {
       check_need(s, need, {fmt::format("the step {}", step.name), step.place, step.clock});
     }

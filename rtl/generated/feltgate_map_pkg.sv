@@ -132,6 +132,7 @@ package feltgate_map_pkg;
   localparam int T_SCENE_AHEAD = 23;
   localparam int T_SCENE_TORQUE = 23;
   localparam int T_TORQUE_LIMITED = 24;
+  localparam int T_RAMP_BEGIN = 1;
   localparam int T_RAMP_EXCESS = 25;
   localparam int T_RAMP_CHANGE = 26;
   localparam int T_TAU_REF = 27;

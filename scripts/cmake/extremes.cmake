@@ -25,6 +25,7 @@ add_custom_command(OUTPUT "${extremes_wide}/feltgate_pkg.sv" "${extremes_wide}/w
   COMMAND feltgate_generate "${FELTGATE_ROOT}"
     --design "${extremes_wide_design}" --output "${extremes_wide}"
   DEPENDS feltgate_generate "${extremes_wide_design}" "${FELTGATE_ROOT}/rtl/registers.toml"
+          "${FELTGATE_ROOT}/rtl/schedule.toml"
   COMMENT "Generating the design wide" VERBATIM)
 feltgate_verilate(extremes_wide_core feltgate_core
   "${extremes_wide}/feltgate_pkg.sv;${FELTGATE_CORE_SOURCES}" CLASS Vextremes_wide -O3)

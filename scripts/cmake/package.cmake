@@ -36,6 +36,7 @@ if(FELTGATE_SIM)
       FILES_MATCHING PATTERN "*.hpp"
       PATTERN "ensemble.hpp" EXCLUDE PATTERN "scenario_bounds.hpp" EXCLUDE
       PATTERN "make_engines.hpp" EXCLUDE PATTERN "lock_step_engine.hpp" EXCLUDE
+      PATTERN "lock_step_core.hpp" EXCLUDE
       PATTERN "plant_table.hpp" EXCLUDE PATTERN "rtl_*.hpp" EXCLUDE)
   endforeach()
   install(DIRECTORY "${FELTGATE_ROOT}/vectors/plants" "${FELTGATE_ROOT}/vectors/scenes"

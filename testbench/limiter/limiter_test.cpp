@@ -31,6 +31,9 @@ using Rtl = Unreset<Vlimiter>;
 struct Adapter {
   static void drive(Rtl& rtl, const Twin::In& in) {
     rtl.valid_i = in.valid;
+    rtl.torque_i = in.torque;
+    rtl.voltage_i = in.voltage;
+    rtl.duty_i = in.duty;
     // The width of the port is the design's: 32 or 64 bits of a word.
     using Port = std::remove_reference_t<decltype(rtl.ahead_i)>;
     rtl.ahead_i = port_bits<kWide, Port>(in.ahead);
@@ -50,6 +53,7 @@ using Bench = LockStep<Rtl, Twin, Adapter>;
 /// One x and its limit.
 struct Case {
   bool valid = true, ahead = false;  ///< x comes a clock ahead
+  int signal = 0;                    ///< 1 torque, 2 voltage, 3 duty
   std::int64_t x = 0;
   std::uint32_t param = 0;
 };
@@ -63,7 +67,8 @@ struct Pipeline {
   Twin::In operator()(std::int64_t) {
     now = after;
     after = next();
-    return {after.valid, after.ahead ? after.x : 0, now.ahead ? 0 : now.x, now.param};
+    return {after.valid,       after.ahead ? after.x : 0, now.ahead ? 0 : now.x, now.param,
+            after.signal == 1, after.signal == 2,         after.signal == 3};
   }
 };
 
@@ -75,6 +80,7 @@ struct RandomCases {
     Case c;
     c.valid = !random.one_in(4);
     c.ahead = random.coin();
+    if (c.valid) c.signal = static_cast<int>(random.below(4));
     std::int64_t limit = kMaxLimit >> random.below(static_cast<std::uint64_t>(kWidth));
     if (random.one_in(8)) limit = -1 - limit;
     c.param = static_cast<std::uint32_t>(limit);
@@ -94,7 +100,7 @@ struct RandomCases {
 /// By sign of x: [0] negative, [1] not.
 struct Tally {
   std::int64_t beyond[2] = {}, within[2] = {}, at_limit[2] = {}, wide[2] = {}, negative[2] = {},
-               compared[2] = {};
+               compared[2] = {}, misfit[2] = {};
 };
 
 /// The plain program.
@@ -106,19 +112,25 @@ struct Plain {
   const char* operator()(const Twin::In& in, const Rtl& rtl, const Twin&, bool in_reset) {
     const std::int64_t x = before[0].ahead + in.late;  // one of them is 0
     const bool valid = before[0].valid;
+    const int width = before[0].torque    ? Design::f.torque.width()
+                      : before[0].voltage ? Design::f.voltage.width()
+                      : before[0].duty    ? Design::f.duty.width()
+                                          : kWidth;
     before[0] = in;
     filled = in_reset ? 0 : filled + 1;
     if (filled < 2) return nullptr;
     const std::int64_t limit = sign_extend<kWidth>(in.param);
     const std::int64_t size = x < 0 ? -x : x;
-    const bool beyond = size > limit;
-    const std::int64_t most = std::max<std::int64_t>(limit, 0);
+    const bool misfit = limit >= std::int64_t{1} << (width - 1);
+    const bool beyond = misfit || size > limit;
+    const std::int64_t most = misfit ? 0 : std::max<std::int64_t>(limit, 0);
     const std::int64_t limited = !valid ? 0 : std::clamp(x, -most, most);
     const int sign = x >= 0;
     ++(limit < 0 ? tally->negative : beyond ? tally->beyond : tally->within)[sign];
     if (size == limit) ++tally->at_limit[sign];
     if (size > kMaxLimit) ++tally->wide[sign];
     ++tally->compared[valid];
+    tally->misfit[sign] += misfit;
     if (sign_extend<kWidth>(rtl.limited_o) != limited) return "limited of the plain program";
     if ((rtl.beyond_o != 0) != beyond) return "beyond of the plain program";
     return nullptr;
@@ -142,6 +154,7 @@ TEST_CASE("limiter: random x and limits, both ways in, with and without valid") 
     REQUIRE(t.wide[sign] * 100 > clocks);
     REQUIRE(t.negative[sign] * 100 > clocks);
     REQUIRE(t.compared[sign] * 10 > clocks);
+    REQUIRE(t.misfit[sign] * 1000 > clocks);
   }
 }
 
@@ -161,7 +174,7 @@ TEST_CASE("limiter: every pair of corners, each way in, back to back") {
     for (const std::int64_t limit : corners) {
       if (limit > kMaxLimit || limit < -kMaxLimit - 1) continue;
       for (const bool ahead : {false, true}) {
-        cases.push_back({true, ahead, x, static_cast<std::uint32_t>(limit)});
+        cases.push_back({true, ahead, 0, x, static_cast<std::uint32_t>(limit)});
       }
     }
   }

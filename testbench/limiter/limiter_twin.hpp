@@ -25,6 +25,7 @@ class Limiter {
     std::int64_t ahead = 0;  ///< x, a clock ahead, or 0
     std::int64_t late = 0;   ///< x in its clock, or 0
     std::uint32_t param = 0;
+    bool torque = false, voltage = false, duty = false;  ///< with valid: what x is
   };
   struct Out {
     std::int64_t limited = 0;
@@ -39,9 +40,15 @@ class Limiter {
     const auto limit = fixed_of<Law::template key<0>>::from_raw(
         static_cast<std::int32_t>(decode_word(D::f.limiter, in.param)));
     const auto limited = Law::template limited<Limited>(x, limit, &out_.beyond);
-    out_.limited = valid_ ? limited.raw() : 0;
+    const bool misfit = limit.raw() >= (std::int64_t{1} << (width_ - 1));
+    if (misfit) out_.beyond = true;
+    out_.limited = valid_ && !misfit ? limited.raw() : 0;
     ahead_ = in.ahead;
     valid_ = in.valid;
+    width_ = D::f.limiter.width();
+    if (in.torque) width_ = D::f.torque.width();
+    if (in.voltage) width_ = D::f.voltage.width();
+    if (in.duty) width_ = D::f.duty.width();
   }
 
   const Out& out() const { return out_; }
@@ -49,6 +56,7 @@ class Limiter {
  private:
   std::int64_t ahead_ = 0;
   bool valid_ = false;
+  int width_ = D::f.limiter.width();  ///< of the signal that is limited
   Out out_;
 };
 

@@ -38,6 +38,8 @@ BAD = (
     ("checks", "DUTY_W", 14, "DUTY_must_be_the_13_bits_of_the_bridge"),
     ("checks", "LIMITER_W", 19, "LIMITER_W_must_hold_torque_current_voltage_and_duty"),
     ("checks", "SCENE_DISTANCE_W", 36, "every_operand_but_a_difference_must_fit_32_bits"),
+    ("checks", "P_TENSION_STIFFNESS_F", 25, "both_springs_must_have_one_format"),
+    ("checks", "SCENE_GUARD_BITS", 0, "a_scenes_torque_must_hold_its_terms_and_fit_the_limiter"),
     ("checks", "CURRENT_ESTIMATE_W", 19, "CURRENT_ESTIMATE_must_fit_the_multiplier"),
     ("checks", "P_VELOCITY_A1_F", 0, "a_filters_product_must_have_the_bits_that_are_dropped"),
     ("checks", "P_DUTY_GAIN_F", -14, "a_product_of_torque_control_must_have_the_bits_that_are"),

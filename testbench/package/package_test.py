@@ -154,7 +154,7 @@ class Package(unittest.TestCase):
         text = "find_package(feltgate REQUIRED COMPONENTS sim)\n"
         told = configure(project(self.folder / "lacking", text), found, ok=False)
         self.assertIn('feltgate has no component "sim" here; installed are: core', told)
-        text = "find_package(feltgate 0.2 REQUIRED)\n"
+        text = "find_package(feltgate 0.3 REQUIRED)\n"
         told = configure(project(self.folder / "newer", text), found, ok=False)
         self.assertIn("compatible with requested version", told)
 

@@ -79,7 +79,8 @@ struct Waves {
     in.port.beyond = limiter.beyond();
     // Disarmed, the scenes give 0.
     const std::int64_t x = limits && in.aside.armed ? in.aside.rendered : 0;
-    limiter.clock(limits, {clock == Map::W::torque_limit - 1, 0, x, in.port.param});
+    const bool comes = clock == Map::W::torque_limit - 1;
+    limiter.clock(limits, {comes, 0, x, in.port.param, comes});
     clock = clock + 1 == period ? 0 : clock + 1;
     return in;
   }

@@ -101,7 +101,9 @@ inline Control::In wave_inputs(const Wave& w, int clock, const Control::Out& out
     in.param = static_cast<std::uint32_t>(w.words.at(high ? A::voltage_gain_high : clock));
   }
   const bool valid = ahead_of({W::current_limit, W::dead_voltage, W::voltage_limit, W::duty_limit});
-  shared.limiter.clock(limits || compares, {valid, out.ahead, out.late, in.param});
+  shared.limiter.clock(limits || compares,
+                       {valid, out.ahead, out.late, in.param, false,
+                        clock == Map::W::voltage_limit - 1, clock == Map::W::duty_limit - 1});
 
   const std::int64_t coefficient = in.param & ((1u << Design::coefficient_bits) - 1);
   SharedMult& mult = shared.mult;

@@ -128,7 +128,10 @@ constexpr Formats derive(const BaseFormats& b) {
   const Format by_tau_ref = growth::product(b.torque, b.torque_gain);
   const Format by_tau_hat = growth::product(b.torque, b.observer_gain);
   f.current_part = {1, growth::max_of(by_tau_ref.integer, by_tau_hat.integer), b.current.fraction};
-  f.current_sum = growth::sum(f.current_part, f.current_part);
+  // Two parts, or in voltage mode the set-point's own.
+  const Format direct = growth::product(b.voltage, b.voltage_to_current);
+  f.current_sum = {1, growth::max_of(f.current_part.integer + 1, direct.integer),
+                   b.current.fraction};
   f.voltage = b.voltage;
   const Format resistive = growth::product(b.current, b.voltage_gain);
   const Format emf = growth::product(b.velocity, b.emf_constant);
@@ -138,13 +141,15 @@ constexpr Formats derive(const BaseFormats& b) {
   f.voltage_sum = {1, f.voltage_part.integer + 2, b.voltage.fraction};  // three parts
   f.duty = {1, 12, 0};
   int integer = 0;
-  for (const Format& k : {b.compression_stiffness, b.tension_stiffness, b.attract_core_slope,
-                          b.repel_core_slope}) {
+  for (const Format& k :
+       {b.compression_stiffness, b.tension_stiffness, b.attract_core_slope, b.repel_core_slope}) {
     integer = growth::max_of(integer, growth::product(f.scene_distance, k).integer);
   }
   for (const Format& k : {b.damper_damping, b.wall_damping}) {
     integer = growth::max_of(integer, growth::product(b.velocity, k).integer);
   }
+  // A charge's distance takes the way of the torque, too: as an integer.
+  integer = growth::max_of(integer, f.scene_distance.integer - b.torque.fraction);
   f.scene_part = {1, growth::max_of(integer, b.torque.integer),
                   b.torque.fraction + fabric::scene_guard_bits};
   // Two parts, and rounding up may need one bit more.

@@ -4,6 +4,7 @@
 // Law of rtl/limiter.sv: the core's one limiter. Documentation: docs/blocks/limiter.md
 #pragma once
 
+#include <cstdint>
 #include <type_traits>
 
 #include "feltgate/format.hpp"
@@ -20,9 +21,14 @@ struct LimiterLaw {
   static constexpr int key = Format{1, D::f.limiter.width() - 1 - Fraction, Fraction}.key();
 
   /// x in [-limit, limit] as a To, which holds it; sets *hit to whether x lay outside. A negative
-  /// limit counts as 0.
-  template <class To, class X, class Limit>
+  /// limit counts as 0; so does one that the format PortKey of the signal does not hold, and all
+  /// lies outside.
+  template <class To, int PortKey = D::f.limiter.key(), class X, class Limit>
   static constexpr To limited(X x, Limit limit, bool* hit) {
+    if (misfit<PortKey>(limit)) {
+      *hit = true;
+      return To{};
+    }
     *hit = beyond<N>(x, limit);
     if constexpr (!std::is_same_v<N, FixedLanes>) {  // most ticks; beyond a negative limit is all
       if (!*hit) return quantise<N, To, Round::truncate, Overflow::wrap>(x);
@@ -31,6 +37,16 @@ struct LimiterLaw {
     if (x > limit) return quantise<N, To, Round::truncate, Overflow::wrap>(limit);
     if (x < -limit) return quantise<N, To, Round::truncate, Overflow::wrap>(-limit);
     return quantise<N, To, Round::truncate, Overflow::wrap>(x);
+  }
+
+ private:
+  template <int PortKey, class Limit>
+  static constexpr bool misfit([[maybe_unused]] Limit limit) {
+    if constexpr (N::is_fixed) {
+      return N::raw(limit) >= std::int64_t{1} << (Format::from_key(PortKey).width() - 1);
+    } else {
+      return false;
+    }
   }
 };
 

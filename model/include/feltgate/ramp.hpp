@@ -30,8 +30,8 @@ class RampLaw {
   template <class Rendered, class Limit>
   void limit(Rendered tau, Limit limit) {
     bool beyond = false;
-    const auto target =
-        LimiterLaw<D, N>::template limited<Torque>(armed_ ? tau : Rendered{}, limit, &beyond);
+    const auto target = LimiterLaw<D, N>::template limited<Torque, D::f.torque.key()>(
+        armed_ ? tau : Rendered{}, limit, &beyond);
     aim(target, beyond);
   }
   /// The target, and whether it was beyond the limit.

@@ -83,9 +83,9 @@ struct TorqueControlLaw {
     return quantise<N, Voltage, Round::truncate, Overflow::wrap>(v);
   }
   /// x in [-limit, limit] as a To.
-  template <class To, class X, class Limit>
+  template <class To, int PortKey = D::f.limiter.key(), class X, class Limit>
   static constexpr To limited(X x, Limit limit, bool* hit) {
-    return LimiterLaw<D, N>::template limited<To>(x, limit, hit);
+    return LimiterLaw<D, N>::template limited<To, PortKey>(x, limit, hit);
   }
   /// Whether tau_ref lies in the high-torque region; at the border the low one holds.
   template <class X, class Border>
@@ -156,16 +156,16 @@ struct TorqueControlStep {
       const auto resistive = Law::voltage_part(current * (region_high ? gain_high : gain));
       voltage_sum = Law::voltage_sum(resistive + pair);
     }
-    auto applied = Law::template limited<typename Law::LimitedVoltage>(
+    auto applied = Law::template limited<typename Law::LimitedVoltage, D::f.voltage.key()>(
         voltage_sum, w.template get<Law::kVoltageKey>(A::voltage_limit), &limit.voltage);
     if (!armed) {
       applied = {};
       limit.voltage = false;
     }
     voltage = Law::port_voltage(applied);
-    duty = Law::template limited<typename Law::Duty>(Law::duty_sum(applied * w.duty_gain()),
-                                                     w.template get<Law::kDutyKey>(A::duty_limit),
-                                                     &limit.duty);
+    duty = Law::template limited<typename Law::Duty, D::f.duty.key()>(
+        Law::duty_sum(applied * w.duty_gain()), w.template get<Law::kDutyKey>(A::duty_limit),
+        &limit.duty);
   }
 };
 

@@ -142,6 +142,7 @@ struct Map {
     static constexpr int scene_ahead = 23;
     static constexpr int scene_torque = 23;
     static constexpr int torque_limited = 24;
+    static constexpr int ramp_begin = 1;
     static constexpr int ramp_excess = 25;
     static constexpr int ramp_change = 26;
     static constexpr int tau_ref = 27;
@@ -223,6 +224,7 @@ struct Map {
     scene_distance,
     scene_gap,
     membrane_lower,
+    ramp_begin,
     position_word,
     operand_scene_stiffness,
     operand_charge_square,
@@ -348,6 +350,7 @@ struct Map {
       {Step::scene_distance, 1},
       {Step::scene_gap, 1},
       {Step::membrane_lower, 1},
+      {Step::ramp_begin, 1},
       {Step::position_word, 1},
       {Step::operand_scene_stiffness, 2},
       {Step::operand_charge_square, 2},

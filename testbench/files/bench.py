@@ -40,7 +40,7 @@ class Bench(unittest.TestCase):
 
     def words(self, *words):
         words = [os.fspath(word) for word in words]
-        if words[0] == "extremes":
+        if words[:1] == ["extremes"]:
             return [f"{PROGRAM}_extremes", *words[1:]]
         return [PROGRAM, *words]
 

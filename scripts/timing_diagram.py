@@ -17,7 +17,7 @@ import sys
 from pathlib import Path
 from xml.sax.saxutils import escape
 
-CELL, LANE, HIGH, NAMES, MARGIN = 36, 26, 18, 96, 8
+CELL, LANE, HIGH, NAMES, MARGIN = 36, 26, 18, 110, 8
 FILL = dict(zip("=23456789", "#fff #fff #ffffb4 #ffe0b9 #b9e0ff #ccfdfe #cdfdc5 #f0c1fb #f5c2c0".split()))
 
 

@@ -189,11 +189,10 @@ module feltgate_core #(
   );
 
   logic signed [feltgate_pkg::LIMITER_W-1:0] limited;
-  logic beyond;
+  logic beyond, square;
   logic signed [feltgate_pkg::SCENE_DISTANCE_W-1:0] distance;
   logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] scene_ahead;
   logic signed [feltgate_pkg::TORQUE_W-1:0] scene_late;
-  logic square;
   scenes u_scenes (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
@@ -225,8 +224,7 @@ module feltgate_core #(
       .limited_o(limited),
       .beyond_o(beyond)
   );
-
-  logic limit_torque, limit_ramp;
+  logic limit_torque, limit_ramp, limit_current, limit_voltage, limit_duty;
   ramp u_ramp (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
@@ -241,7 +239,6 @@ module feltgate_core #(
       .limit_ramp_o(limit_ramp)
   );
 
-  logic limit_current, limit_voltage, limit_duty;
   torque_control u_torque_control (
       .clk_i(clk_i),
       .rst_ni(rst_ni),

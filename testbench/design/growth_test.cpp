@@ -186,8 +186,8 @@ void check_observer() {
   }
 }
 
-/// Every parameter at the upper end of its word, the observer's signed gain at either, and the duty
-/// limited to what its port holds.
+/// Every parameter at the upper end of its word, the observer's signed gain at either; voltage and
+/// duty limited to what their ports hold.
 template <class D>
 struct CornerWords : ParameterReader<D, CornerWords<D>> {
   explicit CornerWords(bool low) : observer_low(low) {}
@@ -197,6 +197,8 @@ struct CornerWords : ParameterReader<D, CornerWords<D>> {
     if (address == D::A::observer_gain && observer_low) return fixed_of<Key>::min();
     if (address == D::A::duty_limit)
       return fixed_of<Key>::from_raw(fixed_of<D::f.duty.key()>::max_raw());
+    if (address == D::A::voltage_limit)
+      return fixed_of<Key>::from_raw(fixed_of<D::f.voltage.key()>::max_raw());
     return fixed_of<Key>::max();
   }
 };
@@ -219,7 +221,8 @@ void check_control_at(const CornerWords<D>& words,
   const double slope = real(tau_ref) * real(words.dead_voltage_slope());
   const double wanted_v = real(w) * real(words.emf_constant()) + clamped(slope, limit) +
                           real(step.current) * real(words.voltage_gain());
-  const double duty = clamped(wanted_v, limit) * real(words.duty_gain());
+  const double most_v = real(fixed_of<D::f.voltage.key()>::max());
+  const double duty = clamped(wanted_v, most_v) * real(words.duty_gain());
   // What the truncated parts of the voltage lose, and the rounding of the duty.
   const int last_bits = 2 + static_cast<int>(std::ldexp(
                                 3.0, P::duty_gain.integer - Law::LimitedVoltage::format.fraction));

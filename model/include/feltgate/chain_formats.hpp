@@ -6,6 +6,8 @@
 // Documentation: docs/fixed-point.md
 #pragma once
 
+#include <initializer_list>
+
 #include "feltgate/format.hpp"
 
 namespace feltgate {

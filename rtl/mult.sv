@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The chain's one multiplier: 35 x 18 bits signed, from two 18 x 18 ones, every stage registered.
+// A multiplier of the chain: 35 x 18 bits signed, from two 18 x 18 ones, every stage registered.
 // Latency: operands in clock t, product in clock t + 4. With FELTGATE_ECP5 the two products are
 // MULT18X18D cells with their own registers; without, they are inferred. docs/blocks/mult.md
 

@@ -5,7 +5,8 @@
 // render, one rounding. A scene that is not built renders nothing.
 // Latency: distance_o [1,18,8] one clock after the reference's word and for two clocks; the torque,
 // rounded and not limited, as ahead_o in the clock before the torque limit's word or as late_o in it.
-// docs/blocks/scenes.md
+// Before, ahead_o is a charge's distance for the limiter to compare with its core, and late_o the bits of
+// a quotient so far, which nothing takes. docs/blocks/scenes.md
 
 `default_nettype none
 

@@ -139,18 +139,4 @@ constexpr bool beyond(X x, Limit limit) {
   }
 }
 
-/// x limited to [-limit, limit]; sets *limited when that changed it.
-template <class X>
-constexpr X clamp_magnitude(X x, X limit, bool* limited) {
-  if (x > limit) {
-    *limited = true;
-    return limit;
-  }
-  if (x < negated(limit)) {
-    *limited = true;
-    return negated(limit);
-  }
-  return x;
-}
-
 }  // namespace feltgate

@@ -67,15 +67,15 @@ module feltgate_core #(
   logic signed [feltgate_pkg::PRODUCT_BITS-1:0] control_product, supervisor_product;
 
   // What the registers and the panel ask for.
-  logic [14:0] control;
+  logic [feltgate_map_pkg::W_CONTROL-1:0] control;
   logic [ 3:0] scene_wanted, scene_q;
   logic [ 1:0] mode;
   logic host, arm_request, set_zero, zero_pending_q, host_zero, clear_faults, kick, region_high, snap_valid;
   logic [ 5:0] snap_slot;
   assign host         = control[feltgate_map_pkg::B_CONTROL_HOST];
-  assign mode         = control[feltgate_map_pkg::B_CONTROL_MODE+:2];
+  assign mode         = control[feltgate_map_pkg::B_CONTROL_MODE+:feltgate_map_pkg::W_CONTROL_MODE];
   assign arm_request  = host ? control[feltgate_map_pkg::B_CONTROL_ARM] : arm_i;
-  assign scene_wanted = host ? control[feltgate_map_pkg::B_CONTROL_SCENE+:4] : scene_i;
+  assign scene_wanted = host ? control[feltgate_map_pkg::B_CONTROL_SCENE+:feltgate_map_pkg::W_CONTROL_SCENE] : scene_i;
   assign set_zero     = tick && (host_zero || zero_pending_q);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -134,7 +134,7 @@ module feltgate_core #(
       .a_i(enc_a_i),
       .b_i(enc_b_i),
       .z_i(enc_z_i),
-      .filter_i(control[feltgate_map_pkg::B_CONTROL_FILTER+:4]),
+      .filter_i(control[feltgate_map_pkg::B_CONTROL_FILTER+:feltgate_map_pkg::W_CONTROL_FILTER]),
       .polarity_i(control[feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY]),
       .set_zero_i(set_zero),
       .clear_error_i(clear_faults),
@@ -314,12 +314,12 @@ module feltgate_core #(
     limits_o[feltgate_map_pkg::L_TAU_HAT]      = tau_hat_saturated;
     limits_o[feltgate_map_pkg::L_GATES_CLOSED] = !gates_enable;
     status = '0;
-    status[feltgate_map_pkg::B_STATUS_FAULTS+:8]      = faults_o;
-    status[feltgate_map_pkg::B_STATUS_FIRST_FAULT+:4] = first_fault_o;
-    status[feltgate_map_pkg::B_STATUS_LIMITS+:8]      = limits_o;
-    status[feltgate_map_pkg::B_STATUS_SCENE+:4]       = scene_q;
+    status[feltgate_map_pkg::B_STATUS_FAULTS+:feltgate_map_pkg::W_STATUS_FAULTS]      = faults_o;
+    status[feltgate_map_pkg::B_STATUS_FIRST_FAULT+:feltgate_map_pkg::W_STATUS_FIRST_FAULT] = first_fault_o;
+    status[feltgate_map_pkg::B_STATUS_LIMITS+:feltgate_map_pkg::W_STATUS_LIMITS]      = limits_o;
+    status[feltgate_map_pkg::B_STATUS_SCENE+:feltgate_map_pkg::W_STATUS_SCENE]       = scene_q;
     status[feltgate_map_pkg::B_STATUS_ARMED]          = armed_o;
-    status[feltgate_map_pkg::B_STATUS_MODE+:2]        = mode;
+    status[feltgate_map_pkg::B_STATUS_MODE+:feltgate_map_pkg::W_STATUS_MODE]        = mode;
     status[feltgate_map_pkg::B_STATUS_ENCODER_ERROR]  = encoder_error;
   end
   snapshot #(

@@ -25,7 +25,7 @@ module registers #(
   input  logic        region_high_i,       // the voltage gain is that of high torque
   output logic [31:0] param_o,
 
-  output logic [14:0] control_o,
+  output logic [feltgate_map_pkg::W_CONTROL-1:0] control_o,
   output logic        set_zero_o,          // commands: high in the clock of tick_i
   output logic        clear_faults_o,
   output logic        kick_o,
@@ -57,7 +57,7 @@ module registers #(
       to_command_q   <= 1'b0;
       address_q      <= 9'd0;
       data_q         <= 32'd0;
-      control_o      <= 15'(feltgate_pkg::CONTROL_RESET);
+      control_o      <= feltgate_map_pkg::W_CONTROL'(feltgate_pkg::CONTROL_RESET);
     end else begin
       if (accept) begin
         to_parameter_q <= at_parameter;
@@ -70,7 +70,7 @@ module registers #(
         to_control_q   <= 1'b0;
         to_command_q   <= 1'b0;
       end
-      if (tick_i && to_control_q) control_o <= data_q[14:0];
+      if (tick_i && to_control_q) control_o <= data_q[feltgate_map_pkg::W_CONTROL-1:0];
     end
   end
 
@@ -128,7 +128,7 @@ module registers #(
     end
 
     assign read_bank   = !write_bank_q;
-    assign at_snapshot = reg_addr_i[11:6] == 6'h0c;
+    assign at_snapshot = reg_addr_i[11:6] == feltgate_map_pkg::A_SNAPSHOT[11:6];
 
     always @(posedge clk_i) begin
       if (snap_valid_i) snapshot_ram[{write_bank_q, snap_slot_i}] <= snap_data_i;
@@ -161,14 +161,14 @@ module registers #(
         case (source_q2)
           2'd1:    reg_rdata_o <= parameter_q2;
           2'd2:    reg_rdata_o <= snapshot_q2;
-          2'd3:    reg_rdata_o <= {17'd0, control_o};
+          2'd3:    reg_rdata_o <= 32'(control_o);
           default: reg_rdata_o <= 32'd0;
         endcase
       end
     end
   end else begin : g_write_only
     logic unused;
-    assign unused      = ^{snap_slot_i, snap_valid_i, snap_data_i, data_q[31:15]};
+    assign unused      = ^{snap_slot_i, snap_valid_i, snap_data_i, data_q[31:feltgate_map_pkg::W_CONTROL]};
     assign reg_rdata_o = 32'd0;
   end
 

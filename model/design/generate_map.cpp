@@ -99,12 +99,25 @@ constexpr const char* words_doc =
 void fields_sv(std::ostringstream& s, const std::string& word, const std::vector<Field>& fields) {
   for (const Field& f : fields) {
     s << "  localparam int B_" << upper(word + "_" + f.name) << " = " << f.bit << ";\n";
+    if (f.width > 1) {
+      s << "  localparam int W_" << upper(word + "_" + f.name) << " = " << f.width << ";\n";
+    }
   }
+}
+
+/// Bits up to the highest that a field has.
+int used_bits(const std::vector<Field>& fields) {
+  int bits = 0;
+  for (const Field& f : fields) bits = std::max(bits, f.bit + f.width);
+  return bits;
 }
 
 void fields_cpp(std::ostringstream& s, const std::string& word, const std::vector<Field>& fields) {
   for (const Field& f : fields) {
     s << "    static constexpr int " << word << "_" << f.name << " = " << f.bit << ";\n";
+    if (f.width > 1) {
+      s << "    static constexpr int " << word << "_" << f.name << "_width = " << f.width << ";\n";
+    }
   }
 }
 
@@ -135,9 +148,13 @@ std::string map_package(const RegisterMap& map, const Schedule& schedule) {
     s << "  localparam logic [3:0] SCENE_" << upper(scene.name) << " = 4'd" << scene.number
       << ";\n";
   }
-  s << "\n  // Addresses of the control words, and bits of the words' fields.\n";
+  s << "\n  // Addresses of the control words and of the snapshot's first; bits (B) and widths (W) "
+       "of the\n"
+       "  // words' fields.\n"
+    << fmt::format("  localparam logic [11:0] A_SNAPSHOT = 12'h{:03x};\n", snapshot_base);
   for (const Control& c : map.controls) {
     s << fmt::format("  localparam logic [11:0] A_{} = 12'h{:03x};\n", upper(c.name), c.address);
+    s << "  localparam int W_" << upper(c.name) << " = " << used_bits(c.fields) << ";\n";
     fields_sv(s, c.name, c.fields);
   }
   for (const Snapshot& n : map.snapshots) fields_sv(s, n.name, n.fields);
@@ -199,9 +216,11 @@ std::string map_header(const RegisterMap& map, const Schedule& schedule) {
     s << (&scene == &map.scenes.front() ? "" : ",") << "\n      \"" << scene.name << "\"";
   }
   s << "};\n\n  /// Addresses of control and snapshot words, and bits of the words' fields.\n"
-    << "  struct C {\n";
+    << "  struct C {\n"
+    << "    static constexpr int snapshot = " << snapshot_base << ";\n";
   for (const Control& c : map.controls) {
-    s << "    static constexpr int " << c.name << " = " << c.address << ";\n";
+    s << "    static constexpr int " << c.name << " = " << c.address << ";\n"
+      << "    static constexpr int " << c.name << "_width = " << used_bits(c.fields) << ";\n";
     fields_cpp(s, c.name, c.fields);
   }
   for (const Snapshot& n : map.snapshots) {

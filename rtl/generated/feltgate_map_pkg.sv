@@ -212,28 +212,40 @@ package feltgate_map_pkg;
   localparam logic [3:0] SCENE_CHARGE_REPEL = 4'd8;
   localparam logic [3:0] SCENE_WALL = 4'd9;
 
-  // Addresses of the control words, and bits of the words' fields.
+  // Addresses of the control words and of the snapshot's first; bits (B) and widths (W) of the
+  // words' fields.
+  localparam logic [11:0] A_SNAPSHOT = 12'h300;
   localparam logic [11:0] A_CONTROL = 12'h200;
+  localparam int W_CONTROL = 15;
   localparam int B_CONTROL_HOST = 0;
   localparam int B_CONTROL_ARM = 1;
   localparam int B_CONTROL_SCENE = 2;
+  localparam int W_CONTROL_SCENE = 4;
   localparam int B_CONTROL_MODE = 6;
+  localparam int W_CONTROL_MODE = 2;
   localparam int B_CONTROL_MOTOR_POLARITY = 8;
   localparam int B_CONTROL_ENCODER_POLARITY = 9;
   localparam int B_CONTROL_PWM_MODE = 10;
   localparam int B_CONTROL_FILTER = 11;
+  localparam int W_CONTROL_FILTER = 4;
   localparam logic [11:0] A_COMMAND = 12'h201;
+  localparam int W_COMMAND = 5;
   localparam int B_COMMAND_SET_ZERO = 0;
   localparam int B_COMMAND_CLEAR_FAULTS = 1;
   localparam int B_COMMAND_KICK = 2;
   localparam int B_COMMAND_FREEZE = 3;
   localparam int B_COMMAND_THAW = 4;
   localparam int B_STATUS_FAULTS = 0;
+  localparam int W_STATUS_FAULTS = 8;
   localparam int B_STATUS_FIRST_FAULT = 8;
+  localparam int W_STATUS_FIRST_FAULT = 4;
   localparam int B_STATUS_LIMITS = 12;
+  localparam int W_STATUS_LIMITS = 8;
   localparam int B_STATUS_SCENE = 20;
+  localparam int W_STATUS_SCENE = 4;
   localparam int B_STATUS_ARMED = 24;
   localparam int B_STATUS_MODE = 25;
+  localparam int W_STATUS_MODE = 2;
   localparam int B_STATUS_ENCODER_ERROR = 27;
 
   // Bits of the limits.

@@ -147,7 +147,8 @@ void FeltgateCore<D, ReadBack>::end_of_tick(const In& in) {
   const std::uint32_t control = registers_.out().control;
   const bool host = bit(control, D::C::control_host);
   supervisor_.at_end(supervisor_words_, host ? bit(control, D::C::control_arm) : in.arm);
-  out_.scene = static_cast<std::uint8_t>(host ? (control >> D::C::control_scene) & 15u : in.scene);
+  out_.scene = static_cast<std::uint8_t>(
+      host ? field<D::C::control_scene, D::C::control_scene_width>(control) : in.scene);
 }
 
 /// Clocks [from, to) of a tick, from < to. Returns the clock that was reached: it is before `to`

@@ -74,7 +74,8 @@ class FeltgateCore {
     const bool committed = tick && registers_.out().reg_busy;
     registers_.clock(register_inputs(in, tick));
     if (tick) {
-      const unsigned wanted = host ? (control >> D::C::control_scene) & 15u : in.scene;
+      const unsigned wanted =
+          host ? field<D::C::control_scene, D::C::control_scene_width>(control) : in.scene;
       out_.scene = static_cast<std::uint8_t>(wanted);
       if (committed) {
         ++writes_;
@@ -121,6 +122,10 @@ class FeltgateCore {
   /// First clock of the tick in which the supervisor looks at its watchdog.
   static constexpr int kWatchdogOperand = core_steps::clock_of(Map::W::watchdog_ticks) - 1;
 
+  template <int Bit, int Width>
+  static unsigned field(std::uint32_t word) {
+    return (word >> Bit) & ((1u << Width) - 1);
+  }
   static bool bit(std::uint32_t word, int n) { return ((word >> n) & 1u) != 0; }
   static std::int64_t factor(std::uint32_t param) {
     return param & ((1u << D::coefficient_bits) - 1);
@@ -136,7 +141,8 @@ class FeltgateCore {
   }
 
   Mode mode() const {
-    return static_cast<Mode>((registers_.out().control >> D::C::control_mode) & 3u);
+    return static_cast<Mode>(
+        field<D::C::control_mode, D::C::control_mode_width>(registers_.out().control));
   }
 
   /// What the wave brings to the supervisor in clock c of the tick; its words come from the RAM as
@@ -228,7 +234,8 @@ class FeltgateCore {
     d.a = in.encoder.a;
     d.b = in.encoder.b;
     d.z = in.encoder.z;
-    d.filter = static_cast<std::uint8_t>((control >> D::C::control_filter) & 15u);
+    d.filter =
+        static_cast<std::uint8_t>(field<D::C::control_filter, D::C::control_filter_width>(control));
     d.polarity = bit(control, D::C::control_encoder_polarity);
     d.set_zero = zero;
     d.clear_error = clear;

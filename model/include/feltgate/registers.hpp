@@ -10,6 +10,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "feltgate/generated/map.hpp"
+
 namespace feltgate {
 
 /// D: a design as generated. ReadBack = false: no snapshot, every read gives 0.
@@ -145,7 +147,7 @@ class Registers {
   static Source source_of(std::uint16_t address) {
     if (address < 0x200) return Source::parameter;
     if (address == D::C::control) return Source::control;
-    return (address >> 6) == 0x0c ? Source::snapshot : Source::nowhere;
+    return (address >> 6) == Map::C::snapshot >> 6 ? Source::snapshot : Source::nowhere;
   }
   static std::size_t fetch_address(const In& in) {
     if (in.scene_slot_fetch) return (in.scene * 32U + (in.slot_fetch & 31U)) & 0x1ffU;

@@ -555,16 +555,22 @@ struct Map {
 
   /// Addresses of control and snapshot words, and bits of the words' fields.
   struct C {
+    static constexpr int snapshot = 768;
     static constexpr int control = 512;
+    static constexpr int control_width = 15;
     static constexpr int control_host = 0;
     static constexpr int control_arm = 1;
     static constexpr int control_scene = 2;
+    static constexpr int control_scene_width = 4;
     static constexpr int control_mode = 6;
+    static constexpr int control_mode_width = 2;
     static constexpr int control_motor_polarity = 8;
     static constexpr int control_encoder_polarity = 9;
     static constexpr int control_pwm_mode = 10;
     static constexpr int control_filter = 11;
+    static constexpr int control_filter_width = 4;
     static constexpr int command = 513;
+    static constexpr int command_width = 5;
     static constexpr int command_set_zero = 0;
     static constexpr int command_clear_faults = 1;
     static constexpr int command_kick = 2;
@@ -574,11 +580,16 @@ struct Map {
     static constexpr int read_position = 769;
     static constexpr int read_status = 768;
     static constexpr int status_faults = 0;
+    static constexpr int status_faults_width = 8;
     static constexpr int status_first_fault = 8;
+    static constexpr int status_first_fault_width = 4;
     static constexpr int status_limits = 12;
+    static constexpr int status_limits_width = 8;
     static constexpr int status_scene = 20;
+    static constexpr int status_scene_width = 4;
     static constexpr int status_armed = 24;
     static constexpr int status_mode = 25;
+    static constexpr int status_mode_width = 2;
     static constexpr int status_encoder_error = 27;
     static constexpr int read_encoder = 782;
     static constexpr int read_index = 779;

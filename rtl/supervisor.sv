@@ -32,25 +32,27 @@ module supervisor (
 
   logic encoder_trip, speed_trip, polarity_trip, i2t_trip, watchdog_trip, stop_trip;
 
-  // Cause 1, encoder errors. Seven are borne, the next one trips; every 1024 ticks one is forgiven.
-  localparam logic [2:0] BORNE = 3'd7;
+  // Cause 1, encoder errors. So many are borne, the next one trips; every 2^FORGIVE_BITS ticks one is
+  // forgiven.
+  localparam int ERRORS_W = $clog2(feltgate_map_pkg::ERRORS_BORNE + 1);
+  localparam logic [ERRORS_W-1:0] BORNE = ERRORS_W'(feltgate_map_pkg::ERRORS_BORNE);
 
-  logic [2:0] errors_q;  // not forgiven yet
-  logic [9:0] forgive_ticks_q;
-  logic       forgive;
+  logic [ERRORS_W-1:0] errors_q;  // not forgiven yet
+  logic [feltgate_map_pkg::FORGIVE_BITS-1:0] forgive_ticks_q;
+  logic forgive;
 
   assign encoder_trip = encoder_error_i && errors_q == BORNE;
   assign forgive      = tick_i && forgive_ticks_q == '1;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)     forgive_ticks_q <= '0;
-    else if (tick_i) forgive_ticks_q <= forgive_ticks_q + 10'd1;
+    else if (tick_i) forgive_ticks_q <= forgive_ticks_q + feltgate_map_pkg::FORGIVE_BITS'(1);
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)                        errors_q <= '0;
     else if (encoder_trip)              errors_q <= '0;
-    else if (encoder_error_i)           errors_q <= errors_q + 3'd1;
-    else if (forgive && errors_q != '0) errors_q <= errors_q - 3'd1;
+    else if (encoder_error_i)           errors_q <= errors_q + ERRORS_W'(1);
+    else if (forgive && errors_q != '0) errors_q <= errors_q - ERRORS_W'(1);
   end
 
   // The size of a signal against the signed limit on the bus, for causes 2 and 3. The signal is
@@ -84,8 +86,8 @@ module supervisor (
   // Two times, in ticks, share an adder and a comparator: that of cause 3 in the clock in which its
   // limit is on the bus, that of cause 5 in all others. A counter whose top bit is set has come to
   // every limit, so that none wraps.
-  localparam int RUNAWAY_W  = 17;
-  localparam int KICKLESS_W = 25;
+  localparam int RUNAWAY_W  = feltgate_map_pkg::RUNAWAY_BITS + 1;
+  localparam int KICKLESS_W = feltgate_map_pkg::KICKLESS_BITS + 1;
 
   logic [RUNAWAY_W-1:0]  runaway_ticks_q;   // on end, with this one
   logic [KICKLESS_W-1:0] kickless_ticks_q;  // since the last kick, or since arming

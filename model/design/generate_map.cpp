@@ -139,6 +139,9 @@ std::string map_package(const RegisterMap& map, const Schedule& schedule) {
            "  localparam logic [63:0] SCENE_SLOTS = 64'h{:016x};  // bit n: slot n is read "
            "from the scene's bank\n",
            scene_slots(map));
+  for (const Cause& c : map.constants) {
+    s << "  localparam int " << upper(c.name) << " = " << c.number << ";  // " << c.doc << "\n";
+  }
   clocks_sv(s, "S_", slots_doc, slots(map, schedule));
   clocks_sv(s, "M_", products_doc, products(map, schedule));
   clocks_sv(s, "T_", steps_doc, steps(schedule));
@@ -185,6 +188,9 @@ std::string map_header(const RegisterMap& map, const Schedule& schedule) {
     << ";  ///< clocks from the operands to the product\n"
     << "  /// Bit n: slot n is read from the scene's bank.\n"
     << fmt::format("  static constexpr std::uint64_t scene_slots = 0x{:x};\n", scene_slots(map));
+  for (const Cause& c : map.constants) {
+    s << "  static constexpr int " << c.name << " = " << c.number << ";  ///< " << c.doc << "\n";
+  }
   clocks_cpp(s, "W", slots_doc, slots(map, schedule));
   clocks_cpp(s, "M", products_doc, products(map, schedule));
   clocks_cpp(s, "T", steps_doc, steps(schedule));

@@ -173,6 +173,10 @@ RegisterMap read_registers(const std::string& path) {
   for (config::TomlReader& r : top.sections("snapshot")) {
     map.snapshots.push_back(read_snapshot(r, map));
   }
+  for (config::TomlReader& r : top.sections("constant")) {
+    map.constants.push_back({r.identifier("name"), small(r, "value", 30), r.text("doc")});
+    r.finish();
+  }
   map.limits = read_causes(top, "limit", "bit", 0);
   map.faults = read_causes(top, "fault", "number", 1);
   top.finish();

@@ -74,8 +74,9 @@ struct RegisterMap {
   std::vector<Scene> scenes;
   std::vector<Control> controls;
   std::vector<Snapshot> snapshots;
-  std::vector<Cause> limits;  ///< in the order of their bits
-  std::vector<Cause> faults;  ///< in the order of their numbers, from 1 on
+  std::vector<Cause> constants;  ///< plain numbers, by value
+  std::vector<Cause> limits;     ///< in the order of their bits
+  std::vector<Cause> faults;     ///< in the order of their numbers, from 1 on
 
   /// Bit of a control word's field. Throws config::ConfigError where there is none.
   int control_bit(const std::string& control, const std::string& field) const;

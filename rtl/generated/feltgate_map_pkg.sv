@@ -12,6 +12,10 @@ package feltgate_map_pkg;
   localparam int FIRST_WAVE_CLOCK = 2;  // clock of the tick that is wave clock 0
   localparam int MULTIPLIER_LATENCY = 4;  // clocks from the operands to the product
   localparam logic [63:0] SCENE_SLOTS = 64'h000000000000044e;  // bit n: slot n is read from the scene's bank
+  localparam int ERRORS_BORNE = 7;  // encoder errors that are borne, less one every 2^forgive_bits ticks
+  localparam int FORGIVE_BITS = 10;  // bits of the ticks after which one encoder error is forgiven
+  localparam int RUNAWAY_BITS = 16;  // bits of the longest time of a wrong polarity [tick]
+  localparam int KICKLESS_BITS = 24;  // bits of the longest time without a kick [tick]
 
   // Wave clocks in which a word, or a square, is on its bus.
   localparam int S_VELOCITY_A1 = 4;

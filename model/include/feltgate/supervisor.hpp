@@ -189,10 +189,10 @@ class Supervisor {
   using Sum = fixed_of<Law::sum_key>;
   using Squared = fixed_of<Law::squared_key>;
   static constexpr bool kWatchdogLast = watchdog_clock == D::clocks_per_tick - 1;
-  static constexpr int kBorne = 7;  // encoder errors
-  static constexpr std::uint32_t kForgiveTicks = 1024;
-  static constexpr std::uint32_t kLongestRunaway = 1 << 16;  // ticks
-  static constexpr std::uint32_t kLongestKickless = 1 << 24;
+  static constexpr int kBorne = Map::errors_borne;  // encoder errors
+  static constexpr std::uint32_t kForgiveTicks = 1u << Map::forgive_bits;
+  static constexpr std::uint32_t kLongestRunaway = 1u << Map::runaway_bits;  // ticks
+  static constexpr std::uint32_t kLongestKickless = 1u << Map::kickless_bits;
   static constexpr std::uint32_t kKicklessMask = 2 * kLongestKickless - 1;
 
   static constexpr std::uint64_t at(int t) { return std::uint64_t{1} << t; }

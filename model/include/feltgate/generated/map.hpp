@@ -17,6 +17,10 @@ struct Map {
   static constexpr int multiplier_latency = 4;  ///< clocks from the operands to the product
   /// Bit n: slot n is read from the scene's bank.
   static constexpr std::uint64_t scene_slots = 0x44e;
+  static constexpr int errors_borne = 7;  ///< encoder errors that are borne, less one every 2^forgive_bits ticks
+  static constexpr int forgive_bits = 10;  ///< bits of the ticks after which one encoder error is forgiven
+  static constexpr int runaway_bits = 16;  ///< bits of the longest time of a wrong polarity [tick]
+  static constexpr int kickless_bits = 24;  ///< bits of the longest time without a kick [tick]
 
   /// Wave clocks in which a word, or a square, is on its bus.
   struct W {

@@ -88,9 +88,12 @@ module dob (
       tau_hat_o   <= '0;
       saturated_o <= 1'b0;
     end else if (wave_i[feltgate_map_pkg::T_TAU_HAT]) begin
-      tau_hat_o   <= over ? {rounded_q[RoundedW-1], {(TorqueW - 1) {~rounded_q[RoundedW-1]}}}
-                          : rounded_q[TorqueW-1:0];
-      saturated_o <= over;
+      tau_hat_o   <= rounded_q[TorqueW-1:0];
+      saturated_o <= 1'b0;
+      if (over) begin
+        tau_hat_o   <= {rounded_q[RoundedW-1], {(TorqueW - 1) {~rounded_q[RoundedW-1]}}};
+        saturated_o <= 1'b1;
+      end
     end
   end
 endmodule

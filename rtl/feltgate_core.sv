@@ -303,29 +303,24 @@ module feltgate_core #(
   );
 
   logic [31:0] status, snapshot_word;
-  always_comb begin
-    limits_o = '0;
-    limits_o[feltgate_map_pkg::L_TORQUE]       = limit_torque;
-    limits_o[feltgate_map_pkg::L_RAMP]         = limit_ramp;
-    limits_o[feltgate_map_pkg::L_CURRENT]      = limit_current;
-    limits_o[feltgate_map_pkg::L_VOLTAGE]      = limit_voltage;
-    limits_o[feltgate_map_pkg::L_DUTY]         = limit_duty;
-    limits_o[feltgate_map_pkg::L_VELOCITY]     = velocity_saturated;
-    limits_o[feltgate_map_pkg::L_TAU_HAT]      = tau_hat_saturated;
-    limits_o[feltgate_map_pkg::L_GATES_CLOSED] = !gates_enable;
-    status = '0;
-    status[feltgate_map_pkg::B_STATUS_FAULTS+:feltgate_map_pkg::W_STATUS_FAULTS]      = faults_o;
-    status[feltgate_map_pkg::B_STATUS_FIRST_FAULT+:feltgate_map_pkg::W_STATUS_FIRST_FAULT] = first_fault_o;
-    status[feltgate_map_pkg::B_STATUS_LIMITS+:feltgate_map_pkg::W_STATUS_LIMITS]      = limits_o;
-    status[feltgate_map_pkg::B_STATUS_SCENE+:feltgate_map_pkg::W_STATUS_SCENE]       = scene_q;
-    status[feltgate_map_pkg::B_STATUS_ARMED]          = armed_o;
-    status[feltgate_map_pkg::B_STATUS_MODE+:feltgate_map_pkg::W_STATUS_MODE]        = mode;
-    status[feltgate_map_pkg::B_STATUS_ENCODER_ERROR]  = encoder_error;
-  end
+  assign limits_o = (8'(limit_torque) << feltgate_map_pkg::L_TORQUE) |
+                    (8'(limit_ramp) << feltgate_map_pkg::L_RAMP) |
+                    (8'(limit_current) << feltgate_map_pkg::L_CURRENT) |
+                    (8'(limit_voltage) << feltgate_map_pkg::L_VOLTAGE) |
+                    (8'(limit_duty) << feltgate_map_pkg::L_DUTY) |
+                    (8'(velocity_saturated) << feltgate_map_pkg::L_VELOCITY) |
+                    (8'(tau_hat_saturated) << feltgate_map_pkg::L_TAU_HAT) |
+                    (8'(!gates_enable) << feltgate_map_pkg::L_GATES_CLOSED);
+  assign status = (32'(faults_o) << feltgate_map_pkg::B_STATUS_FAULTS) |
+                  (32'(first_fault_o) << feltgate_map_pkg::B_STATUS_FIRST_FAULT) |
+                  (32'(limits_o) << feltgate_map_pkg::B_STATUS_LIMITS) |
+                  (32'(scene_q) << feltgate_map_pkg::B_STATUS_SCENE) |
+                  (32'(armed_o) << feltgate_map_pkg::B_STATUS_ARMED) |
+                  (32'(mode) << feltgate_map_pkg::B_STATUS_MODE) |
+                  (32'(encoder_error) << feltgate_map_pkg::B_STATUS_ENCODER_ERROR);
   snapshot #(
       .ReadBack(ReadBack)
   ) u_snapshot (
-      .clk_i(clk_i),
       .slot_fetch_i(slot_fetch),
       .wave_i(wave),
       .status_i(status),

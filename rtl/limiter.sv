@@ -2,8 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The core's one limiter: x to [-limit, limit], the limit being the word on the parameter bus; a
-// negative limit counts as 0, and so does one that the format of its signal does not hold. It serves torque, current, dead voltage, voltage and duty in turn, and
-// without valid_i tells whether x is beyond a border and gives nothing to the operand bus.
+// negative limit counts as 0, and so does one that the format of its signal does not hold. It serves
+// torque, current, dead voltage, voltage and duty in turn, and without valid_i tells whether x is beyond
+// a border and gives nothing to the operand bus.
 // Latency: valid and what is ahead in clock t - 1, the rest of x and the limit in t, the result in
 // t + 1 and only there, beyond in t + 1. docs/blocks/limiter.md
 
@@ -26,14 +27,18 @@ module limiter (
   localparam int W = feltgate_pkg::LIMITER_W;
   localparam int InputW = feltgate_pkg::LIMITER_INPUT_W;
 
-  // Only as many bits are compared as a limit has: an x that needs more is beyond any limit.
-  logic                     valid_q, torque_q, voltage_q, duty_q, ahead_over_q, over, negative;
+  // Only as many bits are compared as a limit has: an x that needs more is beyond any limit. Bits that
+  // a limit must not have: its sign, and those beyond the format of its signal.
+  localparam logic [W-1:0] Sign = W'(1) << (W - 1);
+  logic        [     W-1:0] misfit_q;
+  logic                     valid_q, ahead_over_q, over, negative;
   logic signed [InputW-1:0] ahead_q, x;
   always_ff @(posedge clk_i) begin
     valid_q      <= valid_i;
-    torque_q     <= torque_i;
-    voltage_q    <= voltage_i;
-    duty_q       <= duty_i;
+    if (duty_i) misfit_q <= {W{1'b1}} << (feltgate_pkg::DUTY_W - 1);
+    else if (voltage_i) misfit_q <= {W{1'b1}} << (feltgate_pkg::VOLTAGE_W - 1);
+    else if (torque_i) misfit_q <= {W{1'b1}} << (feltgate_pkg::TORQUE_W - 1);
+    else misfit_q <= Sign;
     ahead_q      <= ahead_i;
     ahead_over_q <= ahead_i[InputW-1:W-1] != {(InputW - W + 1) {ahead_i[InputW-1]}};
   end
@@ -42,34 +47,30 @@ module limiter (
   assign over     = ahead_over_q || late_i[InputW-1:W-1] != {(InputW - W + 1) {late_i[InputW-1]}};
 
   logic signed [W-1:0] limit, low;
-  logic signed [W  :0] upper_gap, lower_gap;
-  logic                above, below, misfit, nothing;
-  assign limit     = param_i[W-1:0];
-  assign low       = x[W-1:0];
-  assign upper_gap = (W + 1)'(limit) - (W + 1)'(low);
-  assign lower_gap = (W + 1)'(limit) + (W + 1)'(low);
-  assign above     = !negative && (over || upper_gap[W]);
-  assign below     = negative && (over || lower_gap[W]);
-  assign misfit    = (torque_q && limit[W-1:feltgate_pkg::TORQUE_W-1] != '0) ||
-                     (voltage_q && limit[W-1:feltgate_pkg::VOLTAGE_W-1] != '0) ||
-                     (duty_q && limit[W-1:feltgate_pkg::DUTY_W-1] != '0);
-  assign nothing   = limit[W-1] || misfit || !valid_q;
+  logic                above, below, misfit;
+  assign limit   = param_i[W-1:0];
+  assign low     = x[W-1:0];
+  assign above   = !negative && (over || (W + 1)'(limit) - (W + 1)'(low) < 0);
+  assign below   = negative && (over || (W + 1)'(limit) + (W + 1)'(low) < 0);
+  assign misfit  = (limit & misfit_q) != '0;
 
   // x, and the limit that is on its side; clearing a register costs no logic, selecting does.
   logic signed [W-1:0] low_q, upper_q, lower_q;
   always_ff @(posedge clk_i) begin
     beyond_o <= above || below || misfit;
-    if (nothing) low_q <= '0;
-    else low_q <= low;
-    if (negative || nothing) upper_q <= '0;
-    else upper_q <= limit;
-    if (!negative || nothing) lower_q <= '0;
-    else lower_q <= -limit;
+    if (!valid_q || misfit) begin
+      low_q   <= '0;
+      upper_q <= '0;
+      lower_q <= '0;
+    end else begin
+      low_q <= low;
+      if (negative) upper_q <= '0;
+      else upper_q <= limit;
+      if (!negative) lower_q <= '0;
+      else lower_q <= -limit;
+    end
   end
   assign limited_o = beyond_o ? upper_q | lower_q : low_q;
-
-  logic unused;
-  assign unused = ^{upper_gap[W-1:0], lower_gap[W-1:0]};
 endmodule
 
 `default_nettype wire

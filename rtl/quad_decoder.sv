@@ -121,15 +121,11 @@ module quad_decoder #(
   assign travel_o = count_q[15:0];
   assign step_o   = step_q;
 
-  // Both counters share one incrementer; an event waits one clock while the other is served.
-  logic        error_wait_q, rejected_wait_q, serve_error, serve_rejected, full;
-  logic [15:0] operand, sum;
+  // One counter is served in a clock; an event waits while it is the other's turn.
+  logic error_wait_q, rejected_wait_q, serve_error, serve_rejected;
 
   assign serve_rejected = rejected_wait_q && !clear_error_i;
   assign serve_error    = error_wait_q && !rejected_wait_q && !clear_error_i;
-  assign operand        = clear_error_i ? 16'd0 :
-                          rejected_wait_q ? rejected_count_o : error_count_o;
-  assign {full, sum}    = {1'b0, operand} + {16'd0, !clear_error_i};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -146,8 +142,10 @@ module quad_decoder #(
       error_o         <= illegal || (error_o && !clear_error_i);
       illegal_o       <= illegal;
       index_seen_o    <= index_q || (index_seen_o && !clear_error_i);
-      if (clear_error_i || (serve_error && !full)) error_count_o <= sum;
-      if (clear_error_i || (serve_rejected && !full)) rejected_count_o <= sum;
+      if (clear_error_i) error_count_o <= 16'd0;
+      else if (serve_error && error_count_o != '1) error_count_o <= error_count_o + 16'd1;
+      if (clear_error_i) rejected_count_o <= 16'd0;
+      else if (serve_rejected && rejected_count_o != '1) rejected_count_o <= rejected_count_o + 16'd1;
     end
   end
 

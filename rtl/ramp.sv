@@ -36,9 +36,9 @@ module ramp (
   logic signed [W:0] excess_q;
   logic      [W-2:0] step_q;
   always_ff @(posedge clk_i) begin
-    if (param_i[W-1]) step_q <= '0;
-    else step_q <= param_i[W-2:0];
     if (wave_i[Excess]) begin
+      if (param_i[W-1]) step_q <= '0;
+      else step_q <= param_i[W-2:0];
       excess_q <= {(TorqueW + 1)'(tau_ref_o) - (TorqueW + 1)'($signed(limited_i[TorqueW-1:0])),
                    ramp_q[Fine-1:0]};
     end

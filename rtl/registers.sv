@@ -40,7 +40,7 @@ module registers #(
 
   // The waiting write: where it goes (none set: nothing waits), and its word.
   logic        to_parameter_q, to_control_q, to_command_q;
-  logic        at_parameter, at_control, at_command, accept;
+  logic        at_parameter, at_control, at_command;
   logic [8:0]  address_q;
   logic [31:0] data_q;
 
@@ -48,7 +48,6 @@ module registers #(
   assign at_control   = reg_addr_i == feltgate_map_pkg::A_CONTROL;
   assign at_command   = reg_addr_i == feltgate_map_pkg::A_COMMAND;
   assign reg_busy_o   = to_parameter_q || to_control_q || to_command_q;
-  assign accept       = reg_write_i && !reg_busy_o;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -59,7 +58,7 @@ module registers #(
       data_q         <= 32'd0;
       control_o      <= feltgate_map_pkg::W_CONTROL'(feltgate_pkg::CONTROL_RESET);
     end else begin
-      if (accept) begin
+      if (reg_write_i && !reg_busy_o) begin
         to_parameter_q <= at_parameter;
         to_control_q   <= at_control;
         to_command_q   <= at_command;

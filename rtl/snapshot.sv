@@ -2,14 +2,13 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The snapshot's words: which clocks of the wave hold one on the operand bus, and those that are no
-// operand of a product. Documentation: docs/blocks/snapshot.md
+// operand of a product. Combinational. Documentation: docs/blocks/snapshot.md
 
 `default_nettype none
 
 module snapshot #(
     parameter int ReadBack = 1
 ) (
-    input  logic               clk_i,
     input  logic        [ 5:0] slot_fetch_i,
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks off the wave
     input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
@@ -27,19 +26,11 @@ module snapshot #(
   assign slot_o = slot_fetch_i - 6'(feltgate_map_pkg::FIRST_WAVE_CLOCK);
 
   if (ReadBack != 0) begin : gen_words
-    logic take_status_q, take_position_q, take_tick_q, take_index_q, take_encoder_q;
-    always_ff @(posedge clk_i) begin
-      // Perhaps before the wave's first clock.
-      take_status_q   <= slot_fetch_i == 6'(feltgate_map_pkg::FIRST_WAVE_CLOCK +
-                                            feltgate_map_pkg::R_STATUS - 1);
-      take_position_q <= wave_i[feltgate_map_pkg::R_POSITION-1];
-      take_tick_q     <= wave_i[feltgate_map_pkg::R_TICK-1];
-      take_index_q    <= wave_i[feltgate_map_pkg::R_INDEX-1];
-      take_encoder_q  <= wave_i[feltgate_map_pkg::R_ENCODER-1];
-    end
-    assign word_o = (take_status_q ? status_i : '0) | (take_position_q ? position_i : '0) |
-                    (take_tick_q ? tick_count_i : '0) | (take_index_q ? index_position_i : '0) |
-                    (take_encoder_q ? {rejected_count_i, error_count_i} : '0);
+    assign word_o = (wave_i[feltgate_map_pkg::R_STATUS] ? status_i : '0) |
+                    (wave_i[feltgate_map_pkg::R_POSITION] ? position_i : '0) |
+                    (wave_i[feltgate_map_pkg::R_TICK] ? tick_count_i : '0) |
+                    (wave_i[feltgate_map_pkg::R_INDEX] ? index_position_i : '0) |
+                    (wave_i[feltgate_map_pkg::R_ENCODER] ? {rejected_count_i, error_count_i} : '0);
     assign valid_o =
         wave_i[feltgate_map_pkg::R_STATUS] || wave_i[feltgate_map_pkg::R_POSITION] ||
         wave_i[feltgate_map_pkg::R_TICK] || wave_i[feltgate_map_pkg::R_INDEX] ||
@@ -49,7 +40,7 @@ module snapshot #(
         wave_i[feltgate_map_pkg::R_DUTY];
   end else begin : gen_none
     logic unused;
-    assign unused  = ^{clk_i, status_i, position_i, tick_count_i, index_position_i, error_count_i,
+    assign unused  = ^{status_i, position_i, tick_count_i, index_position_i, error_count_i,
                        rejected_count_i};
     assign word_o  = '0;
     assign valid_o = 1'b0;

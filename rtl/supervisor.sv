@@ -58,20 +58,21 @@ module supervisor (
   // The size of a signal against the signed limit on the bus, for causes 2 and 3. The signal is
   // taken a clock ahead. Of a negative x, {~x, 1} is 2|x| - 1: twice the size without an adder, for
   // 2|x| - 1 > 2 * limit says |x| > limit. Above a negative limit everything is.
-  logic signed [31:0] signal;
-  logic        [31:0] twice_size_q;
+  logic [31:0] twice_size_q;
 
-  function automatic logic over(input logic [31:0] twice_size, input logic [31:0] limit);
-    over = limit[31] || {limit[30:0], 1'b0} < twice_size;
+  function automatic logic [31:0] twice_size(input logic signed [31:0] signal);
+    twice_size = {signal[31] ? ~signal[30:0] : signal[30:0], signal[31]};
   endfunction
 
-  assign signal = wave_i[feltgate_map_pkg::T_STRONG_SIZE] ? 32'(current_ref_i) :
-                                                             32'(velocity_i);
+  function automatic logic over(input logic [31:0] doubled, input logic [31:0] limit);
+    over = limit[31] || {limit[30:0], 1'b0} < doubled;
+  endfunction
 
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::T_SPEED_SIZE] || wave_i[feltgate_map_pkg::T_FAST_SIZE] ||
-        wave_i[feltgate_map_pkg::T_STRONG_SIZE])
-      twice_size_q <= {signal[31] ? ~signal[30:0] : signal[30:0], signal[31]};
+    if (wave_i[feltgate_map_pkg::T_STRONG_SIZE])
+      twice_size_q <= twice_size(32'(current_ref_i));
+    else if (wave_i[feltgate_map_pkg::T_SPEED_SIZE] || wave_i[feltgate_map_pkg::T_FAST_SIZE])
+      twice_size_q <= twice_size(32'(velocity_i));
   end
 
   // Cause 2, over-speed: |velocity| > overspeed.
@@ -219,7 +220,8 @@ module supervisor (
                 (8'(watchdog_trip) << feltgate_map_pkg::FAULT_WATCHDOG) |
                 (8'(stop_trip) << feltgate_map_pkg::FAULT_STOP);
 
-  assign any_trip = trip != '0;
+  assign any_trip = encoder_trip || speed_trip || polarity_trip || i2t_trip || watchdog_trip ||
+                    stop_trip;
   assign clear    = clear_faults_i && !arm_i;
 
   always_comb begin
@@ -233,33 +235,34 @@ module supervisor (
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) faults_o <= '0;
-    else         faults_o <= (clear ? 8'd0 : faults_o) | trip;
-  end
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) first_fault_o <= feltgate_map_pkg::FAULT_NONE;
-    else if (clear || first_fault_o == feltgate_map_pkg::FAULT_NONE) first_fault_o <= cause;
+    if (!rst_ni) begin
+      faults_o      <= '0;
+      first_fault_o <= feltgate_map_pkg::FAULT_NONE;
+    end else if (clear || any_trip) begin
+      faults_o <= (clear ? 8'd0 : faults_o) | trip;
+      if (clear || first_fault_o == feltgate_map_pkg::FAULT_NONE) first_fault_o <= cause;
+    end
   end
 
   // Arming, at the end of a tick. A request that was high during a reset, a fault or a stop must
   // fall before it counts again.
-  logic asked_q, arms, stays;
+  logic asked_q, may_arm, arms;
 
-  assign arms  = arm_i && !asked_q && first_fault_o == feltgate_map_pkg::FAULT_NONE && !stop_q[1];
-  assign stays = arm_i && gates_enable_o;
+  assign may_arm = !asked_q && first_fault_o == feltgate_map_pkg::FAULT_NONE && !stop_q[1];
+  assign arms    = arm_i && (gates_enable_o || may_arm) && !any_trip;  // or stays armed
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni)     asked_q <= 1'b1;
-    else if (tick_i) asked_q <= arm_i;
-  end
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni)     armed_o <= 1'b0;
-    else if (tick_i) armed_o <= (arms || stays) && !any_trip;
-  end
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni)       gates_enable_o <= 1'b0;
-    else if (any_trip) gates_enable_o <= 1'b0;
-    else if (tick_i)   gates_enable_o <= arms || stays;
+    if (!rst_ni) begin
+      asked_q        <= 1'b1;
+      armed_o        <= 1'b0;
+      gates_enable_o <= 1'b0;
+    end else if (tick_i) begin
+      asked_q        <= arm_i;
+      armed_o        <= arms;
+      gates_enable_o <= arms;
+    end else if (any_trip) begin
+      gates_enable_o <= 1'b0;
+    end
   end
 
 endmodule

@@ -102,8 +102,12 @@ module velocity_n #(
       raw_q       <= '0;
       saturated_o <= 1'b0;
     end else if (wave_i[feltgate_map_pkg::T_VELOCITY_RAW]) begin
-      raw_q       <= over ? {difference_q[T-1], {(W - 1) {~difference_q[T-1]}}} : raw;
-      saturated_o <= over;
+      raw_q       <= raw;
+      saturated_o <= 1'b0;
+      if (over) begin
+        raw_q       <= {difference_q[T-1], {(W - 1) {~difference_q[T-1]}}};
+        saturated_o <= 1'b1;
+      end
     end
   end
 

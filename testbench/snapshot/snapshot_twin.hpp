@@ -10,7 +10,7 @@
 
 namespace feltgate {
 
-/// Clocked twin.
+/// Combinational; the bench clocks it all the same.
 template <bool ReadBack>
 class Snapshot {
  public:
@@ -26,16 +26,8 @@ class Snapshot {
     int slot = 0;
   };
 
-  /// The registers have no reset; this clears them.
-  void reset() { *this = Snapshot{}; }
-
-  void clock(const In& in) {
-    taken_ = kNothing;
-    if (in.slot_fetch == Map::first_wave_clock - 1) taken_ = Map::R::status;
-    for (const int t : {Map::R::position, Map::R::tick, Map::R::index, Map::R::encoder}) {
-      if (((in.wave >> (t - 1)) & 1u) != 0) taken_ = t;
-    }
-  }
+  void reset() {}
+  void clock(const In&) {}
 
   Out peek(const In& in) const {
     using R = Map::R;
@@ -46,32 +38,15 @@ class Snapshot {
                           R::tau_hat, R::tau_ref, R::current_ref, R::voltage, R::duty}) {
         out.valid = out.valid || ((in.wave >> t) & 1u) != 0;
       }
-      switch (taken_) {
-        case R::status:
-          out.word = in.status;
-          break;
-        case R::position:
-          out.word = in.position;
-          break;
-        case R::tick:
-          out.word = in.tick_count;
-          break;
-        case R::index:
-          out.word = in.index_position;
-          break;
-        case R::encoder:
-          out.word = std::uint32_t{in.rejected_count} << 16 | in.error_count;
-          break;
-        default:
-          break;
-      }
+      const auto now = [&in](int t) { return ((in.wave >> t) & 1u) != 0; };
+      if (now(R::status)) out.word = in.status;
+      if (now(R::position)) out.word = in.position;
+      if (now(R::tick)) out.word = in.tick_count;
+      if (now(R::index)) out.word = in.index_position;
+      if (now(R::encoder)) out.word = std::uint32_t{in.rejected_count} << 16 | in.error_count;
     }
     return out;
   }
-
- private:
-  static constexpr int kNothing = -1;
-  int taken_ = kNothing;
 };
 
 }  // namespace feltgate

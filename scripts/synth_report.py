@@ -52,7 +52,7 @@ GOALS = (
         "LUT4 equivalents without read-back",
         "core without read-back, registered",
         "lut4_equivalents",
-        1400,
+        1900,
         False,
     ),
     (
@@ -67,14 +67,14 @@ GOALS = (
         "MHz, registered multiplier, without read-back",
         "core without read-back, registered",
         "fmax_mhz",
-        150,
+        130,
         True,
     ),
     (
         "MHz, registered multiplier, with read-back",
         "core with read-back, registered",
         "fmax_mhz",
-        150,
+        120,
         True,
     ),
     (

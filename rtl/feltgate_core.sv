@@ -47,9 +47,9 @@ module feltgate_core #(
     output logic signed [   feltgate_pkg::VOLTAGE_W-1:0] voltage_o,
     output logic signed [      feltgate_pkg::DUTY_W-1:0] duty_o,
     output logic        [                           3:0] scene_o,
-    output logic        [                           7:0] limits_o,
-    output logic        [                           7:0] faults_o,
-    output logic        [                           3:0] first_fault_o,
+    output logic        [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_o,
+    output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0]   faults_o,
+    output logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0]  first_fault_o,
     output logic                                         armed_o,
     output logic signed [      feltgate_pkg::DUTY_W-1:0] duty_active_o,   // in force in the bridge
     output logic                                         gates_enable_o
@@ -277,6 +277,7 @@ module feltgate_core #(
       .wave_i(wave),
       .param_i(param),
       .product_i(supervisor_product),
+      .trips_i('0),
       .current_estimate_o(current_estimate),
       .armed_o(armed_o),
       .gates_enable_o(gates_enable),
@@ -302,18 +303,19 @@ module feltgate_core #(
       .duty_active_o(duty_active_o)
   );
 
-  logic [31:0] status, snapshot_word;
-  assign limits_o = (8'(limit_torque) << feltgate_map_pkg::L_TORQUE) |
-                    (8'(limit_ramp) << feltgate_map_pkg::L_RAMP) |
-                    (8'(limit_current) << feltgate_map_pkg::L_CURRENT) |
-                    (8'(limit_voltage) << feltgate_map_pkg::L_VOLTAGE) |
-                    (8'(limit_duty) << feltgate_map_pkg::L_DUTY) |
-                    (8'(velocity_saturated) << feltgate_map_pkg::L_VELOCITY) |
-                    (8'(tau_hat_saturated) << feltgate_map_pkg::L_TAU_HAT) |
-                    (8'(!gates_enable) << feltgate_map_pkg::L_GATES_CLOSED);
-  assign status = (32'(faults_o) << feltgate_map_pkg::B_STATUS_FAULTS) |
-                  (32'(first_fault_o) << feltgate_map_pkg::B_STATUS_FIRST_FAULT) |
-                  (32'(limits_o) << feltgate_map_pkg::B_STATUS_LIMITS) |
+  localparam int LimitsW = feltgate_map_pkg::W_STATUS_LIMITS;
+  logic [31:0] status, faults, snapshot_word;
+  assign limits_o = (LimitsW'(limit_torque) << feltgate_map_pkg::L_TORQUE) |
+                    (LimitsW'(limit_ramp) << feltgate_map_pkg::L_RAMP) |
+                    (LimitsW'(limit_current) << feltgate_map_pkg::L_CURRENT) |
+                    (LimitsW'(limit_voltage) << feltgate_map_pkg::L_VOLTAGE) |
+                    (LimitsW'(limit_duty) << feltgate_map_pkg::L_DUTY) |
+                    (LimitsW'(velocity_saturated) << feltgate_map_pkg::L_VELOCITY) |
+                    (LimitsW'(tau_hat_saturated) << feltgate_map_pkg::L_TAU_HAT) |
+                    (LimitsW'(!gates_enable) << feltgate_map_pkg::L_GATES_CLOSED);
+  assign faults = (32'(faults_o) << feltgate_map_pkg::B_FAULTS_SEEN) |
+                  (32'(first_fault_o) << feltgate_map_pkg::B_FAULTS_FIRST);
+  assign status = (32'(limits_o) << feltgate_map_pkg::B_STATUS_LIMITS) |
                   (32'(scene_q) << feltgate_map_pkg::B_STATUS_SCENE) |
                   (32'(armed_o) << feltgate_map_pkg::B_STATUS_ARMED) |
                   (32'(mode) << feltgate_map_pkg::B_STATUS_MODE) |
@@ -324,6 +326,7 @@ module feltgate_core #(
       .slot_fetch_i(slot_fetch),
       .wave_i(wave),
       .status_i(status),
+      .faults_i(faults),
       .position_i(position_o),
       .tick_count_i(tick_count_o),
       .index_position_i(index_position),

@@ -14,6 +14,7 @@ module snapshot #(
     input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic        [31:0] status_i,
+    input  logic        [31:0] faults_i,
     input  logic signed [31:0] position_i,
     input  logic        [31:0] tick_count_i,
     input  logic signed [31:0] index_position_i,
@@ -27,12 +28,13 @@ module snapshot #(
 
   if (ReadBack != 0) begin : gen_words
     assign word_o = (wave_i[feltgate_map_pkg::R_STATUS] ? status_i : '0) |
+                    (wave_i[feltgate_map_pkg::R_FAULTS] ? faults_i : '0) |
                     (wave_i[feltgate_map_pkg::R_POSITION] ? position_i : '0) |
                     (wave_i[feltgate_map_pkg::R_TICK] ? tick_count_i : '0) |
                     (wave_i[feltgate_map_pkg::R_INDEX] ? index_position_i : '0) |
                     (wave_i[feltgate_map_pkg::R_ENCODER] ? {rejected_count_i, error_count_i} : '0);
     assign valid_o =
-        wave_i[feltgate_map_pkg::R_STATUS] || wave_i[feltgate_map_pkg::R_POSITION] ||
+        wave_i[feltgate_map_pkg::R_STATUS] || wave_i[feltgate_map_pkg::R_FAULTS] || wave_i[feltgate_map_pkg::R_POSITION] ||
         wave_i[feltgate_map_pkg::R_TICK] || wave_i[feltgate_map_pkg::R_INDEX] ||
         wave_i[feltgate_map_pkg::R_ENCODER] || wave_i[feltgate_map_pkg::R_VELOCITY] ||
         wave_i[feltgate_map_pkg::R_TAU_HAT] || wave_i[feltgate_map_pkg::R_TAU_REF] ||
@@ -40,7 +42,7 @@ module snapshot #(
         wave_i[feltgate_map_pkg::R_DUTY];
   end else begin : gen_none
     logic unused;
-    assign unused  = ^{status_i, position_i, tick_count_i, index_position_i, error_count_i,
+    assign unused  = ^{status_i, faults_i, position_i, tick_count_i, index_position_i, error_count_i,
                        rejected_count_i};
     assign word_o  = '0;
     assign valid_o = 1'b0;

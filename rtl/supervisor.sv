@@ -26,8 +26,9 @@ module supervisor (
   output logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate_o,
   output logic               armed_o,          // changes only at tick_i
   output logic               gates_enable_o,   // falls at once on a fault
-  output logic        [7:0]  faults_o,         // bit n: cause n was seen
-  output logic        [3:0]  first_fault_o     // number of the first cause, 0 none
+  input  logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,  // causes of other blocks, by bit
+  output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults_o,  // bit n: cause n was seen
+  output logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault_o  // number of the first, 0 none
 );
 
   logic encoder_trip, speed_trip, polarity_trip, i2t_trip, watchdog_trip, stop_trip;
@@ -209,38 +210,36 @@ module supervisor (
   end
 
   // Faults stay until they are cleared. Of several in one clock the lowest number is the first.
-  logic [7:0] trip;
-  logic [3:0] cause;
-  logic       any_trip, clear;
+  localparam int FAULTS_W = feltgate_map_pkg::W_FAULTS_SEEN;
+  localparam int FIRST_W  = feltgate_map_pkg::W_FAULTS_FIRST;
+  localparam logic [FIRST_W-1:0] NONE = FIRST_W'(feltgate_map_pkg::FAULT_NONE);
 
-  assign trip = (8'(encoder_trip) << feltgate_map_pkg::FAULT_ENCODER) |
-                (8'(speed_trip) << feltgate_map_pkg::FAULT_SPEED) |
-                (8'(polarity_trip) << feltgate_map_pkg::FAULT_POLARITY) |
-                (8'(i2t_trip) << feltgate_map_pkg::FAULT_I2T) |
-                (8'(watchdog_trip) << feltgate_map_pkg::FAULT_WATCHDOG) |
-                (8'(stop_trip) << feltgate_map_pkg::FAULT_STOP);
+  logic [FAULTS_W-1:0] trip;
+  logic                any_trip, clear;
+
+  assign trip = (FAULTS_W'(encoder_trip) << feltgate_map_pkg::FAULT_ENCODER) |
+                (FAULTS_W'(speed_trip) << feltgate_map_pkg::FAULT_SPEED) |
+                (FAULTS_W'(polarity_trip) << feltgate_map_pkg::FAULT_POLARITY) |
+                (FAULTS_W'(i2t_trip) << feltgate_map_pkg::FAULT_I2T) |
+                (FAULTS_W'(watchdog_trip) << feltgate_map_pkg::FAULT_WATCHDOG) |
+                (FAULTS_W'(stop_trip) << feltgate_map_pkg::FAULT_STOP) | trips_i;
 
   assign any_trip = encoder_trip || speed_trip || polarity_trip || i2t_trip || watchdog_trip ||
-                    stop_trip;
+                    stop_trip || trips_i != '0;
   assign clear    = clear_faults_i && !arm_i;
 
-  always_comb begin
-    if (encoder_trip)       cause = feltgate_map_pkg::FAULT_ENCODER;
-    else if (speed_trip)    cause = feltgate_map_pkg::FAULT_SPEED;
-    else if (polarity_trip) cause = feltgate_map_pkg::FAULT_POLARITY;
-    else if (i2t_trip)      cause = feltgate_map_pkg::FAULT_I2T;
-    else if (watchdog_trip) cause = feltgate_map_pkg::FAULT_WATCHDOG;
-    else if (stop_trip)     cause = feltgate_map_pkg::FAULT_STOP;
-    else                    cause = feltgate_map_pkg::FAULT_NONE;
-  end
+  function automatic logic [FIRST_W-1:0] lowest(input logic [FAULTS_W-1:0] causes);
+    lowest = NONE;
+    for (int n = FAULTS_W - 1; n > 0; n--) if (causes[n]) lowest = FIRST_W'(n);
+  endfunction
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       faults_o      <= '0;
-      first_fault_o <= feltgate_map_pkg::FAULT_NONE;
+      first_fault_o <= NONE;
     end else if (clear || any_trip) begin
-      faults_o <= (clear ? 8'd0 : faults_o) | trip;
-      if (clear || first_fault_o == feltgate_map_pkg::FAULT_NONE) first_fault_o <= cause;
+      faults_o <= (clear ? '0 : faults_o) | trip;
+      if (clear || first_fault_o == NONE) first_fault_o <= lowest(trip);
     end
   end
 
@@ -248,7 +247,7 @@ module supervisor (
   // fall before it counts again.
   logic asked_q, may_arm, arms;
 
-  assign may_arm = !asked_q && first_fault_o == feltgate_map_pkg::FAULT_NONE && !stop_q[1];
+  assign may_arm = !asked_q && first_fault_o == NONE && !stop_q[1];
   assign arms    = arm_i && (gates_enable_o || may_arm) && !any_trip;  // or stays armed
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -301,14 +301,10 @@ Elaborated elaborate(const Design& design, const RegisterMap& registers) {
             f("voltage_gain"),        f("emf_constant"),
             f("dead_voltage_slope"),  f("voltage_to_current"),
             f("duty_gain"),           f("inverse_resistance"),
-            f("emf_over_resistance"),
-            f("compression_stiffness"),
-            f("tension_stiffness"),
-            f("attract_core_slope"),
-            f("repel_core_slope"),
-            f("wall_stiffness"),
-            f("damper_damping"),
-            f("wall_damping")};
+            f("emf_over_resistance"), f("compression_stiffness"),
+            f("tension_stiffness"),   f("attract_core_slope"),
+            f("repel_core_slope"),    f("wall_stiffness"),
+            f("damper_damping"),      f("wall_damping")};
   e.formats = derive(e.base);
   check(e);
   return e;

@@ -166,10 +166,10 @@ std::string map_package(const RegisterMap& map, const Schedule& schedule) {
     s << "  localparam int L_" << upper(c.name) << " = " << c.number << ";  // " << c.doc << "\n";
   }
   s << "\n  // Causes of fault: numbers of the first fault, and bits of the faults.\n"
-    << "  localparam logic [3:0] FAULT_NONE = 4'd0;\n";
+    << "  localparam int FAULT_NONE = 0;\n";
   for (const Cause& c : map.faults) {
-    s << "  localparam logic [3:0] FAULT_" << upper(c.name) << " = 4'd" << c.number << ";  // "
-      << c.doc << "\n";
+    s << "  localparam int FAULT_" << upper(c.name) << " = " << c.number << ";  // " << c.doc
+      << "\n";
   }
   s << "endpackage\n/* verilator lint_on UNUSEDPARAM */\n\n`default_nettype wire\n";
   return s.str();

@@ -143,7 +143,7 @@ std::vector<Cause> read_causes(config::TomlReader& top, const std::string& secti
   std::vector<Cause> causes;
   for (config::TomlReader& r : top.sections(section)) {
     const int next = first + static_cast<int>(causes.size());
-    Cause c{r.identifier("name"), small(r, key, 7), plain_text(r, "doc")};
+    Cause c{r.identifier("name"), small(r, key, 15), plain_text(r, "doc")};
     if (c.number != next) {
       r.fail(key, fmt::format("{} follows {}", c.number, next - 1),
              fmt::format("list them in order; this one is {}", next));

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "feltgate/generated/causes.hpp"  // IWYU pragma: export
 #include "feltgate/core_ports.hpp"
 #include "feltgate/design_info.hpp"  // IWYU pragma: export
 #include "feltgate/encoder_source.hpp"
+#include "feltgate/generated/causes.hpp"  // IWYU pragma: export
 #include "feltgate/parameter.hpp"
 
 namespace feltgate {
@@ -23,7 +23,8 @@ struct Snapshot {
   std::uint32_t tick = 0;
   std::int32_t position = 0;  ///< counts
   std::int64_t velocity = 0, tau_hat = 0, tau_ref = 0, current_ref = 0, voltage = 0, duty = 0;
-  std::uint8_t scene = 0, limits = 0, faults = 0, first_fault = 0;
+  std::uint8_t scene = 0, first_fault = 0;
+  std::uint16_t limits = 0, faults = 0;
   bool armed = false;
   // Not shown by the RTL, hence not compared:
   std::int16_t travel = 0;  ///< sampled free-running count
@@ -40,9 +41,9 @@ struct Snapshot {
         voltage(o.voltage),
         duty(o.duty),
         scene(o.scene),
+        first_fault(o.first_fault),
         limits(o.limits),
         faults(o.faults),
-        first_fault(o.first_fault),
         armed(o.armed),
         travel(sampled_travel),
         writes(writes_before) {}

@@ -72,13 +72,15 @@ class PyTwin {
   struct Columns {
     std::vector<double> velocity, tau_hat, tau_ref, torque, current, voltage, duty;
     std::vector<std::int64_t> position;
-    std::vector<std::uint8_t> limits, faults, armed;
+    std::vector<std::uint16_t> limits, faults;
+    std::vector<std::uint8_t> armed;
     void reserve(std::size_t n) {
       for (auto* c : {&velocity, &tau_hat, &tau_ref, &torque, &current, &voltage, &duty}) {
         c->reserve(n);
       }
       position.reserve(n);
-      for (auto* c : {&limits, &faults, &armed}) c->reserve(n);
+      for (auto* c : {&limits, &faults}) c->reserve(n);
+      armed.reserve(n);
     }
   };
 

@@ -196,6 +196,7 @@ package feltgate_map_pkg;
   localparam int R_TICK = 6;
   localparam int R_POSITION = 1;
   localparam int R_STATUS = 0;
+  localparam int R_FAULTS = 26;
   localparam int R_ENCODER = 14;
   localparam int R_INDEX = 11;
   localparam int R_VELOCITY = 9;
@@ -239,18 +240,18 @@ package feltgate_map_pkg;
   localparam int B_COMMAND_KICK = 2;
   localparam int B_COMMAND_FREEZE = 3;
   localparam int B_COMMAND_THAW = 4;
-  localparam int B_STATUS_FAULTS = 0;
-  localparam int W_STATUS_FAULTS = 8;
-  localparam int B_STATUS_FIRST_FAULT = 8;
-  localparam int W_STATUS_FIRST_FAULT = 4;
-  localparam int B_STATUS_LIMITS = 12;
-  localparam int W_STATUS_LIMITS = 8;
+  localparam int B_STATUS_LIMITS = 0;
+  localparam int W_STATUS_LIMITS = 12;
   localparam int B_STATUS_SCENE = 20;
   localparam int W_STATUS_SCENE = 4;
   localparam int B_STATUS_ARMED = 24;
   localparam int B_STATUS_MODE = 25;
   localparam int W_STATUS_MODE = 2;
   localparam int B_STATUS_ENCODER_ERROR = 27;
+  localparam int B_FAULTS_SEEN = 0;
+  localparam int W_FAULTS_SEEN = 16;
+  localparam int B_FAULTS_FIRST = 16;
+  localparam int W_FAULTS_FIRST = 5;
 
   // Bits of the limits.
   localparam int L_TORQUE = 0;  // torque reference at its limit
@@ -263,13 +264,22 @@ package feltgate_map_pkg;
   localparam int L_GATES_CLOSED = 7;  // the gates are off
 
   // Causes of fault: numbers of the first fault, and bits of the faults.
-  localparam logic [3:0] FAULT_NONE = 4'd0;
-  localparam logic [3:0] FAULT_ENCODER = 4'd1;  // too many illegal transitions
-  localparam logic [3:0] FAULT_SPEED = 4'd2;  // |w| above the limit
-  localparam logic [3:0] FAULT_POLARITY = 4'd3;  // fast against the commanded current for too long
-  localparam logic [3:0] FAULT_I2T = 4'd4;  // estimated current above nominal for too long
-  localparam logic [3:0] FAULT_WATCHDOG = 4'd5;  // the host is silent
-  localparam logic [3:0] FAULT_STOP = 4'd6;  // external stop
+  localparam int FAULT_NONE = 0;
+  localparam int FAULT_ENCODER = 1;  // too many illegal transitions
+  localparam int FAULT_SPEED = 2;  // |w| above the limit
+  localparam int FAULT_POLARITY = 3;  // fast against the commanded current for too long
+  localparam int FAULT_I2T = 4;  // estimated current above nominal for too long
+  localparam int FAULT_WATCHDOG = 5;  // the host is silent
+  localparam int FAULT_STOP = 6;  // external stop
+  localparam int FAULT_SELF_TEST = 7;  // the lever answered the pulse of the self-test the wrong way
+  localparam int FAULT_CHANNEL = 8;  // one channel of the encoder is dead
+  localparam int FAULT_TICK = 9;  // the ticks stand still
+  localparam int FAULT_INDEX = 10;  // the count at the index does not fit a revolution
+  localparam int FAULT_WORD = 11;  // a parameter or a held control bit has changed by itself
+  localparam int FAULT_JUMP = 12;  // the velocity moved by more than its filter can
+  localparam int FAULT_ENGINE = 13;  // reserved for programmed forces
+  localparam int FAULT_AXIS = 14;  // reserved for further axes
+  localparam int FAULT_LINK = 15;  // reserved for the host's link
 endpackage
 /* verilator lint_on UNUSEDPARAM */
 

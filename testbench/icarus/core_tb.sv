@@ -9,7 +9,7 @@
 
 module core_tb;
   localparam int InputBits = 56;
-  localparam int OutputBits = 284;
+  localparam int OutputBits = 300;
 
   logic clk = 1'b0;
   logic rst_n = 1'b1;
@@ -23,8 +23,10 @@ module core_tb;
   wire signed [feltgate_pkg::CURRENT_W-1:0] current_ref;
   wire signed [feltgate_pkg::VOLTAGE_W-1:0] voltage;
   wire signed [feltgate_pkg::DUTY_W-1:0] duty, duty_active;
-  wire [3:0] scene, first_fault;
-  wire [7:0] limits, faults;
+  wire [3:0] scene;
+  wire [4:0] first_fault;
+  wire [11:0] limits;
+  wire [15:0] faults;
   wire a_hi, a_lo, b_hi, b_lo, armed, gates_enable, snapshot_valid, busy;
 
   feltgate_core dut (
@@ -70,7 +72,7 @@ module core_tb;
     shown = {b_lo, b_hi, a_lo, a_hi, busy, snapshot_valid, gates_enable, armed, tick_count,
              position, velocity, {{3{tau_hat[20]}}, tau_hat}, {{3{tau_ref[20]}}, tau_ref},
              {{2{current_ref[21]}}, current_ref}, voltage, {{3{duty[12]}}, duty},
-             {{3{duty_active[12]}}, duty_active}, scene, limits, faults, first_fault,
+             {{3{duty_active[12]}}, duty_active}, scene, limits, faults, {3'b000, first_fault},
              compare_read ? rdata : expected[31:0]};
   end
 

@@ -43,12 +43,12 @@ int main(int argc, char** argv) {
     // One word per group of ports, each as wide as core_tb.sv reads it.
     std::fprintf(out,
                  "%02x%01x%03x%08x %02x%08x%08x%08" PRIx64 "%06" PRIx64 "%06" PRIx64 "%06" PRIx64
-                 "%05" PRIx64 "%04" PRIx64 "%04" PRIx64 "%01x%02x%02x%01x%08x\n",
+                 "%05" PRIx64 "%04" PRIx64 "%04" PRIx64 "%01x%03x%04x%02x%08x\n",
                  pins, in.scene & 15u, in.reg_addr & 0xfffu, in.reg_wdata, flags, o.tick_count,
                  static_cast<std::uint32_t>(o.position), bits(o.velocity, 32), bits(o.tau_hat, 24),
                  bits(o.tau_ref, 24), bits(o.current_ref, 24), bits(o.voltage, 20),
                  bits(o.duty, 16), bits(o.duty_active, 16), o.scene & 15u, o.limits, o.faults,
-                 o.first_fault & 15u, o.reg_rdata);
+                 o.first_fault & 31u, o.reg_rdata);
   }
   return std::fclose(out) == 0 ? 0 : 2;
 }

@@ -31,6 +31,7 @@ struct Adapter {
     rtl.slot_fetch_i = static_cast<std::uint8_t>(in.slot_fetch);
     rtl.wave_i = in.wave;
     rtl.status_i = in.status;
+    rtl.faults_i = in.faults;
     rtl.position_i = in.position;
     rtl.tick_count_i = in.tick_count;
     rtl.index_position_i = in.index_position;
@@ -58,6 +59,7 @@ struct Ticks {
     const int t = clock - Map::first_wave_clock;
     in.wave = t >= 0 && t < Map::wave_length ? std::uint64_t{1} << t : 0;
     in.status = static_cast<std::uint32_t>(random.bits());
+    in.faults = static_cast<std::uint32_t>(random.bits());
     in.position = static_cast<std::uint32_t>(random.bits());
     in.tick_count = static_cast<std::uint32_t>(random.bits());
     in.index_position = static_cast<std::uint32_t>(random.bits());
@@ -79,7 +81,8 @@ struct Words {
     if (in_reset || in.wave == 0) return nullptr;
     int t = 0;
     while (((in.wave >> t) & 1u) == 0) ++t;
-    static const std::set<int> own{R::status, R::position, R::tick, R::index, R::encoder};
+    static const std::set<int> own{R::status, R::faults, R::position,
+                                   R::tick,   R::index,  R::encoder};
     static const std::set<int> operands{R::velocity,    R::tau_hat, R::tau_ref,
                                         R::current_ref, R::voltage, R::duty};
     const bool stored = READ_BACK != 0 && (own.count(t) + operands.count(t)) != 0;
@@ -101,5 +104,5 @@ TEST_CASE("snapshot: the words in their clocks, and nothing between them") {
   bench.run(Ticks{Random(2)}, clocks, {3000}, Words{&seen});
   int words = 0;
   for (const std::int64_t count : seen) words += count * 100 > clocks;
-  REQUIRE(words == (READ_BACK != 0 ? 11 : 0));
+  REQUIRE(words == (READ_BACK != 0 ? 12 : 0));
 }

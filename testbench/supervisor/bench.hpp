@@ -30,6 +30,7 @@ struct SupervisorAdapter {
     rtl.velocity_i = static_cast<std::uint32_t>(in.velocity);
     rtl.current_ref_i = port_bits<kCurrentBits>(in.current_ref);
     rtl.wave_i = in.wave;
+    rtl.trips_i = in.trips;
     rtl.param_i = in.param;
     rtl.product_i = port_bits<kProductBits, std::uint64_t>(in.product);
   }

@@ -36,6 +36,7 @@ struct Scenario {
   bool clear_faults = false;  ///< these two at the end of each tick
   bool kick = false;
   bool encoder_error = false;
+  std::uint16_t trips = 0;       ///< of other blocks
   std::int32_t voltage = 0;      ///< raw; in force once the wave has brought it
   std::int32_t velocity = 0;     ///< raw; the same
   std::int32_t current_ref = 0;  ///< raw; the same
@@ -77,6 +78,7 @@ class Bus {
     in.clear_faults = s.clear_faults && now.tick;
     in.kick = s.kick && now.tick;
     in.encoder_error = s.encoder_error;
+    in.trips = s.trips;
     in.wave = now.wave;
     in.product = static_cast<std::int64_t>(noise_.bits()) >> 10;
     in.param = static_cast<std::uint32_t>(noise_.bits());

@@ -258,6 +258,30 @@ TEST_CASE("supervisor: the first cause stays, of two at once the lower number") 
   s.play();
 }
 
+TEST_CASE("supervisor: a cause of another block, in every clock of a tick and beside our own") {
+  Script s;
+  for (int clock = 0; clock < Design::clocks_per_tick; ++clock) {
+    for (const Fault cause : {Fault::self_test, Fault::link}) {
+      s.arm();
+      REQUIRE(s.out().armed);
+      s.until(clock);
+      s.now.trips = static_cast<std::uint16_t>(bit(cause));
+      s.clocks(1);
+      s.now.trips = 0;
+      REQUIRE((!s.out().gates_enable && only(s, cause)));
+      s.clear().clear();
+      REQUIRE(s.out().faults == 0);
+    }
+  }
+  s.arm();
+  s.now.trips = static_cast<std::uint16_t>(bit(Fault::word) | bit(Fault::jump));
+  s.clocks(1);
+  s.now.trips = 0;
+  REQUIRE(s.out().faults == (bit(Fault::word) | bit(Fault::jump)));
+  REQUIRE(s.out().first_fault == static_cast<unsigned>(Fault::word));
+  s.play();
+}
+
 TEST_CASE("supervisor: a cause in the clock of the clear is latched") {
   Script s;
   s.errors(8).errors(7);

@@ -32,7 +32,8 @@ struct CoreOut {
   std::int32_t position = 0, tau_hat = 0, tau_ref = 0, current_ref = 0, voltage = 0;
   std::int16_t duty = 0, duty_active = 0;
   std::uint8_t gates = 0;  ///< a_hi, a_lo, b_hi, b_lo from bit 0
-  std::uint8_t scene = 0, limits = 0, faults = 0, first_fault = 0;
+  std::uint8_t scene = 0, first_fault = 0;
+  std::uint16_t limits = 0, faults = 0;
   bool armed = false, gates_enable = false, snapshot_valid = false, reg_busy = false;
 
   bool operator==(const CoreOut& o) const {

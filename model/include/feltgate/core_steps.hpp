@@ -25,6 +25,7 @@ constexpr bool shows(Step step) {
     case Step::read_tick:
     case Step::read_position:
     case Step::read_status:
+    case Step::read_faults:
     case Step::read_velocity:
     case Step::read_index:
     case Step::read_encoder:

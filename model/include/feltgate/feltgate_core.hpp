@@ -188,6 +188,8 @@ class FeltgateCore {
         return keep(R::position, out_.position);
       case Step::read_status:
         return keep(R::status, status(decoded.error));
+      case Step::read_faults:
+        return keep(R::faults, faults());
       case Step::read_velocity:
         return keep(R::velocity, out_.velocity);
       case Step::read_index:
@@ -222,10 +224,16 @@ class FeltgateCore {
     using C = typename D::C;
     const auto& s = supervisor_.out();
     const auto field = [](auto value, int at) { return static_cast<std::uint32_t>(value) << at; };
-    return field(s.faults, C::status_faults) | field(s.first_fault, C::status_first_fault) |
-           field(wave_.limits(s.gates_enable), C::status_limits) |
+    return field(wave_.limits(s.gates_enable), C::status_limits) |
            field(out_.scene, C::status_scene) | field(s.armed, C::status_armed) |
            field(mode(), C::status_mode) | field(encoder_error, C::status_encoder_error);
+  }
+
+  std::uint32_t faults() const {
+    using C = typename D::C;
+    const auto& s = supervisor_.out();
+    return std::uint32_t{s.faults} << C::faults_seen | std::uint32_t{s.first_fault}
+                                                           << C::faults_first;
   }
 
   QuadDecoder::In decoder_inputs(const In& in, bool zero, bool clear) const {

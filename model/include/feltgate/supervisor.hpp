@@ -69,12 +69,13 @@ class Supervisor {
     std::uint64_t wave = 0;
     std::uint32_t param = 0;
     std::int64_t product = 0;
+    std::uint16_t trips = 0;  ///< causes of other blocks, by bit
   };
   struct Out {
     std::int32_t current_estimate = 0;  ///< raw, A
     bool armed = false;
     bool gates_enable = false;
-    std::uint8_t faults = 0;
+    std::uint16_t faults = 0;
     std::uint8_t first_fault = 0;
   };
 
@@ -105,7 +106,7 @@ class Supervisor {
 
   void clock(const In& in) {
     const bool live = out_.gates_enable;
-    std::uint8_t trip = 0;
+    std::uint16_t trip = in.trips;
     if (in.encoder_error && errors_ == kBorne) trip |= bit(Fault::encoder);
     if (stop_2_ && live) trip |= bit(Fault::stop);
     if ((in.wave & kWaveClocks) != 0) wave_clock(in, &trip);
@@ -158,7 +159,7 @@ class Supervisor {
   bool at_end(const Words& words, bool arm, bool clear_faults = false, bool kick = false) {
     const bool trips = kWatchdogLast && silent(words);
     forgive(true);
-    end_tick(arm, clear_faults, kick, trips ? bit(Fault::watchdog) : std::uint8_t{0});
+    end_tick(arm, clear_faults, kick, trips ? bit(Fault::watchdog) : std::uint16_t{0});
     return trips;
   }
 
@@ -202,8 +203,8 @@ class Supervisor {
       at(T::speed) | at(T::cooled) | at(T::current_squared) | at(T::too_hot) | at(T::heat) |
       at(T::fast_size) | at(T::fast) | at(T::strong_size) | at(T::strong) | at(T::runaway_ticks) |
       at(T::polarity) | at(T::silent) | at(T::watchdog);
-  static constexpr std::uint8_t bit(Fault cause) {
-    return static_cast<std::uint8_t>(1U << static_cast<unsigned>(cause));
+  static constexpr std::uint16_t bit(Fault cause) {
+    return static_cast<std::uint16_t>(1U << static_cast<unsigned>(cause));
   }
 
   /// A product as it leaves the multiplier, with F fraction bits.
@@ -256,7 +257,7 @@ class Supervisor {
   }
 
   /// What one clock of the wave takes over and compares; signals are taken a clock ahead.
-  void wave_clock(const In& in, std::uint8_t* trip) {
+  void wave_clock(const In& in, std::uint16_t* trip) {
     const auto now = [&in](int t) { return (in.wave & at(t)) != 0; };
     if (now(T::estimate_part)) v_product_ = in.product;
     if (now(T::current_estimate)) {
@@ -293,18 +294,18 @@ class Supervisor {
     forgive_ticks_ = (forgive_ticks_ + 1) % kForgiveTicks;
     if (forgive_ticks_ == 0 && undisturbed && errors_ > 0) --errors_;
   }
-  void latch(std::uint8_t trip) {
+  void latch(std::uint16_t trip) {
     if (out_.first_fault == 0) {
       while (((trip >> out_.first_fault) & 1U) == 0) ++out_.first_fault;
     }
     out_.faults |= trip;
   }
   /// Commands, arming and disarming; `trip` are the faults of the same clock.
-  void end_tick(bool arm, bool clear_faults, bool kick, std::uint8_t trip) {
+  void end_tick(bool arm, bool clear_faults, bool kick, std::uint16_t trip) {
     const bool arms = arm && !asked_ && out_.first_fault == 0 && !stop_2_;
     const bool armed = (arms || (arm && out_.gates_enable)) && trip == 0;
     kickless_ticks_ = kick || !out_.gates_enable ? 0 : (kickless_ticks_ + 1) & kKicklessMask;
-    if (clear_faults && !arm) out_.faults = out_.first_fault = 0;
+    if (clear_faults && !arm) out_.faults = 0, out_.first_fault = 0;
     if (trip != 0) latch(trip);
     out_.gates_enable = out_.armed = armed;
     asked_ = arm;

@@ -29,10 +29,10 @@ module de0_nano #(
   logic       rst_n;
   logic       arm, set_zero;
   logic       armed, fault, limit;
-  logic [7:0] faults;
-  // limits[7], gates off, is the armed lamp's business: not used here.
+  logic [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults;
+  // That the gates are off is the armed lamp's business: not used here.
   /* verilator lint_off UNUSEDSIGNAL */
-  logic [7:0] limits;
+  logic [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits;
   /* verilator lint_on UNUSEDSIGNAL */
   logic [3:0] scene;
 
@@ -113,7 +113,7 @@ module de0_nano #(
   /* verilator lint_on PINCONNECTEMPTY */
 
   assign fault = |faults;
-  assign limit = |limits[6:0];
+  assign limit = |(limits & ~(feltgate_map_pkg::W_STATUS_LIMITS'(1) << feltgate_map_pkg::L_GATES_CLOSED));
 
   // A limit may hold for one tick only, so its lamp is stretched.
   logic [LampBits-1:0]      lamp_q;

@@ -38,9 +38,9 @@ module feltgate_core #(
   output logic        duty_active_o,
   output logic        gates_enable_o,
   output logic [3:0]  scene_o,
-  output logic [7:0]  limits_o,
-  output logic [7:0]  faults_o,
-  output logic [3:0]  first_fault_o,
+  output logic [11:0] limits_o,
+  output logic [15:0] faults_o,
+  output logic [4:0]  first_fault_o,
   output logic        armed_o
 );
 
@@ -58,9 +58,9 @@ module feltgate_core #(
   assign gate_b_lo_o = scene_i == 4'd15;
   assign reg_busy_o  = ReadBack != 0;
   assign reg_rdata_o = {19'd0, reg_write_i, reg_addr_i} ^ reg_wdata_i;
-  assign faults_o    = {2'd0, fault_q, 5'd0};
+  assign faults_o    = {10'd0, fault_q, 5'd0};
   assign armed_o     = arm_i && !fault_q;
-  assign limits_o    = {!armed_o, 3'd0, set_zero_i, 3'd0};
+  assign limits_o    = {4'd0, !armed_o, 3'd0, set_zero_i, 3'd0};
 
   assign {snapshot_valid_o, tick_count_o, position_o, velocity_o, tau_hat_o, tau_ref_o} = '0;
   assign {current_ref_o, voltage_o, duty_o, duty_active_o, gates_enable_o, scene_o, first_fault_o} = '0;

@@ -42,15 +42,33 @@ enum class Fault : std::uint8_t {
   i2t = 4,  ///< estimated current above nominal for too long
   watchdog = 5,  ///< the host is silent
   stop = 6,  ///< external stop
+  self_test = 7,  ///< the lever answered the pulse of the self-test the wrong way
+  channel = 8,  ///< one channel of the encoder is dead
+  tick = 9,  ///< the ticks stand still
+  index = 10,  ///< the count at the index does not fit a revolution
+  word = 11,  ///< a parameter or a held control bit has changed by itself
+  jump = 12,  ///< the velocity moved by more than its filter can
+  engine = 13,  ///< reserved for programmed forces
+  axis = 14,  ///< reserved for further axes
+  link = 15,  ///< reserved for the host's link
 };
 /// By the number of the cause.
-inline constexpr std::array<const char*, 7> fault_names{
+inline constexpr std::array<const char*, 16> fault_names{
     "none",
     "encoder",
     "speed",
     "polarity",
     "i2t",
     "watchdog",
-    "stop"};
+    "stop",
+    "self_test",
+    "channel",
+    "tick",
+    "index",
+    "word",
+    "jump",
+    "engine",
+    "axis",
+    "link"};
 
 }  // namespace feltgate

@@ -208,6 +208,7 @@ struct Map {
     static constexpr int tick = 6;
     static constexpr int position = 1;
     static constexpr int status = 0;
+    static constexpr int faults = 26;
     static constexpr int encoder = 14;
     static constexpr int index = 11;
     static constexpr int velocity = 9;
@@ -299,6 +300,7 @@ struct Map {
     scene_torque,
     torque_limited,
     ramp_excess,
+    read_faults,
     ramp_change,
     setpoint_to_bus,
     voltage_part,
@@ -425,6 +427,7 @@ struct Map {
       {Step::scene_torque, 23},
       {Step::torque_limited, 24},
       {Step::ramp_excess, 25},
+      {Step::read_faults, 26},
       {Step::ramp_change, 26},
       {Step::setpoint_to_bus, 26},
       {Step::voltage_part, 26},
@@ -583,18 +586,19 @@ struct Map {
     static constexpr int read_tick = 774;
     static constexpr int read_position = 769;
     static constexpr int read_status = 768;
-    static constexpr int status_faults = 0;
-    static constexpr int status_faults_width = 8;
-    static constexpr int status_first_fault = 8;
-    static constexpr int status_first_fault_width = 4;
-    static constexpr int status_limits = 12;
-    static constexpr int status_limits_width = 8;
+    static constexpr int status_limits = 0;
+    static constexpr int status_limits_width = 12;
     static constexpr int status_scene = 20;
     static constexpr int status_scene_width = 4;
     static constexpr int status_armed = 24;
     static constexpr int status_mode = 25;
     static constexpr int status_mode_width = 2;
     static constexpr int status_encoder_error = 27;
+    static constexpr int read_faults = 794;
+    static constexpr int faults_seen = 0;
+    static constexpr int faults_seen_width = 16;
+    static constexpr int faults_first = 16;
+    static constexpr int faults_first_width = 5;
     static constexpr int read_encoder = 782;
     static constexpr int read_index = 779;
     static constexpr int read_velocity = 777;

@@ -3,8 +3,8 @@
 #
 # feltgate_block_test(<block> [WITH_DEFECTS] [NAME <test>] [DESIGN <design> | PACKAGE <feltgate_pkg.sv>]
 #                     [ROUNDING <mode>] [SOURCES extra.sv...] [PARAMS -GName=value...]
-#                     [DEFINES NAME=value...] [LIBRARIES target...])
-# verilates rtl/<block>.sv, links testbench/<block>/<block>_test.cpp to it and adds the CTest <test>
+#                     [DEFINES NAME=value...] [LIBRARIES target...] [TESTS more.cpp...])
+# verilates rtl/<block>.sv, links testbench/<block>/<block>_test.cpp and TESTS beside it to it and adds the CTest <test>
 # (default <block>, labels unit and lockstep). WITH_DEFECTS: also <test>.<defect> (label mutation) for
 # each patch in testbench/<block>/defects, which passes only when an assertion fails.
 # ROUNDING is another value of the package's constant. SOURCES are relative to the repository. PARAMS
@@ -48,7 +48,7 @@ function(feltgate_rounding_package variable package mode)
 endfunction()
 
 function(feltgate_block_test block)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "WITH_DEFECTS" "DEFECTS;NAME;DESIGN;PACKAGE;ROUNDING" "SOURCES;PARAMS;DEFINES;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "WITH_DEFECTS" "DEFECTS;NAME;DESIGN;PACKAGE;ROUNDING" "SOURCES;PARAMS;DEFINES;LIBRARIES;TESTS")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "feltgate_block_test(${block}): unknown ${arg_UNPARSED_ARGUMENTS}")
   endif()
@@ -78,7 +78,9 @@ function(feltgate_block_test block)
 
   # A block with a defect has the same ports, so one object of the test serves both.
   feltgate_verilate(${arg_NAME}_rtl ${block} "${package};${sources}" ${arg_PARAMS})
-  add_library(${arg_NAME}_object OBJECT "${FELTGATE_ROOT}/testbench/${block}/${block}_test.cpp")
+  list(TRANSFORM arg_TESTS PREPEND "${FELTGATE_ROOT}/testbench/${block}/")
+  add_library(${arg_NAME}_object OBJECT
+    "${FELTGATE_ROOT}/testbench/${block}/${block}_test.cpp" ${arg_TESTS})
   target_compile_definitions(${arg_NAME}_object PRIVATE ${arg_DEFINES})
   target_compile_options(${arg_NAME}_object PRIVATE ${FELTGATE_WARNINGS} -O2)
   target_link_libraries(${arg_NAME}_object PUBLIC feltgate_catch_main ${arg_LIBRARIES})

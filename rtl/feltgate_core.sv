@@ -71,6 +71,7 @@ module feltgate_core #(
   logic [ 3:0] scene_wanted, scene_q;
   logic [ 1:0] mode;
   logic host, arm_request, set_zero, zero_pending_q, host_zero, clear_faults, kick, region_high, snap_valid;
+  logic word_error;
   logic [ 5:0] snap_slot;
   assign host         = control[feltgate_map_pkg::B_CONTROL_HOST];
   assign mode         = control[feltgate_map_pkg::B_CONTROL_MODE+:feltgate_map_pkg::W_CONTROL_MODE];
@@ -113,6 +114,7 @@ module feltgate_core #(
       .scene_i(scene_q),
       .region_high_i(region_high),
       .param_o(param),
+      .word_error_o(word_error),
       .control_o(control),
       .set_zero_o(host_zero),
       .clear_faults_o(clear_faults),
@@ -277,7 +279,7 @@ module feltgate_core #(
       .wave_i(wave),
       .param_i(param),
       .product_i(supervisor_product),
-      .trips_i('0),
+      .trips_i(feltgate_map_pkg::W_FAULTS_SEEN'(word_error) << feltgate_map_pkg::FAULT_WORD),
       .current_estimate_o(current_estimate),
       .armed_o(armed_o),
       .gates_enable_o(gates_enable),

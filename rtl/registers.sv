@@ -24,6 +24,7 @@ module registers #(
   input  logic [3:0]  scene_i,             // the bank of the scene in force; not 1
   input  logic        region_high_i,       // the voltage gain is that of high torque
   output logic [31:0] param_o,
+  output logic        word_error_o,        // the word on the bus a clock ago has changed by itself
 
   output logic [feltgate_map_pkg::W_CONTROL-1:0] control_o,
   output logic        set_zero_o,          // commands: high in the clock of tick_i
@@ -77,23 +78,38 @@ module registers #(
   assign clear_faults_o = tick_i && to_command_q && data_q[feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS];
   assign kick_o         = tick_i && to_command_q && data_q[feltgate_map_pkg::B_COMMAND_KICK];
 
-  // Parameter RAM. It keeps what was written through a reset; only configuration loads the values
+  // A word's check: the parity of every fourth bit, from bit k on. A single bit that flips, of word or
+  // check, breaks one of them; so does a memory whose bits all read 0, or all 1.
+  function automatic logic [3:0] check_of(input logic [31:0] word);
+    logic [15:0] half;
+    logic [7:0]  quarter;
+    half     = word[31:16] ^ word[15:0];
+    quarter  = half[15:8] ^ half[7:0];
+    check_of = quarter[7:4] ^ quarter[3:0] ^ 4'b0101;
+  endfunction
+
+  // Parameter RAM, each word with its check. It keeps what was written through a reset; only configuration loads the values
   // of the design. A word is written in a clock in which no block fetches a word of its own, so
   // what a block RAM returns for a read of the word being written does not matter.
   (* no_rw_check, ram_style = "block", ramstyle = "no_rw_check" *)
-  logic [31:0] parameter_ram [0:511];
+  logic [35:0] parameter_ram [0:511];
 
   initial begin
-    for (int i = 0; i < 512; i++) parameter_ram[i] = feltgate_pkg::parameter_reset(9'(i));
+    for (int i = 0; i < 512; i++) begin
+      parameter_ram[i] = {check_of(feltgate_pkg::parameter_reset(9'(i))),
+                          feltgate_pkg::parameter_reset(9'(i))};
+    end
   end
 
   always @(posedge clk_i) begin  // not always_ff: the values of the design are written by another process
-    if (tick_i && to_parameter_q) parameter_ram[address_q] <= data_q;
+    if (tick_i && to_parameter_q) parameter_ram[address_q] <= {check_of(data_q), data_q};
   end
 
   logic        high;
   logic [8:0]  fetch_address;
-  logic [31:0] fetch_q;
+  logic [35:0] fetch_q;
+  logic [ 3:0] check_q;                // of the word on the bus
+  logic        written_q, written_q2;  // fetched while a word was written: it may be any
   logic        warm_q;  // keeps what the RAM's own, unreset output register held off the bus
 
   assign high = region_high_i && slot_fetch_i == LOW;
@@ -104,11 +120,18 @@ module registers #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      warm_q  <= 1'b0;
-      param_o <= 32'd0;
+      warm_q       <= 1'b0;
+      param_o      <= 32'd0;
+      check_q      <= check_of(32'd0);
+      written_q    <= 1'b0;
+      written_q2   <= 1'b0;
+      word_error_o <= 1'b0;
     end else begin
       warm_q <= 1'b1;
-      if (warm_q) param_o <= fetch_q;
+      if (warm_q) {check_q, param_o} <= fetch_q;
+      written_q    <= tick_i && to_parameter_q;
+      written_q2   <= written_q;
+      word_error_o <= check_q != check_of(param_o) && !written_q2;
     end
   end
 
@@ -117,7 +140,10 @@ module registers #(
     (* no_rw_check, ram_style = "block", ramstyle = "no_rw_check" *)
     logic [31:0] snapshot_ram [0:127];
     logic        write_bank_q, frozen_q, read_bank;
-    logic [31:0] parameter_q, parameter_q2, snapshot_q, snapshot_q2;
+    /* verilator lint_off UNUSEDSIGNAL */  // the check stays behind
+    logic [35:0] parameter_q;
+    /* verilator lint_on UNUSEDSIGNAL */
+    logic [31:0] parameter_q2, snapshot_q, snapshot_q2;
     logic        at_snapshot;
     // Where the addressed word is: 1 parameter, 2 snapshot, 3 control, 0 nowhere.
     logic [1:0]  source_q, source_q2;
@@ -154,7 +180,7 @@ module registers #(
         source_q  <= {at_snapshot || at_control, at_parameter || at_control};
         source_q2 <= source_q;
         if (warm_q) begin
-          parameter_q2 <= parameter_q;
+          parameter_q2 <= parameter_q[31:0];
           snapshot_q2  <= snapshot_q;
         end
         case (source_q2)

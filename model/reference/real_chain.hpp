@@ -31,7 +31,7 @@ struct ChainRaw {
   std::int64_t velocity = 0;
   std::int32_t tau_hat = 0, tau_ref = 0, current_ref = 0, voltage = 0;
   std::int16_t duty = 0;
-  std::uint8_t limits = 0;  ///< Snapshot::limits without gates_closed
+  std::uint16_t limits = 0;  ///< Snapshot::limits without gates_closed
 };
 
 class RealChain {

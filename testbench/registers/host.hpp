@@ -37,6 +37,7 @@ struct RegistersAdapter {
     check("reg_rdata", rtl.reg_rdata_o, out.reg_rdata);
     check("reg_busy", rtl.reg_busy_o, out.reg_busy);
     check("param", rtl.param_o, out.param);
+    check("word_error", rtl.word_error_o, out.word_error);
     check("control", rtl.control_o, out.control);
     check("set_zero", rtl.set_zero_o, out.set_zero);
     check("clear_faults", rtl.clear_faults_o, out.clear_faults);

@@ -91,9 +91,9 @@ class ChainTick {
   bool limit_velocity() const { return estimator_.limit; }
   bool limit_tau_hat() const { return observer_.limit; }
   /// The same as bits of the limits word.
-  std::uint8_t limits() const {
+  std::uint16_t limits() const {
     using L = Map::L;
-    return static_cast<std::uint8_t>(
+    return static_cast<std::uint16_t>(
         limit_torque() << L::torque | limit_ramp() << L::ramp |
         control_.limit.current << L::current | control_.limit.voltage << L::voltage |
         control_.limit.duty << L::duty | estimator_.limit << L::velocity |

@@ -55,7 +55,7 @@ void FeltgateCore<D, ReadBack>::run(const In& in, std::int64_t clocks, OnSnapsho
 /// Nothing is under way that asks for clock(): an error or a stop, or the first tick.
 template <class D, bool ReadBack>
 bool FeltgateCore<D, ReadBack>::can_pass(const In& in) const {
-  return out_.tick_count != 0 && supervisor_.steady(in.stop) &&
+  return out_.tick_count != 0 && !registers_.flipped() && supervisor_.steady(in.stop) &&
          !(in.stop && supervisor_.out().gates_enable) && !decoder_.out().illegal &&
          !(amid_supervisor() && passed_to_ != clock_);
 }

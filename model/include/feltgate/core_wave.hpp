@@ -91,19 +91,25 @@ class CoreWave {
   /// Free-running count that the running wave started from.
   std::int16_t sampled_travel() const { return sampled_travel_; }
 
+  /// Whether the voltage gain is that of high torque, from the clock of its fetch on.
+  bool region_high() const {
+    using Law = TorqueControlLaw<D, Fixed>;
+    const auto border = chain_.words().template get<Law::kBorderKey>(D::A::region_torque);
+    return Law::region_high(chain_.tau_ref(), border);
+  }
   /// The limits word.
-  std::uint8_t limits(bool gates_enable) const {
-    return static_cast<std::uint8_t>(limits_ | (gates_enable ? 0 : 1 << Map::L::gates_closed));
+  std::uint16_t limits(bool gates_enable) const {
+    return static_cast<std::uint16_t>(limits_ | (gates_enable ? 0 : 1 << Map::L::gates_closed));
   }
 
  private:
   void set(int bit, bool holds) {
-    limits_ = static_cast<std::uint8_t>((limits_ & ~(1 << bit)) | (holds << bit));
+    limits_ = static_cast<std::uint16_t>((limits_ & ~(1 << bit)) | (holds << bit));
   }
 
   ChainTick<D, Fixed> chain_;
   std::int16_t sampled_travel_ = 0;
-  std::uint8_t limits_ = 0;  ///< all but that of the gates
+  std::uint16_t limits_ = 0;  ///< all but that of the gates
 };
 
 }  // namespace feltgate

@@ -64,6 +64,7 @@ class FeltgateCore {
     sup.clear_faults = clear;
     sup.kick = tick && registers_.commands(D::C::command_kick);
     sup.encoder_error = decoder_.out().illegal;
+    if (registers_.out().word_error) sup.trips = 1u << static_cast<unsigned>(Fault::word);
     const Pwm::In pwm = pwm_inputs(supervisor_.out().gates_enable, out_.duty);
     out_.snapshot_valid = false;
     core_steps::for_each_step_of(clock_, [this](Step step) { take<true>(step, decoder_.out()); });
@@ -79,10 +80,7 @@ class FeltgateCore {
       out_.scene = static_cast<std::uint8_t>(wanted);
       if (committed) {
         ++writes_;
-        if (pending_address_ < 512) {
-          wave_.set_word(pending_address_, registers_.parameter(pending_address_));
-          note_supervisor_words();
-        }
+        if (pending_address_ < 512) take_word(pending_address_);
       }
     }
     if (in.reg_write && !out_.reg_busy) pending_address_ = in.reg_addr;
@@ -99,6 +97,12 @@ class FeltgateCore {
   void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot);
 
   bool calm(const In& in, std::int64_t clocks) const;
+
+  /// A bit of the parameter RAM that changes by itself, see Registers::flip(), between two ticks.
+  void flip(int address, int bit) {
+    registers_.flip(address, bit);
+    take_word(address);
+  }
 
   const Out& out() const { return out_; }
   /// Clocks since reset for which each gate was on: a_hi, a_lo, b_hi, b_lo.
@@ -131,6 +135,10 @@ class FeltgateCore {
     return param & ((1u << D::coefficient_bits) - 1);
   }
 
+  void take_word(int address) {
+    wave_.set_word(address, registers_.parameter(address));
+    note_supervisor_words();
+  }
   void note_supervisor_words() {
     using A = typename D::A;
     const auto word = [this](int address) { return registers_.parameter(address); };
@@ -171,6 +179,13 @@ class FeltgateCore {
     reg.reg_addr = in.reg_addr;
     reg.reg_wdata = in.reg_wdata;
     reg.reg_write = in.reg_write;
+    if (registers_.flipped()) {  // the parameter bus is not kept up otherwise
+      const int slot = clock_ < 63 ? clock_ : 63;
+      reg.slot_fetch = static_cast<std::uint8_t>(slot);
+      reg.scene_slot_fetch = ((Map::scene_slots >> slot) & 1u) != 0;
+      reg.scene = out_.scene;
+      reg.region_high = wave_.region_high();
+    }
     return reg;
   }
 

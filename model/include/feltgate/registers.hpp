@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 
 #include "feltgate/generated/map.hpp"
 
@@ -35,6 +36,7 @@ class Registers {
     std::uint32_t reg_rdata = 0;
     bool reg_busy = false;
     std::uint32_t param = 0;
+    bool word_error = false;  ///< the word on the bus a clock ago has changed by itself
     std::uint16_t control = static_cast<std::uint16_t>(D::control_reset);
     bool set_zero = false;  ///< these three only in peek(): high in the clock of tick
     bool clear_faults = false;
@@ -54,6 +56,7 @@ class Registers {
     address_ = 0;
     data_ = 0;
     warm_ = false;
+    fetch_wrong_ = bus_wrong_ = false;
     write_bank_ = 0;
     frozen_ = false;
     source_ = source_2_ = Source::nowhere;
@@ -63,8 +66,14 @@ class Registers {
   void clock(const In& in) {
     // What is read in this clock is what the RAMs held before it.
     const std::uint32_t fetched = parameters_[fetch_address(in)];
-    if (warm_) out_.param = fetch_;
+    out_.word_error = bus_wrong_;
+    if (warm_) {
+      out_.param = fetch_;
+      bus_wrong_ = fetch_wrong_;
+    }
     fetch_ = fetched;
+    const bool writes = in.tick && target_ == Target::parameter;
+    fetch_wrong_ = flipped() && !writes && wrong(fetch_address(in));
     if constexpr (ReadBack) read(in.reg_addr);
     if (in.snap_valid) write_snapshot(in.snap_slot, in.snap_data);
     warm_ = true;
@@ -101,6 +110,18 @@ class Registers {
   void set_parameter(int address, std::uint32_t word) {
     parameters_[static_cast<std::size_t>(address)] = word;
   }
+
+  /// A bit that changes by itself, as no write does: 0 to 31 of the word, 32 to 35 of its check.
+  /// The next write of the word mends it.
+  void flip(int address, int bit) {
+    const auto at = static_cast<std::size_t>(address);
+    if (bit < 32) parameters_[at] ^= std::uint32_t{1} << bit;
+    auto& bits = flipped_[at];
+    bits ^= std::uint64_t{1} << bit;
+    if (bits == 0) flipped_.erase(at);
+  }
+  /// Some word is not what was written.
+  bool flipped() const { return !flipped_.empty(); }
 
   /// One word into the snapshot of the running tick, 0 <= slot < 64.
   void write_snapshot(int slot, std::uint32_t word) {
@@ -157,6 +178,15 @@ class Registers {
   static std::size_t bank_index(int bank, int slot) {
     return static_cast<std::size_t>(bank * 64 + slot);
   }
+  /// A parity of every fourth bit, the check's own beside it, does not hold.
+  bool wrong(std::size_t address) const {
+    const auto found = flipped_.find(address);
+    if (found == flipped_.end()) return false;
+    std::uint64_t bits = found->second;
+    bits ^= bits >> 16 ^ bits >> 32;
+    bits ^= bits >> 8;
+    return ((bits ^ bits >> 4) & 15U) != 0;
+  }
   int read_bank() const { return write_bank_ ^ 1; }
 
   void read(std::uint16_t reg_addr) {
@@ -193,7 +223,10 @@ class Registers {
   /// The end of a tick.
   void commit() {
     const bool swap = !frozen_;  // the tick that a freeze ends is the one that is held
-    if (target_ == Target::parameter) parameters_[address_] = data_;
+    if (target_ == Target::parameter) {
+      parameters_[address_] = data_;
+      flipped_.erase(address_);
+    }
     if (target_ == Target::control) out_.control = static_cast<std::uint16_t>(data_ & 0x7fffU);
     if (ReadBack && target_ == Target::command) {
       frozen_ = commands(D::C::command_freeze) || (frozen_ && !commands(D::C::command_thaw));
@@ -210,6 +243,8 @@ class Registers {
   std::uint32_t data_ = 0;
   bool warm_ = false;
   std::uint32_t fetch_ = 0;
+  bool fetch_wrong_ = false, bus_wrong_ = false;
+  std::map<std::size_t, std::uint64_t> flipped_;  ///< bits of words that are wrong, by address
   int write_bank_ = 0;
   bool frozen_ = false;
   Source source_ = Source::nowhere;

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Bits of parameters that change by themselves under an armed motor: found by their check, the
+// gates off within a tick, RTL against twin on every clock. Documentation: docs/blocks/registers.md
+#include <Vcore_open.h>
+#include <Vcore_open___024root.h>
+
+#include <memory>
+
+#include "catch.hpp"
+#include "engines/rtl_ports.hpp"
+#include "feltgate/feltgate_core.hpp"
+#include "feltgate/generated/lever.hpp"
+#include "random.hpp"
+
+using feltgate::CoreIn;
+using feltgate::CoreOut;
+using feltgate::Fault;
+using D = feltgate::Lever;
+
+namespace {
+
+constexpr int kTick = D::clocks_per_tick;
+
+/// Both cores in step; the RTL's memory can be reached.
+class Pair {
+ public:
+  CoreIn in;
+
+  Pair() {
+    rtl_->rst_ni = 1;
+    rtl_->clk_i = 0;
+    rtl_->eval();
+    rtl_->rst_ni = 0;
+    edge();
+    rtl_->rst_ni = 1;
+  }
+
+  void clocks(std::int64_t n) {
+    for (; n > 0; --n) {
+      feltgate::drive_inputs(*rtl_, in);
+      edge();
+      twin_.clock(in);
+      if (!(feltgate::read_outputs<D>(*rtl_) == twin_.out())) ++mismatches_;
+    }
+  }
+  void to_next_tick() { clocks(kTick - twin_.clock_of_tick()); }
+  void write(int address, std::uint32_t word) {
+    in.reg_addr = static_cast<std::uint16_t>(address);
+    in.reg_wdata = word;
+    in.reg_write = true;
+    clocks(1);
+    in.reg_write = false;
+    to_next_tick();
+  }
+  void flip(int address, int bit) {
+    const auto at = static_cast<std::size_t>(address);
+    rtl_->rootp->feltgate_core__DOT__u_registers__DOT__parameter_ram[at] ^= QData{1} << bit;
+    twin_.flip(address, bit);
+  }
+  /// Armed in `scene`, the pipeline of the parameter bus full.
+  void arm(int scene) {
+    in.scene = static_cast<std::uint8_t>(scene);
+    in.arm = false;
+    to_next_tick();
+    clocks(2 * kTick);
+    in.arm = true;
+    clocks(2 * kTick);
+  }
+  void clear() {
+    in.arm = false;
+    to_next_tick();
+    write(D::C::command, 1u << D::C::command_clear_faults);
+  }
+  const CoreOut& out() const { return twin_.out(); }
+  int mismatches() const { return mismatches_; }
+
+ private:
+  void edge() {
+    rtl_->clk_i = 0;
+    rtl_->eval();
+    rtl_->clk_i = 1;
+    rtl_->eval();
+  }
+
+  std::unique_ptr<Vcore_open> rtl_ = std::make_unique<Vcore_open>();
+  feltgate::FeltgateCore<D> twin_;
+  int mismatches_ = 0;
+};
+
+std::uint32_t word_of_design(int address) {
+  for (const auto& p : D::parameters) {
+    if (p.address == address) return static_cast<std::uint32_t>(p.raw);
+  }
+  return 0;
+}
+
+/// Clocks until the gates fall, at most `limit`.
+int clocks_to_fall(Pair& pair, int limit) {
+  int n = 0;
+  while (n < limit && pair.out().gates_enable) pair.clocks(1), ++n;
+  return n;
+}
+
+}  // namespace
+
+TEST_CASE("core: each bit of each word that a scene uses opens the gates within a tick") {
+  Pair pair;
+  int flips = 0;
+  for (const auto& p : D::parameters) {
+    // The word of the other region is on the bus in that region only.
+    if (p.address == D::A::voltage_gain_high) continue;
+    const int scene = p.address < 64 ? D::S::free : p.address / 32;
+    for (int bit = 0; bit < 36; ++bit) {
+      pair.arm(scene);
+      REQUIRE(pair.out().gates_enable);
+      pair.flip(p.address, bit);
+      INFO(p.name << ", bit " << bit);
+      CHECK(clocks_to_fall(pair, 2 * kTick) <= kTick);
+      // A flipped limit may trip by itself before its check does.
+      pair.clocks(kTick);
+      CHECK(((pair.out().faults >> static_cast<unsigned>(Fault::word)) & 1u) == 1);
+      pair.in.arm = false;
+      pair.to_next_tick();
+      pair.write(p.address, word_of_design(p.address));
+      pair.clear();
+      REQUIRE(pair.out().faults == 0);
+      ++flips;
+    }
+  }
+  CHECK(flips > 1400);
+  CHECK(pair.mismatches() == 0);
+}
+
+TEST_CASE("core: flips of several bits, found or not as the four parities say") {
+  Pair pair;
+  feltgate::test::Random random(1);
+  int found = 0, hidden = 0;
+  for (int k = 0; k < 400; ++k) {
+    pair.arm(D::S::free);
+    const int count = 2 + static_cast<int>(random.below(3));
+    for (int n = 0; n < count; ++n) {
+      pair.flip(D::A::polarity_ticks, static_cast<int>(random.below(36)));
+    }
+    pair.clocks(2 * kTick);
+    (((pair.out().faults >> static_cast<unsigned>(Fault::word)) & 1u) != 0 ? found : hidden) += 1;
+    pair.in.arm = false;
+    pair.to_next_tick();
+    pair.write(D::A::polarity_ticks, word_of_design(D::A::polarity_ticks));
+    pair.clear();
+  }
+  CHECK(found > 300);
+  CHECK(hidden > 10);
+  CHECK(pair.mismatches() == 0);
+}

@@ -69,10 +69,21 @@ module supervisor (
     over = limit[31] || {limit[30:0], 1'b0} < doubled;
   endfunction
 
+  // What the velocity has gained since the window of cause 3 began, without its lowest bits.
+  localparam int GROWTH_DROP = (feltgate_pkg::VELOCITY_F > feltgate_map_pkg::GROWTH_BITS) ?
+                               feltgate_pkg::VELOCITY_F - feltgate_map_pkg::GROWTH_BITS : 0;
+  localparam int GROWTH_W = feltgate_pkg::VELOCITY_W - GROWTH_DROP;
+
+  logic        [GROWTH_W-1:0] begin_q;
+  logic signed [GROWTH_W-1:0] gained;
+  assign gained = velocity_i[feltgate_pkg::VELOCITY_W-1:GROWTH_DROP] - begin_q;
+
   always_ff @(posedge clk_i) begin
     if (wave_i[feltgate_map_pkg::T_STRONG_SIZE])
       twice_size_q <= twice_size(32'(current_ref_i));
-    else if (wave_i[feltgate_map_pkg::T_SPEED_SIZE] || wave_i[feltgate_map_pkg::T_FAST_SIZE])
+    else if (wave_i[feltgate_map_pkg::T_GROWTH_SIZE])
+      twice_size_q <= twice_size(32'(gained) <<< GROWTH_DROP);
+    else if (wave_i[feltgate_map_pkg::T_SPEED_SIZE])
       twice_size_q <= twice_size(32'(velocity_i));
   end
 
@@ -91,7 +102,7 @@ module supervisor (
   localparam int RUNAWAY_W  = feltgate_map_pkg::RUNAWAY_BITS + 1;
   localparam int KICKLESS_W = feltgate_map_pkg::KICKLESS_BITS + 1;
 
-  logic [RUNAWAY_W-1:0]  runaway_ticks_q;   // on end, with this one
+  logic [RUNAWAY_W-1:0]  runaway_ticks_q;   // of the window, with this one
   logic [KICKLESS_W-1:0] kickless_ticks_q;  // since the last kick, or since arming
   logic [KICKLESS_W-1:0] ticks, next_ticks;
   logic                  of_runaway, full, in_reach, expired;
@@ -103,27 +114,34 @@ module supervisor (
   assign in_reach   = param_i[31:KICKLESS_W-1] == '0;
   assign expired    = full || (in_reach && ticks[KICKLESS_W-2:0] >= param_i[KICKLESS_W-2:0]);
 
-  // Cause 3, wrong polarity: fast against the commanded current in polarity_ticks ticks on end.
-  logic fast_q, strong_q, long_enough_q, runs_away;
+  // Cause 3, wrong polarity: in RUNAWAY_WINDOWS windows of polarity_ticks on end the speed against the
+  // commanded current has grown. A window begins anew where it is not against it.
+  localparam int GROWN_W = feltgate_map_pkg::RUNAWAY_WINDOWS - 1;
 
-  assign runs_away     = fast_q && strong_q && (velocity_i[feltgate_pkg::VELOCITY_W-1] !=
-                                                current_ref_i[feltgate_pkg::CURRENT_W-1]);
-  assign polarity_trip = wave_i[feltgate_map_pkg::T_POLARITY] && gates_enable_o && runs_away &&
-                         long_enough_q;
+  logic [GROWN_W-1:0] grown_q;  // the windows before this one
+  logic grows_q, strong_q, due_q, against;
+
+  assign against       = strong_q && gates_enable_o && (velocity_i[feltgate_pkg::VELOCITY_W-1] !=
+                                                        current_ref_i[feltgate_pkg::CURRENT_W-1]);
+  assign polarity_trip = wave_i[feltgate_map_pkg::T_POLARITY] && gates_enable_o && due_q;
 
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::S_POLARITY_SPEED]) fast_q <= over(twice_size_q, param_i);
+    if (wave_i[feltgate_map_pkg::S_POLARITY_SPEED])
+      grows_q <= over(twice_size_q, param_i) &&
+                 twice_size_q[0] == velocity_i[feltgate_pkg::VELOCITY_W-1];
   end
   always_ff @(posedge clk_i) begin
     if (wave_i[feltgate_map_pkg::S_POLARITY_CURRENT]) strong_q <= over(twice_size_q, param_i);
   end
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::S_POLARITY_TICKS]) long_enough_q <= expired;
-  end
-  always_ff @(posedge clk_i) begin
     if (wave_i[feltgate_map_pkg::S_POLARITY_TICKS]) begin
-      if (runs_away && gates_enable_o) runaway_ticks_q <= next_ticks[RUNAWAY_W-1:0];
-      else                             runaway_ticks_q <= RUNAWAY_W'(1);
+      due_q <= against && expired && grows_q && grown_q == '1;
+      if (against && !expired) runaway_ticks_q <= next_ticks[RUNAWAY_W-1:0];
+      else begin
+        runaway_ticks_q <= RUNAWAY_W'(1);
+        begin_q         <= velocity_i[feltgate_pkg::VELOCITY_W-1:GROWTH_DROP];
+        grown_q         <= (against && grows_q) ? GROWN_W'({grown_q, 1'b1}) : '0;
+      end
     end
   end
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace feltgate::plant {
@@ -40,6 +41,14 @@ struct SupplyParameters {
   double current_limit_a = 0.0;
   double bus_capacitance_f = 0.0;
   double diode_drop_v = 0.0;  ///< of each free-wheeling diode of the bridge
+};
+
+/// Where the lever's way ends: a spring at each end that gives back restitution^2 of the energy
+/// that it took, so that a free lever leaves with `restitution` times the speed that it came with.
+struct EndStops {
+  double low_rad = 0.0, high_rad = 0.0;
+  double stiffness_nm_rad = 0.0;
+  double restitution = 0.0;
 };
 
 struct EncoderParameters {
@@ -85,7 +94,8 @@ struct Parameters {
   LugreParameters lugre;
   SupplyParameters supply;
   EncoderParameters encoder;
-  Effects effects;  ///< defaults of the file; a scene may override each
+  std::optional<EndStops> end_stops;  ///< none: the lever turns freely
+  Effects effects;                    ///< defaults of the file; a scene may override each
 };
 
 /// Torque per speed of what friction grows with it, of the effects that are on.

@@ -82,6 +82,17 @@ double Plant::advance_current(const Bridge& bridge, double omega_rad_s) {
   return mean_a;
 }
 
+// The spring of an end stop is softer on the way back.
+void Plant::push_back(const EndStops& stops, ShaftTorque& torque) const {
+  const bool low = shaft_.theta_rad < stops.low_rad;
+  if (!low && shaft_.theta_rad <= stops.high_rad) return;
+  const bool back = low ? shaft_.omega_rad_s > 0.0 : shaft_.omega_rad_s < 0.0;
+  const double kept = back ? stops.restitution * stops.restitution : 1.0;
+  const double stiffness = kept * stops.stiffness_nm_rad;
+  torque.theta_nm_rad -= stiffness;
+  torque.constant_nm += stiffness * (low ? stops.low_rad : stops.high_rad);
+}
+
 void Plant::advance_shaft(double motor_nm, double friction_nm, double omega_mid_rad_s) {
   const double before_rad_s = shaft_.omega_rad_s;
   if (hand_.imposes()) {
@@ -91,6 +102,7 @@ void Plant::advance_shaft(double motor_nm, double friction_nm, double omega_mid_
     return;
   }
   ShaftTorque torque = hand_.torque();
+  if (p_.end_stops) push_back(*p_.end_stops, torque);
   torque.constant_nm += motor_nm - friction_nm;
   torque.omega_nm_s_rad -= smooth_nm_s_rad_;
   if (hand_.has_mass()) {

@@ -80,6 +80,20 @@ EncoderParameters read_encoder(config::TomlReader table) {
   return encoder;
 }
 
+EndStops read_end_stops(config::TomlReader table) {
+  EndStops stops;
+  stops.low_rad = table.number("low_rad", {-1e3, 1e3});
+  stops.high_rad = table.number("high_rad", {-1e3, 1e3});
+  stops.stiffness_nm_rad = table.number("stiffness_nm_rad", config::kPositive);
+  stops.restitution = table.number("restitution", {0.0, 1.0});
+  if (stops.high_rad <= stops.low_rad) {
+    table.fail("high_rad", "\"high_rad\" is not above \"low_rad\"",
+               "leave the lever a way: raise it");
+  }
+  table.finish();
+  return stops;
+}
+
 // Without a base every flag is required.
 Effects read_flags(config::TomlReader table, const Effects* base) {
   Effects effects = base != nullptr ? *base : Effects{};
@@ -109,6 +123,7 @@ Parameters read_plant(const toml::table& root, const std::string& file) {
   parameters.lugre = read_lugre(reader.section("lugre"));
   parameters.supply = read_supply(reader.section("supply"));
   parameters.encoder = read_encoder(reader.section("encoder"));
+  if (reader.has("end_stops")) parameters.end_stops = read_end_stops(reader.section("end_stops"));
   parameters.effects = read_flags(reader.section("effects"), nullptr);
   reader.finish();
   return parameters;

@@ -46,7 +46,8 @@ double spectral_radius(Matrix<N> a) {
 double mechanical_pole_1_s(const Parameters& p, const Effects& on, const HandPhase& phase,
                            double radius_m) {
   const double inverse_inertia = 1.0 / p.lever.inertia_kg_m2;
-  ShaftTorque torque{0.0, -smooth_damping_nm_s_rad(p, on), 0.0};
+  ShaftTorque torque{0.0, -smooth_damping_nm_s_rad(p, on),
+                     p.end_stops ? -p.end_stops->stiffness_nm_rad : 0.0};
   switch (phase.kind) {
     case Kind::kLocked:
     case Kind::kPrescribed:

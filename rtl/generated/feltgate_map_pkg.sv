@@ -14,7 +14,9 @@ package feltgate_map_pkg;
   localparam logic [63:0] SCENE_SLOTS = 64'h000000000000044e;  // bit n: slot n is read from the scene's bank
   localparam int ERRORS_BORNE = 7;  // encoder errors that are borne, less one every 2^forgive_bits ticks
   localparam int FORGIVE_BITS = 10;  // bits of the ticks after which one encoder error is forgiven
-  localparam int RUNAWAY_BITS = 16;  // bits of the longest time of a wrong polarity [tick]
+  localparam int RUNAWAY_BITS = 16;  // bits of the longest window of the wrong-polarity check [tick]
+  localparam int RUNAWAY_WINDOWS = 2;  // windows on end in which the speed must grow against the commanded current
+  localparam int GROWTH_BITS = 5;  // fraction bits of the velocity whose growth is watched
   localparam int KICKLESS_BITS = 24;  // bits of the longest time without a kick [tick]
 
   // Wave clocks in which a word, or a square, is on its bus.
@@ -179,8 +181,8 @@ package feltgate_map_pkg;
   localparam int T_CURRENT_SQUARED = 17;
   localparam int T_TOO_HOT = 18;
   localparam int T_HEAT = 19;
-  localparam int T_FAST_SIZE = 18;
-  localparam int T_FAST = 19;
+  localparam int T_GROWTH_SIZE = 18;
+  localparam int T_GROWTH = 19;
   localparam int T_STRONG_SIZE = 19;
   localparam int T_STRONG = 20;
   localparam int T_RUNAWAY_TICKS = 21;
@@ -267,7 +269,7 @@ package feltgate_map_pkg;
   localparam int FAULT_NONE = 0;
   localparam int FAULT_ENCODER = 1;  // too many illegal transitions
   localparam int FAULT_SPEED = 2;  // |w| above the limit
-  localparam int FAULT_POLARITY = 3;  // fast against the commanded current for too long
+  localparam int FAULT_POLARITY = 3;  // the speed grows against the commanded current
   localparam int FAULT_I2T = 4;  // estimated current above nominal for too long
   localparam int FAULT_WATCHDOG = 5;  // the host is silent
   localparam int FAULT_STOP = 6;  // external stop

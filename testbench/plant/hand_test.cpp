@@ -184,6 +184,39 @@ TEST_CASE("friction, cord and hand only take energy", "[hand]") {
   }
 }
 
+TEST_CASE("end stops: restitution and contact time of the closed form, at both ends", "[hand]") {
+  Parameters p = shipped("p24");
+  constexpr double stiffness = 50.0, way = 0.3, speed = 20.0;
+  for (const double restitution : {0.0, 0.5, 1.0}) {
+    for (const double sign : {1.0, -1.0}) {
+      p.end_stops = EndStops{-way, way, stiffness, restitution};
+      HandPhase push;
+      push.kind = Kind::kTorque;
+      push.profile = {segment(Segment::Kind::kStep, 0.1, sign * 0.2)};
+      push.duration_s = speed * p.lever.inertia_kg_m2 / 0.2;
+      Hand hand = hand_of(push);
+      hand.phases.push_back({});
+      Plant plant(p, kNoEffects, Drive{}, hand);
+      run(plant, Bridge::off(), push.duration_s);
+      REQUIRE(plant.observables().omega_rad_s == Approx(sign * speed).epsilon(1e-3));
+      double deepest = 0.0, contact_s = 0.0;
+      for (Clock n = 0; n < clocks_of(0.03) / 25; ++n) {
+        plant.advance(Bridge::off(), 25);
+        const double depth = std::fabs(plant.observables().theta_rad) - way;
+        deepest = std::max(deepest, depth);
+        if (depth > 0.0) contact_s += 25 / kClockHz;
+      }
+      const double pole = std::sqrt(stiffness / p.lever.inertia_kg_m2);
+      CHECK(deepest == Approx(speed / pole).epsilon(2e-3));
+      CHECK(plant.observables().omega_rad_s ==
+            Approx(-sign * restitution * speed).epsilon(5e-3).margin(1e-2));
+      if (restitution > 0.0) {
+        CHECK(contact_s == Approx(std::acos(0.0) / pole * (1.0 + 1.0 / restitution)).epsilon(5e-3));
+      }
+    }
+  }
+}
+
 TEST_CASE("prescribed motion is imposed and its reaction is Newton's", "[hand]") {
   const Parameters p = shipped("p24");
   Hand hand = moving({segment(Segment::Kind::kMinimumJerk, 0.2, 0.7),

@@ -105,6 +105,14 @@ TEST_CASE("errors of a plant file say file, line, what and mend", "[plant_file]"
   CHECK(plant_error(range) == "x.toml:" + std::to_string(line_of(range, "resistance_ohm")) +
                                   ": \"resistance_ohm\" = -0.42 is out of range; it must be "
                                   "greater than 0");
+  const std::string stops =
+      good + "\n[end_stops]\nlow_rad = -1.0\nhigh_rad = 1.0\nstiffness_nm_rad = 100.0\n"
+             "restitution = 0.5\n";
+  CHECK(plant_error(stops) == "no error");
+  CHECK(contains(plant_error(replaced(stops, "high_rad = 1.0", "high_rad = -1.0")),
+                 "\"high_rad\" is not above \"low_rad\"; leave the lever a way: raise it"));
+  CHECK(contains(plant_error(replaced(stops, "restitution = 0.5", "restitution = 1.5")),
+                 "out of range"));
   CHECK(contains(plant_error(replaced(good, "lines = 1024", "lines = 10.5")), "not an integer"));
   CHECK(contains(plant_error(replaced(good, "lugre = true", "lugre = 1")), "true or false"));
   CHECK(contains(plant_error(replaced(good, "lugre = true", "")), "\"lugre\" is missing"));

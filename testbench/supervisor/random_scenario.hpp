@@ -23,6 +23,12 @@ class RandomScenario {
     if (random_.one_in(s_.arm ? 40 : 3)) s_.arm = !s_.arm;
     if (random_.one_in(60)) limits();
     if (random_.one_in(30)) signals();
+    if (s_.arm && random_.one_in(200))
+      s_.velocity = static_cast<std::int32_t>(s_.words.overspeed) + 1;
+    if (drift_ != 0) {
+      const std::int64_t v = std::int64_t{s_.velocity} + drift_;
+      if (v == static_cast<std::int32_t>(v)) s_.velocity = static_cast<std::int32_t>(v);
+    }
     return s_;
   }
 
@@ -32,6 +38,8 @@ class RandomScenario {
     words = Scenario::design_words();
     words.watchdog_ticks = 5 + random_.below(80);
     words.polarity_ticks = random_.below(8);
+    words.polarity_speed = random_.below(1U << 22);
+    words.polarity_current = random_.below(1U << 18);
     words.i2t_budget = random_.below(1U << 17);
     words.nominal_current_squared = random_.below(1U << 10);
     if (random_.one_in(8)) words.i2t_budget = static_cast<std::uint32_t>(random_.bits());
@@ -51,13 +59,21 @@ class RandomScenario {
         static_cast<std::int32_t>(random_.between(-i_top - 1, i_top)) >> random_.below(6);
     s_.velocity = static_cast<std::int32_t>(random_.bits()) >> (1 + random_.below(12));
     const auto limit = static_cast<std::int32_t>(s_.words.overspeed);
-    if (random_.one_in(10)) s_.velocity = limit + static_cast<std::int32_t>(random_.below(2));
+    if (random_.one_in(5)) s_.velocity = limit + static_cast<std::int32_t>(random_.below(2));
     if (random_.one_in(10)) s_.velocity = -(limit / 2) * 2 - static_cast<int>(random_.below(2));
     if (random_.one_in(50)) s_.velocity = std::numeric_limits<std::int32_t>::min();
+    drift_ = 0;
+    if (!random_.one_in(3)) return;
+    // The speed grows, mostly against the current.
+    drift_ = static_cast<std::int32_t>(random_.bits()) >> (7 + random_.below(6));
+    s_.velocity = drift_ * 2;
+    const std::int32_t i = s_.current_ref;
+    if (!random_.one_in(4)) s_.current_ref = (i < 0) == (drift_ < 0) ? -(i + 1) : i;
   }
 
   Random random_;
   Scenario s_;
+  std::int32_t drift_ = 0;  ///< of the velocity in a tick
 };
 
 }  // namespace feltgate::test

@@ -17,7 +17,6 @@ namespace {
 
 constexpr int kTick = Design::clocks_per_tick;
 constexpr std::int32_t kRadS = 1 << Design::f.velocity.fraction;
-constexpr std::int32_t kAmpere = 1 << Design::f.current.fraction;
 
 }  // namespace
 
@@ -91,44 +90,6 @@ TEST_CASE("supervisor: over-speed at the limit plus one bit, either way") {
   s.play();
 }
 
-TEST_CASE("supervisor: running away against the commanded current") {
-  Script s;
-  s.now.words.polarity_ticks = 12;
-  const auto speed = static_cast<std::int32_t>(s.now.words.polarity_speed);
-  const auto current = static_cast<std::int32_t>(s.now.words.polarity_current);
-  for (const int sign : {1, -1}) {
-    const auto set = [&](std::int32_t w, std::int32_t i) {
-      s.now.velocity = sign * w;
-      s.now.current_ref = -sign * i;
-    };
-    // One bit less of either, the other sign, or one tick less: no fault.
-    set(speed, 2 * current);
-    s.arm().ticks(20);
-    set(2 * speed, current);
-    s.ticks(20);
-    set(2 * speed, -2 * current);
-    s.ticks(20);
-    set(0, 2 * current);
-    s.ticks(2);
-    for (int round = 0; round < 3; ++round) {
-      set(speed + 1, current + 1);
-      s.ticks(11);
-      set(speed, current + 1);
-      s.ticks(1);
-    }
-    REQUIRE(s.out().armed);
-    set(speed + 1, current + 1);
-    REQUIRE(s.clocks_to_fall(20 * kTick) == 11 * kTick + kPolarity);
-    REQUIRE(only(s, Fault::polarity));
-    s.clear();
-    s.ticks(30);  // while disarmed nothing is counted
-    REQUIRE(s.out().faults == 0);
-    set(0, 0);
-    s.ticks(2);
-  }
-  s.play();
-}
-
 TEST_CASE("supervisor: the host watchdog sleeps until the first kick and then counts exactly") {
   Script s;
   s.now.words.watchdog_ticks = 30;
@@ -162,9 +123,12 @@ TEST_CASE("supervisor: times beyond the counters are not shortened by their low 
   s.now.kick = true;
   s.ticks(1);
   s.now.kick = false;
-  s.now.velocity = static_cast<std::int32_t>(s.now.words.polarity_speed) + 1;
   s.now.current_ref = -static_cast<std::int32_t>(s.now.words.polarity_current) - 1;
-  s.arm().ticks(50);
+  s.arm();
+  for (int k = 0; k < 50; ++k) {
+    s.now.velocity += 10 * kRadS;
+    s.ticks(1);
+  }
   REQUIRE(s.out().armed);
   s.play();
 }
@@ -294,16 +258,4 @@ TEST_CASE("supervisor: anything at any time, with and without resets") {
     CHECK(trips[cause] >= 20);
   }
   CHECK(armings >= 300);
-}
-
-TEST_CASE("supervisor: a wrong-polarity time beyond the counter is 65536 ticks") {
-  Script s;
-  s.now.words.polarity_ticks = 0x7fffffff;
-  s.now.current_ref = -10 * kAmpere / 4;
-  s.arm();
-  s.now.velocity = 100 * kRadS;
-  s.ticks(65534);
-  REQUIRE(s.clocks_to_fall(2 * kTick) == kTick + kPolarity);
-  REQUIRE(only(s, Fault::polarity));
-  s.play();
 }

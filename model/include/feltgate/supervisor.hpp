@@ -10,6 +10,7 @@
 #include "feltgate/generated/causes.hpp"
 #include "feltgate/generated/map.hpp"
 #include "feltgate/numbers.hpp"
+#include "feltgate/runaway.hpp"
 
 namespace feltgate {
 
@@ -145,11 +146,10 @@ class Supervisor {
   }
   /// Clock polarity_clock; the current is that of the tick before.
   bool at_polarity(const Words& words, std::int32_t velocity, std::int32_t current_ref) {
-    fast_ = over(velocity, words.polarity_speed);
-    strong_ = over(current_ref, words.polarity_current);
-    count_runaway(velocity, current_ref, words.polarity_ticks);
-    return out_.gates_enable && runs_away(velocity, current_ref) && long_enough_ &&
-           trip(Fault::polarity);
+    runaway_.compare_growth(runaway_.gain(velocity), velocity, words.polarity_speed);
+    runaway_.compare_current(current_ref, words.polarity_current);
+    runaway_.turn(velocity, current_ref, words.polarity_ticks, out_.gates_enable);
+    return out_.gates_enable && runaway_.due() && trip(Fault::polarity);
   }
   /// Clock watchdog_clock, where that is not the last clock of the tick.
   bool at_watchdog(const Words& words) {
@@ -166,7 +166,7 @@ class Supervisor {
   /// Whether too much heat or a wrong polarity might trip in the wave to come.
   bool near_trip(const Words& words) const {
     return sum_.raw() >= std::int64_t{words.i2t_budget} ||
-           expired(runaway_ticks_, words.polarity_ticks, kLongestRunaway);
+           runaway_.near(words.polarity_ticks);
   }
 
   /// All five. Returns the clock of the tick after which the gates fell, or -1.
@@ -192,7 +192,6 @@ class Supervisor {
   static constexpr bool kWatchdogLast = watchdog_clock == D::clocks_per_tick - 1;
   static constexpr int kBorne = Map::errors_borne;  // encoder errors
   static constexpr std::uint32_t kForgiveTicks = 1u << Map::forgive_bits;
-  static constexpr std::uint32_t kLongestRunaway = 1u << Map::runaway_bits;  // ticks
   static constexpr std::uint32_t kLongestKickless = 1u << Map::kickless_bits;
   static constexpr std::uint32_t kKicklessMask = 2 * kLongestKickless - 1;
 
@@ -201,7 +200,7 @@ class Supervisor {
   static constexpr std::uint64_t kWaveClocks =
       at(T::estimate_part) | at(T::current_estimate) | at(T::speed_size) | at(T::too_fast) |
       at(T::speed) | at(T::cooled) | at(T::current_squared) | at(T::too_hot) | at(T::heat) |
-      at(T::fast_size) | at(T::fast) | at(T::strong_size) | at(T::strong) | at(T::runaway_ticks) |
+      at(T::growth_size) | at(T::growth) | at(T::strong_size) | at(T::strong) | at(T::runaway_ticks) |
       at(T::polarity) | at(T::silent) | at(T::watchdog);
   static constexpr std::uint16_t bit(Fault cause) {
     return static_cast<std::uint16_t>(1U << static_cast<unsigned>(cause));
@@ -226,11 +225,7 @@ class Supervisor {
     if (!out_.armed || sum_.raw() > 0xffffffffLL) return {};
     return Law::squared(product<2 * D::f.current_estimate.fraction>(square));
   }
-  /// |x| > limit, the limit a signed word: above a negative one everything is.
-  static bool over(std::int32_t x, std::uint32_t limit) {
-    const std::int64_t wide = x;
-    return (wide < 0 ? -wide : wide) > static_cast<std::int32_t>(limit);
-  }
+  static bool over(std::int32_t x, std::uint32_t limit) { return Runaway<D>::over(x, limit); }
   /// A counter at its limit; `longest` is the limit of limits.
   static bool expired(std::uint32_t ticks, std::uint32_t limit, std::uint32_t longest) {
     return ticks >= limit || ticks >= longest;
@@ -242,14 +237,6 @@ class Supervisor {
     latch(bit(cause));
     out_.gates_enable = false;
     return live;
-  }
-  bool runs_away(std::int32_t velocity, std::int32_t current_ref) const {
-    return fast_ && strong_ && (velocity < 0) != (current_ref < 0);
-  }
-  void count_runaway(std::int32_t velocity, std::int32_t current_ref, std::uint32_t limit) {
-    long_enough_ = expired(runaway_ticks_, limit, kLongestRunaway);
-    const bool counts = runs_away(velocity, current_ref) && out_.gates_enable;
-    runaway_ticks_ = counts ? runaway_ticks_ + 1 : 1;
   }
   bool silent(const Words& words) const {
     return out_.gates_enable && awake_ &&
@@ -274,18 +261,18 @@ class Supervisor {
     if (now(T::current_squared)) square_ = square_of(in.product);
     if (now(T::too_hot)) too_hot_ = sum_.raw() >= std::int64_t{in.param};
 
-    if (now(T::polarity) && out_.gates_enable && runs_away(in.velocity, in.current_ref) &&
-        long_enough_) {
-      *trip |= bit(Fault::polarity);
+    if (now(T::polarity) && out_.gates_enable && runaway_.due()) *trip |= bit(Fault::polarity);
+    if (now(T::runaway_ticks)) {
+      runaway_.turn(in.velocity, in.current_ref, in.param, out_.gates_enable);
     }
-    if (now(T::runaway_ticks)) count_runaway(in.velocity, in.current_ref, in.param);
-    if (now(T::fast)) fast_ = over(signal_, in.param);
-    if (now(T::strong)) strong_ = over(signal_, in.param);
+    if (now(T::growth)) runaway_.compare_growth(signal_, in.velocity, in.param);
+    if (now(T::strong)) runaway_.compare_current(signal_, in.param);
 
     if (now(T::watchdog) && out_.gates_enable && awake_ && silent_) *trip |= bit(Fault::watchdog);
     if (now(T::silent)) silent_ = expired(kickless_ticks_, in.param, kLongestKickless);
 
-    if (now(T::speed_size) || now(T::fast_size)) signal_ = in.velocity;
+    if (now(T::speed_size)) signal_ = in.velocity;
+    if (now(T::growth_size)) signal_ = runaway_.gain(in.velocity);
     if (now(T::strong_size)) signal_ = in.current_ref;
   }
 
@@ -321,10 +308,7 @@ class Supervisor {
   std::uint32_t forgive_ticks_ = 0;
   std::int32_t signal_ = 0;  ///< to be compared in the next clock
   bool too_fast_ = false;
-  bool fast_ = false;
-  bool strong_ = false;
-  bool long_enough_ = false;
-  std::uint32_t runaway_ticks_ = 1;  ///< on end, with this one
+  Runaway<D> runaway_;
   std::int64_t v_product_ = 0;
   Sum sum_;
   Sum cooled_;

@@ -127,9 +127,9 @@ package feltgate_pkg;
       9'd15: parameter_reset = 32'd67092;  // observer_a1
       9'd16: parameter_reset = 32'd1286812467;  // overspeed
       9'd18: parameter_reset = 32'd2920000000;  // i2t_budget
-      9'd19: parameter_reset = 32'd125829120;  // polarity_speed
-      9'd20: parameter_reset = 32'd65536;  // polarity_current
-      9'd21: parameter_reset = 32'd5000;  // polarity_ticks
+      9'd19: parameter_reset = 32'd12582912;  // polarity_speed
+      9'd20: parameter_reset = 32'd393216;  // polarity_current
+      9'd21: parameter_reset = 32'd4000;  // polarity_ticks
       9'd22: parameter_reset = 32'd126668;  // emf_constant
       9'd23: parameter_reset = 32'd0;  // observer_gain
       9'd13: parameter_reset = 32'd0;  // voltage_setpoint

@@ -38,7 +38,7 @@ enum class Fault : std::uint8_t {
   none = 0,
   encoder = 1,  ///< too many illegal transitions
   speed = 2,  ///< |w| above the limit
-  polarity = 3,  ///< fast against the commanded current for too long
+  polarity = 3,  ///< the speed grows against the commanded current
   i2t = 4,  ///< estimated current above nominal for too long
   watchdog = 5,  ///< the host is silent
   stop = 6,  ///< external stop

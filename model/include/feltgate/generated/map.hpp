@@ -19,7 +19,9 @@ struct Map {
   static constexpr std::uint64_t scene_slots = 0x44e;
   static constexpr int errors_borne = 7;  ///< encoder errors that are borne, less one every 2^forgive_bits ticks
   static constexpr int forgive_bits = 10;  ///< bits of the ticks after which one encoder error is forgiven
-  static constexpr int runaway_bits = 16;  ///< bits of the longest time of a wrong polarity [tick]
+  static constexpr int runaway_bits = 16;  ///< bits of the longest window of the wrong-polarity check [tick]
+  static constexpr int runaway_windows = 2;  ///< windows on end in which the speed must grow against the commanded current
+  static constexpr int growth_bits = 5;  ///< fraction bits of the velocity whose growth is watched
   static constexpr int kickless_bits = 24;  ///< bits of the longest time without a kick [tick]
 
   /// Wave clocks in which a word, or a square, is on its bus.
@@ -189,8 +191,8 @@ struct Map {
     static constexpr int current_squared = 17;
     static constexpr int too_hot = 18;
     static constexpr int heat = 19;
-    static constexpr int fast_size = 18;
-    static constexpr int fast = 19;
+    static constexpr int growth_size = 18;
+    static constexpr int growth = 19;
     static constexpr int strong_size = 19;
     static constexpr int strong = 20;
     static constexpr int runaway_ticks = 21;
@@ -281,10 +283,10 @@ struct Map {
     current_squared,
     cooled_at_least_0,
     too_hot,
-    fast_size,
+    growth_size,
     observer_state,
     heat,
-    fast,
+    growth,
     strong_size,
     observed,
     strong,
@@ -408,10 +410,10 @@ struct Map {
       {Step::current_squared, 17},
       {Step::cooled_at_least_0, 18},
       {Step::too_hot, 18},
-      {Step::fast_size, 18},
+      {Step::growth_size, 18},
       {Step::observer_state, 19},
       {Step::heat, 19},
-      {Step::fast, 19},
+      {Step::growth, 19},
       {Step::strong_size, 19},
       {Step::observed, 20},
       {Step::strong, 20},

@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The check for a wrong polarity in simulation: swapped motors and encoders are found, scenes,
+// recordings, fast dampers, end stops and hands are not. Prints the table of
+// docs/blocks/supervisor.md.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "feltgate/generated/lever.hpp"
+#include "feltgate/generated/paper.hpp"
+#include "loop/loop.hpp"
+#include "loop/replay.hpp"
+#include "random.hpp"
+#include "rig.hpp"
+#include "traces/open.hpp"
+
+namespace {
+
+using namespace feltgate;
+using namespace feltgate::test;
+using plant::Hand;
+using plant::HandPhase;
+using plant::Segment;
+
+constexpr std::array<double, 3> kGrowth = {4.0, 6.0, 8.0};  // rad/s in a window
+constexpr std::size_t kShipped = 1;
+
+const ParameterInfo& word_of(const DesignInfo& d, const char* name) { return *d.find(name); }
+
+/// The check with each limit, beside a core whose own is asleep.
+template <class D>
+class Watchers {
+ public:
+  Watchers() {
+    const DesignInfo d = design_info<D>();
+    current_ = static_cast<std::uint32_t>(word_of(d, "polarity_current").raw);
+    ticks_ = static_cast<std::uint32_t>(word_of(d, "polarity_ticks").raw);
+    REQUIRE(std::ldexp(kGrowth[kShipped], D::f.velocity.fraction) ==
+            static_cast<double>(word_of(d, "polarity_speed").raw));
+  }
+  void tick(std::int64_t velocity, std::int64_t current_ref, bool live) {
+    const auto v = static_cast<std::int32_t>(velocity);
+    const auto i = static_cast<std::int32_t>(before_);
+    for (std::size_t n = 0; n < kGrowth.size(); ++n) {
+      Runaway<D>& law = laws_[n];
+      law.compare_growth(
+          law.gain(v), v,
+          static_cast<std::uint32_t>(std::ldexp(kGrowth[n], D::f.velocity.fraction)));
+      law.compare_current(i, current_);
+      law.turn(v, i, ticks_, live);
+      if (law.due() && at_[n] < 0) at_[n] = ticks_seen_;
+    }
+    before_ = current_ref;
+    ++ticks_seen_;
+  }
+  void row(const Row& r) {
+    tick(std::llround(std::ldexp(r.velocity_rad_s, D::f.velocity.fraction)),
+         std::llround(std::ldexp(r.current_a, D::f.current.fraction)), true);
+  }
+  /// The tick in which it tripped, from 0, or -1.
+  std::int64_t tripped(std::size_t n) const { return at_[n]; }
+
+ private:
+  std::array<Runaway<D>, kGrowth.size()> laws_;
+  std::array<std::int64_t, kGrowth.size()> at_ = {-1, -1, -1};
+  std::uint32_t current_ = 0, ticks_ = 0;
+  std::int64_t before_ = 0, ticks_seen_ = 0;
+};
+
+/// How many runs there were, and in how many each limit tripped.
+struct Count {
+  std::int64_t runs = 0;
+  std::array<std::int64_t, kGrowth.size()> trips{};
+  template <class D>
+  void add(const Watchers<D>& w) {
+    ++runs;
+    for (std::size_t n = 0; n < kGrowth.size(); ++n) trips[n] += w.tripped(n) >= 0 ? 1 : 0;
+  }
+};
+
+/// Asks for a torque at once, with the core's own check and the heat asleep.
+template <class D>
+void ask(Rig<D>& rig, const char* scene, double torque_nm = 0.0) {
+  rig.device.select(scene);
+  rig.device.set("setpoint_torque", torque_nm);
+  rig.device.set("ramp_step", 1.0);
+  rig.device.set("polarity_current", rig.device.parameter("polarity_current").high);
+  rig.device.set("i2t_budget", rig.device.parameter("i2t_budget").high);
+  for (int k = 0; k < 20; ++k) rig.tick();
+  rig.device.arm();
+}
+
+template <class D>
+Watchers<D> watched(Rig<D>& rig, double duration_s) {
+  Watchers<D> w;
+  for (std::int64_t k = 0; k < std::llround(duration_s * static_cast<double>(D::tick_hz)); ++k) {
+    rig.tick();
+    w.tick(rig.out().velocity, rig.out().current_ref, rig.out().gates_enable);
+  }
+  REQUIRE(rig.out().faults == 0);
+  return w;
+}
+
+struct Found {
+  Count count;
+  std::array<double, kGrowth.size()> travel_rad{};  ///< the longest way to the trip
+};
+
+/// A free lever that is wired wrong, from a random place, on random friction and inertia.
+template <class D>
+void run_away(Found& found, double torque_nm, Wiring wiring, SplitMix64& random) {
+  plant::Parameters motor = motor_of("p24");
+  motor.effects.encoder_imperfect = true;
+  motor.encoder.seed = static_cast<std::uint64_t>(random.below(1000));
+  motor.lever.inertia_kg_m2 *= random.between(0.9, 1.1);
+  const double friction = random.between(0.5, 2.0);
+  motor.lugre.coulomb_nm *= friction;
+  motor.lugre.static_nm *= friction;
+  Hand hand;
+  hand.start_rad = random.between(-1.0, 1.0);
+  Rig<D> rig(motor, hand, wiring);
+  ask(rig, "setpoint");
+  for (std::int64_t k = 100 + random.below(2000); k > 0; --k) rig.tick();
+  const double sign = random.below(2) == 0 ? 1.0 : -1.0;
+  rig.device.set("setpoint_torque", sign * torque_nm);
+  rig.tick();
+  Watchers<D> w;
+  const double start = rig.lever().theta_rad;
+  std::array<double, kGrowth.size()> travel{};
+  for (int k = 0; k < 60000 && std::fabs(rig.lever().theta_rad - start) < 0.7; ++k) {
+    rig.tick();
+    w.tick(rig.out().velocity, rig.out().current_ref, rig.out().gates_enable);
+    for (std::size_t n = 0; n < travel.size(); ++n) {
+      if (w.tripped(n) < 0 || w.tripped(n) == k) {
+        travel[n] = std::fabs(rig.lever().theta_rad - start);
+      }
+    }
+  }
+  found.count.add(w);
+  for (std::size_t n = 0; n < travel.size(); ++n) {
+    if (w.tripped(n) >= 0) found.travel_rad[n] = std::max(found.travel_rad[n], travel[n]);
+  }
+}
+
+HandPhase moves(std::vector<Segment> way, double duration_s) {
+  HandPhase phase;
+  phase.kind = HandPhase::Kind::kPrescribed;
+  phase.profile = std::move(way);
+  phase.duration_s = duration_s;
+  return phase;
+}
+Segment ramp(double to, double duration_s) {
+  Segment s;
+  s.kind = Segment::Kind::kRamp;
+  s.to = to;
+  s.duration_s = duration_s;
+  return s;
+}
+
+/// From rest to a speed, which is then kept; as many short ramps, none of which gains 4 rad/s.
+std::vector<Segment> gather(double rad_s, double rise_s, double keep_s) {
+  const int parts = 200;
+  std::vector<Segment> way;
+  double angle = 0.0;
+  for (int k = 1; k <= parts; ++k) {
+    angle += rad_s * k / parts * rise_s / parts;
+    way.push_back(ramp(angle, rise_s / parts));
+  }
+  way.push_back(ramp(angle + rad_s * keep_s, keep_s));
+  return way;
+}
+
+/// The hand takes the lever to a speed against the damper, or arms it there; then it lets go.
+void fast_dampers(Count& count) {
+  for (const double rad_s : {30.0, 65.0, 100.0, 200.0, 300.0, 400.0, 500.0, 600.0, -65.0, -600.0}) {
+    for (const double arm_s : {0.0, 0.8}) {
+      Hand hand;
+      hand.phases = {moves(gather(rad_s, 0.7, 0.2), 0.9), HandPhase{}};
+      Rig<Lever> rig(motor_of("p24"), hand);
+      for (double t = 0.0; t < arm_s; t += 1e-6) rig.tick();
+      ask(rig, "damper");
+      count.add(watched(rig, 1.1 - arm_s));
+    }
+  }
+}
+
+/// A correctly wired lever falls on its end stop and bounces.
+void rebounds(Count& count) {
+  for (const double stiffness : {20.0, 50.0, 100.0, 300.0, 1000.0}) {
+    for (const double restitution : {0.3, 0.6, 0.9}) {
+      for (const double torque : {0.2, 0.35, -0.5}) {
+        for (const double way : {0.2, 0.5, 1.0, 2.0}) {
+          plant::Parameters motor = motor_of("p24");
+          motor.end_stops = plant::EndStops{-way, way, stiffness, restitution};
+          Rig<Lever> rig(motor, Hand{});
+          ask(rig, "setpoint", torque);
+          count.add(watched(rig, 0.25));
+        }
+      }
+    }
+  }
+}
+
+/// A hand carries the lever to 5 rad/s against 0.5 Nm: by its own mass behind a grip, or at once.
+void hands(Count& count) {
+  for (const double radius : {0.1, 0.2}) {
+    for (const double sign : {1.0, -1.0}) {
+      for (const bool own_mass : {true, false}) {
+        for (const double rise_s : {0.003, 0.01, 0.03, 0.1}) {
+          Hand hand;
+          hand.radius_m = radius;
+          HandPhase hold;
+          hold.kind = HandPhase::Kind::kLocked;
+          hold.duration_s = 0.05;
+          HandPhase carry = moves({}, 0.4);
+          if (own_mass) carry.kind = HandPhase::Kind::kImpedance;
+          carry.profile = gather(sign * 5.0, rise_s, 0.3);
+          hand.phases = {hold, carry};
+          Rig<Lever> rig(motor_of("p24"), hand);
+          ask(rig, "setpoint", -sign * 0.5);
+          count.add(watched(rig, 0.35));
+        }
+      }
+    }
+  }
+}
+
+template <class D>
+void scenes(Count& count, const std::string& design) {
+  const std::filesystem::path folder = std::string(FELTGATE_ROOT) + "/vectors/scenes";
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".toml") continue;
+    Scenario scene = read_scenario(entry.path().string());
+    const plant::Parameters motor = motor_of(scene.plant);
+    resolve_effects(scene, motor.effects);
+    Watchers<D> w;
+    RunOptions options;
+    options.design = design;
+    options.engine = "twin";
+    options.row = [&w](const Row& r) { w.row(r); };
+    run_scenario(scene, motor, options);
+    count.add(w);
+  }
+}
+
+void recording(Count& count, const std::string& file, const traces::Options& how) {
+  const char* folder = std::getenv("FELTGATE_TRACES");
+  const std::filesystem::path path =
+      (folder != nullptr ? std::filesystem::path(folder)
+                         : std::filesystem::path(FELTGATE_ROOT) / "../shared/traces") /
+      file;
+  if (!std::filesystem::exists(path)) {
+    std::printf("not there, left out: %s\n", file.c_str());
+    return;
+  }
+  const auto source = traces::open(path, how);
+  Watchers<Lever> w;
+  ReplayOptions options;
+  options.engine = "twin";
+  options.row = [&w](const Row& r) { w.row(r); };
+  run_replay(*source, file, options);
+  count.add(w);
+}
+
+void recordings(Count& count) {
+  const auto mouse = [&count](const std::string& file, const char* probes) {
+    traces::Options how;
+    how.probes = traces::split_names(probes);
+    recording(count, "sigrok-mouse/avago_adns_2051_" + file + ".sr", how);
+  };
+  mouse("move_mouse_fast", "YA,YB");
+  mouse("move_mouse_fast", "XA,XB");
+  mouse("move_mouse_up_down", "YA,YB");
+  mouse("sleep_then_move", "YA,YB");
+  mouse("remove_and_readd_usb", "XA,XB");
+  mouse("remove_and_readd_usb", "YA,YB");
+  traces::Options stepper;
+  stepper.step = "5";
+  stepper.dir = "6";
+  recording(count, "stepdir/smoothieware.sr", stepper);
+  traces::Options qube;
+  qube.time_column = "t";
+  qube.count_column = "theta";
+  qube.scale = 2048 / (2 * 3.14159265358979323846);
+  recording(count, "qube/qube_20230828T150615_434_696_394.csv", qube);
+}
+
+bool all_of_it() { return std::getenv("FELTGATE_LONG") != nullptr; }
+
+}  // namespace
+
+TEST_CASE("runaway: the core's own check stops a swapped motor or encoder at 0.3 Nm and above") {
+  for (const Wiring wiring : {Wiring::motor_swapped, Wiring::encoder_swapped}) {
+    for (const double torque : {0.3, -0.3, 0.5, -0.5}) {
+      Rig<Lever> rig(motor_of("p24"), Hand{}, wiring);
+      rig.device.select("setpoint");
+      rig.device.set("setpoint_torque", torque);
+      rig.device.set("ramp_step", 1.0);
+      for (int k = 0; k < 20; ++k) rig.tick();
+      rig.device.arm();
+      for (int k = 0; k < 40000 && rig.out().faults == 0; ++k) rig.tick();
+      CHECK(rig.out().first_fault == static_cast<unsigned>(Fault::polarity));
+      CHECK_FALSE(rig.out().gates_enable);
+      CHECK(std::fabs(rig.lever().theta_rad) < 0.35);
+    }
+  }
+}
+
+TEST_CASE("runaway: a steady 65 rad/s on a damper is no wrong polarity") {
+  Hand hand;
+  hand.phases = {moves({ramp(65.0, 1.0)}, 1.0)};
+  Rig<Lever> rig(motor_of("p24"), hand);
+  rig.device.select("damper");
+  for (int k = 0; k < 20; ++k) rig.tick();
+  rig.device.arm();
+  for (int k = 0; k < 500000; ++k) rig.tick();
+  CHECK(rig.out().faults == 0);
+  CHECK(rig.out().armed);
+}
+
+TEST_CASE("runaway: found against false, with three limits") {
+  SplitMix64 random(20);
+  const int starts = all_of_it() ? 50 : 8;
+  Found lever, paper;
+  for (const Wiring wiring : {Wiring::motor_swapped, Wiring::encoder_swapped}) {
+    for (const double torque : {0.3, 0.35, 0.4, 0.5}) {
+      for (int k = 0; k < starts; ++k) {
+        run_away<Lever>(lever, torque, wiring, random);
+        run_away<Paper>(paper, torque, wiring, random);
+      }
+    }
+  }
+  Count of_scenes, of_recordings, of_dampers, of_stops, of_hands;
+  fast_dampers(of_dampers);
+  rebounds(of_stops);
+  hands(of_hands);
+  if (all_of_it()) {
+    scenes<Lever>(of_scenes, "lever");
+    scenes<Paper>(of_scenes, "paper");
+    recordings(of_recordings);
+  }
+  std::printf(
+      "| growth in 4 ms, rad/s | rad/s^2 | lever: found | by, rad | paper: found | by, rad |"
+      " scenes | recordings | dampers | end stops | hands |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (std::size_t n = 0; n < kGrowth.size(); ++n) {
+    std::printf("| %g | %g | %lld of %lld | %.2f | %lld of %lld | %.2f |", kGrowth[n],
+                kGrowth[n] / 0.004, static_cast<long long>(lever.count.trips[n]),
+                static_cast<long long>(lever.count.runs), lever.travel_rad[n],
+                static_cast<long long>(paper.count.trips[n]),
+                static_cast<long long>(paper.count.runs), paper.travel_rad[n]);
+    for (const Count* c : {&of_scenes, &of_recordings, &of_dampers, &of_stops, &of_hands}) {
+      std::printf(" %lld of %lld |", static_cast<long long>(c->trips[n]),
+                  static_cast<long long>(c->runs));
+    }
+    std::printf("\n");
+  }
+  for (const Found* f : {&lever, &paper}) {
+    CHECK(f->count.trips[kShipped] == f->count.runs);
+    CHECK(f->travel_rad[kShipped] < 0.35);
+  }
+  for (const Count* c : {&of_scenes, &of_recordings, &of_dampers, &of_stops, &of_hands}) {
+    CHECK(c->trips[kShipped] == 0);
+  }
+}

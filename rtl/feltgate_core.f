@@ -7,6 +7,7 @@ registers.sv
 quad_decoder.sv
 lowpass.sv
 velocity_n.sv
+velocity_jump.sv
 dob.sv
 scene_setpoint.sv
 scene_membrane.sv

@@ -55,6 +55,7 @@ module feltgate_core #(
     output logic                                         gates_enable_o
 );
   localparam int SceneW = feltgate_pkg::SCENE_POSITION_W;
+  localparam int FaultsW = feltgate_map_pkg::W_FAULTS_SEEN;
   feltgate_checks u_checks ();
   // The wave and its two buses.
   logic                       tick;
@@ -177,6 +178,14 @@ module feltgate_core #(
       .velocity_o(velocity_o),
       .saturated_o(velocity_saturated)
   );
+  logic velocity_jumped;
+  velocity_jump u_velocity_jump (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .wave_i(wave),
+      .velocity_i(velocity_o),
+      .trip_o(velocity_jumped)
+  );
 
   logic signed [feltgate_pkg::OBSERVER_DIFFERENCE_W-1:0] observer_difference;
   dob u_dob (
@@ -279,7 +288,8 @@ module feltgate_core #(
       .wave_i(wave),
       .param_i(param),
       .product_i(supervisor_product),
-      .trips_i(feltgate_map_pkg::W_FAULTS_SEEN'(word_error) << feltgate_map_pkg::FAULT_WORD),
+      .trips_i((FaultsW'(word_error) << feltgate_map_pkg::FAULT_WORD) |
+               (FaultsW'(velocity_jumped) << feltgate_map_pkg::FAULT_JUMP)),
       .current_estimate_o(current_estimate),
       .armed_o(armed_o),
       .gates_enable_o(gates_enable),

@@ -108,6 +108,7 @@ package feltgate_map_pkg;
   localparam int T_VELOCITY_RAW = 2;
   localparam int T_VELOCITY_DIFFERENCE = 3;
   localparam int T_VELOCITY = 8;
+  localparam int T_JUMP = 9;
   localparam int T_DRIVE_TORQUE = 12;
   localparam int T_OBSERVER_INPUT = 13;
   localparam int T_OBSERVER_DIFFERENCE = 14;

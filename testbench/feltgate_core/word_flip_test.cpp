@@ -59,6 +59,12 @@ class Pair {
     rtl_->rootp->feltgate_core__DOT__u_registers__DOT__parameter_ram[at] ^= QData{1} << bit;
     twin_.flip(address, bit);
   }
+  /// A bit of the register that holds the velocity; in the RTL alone.
+  void flip_velocity(int bit) {
+    auto& y = rtl_->rootp->feltgate_core__DOT__u_velocity_n__DOT__u_lowpass__DOT__y_q;
+    y ^= IData{1} << bit;
+  }
+  CoreOut rtl() const { return feltgate::read_outputs<D>(*rtl_); }
   /// Armed in `scene`, the pipeline of the parameter bus full.
   void arm(int scene) {
     in.scene = static_cast<std::uint8_t>(scene);
@@ -153,4 +159,19 @@ TEST_CASE("core: flips of several bits, found or not as the four parities say") 
   CHECK(found > 300);
   CHECK(hidden > 10);
   CHECK(pair.mismatches() == 0);
+}
+
+TEST_CASE("core: a velocity that jumps opens the gates within a tick") {
+  constexpr int weight = D::f.velocity.width() + D::coefficient_bits - D::P::velocity_a1.fraction;
+  for (int bit = 0; bit < D::f.velocity.width(); ++bit) {
+    if (bit == weight + 1) continue;  // found or not: the filter takes a part of it at once
+    Pair pair;
+    pair.arm(D::S::free);
+    // Half of full scale trips over-speed as well, whose number is lower.
+    pair.flip_velocity(bit);
+    pair.clocks(kTick);
+    INFO("bit " << bit);
+    CHECK(((pair.rtl().faults >> static_cast<unsigned>(Fault::jump)) & 1u) == (bit > weight));
+    CHECK(pair.rtl().gates_enable == (bit <= weight));
+  }
 }

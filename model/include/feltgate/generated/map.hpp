@@ -118,6 +118,7 @@ struct Map {
     static constexpr int velocity_raw = 2;
     static constexpr int velocity_difference = 3;
     static constexpr int velocity = 8;
+    static constexpr int jump = 9;
     static constexpr int drive_torque = 12;
     static constexpr int observer_input = 13;
     static constexpr int observer_difference = 14;
@@ -260,6 +261,7 @@ struct Map {
     charge_chosen,
     read_velocity,
     operand_inertia_gain,
+    jump,
     estimate_part,
     operand_scene_damping,
     setpoint_part,
@@ -387,6 +389,7 @@ struct Map {
       {Step::charge_chosen, 8},
       {Step::read_velocity, 9},
       {Step::operand_inertia_gain, 9},
+      {Step::jump, 9},
       {Step::estimate_part, 9},
       {Step::operand_scene_damping, 10},
       {Step::setpoint_part, 10},

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A velocity that moves in one tick by more than its low-pass can, whatever its coefficient: something
+// has broken. |a1 * (x - y)| < 2^(W + 17 - F) bits for every x, y of W bits and every word a1 of 17
+// bits with F fraction bits, so what lies above that weight changes by one at most.
+// Latency: trip in the clock after T_JUMP. docs/blocks/velocity_jump.md
+
+`default_nettype none
+
+module velocity_jump #(
+    parameter int Weight = feltgate_pkg::VELOCITY_W + feltgate_pkg::COEFFICIENT_BITS -
+                           feltgate_pkg::P_VELOCITY_A1_F
+) (
+    input  logic                                            clk_i,
+    input  logic                                            rst_ni,
+    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clock and the upper bits
+    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
+    input  logic signed [     feltgate_pkg::VELOCITY_W-1:0] velocity_i,
+    /* verilator lint_on UNUSEDSIGNAL */
+    output logic                                            trip_o
+);
+  localparam int W = feltgate_pkg::VELOCITY_W;
+  localparam int Now = feltgate_map_pkg::T_JUMP;
+
+  if (Weight >= 0 && Weight <= W - 2) begin : gen_compare
+    localparam int TopW = W - Weight;
+    logic signed [TopW-1:0] before_q;
+    logic signed [TopW  :0] moved;
+    assign moved = (TopW + 1)'($signed(velocity_i[W-1:Weight])) - (TopW + 1)'(before_q);
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        before_q <= '0;
+        trip_o   <= 1'b0;
+      end else begin
+        trip_o <= wave_i[Now] && (moved > 1 || moved < -1);
+        if (wave_i[Now]) before_q <= $signed(velocity_i[W-1:Weight]);
+      end
+    end
+  end else begin : gen_none  // a filter so fast that it may move by its whole range
+    logic unused;
+    assign unused = ^{clk_i, rst_ni};
+    assign trip_o = 1'b0;
+  end
+endmodule
+
+`default_nettype wire

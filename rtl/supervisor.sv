@@ -173,7 +173,8 @@ module supervisor (
                                 feltgate_pkg::CURRENT_SQUARED_F;
   localparam int SUM_W = feltgate_pkg::I2T_W + 1;  // a sum at the budget may still grow by I^2
 
-  logic        [SUM_W-1:0]     sum_q;
+  // No reset clears it: a reset is a way to clear a fault, and the motor stays as hot as it is.
+  logic        [SUM_W-1:0]     sum_q = SUM_W'(feltgate_pkg::I2T_START);
   logic signed [SUM_W:0]       cooled_q;
   logic        [SQUARED_W-1:0] square_q;
   logic                        too_hot_q;
@@ -192,9 +193,8 @@ module supervisor (
     if (wave_i[feltgate_map_pkg::T_CURRENT_SQUARED])
       square_q <= (armed_o && !sum_q[SUM_W-1]) ? product_i[SQUARED_DROP+:SQUARED_W] : '0;
   end
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni)                                sum_q <= '0;
-    else if (wave_i[feltgate_map_pkg::T_HEAT]) sum_q <= cooled_q[SUM_W-1:0] + SUM_W'(square_q);
+  always_ff @(posedge clk_i) begin
+    if (wave_i[feltgate_map_pkg::T_HEAT]) sum_q <= cooled_q[SUM_W-1:0] + SUM_W'(square_q);
   end
 
   // Cause 5, host watchdog: watchdog_ticks ticks without a kick, from the first kick on.

@@ -17,10 +17,96 @@ constexpr int kTick = Design::clocks_per_tick;
 constexpr std::int32_t kRadS = 1 << Design::f.velocity.fraction;
 constexpr std::int32_t kVolt = 1 << Design::f.voltage.fraction;
 
+/// Lets the heat of power-up go at once.
+void cool(Script& s) {
+  const std::uint32_t nominal = s.now.words.nominal_current_squared;
+  s.now.words.nominal_current_squared = 1U << 31;
+  s.ticks(2);
+  s.now.words.nominal_current_squared = nominal;
+}
+
+/// RTL and twin side by side, reset when the test wants.
+class Pair {
+ public:
+  Scenario now;
+
+  void reset(int clocks) {
+    for (int k = 0; k < clocks; ++k) {
+      rtl_->rst_ni = 0;
+      SupervisorAdapter::drive(*rtl_, {});
+      twin_.reset();
+      rtl_.clock();
+      compare();
+    }
+    rtl_->rst_ni = 1;
+    clock_.reset();
+  }
+  void ticks(std::int64_t n) {
+    for (n *= kTick; n > 0; --n) {
+      const auto in = bus_.clock(clock_.out(), now, twin_.out().current_estimate);
+      clock_.clock({});
+      SupervisorAdapter::drive(*rtl_, in);
+      rtl_.clock();
+      twin_.clock(in);
+      compare();
+    }
+  }
+  bool hot() const { return (rtl_->faults_o & bit(Fault::i2t)) != 0; }
+
+ private:
+  void compare() {
+    Check check;
+    SupervisorAdapter::compare(check, *rtl_, twin_.out());
+    REQUIRE(!check.failed());
+  }
+
+  feltgate::RtlModel<Vsupervisor> rtl_{5};
+  Clock clock_;
+  Bus bus_{1};
+  Twin twin_;
+};
+
 }  // namespace
+
+TEST_CASE("supervisor: power-up begins with half the heat, a reset forgets none") {
+  constexpr std::uint32_t start = Design::i2t_start;
+  Pair s;
+  s.now.words.nominal_current_squared = 0;
+  s.now.voltage = 5 * kVolt;
+  const auto expect = [&](bool hot, double budget) {  // nothing cools, nothing heats
+    s.now.words.i2t_budget = static_cast<std::uint32_t>(budget);
+    s.reset(3);
+    s.ticks(2);
+    REQUIRE(s.hot() == hot);
+  };
+  expect(false, start + 1);
+  expect(true, start);
+  // Armed for a while: hotter by so many squares, and a reset of any length changes nothing.
+  s.now.words.i2t_budget = 0xffffffffU;
+  s.reset(3);
+  s.now.arm = false;
+  s.ticks(2);
+  s.now.arm = true;
+  s.ticks(101);  // of which one is the arming's
+  s.now.arm = false;
+  s.ticks(2);
+  const double estimate = 5.0 / 0.42;
+  const double heat = 101 * estimate * estimate * 4;
+  expect(true, start + 0.98 * heat);
+  expect(true, start + 0.98 * heat);
+  expect(false, start + 1.02 * heat);
+  // It decays as ever: a nominal square per tick.
+  s.now.words.nominal_current_squared = start;
+  s.now.words.i2t_budget = start;
+  s.reset(1);
+  s.ticks(3);
+  s.now.words.nominal_current_squared = 0;
+  expect(false, 0.02 * heat);
+}
 
 TEST_CASE("supervisor: I2t in integers, on the estimate of voltage and speed") {
   Script s;
+  cool(s);
   s.now.words.nominal_current_squared = 100;
   s.now.voltage = 5 * kVolt;
   s.now.velocity = 40 * kRadS;
@@ -45,6 +131,7 @@ TEST_CASE("supervisor: I2t in integers, on the estimate of voltage and speed") {
 
 TEST_CASE("supervisor: the tick in which the gates fall still heats") {
   Script s;
+  cool(s);
   s.now.words.nominal_current_squared = 0;
   s.now.voltage = 5 * kVolt;
   s.ticks(2);
@@ -61,6 +148,7 @@ TEST_CASE("supervisor: the tick in which the gates fall still heats") {
 
 TEST_CASE("supervisor: the I2t sum does not wrap at the largest budget") {
   Script s;
+  cool(s);
   s.now.words.nominal_current_squared = 0;
   s.now.words.i2t_budget = 0xffffffffU;
   s.now.words.inverse_resistance = 0x1ffff;
@@ -87,6 +175,7 @@ TEST_CASE("supervisor: I2t trips when the closed form says") {
   const double lsb = std::ldexp(1.0, -Design::f.current_estimate.fraction);
   for (const double volts : {3.0, 6.95, 12.0, -9.5}) {
     Script s;
+    cool(s);
     s.now.voltage = static_cast<std::int32_t>(volts * kVolt);
     const double current = volts / 0.42;
     const double nominal = s.now.words.nominal_current_squared / 4.0;

@@ -160,7 +160,7 @@ TEST_CASE("supervisor: the first cause stays, of two at once the lower number") 
   s.errors(16);
   REQUIRE(s.out().faults == (bit(Fault::speed) | bit(Fault::i2t) | bit(Fault::encoder)));
   REQUIRE(s.out().first_fault == static_cast<unsigned>(Fault::speed));
-  s.now.words.i2t_budget = 1;
+  s.now.words.i2t_budget = 0xffffffffU;
   s.now.velocity = 0;
   s.clear().clear();
   REQUIRE(s.out().faults == 0);

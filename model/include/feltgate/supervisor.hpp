@@ -102,7 +102,12 @@ class Supervisor {
     bool kick = false;
   };
 
-  void reset() { *this = Supervisor(); }
+  /// All but the heat: the motor does not cool by a reset.
+  void reset() {
+    const Sum heat = sum_;
+    *this = Supervisor();
+    sum_ = heat;
+  }
   const Out& out() const { return out_; }
 
   void clock(const In& in) {
@@ -310,7 +315,7 @@ class Supervisor {
   bool too_fast_ = false;
   Runaway<D> runaway_;
   std::int64_t v_product_ = 0;
-  Sum sum_;
+  Sum sum_ = Sum::from_raw(D::i2t_start);
   Sum cooled_;
   Squared square_;
   bool too_hot_ = false;

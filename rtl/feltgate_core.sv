@@ -71,22 +71,16 @@ module feltgate_core #(
   logic [feltgate_map_pkg::W_CONTROL-1:0] control;
   logic [ 3:0] scene_wanted, scene_q;
   logic [ 1:0] mode;
-  logic host, arm_request, set_zero, zero_pending_q, host_zero, clear_faults, kick, region_high, snap_valid;
-  logic word_error;
+  logic host, arm_request, set_zero, clear_faults, kick, region_high, snap_valid;
+  logic disarm, host_stop, restart, refused, word_error;
   logic [ 5:0] snap_slot;
   assign host         = control[feltgate_map_pkg::B_CONTROL_HOST];
   assign mode         = control[feltgate_map_pkg::B_CONTROL_MODE+:feltgate_map_pkg::W_CONTROL_MODE];
-  assign arm_request  = host ? control[feltgate_map_pkg::B_CONTROL_ARM] : arm_i;
+  assign arm_request  = (host ? control[feltgate_map_pkg::B_CONTROL_ARM] : arm_i) && !disarm;
   assign scene_wanted = host ? control[feltgate_map_pkg::B_CONTROL_SCENE+:feltgate_map_pkg::W_CONTROL_SCENE] : scene_i;
-  assign set_zero     = tick && (host_zero || zero_pending_q);
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      scene_q        <= '0;
-      zero_pending_q <= 1'b0;
-    end else begin
-      if (tick) scene_q <= scene_wanted;
-      zero_pending_q <= set_zero_i || (zero_pending_q && !tick);
-    end
+    if (!rst_ni) scene_q <= '0;
+    else if (tick) scene_q <= scene_wanted;
   end
 
   sequencer u_sequencer (
@@ -99,9 +93,7 @@ module feltgate_core #(
       .tick_count_o(tick_count_o)
   );
 
-  registers #(
-      .ReadBack(ReadBack)
-  ) u_registers (
+  registers #(.ReadBack(ReadBack)) u_registers (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
       .tick_i(tick),
@@ -110,6 +102,8 @@ module feltgate_core #(
       .reg_write_i(reg_write_i),
       .reg_rdata_o(reg_rdata_o),
       .reg_busy_o(reg_busy_o),
+      .armed_i(armed_o),
+      .set_zero_i(set_zero_i),
       .slot_fetch_i(slot_fetch),
       .scene_slot_fetch_i(scene_slot_fetch),
       .scene_i(scene_q),
@@ -117,9 +111,13 @@ module feltgate_core #(
       .param_o(param),
       .word_error_o(word_error),
       .control_o(control),
-      .set_zero_o(host_zero),
+      .set_zero_o(set_zero),
       .clear_faults_o(clear_faults),
       .kick_o(kick),
+      .disarm_o(disarm),
+      .stop_o(host_stop),
+      .restart_o(restart),
+      .refused_o(refused),
       .snap_slot_i(snap_slot),
       .snap_valid_i(snap_valid),
       .snap_data_i(operand[31:0])
@@ -241,6 +239,7 @@ module feltgate_core #(
       .rst_ni(rst_ni),
       .armed_i(armed_o),
       .scene_i(scene_q),
+      .restart_i(restart),
       .wave_i(wave),
       .param_i(param),
       .limited_i(limited),
@@ -288,7 +287,8 @@ module feltgate_core #(
       .wave_i(wave),
       .param_i(param),
       .product_i(supervisor_product),
-      .trips_i((FaultsW'(word_error) << feltgate_map_pkg::FAULT_WORD) |
+      .trips_i((FaultsW'(host_stop) << feltgate_map_pkg::FAULT_STOP) |
+               (FaultsW'(word_error) << feltgate_map_pkg::FAULT_WORD) |
                (FaultsW'(velocity_jumped) << feltgate_map_pkg::FAULT_JUMP)),
       .current_estimate_o(current_estimate),
       .armed_o(armed_o),
@@ -297,10 +297,7 @@ module feltgate_core #(
       .first_fault_o(first_fault_o)
   );
 
-  pwm #(
-      .Period(feltgate_pkg::PWM_PERIOD),
-      .DeadClocks(feltgate_pkg::DEAD_CLOCKS)
-  ) u_pwm (
+  pwm #(.Period(feltgate_pkg::PWM_PERIOD), .DeadClocks(feltgate_pkg::DEAD_CLOCKS)) u_pwm (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
       .enable_i(gates_enable),
@@ -317,24 +314,19 @@ module feltgate_core #(
 
   localparam int LimitsW = feltgate_map_pkg::W_STATUS_LIMITS;
   logic [31:0] status, faults, snapshot_word;
-  assign limits_o = (LimitsW'(limit_torque) << feltgate_map_pkg::L_TORQUE) |
-                    (LimitsW'(limit_ramp) << feltgate_map_pkg::L_RAMP) |
-                    (LimitsW'(limit_current) << feltgate_map_pkg::L_CURRENT) |
-                    (LimitsW'(limit_voltage) << feltgate_map_pkg::L_VOLTAGE) |
-                    (LimitsW'(limit_duty) << feltgate_map_pkg::L_DUTY) |
-                    (LimitsW'(velocity_saturated) << feltgate_map_pkg::L_VELOCITY) |
-                    (LimitsW'(tau_hat_saturated) << feltgate_map_pkg::L_TAU_HAT) |
-                    (LimitsW'(!gates_enable) << feltgate_map_pkg::L_GATES_CLOSED);
+  assign limits_o = (LimitsW'(limit_torque) << feltgate_map_pkg::L_TORQUE) | (LimitsW'(limit_ramp) << feltgate_map_pkg::L_RAMP) |
+                    (LimitsW'(limit_current) << feltgate_map_pkg::L_CURRENT) | (LimitsW'(limit_voltage) << feltgate_map_pkg::L_VOLTAGE) |
+                    (LimitsW'(limit_duty) << feltgate_map_pkg::L_DUTY) | (LimitsW'(velocity_saturated) << feltgate_map_pkg::L_VELOCITY) |
+                    (LimitsW'(tau_hat_saturated) << feltgate_map_pkg::L_TAU_HAT) | (LimitsW'(!gates_enable) << feltgate_map_pkg::L_GATES_CLOSED);
   assign faults = (32'(faults_o) << feltgate_map_pkg::B_FAULTS_SEEN) |
                   (32'(first_fault_o) << feltgate_map_pkg::B_FAULTS_FIRST);
   assign status = (32'(limits_o) << feltgate_map_pkg::B_STATUS_LIMITS) |
                   (32'(scene_q) << feltgate_map_pkg::B_STATUS_SCENE) |
                   (32'(armed_o) << feltgate_map_pkg::B_STATUS_ARMED) |
                   (32'(mode) << feltgate_map_pkg::B_STATUS_MODE) |
-                  (32'(encoder_error) << feltgate_map_pkg::B_STATUS_ENCODER_ERROR);
-  snapshot #(
-      .ReadBack(ReadBack)
-  ) u_snapshot (
+                  (32'(encoder_error) << feltgate_map_pkg::B_STATUS_ENCODER_ERROR) |
+                  (32'(refused) << feltgate_map_pkg::B_STATUS_REFUSED);
+  snapshot #(.ReadBack(ReadBack)) u_snapshot (
       .slot_fetch_i(slot_fetch),
       .wave_i(wave),
       .status_i(status),
@@ -349,8 +341,7 @@ module feltgate_core #(
       .slot_o(snap_slot)
   );
 
-  logic signed [feltgate_pkg::MULTIPLIER_A_BITS-1:0] dob_operand, scene_operand, control_operand;
-  logic signed [feltgate_pkg::MULTIPLIER_A_BITS-1:0] supervisor_operand;
+  logic signed [feltgate_pkg::MULTIPLIER_A_BITS-1:0] dob_operand, scene_operand, control_operand, supervisor_operand;
   logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate_operand;
   logic signed_word, square_estimate;
   operand_bus u_operand_bus (
@@ -378,9 +369,7 @@ module feltgate_core #(
   );
 
   logic square_q;
-  always_ff @(posedge clk_i) begin
-    square_q <= square && wave[feltgate_map_pkg::S_CHARGE_SQUARE-1];
-  end
+  always_ff @(posedge clk_i) square_q <= square && wave[feltgate_map_pkg::S_CHARGE_SQUARE-1];
   multipliers u_multipliers (
       .clk_i(clk_i),
       .operand_i(operand),

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The torque reference: follows the limited torque of the scene, in steps of one word per tick after
-// arming and after a change of scene; between them nothing is slowed.
+// arming, after a change of scene and after restart_i; between them nothing is slowed.
 // Latency: target in the clock of the step's word, tau_ref three clocks later and held.
 // docs/blocks/ramp.md
 
@@ -13,6 +13,7 @@ module ramp (
     input  logic                                      rst_ni,
     input  logic                                      armed_i,
     input  logic        [                        3:0] scene_i,
+    input  logic                                      restart_i,  // last clock of a tick: the torque may jump
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
     input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input  logic        [                       31:0] param_i,
@@ -74,7 +75,8 @@ module ramp (
     end else begin
       if (wave_i[Excess]) limit_torque_o <= beyond_i && armed_i;
       if (wave_i[feltgate_map_pkg::T_RAMP_BEGIN]) scene_q <= scene_i;
-      if (wave_i[feltgate_map_pkg::T_RAMP_BEGIN] && (!armed_i || scene_i != scene_q)) ramping_q <= 1'b1;
+      if (restart_i) ramping_q <= 1'b1;
+      else if (wave_i[feltgate_map_pkg::T_RAMP_BEGIN] && (!armed_i || scene_i != scene_q)) ramping_q <= 1'b1;
       else if (wave_i[feltgate_map_pkg::T_TAU_REF] && stay_q) ramping_q <= 1'b0;
       if (wave_i[feltgate_map_pkg::T_TAU_REF] && !stay_q) ramp_q <= ramp_q + change_q + W'({1'b0, carry_q});
       if (wave_i[feltgate_map_pkg::T_TAU_REF]) limit_ramp_o <= stepping_q;

@@ -2,8 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Register port, parameter RAM (512 x 32), control word, commands and the double-buffered snapshot.
-// A write takes effect at tick_i; param_o follows slot_fetch_i by 2 clocks, reg_rdata_o follows
-// reg_addr_i by 3. Documentation: docs/blocks/registers.md
+// A write is taken in a clock in which reg_write_i is high and reg_busy_o low, and takes effect at
+// tick_i; a disarm and a stop pass one that waits. param_o follows slot_fetch_i by 2 clocks,
+// reg_rdata_o follows reg_addr_i by 3. Documentation: docs/blocks/registers.md
 `default_nettype none
 
 module registers #(
@@ -15,10 +16,12 @@ module registers #(
 
   input  logic [11:0] reg_addr_i,
   input  logic [31:0] reg_wdata_i,
-  input  logic        reg_write_i,         // ignored while reg_busy_o is high
+  input  logic        reg_write_i,         // held, with address and data, until it is taken
   output logic [31:0] reg_rdata_o,
-  output logic        reg_busy_o,          // a write waits for the end of the tick
+  output logic        reg_busy_o,          // a write waits for the end of the tick; none is taken
 
+  input  logic        armed_i,             // changes only after tick_i
+  input  logic        set_zero_i,          // the panel's, one clock
   input  logic [5:0]  slot_fetch_i,
   input  logic        scene_slot_fetch_i,
   input  logic [3:0]  scene_i,             // the bank of the scene in force; not 1
@@ -27,9 +30,13 @@ module registers #(
   output logic        word_error_o,        // the word on the bus a clock ago has changed by itself
 
   output logic [feltgate_map_pkg::W_CONTROL-1:0] control_o,
-  output logic        set_zero_o,          // commands: high in the clock of tick_i
+  output logic        set_zero_o,          // commands: high in the clock of tick_i; also the panel's
   output logic        clear_faults_o,
   output logic        kick_o,
+  output logic        disarm_o,            // written on the port since the end of the last tick
+  output logic        stop_o,              // likewise
+  output logic        restart_o,           // in the clock of tick_i: by this the torque may jump
+  output logic        refused_o,           // the last parameter was refused, for the core was armed
 
   input  logic [5:0]  snap_slot_i,
   input  logic        snap_valid_i,
@@ -41,7 +48,8 @@ module registers #(
 
   // The waiting write: where it goes (none set: nothing waits), and its word.
   logic        to_parameter_q, to_control_q, to_command_q;
-  logic        at_parameter, at_control, at_command;
+  logic        at_parameter, at_control, at_command, disarms, stops, holds;
+  logic        common, refuses, ramps, input_scene, zero_q;
   logic [8:0]  address_q;
   logic [31:0] data_q;
 
@@ -50,6 +58,22 @@ module registers #(
   assign at_command   = reg_addr_i == feltgate_map_pkg::A_COMMAND;
   assign reg_busy_o   = to_parameter_q || to_control_q || to_command_q;
 
+  // What passes a waiting write acts as soon as it is on the port, taken or not.
+  assign disarms = reg_write_i && at_control && reg_wdata_i[feltgate_map_pkg::B_CONTROL_HOST] &&
+                   !reg_wdata_i[feltgate_map_pkg::B_CONTROL_ARM];
+  assign stops   = reg_write_i && at_command && reg_wdata_i[feltgate_map_pkg::B_COMMAND_STOP];
+
+  // While the motor is armed, the control word's fields from HELD on keep what is in force, and a
+  // parameter by which the torque would jump past the ramp is refused.
+  localparam int HELD = feltgate_map_pkg::B_CONTROL_MODE;
+  assign holds   = armed_i && !disarm_o;
+  assign common  = address_q[8:6] == 3'd0;
+  assign refuses = armed_i && common && feltgate_map_pkg::REFUSED_WHILE_ARMED[address_q[5:0]];
+  assign ramps   = common ? feltgate_map_pkg::RAMPS_WHILE_ARMED[address_q[5:0]]
+                          : address_q[8:5] == scene_i && !input_scene;
+  assign input_scene = feltgate_map_pkg::INPUT_SCENES[scene_i];  // it does not ask for the position
+  assign restart_o   = (set_zero_o && !input_scene) || (tick_i && to_parameter_q && ramps);
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       to_parameter_q <= 1'b0;
@@ -57,6 +81,10 @@ module registers #(
       to_command_q   <= 1'b0;
       address_q      <= 9'd0;
       data_q         <= 32'd0;
+      disarm_o       <= 1'b0;
+      stop_o         <= 1'b0;
+      zero_q         <= 1'b0;
+      refused_o      <= 1'b0;
       control_o      <= feltgate_map_pkg::W_CONTROL'(feltgate_pkg::CONTROL_RESET);
     end else begin
       if (reg_write_i && !reg_busy_o) begin
@@ -70,11 +98,24 @@ module registers #(
         to_control_q   <= 1'b0;
         to_command_q   <= 1'b0;
       end
-      if (tick_i && to_control_q) control_o <= data_q[feltgate_map_pkg::W_CONTROL-1:0];
+      disarm_o <= disarms || (disarm_o && !tick_i);
+      zero_q   <= set_zero_i || (zero_q && !tick_i);
+      stop_o   <= stops || (stop_o && !tick_i);
+      if (tick_i && to_parameter_q) refused_o <= refuses;
+      if (tick_i && to_control_q) begin
+        control_o[HELD-1:0] <= data_q[HELD-1:0];
+        if (!holds) begin
+          control_o[feltgate_map_pkg::W_CONTROL-1:HELD] <= data_q[feltgate_map_pkg::W_CONTROL-1:HELD];
+        end
+      end
+      if (tick_i && disarm_o) begin  // also against an arm that waits
+        control_o[feltgate_map_pkg::B_CONTROL_HOST] <= 1'b1;
+        control_o[feltgate_map_pkg::B_CONTROL_ARM]  <= 1'b0;
+      end
     end
   end
 
-  assign set_zero_o     = tick_i && to_command_q && data_q[feltgate_map_pkg::B_COMMAND_SET_ZERO];
+  assign set_zero_o     = tick_i && (zero_q || (to_command_q && data_q[feltgate_map_pkg::B_COMMAND_SET_ZERO]));
   assign clear_faults_o = tick_i && to_command_q && data_q[feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS];
   assign kick_o         = tick_i && to_command_q && data_q[feltgate_map_pkg::B_COMMAND_KICK];
 
@@ -102,7 +143,7 @@ module registers #(
   end
 
   always @(posedge clk_i) begin  // not always_ff: the values of the design are written by another process
-    if (tick_i && to_parameter_q) parameter_ram[address_q] <= {check_of(data_q), data_q};
+    if (tick_i && to_parameter_q && !refuses) parameter_ram[address_q] <= {check_of(data_q), data_q};
   end
 
   logic        high;

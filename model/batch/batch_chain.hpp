@@ -171,6 +171,9 @@ class BatchChain {
     lanes_.travel[static_cast<std::size_t>(lane)] = travel;
   }
 
+  /// Before a tick whose torque may jump: it ramps, in every lane.
+  void restart() { lanes_.ramping.fill(1); }
+
   /// One tick of every lane.
   void tick(bool armed, int scene, Mode mode) {
     if (armed) {

@@ -48,6 +48,7 @@ class BatchRunner : public Runner {
         for (int k = 0; k < Batch::lanes; ++k) chain_->set_word(k, write->address, write->data);
       }
       for (int k = 0; k < Batch::lanes; ++k) chain_->set_counts(k, in.position, in.travel);
+      if (in.restart) chain_->restart();
       chain_->tick(in.armed, in.scene, static_cast<Mode>(in.mode));
       after(*chain_);
     }

@@ -48,6 +48,7 @@ class ShiftChain {
     tau_hat = saturated(observed, 20);
     tau_hat_saturated = tau_hat != observed;
 
+    ramping_ = ramping_ || in.restart;
     limit_and_ramp(in.armed, in.scene, torque(in.scene, in.position));
     control(in.armed, in.mode);
   }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "bench/pin_runner.hpp"
+#include "feltgate/while_armed.hpp"
 #include "plant/plant_file.hpp"
 
 namespace feltgate::bench {
@@ -21,19 +22,17 @@ void sample(Work* work, const std::string& design) {
   const DesignInfo& d = engine->design();
   work->simulated_s = static_cast<double>(work->inputs.clocks) / static_cast<double>(d.clock_hz);
   std::size_t applied = 0;
-  std::uint32_t control = d.control_reset;
+  HostBeside host(d.control_reset);
   engine->reset(1, work->inputs.pins);
   play(*engine, work->inputs, [&](const Snapshot& s) {
     for (; applied < static_cast<std::size_t>(s.writes); ++applied) {
       const HostWrite& w = work->inputs.writes[applied];
-      if (w.address == d.control_address) {
-        control = w.data;
-      } else if (w.address != d.command_address) {
+      if (host.write(w.address, w.data)) {
         work->writes.push_back({work->ticks.size(), w.address, w.data, w.value});
       }
     }
-    const int mode = static_cast<int>((control >> d.control.mode) & 3u);
-    work->ticks.push_back({s.position, s.travel, s.armed, s.scene, mode});
+    const bool restart = host.restart(s.armed, s.scene);
+    work->ticks.push_back({s.position, s.travel, s.armed, s.scene, host.mode(), restart});
   });
 }
 

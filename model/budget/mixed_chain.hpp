@@ -86,6 +86,7 @@ class MixedChain {
   void tick(const ChainIn& in) {
     estimate(in.travel);
     observe(in.armed);
+    if (in.restart) scenes_.ramp().restart();
     scenes_.tick(words<ScenesBlock>(), in.armed, in.scene, scene_position(in.position),
                  input<ScenesBlock, finer(D::f.velocity).key()>(velocity_));
     control_.tick(words<ControlBlock>(), in.armed, static_cast<Mode>(in.mode),

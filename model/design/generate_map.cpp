@@ -60,6 +60,23 @@ std::vector<Clock> words(const RegisterMap& map) {
   return all;
 }
 
+/// Bit n: what a write of the common word n does while the motor is armed.
+std::uint64_t words_that(const RegisterMap& map, const std::string& effect) {
+  std::uint64_t mask = 0;
+  for (const Parameter& p : map.parameters) {
+    if (p.scene.empty() && p.while_armed == effect) mask |= std::uint64_t{1} << p.address;
+  }
+  return mask;
+}
+/// Bit n: the words of scene n act at once.
+unsigned input_scenes(const RegisterMap& map) {
+  unsigned mask = 0;
+  for (const Parameter& p : map.parameters) {
+    if (!p.scene.empty() && p.while_armed == "acts") mask |= 1U << map.scene_number(p.scene);
+  }
+  return mask;
+}
+
 /// What happens in a tick, in the order of its clocks. What is taken from a bus in a clock comes
 /// before what is new after it.
 std::vector<Clock> in_order(const RegisterMap& map, const Schedule& s) {
@@ -139,6 +156,14 @@ std::string map_package(const RegisterMap& map, const Schedule& schedule) {
            "  localparam logic [63:0] SCENE_SLOTS = 64'h{:016x};  // bit n: slot n is read "
            "from the scene's bank\n",
            scene_slots(map));
+  s << fmt::format(
+      "  // While armed: words of all scenes that are refused or ramp, by address; scenes whose "
+      "words "
+      "act at once.\n"
+      "  localparam logic [63:0] REFUSED_WHILE_ARMED = 64'h{:016x};\n"
+      "  localparam logic [63:0] RAMPS_WHILE_ARMED = 64'h{:016x};\n"
+      "  localparam logic [15:0] INPUT_SCENES = 16'h{:04x};\n",
+      words_that(map, "refused"), words_that(map, "ramps"), input_scenes(map));
   for (const Cause& c : map.constants) {
     s << "  localparam int " << upper(c.name) << " = " << c.number << ";  // " << c.doc << "\n";
   }
@@ -187,7 +212,14 @@ std::string map_header(const RegisterMap& map, const Schedule& schedule) {
     << "  static constexpr int multiplier_latency = " << schedule.multiplier_latency
     << ";  ///< clocks from the operands to the product\n"
     << "  /// Bit n: slot n is read from the scene's bank.\n"
-    << fmt::format("  static constexpr std::uint64_t scene_slots = 0x{:x};\n", scene_slots(map));
+    << fmt::format("  static constexpr std::uint64_t scene_slots = 0x{:x};\n", scene_slots(map))
+    << "  /// While armed: words of all scenes that are refused or ramp, by address; scenes whose\n"
+       "  /// words act at once.\n"
+    << fmt::format(
+           "  static constexpr std::uint64_t refused_while_armed = 0x{:x};\n"
+           "  static constexpr std::uint64_t ramps_while_armed = 0x{:x};\n"
+           "  static constexpr unsigned input_scenes = 0x{:x};\n",
+           words_that(map, "refused"), words_that(map, "ramps"), input_scenes(map));
   for (const Cause& c : map.constants) {
     s << "  static constexpr int " << c.name << " = " << c.number << ";  ///< " << c.doc << "\n";
   }

@@ -34,14 +34,16 @@ std::string register_page(const Elaborated& e) {
     << "printed by `feltgate design NAME`. A write takes effect at the end of the running tick.\n\n"
     << "## Parameters\n\nRead and written by the host. Slot: the clock of the wave in which the "
        "word "
-       "is on the\nparameter bus.\n\n"
-    << "| address | name | scene | slot | format | unit | value | meaning |\n"
-    << "|---|---|---|---|---|---|---|---|\n";
+       "is on the\nparameter bus. Armed: what a write does [while the motor is armed]"
+       "(blocks/ramp.md#what-could-jump); a word\nof a scene ramps while that scene is in use.\n\n"
+    << "| address | name | scene | slot | format | unit | value | armed | meaning |\n"
+    << "|---|---|---|---|---|---|---|---|---|\n";
   for (const Word& w : e.words) {
     s << "| " << hex(w.parameter.address) << " | `" << w.parameter.name << "` | "
       << (w.parameter.scene.empty() ? "all" : w.parameter.scene) << " | " << w.parameter.slot
       << " | " << format_text(w.format) << " | " << w.parameter.unit << " | "
-      << fmt::format("{:.7g}", w.si) << " | " << w.parameter.doc << " |\n";
+      << fmt::format("{:.7g}", w.si) << " | " << w.parameter.while_armed << " | " << w.parameter.doc
+      << " |\n";
   }
   s << "\n## Control\n\n| address | name | bits | meaning |\n|---|---|---|---|\n";
   for (const Control& c : e.registers.controls) {

@@ -70,6 +70,15 @@ Parameter read_parameter(config::TomlReader r, const RegisterMap& map, std::set<
   p.kind = kinds[r.choice("kind", kinds)];
   if (p.kind == "signal") p.signal = r.text("format");
   if (r.has("same_format_as")) p.same_format_as = r.text("same_format_as");
+  p.while_armed = p.scene.empty() ? "refused" : "ramps";
+  if (r.has("while_armed")) {
+    static const std::vector<std::string> effects{"acts", "ramps", "refused"};
+    p.while_armed = effects[r.choice("while_armed", effects)];
+  }
+  if (!p.scene.empty() && p.while_armed == "refused") {
+    r.fail("while_armed", "the port refuses words that all scenes share, and no others",
+           "let it ramp");
+  }
   if (r.has("headroom_bits")) p.headroom_bits = small(r, "headroom_bits", 8);
   p.unit = plain_text(r, "unit");
   p.doc = r.text("doc");
@@ -87,6 +96,19 @@ Parameter read_parameter(config::TomlReader r, const RegisterMap& map, std::set<
   }
   r.finish();
   return p;
+}
+
+/// A scene whose words act at once is an input: all of them do.
+void check_inputs(const RegisterMap& map) {
+  for (const Parameter& p : map.parameters) {
+    for (const Parameter& other : map.parameters) {
+      if (p.scene.empty() || p.scene != other.scene || p.while_armed == other.while_armed) continue;
+      throw config::ConfigError(
+          fmt::format("{}: {} and {} are words of one scene and differ in while_armed; write the "
+                      "same for both",
+                      p.place, p.name, other.name));
+    }
+  }
 }
 
 std::vector<Field> read_fields(config::TomlReader& r) {
@@ -169,6 +191,7 @@ RegisterMap read_registers(const std::string& path) {
   for (config::TomlReader& r : top.sections("parameter")) {
     map.parameters.push_back(read_parameter(r, map, used));
   }
+  check_inputs(map);
   for (config::TomlReader& r : top.sections("control")) map.controls.push_back(read_control(r));
   for (config::TomlReader& r : top.sections("snapshot")) {
     map.snapshots.push_back(read_snapshot(r, map));

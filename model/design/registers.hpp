@@ -26,6 +26,7 @@ struct Parameter {
   std::string signal;          ///< format of a word of kind signal
   std::string same_format_as;  ///< takes the format of another coefficient
   int headroom_bits = 0;       ///< doublings above the design's value that a coefficient can take
+  std::string while_armed;  ///< what a write does while the motor is armed: refused, ramps or acts
   std::string unit;
   std::string doc;
   int address = 0;    ///< slot, or slot within the scene's bank of 32

@@ -17,6 +17,7 @@
 #include "explore/measurement.hpp"
 #include "explore/stimulus.hpp"
 #include "feltgate/feltgate_core.hpp"
+#include "feltgate/while_armed.hpp"
 #include "reference/control_chain.hpp"
 
 namespace feltgate::explore {
@@ -50,12 +51,15 @@ class LockStepRun {
     }
     // Where the design does not feed tau_hat back its path would go unseen.
     const Motion& last = motions().back();
+    control(0, Mode::closed_loop, false);  // what follows is not let through while armed
     write(D::A::observer_gain, fixed_of<D::P::observer_gain.key()>::max_raw() / 3);
     control(D::scene_number("spring_tension"), Mode::closed_loop, true);
     play(last, window / 2);
+    control(0, Mode::open_loop, false);
     control(0, Mode::open_loop, true);
     play(last, window / 8);
     write(D::A::voltage_setpoint, std::int64_t{3} << D::f.voltage.fraction);
+    control(0, Mode::voltage, false);
     control(0, Mode::voltage, true);
     play(last, window / 8);
     control(0, Mode::closed_loop, false);
@@ -83,10 +87,8 @@ class LockStepRun {
   }
   /// The write that the core has carried out, for the chain.
   void carry_out() {
-    if (pending_.address < 512) {
+    if (host_.write(pending_.address, pending_.word)) {
       chain_.words().set_raw(pending_.address, pending_.word);
-    } else {
-      mode_ = static_cast<int>((pending_.word >> D::C::control_mode) & 3u);
     }
   }
   void control(int scene, Mode mode, bool arm) {
@@ -129,7 +131,9 @@ class LockStepRun {
     m_->clocks_armed += core_.twin().out().armed ? 1 : 0;
   }
   void compare_chain(const CoreOut& twin) {
-    chain_.tick({twin.position, core_.twin().sampled_travel(), twin.armed, twin.scene, mode_});
+    const bool restart = host_.restart(twin.armed, twin.scene);
+    chain_.tick({twin.position, core_.twin().sampled_travel(), twin.armed, twin.scene, host_.mode(),
+                 restart});
     const bool same =
         chain_.velocity().raw() == twin.velocity && chain_.tau_hat().raw() == twin.tau_hat &&
         chain_.tau_ref().raw() == twin.tau_ref &&
@@ -152,7 +156,7 @@ class LockStepRun {
   ControlChain<D, Fixed> chain_;
   CoreIn in_;
   Write pending_;
-  int mode_ = 0;
+  HostBeside host_{static_cast<std::uint32_t>(D::control_reset)};
   std::int64_t count_ = 0;
   int since_step_ = 0;
 };

@@ -15,13 +15,15 @@ namespace feltgate {
 
 Ensemble::Ensemble(const std::string& design, const EngineChoice& choice, std::uint64_t seed,
                    EncoderPins pins, const Waveform& waveform)
-    : choice_(choice), lead_(make_engine(design, choice.lead)), design_(&lead_->design()) {
+    : choice_(choice),
+      lead_(make_engine(design, choice.lead)),
+      design_(&lead_->design()),
+      host_(design_->control_reset) {
   const auto last_bit = [](Format f) { return std::ldexp(1.0, -f.fraction); };
   unit_ = {last_bit(design_->velocity), last_bit(design_->torque), last_bit(design_->current),
            last_bit(design_->voltage)};
   if (!waveform.path.empty()) lead_->trace(waveform.path, waveform.from, waveform.to);
   lead_->reset(seed, pins);
-  applied_control_ = lead_->design().control_reset;
   for (const std::string& kind : choice.riders) {
     Rider r;
     r.chain = make_real_chain(design, kind);
@@ -67,17 +69,14 @@ void Ensemble::ride(const Snapshot& s) {
   for (; writes_applied_ < s.writes && !pending_.empty(); ++writes_applied_) {
     const HostWrite w = pending_.front();
     pending_.pop_front();
-    if (w.address == design().control_address) {
-      applied_control_ = w.data;
-    } else if (w.address != design().command_address) {
-      for (Rider& r : riders_) r.chain->set_parameter(w.address, w.value);
-      if (passenger_ != nullptr) passenger_->set_parameter(w.address, w.value);
-    }
+    if (!host_.write(w.address, w.data)) continue;
+    for (Rider& r : riders_) r.chain->set_parameter(w.address, w.value);
+    if (passenger_ != nullptr) passenger_->set_parameter(w.address, w.value);
   }
   lead_figures_.saturations += (s.limits & ~(limit::ramp | limit::gates_closed)) != 0 ? 1 : 0;
+  const bool restart = host_.restart(s.armed, s.scene);
   if (riders_.empty() && passenger_ == nullptr) return;
-  const int mode = static_cast<int>((applied_control_ >> design().control.mode) & 3u);
-  const ChainIn in{s.position, s.travel, s.armed, s.scene, mode};
+  const ChainIn in{s.position, s.travel, s.armed, s.scene, host_.mode(), restart};
   watch_velocity(s.travel);
   if (passenger_ != nullptr) passenger_->tick(in);
   for (Rider& r : riders_) {

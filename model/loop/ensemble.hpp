@@ -13,6 +13,7 @@
 
 #include "bounds/coverage.hpp"
 #include "engines/sampled_watch.hpp"
+#include "feltgate/while_armed.hpp"
 #include "loop/loop.hpp"
 
 namespace feltgate {
@@ -128,7 +129,7 @@ class Ensemble {
   int largest_counts_ = 0;
   std::deque<HostWrite> pending_;
   std::vector<HostWrite>* log_ = nullptr;
-  std::uint32_t applied_control_ = 0;
+  HostBeside host_;
   std::int64_t writes_applied_ = 0;
   EngineFigures lead_figures_;
   SampledWatch lead_watch_;

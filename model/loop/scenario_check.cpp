@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "config/toml_reader.hpp"
+#include "feltgate/while_armed.hpp"
 
 namespace feltgate {
 
@@ -35,6 +36,29 @@ void check_parameter(const std::string& place, const std::string& name, double v
   }
 }
 
+/// What the core would drop without a word: the torque could jump by it.
+void check_held(const Scenario& s, const DesignInfo& design) {
+  bool armed = false, asked = false;
+  int mode = s.mode;
+  for (const Event& e : s.events) {
+    if (!asked && e.at_s >= s.arm_s) armed = asked = true;
+    const bool disarms = e.arm && !*e.arm;
+    std::string what;
+    for (const auto& [name, value] : e.set) {
+      if (while_armed(design.find(name)->address, 0) == WhileArmed::refused) what = name;
+    }
+    if (e.mode && *e.mode != mode && !disarms) what = "mode";
+    if (armed && !what.empty()) {
+      throw config::ConfigError(fmt::format(
+          "{}{} cannot change while the motor is armed; write arm = false into an event "
+          "before this one and arm = true into one after it, or set it from the start",
+          e.line == 0 ? "" : fmt::format("{}:{}: ", s.path, e.line), what));
+    }
+    if (e.arm) armed = *e.arm;
+    mode = e.mode.value_or(mode);
+  }
+}
+
 }  // namespace
 
 int scene_number(const DesignInfo& design, const std::string& name) {
@@ -56,6 +80,7 @@ void check_scenario(const Scenario& s, const plant::Parameters& plant, const Des
       check_parameter(e.line == 0 ? "" : fmt::format("{}:{}", s.path, e.line), name, value, design);
     }
   }
+  check_held(s, design);
   check_step(s, plant, static_cast<double>(design.clock_hz));
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engines/engine.hpp"
+#include "feltgate/while_armed.hpp"
 #include "python/bindings.hpp"
 #include "python/design_names.hpp"
 #include "traces/phase.hpp"
@@ -23,9 +24,11 @@ class PyTwin {
     engine_->keep_gate_times(false);
     count_ = 0;
     panel_ = {};
+    asked_ = false;
   }
   void set(const std::string& name, double value) {
     const ParameterInfo& info = parameter_of(design(), name);
+    if (asked_ && while_armed(info.address, 0) == WhileArmed::refused) refuse(name);
     engine_->write(info.address, static_cast<std::uint32_t>(quantise_parameter(info, value)));
   }
   /// The host's control word: what is rendered, and whether.
@@ -33,6 +36,9 @@ class PyTwin {
     const ControlBits& bits = design().control;
     const auto number = static_cast<std::uint32_t>(scene_of(design(), scene));
     const auto mode_bits = static_cast<std::uint32_t>(mode_of(mode));
+    if (asked_ && arm && mode_bits != mode_) refuse("the mode");
+    asked_ = arm;
+    mode_ = mode_bits;
     engine_->write(design().control_address, design().control_reset | 1u << bits.host |
                                                  (arm ? 1u << bits.arm : 0u) |
                                                  number << bits.scene | mode_bits << bits.mode);
@@ -69,6 +75,11 @@ class PyTwin {
   }
 
  private:
+  [[noreturn]] static void refuse(const std::string& what) {
+    throw std::runtime_error(what +
+                             " cannot change while armed: the torque could jump; disarm() first");
+  }
+
   struct Columns {
     std::vector<double> velocity, tau_hat, tau_ref, torque, current, voltage, duty;
     std::vector<std::int64_t> position;
@@ -142,6 +153,8 @@ class PyTwin {
   }
 
   std::unique_ptr<Engine> engine_;
+  bool asked_ = false;  ///< to be armed
+  std::uint32_t mode_ = 0;
   Panel panel_;
   std::int64_t count_ = 0;
   std::vector<EncoderEvent> edges_;

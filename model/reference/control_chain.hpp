@@ -21,6 +21,7 @@ class ControlChain : public ChainTick<D, N> {
   }
 
   void tick(const ChainIn& in) {
+    if (in.restart) this->restart();
     ChainTick<D, N>::tick(in.position, in.travel, in.armed, in.scene, static_cast<Mode>(in.mode));
   }
 };

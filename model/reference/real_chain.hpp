@@ -19,6 +19,7 @@ struct ChainIn {
   bool armed = false;
   int scene = 0;
   int mode = 0;
+  bool restart = false;  ///< the torque may jump: it ramps
 };
 
 struct ChainOut {

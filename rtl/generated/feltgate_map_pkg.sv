@@ -12,6 +12,10 @@ package feltgate_map_pkg;
   localparam int FIRST_WAVE_CLOCK = 2;  // clock of the tick that is wave clock 0
   localparam int MULTIPLIER_LATENCY = 4;  // clocks from the operands to the product
   localparam logic [63:0] SCENE_SLOTS = 64'h000000000000044e;  // bit n: slot n is read from the scene's bank
+  // While armed: words of all scenes that are refused or ramp, by address; scenes whose words act at once.
+  localparam logic [63:0] REFUSED_WHILE_ARMED = 64'h0004218e78c083b0;
+  localparam logic [63:0] RAMPS_WHILE_ARMED = 64'h0000000001000000;
+  localparam logic [15:0] INPUT_SCENES = 16'h0004;
   localparam int ERRORS_BORNE = 7;  // encoder errors that are borne, less one every 2^forgive_bits ticks
   localparam int FORGIVE_BITS = 10;  // bits of the ticks after which one encoder error is forgiven
   localparam int RUNAWAY_BITS = 16;  // bits of the longest window of the wrong-polarity check [tick]
@@ -237,12 +241,13 @@ package feltgate_map_pkg;
   localparam int B_CONTROL_FILTER = 11;
   localparam int W_CONTROL_FILTER = 4;
   localparam logic [11:0] A_COMMAND = 12'h201;
-  localparam int W_COMMAND = 5;
+  localparam int W_COMMAND = 6;
   localparam int B_COMMAND_SET_ZERO = 0;
   localparam int B_COMMAND_CLEAR_FAULTS = 1;
   localparam int B_COMMAND_KICK = 2;
   localparam int B_COMMAND_FREEZE = 3;
   localparam int B_COMMAND_THAW = 4;
+  localparam int B_COMMAND_STOP = 5;
   localparam int B_STATUS_LIMITS = 0;
   localparam int W_STATUS_LIMITS = 12;
   localparam int B_STATUS_SCENE = 20;
@@ -251,6 +256,7 @@ package feltgate_map_pkg;
   localparam int B_STATUS_MODE = 25;
   localparam int W_STATUS_MODE = 2;
   localparam int B_STATUS_ENCODER_ERROR = 27;
+  localparam int B_STATUS_REFUSED = 28;
   localparam int B_FAULTS_SEEN = 0;
   localparam int W_FAULTS_SEEN = 16;
   localparam int B_FAULTS_FIRST = 16;
@@ -258,7 +264,7 @@ package feltgate_map_pkg;
 
   // Bits of the limits.
   localparam int L_TORQUE = 0;  // torque reference at its limit
-  localparam int L_RAMP = 1;  // ramping after arming or a change of scene
+  localparam int L_RAMP = 1;  // ramping: after arming, a change of scene, or what could have made the torque jump
   localparam int L_CURRENT = 2;  // current reference at its limit
   localparam int L_VOLTAGE = 3;  // voltage at its limit
   localparam int L_DUTY = 4;  // duty at its limit

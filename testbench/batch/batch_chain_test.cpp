@@ -48,12 +48,14 @@ void compare(std::uint64_t seed, long ticks) {
     }
     // The life of lane 0 arms and changes the scene for all.
     const ChainIn common = lives[0].in();
+    if (common.restart) batch->restart();
     batch->tick(common.armed, common.scene, static_cast<Mode>(common.mode));
     for (std::size_t k = 0; k < Lanes; ++k) {
       ChainIn in = lives[k].in();
       in.armed = common.armed;
       in.scene = common.scene;
       in.mode = common.mode;
+      in.restart = common.restart;
       const ChainResults x = laws[k]->tick(in), y = results_of_lane(batch->results(), k);
       for (std::size_t s = 0; s < chain_results; ++s) {
         seen.seen[s] += x[s] != 0 ? 1 : 0;

@@ -53,6 +53,7 @@ class ChainLife {
     if (++tick_ % 30'000 > 28'800) move(1);
     if (random_.one_in(5'000)) in_.armed = !random_.one_in(4);
     if (random_.one_in(4'000)) in_.scene = static_cast<int>(random_.below(11));
+    in_.restart = random_.one_in(3'000);
     if (random_.one_in(9'000)) in_.mode = static_cast<int>(random_.below(3));
     if (random_.one_in(6'000))
       in_.position = static_cast<std::int32_t>(random_.between(-2000, 2000));

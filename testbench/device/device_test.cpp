@@ -88,6 +88,29 @@ TEST_CASE("every clock of a device is the core's") {
   check_against_the_core<Paper>();
 }
 
+TEST_CASE("what an armed core drops is refused or waits, and arming for it") {
+  TwinDevice<Lever> d;
+  const auto at = [&](int ticks) {
+    for (int k = 0; k < ticks; ++k) d.tick({});
+  };
+  set_up(d);  // asks to be armed while three writes wait
+  at(6);
+  REQUIRE(d.armed());
+  REQUIRE(d.pending() == 0);
+  const std::string told = refusal([&] { d.set("current_limit", 1.0); });
+  INFO(told);
+  CHECK(has(told, "current_limit cannot change while armed"));
+  CHECK(has(refusal([&] { d.set_control(Control::closed_loop); }), "disarm() first"));
+  CHECK(refusal([&] { d.set("torque_limit", 0.1); }) == "done");
+  at(2);
+  d.disarm();
+  CHECK(refusal([&] { d.set("current_limit", 1.0); }) == "done");
+  d.arm();  // within one tick: after the write
+  at(8);
+  CHECK(d.armed());
+  CHECK(d.pending() == 0);
+}
+
 TEST_CASE("a tick at a time is clock by clock") {
   TwinDevice<Lever> ticks, clocks;
   set_up(ticks);

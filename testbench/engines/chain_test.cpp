@@ -14,6 +14,7 @@
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"
+#include "feltgate/while_armed.hpp"
 #include "mismatch.hpp"
 #include "reference/real_chain.hpp"
 
@@ -44,19 +45,29 @@ template <class D>
 class Beside {
  public:
   explicit Beside(std::uint64_t seed)
-      : stimulus_(seed), chain_(make_real_chain(D::name, "fixed")), control_(D::control_reset) {}
+      : stimulus_(seed), chain_(make_real_chain(D::name, "fixed")), host_(D::control_reset) {}
 
   void run(std::int64_t clocks, Seen& seen) {
     for (std::int64_t k = 0; k < clocks; ++k) {
       const CoreIn in = stimulus_(k);
       if (in.reg_write && !core_.out().reg_busy) waiting_ = {in.reg_addr, in.reg_wdata};
       const std::int64_t before = core_.writes();
+      const bool zero = zero_, disarmed = disarmed_;
+      zero_ = zero_ || in.set_zero;
+      disarmed_ =
+          disarmed_ || (in.reg_write && in.reg_addr == D::C::control && disarms(in.reg_wdata));
       core_.clock(in);
       if (core_.out().snapshot_valid) tick(seen);
       if (core_.writes() != before) {
         ++seen.writes;
-        apply(waiting_);
+        if (host_.write(waiting_.address, waiting_.word, disarmed)) {
+          chain_->set_word(waiting_.address, waiting_.word);
+        }
       }
+      if (core_.clock_of_tick() != 0) continue;
+      if (zero) host_.zero();
+      zero_ = in.set_zero;
+      disarmed_ = in.reg_write && in.reg_addr == D::C::control && disarms(in.reg_wdata);
     }
   }
 
@@ -66,11 +77,6 @@ class Beside {
     std::uint32_t word = 0;
   };
 
-  void apply(Write w) {
-    if (w.address < 512) chain_->set_word(w.address, w.word);
-    if (w.address == D::C::control) control_ = w.word;
-  }
-
   void tick(Seen& seen) {
     const CoreOut& o = core_.out();
     ChainIn in;
@@ -78,7 +84,8 @@ class Beside {
     in.travel = core_.sampled_travel();
     in.armed = o.armed;
     in.scene = o.scene;
-    in.mode = static_cast<int>((control_ >> D::C::control_mode) & 3u);
+    in.mode = host_.mode();
+    in.restart = host_.restart(o.armed, o.scene);
     chain_->tick(in);
     seen.add(o, in.mode);
     const ChainRaw& r = *chain_->raw();
@@ -101,7 +108,8 @@ class Beside {
   FeltgateCore<D> core_;
   std::unique_ptr<RealChain> chain_;
   Write waiting_;
-  std::uint32_t control_;
+  HostBeside host_;
+  bool zero_ = false, disarmed_ = false;  ///< asked for since the end of the last tick
 };
 
 template <class D>

@@ -85,6 +85,8 @@ class CoreStimulus {
     if (how < 3) raw = random_.between(raw / 2, raw < high / 2 ? raw + raw / 2 : high);
     if (how == 3)
       raw = static_cast<std::int64_t>(random_.bits() & static_cast<std::uint64_t>(high));
+    // A lever that may run away, so that the observer comes to its ends.
+    if (p.address == D::A::overspeed && how < 6) raw = high;
     if (raw > high) raw = high;
     // Limits and times are magnitudes; a set-point and an offset may be negative.
     const bool may_be_negative =

@@ -94,6 +94,22 @@ TEST_CASE("events that never come", "[bad_scene]") {
   expect(told("duration_s = 1e300\n"), "1: ", "");
 }
 
+TEST_CASE("events that an armed core drops", "[bad_scene]") {
+  const auto event = [](const std::string& at, const std::string& what) {
+    return "[[event]]\nat_s = " + at + "\n" + what + "\n";
+  };
+  const std::string limit = "set = {current_limit = 1.0}", mode = "mode = \"open_loop\"";
+  const std::string mend = "write arm = false into an event before this one";
+  expect(told(kHead + event("0.01", limit)),
+         "7: current_limit cannot change while the motor is armed", mend);
+  expect(told(kHead + event("0.01", mode)), "7: mode cannot change while the motor is armed", mend);
+  CHECK(told(kHead + event("0.01", "mode = \"closed_loop\"")) == "");
+  CHECK(told(kHead + event("0.01", "set = {torque_limit = 0.2}")) == "");
+  CHECK(told(kHead + "arm_s = 0.015\n" + event("0.01", limit)) == "");
+  CHECK(told(kHead + event("0.009", "arm = false") + event("0.01", limit + "\n" + mode) +
+             event("0.011", "arm = true")) == "");
+}
+
 TEST_CASE("bounds that nothing keeps", "[bad_scene]") {
   expect(told(kHead + "[[expect]]\nfigure = \"faults\"\nlow = 3\nhigh = 2\n"),
          "8: no value is above low and below high", "exchange them");

@@ -24,6 +24,7 @@ constexpr int kFine = Design::f.ramp.fraction - Design::f.torque.fraction;
 struct Wave {
   bool armed = true;
   int scene = 0;
+  bool restart = false;                              ///< the torque may jump with it
   std::int64_t rendered = 0;                         ///< torque of the scene
   std::int64_t limit = Torque::max_raw(), step = 0;  ///< words
 };
@@ -32,6 +33,7 @@ using Twin = Watched<Ramp<Design>, Wave>;
 struct Adapter {
   static void drive(Vramp& rtl, const Twin::In& in) {
     rtl.armed_i = in.port.armed;
+    rtl.restart_i = in.port.restart;
     rtl.scene_i = static_cast<std::uint8_t>(in.port.scene);
     rtl.wave_i = in.port.wave;
     rtl.param_i = in.port.param;
@@ -55,20 +57,25 @@ inline bool at(const Twin::In& in, int t) { return ((in.port.wave >> t) & 1u) !=
 template <class Next>
 struct Waves {
   Waves(std::uint64_t seed, Next n, std::uint32_t more_clocks)
-      : next(n), limiter(seed), garbage(seed + 1), spread(more_clocks) {}
+      : next(n), limiter(seed), garbage(seed + 1), spread(more_clocks) {
+    following = next(wave++);
+  }
 
   Twin::In operator()(std::int64_t, const Twin::Out& out) {
     if (out.resets != resets) {
       resets = out.resets;
       clock = 0;
       wave = 0;
+      following = next(wave++);
     }
     if (clock == 0) {
-      in.aside = next(wave++);
+      in.aside = following;
       in.port.armed = in.aside.armed;
       in.port.scene = in.aside.scene;
       period = kShortest + static_cast<int>(garbage.below(spread));
+      following = next(wave++);
     }
+    in.port.restart = clock + 1 == period && following.restart;
     const bool limits = clock == Map::W::torque_limit;
     std::int64_t word = static_cast<std::int64_t>(garbage.bits() & 0xffffffff);
     if (limits) word = in.aside.limit;
@@ -91,6 +98,7 @@ struct Waves {
   Random garbage;
   std::uint32_t spread;
   Twin::In in;
+  Wave following{};  ///< the wave to come: what it restarts is told at the end of this one
   std::int64_t resets = 0, wave = 0;
   int clock = 0, period = kShortest;
 };
@@ -98,7 +106,7 @@ struct Waves {
 /// By direction or sign where it has one: [0] down, [1] up.
 struct Tally {
   std::int64_t waves = 0, disarmed = 0, free = 0, limited[2] = {}, ramping[2] = {}, ended[2] = {},
-               scene_changes = 0, held = 0, negative_step = 0, negative_limit = 0;
+               scene_changes = 0, restarts = 0, held = 0, negative_step = 0, negative_limit = 0;
 };
 
 /// The chain gives the same; and what limit and ramp promise.
@@ -118,6 +126,7 @@ struct ChainBeside {
     const Wave& w = in.aside;
     const std::int64_t limit = decode_word(Design::f.limiter, static_cast<std::uint32_t>(w.limit));
     const std::int64_t step = decode_word(Step::format, static_cast<std::uint32_t>(w.step));
+    if (w.restart) chain.restart();
     chain.begin(w.armed, w.scene);
     chain.limit(Rendered::from_raw(w.rendered), Fixed::from_raw<Law::kLimitKey>(limit));
     chain.move(Fixed::from_raw<Step::format.key()>(step));
@@ -146,6 +155,7 @@ struct ChainBeside {
     tally->disarmed += !w.armed;
     tally->free += w.armed && !ramped;
     tally->scene_changes += w.armed && w.scene != scene && !was_ramping;
+    tally->restarts += w.armed && w.restart && w.scene == scene && !was_ramping;
     if (w.armed && chain.limit_torque()) ++tally->limited[w.rendered > 0];
     if (ramped && tau != before) ++tally->ramping[tau > before];
     if (w.armed && was_ramping && !ramped && tau != before) ++tally->ended[tau > before];

@@ -31,6 +31,7 @@ struct RandomWaves {
   }
   Wave operator()(std::int64_t) {
     if (random.one_in(30)) wave.scene = static_cast<int>(random.below(16));
+    wave.restart = random.one_in(30);
     if (random.one_in(30)) wave.armed = !random.one_in(4);
     if (random.one_in(20)) {
       wave.limit = any_word(random.below(80000));
@@ -91,8 +92,9 @@ TEST_CASE("ramp: random torques, limits, steps, arming, scenes and resets") {
   INFO("waves " << t.waves << ", disarmed " << t.disarmed << ", free " << t.free << ", limited "
                 << t.limited[0] << " " << t.limited[1] << ", ramping " << t.ramping[0] << " "
                 << t.ramping[1] << ", ended " << t.ended[0] << " " << t.ended[1] << ", held "
-                << t.held << ", scene changes " << t.scene_changes << ", negative step "
-                << t.negative_step << ", negative limit " << t.negative_limit);
+                << t.held << ", scene changes " << t.scene_changes << ", restarts " << t.restarts
+                << ", negative step " << t.negative_step << ", negative limit "
+                << t.negative_limit);
   REQUIRE(t.waves > 40000);
   REQUIRE(t.disarmed * 10 > t.waves);
   REQUIRE(t.free * 10 > t.waves);
@@ -103,6 +105,7 @@ TEST_CASE("ramp: random torques, limits, steps, arming, scenes and resets") {
   }
   REQUIRE(t.held * 100 > t.waves);
   REQUIRE(t.scene_changes > 300);
+  REQUIRE(t.restarts > 300);
   REQUIRE(t.negative_step > 300);
   REQUIRE(t.negative_limit > 300);
 }
@@ -153,6 +156,24 @@ TEST_CASE("ramp: a change of scene ramps from where the torque is, also on the w
   REQUIRE(seen[601].tau == seen[599].tau + 200);
 }
 
+TEST_CASE("ramp: a restart ramps from where the torque is, in the wave that follows it") {
+  const auto seen = play(
+      [](std::int64_t k) {
+        Wave w = wave(k < 400 ? 30000 : k < 450 ? -30000 : 10000, 100 * kWhole);
+        w.restart = k == 400 || k == 430;
+        return w;
+      },
+      900);
+  REQUIRE(seen[399].tau == 30000);
+  for (std::size_t n = 400; n < 450; ++n) {
+    REQUIRE(seen[n].tau == 30000 - 100 * static_cast<std::int64_t>(n - 399));
+    REQUIRE(seen[n].ramp);
+  }
+  REQUIRE(seen[450].tau == 24900);
+  REQUIRE(seen[700].tau == 10000);
+  REQUIRE_FALSE(seen[700].ramp);
+}
+
 TEST_CASE("ramp: disarming takes the torque away at once") {
   const auto seen = play([](std::int64_t k) { return wave(20000, 5000 * kWhole, k < 50); }, 60);
   REQUIRE(seen[49].tau == 20000);
@@ -178,6 +199,7 @@ TEST_CASE("ramp: within one LSB of quad precision, which is the floor") {
     const auto limit = Fixed::from_raw<Law::kLimitKey>(random.random.below(80000));
     const auto step = Fixed::from_raw<Step::format.key()>(w.step & 0xffffff);
     const auto rendered = Rendered::from_raw(w.rendered);
+    if (w.restart) fixed.restart(), real.restart();
     fixed.begin(w.armed, w.scene);
     real.begin(w.armed, w.scene);
     fixed.limit(rendered, limit);

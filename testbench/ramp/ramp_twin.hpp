@@ -21,6 +21,7 @@ class Ramp {
   struct In {
     bool armed = false;
     int scene = 0;
+    bool restart = false;  ///< in the last clock of a tick
     std::uint64_t wave = 0;
     std::uint32_t param = 0;
     std::int64_t limited = 0;
@@ -50,6 +51,7 @@ class Ramp {
       out_.tau_ref = law_.tau_ref().raw();
       out_.limit_ramp = law_.limit_ramp();
     }
+    if (in.restart) law_.restart();
   }
 
   const Out& out() const { return out_; }

@@ -24,6 +24,8 @@ struct RegistersAdapter {
     rtl.reg_addr_i = in.reg_addr;
     rtl.reg_wdata_i = in.reg_wdata;
     rtl.reg_write_i = in.reg_write;
+    rtl.armed_i = in.armed;
+    rtl.set_zero_i = in.set_zero;
     rtl.slot_fetch_i = in.slot_fetch;
     rtl.scene_slot_fetch_i = in.scene_slot_fetch;
     rtl.scene_i = in.scene;
@@ -42,6 +44,10 @@ struct RegistersAdapter {
     check("set_zero", rtl.set_zero_o, out.set_zero);
     check("clear_faults", rtl.clear_faults_o, out.clear_faults);
     check("kick", rtl.kick_o, out.kick);
+    check("disarm", rtl.disarm_o, out.disarm);
+    check("stop", rtl.stop_o, out.stop);
+    check("restart", rtl.restart_o, out.restart);
+    check("refused", rtl.refused_o, out.refused);
   }
 };
 using RegistersBench = LockStep<Vregisters, Twin, RegistersAdapter>;
@@ -69,7 +75,7 @@ inline Twin::In inputs_of(const Clock::Out& now) {
 class Script {
  public:
   std::uint8_t scene = 0;
-  bool region_high = false;
+  bool region_high = false, armed = false, set_zero = false;
   std::uint16_t address = 0;
 
   Script() { twin_.reset(); }
@@ -84,6 +90,8 @@ class Script {
     Twin::In in = inputs_of(clock_.out());
     in.scene = scene;
     in.region_high = region_high;
+    in.armed = armed;
+    in.set_zero = set_zero;
     in.reg_addr = address;
     in.reg_write = write;
     in.reg_wdata = data;
@@ -104,6 +112,13 @@ class Script {
     address = at;
     clock(true, data);
     return *this;
+  }
+  /// Holds a write until it is taken; returns the clocks for which it waited.
+  int hold(std::uint16_t at, std::uint32_t data) {
+    int waited = 0;
+    for (address = at; out().reg_busy; ++waited) clock(true, data);
+    clock(true, data);
+    return waited;
   }
   std::uint32_t read(std::uint16_t at) {
     address = at;
@@ -137,13 +152,22 @@ class RandomHost {
     if (in.tick) {
       in_force_.scene = static_cast<std::uint8_t>(random_.below(16));
       in_force_.region_high = random_.coin();
+      if (random_.one_in(5)) in_force_.armed = random_.coin();
     }
+    in.armed = in_force_.armed;
+    in.set_zero = random_.one_in(300);
     in.scene = in_force_.scene;
     in.region_high = in_force_.region_high;
-    if (random_.one_in(4)) in_force_.reg_addr = any_address();
+    // Some writes are held for a while, others are gone in the clock after.
+    if (!in_force_.reg_write || random_.one_in(in.tick ? 2 : 60)) {
+      if (random_.one_in(4)) in_force_.reg_addr = any_address();
+      in_force_.reg_write = random_.one_in(20);
+      in_force_.reg_wdata = static_cast<std::uint32_t>(random_.bits());
+    }
     in.reg_addr = in_force_.reg_addr;
-    in.reg_write = random_.one_in(20);
-    in.reg_wdata = static_cast<std::uint32_t>(random_.bits());
+    in.reg_write = in_force_.reg_write;
+    in.reg_wdata = in_force_.reg_wdata;
+    if (random_.coin()) in_force_.reg_write = false;
     in.snap_data = static_cast<std::uint32_t>(random_.bits());
     return in;
   }

@@ -13,7 +13,7 @@ using feltgate::Lever;
 
 namespace {
 
-constexpr int kCommandBits = 5;
+constexpr int kCommandBits = 6;
 constexpr std::uint16_t kControl = Lever::C::control;
 constexpr std::uint16_t kCommand = Lever::C::command;
 constexpr int kLast = Lever::clocks_per_tick - 1;
@@ -70,7 +70,7 @@ TEST_CASE("registers: a write takes effect at the end of the tick, whenever it i
   host.play();
 }
 
-TEST_CASE("registers: a write while another one waits is ignored") {
+TEST_CASE("registers: a write is taken when none waits; one that is not taken leaves no trace") {
   Script host;
   for (int c = 3; c < kLast - 2; c += 5) {
     host.until(c);
@@ -87,6 +87,169 @@ TEST_CASE("registers: a write while another one waits is ignored") {
     host.write(static_cast<std::uint16_t>(address), 0xffffffffU);
     REQUIRE_FALSE(host.out().reg_busy);
   }
+  host.play();
+}
+
+TEST_CASE("registers: held writes are taken one per tick, each once, in their order") {
+  Script host;
+  Random random(3);
+  host.until(0);
+  std::uint32_t tick = host.tick();
+  for (std::uint32_t k = 0; k < 300; ++k) {
+    // Nothing between two of them: the second waits for the end of the tick, and not a clock more.
+    const auto at = static_cast<std::uint16_t>(64 + random.below(448));
+    host.hold(at, k + 1);
+    REQUIRE(host.tick() == tick + k);
+    if (k > 0) REQUIRE(host.clock_of_tick() == 1);
+    const std::uint32_t old = host.twin().parameter(at);
+    REQUIRE(old != k + 1);
+    if (random.one_in(10)) {  // or a pause, which loses nothing either
+      host.until(0);
+      REQUIRE(host.twin().parameter(at) == k + 1);
+      tick = host.tick() - k - 1;
+      host.clock();
+      host.until(0);
+      tick = host.tick() - k - 1;
+    }
+  }
+  host.play();
+}
+
+TEST_CASE("registers: a disarm passes a waiting write, whichever, in any clock") {
+  constexpr std::uint32_t kHost = 1U << Lever::C::control_host, kArm = 1U << Lever::C::control_arm;
+  for (const bool held : {false, true}) {
+    for (int c = 1; c + 1 < kLast; ++c) {
+      for (const bool arms : {false, true}) {
+        Script host;
+        host.hold(kControl, kHost | kArm);
+        host.until(0);
+        REQUIRE((host.out().control & kArm) != 0);
+        // An arm with another scene, or a parameter, waits.
+        host.hold(arms ? kControl : Lever::A::ramp_step, arms ? (kHost | kArm | 5U << 2) : 4711U);
+        host.until(c + 1);
+        REQUIRE_FALSE(host.out().disarm);
+        REQUIRE(host.out().reg_busy);
+        host.write(kControl, kHost | 3U << 2);
+        REQUIRE(host.out().disarm);
+        if (held) {
+          host.hold(kControl, kHost | 3U << 2);
+        } else {
+          host.until(0);
+        }
+        REQUIRE((host.out().control & (kHost | kArm)) == kHost);
+        // What was taken is not lost, and the disarm's own word follows if it is held.
+        if (arms) REQUIRE(((host.out().control >> 2) & 15U) == 5);
+        if (!arms) REQUIRE(host.twin().parameter(Lever::A::ramp_step) == 4711);
+        if (!held) REQUIRE_FALSE(host.out().disarm);
+        host.until(0).until(0);
+        REQUIRE(((host.out().control >> 2) & 15U) == (held ? 3U : arms ? 5U : 0U));
+        REQUIRE((host.out().control & (kHost | kArm)) == kHost);
+        REQUIRE_FALSE(host.out().disarm);
+        host.play();
+      }
+    }
+  }
+}
+
+TEST_CASE("registers: a stop passes a waiting write and stands to the end of the tick") {
+  constexpr std::uint32_t kStop = 1U << Lever::C::command_stop;
+  for (int c = 1; c <= kLast; ++c) {
+    Script host;
+    host.until(0);
+    host.write(kCommand, 1U << Lever::C::command_clear_faults);
+    if (c > 1) host.until(c);
+    REQUIRE_FALSE(host.out().stop);
+    host.write(kCommand, kStop);
+    // In the last clock of a tick it stands for the tick to come.
+    const int clocks = c == kLast ? kLast + 1 : kLast - c;
+    for (int k = 0; k < clocks; ++k) {
+      REQUIRE(host.out().stop);
+      if (k == 3 && host.clock_of_tick() != kLast) {
+        host.write(kCommand, kStop);  // again: nothing more
+      } else {
+        host.clock();
+      }
+    }
+    REQUIRE_FALSE(host.out().stop);
+    host.play();
+  }
+}
+
+TEST_CASE("registers: while armed a word acts, ramps or is refused, as the map says") {
+  for (const bool armed : {false, true}) {
+    Script host;
+    host.armed = armed;
+    for (const auto& p : Lever::parameters) {
+      for (const int number : {0, 1, 2, 3, p.address / 32}) {
+        const auto scene = static_cast<std::uint8_t>(number);
+        host.scene = scene;
+        const auto effect = feltgate::while_armed(p.address, scene);
+        const std::uint32_t old = host.twin().parameter(p.address);
+        host.until(1);
+        host.write(static_cast<std::uint16_t>(p.address), old + 1);
+        bool restarted = false;
+        while (host.clock_of_tick() != 0) restarted = host.clock().restart || restarted;
+        const bool refused = armed && effect == feltgate::WhileArmed::refused;
+        REQUIRE(restarted == (effect == feltgate::WhileArmed::ramps));
+        REQUIRE(host.out().refused == refused);
+        REQUIRE(host.twin().parameter(p.address) == (refused ? old : old + 1));
+      }
+    }
+    host.play();
+  }
+  // Not from the map: what the docs say of some of them.
+  using feltgate::while_armed;
+  using feltgate::WhileArmed;
+  REQUIRE(while_armed(Lever::A::setpoint_torque, Lever::S::setpoint) == WhileArmed::acts);
+  REQUIRE(while_armed(Lever::A::torque_limit, Lever::S::setpoint) == WhileArmed::ramps);
+  REQUIRE(while_armed(Lever::A::wall_contact, Lever::S::wall) == WhileArmed::ramps);
+  REQUIRE(while_armed(Lever::A::wall_contact, Lever::S::damper) == WhileArmed::acts);
+  REQUIRE(while_armed(Lever::A::voltage_gain_high, Lever::S::free) == WhileArmed::refused);
+  REQUIRE(while_armed(Lever::A::current_limit, Lever::S::wall) == WhileArmed::refused);
+}
+
+TEST_CASE("registers: setting zero restarts the ramp, but not of an input") {
+  for (const bool pin : {false, true}) {
+    Script host;
+    for (std::uint8_t scene = 0; scene < 16; ++scene) {
+      host.scene = scene;
+      host.until(20);
+      host.set_zero = pin;
+      if (pin) host.clock();
+      host.set_zero = false;
+      if (!pin) host.write(kCommand, 1U << Lever::C::command_set_zero);
+      for (bool last = false; !last;) {
+        last = host.clock_of_tick() == kLast;
+        const auto now = host.clock();
+        REQUIRE(now.set_zero == last);
+        REQUIRE(now.restart == (last && scene != Lever::S::setpoint));
+      }
+      host.until(kLast);
+      REQUIRE_FALSE(host.clock().set_zero);
+    }
+    host.play();
+  }
+}
+
+TEST_CASE("registers: while armed, mode, polarities, PWM mode and filter hold") {
+  constexpr std::uint32_t kHost = 1U << Lever::C::control_host, kArm = 1U << Lever::C::control_arm;
+  Script host;
+  host.write(kControl, kHost | kArm).until(0);
+  host.armed = true;
+  for (int n = Lever::C::control_mode; n < Lever::C::control_width; ++n) {
+    host.hold(kControl, kHost | kArm | 9U << 2 | 1U << n);
+    host.until(0);
+    REQUIRE(host.out().control == (kHost | kArm | 9U << 2));
+    REQUIRE(host.read(kControl) == (READ_BACK != 0 ? host.out().control : 0U));
+  }
+  // The word that disarms carries them.
+  host.hold(kControl, kHost | 0x7fc0U);
+  host.until(0);
+  REQUIRE(host.out().control == (kHost | 0x7fc0U));
+  host.armed = false;
+  host.hold(kControl, kHost | kArm);
+  host.until(0);
+  REQUIRE(host.out().control == (kHost | kArm));
   host.play();
 }
 
@@ -107,7 +270,7 @@ TEST_CASE("registers: the control word changes between two waves only") {
 TEST_CASE("registers: each command acts once, in the last clock of the tick") {
   Script host;
   for (std::uint32_t bits = 0; bits < (1U << kCommandBits); ++bits) {
-    host.until(static_cast<int>(bits));
+    host.until(static_cast<int>(bits) % kLast);
     host.write(kCommand, bits);
     for (int k = 0; k < 2 * kLast; ++k) {
       const bool acts = host.clock_of_tick() == kLast && host.out().reg_busy;

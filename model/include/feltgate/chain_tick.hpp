@@ -48,6 +48,9 @@ class ChainTick {
   Words<D, N>& words() { return words_; }
   const Words<D, N>& words() const { return words_; }
 
+  /// Before a tick whose torque may jump: it ramps.
+  void restart() { scenes_.ramp().restart(); }
+
   /// One tick. `position` [count] and `travel` [count, wraps] are what the wave sampled; `armed`,
   /// `scene` and `mode` hold during the tick.
   void tick(std::int32_t position, std::int16_t travel, bool armed, int scene, Mode mode) {

@@ -21,7 +21,7 @@ void FeltgateCore<D, ReadBack>::run(const In& in, std::int64_t clocks, OnSnapsho
   bool settled = false;  // as far as known; holds until a clock() changes the decoder's inputs
   while (clocks > 0) {
     const int from = clock_;
-    const bool at_rest = !registers_.out().reg_busy && !zero_pending_;
+    const bool at_rest = registers_.at_rest();
     if (!can_pass(in) || (from == tick - 1 && !at_rest)) {
       clock(in);
       if (out_.snapshot_valid) on_snapshot();
@@ -55,7 +55,8 @@ void FeltgateCore<D, ReadBack>::run(const In& in, std::int64_t clocks, OnSnapsho
 /// Nothing is under way that asks for clock(): an error or a stop, or the first tick.
 template <class D, bool ReadBack>
 bool FeltgateCore<D, ReadBack>::can_pass(const In& in) const {
-  return out_.tick_count != 0 && !registers_.flipped() && supervisor_.steady(in.stop) &&
+  return out_.tick_count != 0 && !registers_.flipped() && !registers_.out().stop &&
+         supervisor_.steady(in.stop) &&
          !(in.stop && supervisor_.out().gates_enable) && !decoder_.out().illegal &&
          !(amid_supervisor() && passed_to_ != clock_);
 }
@@ -66,7 +67,7 @@ bool FeltgateCore<D, ReadBack>::can_pass(const In& in) const {
 template <class D, bool ReadBack>
 bool FeltgateCore<D, ReadBack>::calm(const In& in, std::int64_t clocks) const {
   if (clock_ != 0 || clocks >= kSnapshot || gates_.clocks_to_duty() < clocks ||
-      registers_.out().reg_busy || zero_pending_ || !can_pass(in) ||
+      !registers_.at_rest() || !can_pass(in) ||
       !decoder_.settled(decoder_inputs(in, false, false))) {
     return false;
   }

@@ -28,6 +28,9 @@ class CoreWave {
 
   void set_word(int address, std::uint32_t word) { chain_.words().set_raw(address, word); }
 
+  /// Between two waves: the torque may jump with the next.
+  void restart() { chain_.restart(); }
+
   /// Position and travel are the decoder's at Step::sample.
   [[gnu::always_inline]] void take(Step step, std::int32_t position, std::uint16_t travel,
                                    Mode mode, CoreOut& out) {

@@ -17,6 +17,7 @@
 #include "feltgate/encoder_source.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/reading.hpp"
+#include "feltgate/while_armed.hpp"
 
 namespace feltgate {
 
@@ -63,9 +64,11 @@ class Device {
 
   /// What is rendered: "free", "wall", ... Errors: std::invalid_argument with what there is.
   void select(const std::string& scene);
+  /// Errors: std::runtime_error while armed.
   void set_control(Control how);
   /// A parameter in its unit (docs/registers.md), rounded to its word. Writes act in order, one at
-  /// the end of each tick. Errors: std::invalid_argument with the nearest name or the range.
+  /// the end of each tick. Errors: std::invalid_argument with the nearest name or the range;
+  /// std::runtime_error while armed for one that an armed core refuses (docs/registers.md).
   void set(const std::string& parameter, double value);
   Parameter parameter(const std::string& name) const;
   std::vector<Parameter> parameters() const;
@@ -93,9 +96,10 @@ class Device {
   void note(const CoreOut& snapshot) { reading_ = reading_of(design_, snapshot); }
 
  private:
-  void write(int address, std::uint32_t data) {
-    writes_.emplace_back(static_cast<std::uint16_t>(address), data);
-  }
+  void write(int address, std::uint32_t data);
+  /// An armed core drops a write there; it waits until the core is disarmed, and arming for it.
+  bool holds(int address) const;
+  void refuse_while_armed(const std::string& what) const;
   int clock_of_tick() const { return static_cast<int>(now_ % design_.clocks_per_tick); }
   Clock end_of_tick() const { return now_ + design_.clocks_per_tick - clock_of_tick(); }
   void begin_tick();
@@ -109,6 +113,7 @@ class Device {
   std::int64_t count_ = 0;  ///< where tick_to() has moved its encoder
   std::deque<std::pair<std::uint16_t, std::uint32_t>> writes_;
   std::vector<std::int64_t> raw_;  ///< of the parameters, in their order
+  int held_ = 0;                   ///< writes that only a disarmed core takes
   bool wanted_ = false;            ///< to be armed
   bool low_before_ = false;        ///< the request was low at the end of the tick before
   bool clearing_ = false;          ///< clear_faults() has yet to act

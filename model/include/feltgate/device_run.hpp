@@ -24,7 +24,7 @@ inline Device::Device(DesignInfo design) : design_(std::move(design)) {
 /// ended is not raised again.
 inline void Device::begin_tick() {
   if ((out().faults != 0 && !clearing_) || in_.stop) wanted_ = false;
-  in_.arm = wanted_ && !clearing_ && (armed() || low_before_);
+  in_.arm = wanted_ && !clearing_ && held_ == 0 && (armed() || low_before_);
 }
 
 /// To the clock `until` with the pins as they are.
@@ -34,10 +34,12 @@ inline void Device::advance(Clock until) {
   while (now_ < until) {
     const int clock = clock_of_tick();
     if (clock == 0) begin_tick();
-    if (clock == host_write_clock && !writes_.empty() && !out().reg_busy) {
+    const bool waits = !writes_.empty() && armed() && holds(writes_.front().first);
+    if (clock == host_write_clock && !writes_.empty() && !waits && !out().reg_busy) {
       in_.reg_addr = writes_.front().first;
       in_.reg_wdata = writes_.front().second;
       cleared_ = writes_.front() == clear;
+      if (holds(in_.reg_addr)) --held_;
       writes_.pop_front();
       in_.reg_write = true;
       step(in_);
@@ -136,8 +138,25 @@ inline void Device::select(const std::string& scene) {
   throw std::invalid_argument(design_.unknown_scene(scene));
 }
 
+inline bool Device::holds(int address) const {
+  return address == design_.control_address ||
+         (address < 512 && while_armed(address, 0) == WhileArmed::refused);
+}
+
+inline void Device::write(int address, std::uint32_t data) {
+  writes_.emplace_back(static_cast<std::uint16_t>(address), data);
+  if (holds(address)) ++held_;
+}
+
+inline void Device::refuse_while_armed(const std::string& what) const {
+  if (!wanted_) return;
+  throw std::runtime_error(what +
+                           " cannot change while armed: the torque could jump; disarm() first");
+}
+
 inline void Device::set_control(Control how) {
   const std::uint32_t others = design_.control_reset & ~(3u << design_.control.mode);
+  refuse_while_armed("the control");
   write(design_.control_address, others | static_cast<std::uint32_t>(how) << design_.control.mode);
 }
 
@@ -156,6 +175,7 @@ inline void Device::set(const std::string& parameter, double value) {
          << "; choose a value from " << range.low << " to " << range.high << " " << p.unit;
     throw std::invalid_argument(text.str());
   }
+  if (holds(p.address)) refuse_while_armed(parameter);
   raw_[static_cast<std::size_t>(&p - design_.parameters)] = *raw;
   write(p.address, static_cast<std::uint32_t>(*raw));
 }

@@ -42,7 +42,6 @@ class FeltgateCore {
     gates_.reset();
     operand_v_ = operand_w_ = 0;
     passed_to_ = -1;
-    zero_pending_ = false;
     writes_ = 0;
     out_ = Out{};
     show();
@@ -53,18 +52,19 @@ class FeltgateCore {
     const bool tick = clock_ == D::clocks_per_tick - 1;
     const std::uint32_t control = registers_.out().control;
     const bool host = bit(control, D::C::control_host);
-    const bool zero = tick && (registers_.commands(D::C::command_set_zero) || zero_pending_);
+    const bool zero = tick && registers_.sets_zero();
     const bool clear = tick && registers_.commands(D::C::command_clear_faults);
 
     // Each sees the others' registers before the edge.
     typename Supervisor<D>::In sup = supervisor_inputs(clock_);
     sup.tick = tick;
-    sup.arm = host ? bit(control, D::C::control_arm) : in.arm;
+    sup.arm = (host ? bit(control, D::C::control_arm) : in.arm) && !registers_.out().disarm;
+    if (registers_.out().stop) sup.trips |= 1U << static_cast<unsigned>(Fault::stop);
     sup.stop = in.stop;
     sup.clear_faults = clear;
     sup.kick = tick && registers_.commands(D::C::command_kick);
     sup.encoder_error = decoder_.out().illegal;
-    if (registers_.out().word_error) sup.trips = 1u << static_cast<unsigned>(Fault::word);
+    if (registers_.out().word_error) sup.trips |= 1u << static_cast<unsigned>(Fault::word);
     const Pwm::In pwm = pwm_inputs(supervisor_.out().gates_enable, out_.duty);
     out_.snapshot_valid = false;
     core_steps::for_each_step_of(clock_, [this](Step step) { take<true>(step, decoder_.out()); });
@@ -73,6 +73,8 @@ class FeltgateCore {
     if (!decoder_.settled(d)) decoder_.clock(d);
 
     const bool committed = tick && registers_.out().reg_busy;
+    const int written = registers_.parameter_waiting(out_.armed);
+    if (tick && registers_.restarts(out_.scene)) wave_.restart();
     registers_.clock(register_inputs(in, tick));
     if (tick) {
       const unsigned wanted =
@@ -80,11 +82,9 @@ class FeltgateCore {
       out_.scene = static_cast<std::uint8_t>(wanted);
       if (committed) {
         ++writes_;
-        if (pending_address_ < 512) take_word(pending_address_);
+        if (written >= 0) take_word(written);
       }
     }
-    if (in.reg_write && !out_.reg_busy) pending_address_ = in.reg_addr;
-    zero_pending_ = in.set_zero || (zero_pending_ && !tick);
     gates_.advance(pwm, 1, supervisor_.out().gates_enable);
     advance_clock(1);
     show();
@@ -179,11 +179,13 @@ class FeltgateCore {
     reg.reg_addr = in.reg_addr;
     reg.reg_wdata = in.reg_wdata;
     reg.reg_write = in.reg_write;
+    reg.armed = out_.armed;
+    reg.set_zero = in.set_zero;
+    reg.scene = out_.scene;
     if (registers_.flipped()) {  // the parameter bus is not kept up otherwise
       const int slot = clock_ < 63 ? clock_ : 63;
       reg.slot_fetch = static_cast<std::uint8_t>(slot);
       reg.scene_slot_fetch = ((Map::scene_slots >> slot) & 1u) != 0;
-      reg.scene = out_.scene;
       reg.region_high = wave_.region_high();
     }
     return reg;
@@ -241,7 +243,8 @@ class FeltgateCore {
     const auto field = [](auto value, int at) { return static_cast<std::uint32_t>(value) << at; };
     return field(wave_.limits(s.gates_enable), C::status_limits) |
            field(out_.scene, C::status_scene) | field(s.armed, C::status_armed) |
-           field(mode(), C::status_mode) | field(encoder_error, C::status_encoder_error);
+           field(mode(), C::status_mode) | field(encoder_error, C::status_encoder_error) |
+           field(registers_.out().refused, C::status_refused);
   }
 
   std::uint32_t faults() const {
@@ -339,8 +342,6 @@ class FeltgateCore {
   typename Supervisor<D>::Words supervisor_words_;
   CoreGates gates_{D::pwm_period, D::dead_clocks};
   std::int64_t operand_v_ = 0, operand_w_ = 0;
-  int pending_address_ = 0;
-  bool zero_pending_ = false;
   std::int64_t writes_ = 0;
   int clock_ = 0;       ///< of the tick
   int passed_to_ = -1;  ///< the clock that a pass() has reached, -1 after a clock()

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Law of rtl/ramp.sv: the torque reference follows the limited torque of the scene, in steps after
-// arming and after a change of scene. Documentation: docs/blocks/ramp.md
+// arming, after a change of scene and where it may jump otherwise. Documentation:
+// docs/blocks/ramp.md
 #pragma once
 
 #include "feltgate/limiter.hpp"
@@ -26,6 +27,8 @@ class RampLaw {
     scene_ = scene;
     armed_ = armed;
   }
+  /// Between two waves: the torque may jump with the next.
+  void restart() { ramping_ = true; }
   /// The scene's torque in [-limit, limit]; a negative limit counts as 0.
   template <class Rendered, class Limit>
   void limit(Rendered tau, Limit limit) {

@@ -2,8 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/registers.sv: register port, parameter RAM, control word, commands and snapshot. A
-// write takes effect at the end of the tick; a word is on the parameter bus 2 clocks after its slot
-// is fetched, read data follow their address by 3 clocks. Documentation: docs/blocks/registers.md
+// write takes effect at the end of the tick; a disarm and a stop pass one that waits; a word is on
+// the parameter bus 2 clocks after its slot is fetched, read data follow their address by 3 clocks.
+// Documentation: docs/blocks/registers.md
 #pragma once
 
 #include <array>
@@ -12,6 +13,7 @@
 #include <map>
 
 #include "feltgate/generated/map.hpp"
+#include "feltgate/while_armed.hpp"
 
 namespace feltgate {
 
@@ -23,7 +25,9 @@ class Registers {
     bool tick = false;  ///< last clock of a tick
     std::uint16_t reg_addr = 0;
     std::uint32_t reg_wdata = 0;
-    bool reg_write = false;  ///< ignored while out().reg_busy
+    bool reg_write = false;  ///< held until a clock in which out().reg_busy is low
+    bool armed = false;
+    bool set_zero = false;  ///< the panel's
     std::uint8_t slot_fetch = 0;
     bool scene_slot_fetch = false;
     std::uint8_t scene = 0;
@@ -38,9 +42,13 @@ class Registers {
     std::uint32_t param = 0;
     bool word_error = false;  ///< the word on the bus a clock ago has changed by itself
     std::uint16_t control = static_cast<std::uint16_t>(D::control_reset);
-    bool set_zero = false;  ///< these three only in peek(): high in the clock of tick
+    bool disarm = false;  ///< written since the end of the last tick, and so the next
+    bool stop = false;
+    bool refused = false;   ///< the last parameter was, for the core was armed
+    bool set_zero = false;  ///< these four only in peek(): high in the clock of tick
     bool clear_faults = false;
     bool kick = false;
+    bool restart = false;  ///< the torque may jump by this write
   };
 
   Registers() {
@@ -55,6 +63,7 @@ class Registers {
     target_ = Target::none;
     address_ = 0;
     data_ = 0;
+    zero_ = false;
     warm_ = false;
     fetch_wrong_ = bus_wrong_ = false;
     write_bank_ = 0;
@@ -78,7 +87,13 @@ class Registers {
     if (in.snap_valid) write_snapshot(in.snap_slot, in.snap_data);
     warm_ = true;
     const bool accept = in.reg_write && target_ == Target::none;
-    if (in.tick) commit();
+    if (in.tick) commit(in.armed);
+    const bool command = in.reg_write && in.reg_addr == D::C::command;
+    const bool control = in.reg_write && in.reg_addr == D::C::control;
+    out_.disarm = (control && disarms(in.reg_wdata)) || (out_.disarm && !in.tick);
+    out_.stop =
+        (command && ((in.reg_wdata >> D::C::command_stop) & 1U) != 0) || (out_.stop && !in.tick);
+    zero_ = in.set_zero || (zero_ && !in.tick);
     if (accept) {
       target_ = target_of(in.reg_addr);
       address_ = in.reg_addr & 0x1ffU;
@@ -93,7 +108,8 @@ class Registers {
   /// All outputs in a clock with these inputs.
   Out peek(const In& in) const {
     Out now = out_;
-    now.set_zero = in.tick && commands(D::C::command_set_zero);
+    now.set_zero = in.tick && sets_zero();
+    now.restart = in.tick && restarts(in.scene);
     now.clear_faults = in.tick && commands(D::C::command_clear_faults);
     now.kick = in.tick && commands(D::C::command_kick);
     return now;
@@ -101,6 +117,22 @@ class Registers {
 
   /// The command `bit` waits for the end of the tick.
   bool commands(int bit) const { return target_ == Target::command && ((data_ >> bit) & 1U) != 0; }
+
+  /// The position is set to zero at the end of the tick.
+  bool sets_zero() const { return zero_ || commands(D::C::command_set_zero); }
+  /// By what waits for the end of the tick the torque may jump.
+  bool restarts(int scene) const {
+    if (sets_zero() && !is_input_scene(scene)) return true;
+    return target_ == Target::parameter &&
+           while_armed(static_cast<int>(address_), scene) == WhileArmed::ramps;
+  }
+  /// The address of the parameter that the end of the tick writes, -1 for none.
+  int parameter_waiting(bool armed) const {
+    const bool takes = target_ == Target::parameter && !refuses(armed);
+    return takes ? static_cast<int>(address_) : -1;
+  }
+  /// Nothing waits for the end of the tick or passes what waits.
+  bool at_rest() const { return target_ == Target::none && !out_.disarm && !out_.stop && !zero_; }
 
   /// A word of the parameter RAM, 0 <= address < 512.
   std::uint32_t parameter(int address) const {
@@ -220,14 +252,28 @@ class Registers {
     }
   }
 
+  bool refuses(bool armed) const {
+    return armed && while_armed(static_cast<int>(address_), 0) == WhileArmed::refused;
+  }
+
   /// The end of a tick.
-  void commit() {
+  void commit(bool armed) {
     const bool swap = !frozen_;  // the tick that a freeze ends is the one that is held
     if (target_ == Target::parameter) {
-      parameters_[address_] = data_;
-      flipped_.erase(address_);
+      out_.refused = refuses(armed);
+      if (!out_.refused) {
+        parameters_[address_] = data_;
+        flipped_.erase(address_);
+      }
     }
-    if (target_ == Target::control) out_.control = static_cast<std::uint16_t>(data_ & 0x7fffU);
+    if (target_ == Target::control) {
+      out_.control =
+          static_cast<std::uint16_t>(control_after(out_.control, data_, armed && !out_.disarm));
+    }
+    if (out_.disarm) {
+      constexpr unsigned host = 1U << D::C::control_host, arm = 1U << D::C::control_arm;
+      out_.control = static_cast<std::uint16_t>((out_.control | host) & ~arm);
+    }
     if (ReadBack && target_ == Target::command) {
       frozen_ = commands(D::C::command_freeze) || (frozen_ && !commands(D::C::command_thaw));
     }
@@ -241,6 +287,7 @@ class Registers {
   Target target_ = Target::none;  ///< of the write that waits
   std::size_t address_ = 0;
   std::uint32_t data_ = 0;
+  bool zero_ = false;  ///< the panel asks for it
   bool warm_ = false;
   std::uint32_t fetch_ = 0;
   bool fetch_wrong_ = false, bus_wrong_ = false;

@@ -14,7 +14,7 @@ namespace feltgate {
 /// Bits of Snapshot::limits: which limit holds the torque now.
 namespace limit {
 constexpr unsigned torque = 1;  ///< torque reference at its limit
-constexpr unsigned ramp = 2;  ///< ramping after arming or a change of scene
+constexpr unsigned ramp = 2;  ///< ramping: after arming, a change of scene, or what could have made the torque jump
 constexpr unsigned current = 4;  ///< current reference at its limit
 constexpr unsigned voltage = 8;  ///< voltage at its limit
 constexpr unsigned duty = 16;  ///< duty at its limit

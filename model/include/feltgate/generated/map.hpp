@@ -17,6 +17,11 @@ struct Map {
   static constexpr int multiplier_latency = 4;  ///< clocks from the operands to the product
   /// Bit n: slot n is read from the scene's bank.
   static constexpr std::uint64_t scene_slots = 0x44e;
+  /// While armed: words of all scenes that are refused or ramp, by address; scenes whose
+  /// words act at once.
+  static constexpr std::uint64_t refused_while_armed = 0x4218e78c083b0;
+  static constexpr std::uint64_t ramps_while_armed = 0x1000000;
+  static constexpr unsigned input_scenes = 0x4;
   static constexpr int errors_borne = 7;  ///< encoder errors that are borne, less one every 2^forgive_bits ticks
   static constexpr int forgive_bits = 10;  ///< bits of the ticks after which one encoder error is forgiven
   static constexpr int runaway_bits = 16;  ///< bits of the longest window of the wrong-polarity check [tick]
@@ -582,12 +587,13 @@ struct Map {
     static constexpr int control_filter = 11;
     static constexpr int control_filter_width = 4;
     static constexpr int command = 513;
-    static constexpr int command_width = 5;
+    static constexpr int command_width = 6;
     static constexpr int command_set_zero = 0;
     static constexpr int command_clear_faults = 1;
     static constexpr int command_kick = 2;
     static constexpr int command_freeze = 3;
     static constexpr int command_thaw = 4;
+    static constexpr int command_stop = 5;
     static constexpr int read_tick = 774;
     static constexpr int read_position = 769;
     static constexpr int read_status = 768;
@@ -599,6 +605,7 @@ struct Map {
     static constexpr int status_mode = 25;
     static constexpr int status_mode_width = 2;
     static constexpr int status_encoder_error = 27;
+    static constexpr int status_refused = 28;
     static constexpr int read_faults = 794;
     static constexpr int faults_seen = 0;
     static constexpr int faults_seen_width = 16;

@@ -84,8 +84,7 @@ module feltgate_core #(
   end
 
   sequencer u_sequencer (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
+      .clk_i(clk_i), .rst_ni(rst_ni),
       .tick_o(tick),
       .slot_fetch_o(slot_fetch),
       .scene_slot_fetch_o(scene_slot_fetch),
@@ -94,8 +93,7 @@ module feltgate_core #(
   );
 
   registers #(.ReadBack(ReadBack)) u_registers (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
+      .clk_i(clk_i), .rst_ni(rst_ni),
       .tick_i(tick),
       .reg_addr_i(reg_addr_i),
       .reg_wdata_i(reg_wdata_i),
@@ -130,8 +128,7 @@ module feltgate_core #(
   logic encoder_error, illegal, unused_index_seen;
   logic signed [1:0] unused_step;
   quad_decoder u_quad_decoder (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
+      .clk_i(clk_i), .rst_ni(rst_ni),
       .a_i(enc_a_i),
       .b_i(enc_b_i),
       .z_i(enc_z_i),
@@ -165,10 +162,9 @@ module feltgate_core #(
   end
 
   logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] velocity_difference;
-  logic velocity_saturated, tau_hat_saturated;
+  logic velocity_saturated, tau_hat_saturated, beyond, square;
   velocity_n u_velocity_n (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
+      .clk_i(clk_i), .rst_ni(rst_ni),
       .wave_i(wave),
       .travel_i(travel),
       .operand_o(velocity_difference),
@@ -178,8 +174,7 @@ module feltgate_core #(
   );
   logic velocity_jumped;
   velocity_jump u_velocity_jump (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
+      .clk_i(clk_i), .rst_ni(rst_ni),
       .wave_i(wave),
       .velocity_i(velocity_o),
       .trip_o(velocity_jumped)
@@ -187,8 +182,7 @@ module feltgate_core #(
 
   logic signed [feltgate_pkg::OBSERVER_DIFFERENCE_W-1:0] observer_difference;
   dob u_dob (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
+      .clk_i(clk_i), .rst_ni(rst_ni),
       .armed_i(armed_o),
       .wave_i(wave),
       .product_i(dob_product),
@@ -198,13 +192,11 @@ module feltgate_core #(
   );
 
   logic signed [feltgate_pkg::LIMITER_W-1:0] limited;
-  logic beyond, square;
   logic signed [feltgate_pkg::SCENE_DISTANCE_W-1:0] distance;
   logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] scene_ahead;
   logic signed [feltgate_pkg::TORQUE_W-1:0] scene_late;
   scenes u_scenes (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
+      .clk_i(clk_i), .rst_ni(rst_ni),
       .armed_i(armed_o),
       .scene_i(scene_q),
       .wave_i(wave),
@@ -235,8 +227,7 @@ module feltgate_core #(
   );
   logic limit_torque, limit_ramp, limit_current, limit_voltage, limit_duty;
   ramp u_ramp (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
+      .clk_i(clk_i), .rst_ni(rst_ni),
       .armed_i(armed_o),
       .scene_i(scene_q),
       .restart_i(restart),
@@ -250,8 +241,7 @@ module feltgate_core #(
   );
 
   torque_control u_torque_control (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
+      .clk_i(clk_i), .rst_ni(rst_ni),
       .armed_i(armed_o),
       .mode_i(mode),
       .wave_i(wave),
@@ -272,11 +262,11 @@ module feltgate_core #(
   );
 
   logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate;
-  logic gates_enable, unused_period_start;
+  logic gates_enable, gates_clear, period_start;
   supervisor u_supervisor (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
+      .clk_i(clk_i), .rst_ni(rst_ni),
       .tick_i(tick),
+      .period_start_i(period_start),
       .arm_i(arm_request),
       .stop_i(stop_i),
       .clear_faults_i(clear_faults),
@@ -293,13 +283,14 @@ module feltgate_core #(
       .current_estimate_o(current_estimate),
       .armed_o(armed_o),
       .gates_enable_o(gates_enable),
+      .gates_clear_o(gates_clear),
       .faults_o(faults_o),
       .first_fault_o(first_fault_o)
   );
 
   pwm #(.Period(feltgate_pkg::PWM_PERIOD), .DeadClocks(feltgate_pkg::DEAD_CLOCKS)) u_pwm (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
+      .clk_i(clk_i), .rst_ni(rst_ni),
+      .clear_i(gates_clear),
       .enable_i(gates_enable),
       .mode_i(control[feltgate_map_pkg::B_CONTROL_PWM_MODE]),
       .polarity_i(control[feltgate_map_pkg::B_CONTROL_MOTOR_POLARITY]),
@@ -308,7 +299,7 @@ module feltgate_core #(
       .gate_a_lo_o(gate_a_lo_o),
       .gate_b_hi_o(gate_b_hi_o),
       .gate_b_lo_o(gate_b_lo_o),
-      .period_start_o(unused_period_start),
+      .period_start_o(period_start),
       .duty_active_o(duty_active_o)
   );
 

@@ -3,7 +3,7 @@
 //
 // Centre-aligned PWM for an H-bridge, sign-magnitude or locked-antiphase, with dead time.
 // Duty [1,12,0] clocks; taken once a period with period_start_o, at the gates 3 clocks later
-// (turning on: plus the dead time).
+// (turning on: plus the dead time). 0 is in force while disabled. The gates are registers.
 // Documentation: docs/blocks/pwm.md
 `default_nettype none
 
@@ -13,7 +13,8 @@ module pwm #(
 ) (
   input  logic               clk_i,
   input  logic               rst_ni,
-  input  logic               enable_i,        // 0: every gate off within this clock
+  input  logic               clear_i,         // asynchronous: every gate off at once, with or without a clock
+  input  logic               enable_i,        // 0: every gate off with the next edge, duty 0
   input  logic               mode_i,          // 0: sign-magnitude, 1: locked-antiphase
   input  logic               polarity_i,      // 1: motor wired the other way
   input  logic signed [12:0] duty_i,          // beyond +-Period it acts as +-Period
@@ -22,7 +23,7 @@ module pwm #(
   output logic               gate_b_hi_o,
   output logic               gate_b_lo_o,
   output logic               period_start_o,  // duty_i has just been taken
-  output logic signed [12:0] duty_active_o    // as taken
+  output logic signed [12:0] duty_active_o    // as taken, 0 while disabled
 );
 
   if (!(Period >= 4 && Period <= 4094 && Period % 2 == 0)) begin : g_check_period
@@ -66,17 +67,21 @@ module pwm #(
   // One carry chain: the bit below the operands carries the increment in.
   assign {threshold_d, unused_sum} = {antiphase_q ? HALF : 14'sd0, 1'b1} + {addend, increment};
 
+  // A duty of the last arming must not meet the gates of the next one. 0 is 0 with every sign.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) duty_active_o <= 13'sd0;
+    else if (!enable_i) duty_active_o <= 13'sd0;
+    else if (take) duty_active_o <= duty_i;
+  end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      duty_active_o <= 13'sd0;
-      antiphase_q   <= 1'b0;
-      negate_q      <= 1'b0;
-      switch_b_q    <= 1'b0;
+      antiphase_q <= 1'b0;
+      negate_q    <= 1'b0;
+      switch_b_q  <= 1'b0;
     end else if (take) begin
-      duty_active_o <= duty_i;
-      antiphase_q   <= mode_i;
-      negate_q      <= mode_i ? polarity_i : duty_i[12];
-      switch_b_q    <= duty_i[12] ^ polarity_i;
+      antiphase_q <= mode_i;
+      negate_q    <= mode_i ? polarity_i : duty_i[12];
+      switch_b_q  <= duty_i[12] ^ polarity_i;
     end
   end
 
@@ -88,7 +93,7 @@ module pwm #(
       threshold_q  <= 14'sd0;
       antiphase_q2 <= 1'b0;
       switch_b_q2  <= 1'b0;
-    end else if (period_start_o) begin  // the duty has just been taken
+    end else begin
       threshold_q  <= threshold_d;
       antiphase_q2 <= antiphase_q;
       switch_b_q2  <= switch_b_q;
@@ -113,9 +118,14 @@ module pwm #(
   localparam int DEAD_BITS = (DeadClocks > 1) ? $clog2(DeadClocks) : 1;
   localparam logic [DEAD_BITS:0] DEAD = (DEAD_BITS + 1)'(2 ** DEAD_BITS - (DeadClocks - 1));
 
-  logic [1:0] wanted_q, changes, elapsed, hi_q, lo_q;
+  logic [1:0] wanted_q, changes, elapsed;
 
   assign changes = high_q ^ wanted_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) wanted_q <= 2'b00;
+    else wanted_q <= high_q;
+  end
 
   for (genvar l = 0; l < 2; l++) begin : g_leg
     logic [DEAD_BITS:0] dead_q;
@@ -129,22 +139,29 @@ module pwm #(
     end
   end
 
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      wanted_q <= 2'b00;
-      hi_q     <= 2'b00;
-      lo_q     <= 2'b00;
+  // The gates: four registers with one clear, nothing behind them and no other load, for the I/O cells.
+  logic       clear;
+  logic [1:0] ready;
+  logic [1:0] gate_hi_q = 2'b00;  // off at power-up, before any reset
+  logic [1:0] gate_lo_q = 2'b00;
+
+  assign clear = !rst_ni || clear_i;
+  assign ready = {2{enable_i}} & ~changes & elapsed;
+
+  always_ff @(posedge clk_i or posedge clear) begin
+    if (clear) begin
+      gate_hi_q <= 2'b00;
+      gate_lo_q <= 2'b00;
     end else begin
-      wanted_q <= high_q;
-      hi_q     <= {2{enable_i}} & ~changes & elapsed & wanted_q;
-      lo_q     <= {2{enable_i}} & ~changes & elapsed & ~wanted_q;
+      gate_hi_q <= ready & wanted_q;
+      gate_lo_q <= ready & ~wanted_q;
     end
   end
 
-  assign gate_a_hi_o = hi_q[0] && enable_i;
-  assign gate_a_lo_o = lo_q[0] && enable_i;
-  assign gate_b_hi_o = hi_q[1] && enable_i;
-  assign gate_b_lo_o = lo_q[1] && enable_i;
+  assign gate_a_hi_o = gate_hi_q[0];
+  assign gate_a_lo_o = gate_lo_q[0];
+  assign gate_b_hi_o = gate_hi_q[1];
+  assign gate_b_lo_o = gate_lo_q[1];
 
 endmodule
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Arms, watches and alone opens the gates. Six causes of fault; a fault is latched and the gates
+// Arms, watches and alone opens the gates. Seven causes of fault; a fault is latched and the gates
 // are off one clock after its cause is seen. A limit is compared in the clock S_* in which it is on
 // the parameter bus and acts in the clock after, T_*. Estimated current [1,8,8] A, I2t sum [0,31,2]
 // A^2 tick. Documentation: docs/blocks/supervisor.md
@@ -11,8 +11,9 @@ module supervisor (
   input  logic               clk_i,
   input  logic               rst_ni,
   input  logic               tick_i,           // last clock of a tick: arming and disarming
+  input  logic               period_start_i,   // one clock per period of the PWM
   input  logic               arm_i,            // request, a level
-  input  logic               stop_i,           // external stop, asynchronous
+  input  logic               stop_i,           // external stop, asynchronous; a pulse of any width counts
   input  logic               clear_faults_i,   // in the clock of tick_i; acts while arm_i is low
   input  logic               kick_i,           // in the clock of tick_i
   input  logic               encoder_error_i,  // high in a clock with an illegal transition
@@ -26,12 +27,17 @@ module supervisor (
   output logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate_o,
   output logic               armed_o,          // changes only at tick_i
   output logic               gates_enable_o,   // falls at once on a fault
+  output logic               gates_clear_o,    // asynchronous: the stop, from its first edge until it is dealt with
   input  logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,  // causes of other blocks, by bit
   output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults_o,  // bit n: cause n was seen
   output logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault_o  // number of the first, 0 none
 );
 
-  logic encoder_trip, speed_trip, polarity_trip, i2t_trip, watchdog_trip, stop_trip;
+  localparam int FAULTS_W = feltgate_map_pkg::W_FAULTS_SEEN;
+  localparam int FIRST_W  = feltgate_map_pkg::W_FAULTS_FIRST;
+  localparam logic [FIRST_W-1:0] NONE = FIRST_W'(feltgate_map_pkg::FAULT_NONE);
+
+  logic encoder_trip, speed_trip, polarity_trip, i2t_trip, watchdog_trip, stop_trip, tick_trip;
 
   // Cause 1, encoder errors. So many are borne, the next one trips; every 2^FORGIVE_BITS ticks one is
   // forgiven.
@@ -217,21 +223,50 @@ module supervisor (
     end
   end
 
-  // Cause 6, external stop, through two flip-flops.
+  // Cause 6, external stop. The pin itself clears the gates and sets a latch, with or without a clock; the
+  // latch, through two flip-flops, is the cause. It is released once that was seen, with the gates closed
+  // and no fault. It has no asynchronous reset, for few devices have a flip-flop with both; it powers up set.
+  logic       stopped_q = 1'b1;
   logic [1:0] stop_q;
+  logic       dealt_with;
 
-  assign stop_trip = stop_q[1] && gates_enable_o;
+  assign stop_trip     = stop_q[1] && gates_enable_o;
+  assign dealt_with    = stop_q[1] && !gates_enable_o && first_fault_o == NONE;
+  assign gates_clear_o = stop_i || stopped_q;
 
+  always_ff @(posedge clk_i or posedge stop_i) begin
+    if (stop_i)          stopped_q <= 1'b1;
+    else if (dealt_with) stopped_q <= 1'b0;
+  end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) stop_q <= 2'b11;
-    else         stop_q <= {stop_q[0], stop_i};
+    else         stop_q <= {stop_q[0], stopped_q};
+  end
+
+  // Cause 9, ticks that stand, low or high. TICK_PERIODS periods of the PWM, whose carrier does not depend on
+  // the ticks, hold at least one; a period more begins without.
+  localparam int TICK_PERIODS = (feltgate_pkg::CLOCKS_PER_TICK + feltgate_pkg::PWM_PERIOD - 1) /
+                                feltgate_pkg::PWM_PERIOD;
+  localparam int PERIODS_W = $clog2(TICK_PERIODS + 1);
+
+  logic                 tick_q, too_many;
+  logic [PERIODS_W-1:0] tickless_q;  // periods that began since the last tick
+
+  assign too_many  = tickless_q == PERIODS_W'(TICK_PERIODS);
+  assign tick_trip = period_start_i && too_many;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      tick_q     <= 1'b0;
+      tickless_q <= '0;
+    end else begin
+      tick_q <= tick_i;
+      if (tick_i && !tick_q)                tickless_q <= '0;
+      else if (period_start_i && !too_many) tickless_q <= tickless_q + PERIODS_W'(1);
+    end
   end
 
   // Faults stay until they are cleared. Of several in one clock the lowest number is the first.
-  localparam int FAULTS_W = feltgate_map_pkg::W_FAULTS_SEEN;
-  localparam int FIRST_W  = feltgate_map_pkg::W_FAULTS_FIRST;
-  localparam logic [FIRST_W-1:0] NONE = FIRST_W'(feltgate_map_pkg::FAULT_NONE);
-
   logic [FAULTS_W-1:0] trip;
   logic                any_trip, clear;
 
@@ -240,10 +275,11 @@ module supervisor (
                 (FAULTS_W'(polarity_trip) << feltgate_map_pkg::FAULT_POLARITY) |
                 (FAULTS_W'(i2t_trip) << feltgate_map_pkg::FAULT_I2T) |
                 (FAULTS_W'(watchdog_trip) << feltgate_map_pkg::FAULT_WATCHDOG) |
-                (FAULTS_W'(stop_trip) << feltgate_map_pkg::FAULT_STOP) | trips_i;
+                (FAULTS_W'(stop_trip) << feltgate_map_pkg::FAULT_STOP) |
+                (FAULTS_W'(tick_trip) << feltgate_map_pkg::FAULT_TICK) | trips_i;
 
   assign any_trip = encoder_trip || speed_trip || polarity_trip || i2t_trip || watchdog_trip ||
-                    stop_trip || trips_i != '0;
+                    stop_trip || tick_trip || trips_i != '0;
   assign clear    = clear_faults_i && !arm_i;
 
   function automatic logic [FIRST_W-1:0] lowest(input logic [FAULTS_W-1:0] causes);

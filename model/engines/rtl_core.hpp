@@ -43,14 +43,19 @@ class RtlCore {
     edge();
   }
   /// The inputs of the coming clocks.
-  void drive(const CoreIn& in) { drive_inputs(**rtl_, in); }
+  void drive(const CoreIn& in) {
+    drive_inputs(**rtl_, in);
+    stop_ = in.stop;
+  }
   /// One clock with the inputs that were driven.
   void edge() {
     const bool dumping = !trace_path_.empty() && now_ >= std::max<Clock>(trace_from_, 0) &&
                          (trace_to_ < 0 || now_ <= trace_to_);
     if (dumping && !rtl_->tracing()) rtl_->trace(trace_path_, "1ps");
+    (*rtl_)->stop_i = stop_;
     rtl_->low();
     if (dumping) rtl_->dump(picoseconds(2 * now_));
+    (*rtl_)->stop_i = false;
     rtl_->high();
     if (dumping) rtl_->dump(picoseconds(2 * now_ + 1));
     ++now_;
@@ -75,6 +80,7 @@ class RtlCore {
   }
 
   std::optional<RtlModel<Rtl>> rtl_;
+  bool stop_ = false;
   std::string trace_path_;
   Clock trace_from_ = 0, trace_to_ = -1, now_ = 0;
 };

@@ -25,7 +25,8 @@ inline std::int32_t narrow_word(std::uint32_t word, int width) {
 
 }  // namespace detail
 
-/// Sets every input but clock and reset.
+/// Sets every input but clock and reset. The stop is to be lowered with the edge: it was seen since
+/// the last one, and is not in the next.
 template <class Rtl>
 void drive_inputs(Rtl& rtl, const CoreIn& in) {
   rtl.enc_a_i = in.encoder.a;

@@ -25,18 +25,26 @@ class TwinModule : public sc_core::sc_module {
 
   SC_HAS_PROCESS(TwinModule);
   explicit TwinModule(const sc_core::sc_module_name& name) : sc_module(name) {
-    SC_METHOD(edge);
-    sensitive << clk_i.pos() << rst_ni.neg();
+    SC_METHOD(react);
+    sensitive << clk_i.pos() << rst_ni.neg() << stop_i.pos();
     dont_initialize();
   }
 
  private:
-  void edge() {
+  void react() {
     if (!rst_ni.read()) {
       core_.reset();
-    } else {
+    } else if (clk_i.posedge()) {
       core_.clock(inputs());
+    } else {
+      // A stop between two clocks counts, and closes the gates without one, as at the RTL's pin.
+      stop_seen_ = true;
+      CoreOut stopped = core_.out();
+      stopped.gates = 0;
+      show(stopped);
+      return;
     }
+    stop_seen_ = stop_i.read();
     show(core_.out());
   }
 
@@ -44,7 +52,7 @@ class TwinModule : public sc_core::sc_module {
     CoreIn in;
     in.encoder = {enc_a_i.read(), enc_b_i.read(), enc_z_i.read()};
     in.arm = arm_i.read();
-    in.stop = stop_i.read();
+    in.stop = stop_seen_ || stop_i.read();
     in.set_zero = set_zero_i.read();
     in.scene = static_cast<std::uint8_t>(scene_i.read());
     in.reg_addr = static_cast<std::uint16_t>(reg_addr_i.read());
@@ -87,6 +95,7 @@ class TwinModule : public sc_core::sc_module {
   }
 
   FeltgateCore<D> core_;
+  bool stop_seen_ = false;  ///< since the last clock
 };
 
 }  // namespace feltgate::systemc

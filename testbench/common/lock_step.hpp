@@ -5,6 +5,7 @@
 // Adapter, written per block:
 //   static void drive(Rtl&, const Twin::In&);
 //   template <class Check> static void compare(Check& check, const Rtl&, const Twin::Out&);
+//   static void at_edge(Rtl&);  // optional: inputs that do not last to the edge
 // Documentation: docs/testing.md
 #pragma once
 
@@ -25,6 +26,12 @@ struct HasPeek : std::false_type {};
 template <class Twin>
 struct HasPeek<Twin, std::void_t<decltype(std::declval<const Twin&>().peek(
                          std::declval<const typename Twin::In&>()))>> : std::true_type {};
+
+template <class Adapter, class Rtl, class = void>
+struct HasAtEdge : std::false_type {};
+template <class Adapter, class Rtl>
+struct HasAtEdge<Adapter, Rtl, std::void_t<decltype(Adapter::at_edge(std::declval<Rtl&>()))>>
+    : std::true_type {};
 
 struct NoObserver {
   template <class... Any>
@@ -138,6 +145,7 @@ class LockStep {
       }
       if (__builtin_expect(check.failed(), 0)) note("before the edge");
       dump(20 * cycle);
+      if constexpr (detail::HasAtEdge<Adapter, Rtl>::value) Adapter::at_edge(*rtl);
       rtl.high();
       if (!in_reset) twin.clock(in);
       if constexpr (kPeek) {

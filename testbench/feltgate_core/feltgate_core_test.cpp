@@ -33,6 +33,7 @@ namespace {
 
 struct Adapter {
   static void drive(Vfeltgate_core& rtl, const CoreIn& in) { feltgate::drive_inputs(rtl, in); }
+  static void at_edge(Vfeltgate_core& rtl) { rtl.stop_i = 0; }
   template <class Check>
   static void compare(Check& check, const Vfeltgate_core& rtl, const CoreOut& out) {
     check("tick_count", rtl.tick_count_o, out.tick_count);

@@ -14,6 +14,7 @@ namespace feltgate::test {
 
 struct PwmAdapter {
   static void drive(Vpwm& rtl, const Pwm::In& in) {
+    rtl.clear_i = in.clear;
     rtl.enable_i = in.enable;
     rtl.mode_i = in.mode;
     rtl.polarity_i = in.polarity;
@@ -57,6 +58,7 @@ class BridgeGuard {
       }
       if (in_reset) return "no gate is on during reset";
       if (!in.enable) return "no gate is on while disabled";
+      if (in.clear) return "no gate is on while cleared";
       if (on[gate ^ 1]) return "never both gates of a leg";
       if (!was_on_[gate]) {
         ++totals.turn_ons;
@@ -67,7 +69,10 @@ class BridgeGuard {
       last_on_[gate] = clock_;
     }
     const auto duty = sign_extend<13>(rtl.duty_active_o);
-    if (duty != duty_ && !rtl.period_start_o && !in_reset) return "a duty begins with a period";
+    if (!in_reset && !in.enable && duty != 0) return "no duty is in force while disabled";
+    if (duty != duty_ && !rtl.period_start_o && !in_reset && in.enable) {
+      return "a duty begins with a period";
+    }
     totals.duties += duty != duty_ ? 1 : 0;
     duty_ = duty;
     return nullptr;

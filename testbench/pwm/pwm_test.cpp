@@ -136,6 +136,7 @@ TEST_CASE("pwm: everything at random, no shoot-through, dead time kept") {
     std::uint32_t calm;
     Pwm::In operator()(std::int64_t) {
       if (random.one_in(in.enable ? calm : 5)) in.enable = !in.enable;
+      if (random.one_in(in.clear ? 4 : calm)) in.clear = !in.clear;
       if (random.one_in(calm)) in.mode = !in.mode;
       if (random.one_in(calm)) in.polarity = !in.polarity;
       if (random.one_in(kPeriod / 3)) {
@@ -163,6 +164,82 @@ TEST_CASE("pwm: everything at random, no shoot-through, dead time kept") {
   }
 }
 
+TEST_CASE("pwm: a gate changes with the clock or the clear, and no pulse is shorter than a clock") {
+  Random random(3);
+  feltgate::RtlModel<Vpwm> rtl(3);
+  Pwm::In in;
+  PwmAdapter::drive(*rtl, in);
+  rtl.reset(2);
+  const auto gates = [&rtl] {
+    return unsigned{rtl->gate_a_hi_o} | rtl->gate_a_lo_o * 2u | rtl->gate_b_hi_o * 4u |
+           rtl->gate_b_lo_o * 8u;
+  };
+  // Inputs change after the edge, before the next one and with it, as registers of all delays
+  // would.
+  const auto scramble = [&] {
+    if (random.one_in(in.enable ? 2 * kDead + 40 : 9)) in.enable = !in.enable;
+    if (random.one_in(kPeriod)) in.mode = !in.mode;
+    if (random.one_in(kPeriod)) in.polarity = !in.polarity;
+    if (random.one_in(kPeriod)) {
+      in.duty = static_cast<std::int16_t>(random.between(-kPeriod, kPeriod));
+    }
+    if (random.one_in(2)) in.duty = static_cast<std::int16_t>(kDead + 1);
+    PwmAdapter::drive(*rtl, in);
+  };
+  unsigned before = gates();
+  int on[4] = {};
+  int shortest = kPeriod;
+  for (std::int64_t clock = 0; clock < scaled_clocks(2'000'000); ++clock) {
+    scramble();
+    rtl->eval();
+    if (gates() != before) FAIL("a gate moved after the edge, at clock " << clock);
+    scramble();
+    rtl.low();
+    if (gates() != before) FAIL("a gate moved before the edge, at clock " << clock);
+    if (random.one_in(200)) {  // the clear alone may: at once, and what it cuts is not counted
+      rtl->clear_i = 1;
+      rtl->eval();
+      if (gates() != 0) FAIL("a gate stayed on through a clear, at clock " << clock);
+      rtl->clear_i = 0;
+      rtl->eval();
+      if (gates() != 0) FAIL("a gate came back without the clock, at clock " << clock);
+      for (int& clocks : on) clocks = 0;
+    }
+    rtl.high();
+    before = gates();
+    for (int gate = 0; gate < 4; ++gate) {
+      const bool is_on = (before >> gate & 1u) != 0;
+      if (!is_on && on[gate] > 0) shortest = std::min(shortest, on[gate]);
+      on[gate] = is_on ? on[gate] + 1 : 0;
+    }
+  }
+  REQUIRE(shortest == 1);  // of a duty of DeadClocks + 1, and of an enable that falls
+}
+
+TEST_CASE("pwm: the duty of the last enable never meets the gates of the next") {
+  const int high = kPeriod / 2 + 1;
+  for (const bool mode : {false, true}) {
+    for (int off = std::max(1, 5 - kDead); off < 3 * kPeriod; off += kPeriod < 100 ? 1 : 83) {
+      const int fall = 2 * kPeriod + 3;
+      const auto stimulus = [=](std::int64_t c) {
+        const auto clock = static_cast<int>(c - PwmBench::kFirstReset);
+        Pwm::In in = steady(mode, false, clock < fall + off ? high : 0);
+        in.enable = clock < fall || clock >= fall + off;
+        return in;
+      };
+      const Gates gates = record(stimulus, fall + off + 4 * kPeriod);
+      CAPTURE(mode, off);
+      // From the second enable on the duty is 0: no voltage in any whole period.
+      for (int from = fall + off + 1; from < fall + off + 3 * kPeriod; ++from) {
+        const auto at = static_cast<std::size_t>(from);
+        if (!mode && (gates.a_hi[at] || gates.b_hi[at])) FAIL("a high switch at " << from);
+      }
+      const int a = Gates::count(gates.a_hi, fall + off + kDead + 4, kPeriod);
+      REQUIRE(a <= (mode ? kPeriod / 2 : 0));
+    }
+  }
+}
+
 TEST_CASE("pwm: the twin skips quiet clocks with the same result") {
   Random random(9);
   Pwm every(kPeriod, kDead);
@@ -172,6 +249,7 @@ TEST_CASE("pwm: the twin skips quiet clocks with the same result") {
   std::int64_t total = 0;
   for (int change = 0; change < 20'000; ++change) {
     if (random.one_in(6)) in.enable = !in.enable;
+    in.clear = random.one_in(12);
     if (random.one_in(6)) in.mode = !in.mode;
     if (random.one_in(6)) in.polarity = !in.polarity;
     in.duty = static_cast<std::int16_t>(random.between(-kPeriod, kPeriod));

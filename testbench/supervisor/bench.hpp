@@ -22,6 +22,7 @@ struct SupervisorAdapter {
 
   static void drive(Vsupervisor& rtl, const Twin::In& in) {
     rtl.tick_i = in.tick;
+    rtl.period_start_i = in.period_start;
     rtl.arm_i = in.arm;
     rtl.stop_i = in.stop;
     rtl.clear_faults_i = in.clear_faults;
@@ -34,6 +35,7 @@ struct SupervisorAdapter {
     rtl.param_i = in.param;
     rtl.product_i = port_bits<kProductBits, std::uint64_t>(in.product);
   }
+  static void at_edge(Vsupervisor& rtl) { rtl.stop_i = 0; }  // seen since the last edge, not after
   template <class Check>
   static void compare(Check& check, const Vsupervisor& rtl, const Twin::Out& out) {
     check("current_estimate", sign_extend<kEstimateBits>(rtl.current_estimate_o),
@@ -156,7 +158,7 @@ inline bool only(const Script& script, Fault cause) {
 /// Watches the RTL alone.
 class Watch {
  public:
-  Watch(std::array<std::int64_t, 8>* trips, std::int64_t* armings)
+  Watch(std::array<std::int64_t, 16>* trips, std::int64_t* armings)
       : trips_(trips), armings_(armings) {}
 
   const char* operator()(const Twin::In& in, const Vsupervisor& rtl, const Twin&, bool in_reset) {
@@ -191,7 +193,7 @@ class Watch {
   }
 
  private:
-  std::array<std::int64_t, 8>* trips_;
+  std::array<std::int64_t, 16>* trips_;
   std::int64_t* armings_;
   bool gates_ = false;
   bool armed_ = false;

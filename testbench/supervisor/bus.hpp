@@ -36,6 +36,9 @@ struct Scenario {
   bool clear_faults = false;  ///< these two at the end of each tick
   bool kick = false;
   bool encoder_error = false;
+  bool period_start = false;
+  bool ticks_stand = false;      ///< neither ticks nor waves
+  bool tick_stuck = false;       ///< high
   std::uint16_t trips = 0;       ///< of other blocks
   std::int32_t voltage = 0;      ///< raw; in force once the wave has brought it
   std::int32_t velocity = 0;     ///< raw; the same
@@ -72,14 +75,15 @@ class Bus {
   Twin::In clock(const Clock::Out& now, const Scenario& s, std::int32_t current_estimate) {
     const auto at = [&now](int t) { return ((now.wave >> t) & 1U) != 0; };
     Twin::In in;
-    in.tick = now.tick;
+    in.tick = (now.tick && !s.ticks_stand) || s.tick_stuck;
+    in.period_start = s.period_start;
     in.arm = s.arm;
     in.stop = s.stop;
     in.clear_faults = s.clear_faults && now.tick;
     in.kick = s.kick && now.tick;
     in.encoder_error = s.encoder_error;
     in.trips = s.trips;
-    in.wave = now.wave;
+    in.wave = s.ticks_stand ? 0 : now.wave;
     in.product = static_cast<std::int64_t>(noise_.bits()) >> 10;
     in.param = static_cast<std::uint32_t>(noise_.bits());
     using W = Map::W;

@@ -21,13 +21,15 @@ class RandomCore {
     if (now.tick || first_) {
       next_ = scenarios_.next();
       storm_ = random_.one_in(300) ? 40 : 0;
+      hurry_ = random_.one_in(100);
     }
     // The request, the commands and the words change at the end of a tick as the registers do.
     if (now.slot_fetch == 0) s_ = next_;
     first_ = false;
-    s_.stop = random_.one_in(15000) || (s_.stop && !random_.one_in(100));
+    s_.stop = random_.one_in(6000) || (s_.stop && !random_.one_in(100));
     s_.encoder_error = random_.one_in(3000) || (storm_ > 0 && random_.coin());
     if (storm_ > 0) --storm_;
+    s_.period_start = random_.one_in(hurry_ ? 30 : 3000);
     return bus_.clock(now, s_, out.current_estimate);
   }
 
@@ -40,6 +42,7 @@ class RandomCore {
   Scenario next_;
   bool first_ = true;
   int storm_ = 0;
+  bool hurry_ = false;  ///< periods of the PWM shorter than a tick
 };
 
 }  // namespace feltgate::test

@@ -25,12 +25,12 @@ class CoreGates {
     clocks_ = {};
   }
 
-  /// `clocks` clocks with `in` held; in the last of them the gates show `enable_after`.
-  void advance(const Pwm::In& in, int clocks, bool enable_after) {
-    if (quiet_for(clocks, in.enable) && in.enable == enable_after) {
+  /// `clocks` clocks with `in` held.
+  void advance(const Pwm::In& in, int clocks) {
+    if (quiet_for(clocks, in.enable) && !in.clear) {
       pass(clocks);
     } else {
-      advance_to_events(in, clocks, enable_after);
+      advance_to_events(in, clocks);
     }
   }
   /// Whether nothing changes in the next `clocks` clocks with this enable, as far as is known, so
@@ -55,9 +55,9 @@ class CoreGates {
   }
 
  private:
-  void advance_to_events(const Pwm::In& in, int clocks, bool enable_after) {
+  void advance_to_events(const Pwm::In& in, int clocks) {
     settle();
-    if (in.enable != enable_) quiet_ = 0;
+    if (in.enable != enable_ || in.clear) quiet_ = 0;
     enable_ = in.enable;
     while (clocks > 0) {
       if (quiet_ == 0) quiet_ = pwm_.quiet_clocks(in);
@@ -67,28 +67,18 @@ class CoreGates {
         settle();
       } else {
         pwm_.clock(in);
-        take(bits(in.enable));
+        take(bits(pwm_.out()));
         held_ += step;
       }
       clocks -= step;
     }
-    take_last(enable_after);
   }
   /// The PWM itself follows the clocks that pass() has counted.
   void settle() {
     if (passed_ > 0) pwm_.skip(passed_);
     passed_ = 0;
   }
-  /// The last clock shows another enable than those before it.
-  void take_last(bool enable) {
-    --held_;
-    take(bits(enable));
-    ++held_;
-  }
-  std::uint8_t bits(bool enable) const {
-    Pwm::In in;
-    in.enable = enable;
-    const Pwm::Out g = pwm_.peek(in);
+  static std::uint8_t bits(const Pwm::Out& g) {
     return static_cast<std::uint8_t>(g.gate_a_hi | g.gate_a_lo << 1 | g.gate_b_hi << 2 |
                                      g.gate_b_lo << 3);
   }

@@ -18,7 +18,9 @@ constexpr int host_write_clock = 5;
 /// Inputs of the core in one clock.
 struct CoreIn {
   EncoderPins encoder;
-  bool arm = false, stop = false, set_zero = false;
+  bool arm = false;
+  bool stop = false;  ///< the stop was seen since the last clock, however shortly
+  bool set_zero = false;
   std::uint8_t scene = 0;
   std::uint16_t reg_addr = 0;
   std::uint32_t reg_wdata = 0;

@@ -71,12 +71,12 @@ bool FeltgateCore<D, ReadBack>::calm(const In& in, std::int64_t clocks) const {
       !decoder_.settled(decoder_inputs(in, false, false))) {
     return false;
   }
+  if (!out_.gates_enable) return out_.duty_active == 0;
   // What can close the gates is over-speed, over-current and a wrong polarity.
   const auto limit = static_cast<std::int32_t>(supervisor_words_.overspeed);
   const auto slow = [limit](std::int64_t w) { return w <= limit && -w <= limit; };
-  return !out_.gates_enable ||
-         (!supervisor_.near_trip(supervisor_words_) && slow(out_.velocity) &&
-          slow(wave_.velocity_input(static_cast<std::int16_t>(decoder_.out().travel))));
+  return !supervisor_.near_trip(supervisor_words_) && slow(out_.velocity) &&
+         slow(wave_.velocity_input(static_cast<std::int16_t>(decoder_.out().travel)));
 }
 
 /// The next clock after `from` in which the wave looks at the decoder.
@@ -184,17 +184,17 @@ int FeltgateCore<D, ReadBack>::advance_decoder(const In& in, int from, int to) {
   return to;
 }
 
-/// Gates to the clock `to`. A fall shows in the outputs with the clock that makes it.
+/// Gates to the clock `to`.
 template <class D, bool ReadBack>
 void FeltgateCore<D, ReadBack>::gates_to(Stretch& s, int to) {
   if (s.quiet) return;
   const int end = std::min(to, s.open);
   if (s.gates_at < end) {
-    gates_.advance(pwm_inputs(true, out_.duty), end - s.gates_at, end < s.open);
+    gates_.advance(pwm_inputs(true, out_.duty), end - s.gates_at);
     s.gates_at = end;
   }
   if (s.gates_at < to) {
-    gates_.advance(pwm_inputs(false, out_.duty), to - s.gates_at, false);
+    gates_.advance(pwm_inputs(false, out_.duty), to - s.gates_at);
     s.gates_at = to;
   }
 }
@@ -202,18 +202,9 @@ void FeltgateCore<D, ReadBack>::gates_to(Stretch& s, int to) {
 /// Gates to the end of the stretch; in the last clock of a tick arming and scene.
 template <class D, bool ReadBack>
 void FeltgateCore<D, ReadBack>::finish(const In& in, Stretch& s) {
-  bool same = true;
-  const bool whole = s.to == D::clocks_per_tick;
-  if (whole) {
-    end_of_tick(in);
-    same = supervisor_.out().gates_enable == (s.open > 0);
-  }
-  if (s.quiet && same) return gates_.pass(s.to - s.from);
-  s.quiet = false;
-  gates_to(s, whole ? s.to - 1 : s.to);
-  if (whole) {
-    gates_.advance(pwm_inputs(s.to - 1 < s.open, out_.duty), 1, supervisor_.out().gates_enable);
-  }
+  if (s.to == D::clocks_per_tick) end_of_tick(in);
+  if (s.quiet) return gates_.pass(s.to - s.from);
+  gates_to(s, s.to);
 }
 
 /// Before a clock() that follows a pass(): the supervisor's registers between its steps, by its own

@@ -65,7 +65,8 @@ class FeltgateCore {
     sup.kick = tick && registers_.commands(D::C::command_kick);
     sup.encoder_error = decoder_.out().illegal;
     if (registers_.out().word_error) sup.trips |= 1u << static_cast<unsigned>(Fault::word);
-    const Pwm::In pwm = pwm_inputs(supervisor_.out().gates_enable, out_.duty);
+    Pwm::In pwm = pwm_inputs(supervisor_.out().gates_enable, out_.duty);
+    pwm.clear = supervisor_.stopped(in.stop);
     out_.snapshot_valid = false;
     core_steps::for_each_step_of(clock_, [this](Step step) { take<true>(step, decoder_.out()); });
     supervisor_.clock(sup);
@@ -85,7 +86,7 @@ class FeltgateCore {
         if (written >= 0) take_word(written);
       }
     }
-    gates_.advance(pwm, 1, supervisor_.out().gates_enable);
+    gates_.advance(pwm, 1);
     advance_clock(1);
     show();
   }

@@ -3,7 +3,7 @@
 //
 // Twin of rtl/pwm.sv: centre-aligned PWM for an H-bridge with dead time. Duty [1,12,0] clocks;
 // taken once a period with period_start, at the gates 3 clocks later, rising ones after the dead
-// time too. Documentation: docs/blocks/pwm.md
+// time too; 0 is in force while disabled. Documentation: docs/blocks/pwm.md
 #pragma once
 
 #include <algorithm>
@@ -17,12 +17,14 @@ namespace feltgate {
 class Pwm {
  public:
   struct In {
-    bool enable = false;    ///< false: every gate off within this clock
+    bool clear = false;     ///< every gate off, between the edges too
+    bool enable = false;    ///< false: every gate off with this clock, duty 0
     bool mode = false;      ///< false: sign-magnitude, true: locked-antiphase
     bool polarity = false;  ///< true: motor wired the other way
     std::int16_t duty = 0;  ///< clocks, -4096..4095; beyond +-period it acts as +-period
     bool operator==(const In& o) const {
-      return enable == o.enable && mode == o.mode && polarity == o.polarity && duty == o.duty;
+      return clear == o.clear && enable == o.enable && mode == o.mode && polarity == o.polarity &&
+             duty == o.duty;
     }
   };
   struct Out {
@@ -31,7 +33,7 @@ class Pwm {
     bool gate_b_hi = false;
     bool gate_b_lo = false;
     bool period_start = false;     ///< duty has just been taken
-    std::int16_t duty_active = 0;  ///< as taken, clocks
+    std::int16_t duty_active = 0;  ///< as taken, clocks; 0 while disabled
     bool operator==(const Out& o) const {
       return gate_a_hi == o.gate_a_hi && gate_a_lo == o.gate_a_lo && gate_b_hi == o.gate_b_hi &&
              gate_b_lo == o.gate_b_lo && period_start == o.period_start &&
@@ -60,27 +62,26 @@ class Pwm {
 
   void clock(const In& in) {
     const std::array<bool, 2> high = wanted();
-    legs_[0].clock(high[0], in.enable, dead_);
-    legs_[1].clock(high[1], in.enable, dead_);
+    for (std::size_t l = 0; l < 2; ++l) legs_[l].clock(high[l], in, dead_);
     command_ = taken_;
     out_.period_start = time_ == period_ - 2;
     if (out_.period_start) {
       taken_ = command(in);
       out_.duty_active = in.duty;
     }
+    if (!in.enable) {
+      taken_.threshold = taken_.antiphase ? period_ / 2 : 0;
+      out_.duty_active = 0;
+    }
     time_ = time_ == period_ - 1 ? 0 : time_ + 1;
     enable_ = in.enable;
-    gate(out_, enable_);
+    out_.gate_a_hi = legs_[0].hi_q;
+    out_.gate_a_lo = legs_[0].lo_q;
+    out_.gate_b_hi = legs_[1].hi_q;
+    out_.gate_b_lo = legs_[1].lo_q;
   }
 
   const Out& out() const { return out_; }
-
-  /// The outputs before the next edge: enable acts at once.
-  Out peek(const In& in) const {
-    Out now = out_;
-    gate(now, in.enable);
-    return now;
-  }
 
   /// Coming clocks before the one that takes the duty.
   int clocks_to_duty() const { return time_ > period_ - 2 ? period_ - 1 : period_ - 2 - time_; }
@@ -88,7 +89,7 @@ class Pwm {
   /// Coming clocks, inputs held, in which no output changes and skip() may stand for clock(). At
   /// least one clock() is due when it is 0.
   int quiet_clocks(const In& in) const {
-    if (in.enable != enable_ || out_.period_start) return 0;
+    if (in.clear || in.enable != enable_ || out_.period_start || !(command_ == taken_)) return 0;
     int quiet = period_ - 2 - time_;
     const std::array<bool, 2> next = wanted();
     for (std::size_t l = 0; l < 2; ++l) {
@@ -140,10 +141,11 @@ class Pwm {
     bool lo_q = false;
     int dead = 0;  // clocks until dead_q has counted to its top bit
 
-    void clock(bool high, bool enable, int dead_clocks) {
-      const bool free = enable && high_q == wanted_q;
-      hi_q = free && dead == 0 && wanted_q;
-      lo_q = free && dead == 0 && !wanted_q;
+    void clock(bool high, const In& in, int dead_clocks) {
+      const bool free = in.enable && high_q == wanted_q;
+      const bool on = free && dead == 0 && !in.clear;
+      hi_q = on && wanted_q;
+      lo_q = on && !wanted_q;
       dead = free ? std::max(0, dead - 1) : dead_clocks;
       wanted_q = high_q;
       high_q = high;
@@ -155,6 +157,9 @@ class Pwm {
     int threshold = 0;  // clocks with leg A high (leg B when switch_b)
     bool antiphase = false;
     bool switch_b = false;
+    bool operator==(const Command& o) const {
+      return threshold == o.threshold && antiphase == o.antiphase && switch_b == o.switch_b;
+    }
   };
 
   Command command(const In& in) const {
@@ -174,12 +179,6 @@ class Pwm {
   }
   int on_time(int share) const {
     return share >= period_ ? period_ : std::max(0, share - (dead_ + 1));
-  }
-  void gate(Out& out, bool enable) const {
-    out.gate_a_hi = legs_[0].hi_q && enable;
-    out.gate_a_lo = legs_[0].lo_q && enable;
-    out.gate_b_hi = legs_[1].hi_q && enable;
-    out.gate_b_lo = legs_[1].lo_q && enable;
   }
 
   int period_;

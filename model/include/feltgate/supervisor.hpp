@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/supervisor.sv: arming, six causes of fault, the gates. Estimated current [1,8,8] A,
+// Twin of rtl/supervisor.sv: arming, seven causes of fault, the gates. Estimated current [1,8,8] A,
 // I2t sum [0,31,2] A^2 tick. Documentation: docs/blocks/supervisor.md
 #pragma once
 
@@ -60,8 +60,10 @@ class Supervisor {
 
   struct In {
     bool tick = false;  ///< last clock of a tick
+    bool period_start =
+        false;  ///< of the PWM; left out where ticks cannot stand, as in the core's twin
     bool arm = false;
-    bool stop = false;
+    bool stop = false;          ///< was seen since the last clock, however shortly
     bool clear_faults = false;  ///< only in the clock of tick
     bool kick = false;          ///< only in the clock of tick
     bool encoder_error = false;
@@ -114,6 +116,9 @@ class Supervisor {
     const bool live = out_.gates_enable;
     std::uint16_t trip = in.trips;
     if (in.encoder_error && errors_ == kBorne) trip |= bit(Fault::encoder);
+    const bool stopped_now = stopped(in.stop);
+    const bool dealt_with = stop_2_ && !live && out_.first_fault == 0;
+    if (in.period_start && tickless_ == kTickPeriods) trip |= bit(Fault::tick);
     if (stop_2_ && live) trip |= bit(Fault::stop);
     if ((in.wave & kWaveClocks) != 0) wave_clock(in, &trip);
     if (in.encoder_error) errors_ = errors_ == kBorne ? 0 : errors_ + 1;
@@ -125,11 +130,26 @@ class Supervisor {
       out_.gates_enable = false;
     }
     stop_2_ = stop_1_;
-    stop_1_ = in.stop;
+    stop_1_ = stopped_now;
+    stopped_ = stopped_now && !dealt_with;
+    if (in.tick && !tick_before_) {
+      tickless_ = 0;
+    } else if (in.period_start && tickless_ < kTickPeriods) {
+      ++tickless_;
+    }
+    tick_before_ = in.tick;
   }
 
-  /// The stop input has been at this level for two clocks: tick() may be used while it stays there.
-  bool steady(bool stop) const { return stop_1_ == stop && stop_2_ == stop; }
+  /// The gates are cleared before the edge of the clock to come, in which the stop input is `stop`.
+  bool stopped(bool stop) const { return stop || stopped_; }
+
+  /// The stop has settled at this level of its input: tick() may be used while it stays there. That
+  /// a fault keeps the latch of a stop that is held is left to the clocks: nothing shows it.
+  bool steady(bool stop) const {
+    const bool latched = stopped(stop);
+    if (stop_1_ != latched || stop_2_ != latched) return false;
+    return stop || !stopped_ || out_.gates_enable || out_.first_fault != 0;
+  }
 
   // A tick from its first to its last clock without encoder errors and with steady(stop), in the
   // steps that change something; each stands for all clocks up to its own. The first four return
@@ -195,6 +215,8 @@ class Supervisor {
   using Sum = fixed_of<Law::sum_key>;
   using Squared = fixed_of<Law::squared_key>;
   static constexpr bool kWatchdogLast = watchdog_clock == D::clocks_per_tick - 1;
+  /// Periods of the PWM that hold at least one tick.
+  static constexpr int kTickPeriods = (D::clocks_per_tick + D::pwm_period - 1) / D::pwm_period;
   static constexpr int kBorne = Map::errors_borne;  // encoder errors
   static constexpr std::uint32_t kForgiveTicks = 1u << Map::forgive_bits;
   static constexpr std::uint32_t kLongestKickless = 1u << Map::kickless_bits;
@@ -305,8 +327,11 @@ class Supervisor {
   }
 
   Out out_;
+  bool stopped_ = false;  ///< the latch of the stop; the clocks of a reset release it
   bool stop_1_ = true;
   bool stop_2_ = true;
+  bool tick_before_ = false;
+  int tickless_ = 0;    ///< periods of the PWM that began since the last tick
   bool asked_ = true;   ///< the request of the tick before: high after a reset
   bool awake_ = false;  ///< the watchdog has been kicked
   int errors_ = 0;      ///< of the encoder, not forgiven yet

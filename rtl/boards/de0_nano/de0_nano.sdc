@@ -6,7 +6,8 @@
 create_clock -name CLOCK_50 -period 20.000 [get_ports CLOCK_50]
 derive_clock_uncertainty
 
-# Asynchronous to any clock: each passes two flip-flops before it is used.
+# Asynchronous to any clock: each passes two flip-flops before the clock uses it. ESTOP also sets a latch and
+# clears the gates without one.
 set_false_path -from [get_ports {KEY[*] SW[*] ENC_A ENC_B ENC_Z ESTOP}]
 
 # For the eye only.

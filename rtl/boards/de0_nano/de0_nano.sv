@@ -19,7 +19,7 @@ module de0_nano #(
   input  logic       ENC_A,      // asynchronous, as ESTOP; feltgate_core synchronises them
   input  logic       ENC_B,
   input  logic       ENC_Z,
-  input  logic       ESTOP,      // high stops: a normally closed switch to GND, pulled up
+  input  logic       ESTOP,      // high stops, without a clock: a normally closed switch to GND, pulled up
   output logic       GATE_A_HI,
   output logic       GATE_A_LO,
   output logic       GATE_B_HI,

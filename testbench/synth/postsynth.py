@@ -17,17 +17,17 @@ import synth_measure  # noqa: E402
 from seeding import patches  # noqa: E402
 from synth_tools import ToolError, Tools  # noqa: E402
 
+CLOCKS = ("clk_i", "rst_ni")
 MODELS = ("mult18x18d_model.sv", "dp16kd_model.sv")
 
 
 def pair(block, ports, parameters):
     """RTL and netlist with the same inputs, each with its outputs in one word."""
-    clocks = ("clk_i", "rst_ni")
-    ins = [p for p in ports if p[1] == "input" and p[0] not in clocks]
+    ins = [p for p in ports if p[1] == "input" and p[0] not in CLOCKS]
     outs = [p for p in ports if p[1] == "output"]
     instances = []
     for kind, module in (("rtl", f"{block} #({parameters})"), ("netlist", f"{block}_netlist")):
-        pins = [f".{name}({name})" for name, _, _ in ports if name in clocks]
+        pins = [f".{name}({name})" for name, _, _ in ports if name in CLOCKS]
         for word, some in (("in_i", ins), (f"{kind}_o", outs)):
             start = 0
             for name, _, width in some:
@@ -42,11 +42,11 @@ def pair(block, ports, parameters):
     return "\n".join([head, *instances, "endmodule", ""]), n_in, n_out
 
 
-def fields(ports):
-    """C++: where each output lies, so that a mismatch has a name."""
+def fields(ports, wanted):
+    """C++: where each output or input lies, so that it has a name."""
     start, rows = 0, []
     for name, way, width in ports:
-        if way == "output":
+        if way == wanted and name not in CLOCKS:
             rows.append(f'    {{"{name}", {start}, {width}}},')
             start += width
     return rows
@@ -95,7 +95,10 @@ def main():
         f"constexpr int kOutputBits = {n_out};",
         "struct Field { const char* name; int first; int width; };",
         "constexpr Field kFields[] = {",
-        *fields(ports),
+        *fields(ports, "output"),
+        "};",
+        "constexpr Field kInputs[] = {",
+        *fields(ports, "input"),
         "};",
     ]
     (output / "pair_fields.hpp").write_text("\n".join(header) + "\n", encoding="utf-8")

@@ -27,7 +27,7 @@ module registers #(
   input  logic [3:0]  scene_i,             // the bank of the scene in force; not 1
   input  logic        region_high_i,       // the voltage gain is that of high torque
   output logic [31:0] param_o,
-  output logic        word_error_o,        // the word on the bus a clock ago has changed by itself
+  output logic        word_error_o,        // the word on the bus, or a held control bit, has changed by itself
 
   output logic [feltgate_map_pkg::W_CONTROL-1:0] control_o,
   output logic        set_zero_o,          // commands: high in the clock of tick_i; also the panel's
@@ -66,6 +66,9 @@ module registers #(
   // While the motor is armed, the control word's fields from HELD on keep what is in force, and a
   // parameter by which the torque would jump past the ramp is refused.
   localparam int HELD = feltgate_map_pkg::B_CONTROL_MODE;
+  localparam logic [feltgate_map_pkg::W_CONTROL-1:0] CONTROL_RESET =
+      feltgate_map_pkg::W_CONTROL'(feltgate_pkg::CONTROL_RESET);
+  logic held_check_q;  // the parity of the held fields as they were written
   assign holds   = armed_i && !disarm_o;
   assign common  = address_q[8:6] == 3'd0;
   assign refuses = armed_i && common && feltgate_map_pkg::REFUSED_WHILE_ARMED[address_q[5:0]];
@@ -85,7 +88,8 @@ module registers #(
       stop_o         <= 1'b0;
       zero_q         <= 1'b0;
       refused_o      <= 1'b0;
-      control_o      <= feltgate_map_pkg::W_CONTROL'(feltgate_pkg::CONTROL_RESET);
+      control_o      <= CONTROL_RESET;
+      held_check_q   <= ^CONTROL_RESET[feltgate_map_pkg::W_CONTROL-1:HELD];
     end else begin
       if (reg_write_i && !reg_busy_o) begin
         to_parameter_q <= at_parameter;
@@ -106,6 +110,7 @@ module registers #(
         control_o[HELD-1:0] <= data_q[HELD-1:0];
         if (!holds) begin
           control_o[feltgate_map_pkg::W_CONTROL-1:HELD] <= data_q[feltgate_map_pkg::W_CONTROL-1:HELD];
+          held_check_q <= ^data_q[feltgate_map_pkg::W_CONTROL-1:HELD];
         end
       end
       if (tick_i && disarm_o) begin  // also against an arm that waits
@@ -172,7 +177,8 @@ module registers #(
       if (warm_q) {check_q, param_o} <= fetch_q;
       written_q    <= tick_i && to_parameter_q;
       written_q2   <= written_q;
-      word_error_o <= check_q != check_of(param_o) && !written_q2;
+      word_error_o <= (check_q != check_of(param_o) && !written_q2) ||
+                      held_check_q != ^control_o[feltgate_map_pkg::W_CONTROL-1:HELD];
     end
   end
 

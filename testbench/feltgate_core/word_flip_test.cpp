@@ -59,6 +59,14 @@ class Pair {
     rtl_->rootp->feltgate_core__DOT__u_registers__DOT__parameter_ram[at] ^= QData{1} << bit;
     twin_.flip(address, bit);
   }
+  void flip_control(int bit) {
+    if (bit < D::C::control_width) {
+      rtl_->rootp->feltgate_core__DOT__control ^= static_cast<SData>(1u << bit);
+    } else {
+      rtl_->rootp->feltgate_core__DOT__u_registers__DOT__held_check_q ^= 1u;
+    }
+    twin_.flip_control(bit);
+  }
   /// A bit of the register that holds the velocity; in the RTL alone.
   void flip_velocity(int bit) {
     auto& y = rtl_->rootp->feltgate_core__DOT__u_velocity_n__DOT__u_lowpass__DOT__y_q;
@@ -158,6 +166,24 @@ TEST_CASE("core: flips of several bits, found or not as the four parities say") 
   }
   CHECK(found > 300);
   CHECK(hidden > 10);
+  CHECK(pair.mismatches() == 0);
+}
+
+TEST_CASE("core: each control bit that holds while armed opens the gates at once") {
+  Pair pair;
+  for (int bit = D::C::control_mode; bit <= D::C::control_width; ++bit) {
+    pair.arm(D::S::free);
+    REQUIRE(pair.out().gates_enable);
+    pair.flip_control(bit);
+    INFO("bit " << bit);
+    CHECK(clocks_to_fall(pair, kTick) <= 3);
+    CHECK(pair.out().first_fault == static_cast<unsigned>(Fault::word));
+    pair.in.arm = false;
+    pair.to_next_tick();
+    pair.write(D::C::control, static_cast<std::uint32_t>(D::control_reset));
+    pair.clear();
+    REQUIRE(pair.out().faults == 0);
+  }
   CHECK(pair.mismatches() == 0);
 }
 

@@ -105,6 +105,9 @@ class FeltgateCore {
     take_word(address);
   }
 
+  /// The same of a held control bit, see Registers::flip_control().
+  void flip_control(int bit) { registers_.flip_control(bit); }
+
   const Out& out() const { return out_; }
   /// Clocks since reset for which each gate was on: a_hi, a_lo, b_hi, b_lo.
   std::array<std::int64_t, 4> gate_clocks() const { return gates_.on_clocks(); }

@@ -65,7 +65,7 @@ class Registers {
     data_ = 0;
     zero_ = false;
     warm_ = false;
-    fetch_wrong_ = bus_wrong_ = false;
+    fetch_wrong_ = bus_wrong_ = held_wrong_ = false;
     write_bank_ = 0;
     frozen_ = false;
     source_ = source_2_ = Source::nowhere;
@@ -75,14 +75,14 @@ class Registers {
   void clock(const In& in) {
     // What is read in this clock is what the RAMs held before it.
     const std::uint32_t fetched = parameters_[fetch_address(in)];
-    out_.word_error = bus_wrong_;
+    out_.word_error = bus_wrong_ || held_wrong_;
     if (warm_) {
       out_.param = fetch_;
       bus_wrong_ = fetch_wrong_;
     }
     fetch_ = fetched;
     const bool writes = in.tick && target_ == Target::parameter;
-    fetch_wrong_ = flipped() && !writes && wrong(fetch_address(in));
+    fetch_wrong_ = !flipped_.empty() && !writes && wrong(fetch_address(in));
     if constexpr (ReadBack) read(in.reg_addr);
     if (in.snap_valid) write_snapshot(in.snap_slot, in.snap_data);
     warm_ = true;
@@ -152,8 +152,13 @@ class Registers {
     bits ^= std::uint64_t{1} << bit;
     if (bits == 0) flipped_.erase(at);
   }
+  /// The same of a control bit that holds while armed, or with bit = control_width of their parity.
+  void flip_control(int bit) {
+    if (bit < D::C::control_width) out_.control ^= static_cast<std::uint16_t>(1U << bit);
+    held_wrong_ = !held_wrong_;
+  }
   /// Some word is not what was written.
-  bool flipped() const { return !flipped_.empty(); }
+  bool flipped() const { return held_wrong_ || !flipped_.empty(); }
 
   /// One word into the snapshot of the running tick, 0 <= slot < 64.
   void write_snapshot(int slot, std::uint32_t word) {
@@ -269,6 +274,7 @@ class Registers {
     if (target_ == Target::control) {
       out_.control =
           static_cast<std::uint16_t>(control_after(out_.control, data_, armed && !out_.disarm));
+      if (!armed || out_.disarm) held_wrong_ = false;
     }
     if (out_.disarm) {
       constexpr unsigned host = 1U << D::C::control_host, arm = 1U << D::C::control_arm;
@@ -290,7 +296,7 @@ class Registers {
   bool zero_ = false;  ///< the panel asks for it
   bool warm_ = false;
   std::uint32_t fetch_ = 0;
-  bool fetch_wrong_ = false, bus_wrong_ = false;
+  bool fetch_wrong_ = false, bus_wrong_ = false, held_wrong_ = false;
   std::map<std::size_t, std::uint64_t> flipped_;  ///< bits of words that are wrong, by address
   int write_bank_ = 0;
   bool frozen_ = false;

@@ -61,7 +61,7 @@ class Pair {
   }
   void flip_control(int bit) {
     if (bit < D::C::control_width) {
-      rtl_->rootp->feltgate_core__DOT__control ^= static_cast<SData>(1u << bit);
+      rtl_->rootp->feltgate_core__DOT__u_registers__DOT__control_o ^= static_cast<SData>(1u << bit);
     } else {
       rtl_->rootp->feltgate_core__DOT__u_registers__DOT__held_check_q ^= 1u;
     }

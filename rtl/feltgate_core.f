@@ -5,6 +5,8 @@ feltgate_checks.sv
 sequencer.sv
 registers.sv
 quad_decoder.sv
+encoder_monitor.sv
+hold_timer.sv
 lowpass.sv
 velocity_n.sv
 velocity_jump.sv

@@ -73,6 +73,7 @@ module feltgate_core #(
   logic [ 1:0] mode;
   logic host, arm_request, set_zero, clear_faults, kick, region_high, snap_valid;
   logic disarm, host_stop, restart, refused, word_error;
+  logic moved, frozen, eased, channel_trip;
   logic [ 5:0] snap_slot;
   assign host         = control[feltgate_map_pkg::B_CONTROL_HOST];
   assign mode         = control[feltgate_map_pkg::B_CONTROL_MODE+:feltgate_map_pkg::W_CONTROL_MODE];
@@ -106,6 +107,7 @@ module feltgate_core #(
       .scene_slot_fetch_i(scene_slot_fetch),
       .scene_i(scene_q),
       .region_high_i(region_high),
+      .eased_i(eased),
       .param_o(param),
       .word_error_o(word_error),
       .control_o(control),
@@ -116,8 +118,7 @@ module feltgate_core #(
       .stop_o(host_stop),
       .restart_o(restart),
       .refused_o(refused),
-      .snap_slot_i(snap_slot),
-      .snap_valid_i(snap_valid),
+      .snap_slot_i(snap_slot), .snap_valid_i(snap_valid),
       .snap_data_i(operand[31:0])
   );
 
@@ -127,6 +128,7 @@ module feltgate_core #(
   logic [15:0] error_count, rejected_count;
   logic encoder_error, illegal, unused_index_seen;
   logic signed [1:0] unused_step;
+  logic [1:0] levels;
   quad_decoder u_quad_decoder (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .a_i(enc_a_i),
@@ -139,12 +141,21 @@ module feltgate_core #(
       .position_o(position),
       .travel_o(travel),
       .step_o(unused_step),
+      .levels_o(levels),
       .illegal_o(illegal),
       .error_o(encoder_error),
-      .error_count_o(error_count),
-      .rejected_count_o(rejected_count),
+      .error_count_o(error_count), .rejected_count_o(rejected_count),
       .index_position_o(index_position),
       .index_seen_o(unused_index_seen)
+  );
+
+  encoder_monitor u_encoder_monitor (
+      .clk_i(clk_i), .rst_ni(rst_ni), .wave_i(wave), .tick_count_i(tick_count_o), .levels_i(levels),
+      .moved_o(moved), .chatters_o(frozen), .trip_o(channel_trip)
+  );
+  hold_timer u_hold_timer (
+      .clk_i(clk_i), .rst_ni(rst_ni), .armed_i(armed_o), .wave_i(wave), .tick_count_i(tick_count_o),
+      .param_i(param), .moved_i(moved), .beyond_i(beyond), .eased_o(eased)
   );
 
   logic signed [SceneW-1:0] scene_position_q;
@@ -225,7 +236,7 @@ module feltgate_core #(
       .limited_o(limited),
       .beyond_o(beyond)
   );
-  logic limit_torque, limit_ramp, limit_current, limit_voltage, limit_duty;
+  logic limit_torque, limit_ramp, limit_hold, limit_current, limit_voltage, limit_duty;
   ramp u_ramp (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .armed_i(armed_o),
@@ -236,8 +247,9 @@ module feltgate_core #(
       .limited_i(limited),
       .beyond_i(beyond),
       .tau_ref_o(tau_ref_o),
-      .limit_torque_o(limit_torque),
-      .limit_ramp_o(limit_ramp)
+      .frozen_i(frozen), .eased_i(eased),
+      .limit_torque_o(limit_torque), .limit_ramp_o(limit_ramp),
+      .limit_hold_o(limit_hold)
   );
 
   torque_control u_torque_control (
@@ -256,9 +268,7 @@ module feltgate_core #(
       .current_ref_o(current_ref_o),
       .voltage_o(voltage_o),
       .duty_o(duty_o),
-      .limit_current_o(limit_current),
-      .limit_voltage_o(limit_voltage),
-      .limit_duty_o(limit_duty)
+      .limit_current_o(limit_current), .limit_voltage_o(limit_voltage), .limit_duty_o(limit_duty)
   );
 
   logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate;
@@ -279,13 +289,13 @@ module feltgate_core #(
       .product_i(supervisor_product),
       .trips_i((FaultsW'(host_stop) << feltgate_map_pkg::FAULT_STOP) |
                (FaultsW'(word_error) << feltgate_map_pkg::FAULT_WORD) |
+               (FaultsW'(channel_trip) << feltgate_map_pkg::FAULT_CHANNEL) |
                (FaultsW'(velocity_jumped) << feltgate_map_pkg::FAULT_JUMP)),
       .current_estimate_o(current_estimate),
       .armed_o(armed_o),
       .gates_enable_o(gates_enable),
       .gates_clear_o(gates_clear),
-      .faults_o(faults_o),
-      .first_fault_o(first_fault_o)
+      .faults_o(faults_o), .first_fault_o(first_fault_o)
   );
 
   pwm #(.Period(feltgate_pkg::PWM_PERIOD), .DeadClocks(feltgate_pkg::DEAD_CLOCKS)) u_pwm (
@@ -295,10 +305,7 @@ module feltgate_core #(
       .mode_i(control[feltgate_map_pkg::B_CONTROL_PWM_MODE]),
       .polarity_i(control[feltgate_map_pkg::B_CONTROL_MOTOR_POLARITY]),
       .duty_i(duty_o),
-      .gate_a_hi_o(gate_a_hi_o),
-      .gate_a_lo_o(gate_a_lo_o),
-      .gate_b_hi_o(gate_b_hi_o),
-      .gate_b_lo_o(gate_b_lo_o),
+      .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o), .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
       .period_start_o(period_start),
       .duty_active_o(duty_active_o)
   );
@@ -308,7 +315,8 @@ module feltgate_core #(
   assign limits_o = (LimitsW'(limit_torque) << feltgate_map_pkg::L_TORQUE) | (LimitsW'(limit_ramp) << feltgate_map_pkg::L_RAMP) |
                     (LimitsW'(limit_current) << feltgate_map_pkg::L_CURRENT) | (LimitsW'(limit_voltage) << feltgate_map_pkg::L_VOLTAGE) |
                     (LimitsW'(limit_duty) << feltgate_map_pkg::L_DUTY) | (LimitsW'(velocity_saturated) << feltgate_map_pkg::L_VELOCITY) |
-                    (LimitsW'(tau_hat_saturated) << feltgate_map_pkg::L_TAU_HAT) | (LimitsW'(!gates_enable) << feltgate_map_pkg::L_GATES_CLOSED);
+                    (LimitsW'(tau_hat_saturated) << feltgate_map_pkg::L_TAU_HAT) | (LimitsW'(!gates_enable) << feltgate_map_pkg::L_GATES_CLOSED) |
+                    (LimitsW'(limit_hold) << feltgate_map_pkg::L_HOLD) | (LimitsW'(frozen) << feltgate_map_pkg::L_CHATTER);
   assign faults = (32'(faults_o) << feltgate_map_pkg::B_FAULTS_SEEN) |
                   (32'(first_fault_o) << feltgate_map_pkg::B_FAULTS_FIRST);
   assign status = (32'(limits_o) << feltgate_map_pkg::B_STATUS_LIMITS) |

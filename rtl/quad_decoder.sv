@@ -21,6 +21,7 @@ module quad_decoder #(
   output logic signed [31:0] position_o,
   output logic        [15:0] travel_o,          // free-running, set_zero_i does not touch it
   output logic signed [1:0]  step_o,            // what travel_o moved by in this clock
+  output logic        [1:0]  levels_o,          // of A (bit 0) and B, as accepted
   output logic               error_o,           // sticky: both channels changed in one clock
   output logic               illegal_o,         // both channels changed in the clock before
   output logic        [15:0] error_count_o,     // saturates
@@ -120,6 +121,7 @@ module quad_decoder #(
 
   assign travel_o = count_q[15:0];
   assign step_o   = step_q;
+  assign levels_o = level_q[1:0];
 
   // One counter is served in a clock; an event waits while it is the other's turn.
   logic error_wait_q, rejected_wait_q, serve_error, serve_rejected;

@@ -20,9 +20,12 @@ module ramp (
     input  logic signed [feltgate_pkg::LIMITER_W-1:0] limited_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic                                      beyond_i,
+    input  logic                                      frozen_i,  // the reference may only fall
+    input  logic                                      eased_i,   // the limit is hold_limit
     output logic signed [ feltgate_pkg::TORQUE_W-1:0] tau_ref_o,
     output logic                                      limit_torque_o,
-    output logic                                      limit_ramp_o
+    output logic                                      limit_ramp_o,
+    output logic                                      limit_hold_o
 );
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int W = feltgate_pkg::RAMP_W;
@@ -33,12 +36,14 @@ module ramp (
   assign tau_ref_o = ramp_q[W-1:Fine];
 
   // How far the reference is above the target.
-  // A negative step counts as 0.
+  // A negative step counts as 0, and while frozen every step.
   logic signed [W:0] excess_q;
   logic      [W-2:0] step_q;
+  logic              below_q;  // the target is negative
   always_ff @(posedge clk_i) begin
     if (wave_i[Excess]) begin
-      if (param_i[W-1]) step_q <= '0;
+      below_q <= limited_i[TorqueW-1];
+      if (param_i[W-1] || frozen_i) step_q <= '0;
       else step_q <= param_i[W-2:0];
       excess_q <= {(TorqueW + 1)'(tau_ref_o) - (TorqueW + 1)'($signed(limited_i[TorqueW-1:0])),
                    ramp_q[Fine-1:0]};
@@ -49,18 +54,21 @@ module ramp (
   // one step ends the ramp; the reference moves on with the next.
   logic signed [W:0] step, change, beyond;
   logic signed [W-1:0] change_q;
-  logic              ramping_q, stepping_q, down, reached, carry_q, stay_q;
-  always_ff @(posedge clk_i) stepping_q <= ramping_q && armed_i;
+  logic              ramping_q, active_q, stepping, stepping_q, down, grows, reached, carry_q, stay_q;
+  always_ff @(posedge clk_i) active_q <= ramping_q && armed_i;
   assign down     = !excess_q[W];
+  assign grows    = ramp_q[W-1] ? down : !down || below_q;  // or would change its sign, from above
+  assign stepping = active_q || (frozen_i && armed_i && grows);
   assign step     = {2'b0, step_q};
-  assign change   = stepping_q ? (step ^ {(W + 1) {down}}) : ~excess_q;
+  assign change   = stepping ? (step ^ {(W + 1) {down}}) : ~excess_q;
   assign beyond   = excess_q + change;
   assign reached  = beyond[W] == down;
   always_ff @(posedge clk_i) begin
     if (wave_i[feltgate_map_pkg::T_RAMP_CHANGE]) begin
       change_q <= change[W-1:0];
-      carry_q  <= down || !stepping_q;
-      stay_q   <= stepping_q && reached;
+      carry_q  <= down || !stepping;
+      stay_q   <= stepping && reached;
+      stepping_q <= stepping;
     end
   end
 
@@ -72,11 +80,14 @@ module ramp (
       scene_q      <= '0;
       limit_torque_o <= 1'b0;
       limit_ramp_o <= 1'b0;
+      limit_hold_o <= 1'b0;
     end else begin
       if (wave_i[Excess]) limit_torque_o <= beyond_i && armed_i;
       if (wave_i[feltgate_map_pkg::T_RAMP_BEGIN]) scene_q <= scene_i;
+      if (wave_i[feltgate_map_pkg::T_RAMP_BEGIN]) limit_hold_o <= eased_i;
       if (restart_i) ramping_q <= 1'b1;
-      else if (wave_i[feltgate_map_pkg::T_RAMP_BEGIN] && (!armed_i || scene_i != scene_q)) ramping_q <= 1'b1;
+      else if (wave_i[feltgate_map_pkg::T_RAMP_BEGIN] &&
+               (!armed_i || scene_i != scene_q || eased_i != limit_hold_o)) ramping_q <= 1'b1;
       else if (wave_i[feltgate_map_pkg::T_TAU_REF] && stay_q) ramping_q <= 1'b0;
       if (wave_i[feltgate_map_pkg::T_TAU_REF] && !stay_q) ramp_q <= ramp_q + change_q + W'({1'b0, carry_q});
       if (wave_i[feltgate_map_pkg::T_TAU_REF]) limit_ramp_o <= stepping_q;

@@ -26,6 +26,7 @@ module registers #(
   input  logic        scene_slot_fetch_i,
   input  logic [3:0]  scene_i,             // the bank of the scene in force; not 1
   input  logic        region_high_i,       // the voltage gain is that of high torque
+  input  logic        eased_i,             // the torque limit is hold_limit
   output logic [31:0] param_o,
   output logic        word_error_o,        // the word on the bus, or a held control bit, has changed by itself
 
@@ -45,6 +46,8 @@ module registers #(
 
   localparam logic [5:0] LOW  = 6'(feltgate_map_pkg::S_VOLTAGE_GAIN);
   localparam logic [5:0] HIGH = 6'(feltgate_map_pkg::S_VOLTAGE_GAIN_HIGH);
+  localparam logic [5:0] FULL  = 6'(feltgate_map_pkg::S_TORQUE_LIMIT);
+  localparam logic [5:0] EASED = 6'(feltgate_map_pkg::S_HOLD_LIMIT);
 
   // The waiting write: where it goes (none set: nothing waits), and its word.
   logic        to_parameter_q, to_control_q, to_command_q;
@@ -151,7 +154,7 @@ module registers #(
     if (tick_i && to_parameter_q && !refuses) parameter_ram[address_q] <= {check_of(data_q), data_q};
   end
 
-  logic        high;
+  logic        high, eased;
   logic [8:0]  fetch_address;
   logic [35:0] fetch_q;
   logic [ 3:0] check_q;                // of the word on the bus
@@ -159,8 +162,9 @@ module registers #(
   logic        warm_q;  // keeps what the RAM's own, unreset output register held off the bus
 
   assign high = region_high_i && slot_fetch_i == LOW;
+  assign eased = eased_i && slot_fetch_i == FULL;
   assign fetch_address = scene_slot_fetch_i ? {scene_i, slot_fetch_i[4:0]}
-                                            : {3'b000, high ? HIGH : slot_fetch_i};
+                                            : {3'b000, high ? HIGH : eased ? EASED : slot_fetch_i};
 
   always_ff @(posedge clk_i) fetch_q <= parameter_ram[fetch_address];
 

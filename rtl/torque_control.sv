@@ -101,7 +101,7 @@ module torque_control (
   assign base    = SumW'(kept_q) | SumW'(fixed_q);
   assign product = wave_i[Gain] ? SumW'(product_i >>> GainDrop) : SumW'(product_i >>> TauRefDrop);
   always_ff @(posedge clk_i) begin
-    if (!wave_i[feltgate_map_pkg::T_BORDER]) border_q <= '0;
+    if (!(wave_i[feltgate_map_pkg::T_BORDER] || wave_i[feltgate_map_pkg::T_HOLD_SIZE])) border_q <= '0;
     else border_q <= tau_ref_i;
     if (!(wave_i[Direct] && direct && armed_i)) direct_q <= '0;
     else direct_q <= CurrentSumW'(product_i >>> DirectDrop);

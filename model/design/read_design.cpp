@@ -116,6 +116,13 @@ void read_supervisor(config::TomlReader& r, Design& d) {
   d.polarity_current_a = r.number("polarity_current_a", {0.0, 30.0});
   d.polarity_time_s = r.number("polarity_time_s", {1e-6, 0.06});
   d.watchdog_s = r.number("watchdog_s", {1e-4, 10.0});
+  // Half and a quarter of the torque limit unless the file says otherwise.
+  const auto or_else = [&r](const char* key, config::Range range, double without) {
+    return r.has(key) ? r.number(key, range) : without;
+  };
+  d.hold_torque_nm = or_else("hold_torque_nm", {0.0, 15.0}, d.torque_limit_nm / 2);
+  d.hold_limit_nm = or_else("hold_limit_nm", {0.0, 15.0}, d.hold_torque_nm / 2);
+  d.hold_s = or_else("hold_s", {1e-3, 1e3}, 5.0);
 }
 
 }  // namespace

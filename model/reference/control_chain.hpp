@@ -22,7 +22,8 @@ class ControlChain : public ChainTick<D, N> {
 
   void tick(const ChainIn& in) {
     if (in.restart) this->restart();
-    ChainTick<D, N>::tick(in.position, in.travel, in.armed, in.scene, static_cast<Mode>(in.mode));
+    ChainTick<D, N>::tick(in.position, in.travel, in.armed, in.scene, static_cast<Mode>(in.mode),
+                          in.relief);
   }
 };
 

@@ -10,6 +10,8 @@
 #include <memory>
 #include <string>
 
+#include "feltgate/ramp.hpp"
+
 namespace feltgate {
 
 /// What the wave of one tick starts from.
@@ -20,6 +22,7 @@ struct ChainIn {
   int scene = 0;
   int mode = 0;
   bool restart = false;  ///< the torque may jump: it ramps
+  Relief relief{};       ///< as the encoder's monitor and the hold timer of the core say
 };
 
 struct ChainOut {

@@ -14,7 +14,7 @@ package feltgate_map_pkg;
   localparam logic [63:0] SCENE_SLOTS = 64'h000000000000044e;  // bit n: slot n is read from the scene's bank
   // While armed: words of all scenes that are refused or ramp, by address; scenes whose words act at once.
   localparam logic [63:0] REFUSED_WHILE_ARMED = 64'h0004218e78c083b0;
-  localparam logic [63:0] RAMPS_WHILE_ARMED = 64'h0000000001000000;
+  localparam logic [63:0] RAMPS_WHILE_ARMED = 64'h0100000001000000;
   localparam logic [15:0] INPUT_SCENES = 16'h0004;
   localparam int ERRORS_BORNE = 7;  // encoder errors that are borne, less one every 2^forgive_bits ticks
   localparam int FORGIVE_BITS = 10;  // bits of the ticks after which one encoder error is forgiven
@@ -22,6 +22,14 @@ package feltgate_map_pkg;
   localparam int RUNAWAY_WINDOWS = 2;  // windows on end in which the speed must grow against the commanded current
   localparam int GROWTH_BITS = 5;  // fraction bits of the velocity whose growth is watched
   localparam int KICKLESS_BITS = 24;  // bits of the longest time without a kick [tick]
+  localparam int ONE_CHANNEL_EDGES = 16;  // edges of one channel in a row from which it is chatter or a dead channel
+  localparam int DEAD_CHANNEL_EDGES = 24;  // as many are a dead channel
+  localparam int EDGE_UNIT_BITS = 6;  // bits of the ticks in which the time between edges is counted
+  localparam int EDGE_UNITS = 19;  // so many of them without an edge end the row
+  localparam int CHATTER_UNIT_BITS = 8;  // bits of the ticks in which the time of chatter is counted
+  localparam int CHATTER_UNITS = 20;  // chatter for so many of them is a dead channel
+  localparam int HOLD_UNIT_BITS = 10;  // bits of the ticks in which hold_time is counted
+  localparam int HOLD_BITS = 13;  // bits of the longest hold_time
 
   // Wave clocks in which a word, or a square, is on its bus.
   localparam int S_VELOCITY_A1 = 4;
@@ -45,6 +53,9 @@ package feltgate_map_pkg;
   localparam int S_TORQUE_GAIN = 28;
   localparam int S_DEAD_VOLTAGE_SLOPE = 29;
   localparam int S_REGION_TORQUE = 30;
+  localparam int S_HOLD_TORQUE = 31;
+  localparam int S_HOLD_TIME = 36;
+  localparam int S_HOLD_LIMIT = 56;
   localparam int S_CURRENT_LIMIT = 33;
   localparam int S_VOLTAGE_GAIN = 34;
   localparam int S_VOLTAGE_GAIN_HIGH = 50;
@@ -194,6 +205,13 @@ package feltgate_map_pkg;
   localparam int T_POLARITY = 22;
   localparam int T_SILENT = 46;
   localparam int T_WATCHDOG = 47;
+  localparam int T_LEVELS = 0;
+  localparam int T_CHANNEL = 1;
+  localparam int T_HOLD_SIZE = 29;
+  localparam int T_HOLD_AHEAD = 30;
+  localparam int T_HOLD_LIMITED = 31;
+  localparam int T_HOLD_STRONG = 32;
+  localparam int T_HOLD = 36;
   localparam int T_POSITION_WORD = 1;
   localparam int T_STATUS_WORD = 0;
   localparam int T_DUTY_WORD = 46;
@@ -271,6 +289,8 @@ package feltgate_map_pkg;
   localparam int L_VELOCITY = 5;  // the raw velocity saturated its format
   localparam int L_TAU_HAT = 6;  // tau_hat saturated its format
   localparam int L_GATES_CLOSED = 7;  // the gates are off
+  localparam int L_HOLD = 8;  // a torque was held for too long: the limit is hold_limit
+  localparam int L_CHATTER = 9;  // the count alternates on one edge: the torque reference does not grow
 
   // Causes of fault: numbers of the first fault, and bits of the faults.
   localparam int FAULT_NONE = 0;

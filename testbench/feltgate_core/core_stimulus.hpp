@@ -40,14 +40,19 @@ class CoreStimulus {
                              : 1 + random_.below(8);
       up_ = random_.one_in(2);
       bad_cable_ = random_.one_in(12);
+      dead_ = random_.one_in(10) ? 1 + random_.below(2) : 0;
+      chatters_ = random_.one_in(10);
     }
     if (random_.one_in(bad_cable_ ? 3'000 : 400'000)) phase_ += 2;  // both channels at once
     if (spacing_ > 0 && --wait_ <= 0) {
       wait_ = spacing_;
       phase_ += up_ ? 1u : 3u;
+      up_ = up_ != chatters_;
     }
     const bool a = (phase_ & 2u) != 0;
-    in_.encoder = {a, ((phase_ & 1u) != 0) != a, (phase_ & 0xfffu) == 0};
+    const bool b = ((phase_ & 1u) != 0) != a;
+    in_.encoder = {dead_ == 1 ? in_.encoder.a : a, dead_ == 2 ? in_.encoder.b : b,
+                   (phase_ & 0xfffu) == 0};
   }
 
   void host() {
@@ -58,6 +63,11 @@ class CoreStimulus {
       ramp_written_ = true;
       in_.reg_addr = static_cast<std::uint16_t>(D::A::ramp_step);
       in_.reg_wdata = random_.below(1u << 24);
+      return;
+    }
+    if (random_.one_in(24)) {  // at the design's nothing would be held for long enough
+      in_.reg_addr = static_cast<std::uint16_t>(D::A::hold_time);
+      in_.reg_wdata = random_.below(3);
       return;
     }
     const std::uint32_t what = random_.below(10);
@@ -98,7 +108,7 @@ class CoreStimulus {
 
   void write_control() {
     in_.reg_addr = static_cast<std::uint16_t>(D::C::control);
-    const std::uint32_t scene = random_.below(9);
+    const std::uint32_t scene = random_.below(10);
     std::uint32_t word = static_cast<std::uint32_t>(D::control_reset) | scene
                                                                             << D::C::control_scene;
     if (!random_.one_in(8)) word |= 1u << D::C::control_host;
@@ -123,7 +133,8 @@ class CoreStimulus {
   std::int64_t left_ = 0;
   std::int64_t spacing_ = 0, wait_ = 0;
   bool up_ = true, bad_cable_ = false, ramp_written_ = false;
-  std::uint32_t phase_ = 0;
+  bool chatters_ = false;
+  std::uint32_t phase_ = 0, dead_ = 0;
 };
 
 /// What a run has exercised.
@@ -134,6 +145,8 @@ class Coverage {
     armed_ += o.armed;
     duty_pinned_ += (o.limits & 16u) != 0;
     tau_ref_pinned_ += (o.limits & 1u) != 0;
+    eased_ += (o.limits & limit::hold) != 0;
+    frozen_ += o.armed && (o.limits & limit::chatter) != 0;
     if (o.armed) scenes_.insert(o.scene);
     if (o.first_fault != 0) faults_.insert(o.first_fault);
   }
@@ -142,12 +155,17 @@ class Coverage {
     armed_ += o.armed_;
     duty_pinned_ += o.duty_pinned_;
     tau_ref_pinned_ += o.tau_ref_pinned_;
+    eased_ += o.eased_;
+    frozen_ += o.frozen_;
     scenes_.insert(o.scenes_.begin(), o.scenes_.end());
     faults_.insert(o.faults_.begin(), o.faults_.end());
   }
   double armed_share() const { return share(armed_); }
   double duty_pinned_share() const { return share(duty_pinned_); }
   double tau_ref_pinned_share() const { return share(tau_ref_pinned_); }
+  double eased_share() const { return share(eased_); }
+  double frozen_share() const { return share(frozen_); }
+  bool fault_seen(Fault cause) const { return faults_.count(static_cast<int>(cause)) != 0; }
   /// Scenes that ran armed, the reserved number 1 and those not built left out.
   int scenes_seen() const {
     int n = 0;
@@ -158,15 +176,17 @@ class Coverage {
   std::string text() const {
     return "armed " + std::to_string(armed_share()) + ", duty pinned " +
            std::to_string(duty_pinned_share()) + ", tau_ref pinned " +
-           std::to_string(tau_ref_pinned_share()) + ", scenes " + std::to_string(scenes_seen()) +
-           ", faults " + std::to_string(faults_seen());
+           std::to_string(tau_ref_pinned_share()) + ", eased " + std::to_string(eased_share()) +
+           ", frozen " + std::to_string(frozen_share()) + ", scenes " +
+           std::to_string(scenes_seen()) + ", faults " + std::to_string(faults_seen());
   }
 
  private:
   double share(std::int64_t n) const {
     return clocks_ == 0 ? 0.0 : static_cast<double>(n) / static_cast<double>(clocks_);
   }
-  std::int64_t clocks_ = 0, armed_ = 0, duty_pinned_ = 0, tau_ref_pinned_ = 0;
+  std::int64_t clocks_ = 0, armed_ = 0, duty_pinned_ = 0, tau_ref_pinned_ = 0, eased_ = 0,
+               frozen_ = 0;
   std::set<int> scenes_, faults_;
 };
 

@@ -26,6 +26,7 @@ struct QuadDecoderAdapter {
     check("position", rtl.position_o, out.position);
     check("travel", rtl.travel_o, out.travel);
     check("step", sign_extend<2>(rtl.step_o), out.step);
+    check("levels", rtl.levels_o, out.levels);
     check("error", rtl.error_o, out.error);
     check("illegal", rtl.illegal_o, out.illegal);
     check("error_count", rtl.error_count_o, out.error_count);

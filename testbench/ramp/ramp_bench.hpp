@@ -27,6 +27,7 @@ struct Wave {
   bool restart = false;                              ///< the torque may jump with it
   std::int64_t rendered = 0;                         ///< torque of the scene
   std::int64_t limit = Torque::max_raw(), step = 0;  ///< words
+  Relief relief;
 };
 using Twin = Watched<Ramp<Design>, Wave>;
 
@@ -39,12 +40,15 @@ struct Adapter {
     rtl.param_i = in.port.param;
     rtl.limited_i = port_bits<Design::f.limiter.width()>(in.port.limited);
     rtl.beyond_i = in.port.beyond;
+    rtl.frozen_i = in.port.relief.frozen;
+    rtl.eased_i = in.port.relief.eased;
   }
   template <class Check>
   static void compare(Check& check, const Vramp& rtl, const Twin::Out& out) {
     check("tau_ref", sign_extend<Torque::width>(rtl.tau_ref_o), out.port.tau_ref);
     check("limit_torque", rtl.limit_torque_o, out.port.limit_torque);
     check("limit_ramp", rtl.limit_ramp_o, out.port.limit_ramp);
+    check("limit_hold", rtl.limit_hold_o, out.port.limit_hold);
   }
 };
 
@@ -72,6 +76,7 @@ struct Waves {
       in.aside = following;
       in.port.armed = in.aside.armed;
       in.port.scene = in.aside.scene;
+      in.port.relief = in.aside.relief;
       period = kShortest + static_cast<int>(garbage.below(spread));
       following = next(wave++);
     }
@@ -106,7 +111,8 @@ struct Waves {
 /// By direction or sign where it has one: [0] down, [1] up.
 struct Tally {
   std::int64_t waves = 0, disarmed = 0, free = 0, limited[2] = {}, ramping[2] = {}, ended[2] = {},
-               scene_changes = 0, restarts = 0, held = 0, negative_step = 0, negative_limit = 0;
+               scene_changes = 0, restarts = 0, held = 0, negative_step = 0, negative_limit = 0,
+               eased_changes = 0, frozen[2] = {}, fallen[2] = {};
 };
 
 /// The chain gives the same; and what limit and ramp promise.
@@ -116,6 +122,7 @@ struct ChainBeside {
   std::int64_t before = 0;
   bool was_ramping = true;
   int scene = 0;
+  bool eased = false;
 
   const char* operator()(const Twin::In& in, const Vramp& rtl, const Twin&, bool in_reset) {
     if (in_reset) {
@@ -127,24 +134,29 @@ struct ChainBeside {
     const std::int64_t limit = decode_word(Design::f.limiter, static_cast<std::uint32_t>(w.limit));
     const std::int64_t step = decode_word(Step::format, static_cast<std::uint32_t>(w.step));
     if (w.restart) chain.restart();
-    chain.begin(w.armed, w.scene);
+    chain.begin(w.armed, w.scene, w.relief);
     chain.limit(Rendered::from_raw(w.rendered), Fixed::from_raw<Law::kLimitKey>(limit));
     chain.move(Fixed::from_raw<Step::format.key()>(step));
     const std::int64_t tau = sign_extend<Torque::width>(rtl.tau_ref_o);
     const bool ramped = rtl.limit_ramp_o != 0;
     count(w, limit, step, tau, ramped);
     const std::int64_t moved = tau > before ? tau - before : before - tau;
+    const bool grown = before < 0 ? tau < before : tau < 0 || tau > before;
     before = tau;
     was_ramping = ramped;
     scene = w.scene;
+    eased = w.relief.eased;
     if (chain.tau_ref().raw() != tau) return "tau_ref of the chain is that of clock()";
     if (chain.limit_torque() != (rtl.limit_torque_o != 0)) return "limit_torque of the chain";
     if (chain.limit_ramp() != ramped) return "limit_ramp of the chain";
+    if (chain.limit_hold() != (rtl.limit_hold_o != 0)) return "limit_hold of the chain";
+    if (w.relief.frozen && grown) return "a frozen torque grows";
     if (!w.armed && tau != 0) return "a torque while disarmed";
     const std::int64_t most = std::max<std::int64_t>(limit, 0);
     if (!ramped && (tau > most || tau < -most)) return "beyond the limit";
     const std::int64_t fine = std::int64_t{1} << kFine;
-    if (ramped && moved > (std::max<std::int64_t>(step, 0) + fine - 1) / fine) {
+    if (ramped &&
+        moved > ((w.relief.frozen ? 0 : std::max<std::int64_t>(step, 0)) + fine - 1) / fine) {
       return "faster than the ramp";
     }
     return nullptr;
@@ -152,6 +164,10 @@ struct ChainBeside {
 
   void count(const Wave& w, std::int64_t limit, std::int64_t step, std::int64_t tau, bool ramped) {
     ++tally->waves;
+    tally->eased_changes += w.armed && w.relief.eased != eased && !was_ramping;
+    if (w.armed && w.relief.frozen && before != 0) {
+      ++(tau == before ? tally->frozen : tally->fallen)[before > 0];
+    }
     tally->disarmed += !w.armed;
     tally->free += w.armed && !ramped;
     tally->scene_changes += w.armed && w.scene != scene && !was_ramping;

@@ -33,6 +33,8 @@ struct RandomWaves {
     if (random.one_in(30)) wave.scene = static_cast<int>(random.below(16));
     wave.restart = random.one_in(30);
     if (random.one_in(30)) wave.armed = !random.one_in(4);
+    if (random.one_in(20)) wave.relief.eased = random.coin();
+    if (random.one_in(15)) wave.relief.frozen = random.one_in(3);
     if (random.one_in(20)) {
       wave.limit = any_word(random.below(80000));
       wave.step = any_word(random.below(std::uint64_t{1} << random.below(25)));
@@ -108,6 +110,11 @@ TEST_CASE("ramp: random torques, limits, steps, arming, scenes and resets") {
   REQUIRE(t.restarts > 300);
   REQUIRE(t.negative_step > 300);
   REQUIRE(t.negative_limit > 300);
+  REQUIRE(t.eased_changes > 200);
+  for (const int sign : {0, 1}) {
+    REQUIRE(t.frozen[sign] > 1000);
+    REQUIRE(t.fallen[sign] > 50);
+  }
 }
 
 TEST_CASE(
@@ -136,6 +143,47 @@ TEST_CASE(
     }
     for (; n < 11020; ++n) REQUIRE(seen[n].tau == sign * (n % 2 != 0 ? -1000 : 1000));
   }
+}
+
+TEST_CASE(
+    "ramp: frozen, the reference keeps the smaller of two torques, and follows again at once") {
+  for (const std::int64_t sign : {1, -1}) {
+    for (const std::int64_t small : {0, 9000}) {
+      const auto seen = play(
+          [=](std::int64_t k) {
+            Wave w = wave(sign * (k % 2 != 0 ? small : 30000), Law::Ramp::max_raw());
+            w.relief.frozen = k >= 20 && k < 40;
+            return w;
+          },
+          50);
+      for (std::size_t n = 10; n < 50; ++n) {
+        const bool frozen = n >= 20 && n < 40;
+        REQUIRE(seen[n].tau == sign * (n % 2 != 0 || frozen ? small : 30000));
+        REQUIRE((seen[n].ramp || (frozen && n % 2 != 0)) == frozen);
+      }
+    }
+  }
+}
+
+TEST_CASE("ramp: another limit ramps, both ways") {
+  constexpr std::int64_t step = 100 * kWhole;
+  const auto seen = play(
+      [](std::int64_t k) {
+        Wave w = wave(30000, k < 400 ? Law::Ramp::max_raw() : step);
+        w.relief.eased = k >= 400 && k < 800;
+        w.limit = w.relief.eased ? 10000 : 40000;
+        return w;
+      },
+      1100);
+  REQUIRE(seen[399].tau == 30000);
+  for (std::size_t n = 400; n < 599; ++n) {
+    REQUIRE(seen[n].tau == 30000 - 100 * static_cast<std::int64_t>(n - 399));
+  }
+  for (std::size_t n = 600; n < 800; ++n) REQUIRE(seen[n].tau == 10000);
+  for (std::size_t n = 800; n < 999; ++n) {
+    REQUIRE(seen[n].tau == 10000 + 100 * static_cast<std::int64_t>(n - 799));
+  }
+  REQUIRE(seen[1099].tau == 30000);
 }
 
 TEST_CASE("ramp: a change of scene ramps from where the torque is, also on the way") {

@@ -26,11 +26,13 @@ class Ramp {
     std::uint32_t param = 0;
     std::int64_t limited = 0;
     bool beyond = false;
+    Relief relief;
   };
   struct Out {
     std::int64_t tau_ref = 0;
     bool limit_torque = false;
     bool limit_ramp = false;
+    bool limit_hold = false;
   };
 
   void reset() { *this = Ramp{}; }
@@ -38,7 +40,10 @@ class Ramp {
   void clock(const In& in) {
     const auto at = [&in](int t) { return ((in.wave >> t) & 1u) != 0; };
     using T = Map::T;
-    if (at(T::sample + 1)) law_.begin(in.armed, in.scene);
+    if (at(T::ramp_begin)) {
+      law_.begin(in.armed, in.scene, in.relief);
+      out_.limit_hold = law_.limit_hold();
+    }
     if (at(T::ramp_excess)) {
       // As many bits as a torque has.
       const auto target = static_cast<std::uint32_t>(in.limited & 0xffffffff);

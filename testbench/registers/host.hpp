@@ -30,6 +30,7 @@ struct RegistersAdapter {
     rtl.scene_slot_fetch_i = in.scene_slot_fetch;
     rtl.scene_i = in.scene;
     rtl.region_high_i = in.region_high;
+    rtl.eased_i = in.eased;
     rtl.snap_slot_i = in.snap_slot;
     rtl.snap_valid_i = in.snap_valid;
     rtl.snap_data_i = in.snap_data;
@@ -75,7 +76,7 @@ inline Twin::In inputs_of(const Clock::Out& now) {
 class Script {
  public:
   std::uint8_t scene = 0;
-  bool region_high = false, armed = false, set_zero = false;
+  bool region_high = false, armed = false, set_zero = false, eased = false;
   std::uint16_t address = 0;
 
   Script() { twin_.reset(); }
@@ -92,6 +93,7 @@ class Script {
     in.region_high = region_high;
     in.armed = armed;
     in.set_zero = set_zero;
+    in.eased = eased;
     in.reg_addr = address;
     in.reg_write = write;
     in.reg_wdata = data;
@@ -153,11 +155,13 @@ class RandomHost {
       in_force_.scene = static_cast<std::uint8_t>(random_.below(16));
       in_force_.region_high = random_.coin();
       if (random_.one_in(5)) in_force_.armed = random_.coin();
+      in_force_.eased = random_.coin();
     }
     in.armed = in_force_.armed;
     in.set_zero = random_.one_in(300);
     in.scene = in_force_.scene;
     in.region_high = in_force_.region_high;
+    in.eased = in_force_.eased;
     // Some writes are held for a while, others are gone in the clock after.
     if (!in_force_.reg_write || random_.one_in(in.tick ? 2 : 60)) {
       if (random_.one_in(4)) in_force_.reg_addr = any_address();

@@ -296,6 +296,16 @@ TEST_CASE("registers: slot 34 carries word 50 in the high region") {
   host.play();
 }
 
+TEST_CASE("registers: slot 24 carries hold_limit while a held torque is eased") {
+  Script host;
+  host.write(Lever::A::torque_limit, 1111).until(0).write(Lever::A::hold_limit, 2222).until(0);
+  for (const bool eased : {false, true, false}) {
+    host.eased = eased;
+    REQUIRE(host.bus(24) == (eased ? 2222U : 1111U));
+  }
+  host.play();
+}
+
 TEST_CASE("registers: read data follow the address by exactly three clocks") {
   if (READ_BACK == 0) return;
   Script host;

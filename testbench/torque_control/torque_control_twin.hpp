@@ -54,7 +54,7 @@ class TorqueControl {
       kept_ = in.mode == Mode::open_loop ? CurrentPart{}
                                          : Law::current_part(product<P::torque, P::observer>(in));
     }
-    if (at(T::border)) out_.ahead = in.tau_ref;
+    if (at(T::border) || at(T::hold_size)) out_.ahead = in.tau_ref;
     if (at(T::region)) out_.region_high = in.beyond;
     if (at(T::direct_current) && direct && in.armed) {
       out_.ahead = Law::current_sum(product<P::voltage, P::direct>(in)).raw();

@@ -52,11 +52,12 @@ class ChainTick {
   void restart() { scenes_.ramp().restart(); }
 
   /// One tick. `position` [count] and `travel` [count, wraps] are what the wave sampled; `armed`,
-  /// `scene` and `mode` hold during the tick.
-  void tick(std::int32_t position, std::int16_t travel, bool armed, int scene, Mode mode) {
+  /// `scene`, `mode` and `relief` hold during the tick.
+  void tick(std::int32_t position, std::int16_t travel, bool armed, int scene, Mode mode,
+            Relief relief = {}) {
     estimate(travel);
     observe(armed);
-    render(armed, scene, position);
+    render(armed, scene, position, relief);
     drive(armed, mode);
   }
 
@@ -74,8 +75,8 @@ class ChainTick {
   /// tau_hat from the velocity and the current of the tick before.
   void observe(bool armed) { observer_.tick(words_, armed, control_.current, velocity()); }
   /// tau_ref from the position, and the velocity in a damper.
-  void render(bool armed, int scene, std::int32_t position) {
-    scenes_.tick(words_, armed, scene, scene_position<D, N>(position), velocity());
+  void render(bool armed, int scene, std::int32_t position, Relief relief = {}) {
+    scenes_.tick(words_, armed, scene, scene_position<D, N>(position), velocity(), relief);
   }
   /// Current, voltage and duty.
   void drive(bool armed, Mode mode) {

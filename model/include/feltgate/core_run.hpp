@@ -56,9 +56,8 @@ void FeltgateCore<D, ReadBack>::run(const In& in, std::int64_t clocks, OnSnapsho
 template <class D, bool ReadBack>
 bool FeltgateCore<D, ReadBack>::can_pass(const In& in) const {
   return out_.tick_count != 0 && !registers_.flipped() && !registers_.out().stop &&
-         supervisor_.steady(in.stop) &&
-         !(in.stop && supervisor_.out().gates_enable) && !decoder_.out().illegal &&
-         !(amid_supervisor() && passed_to_ != clock_);
+         supervisor_.steady(in.stop) && !(in.stop && supervisor_.out().gates_enable) &&
+         !decoder_.out().illegal && !(amid_supervisor() && passed_to_ != clock_);
 }
 
 /// As long as the inputs hold, `clocks` clocks from now change neither the duty in force nor the
@@ -72,10 +71,10 @@ bool FeltgateCore<D, ReadBack>::calm(const In& in, std::int64_t clocks) const {
     return false;
   }
   if (!out_.gates_enable) return out_.duty_active == 0;
-  // What can close the gates is over-speed, over-current and a wrong polarity.
+  // What can close the gates is over-speed, over-current and a wrong polarity, a dead channel.
   const auto limit = static_cast<std::int32_t>(supervisor_words_.overspeed);
   const auto slow = [limit](std::int64_t w) { return w <= limit && -w <= limit; };
-  return !supervisor_.near_trip(supervisor_words_) && slow(out_.velocity) &&
+  return !monitor_.chatters() && !supervisor_.near_trip(supervisor_words_) && slow(out_.velocity) &&
          slow(wave_.velocity_input(static_cast<std::int16_t>(decoder_.out().travel)));
 }
 
@@ -84,7 +83,7 @@ template <class D, bool ReadBack>
 int FeltgateCore<D, ReadBack>::next_look_at_decoder(int from) {
   using R = Map::R;
   int next = D::clocks_per_tick;
-  for (const int t : {T::sample, R::status, R::index, R::encoder}) {
+  for (const int t : {T::sample, T::levels, R::status, R::index, R::encoder}) {
     const int look = core_steps::clock_of(t);
     if (from < look) next = std::min(next, look);
   }
@@ -99,6 +98,9 @@ template <bool Read, class OnSnapshot>
   const auto& words = supervisor_words_;
   const auto velocity = static_cast<std::int32_t>(out_.velocity);
   switch (step) {
+    case Step::channel:
+      if (monitor_.trips() && supervisor_.trip(Fault::channel)) s.close(after(T::channel));
+      return;
     case Step::speed:
       if (s.to < after(T::polarity)) before_wave_ = supervisor_;
       if (supervisor_.at_speed(words, operand_v_, operand_w_, velocity)) s.close(after(T::speed));

@@ -35,6 +35,9 @@ constexpr bool shows(Step step) {
     case Step::read_voltage:
     case Step::read_duty:
     case Step::sample:
+    case Step::levels:
+    case Step::channel:
+    case Step::ramp_begin:
     case Step::velocity_raw:
     case Step::operand_inverse_resistance:
     case Step::operand_emf_over_resistance:
@@ -47,6 +50,7 @@ constexpr bool shows(Step step) {
     case Step::ramp_excess:
     case Step::tau_ref:
     case Step::current_limited:
+    case Step::hold:
     case Step::current:
     case Step::voltage:
     case Step::duty:

@@ -24,7 +24,15 @@ class CoreWave {
     chain_.reset();
     sampled_travel_ = 0;
     limits_ = 0;
+    relief_ = {};
   }
+
+  /// What the encoder's monitor and the hold timer say, from the next step on.
+  void set_frozen(bool frozen) {
+    relief_.frozen = frozen;
+    set(Map::L::chatter, frozen);
+  }
+  void set_eased(bool eased) { relief_.eased = eased; }
 
   void set_word(int address, std::uint32_t word) { chain_.words().set_raw(address, word); }
 
@@ -38,6 +46,9 @@ class CoreWave {
       case Step::sample:
         out.position = position;
         sampled_travel_ = static_cast<std::int16_t>(travel);
+        break;
+      case Step::ramp_begin:
+        set(Map::L::hold, relief_.eased);
         break;
       case Step::velocity_raw:
         chain_.estimate(sampled_travel_);
@@ -57,7 +68,7 @@ class CoreWave {
         }
         break;
       case Step::ramp_excess:
-        chain_.render(out.armed, out.scene, out.position);
+        chain_.render(out.armed, out.scene, out.position, relief_);
         set(Map::L::torque, chain_.limit_torque());
         break;
       case Step::tau_ref:
@@ -91,6 +102,15 @@ class CoreWave {
   /// What the velocity's low-pass would take in now, raw: the next velocity lies between it and the
   /// last.
   std::int64_t velocity_input(std::int16_t travel) const { return chain_.velocity_input(travel); }
+  /// Whether the torque reference is beyond the word at this address, as the limiter compares them.
+  bool beyond(int address) const {
+    using Law = LimiterLaw<D, Fixed>;
+    const auto limit =
+        chain_.words().template get<Law::template key<D::f.torque.fraction>>(address);
+    bool is = false;
+    Law::template limited<typename RampLaw<D, Fixed>::Torque>(chain_.tau_ref(), limit, &is);
+    return is;
+  }
   /// Free-running count that the running wave started from.
   std::int16_t sampled_travel() const { return sampled_travel_; }
 
@@ -113,6 +133,7 @@ class CoreWave {
   ChainTick<D, Fixed> chain_;
   std::int16_t sampled_travel_ = 0;
   std::uint16_t limits_ = 0;  ///< all but that of the gates
+  Relief relief_;
 };
 
 }  // namespace feltgate

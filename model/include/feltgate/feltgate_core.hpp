@@ -14,6 +14,8 @@
 #include "feltgate/core_ports.hpp"
 #include "feltgate/core_steps.hpp"
 #include "feltgate/core_wave.hpp"
+#include "feltgate/encoder_monitor.hpp"
+#include "feltgate/hold_timer.hpp"
 #include "feltgate/quad_decoder.hpp"
 #include "feltgate/registers.hpp"
 #include "feltgate/supervisor.hpp"
@@ -38,6 +40,8 @@ class FeltgateCore {
     registers_.reset();
     decoder_.reset();
     wave_.reset();
+    monitor_ = {};
+    hold_ = {};
     supervisor_.reset();
     gates_.reset();
     operand_v_ = operand_w_ = 0;
@@ -65,6 +69,9 @@ class FeltgateCore {
     sup.kick = tick && registers_.commands(D::C::command_kick);
     sup.encoder_error = decoder_.out().illegal;
     if (registers_.out().word_error) sup.trips |= 1u << static_cast<unsigned>(Fault::word);
+    if (clock_ == core_steps::clock_of(T::channel) && monitor_.trips()) {
+      sup.trips |= 1u << static_cast<unsigned>(Fault::channel);
+    }
     Pwm::In pwm = pwm_inputs(supervisor_.out().gates_enable, out_.duty);
     pwm.clear = supervisor_.stopped(in.stop);
     out_.snapshot_valid = false;
@@ -236,6 +243,15 @@ class FeltgateCore {
       case Step::snapshot:
         out_.snapshot_valid = true;
         return;
+      case Step::levels:
+        monitor_.tick(decoded.levels, out_.tick_count);
+        wave_.set_frozen(monitor_.chatters());
+        return;
+      case Step::hold:
+        hold_.tick(out_.armed, monitor_.moved(), wave_.beyond(D::A::hold_torque), out_.tick_count,
+                   registers_.parameter(D::A::hold_time));
+        wave_.set_eased(hold_.eased());
+        return;
       default:
         wave_.take(step, decoded.position, decoded.travel, mode(), out_);
     }
@@ -342,6 +358,8 @@ class FeltgateCore {
   Registers<D, ReadBack> registers_;
   QuadDecoder decoder_;
   CoreWave<D> wave_;
+  EncoderMonitorLaw monitor_;
+  HoldTimerLaw hold_;
   Supervisor<D> supervisor_, before_wave_;
   typename Supervisor<D>::Words supervisor_words_;
   CoreGates gates_{D::pwm_period, D::dead_clocks};

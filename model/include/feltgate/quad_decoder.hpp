@@ -37,11 +37,12 @@ class QuadDecoder {
     std::uint16_t rejected_count = 0;  ///< clocks in which the filter rejected, saturates at 65535
     std::int32_t index_position = 0;   ///< position at the last rising edge of Z
     bool index_seen = false;
+    std::uint8_t levels = 0;  ///< of A (bit 0) and B, as accepted
     bool operator==(const Out& o) const {
       return position == o.position && travel == o.travel && step == o.step && error == o.error &&
              illegal == o.illegal && error_count == o.error_count &&
              rejected_count == o.rejected_count && index_position == o.index_position &&
-             index_seen == o.index_seen;
+             index_seen == o.index_seen && levels == o.levels;
     }
   };
 
@@ -92,6 +93,7 @@ class QuadDecoder {
     out_.illegal = illegal;
     error_wait_q_ |= illegal;
     out_.step = 0;
+    out_.levels = static_cast<std::uint8_t>(level_q_ & (kA | kB));
     if (changed_a != changed_b) {
       // Gray order of (A,B): 00 01 11 10 counts up.
       const bool down = changed_a != (ab_differ != in.polarity);

@@ -11,6 +11,12 @@
 
 namespace feltgate {
 
+/// What keeps a torque from growing.
+struct Relief {
+  bool frozen = false;  ///< the reference may only fall
+  bool eased = false;   ///< the limit is hold_limit
+};
+
 /// In number policy N, for design D: what stands between a scene and the torque reference, its
 /// limit included.
 template <class D, class N>
@@ -22,10 +28,11 @@ class RampLaw {
   static constexpr int kLimitKey = LimiterLaw<D, N>::template key<D::f.torque.fraction>;
 
   /// Start of a wave: whether a ramp begins.
-  void begin(bool armed, int scene) {
-    if (!armed || scene != scene_) ramping_ = true;
+  void begin(bool armed, int scene, Relief relief = {}) {
+    if (!armed || scene != scene_ || relief.eased != relief_.eased) ramping_ = true;
     scene_ = scene;
     armed_ = armed;
+    relief_ = relief;
   }
   /// Between two waves: the torque may jump with the next.
   void restart() { ramping_ = true; }
@@ -43,14 +50,18 @@ class RampLaw {
     limit_torque_ = armed_ && beyond;
   }
   /// The reference's way to the target. A negative step counts as 0. The tick in which the target
-  /// is found to be within one step ends the ramp; the reference moves on with the next.
+  /// is found to be within one step ends the ramp; the reference moves on with the next. Frozen,
+  /// the reference follows towards 0 only; of two torques of different signs it keeps the positive
+  /// one.
   void move(Ramp step) {
-    limit_ramp_ = armed_ && ramping_;
+    const bool grows =
+        reference_ < Ramp{} ? reference_ >= target_ : reference_ < target_ || target_ < Torque{};
+    limit_ramp_ = armed_ && (ramping_ || (relief_.frozen && grows));
     if (!limit_ramp_) {
       reference_ = quantise<N, Ramp, Round::truncate, Overflow::wrap>(target_);
       return;
     }
-    if (step < Ramp{}) step = Ramp{};
+    if (step < Ramp{} || relief_.frozen) step = Ramp{};
     const auto excess = reference_ - target_;
     if (excess <= step && -excess <= step) {
       ramping_ = false;
@@ -67,6 +78,7 @@ class RampLaw {
   }
   bool limit_torque() const { return limit_torque_; }
   bool limit_ramp() const { return limit_ramp_; }
+  bool limit_hold() const { return relief_.eased; }
 
   /// What lasts from tick to tick beside the scene, for those who keep it elsewhere.
   const Ramp& reference() const { return reference_; }
@@ -80,6 +92,7 @@ class RampLaw {
  private:
   int scene_ = 0;
   bool armed_ = false, ramping_ = true, limit_torque_ = false, limit_ramp_ = false;
+  Relief relief_;
   Torque target_{};
   Ramp reference_{};
 };

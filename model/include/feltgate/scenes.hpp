@@ -37,10 +37,12 @@ class ScenesLaw {
 
   /// One tick. Position in counts, saturated to 18 bits in Fixed; `w` holds the words in force.
   template <class W>
-  void tick(const W& w, bool armed, int scene, std::int32_t position, Velocity velocity) {
-    ramp_.begin(armed, scene);
+  void tick(const W& w, bool armed, int scene, std::int32_t position, Velocity velocity,
+            Relief relief = {}) {
+    ramp_.begin(armed, scene, relief);
     ramp_.limit(torque(w, scene, position, velocity, &side_),
-                w.template get<RampLaw<D, N>::kLimitKey>(D::A::torque_limit));
+                w.template get<RampLaw<D, N>::kLimitKey>(relief.eased ? D::A::hold_limit
+                                                                      : D::A::torque_limit));
     ramp_.move(w.ramp_step());
   }
 

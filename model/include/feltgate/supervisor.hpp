@@ -161,6 +161,13 @@ class Supervisor {
     out_.current_estimate = static_cast<std::int32_t>(estimate_of(v_product, w_product));
     return over(velocity, words.overspeed) && trip(Fault::speed);
   }
+  /// A cause seen before the last clock of a tick; returns whether it closed the gates.
+  bool trip(Fault cause) {
+    const bool live = out_.gates_enable;
+    latch(bit(cause));
+    out_.gates_enable = false;
+    return live;
+  }
   /// Clock heat_clock.
   bool at_heat(const Words& words) {
     const bool too_hot = sum_.raw() >= std::int64_t{words.i2t_budget};
@@ -190,8 +197,7 @@ class Supervisor {
 
   /// Whether too much heat or a wrong polarity might trip in the wave to come.
   bool near_trip(const Words& words) const {
-    return sum_.raw() >= std::int64_t{words.i2t_budget} ||
-           runaway_.near(words.polarity_ticks);
+    return sum_.raw() >= std::int64_t{words.i2t_budget} || runaway_.near(words.polarity_ticks);
   }
 
   /// All five. Returns the clock of the tick after which the gates fell, or -1.
@@ -227,8 +233,8 @@ class Supervisor {
   static constexpr std::uint64_t kWaveClocks =
       at(T::estimate_part) | at(T::current_estimate) | at(T::speed_size) | at(T::too_fast) |
       at(T::speed) | at(T::cooled) | at(T::current_squared) | at(T::too_hot) | at(T::heat) |
-      at(T::growth_size) | at(T::growth) | at(T::strong_size) | at(T::strong) | at(T::runaway_ticks) |
-      at(T::polarity) | at(T::silent) | at(T::watchdog);
+      at(T::growth_size) | at(T::growth) | at(T::strong_size) | at(T::strong) |
+      at(T::runaway_ticks) | at(T::polarity) | at(T::silent) | at(T::watchdog);
   static constexpr std::uint16_t bit(Fault cause) {
     return static_cast<std::uint16_t>(1U << static_cast<unsigned>(cause));
   }
@@ -258,13 +264,6 @@ class Supervisor {
     return ticks >= limit || ticks >= longest;
   }
 
-  /// A cause seen before the last clock of a tick; returns whether it closed the gates.
-  bool trip(Fault cause) {
-    const bool live = out_.gates_enable;
-    latch(bit(cause));
-    out_.gates_enable = false;
-    return live;
-  }
   bool silent(const Words& words) const {
     return out_.gates_enable && awake_ &&
            expired(kickless_ticks_, words.watchdog_ticks, kLongestKickless);

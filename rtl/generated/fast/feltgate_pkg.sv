@@ -140,6 +140,9 @@ package feltgate_pkg;
       9'd28: parameter_reset = 32'd67815;  // torque_gain
       9'd29: parameter_reset = 32'd99840;  // dead_voltage_slope
       9'd30: parameter_reset = 32'd32768;  // region_torque
+      9'd31: parameter_reset = 32'd16384;  // hold_torque
+      9'd36: parameter_reset = 32'd4883;  // hold_time
+      9'd56: parameter_reset = 32'd8192;  // hold_limit
       9'd33: parameter_reset = 32'd1087898;  // current_limit
       9'd34: parameter_reset = 32'd110100;  // voltage_gain
       9'd50: parameter_reset = 32'd110100;  // voltage_gain_high

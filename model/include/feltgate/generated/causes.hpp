@@ -21,8 +21,10 @@ constexpr unsigned duty = 16;  ///< duty at its limit
 constexpr unsigned velocity = 32;  ///< the raw velocity saturated its format
 constexpr unsigned tau_hat = 64;  ///< tau_hat saturated its format
 constexpr unsigned gates_closed = 128;  ///< the gates are off
+constexpr unsigned hold = 256;  ///< a torque was held for too long: the limit is hold_limit
+constexpr unsigned chatter = 512;  ///< the count alternates on one edge: the torque reference does not grow
 /// By the number of the bit.
-inline constexpr std::array<const char*, 8> names{
+inline constexpr std::array<const char*, 10> names{
     "torque",
     "ramp",
     "current",
@@ -30,7 +32,9 @@ inline constexpr std::array<const char*, 8> names{
     "duty",
     "velocity",
     "tau_hat",
-    "gates_closed"};
+    "gates_closed",
+    "hold",
+    "chatter"};
 }  // namespace limit
 
 /// Numbers of the causes, as in first_fault and as bits of faults.

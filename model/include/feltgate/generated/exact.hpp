@@ -65,6 +65,9 @@ struct Exact {
     static constexpr Format torque_gain{0, 6, 11};
     static constexpr Format dead_voltage_slope{0, 7, 10};
     static constexpr Format region_torque{1, 4, 18};
+    static constexpr Format hold_torque{1, 4, 18};
+    static constexpr Format hold_time{0, 31, 0};
+    static constexpr Format hold_limit{1, 4, 18};
     static constexpr Format current_limit{1, 5, 18};
     static constexpr Format voltage_gain{0, -1, 18};
     static constexpr Format voltage_gain_high{0, -1, 18};
@@ -159,6 +162,12 @@ struct Exact {
        97.5, 99840},
       {"region_torque", "Nm", A::region_torque, P::region_torque,
        0.5, 131072},
+      {"hold_torque", "Nm", A::hold_torque, P::hold_torque,
+       0.25, 65536},
+      {"hold_time", "1024 ticks", A::hold_time, P::hold_time,
+       489.0, 489},
+      {"hold_limit", "Nm", A::hold_limit, P::hold_limit,
+       0.125, 32768},
       {"current_limit", "A", A::current_limit, P::current_limit,
        16.600000000000001, 4351590},
       {"voltage_gain", "ohm", A::voltage_gain, P::voltage_gain,

@@ -20,7 +20,7 @@ struct Map {
   /// While armed: words of all scenes that are refused or ramp, by address; scenes whose
   /// words act at once.
   static constexpr std::uint64_t refused_while_armed = 0x4218e78c083b0;
-  static constexpr std::uint64_t ramps_while_armed = 0x1000000;
+  static constexpr std::uint64_t ramps_while_armed = 0x100000001000000;
   static constexpr unsigned input_scenes = 0x4;
   static constexpr int errors_borne = 7;  ///< encoder errors that are borne, less one every 2^forgive_bits ticks
   static constexpr int forgive_bits = 10;  ///< bits of the ticks after which one encoder error is forgiven
@@ -28,6 +28,14 @@ struct Map {
   static constexpr int runaway_windows = 2;  ///< windows on end in which the speed must grow against the commanded current
   static constexpr int growth_bits = 5;  ///< fraction bits of the velocity whose growth is watched
   static constexpr int kickless_bits = 24;  ///< bits of the longest time without a kick [tick]
+  static constexpr int one_channel_edges = 16;  ///< edges of one channel in a row from which it is chatter or a dead channel
+  static constexpr int dead_channel_edges = 24;  ///< as many are a dead channel
+  static constexpr int edge_unit_bits = 6;  ///< bits of the ticks in which the time between edges is counted
+  static constexpr int edge_units = 19;  ///< so many of them without an edge end the row
+  static constexpr int chatter_unit_bits = 8;  ///< bits of the ticks in which the time of chatter is counted
+  static constexpr int chatter_units = 20;  ///< chatter for so many of them is a dead channel
+  static constexpr int hold_unit_bits = 10;  ///< bits of the ticks in which hold_time is counted
+  static constexpr int hold_bits = 13;  ///< bits of the longest hold_time
 
   /// Wave clocks in which a word, or a square, is on its bus.
   struct W {
@@ -52,6 +60,9 @@ struct Map {
     static constexpr int torque_gain = 28;
     static constexpr int dead_voltage_slope = 29;
     static constexpr int region_torque = 30;
+    static constexpr int hold_torque = 31;
+    static constexpr int hold_time = 36;
+    static constexpr int hold_limit = 56;
     static constexpr int current_limit = 33;
     static constexpr int voltage_gain = 34;
     static constexpr int voltage_gain_high = 50;
@@ -205,6 +216,13 @@ struct Map {
     static constexpr int polarity = 22;
     static constexpr int silent = 46;
     static constexpr int watchdog = 47;
+    static constexpr int levels = 0;
+    static constexpr int channel = 1;
+    static constexpr int hold_size = 29;
+    static constexpr int hold_ahead = 30;
+    static constexpr int hold_limited = 31;
+    static constexpr int hold_strong = 32;
+    static constexpr int hold = 36;
     static constexpr int position_word = 1;
     static constexpr int status_word = 0;
     static constexpr int duty_word = 46;
@@ -231,6 +249,7 @@ struct Map {
   enum class Step {
     read_status,
     sample,
+    levels,
     status_word,
     read_position,
     travel,
@@ -238,6 +257,7 @@ struct Map {
     scene_gap,
     membrane_lower,
     ramp_begin,
+    channel,
     position_word,
     operand_scene_stiffness,
     operand_charge_square,
@@ -321,12 +341,16 @@ struct Map {
     border,
     operand_dead_voltage_slope,
     border_ahead,
+    hold_size,
     region_limited,
+    hold_ahead,
     region,
     direct_current,
+    hold_limited,
     gain_fetch,
     direct_ahead,
     current_sum,
+    hold_strong,
     current_limited,
     dead_sum,
     read_current_ref,
@@ -335,6 +359,7 @@ struct Map {
     dead_ahead,
     dead_voltage,
     voltage_offset,
+    hold,
     set_sum,
     set_ahead,
     voltage_sum,
@@ -359,6 +384,7 @@ struct Map {
   static constexpr StepAt steps[] = {
       {Step::read_status, 0},
       {Step::sample, 0},
+      {Step::levels, 0},
       {Step::status_word, 0},
       {Step::read_position, 1},
       {Step::travel, 1},
@@ -366,6 +392,7 @@ struct Map {
       {Step::scene_gap, 1},
       {Step::membrane_lower, 1},
       {Step::ramp_begin, 1},
+      {Step::channel, 1},
       {Step::position_word, 1},
       {Step::operand_scene_stiffness, 2},
       {Step::operand_charge_square, 2},
@@ -449,12 +476,16 @@ struct Map {
       {Step::border, 28},
       {Step::operand_dead_voltage_slope, 29},
       {Step::border_ahead, 29},
+      {Step::hold_size, 29},
       {Step::region_limited, 30},
+      {Step::hold_ahead, 30},
       {Step::region, 31},
       {Step::direct_current, 31},
+      {Step::hold_limited, 31},
       {Step::gain_fetch, 32},
       {Step::direct_ahead, 32},
       {Step::current_sum, 32},
+      {Step::hold_strong, 32},
       {Step::current_limited, 33},
       {Step::dead_sum, 33},
       {Step::read_current_ref, 34},
@@ -463,6 +494,7 @@ struct Map {
       {Step::dead_ahead, 34},
       {Step::dead_voltage, 35},
       {Step::voltage_offset, 36},
+      {Step::hold, 36},
       {Step::set_sum, 37},
       {Step::set_ahead, 38},
       {Step::voltage_sum, 38},
@@ -503,6 +535,9 @@ struct Map {
     static constexpr int torque_gain = 28;
     static constexpr int dead_voltage_slope = 29;
     static constexpr int region_torque = 30;
+    static constexpr int hold_torque = 31;
+    static constexpr int hold_time = 36;
+    static constexpr int hold_limit = 56;
     static constexpr int current_limit = 33;
     static constexpr int voltage_gain = 34;
     static constexpr int voltage_gain_high = 50;
@@ -631,6 +666,8 @@ struct Map {
     static constexpr int velocity = 5;
     static constexpr int tau_hat = 6;
     static constexpr int gates_closed = 7;
+    static constexpr int hold = 8;
+    static constexpr int chatter = 9;
   };
 };
 

@@ -65,6 +65,9 @@ struct Paper {
     static constexpr Format torque_gain{0, 4, 13};
     static constexpr Format dead_voltage_slope{0, 5, 12};
     static constexpr Format region_torque{1, 4, 16};
+    static constexpr Format hold_torque{1, 4, 16};
+    static constexpr Format hold_time{0, 31, 0};
+    static constexpr Format hold_limit{1, 4, 16};
     static constexpr Format current_limit{1, 5, 16};
     static constexpr Format voltage_gain{0, 1, 16};
     static constexpr Format voltage_gain_high{0, 1, 16};
@@ -159,6 +162,12 @@ struct Paper {
        25.399999999999999, 104038},
       {"region_torque", "Nm", A::region_torque, P::region_torque,
        0.14999999999999999, 9830},
+      {"hold_torque", "Nm", A::hold_torque, P::hold_torque,
+       0.25, 16384},
+      {"hold_time", "1024 ticks", A::hold_time, P::hold_time,
+       4883.0, 4883},
+      {"hold_limit", "Nm", A::hold_limit, P::hold_limit,
+       0.125, 8192},
       {"current_limit", "A", A::current_limit, P::current_limit,
        8.2644629999999992, 541620},
       {"voltage_gain", "ohm", A::voltage_gain, P::voltage_gain,

@@ -73,6 +73,15 @@ struct ParameterReader {
   auto region_torque() const {
     return word<D::P::region_torque.key()>(D::A::region_torque);
   }
+  auto hold_torque() const {
+    return word<D::P::hold_torque.key()>(D::A::hold_torque);
+  }
+  auto hold_time() const {
+    return word<D::P::hold_time.key()>(D::A::hold_time);
+  }
+  auto hold_limit() const {
+    return word<D::P::hold_limit.key()>(D::A::hold_limit);
+  }
   auto current_limit() const {
     return word<D::P::current_limit.key()>(D::A::current_limit);
   }

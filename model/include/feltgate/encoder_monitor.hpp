@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Law of rtl/encoder_monitor.sv: whether the encoder's edges come on one channel only, tick by
+// tick. Documentation: docs/blocks/encoder_monitor.md
+#pragma once
+
+#include <cstdint>
+
+#include "feltgate/generated/map.hpp"
+
+namespace feltgate {
+
+class EncoderMonitorLaw {
+ public:
+  /// A tick with these levels of the channels, A in bit 0. `tick` is the count of ticks.
+  void tick(unsigned levels, std::uint32_t tick) {
+    const unsigned changed = levels ^ levels_;
+    const bool both = changed == 3;
+    const bool late = edge_units_ == Map::edge_units;
+    const bool of_row = (both || changed == channel_) && !late;
+    const bool over = chatters() && chatter_units_ == Map::chatter_units;
+    moved_ = changed != 0;
+    levels_ = levels;
+    trips_ = over ? !late && (!moved_ || of_row)
+                  : moved_ && of_row && row_ == Map::dead_channel_edges - 1;
+
+    if (!chatters() || over) {
+      chatter_units_ = 0;
+    } else if (whole(tick, Map::chatter_unit_bits)) {
+      ++chatter_units_;
+    }
+    if (over || trips_ || (moved_ && !of_row)) {
+      row_ = 0;
+    } else if (moved_) {
+      ++row_;
+    }
+    if (moved_) {
+      edge_units_ = 0;
+    } else if (!late && whole(tick, Map::edge_unit_bits)) {
+      ++edge_units_;
+    }
+    if (moved_ && !both) channel_ = changed;
+  }
+
+  /// The count alternates on one edge: no torque may grow.
+  bool chatters() const { return row_ >= Map::one_channel_edges; }
+  /// A channel is dead: in the tick that finds it.
+  bool trips() const { return trips_; }
+  /// An edge has come in this tick.
+  bool moved() const { return moved_; }
+
+ private:
+  static bool whole(std::uint32_t tick, int bits) { return (tick & ((1u << bits) - 1)) == 0; }
+
+  unsigned levels_ = 0, channel_ = 1;
+  int row_ = 0;            ///< edges of one channel, but for the first
+  int edge_units_ = 0;     ///< since the last edge
+  int chatter_units_ = 0;  ///< since the row was long enough
+  bool moved_ = false, trips_ = false;
+};
+
+}  // namespace feltgate

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Law of rtl/hold_timer.sv: for how long a torque is held against a lever that stands still.
+// Documentation: docs/blocks/hold_timer.md
+#pragma once
+
+#include <cstdint>
+
+#include "feltgate/generated/map.hpp"
+
+namespace feltgate {
+
+class HoldTimerLaw {
+ public:
+  /// A tick: whether armed, whether an edge came, whether the torque reference is beyond what may
+  /// be held, the count of ticks and the word hold_time.
+  void tick(bool armed, bool moved, bool strong, std::uint32_t tick, std::uint32_t hold_time) {
+    const bool holds = armed && !moved;
+    const bool expired = hold_time < kLongest && units_ >= hold_time;
+    const bool whole = (tick & ((1u << Map::hold_unit_bits) - 1)) == 0;
+    eased_ = holds && (eased_ || (strong && expired));
+    if (!holds || !strong) {
+      units_ = 0;
+    } else if (whole) {
+      units_ = (units_ + 1) % kLongest;
+    }
+  }
+
+  /// The torque limit is the lower one.
+  bool eased() const { return eased_; }
+
+ private:
+  static constexpr std::uint32_t kLongest = 1u << Map::hold_bits;
+  std::uint32_t units_ = 0;
+  bool eased_ = false;
+};
+
+}  // namespace feltgate

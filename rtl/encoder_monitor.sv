@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Watches whether the encoder's edges come on one channel only: chatter on one edge, which goes on
+// only as long as a torque turns it, or a dead channel. Once per tick.
+// Documentation: docs/blocks/encoder_monitor.md
+`default_nettype none
+
+module encoder_monitor (
+    input  logic        clk_i,
+    input  logic        rst_ni,
+    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits
+    input  logic [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
+    input  logic [31:0] tick_count_i,
+    /* verilator lint_on UNUSEDSIGNAL */
+    input  logic [1:0]  levels_i,    // of A (bit 0) and B, as accepted
+    output logic        moved_o,     // an edge came since the tick before
+    output logic        chatters_o,  // no torque may grow
+    output logic        trip_o       // a channel is dead: one clock
+);
+  localparam int RowW = $clog2(feltgate_map_pkg::DEAD_CHANNEL_EDGES);
+  localparam int EdgeW = $clog2(feltgate_map_pkg::EDGE_UNITS + 1);
+  localparam int ChatterW = $clog2(feltgate_map_pkg::CHATTER_UNITS + 1);
+  localparam int EdgeBits = feltgate_map_pkg::EDGE_UNIT_BITS;
+  localparam int ChatterBits = feltgate_map_pkg::CHATTER_UNIT_BITS;
+
+  logic sample, edge_unit, chatter_unit;
+  assign sample       = wave_i[feltgate_map_pkg::T_LEVELS];
+  assign edge_unit    = tick_count_i[EdgeBits-1:0] == '0;
+  assign chatter_unit = edge_unit && tick_count_i[ChatterBits-1:EdgeBits] == '0;
+
+  // An edge on the channel of the last one turns the count back. Edges of both in one tick are no
+  // motion: the channels are shorted.
+  logic [1:0] levels_q, changed;
+  logic       of_b_q, moved, both, of_row, late;
+  assign changed = levels_i ^ levels_q;
+  assign moved   = changed != 2'b00;
+  assign both    = changed == 2'b11;
+  assign of_row  = (both || changed[1] == of_b_q) && !late;
+
+  // Edges in a row, the time since the last one, and the time that the row is long.
+  logic [RowW-1:0]     row_q;
+  logic [EdgeW-1:0]    edge_units_q;
+  logic [ChatterW-1:0] chatter_units_q;
+  logic                over, dead;
+  assign late       = edge_units_q == EdgeW'(feltgate_map_pkg::EDGE_UNITS);
+  assign chatters_o = row_q >= RowW'(feltgate_map_pkg::ONE_CHANNEL_EDGES);
+  assign over       = chatters_o && chatter_units_q == ChatterW'(feltgate_map_pkg::CHATTER_UNITS);
+  assign dead       = over ? !late && (!moved || of_row)
+                           : moved && of_row && row_q == RowW'(feltgate_map_pkg::DEAD_CHANNEL_EDGES - 1);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      levels_q        <= 2'b00;
+      of_b_q          <= 1'b0;
+      moved_o         <= 1'b0;
+      row_q           <= '0;
+      edge_units_q    <= '0;
+      chatter_units_q <= '0;
+      trip_o          <= 1'b0;
+    end else begin
+      trip_o <= sample && dead;
+      if (sample) begin
+        levels_q <= levels_i;
+        moved_o  <= moved;
+        if (moved && !both) of_b_q <= changed[1];
+        if (over || dead || (moved && !of_row)) row_q <= '0;
+        else if (moved) row_q <= row_q + RowW'(1);
+        if (moved) edge_units_q <= '0;
+        else if (edge_unit && !late) edge_units_q <= edge_units_q + EdgeW'(1);
+        if (!chatters_o || over) chatter_units_q <= '0;
+        else if (chatter_unit) chatter_units_q <= chatter_units_q + ChatterW'(1);
+      end
+    end
+  end
+endmodule
+
+`default_nettype wire

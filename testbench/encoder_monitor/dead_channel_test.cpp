@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Dead channels and healthy chatter in closed loop: the core's twin, motor, lever and hand.
+// `dead_channel_test "[table]"` prints the tables of docs/blocks/encoder_monitor.md.
+#include <cstdio>
+
+#include "catch.hpp"
+#include "feltgate/generated/lever.hpp"
+#include "feltgate/generated/paper.hpp"
+#include "plant/plant_file.hpp"
+#include "plant/pushing_hand.hpp"
+#include "pressed_lever.hpp"
+#include "random.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+constexpr double kFoundRad = 0.08;
+constexpr double kArmed_s = 0.11;  ///< the ramp after arming is over
+
+plant::Parameters motor() {
+  return plant::read_plant_file(FELTGATE_ROOT "/vectors/plants/p24.toml");
+}
+
+plant::HandPhase prescribed(double rad_s, double to_rad) {
+  plant::HandPhase hand;
+  hand.kind = plant::HandPhase::Kind::kPrescribed;
+  plant::Segment rest, go;
+  rest.kind = plant::Segment::Kind::kHold;
+  rest.duration_s = kArmed_s;
+  go.kind = plant::Segment::Kind::kRamp;
+  go.duration_s = std::abs(to_rad) / rad_s;
+  go.to = to_rad;
+  hand.profile = {rest, go};
+  return hand;
+}
+
+/// Faults of the encoder at one speed.
+struct Found {
+  int faults = 0, changed = 0, by_channel = 0, by_errors = 0, missed = 0, missed_changed = 0;
+  double worst_rad = 0, worst_s = 0;
+};
+
+template <class D>
+void break_at(double rad_s, int runs, std::uint64_t seed, Found* found) {
+  constexpr std::array scenes{"wall", "membrane", "spring_tension", "damper", "free"};
+  Random random(seed);
+  const plant::Parameters p24 = motor();
+  for (int k = 0; k < runs; ++k) {
+    plant::Parameters p = p24;
+    p.effects.encoder_imperfect = random.coin();
+    p.encoder.seed = random.bits();
+    Press what;
+    what.scene = scenes[random.below(scenes.size())];
+    what.parameters = {{"wall_contact", 20.0}, {"membrane_lower", 20.0}, {"membrane_upper", 40.0}};
+    const double sign = random.coin() ? 1 : -1;
+    what.hand.phases = {prescribed(rad_s, sign * 0.3)};
+    what.how = static_cast<Break>(1 + random.below(break_names.size() - 1));
+    what.broken_s = kArmed_s + (0.05 + 1e-6 * static_cast<double>(random.below(100000))) / rad_s;
+    what.seconds = what.broken_s + 2 * kFoundRad / rad_s;
+    what.limit_rad = kFoundRad;
+    const Pressed r = press<D>(p, what);
+    const bool changed = r.steps > 1;  // the first may be that of the break itself
+    ++found->faults;
+    found->changed += changed;
+    found->by_channel += r.first == Fault::channel;
+    found->by_errors += r.first == Fault::encoder;
+    found->missed += r.faults == 0;
+    found->missed_changed += changed && r.faults == 0;
+    if (r.faults == 0) continue;
+    found->worst_rad = std::max(found->worst_rad, r.travel_rad);
+    found->worst_s = std::max(found->worst_s, r.fault_s);
+  }
+}
+
+/// Healthy levers that stay on an edge or near it.
+struct Clean {
+  int runs = 0, froze = 0, faults = 0;
+  double longest_s = 0;
+  void add(const Pressed& r) {
+    ++runs;
+    froze += r.chatter;
+    faults += (r.faults & 1u << static_cast<unsigned>(Fault::channel)) != 0;
+    longest_s = std::max(longest_s, r.longest_s);
+  }
+};
+
+enum class Kind { friction, bare, quick };  ///< quick: no inductance delays the torque
+constexpr std::array lever_names{"with friction", "bare", "without inductance"};
+
+plant::Parameters lever_of(Kind kind) {
+  plant::Parameters p = motor();
+  p.effects.lugre = kind != Kind::bare;
+  p.effects.viscous = kind == Kind::bare;
+  p.effects.inductance = kind != Kind::quick;
+  return p;
+}
+
+/// A lever that rests within a count of the face and is then pushed against it.
+template <class D>
+Pressed at_the_face(Kind kind, const char* scene, double push_nm, double damping, double seconds,
+                    Random* random) {
+  const auto share = [random] { return 1e-6 * (1 + static_cast<double>(random->below(999998))); };
+  Press what;
+  what.scene = scene;
+  what.seconds = kArmed_s + seconds;
+  what.parameters = {{"wall_contact", 1.0},
+                     {"wall_damping", damping},
+                     {"membrane_lower", 1.0},
+                     {"membrane_upper", 200.0}};
+  plant::HandPhase rest;
+  rest.kind = plant::HandPhase::Kind::kLocked;
+  rest.duration_s = kArmed_s;
+  what.hand.phases = {rest, plant::pushing_hand(push_nm, 0.001 + 0.05 * share()).phases.front()};
+  what.hand.start_rad = -D::count_rad * share() + 3 * D::count_rad;
+  return press<D>(lever_of(kind), what);
+}
+
+/// A hand with mass, stiffness and damping that leans on the face.
+template <class D>
+Pressed leaning(const char* scene, double push_nm, double damping, double seconds) {
+  Press what;
+  what.scene = scene;
+  what.seconds = seconds;
+  what.parameters = {{"wall_contact", 5.0},
+                     {"wall_damping", damping},
+                     {"membrane_lower", 5.0},
+                     {"membrane_upper", 200.0}};
+  plant::HandPhase lean;
+  lean.kind = plant::HandPhase::Kind::kImpedance;
+  plant::Segment jerk;
+  jerk.kind = plant::Segment::Kind::kMinimumJerk;
+  jerk.duration_s = 0.3;
+  jerk.to = push_nm / 1.35;  // 135 N/m at 0.1 m
+  lean.profile = {jerk};
+  what.hand.phases = {lean};
+  return press<D>(motor(), what);
+}
+
+/// A hand that moves the lever back and forth over one edge.
+template <class D>
+Pressed dithers(double hz, double counts, int filter, int bounce_clocks) {
+  Press what;
+  what.scene = "wall";
+  what.seconds = 0.4;
+  what.filter = filter;
+  what.bounce_clocks = bounce_clocks;
+  what.parameters = {{"wall_contact", 0.0}};
+  plant::HandPhase dither;
+  dither.kind = plant::HandPhase::Kind::kPrescribed;
+  plant::Segment sine;
+  sine.kind = plant::Segment::Kind::kSine;
+  sine.duration_s = 10;
+  sine.amplitude = counts * D::count_rad;
+  sine.frequency_hz = hz;
+  dither.profile = {sine};
+  what.hand.phases = {dither};
+  what.hand.start_rad = 0.0;
+  return press<D>(motor(), what);
+}
+
+/// Speeds of a hand on a healthy encoder: motion with bounce below the glitch filter.
+template <class D>
+Pressed moves(double rad_s, int filter, int bounce_clocks) {
+  Press what;
+  what.scene = "spring_tension";
+  what.filter = filter;
+  what.bounce_clocks = bounce_clocks;
+  what.hand.phases = {prescribed(rad_s, 0.3)};
+  what.seconds = kArmed_s + 0.3 / rad_s;
+  return press<D>(motor(), what);
+}
+
+template <class D>
+void expect_found(double rad_s, int runs, std::uint64_t seed) {
+  Found found;
+  break_at<D>(rad_s, runs, seed, &found);
+  INFO(rad_s << " rad/s: " << found.faults << " faults, " << found.changed
+             << " change the count, missed " << found.missed << ", of these "
+             << found.missed_changed << ", worst " << found.worst_rad << " rad");
+  CHECK(found.changed * 4 > found.faults);
+  CHECK(found.missed_changed * 100 <= found.changed);
+  CHECK(found.worst_rad <= kFoundRad);
+}
+
+template <class D>
+void expect_quiet(std::uint64_t seed) {
+  Random random(seed);
+  Clean clean, quick;
+  for (const double push : {0.05, 0.25, 0.45}) {
+    for (const char* scene : {"membrane", "wall"}) {
+      const double damping = random.coin() ? 0.065 : 0.0;
+      clean.add(at_the_face<D>(Kind::friction, scene, push, damping, 0.15, &random));
+      clean.add(at_the_face<D>(Kind::bare, scene, push, damping, 0.15, &random));
+      quick.add(at_the_face<D>(Kind::quick, scene, push, damping, 0.25, &random));
+    }
+  }
+  clean.add(leaning<D>("membrane", 0.25, 0.0, 0.5));
+  clean.add(dithers<D>(12, 0.5, 0, 0));
+  clean.add(dithers<D>(300, 0.9, 0, 0));
+  clean.add(moves<D>(3.0, 8, 5));
+  CHECK(clean.faults == 0);
+  CHECK(quick.faults == 0);
+}
+
+}  // namespace
+
+TEST_CASE("encoder_monitor: a dead channel is found within 0.08 rad from 3 rad/s on") {
+  for (const double rad_s : {3.0, 6.0, 40.0}) {
+    expect_found<feltgate::Lever>(rad_s, 40, 1);
+    expect_found<Paper>(rad_s, 40, 2);
+  }
+}
+
+TEST_CASE("encoder_monitor: healthy levers on an edge have no fault") {
+  expect_quiet<feltgate::Lever>(3);
+  expect_quiet<Paper>(4);
+}
+
+TEST_CASE("encoder_monitor: chatter of a quick motor is frozen and ends") {
+  Random random(5);
+  Clean clean;
+  for (int k = 0; k < 6; ++k) {
+    clean.add(at_the_face<feltgate::Lever>(Kind::quick, "membrane", 0.25, 0, 0.3, &random));
+  }
+  CHECK(clean.faults == 0);
+  CHECK(clean.froze > 0);
+  CHECK(clean.longest_s < 0.005);
+}
+
+TEST_CASE("encoder_monitor: tables", "[.][table]") {
+  constexpr int kRuns = 120;
+  std::puts("faults of the encoder, half of them with an imperfect one; two designs");
+  std::puts(
+      "| rad/s | faults | change the count | missed | by channel | by errors | worst rad | worst "
+      "ms |");
+  for (const double v : {1.0, 2.0, 2.5, 2.75, 3.0, 3.5, 4.0, 5.0, 10.0, 30.0, 100.0, 300.0}) {
+    Found f;
+    break_at<feltgate::Lever>(v, kRuns / 2, 1, &f);
+    break_at<Paper>(v, kRuns / 2, 2, &f);
+    std::printf("| %g | %d | %d | %d | %d | %d | %.3f | %.1f |\n", v, f.faults, f.changed,
+                f.missed_changed, f.by_channel, f.by_errors, f.worst_rad, f.worst_s * 1e3);
+    std::fflush(stdout);
+  }
+  std::puts("\nhealthy levers at a face or on an edge; two designs");
+  std::puts("| what | runs | times frozen | longest ms | faults |");
+  const auto row = [](const std::string& what, const Clean& c) {
+    std::printf("| %s | %d | %d | %.1f | %d |\n", what.c_str(), c.runs, c.froze, c.longest_s * 1e3,
+                c.faults);
+    std::fflush(stdout);
+  };
+  Random random(7);
+  for (const Kind kind : {Kind::friction, Kind::bare, Kind::quick}) {
+    for (const char* scene : {"membrane", "wall"}) {
+      Clean c;
+      for (int k = 0; k < 45; ++k) {
+        const double push = 0.05 + 0.05 * (k % 9);
+        const double damping = 0.01625 * (k / 9);
+        c.add(at_the_face<feltgate::Lever>(kind, scene, push, damping, 0.4, &random));
+        c.add(at_the_face<Paper>(kind, scene, push, damping, 0.4, &random));
+      }
+      row(std::string(scene) + ", lever " + lever_names[static_cast<std::size_t>(kind)], c);
+    }
+  }
+  for (const char* scene : {"membrane", "wall"}) {
+    Clean c;
+    for (int k = 0; k < 9; ++k) {
+      c.add(leaning<feltgate::Lever>(scene, 0.05 + 0.05 * k, 0.00722 * k, 1.5));
+      c.add(leaning<Paper>(scene, 0.05 + 0.05 * k, 0.00722 * k, 1.5));
+    }
+    row(std::string(scene) + ", a leaning hand", c);
+  }
+  Clean dither, bounce;
+  for (const double hz : {2.0, 6.0, 12.0, 30.0, 100.0, 200.0, 300.0, 400.0}) {
+    for (const double counts : {0.1, 0.5, 0.9, 1.4}) {
+      dither.add(dithers<feltgate::Lever>(hz, counts, 0, 0));
+      dither.add(dithers<Paper>(hz, counts, 0, 0));
+      bounce.add(dithers<feltgate::Lever>(hz, counts, 8, 5));
+      bounce.add(dithers<Paper>(hz, counts, 8, 5));
+    }
+  }
+  for (const double v : {1.0, 3.0, 10.0, 30.0}) {
+    bounce.add(moves<feltgate::Lever>(v, 8, 5));
+    bounce.add(moves<Paper>(v, 8, 5));
+  }
+  row("a hand dithers over one edge, 2 to 400 Hz", dither);
+  row("bounce below the glitch filter", bounce);
+
+  std::puts("\na hand in the wall when channel A dies; `lever`");
+  std::puts("| rad/s | found after ms | rad | peak at the hand Nm | integral mNm s |");
+  for (const double v : {3.0, 5.0, 10.0, 30.0}) {
+    Press what;
+    what.parameters = {{"wall_contact", 20.0}};
+    what.hand.phases = {prescribed(v, 0.4)};
+    what.how = Break::a_held;
+    what.broken_s = kArmed_s + 0.2 / v;
+    what.seconds = what.broken_s + 0.2 / v;
+    const Pressed r = press<feltgate::Lever>(motor(), what);
+    std::printf("| %g | %.1f | %.3f | %.2f | %.2f |\n", v, r.fault_s * 1e3, r.travel_rad, r.hand_nm,
+                r.hand_nm_s * 1e3);
+  }
+}

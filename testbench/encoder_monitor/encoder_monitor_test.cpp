@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// encoder_monitor: RTL against twin on every clock, and rows of edges by hand.
+// Documentation: docs/blocks/encoder_monitor.md
+#include <Vencoder_monitor.h>
+
+#include <vector>
+
+#include "catch.hpp"
+#include "encoder_monitor_twin.hpp"
+#include "lock_step.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+using Twin = EncoderMonitor;
+
+struct Adapter {
+  static void drive(Vencoder_monitor& rtl, const Twin::In& in) {
+    rtl.wave_i = in.wave;
+    rtl.tick_count_i = in.tick_count;
+    rtl.levels_i = in.levels;
+  }
+  template <class Check>
+  static void compare(Check& check, const Vencoder_monitor& rtl, const Twin::Out& out) {
+    check("moved", rtl.moved_o, out.moved);
+    check("chatters", rtl.chatters_o, out.chatters);
+    check("trip", rtl.trip_o, out.trip);
+  }
+};
+using Bench = LockStep<Vencoder_monitor, Twin, Adapter>;
+
+constexpr std::uint64_t kSample = std::uint64_t{1} << Map::T::levels;
+constexpr int kEdgeUnit = 1 << Map::edge_unit_bits, kChatterUnit = 1 << Map::chatter_unit_bits;
+constexpr int kEnds = Map::edge_units * kEdgeUnit;  ///< ticks without an edge that end a row
+constexpr int kLasts = Map::chatter_units * kChatterUnit;
+
+/// Ticks of two clocks: levels in the first, in the second what nobody looks at.
+class Script {
+ public:
+  Script& ticks(int n) {
+    for (; n > 0; --n) {
+      list_.push_back({kSample, tick_, levels_});
+      law_.tick(levels_, tick_++);
+      trips_ += law_.trips();
+      list_.push_back({0, tick_, static_cast<std::uint8_t>(levels_ ^ 3u)});
+    }
+    return *this;
+  }
+  /// The channels in `mask` change, and keep for `n` ticks.
+  Script& edge(unsigned mask, int n = 3) {
+    levels_ = static_cast<std::uint8_t>(levels_ ^ mask);
+    return ticks(n);
+  }
+  Script& edges(int times, unsigned mask, int n = 3) {
+    for (; times > 0; --times) edge(mask, n);
+    return *this;
+  }
+  /// To the tick after the one in which a unit ends.
+  Script& align(int unit) {
+    while ((tick_ & static_cast<unsigned>(unit - 1)) != 1) ticks(1);
+    return *this;
+  }
+  bool chatters() const { return law_.chatters(); }
+  int trips() const { return trips_; }
+  void play() const {
+    Bench bench("encoder_monitor", 1);
+    std::vector<Twin::In> list(8);
+    list.insert(list.end(), list_.begin(), list_.end());
+    bench.run_list(list);
+  }
+
+ private:
+  EncoderMonitorLaw law_;
+  std::uint32_t tick_ = 1;
+  std::uint8_t levels_ = 0;
+  int trips_ = 0;
+  std::vector<Twin::In> list_;
+};
+
+constexpr unsigned kA = 1, kB = 2, kBoth = 3;
+
+/// Motion, chatter, dead and shorted channels, and rest, in ticks of one to four clocks.
+struct Stimulus {
+  Random random;
+  Twin::In in{};
+  int clock = 0, period = 1, left = 0, way = 0, kind = 0, mean = 1;
+
+  Twin::In operator()(std::int64_t) {
+    in.wave = clock == 0 ? kSample : random.bits() & ~kSample;
+    if (clock == 0) tick();
+    clock = clock + 1 >= period ? 0 : clock + 1;
+    return in;
+  }
+  void tick() {
+    ++in.tick_count;
+    if (random.one_in(3000)) in.tick_count = static_cast<std::uint32_t>(random.bits());
+    period = 1 + static_cast<int>(random.below(3));
+    if (left-- <= 0) {
+      left = static_cast<int>(random.below(12000));
+      kind = static_cast<int>(random.below(6));
+      mean = 1 << random.below(11);
+    }
+    if (!random.one_in(static_cast<std::uint32_t>(mean))) return;
+    const bool same = (in.levels == 0) || (in.levels == 3);
+    switch (kind) {
+      case 0:  // up and down
+        if (random.one_in(40)) way ^= 1;
+        return flip(same != (way != 0) ? kA : kB);
+      case 1:
+        return flip(kA);
+      case 2:
+        return flip(kB);
+      case 3:
+        return flip(random.one_in(60) ? kA : kBoth);
+      case 4:
+        return flip(random.one_in(30) ? kB : kA);
+      default:
+        return flip(static_cast<unsigned>(random.below(4)));
+    }
+  }
+  void flip(unsigned mask) { in.levels = static_cast<std::uint8_t>(in.levels ^ mask); }
+};
+
+}  // namespace
+
+TEST_CASE("encoder_monitor: random edges, ticks and resets") {
+  struct Counts {
+    std::int64_t trips = 0, chatters = 0, ends = 0;
+  } counts;
+  bool before = false;
+  Bench bench("encoder_monitor", 1);
+  bench.run(Stimulus{Random(2)}, scaled_clocks(6000000), {500000},
+            [&counts, before](const Twin::In&, const Vencoder_monitor& rtl, const Twin&,
+                              bool) mutable -> const char* {
+              counts.trips += rtl.trip_o;
+              const bool now = rtl.chatters_o != 0;
+              counts.chatters += now && !before;
+              counts.ends += !now && before && rtl.trip_o == 0;
+              before = now;
+              return nullptr;
+            });
+  INFO(counts.trips << " trips, " << counts.chatters << " times chatter, " << counts.ends
+                    << " times ended");
+  REQUIRE(counts.trips > 500);
+  REQUIRE(counts.chatters > 500);
+  REQUIRE(counts.ends > 50);
+}
+
+TEST_CASE("encoder_monitor: motion is no chatter, either way and at any speed") {
+  Script s;
+  for (const int ticks : {1, 3, 700}) {
+    for (int k = 0; k < 50; ++k) s.edge(kA, ticks).edge(kB, ticks);
+    s.edge(kB, ticks);  // turns
+    for (int k = 0; k < 50; ++k) s.edge(kA, ticks).edge(kB, ticks);
+  }
+  REQUIRE(s.trips() == 0);
+  s.play();
+}
+
+TEST_CASE("encoder_monitor: a row of edges of one channel, and the first that is too many") {
+  for (const unsigned dead : {kA, kB}) {
+    Script s;
+    s.edge(kBoth ^ dead).edge(dead).edge(kBoth ^ dead).edge(dead);  // moves
+    s.edges(Map::one_channel_edges - 1, dead);
+    REQUIRE_FALSE(s.chatters());
+    s.edge(dead);
+    REQUIRE(s.chatters());
+    s.edges(Map::dead_channel_edges - Map::one_channel_edges - 1, dead);
+    REQUIRE(s.trips() == 0);
+    s.edge(dead);
+    REQUIRE(s.trips() == 1);
+    REQUIRE_FALSE(s.chatters());
+    s.edges(Map::dead_channel_edges - 1, dead);  // and once more
+    REQUIRE(s.trips() == 1);
+    s.edge(dead);
+    REQUIRE(s.trips() == 2);
+    s.play();
+  }
+}
+
+TEST_CASE("encoder_monitor: an edge of the other channel ends the row") {
+  Script s;
+  s.edge(kB).edge(kA).edges(Map::dead_channel_edges - 1, kA);
+  REQUIRE(s.chatters());
+  s.edge(kB);
+  REQUIRE_FALSE(s.chatters());
+  s.edges(Map::one_channel_edges - 1, kB);
+  REQUIRE_FALSE(s.chatters());
+  REQUIRE(s.trips() == 0);
+  s.play();
+}
+
+TEST_CASE("encoder_monitor: edges of both in one tick go on with a row of either channel") {
+  Script s;
+  s.edge(kB).edge(kA);
+  for (int k = 0; k < Map::dead_channel_edges / 2 - 1; ++k) s.edge(kBoth).edge(kA);
+  REQUIRE(s.trips() == 0);
+  s.edge(kBoth).edge(kA);
+  REQUIRE(s.trips() == 1);
+  s.play();
+}
+
+TEST_CASE("encoder_monitor: a row must not pause") {
+  Script s;
+  s.align(kEdgeUnit).edge(kB).align(kEdgeUnit).edge(kA, 1);
+  for (int k = 0; k < Map::one_channel_edges; ++k) s.ticks(kEnds - kEdgeUnit - 2).edge(kA, 1);
+  REQUIRE(s.chatters());
+  s.align(kEdgeUnit).edge(kA, 1).ticks(kEnds);  // all units and a tick
+  REQUIRE(s.chatters());                        // until the next edge, or for its time
+  s.edge(kA);
+  REQUIRE_FALSE(s.chatters());
+  REQUIRE(s.trips() == 0);
+  s.play();
+}
+
+TEST_CASE("encoder_monitor: chatter that lasts is a dead channel, chatter that ends is not") {
+  constexpr int kSlow = kLasts / 5;  // fewer edges than trip by their number
+  static_assert(kSlow < kEnds);
+  for (const bool goes_on : {true, false}) {
+    Script s;
+    s.edge(kB).edges(Map::one_channel_edges, kA, 10).align(kChatterUnit).edge(kA, 1);
+    for (int k = 0; k < 4; ++k) s.edge(kA, kSlow);
+    REQUIRE(s.chatters());
+    REQUIRE(s.trips() == 0);
+    if (goes_on) s.edge(kA, kSlow).edge(kA, kSlow);
+    if (!goes_on) s.ticks(2 * kLasts);
+    REQUIRE_FALSE(s.chatters());
+    REQUIRE(s.trips() == (goes_on ? 1 : 0));
+    s.play();
+  }
+}
+
+TEST_CASE("encoder_monitor: an edge of the other channel saves up to the last tick") {
+  int saved = 0;
+  for (int early = -4; early <= 4; ++early) {
+    Script s;
+    s.edge(kB).edges(Map::one_channel_edges, kA, 1).align(kChatterUnit);
+    for (int k = 0; k < 4; ++k) s.edge(kA, kLasts / 5);
+    s.edge(kA, kLasts - 4 * (kLasts / 5) - early).edge(kB);
+    REQUIRE_FALSE(s.chatters());
+    REQUIRE(s.trips() == (early < 0 ? 1 : 0));
+    saved += early >= 0;
+    s.play();
+  }
+  REQUIRE(saved == 5);
+}

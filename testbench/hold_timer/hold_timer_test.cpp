@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// hold_timer: RTL against twin on every clock, and its course by hand.
+// Documentation: docs/blocks/hold_timer.md
+#include <Vhold_timer.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "catch.hpp"
+#include "hold_timer_twin.hpp"
+#include "lock_step.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+using Twin = HoldTimer;
+
+struct Adapter {
+  static void drive(Vhold_timer& rtl, const Twin::In& in) {
+    rtl.armed_i = in.armed;
+    rtl.wave_i = in.wave;
+    rtl.tick_count_i = in.tick_count;
+    rtl.param_i = in.param;
+    rtl.moved_i = in.moved;
+    rtl.beyond_i = in.beyond;
+  }
+  template <class Check>
+  static void compare(Check& check, const Vhold_timer& rtl, const Twin::Out& out) {
+    check("eased", rtl.eased_o, out.eased);
+  }
+};
+using Bench = LockStep<Vhold_timer, Twin, Adapter>;
+
+/// What one tick works on.
+struct Tick {
+  bool armed = true, moved = false, strong = true;
+  std::uint32_t tick = 0, hold_time = 3;
+};
+
+/// Ticks of two clocks: that of the comparison, that of the word; each lasts as long as a unit
+/// where `units` is set, by the count of ticks.
+std::vector<Twin::In> inputs(const std::vector<Tick>& ticks) {
+  std::vector<Twin::In> list(8);
+  for (const Tick& t : ticks) {
+    Twin::In in{t.armed, std::uint64_t{1} << Map::T::hold_strong, t.tick, ~t.hold_time, t.moved,
+                t.strong};
+    list.push_back(in);
+    in.wave = std::uint64_t{1} << Map::T::hold;
+    in.param = t.hold_time;
+    in.beyond = !t.strong;
+    list.push_back(in);
+  }
+  return list;
+}
+
+/// Runs ticks, each the whole of a unit; whether the torque was eased after each.
+std::vector<bool> play(std::vector<Tick> ticks) {
+  HoldTimerLaw law;
+  std::vector<bool> eased;
+  std::uint32_t k = 0;
+  for (Tick& t : ticks) {
+    t.tick = k++ << Map::hold_unit_bits;
+    law.tick(t.armed, t.moved, t.strong, t.tick, t.hold_time);
+    eased.push_back(law.eased());
+  }
+  Bench bench("hold_timer", 1);
+  bench.run_list(inputs(ticks));
+  return eased;
+}
+
+std::vector<Tick> ticks(int n, Tick each = {}) { return std::vector<Tick>(n, each); }
+
+struct Stimulus {
+  Random random;
+  Twin::In in{};
+  Tick now{};
+  int clock = 0;
+
+  Twin::In operator()(std::int64_t) {
+    if (clock == 0) tick();
+    const bool word = clock == 2;
+    in.wave = clock == 0 ? std::uint64_t{1} << Map::T::hold_strong
+              : word     ? std::uint64_t{1} << Map::T::hold
+                         : random.bits() & ~(std::uint64_t{1} << Map::T::hold_strong |
+                                         std::uint64_t{1} << Map::T::hold);
+    in.param = word ? now.hold_time : static_cast<std::uint32_t>(random.bits());
+    in.beyond = clock == 0 ? now.strong : random.coin();
+    clock = clock == 3 ? 0 : clock + 1;
+    return in;
+  }
+  void tick() {
+    // Mostly whole units, so that times pass.
+    now.tick += random.one_in(4) ? 1u : 1u << Map::hold_unit_bits;
+    if (!random.one_in(8)) now.tick &= ~((1u << Map::hold_unit_bits) - 1);
+    if (random.one_in(60)) now.armed = !random.one_in(5);
+    now.moved = random.one_in(rare ? 20000 : 40);
+    if (random.one_in(rare ? 4000 : 30)) now.strong = !random.one_in(5);
+    if (random.one_in(100)) {
+      now.hold_time = static_cast<std::uint32_t>(random.below(40));
+      if (random.one_in(3)) now.hold_time += 1u << (Map::hold_bits + random.below(19));
+    }
+    if (random.one_in(30000)) rare = !rare;
+    if (rare) now.armed = true;
+    in.armed = now.armed;
+    in.moved = now.moved;
+    in.tick_count = now.tick;
+  }
+  bool rare = false;
+};
+
+}  // namespace
+
+TEST_CASE("hold_timer: random torques, counts, times, arming and resets") {
+  std::int64_t eased = 0, given_back = 0;
+  bool before = false;
+  Bench bench("hold_timer", 1);
+  bench.run(Stimulus{Random(2)}, scaled_clocks(2000000), {50000},
+            [&, before](const Twin::In&, const Vhold_timer& rtl, const Twin&,
+                        bool in_reset) mutable -> const char* {
+              const bool now = rtl.eased_o != 0;
+              eased += now && !before;
+              given_back += !now && before && !in_reset;
+              before = now;
+              return nullptr;
+            });
+  INFO(eased << " times eased, " << given_back << " times given back");
+  REQUIRE(eased > 1000);
+  REQUIRE(given_back > 1000);
+}
+
+TEST_CASE("hold_timer: after its time a torque is eased, and stays so while it is weak") {
+  auto list = ticks(10);
+  const auto weak = ticks(100, {true, false, false});
+  list.insert(list.end(), weak.begin(), weak.end());
+  const auto eased = play(list);
+  for (std::size_t k = 0; k < eased.size(); ++k) REQUIRE(eased[k] == (k >= 3));
+}
+
+TEST_CASE("hold_timer: a count gives the torque back, and the time begins anew") {
+  auto list = ticks(13);
+  list[7].moved = true;
+  const auto eased = play(list);
+  for (std::size_t k = 0; k < eased.size(); ++k) {
+    REQUIRE(eased[k] == ((k >= 3 && k < 7) || k >= 11));
+  }
+}
+
+TEST_CASE("hold_timer: disarming gives the torque back") {
+  auto list = ticks(13);
+  list[7].armed = false;
+  const auto eased = play(list);
+  for (std::size_t k = 0; k < eased.size(); ++k) {
+    REQUIRE(eased[k] == ((k >= 3 && k < 7) || k >= 11));
+  }
+}
+
+TEST_CASE("hold_timer: a count, a weak torque or a pause in time begins anew") {
+  for (const bool by_count : {true, false}) {
+    std::vector<Tick> list;
+    for (int k = 0; k < 60; ++k) {
+      Tick t;
+      if (k % 3 == 2) (by_count ? t.moved : t.strong) = by_count;
+      list.push_back(t);
+    }
+    for (const bool eased : play(list)) REQUIRE_FALSE(eased);
+  }
+}
+
+TEST_CASE("hold_timer: a time of 2^13 units or more is for ever") {
+  constexpr std::uint32_t kFirst = 1u << Map::hold_bits;
+  for (const std::uint32_t time : {kFirst, kFirst + 3, 0x80000000u, 0xffffffffu}) {
+    for (const bool eased :
+         play(ticks(2 * static_cast<int>(kFirst) + 9, {true, false, true, 0, time}))) {
+      if (eased) FAIL("eased with " << time);
+    }
+  }
+  const auto longest =
+      play(ticks(static_cast<int>(kFirst) + 9, {true, false, true, 0, kFirst - 1}));
+  for (std::size_t k = 0; k < longest.size(); ++k) {
+    if (longest[k] != (k >= kFirst - 1)) FAIL("after " << k);
+  }
+}

@@ -75,9 +75,9 @@ void compare(const char* design, std::uint64_t seed, int steps, Faults& faults) 
       writes.emplace_back(d.control_address, word);
     }
     if (random.one_in(200)) {
-      const char* names[] = {"overspeed",      "i2t_budget", "polarity_ticks", "polarity_speed",
-                             "watchdog_ticks", "ramp_step",  "setpoint_torque"};
-      const ParameterInfo& p = *d.find(names[random.below(7)]);
+      const char* names[] = {"overspeed",      "i2t_budget", "polarity_ticks",  "polarity_speed",
+                             "watchdog_ticks", "ramp_step",  "setpoint_torque", "polarity_current"};
+      const ParameterInfo& p = *d.find(names[random.below(8)]);
       const auto raw = static_cast<std::uint32_t>(p.raw);
       writes.emplace_back(p.address, random.one_in(3) ? raw : raw >> random.below(16));
     }

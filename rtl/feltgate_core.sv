@@ -72,7 +72,7 @@ module feltgate_core #(
   logic [ 3:0] scene_wanted, scene_q;
   logic [ 1:0] mode;
   logic host, arm_request, set_zero, clear_faults, kick, region_high, snap_valid;
-  logic disarm, host_stop, restart, refused, word_error;
+  logic disarm, host_stop, restart, refused, unkicked, word_error;
   logic moved, frozen, eased, channel_trip;
   logic [ 5:0] snap_slot;
   assign host         = control[feltgate_map_pkg::B_CONTROL_HOST];
@@ -295,6 +295,7 @@ module feltgate_core #(
       .armed_o(armed_o),
       .gates_enable_o(gates_enable),
       .gates_clear_o(gates_clear),
+      .unkicked_o(unkicked),
       .faults_o(faults_o), .first_fault_o(first_fault_o)
   );
 
@@ -324,7 +325,7 @@ module feltgate_core #(
                   (32'(armed_o) << feltgate_map_pkg::B_STATUS_ARMED) |
                   (32'(mode) << feltgate_map_pkg::B_STATUS_MODE) |
                   (32'(encoder_error) << feltgate_map_pkg::B_STATUS_ENCODER_ERROR) |
-                  (32'(refused) << feltgate_map_pkg::B_STATUS_REFUSED);
+                  (32'(refused) << feltgate_map_pkg::B_STATUS_REFUSED) | (32'(unkicked) << feltgate_map_pkg::B_STATUS_UNKICKED);
   snapshot #(.ReadBack(ReadBack)) u_snapshot (
       .slot_fetch_i(slot_fetch),
       .wave_i(wave),

@@ -28,6 +28,7 @@ module supervisor (
   output logic               armed_o,          // changes only at tick_i
   output logic               gates_enable_o,   // falls at once on a fault
   output logic               gates_clear_o,    // asynchronous: the stop, from its first edge until it is dealt with
+  output logic               unkicked_o,       // arming waits for the first kick
   input  logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,  // causes of other blocks, by bit
   output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults_o,  // bit n: cause n was seen
   output logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault_o  // number of the first, 0 none
@@ -185,12 +186,14 @@ module supervisor (
   logic        [SQUARED_W-1:0] square_q;
   logic                        too_hot_q;
 
+  logic [31:0] nominal;  // its square; a negative word counts as 0
+  assign nominal  = param_i[31] ? 32'd0 : param_i;
   assign i2t_trip = wave_i[feltgate_map_pkg::T_HEAT] && too_hot_q;
 
   always_ff @(posedge clk_i) begin
     if (wave_i[feltgate_map_pkg::T_COOLED_AT_LEAST_0] && cooled_q < 0) cooled_q <= '0;
     else if (wave_i[feltgate_map_pkg::T_COOLED])
-      cooled_q <= $signed({1'b0, sum_q}) - $signed((SUM_W + 1)'(param_i));
+      cooled_q <= $signed({1'b0, sum_q}) - $signed((SUM_W + 1)'(nominal));
   end
   always_ff @(posedge clk_i) begin
     if (wave_i[feltgate_map_pkg::S_I2T_BUDGET]) too_hot_q <= sum_q >= SUM_W'(param_i);
@@ -209,12 +212,14 @@ module supervisor (
   assign watchdog_trip = wave_i[feltgate_map_pkg::T_WATCHDOG] && gates_enable_o && awake_q &&
                          silent_q;
 
+  assign unkicked_o = feltgate_pkg::REQUIRE_WATCHDOG != 0 && !awake_q;
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)     awake_q <= 1'b0;
     else if (kick_i) awake_q <= 1'b1;
   end
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::S_WATCHDOG_TICKS]) silent_q <= expired;
+    if (wave_i[feltgate_map_pkg::S_WATCHDOG_TICKS]) silent_q <= expired || param_i[31];
   end
   always_ff @(posedge clk_i) begin
     if (tick_i) begin
@@ -301,7 +306,7 @@ module supervisor (
   // fall before it counts again.
   logic asked_q, may_arm, arms;
 
-  assign may_arm = !asked_q && first_fault_o == NONE && !stop_q[1];
+  assign may_arm = !asked_q && first_fault_o == NONE && !stop_q[1] && !unkicked_o;
   assign arms    = arm_i && (gates_enable_o || may_arm) && !any_trip;  // or stays armed
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -39,6 +39,7 @@ struct Design {
   double overspeed_rad_s = 0, nominal_current_a = 0, i2t_budget_a2_s = 0;
   double polarity_speed_rad_s = 0, polarity_current_a = 0, polarity_time_s = 0, watchdog_s = 0;
   double hold_torque_nm = 0, hold_s = 0, hold_limit_nm = 0;
+  bool require_watchdog = false;  ///< arming waits for the first kick
   std::vector<std::string> scenes;
   double setpoint_nm = 0, membrane_lower_rad = 0, membrane_upper_rad = 0, membrane_nm = 0;
   double compression_contact_rad = 0, compression_nm_rad = 0;

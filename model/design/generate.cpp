@@ -84,6 +84,7 @@ std::vector<Constant> constants(const Elaborated& e) {
       {"travel_bits", fabric::travel_bits, "bits"},
       {"scene_guard_bits", fabric::scene_guard_bits,
        "bits that a scene's terms keep below a torque step"},
+      {"require_watchdog", d.require_watchdog ? 1 : 0, "1: arming waits for the first kick"},
       {"i2t_start", e.word("i2t_budget").raw / 2,
        "I2t sum after power-up: half the budget, for nobody knows how hot the motor is"},
   };

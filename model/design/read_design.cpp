@@ -123,6 +123,7 @@ void read_supervisor(config::TomlReader& r, Design& d) {
   d.hold_torque_nm = or_else("hold_torque_nm", {0.0, 15.0}, d.torque_limit_nm / 2);
   d.hold_limit_nm = or_else("hold_limit_nm", {0.0, 15.0}, d.hold_torque_nm / 2);
   d.hold_s = or_else("hold_s", {1e-3, 1e3}, 5.0);
+  d.require_watchdog = r.flag_or("require_watchdog", false);
 }
 
 }  // namespace

@@ -275,6 +275,7 @@ package feltgate_map_pkg;
   localparam int W_STATUS_MODE = 2;
   localparam int B_STATUS_ENCODER_ERROR = 27;
   localparam int B_STATUS_REFUSED = 28;
+  localparam int B_STATUS_UNKICKED = 29;
   localparam int B_FAULTS_SEEN = 0;
   localparam int W_FAULTS_SEEN = 16;
   localparam int B_FAULTS_FIRST = 16;

@@ -42,6 +42,7 @@ struct SupervisorAdapter {
           std::int64_t{out.current_estimate});
     check("armed", rtl.armed_o, out.armed);
     check("gates_enable", rtl.gates_enable_o, out.gates_enable);
+    check("unkicked", rtl.unkicked_o, out.unkicked);
     check("faults", rtl.faults_o, out.faults);
     check("first_fault", rtl.first_fault_o, out.first_fault);
   }

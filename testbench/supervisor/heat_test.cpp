@@ -20,7 +20,7 @@ constexpr std::int32_t kVolt = 1 << Design::f.voltage.fraction;
 /// Lets the heat of power-up go at once.
 void cool(Script& s) {
   const std::uint32_t nominal = s.now.words.nominal_current_squared;
-  s.now.words.nominal_current_squared = 1U << 31;
+  s.now.words.nominal_current_squared = (1U << 31) - 1;
   s.ticks(2);
   s.now.words.nominal_current_squared = nominal;
 }
@@ -120,7 +120,7 @@ TEST_CASE("supervisor: I2t in integers, on the estimate of voltage and speed") {
     s.now.words.i2t_budget = static_cast<std::uint32_t>(square + (ticks - 1) * (square - 100));
     s.arm();
     REQUIRE(s.clocks_to_fall(200 * kTick) == ticks * kTick + kHeat);
-    s.now.words.nominal_current_squared = 1U << 31;  // cold at once, and never below
+    s.now.words.nominal_current_squared = (1U << 31) - 1;  // cold at once, and never below
     s.ticks(4);
     s.now.words.nominal_current_squared = 100;
     s.clear().clear();

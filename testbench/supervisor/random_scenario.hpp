@@ -15,7 +15,7 @@ namespace feltgate::test {
 class RandomScenario {
  public:
   explicit RandomScenario(std::uint64_t seed) : random_(seed) {
-    s_.words.nominal_current_squared = 1U << 31;  // until the first limits: cold
+    s_.words.nominal_current_squared = (1U << 31) - 1;  // until the first limits: cold
   }
 
   /// Of the next tick; everything but the two asynchronous inputs is in force.

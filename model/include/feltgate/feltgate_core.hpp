@@ -264,7 +264,7 @@ class FeltgateCore {
     return field(wave_.limits(s.gates_enable), C::status_limits) |
            field(out_.scene, C::status_scene) | field(s.armed, C::status_armed) |
            field(mode(), C::status_mode) | field(encoder_error, C::status_encoder_error) |
-           field(registers_.out().refused, C::status_refused);
+           field(registers_.out().refused, C::status_refused) | field(s.unkicked, C::status_unkicked);
   }
 
   std::uint32_t faults() const {

@@ -78,6 +78,7 @@ class Supervisor {
     std::int32_t current_estimate = 0;  ///< raw, A
     bool armed = false;
     bool gates_enable = false;
+    bool unkicked = D::require_watchdog != 0;  ///< arming waits for the first kick
     std::uint16_t faults = 0;
     std::uint8_t first_fault = 0;
   };
@@ -251,8 +252,10 @@ class Supervisor {
         .raw();
   }
   static fixed<0, 32 - D::f.i2t.fraction, D::f.i2t.fraction> nominal_of(std::uint32_t word) {
-    return fixed<0, 32 - D::f.i2t.fraction, D::f.i2t.fraction>::from_raw(word);
+    return fixed<0, 32 - D::f.i2t.fraction, D::f.i2t.fraction>::from_raw(negative(word) ? 0 : word);
   }
+  /// A negative word is no limit: it counts as 0.
+  static bool negative(std::uint32_t word) { return (word >> 31) != 0; }
   /// I^2 of an armed tick; nothing is added to a sum above every budget.
   Squared square_of(std::int64_t square) const {
     if (!out_.armed || sum_.raw() > 0xffffffffLL) return {};
@@ -264,9 +267,11 @@ class Supervisor {
     return ticks >= limit || ticks >= longest;
   }
 
+  bool too_long(std::uint32_t limit) const {
+    return negative(limit) || expired(kickless_ticks_, limit, kLongestKickless);
+  }
   bool silent(const Words& words) const {
-    return out_.gates_enable && awake_ &&
-           expired(kickless_ticks_, words.watchdog_ticks, kLongestKickless);
+    return out_.gates_enable && awake_ && too_long(words.watchdog_ticks);
   }
 
   /// What one clock of the wave takes over and compares; signals are taken a clock ahead.
@@ -295,7 +300,7 @@ class Supervisor {
     if (now(T::strong)) runaway_.compare_current(signal_, in.param);
 
     if (now(T::watchdog) && out_.gates_enable && awake_ && silent_) *trip |= bit(Fault::watchdog);
-    if (now(T::silent)) silent_ = expired(kickless_ticks_, in.param, kLongestKickless);
+    if (now(T::silent)) silent_ = too_long(in.param);
 
     if (now(T::speed_size)) signal_ = in.velocity;
     if (now(T::growth_size)) signal_ = runaway_.gain(in.velocity);
@@ -315,14 +320,14 @@ class Supervisor {
   }
   /// Commands, arming and disarming; `trip` are the faults of the same clock.
   void end_tick(bool arm, bool clear_faults, bool kick, std::uint16_t trip) {
-    const bool arms = arm && !asked_ && out_.first_fault == 0 && !stop_2_;
+    const bool arms = arm && !asked_ && out_.first_fault == 0 && !stop_2_ && !out_.unkicked;
     const bool armed = (arms || (arm && out_.gates_enable)) && trip == 0;
     kickless_ticks_ = kick || !out_.gates_enable ? 0 : (kickless_ticks_ + 1) & kKicklessMask;
     if (clear_faults && !arm) out_.faults = 0, out_.first_fault = 0;
     if (trip != 0) latch(trip);
     out_.gates_enable = out_.armed = armed;
     asked_ = arm;
-    if (kick) awake_ = true;
+    if (kick) awake_ = true, out_.unkicked = false;
   }
 
   Out out_;

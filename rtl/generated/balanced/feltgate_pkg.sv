@@ -24,6 +24,7 @@ package feltgate_pkg;
   localparam int PRODUCT_BITS = 53;  // bits
   localparam int TRAVEL_BITS = 16;  // bits
   localparam int SCENE_GUARD_BITS = 2;  // bits that a scene's terms keep below a torque step
+  localparam int REQUIRE_WATCHDOG = 0;  // 1: arming waits for the first kick
   localparam int I2T_START = 1460000000;  // I2t sum after power-up: half the budget, for nobody knows how hot the motor is
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
 

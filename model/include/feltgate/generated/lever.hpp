@@ -39,6 +39,7 @@ struct Lever {
   static constexpr int product_bits = 53;  // bits
   static constexpr int travel_bits = 16;  // bits
   static constexpr int scene_guard_bits = 2;  // bits that a scene's terms keep below a torque step
+  static constexpr int require_watchdog = 0;  // 1: arming waits for the first kick
   static constexpr int i2t_start = 1460000000;  // I2t sum after power-up: half the budget, for nobody knows how hot the motor is
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
 

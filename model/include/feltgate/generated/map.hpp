@@ -641,6 +641,7 @@ struct Map {
     static constexpr int status_mode_width = 2;
     static constexpr int status_encoder_error = 27;
     static constexpr int status_refused = 28;
+    static constexpr int status_unkicked = 29;
     static constexpr int read_faults = 794;
     static constexpr int faults_seen = 0;
     static constexpr int faults_seen_width = 16;

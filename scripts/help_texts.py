@@ -39,6 +39,7 @@ def commands(build):
     own = {
         # Not by the launcher: that prints the text which this compares.
         "test": ["bash", "-c", 'source "$0"; tests_usage', ROOT / "scripts/run_tests.sh"],
+        "prove": [PYTHON, "-B", ROOT / "scripts/prove.py"],
         "generate": [build / "feltgate_generate", ROOT],
         "bench": [build / "feltgate_bench"],
         "extremes": [build / "feltgate_extremes"],

@@ -34,12 +34,16 @@ PACKAGES=(
   "test|python3-nbclient|runs the notebook of docs/"
   "test|python3-ipykernel|the same"
   "test|python3-matplotlib|draws the notebook's pictures"
-  "test|yosys|checks that the RTL is synthesizable"
+  "test|yosys|checks that the RTL is synthesizable, and writes what z3 proves"
+  "test|z3|proves the properties of the blocks"
   "long|g++-aarch64-linux-gnu|the libraries on AArch64"
   "long|qemu-user|runs what it compiles"
   "bench|libsystemc-dev|sc_fixed, one of the engines of the benchmark"
   "synth|python3-venv|holds the pinned Yosys and nextpnr of scripts/requirements.txt"
   "synth|ca-certificates|lets pip fetch them over https"
+  "prove|python3-venv|holds the pinned Yosys and z3 of scripts/requirements.txt"
+  "prove|ca-certificates|lets pip fetch them over https"
+  "prove|patch|seeds the defects that the proofs must find"
   "dask|python3-distributed|sends the chunks of a sweep to many machines"
 )
 

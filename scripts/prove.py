@@ -1,0 +1,163 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Properties of blocks, proven for all inputs and all times by k-induction (Yosys, z3).
+
+A proof is a wrapper around a block, testbench/BLOCK/proofs/NAME.sv, with assumptions about its inputs and
+named assertions. Four kinds of run decide it:
+
+  base        no assertion fails in the first k clocks after a reset
+  induction   k clocks in which all hold are followed by one in which they hold, so they always do
+  covers      what the assumptions must still allow is reached: the proof is about something
+  defect      with a patch of the product (testbench/BLOCK/defects) the assertion fails
+
+A counter-example is printed as a table of the wrapper's signals, the failing clock last.
+Table, assumptions and what is not proven: docs/verification.md
+
+Exit code: 0 all is proven and every defect is caught, 1 something is not, 2 when a tool, a file or an
+argument is wrong.
+
+  feltgate prove                         all proofs, some minutes on two cores
+  feltgate prove limiter quad_decoder    those of two blocks
+  feltgate prove limiter.clamp           one proof
+  feltgate prove --list                  properties, defects and covers; runs nothing
+"""
+
+import argparse
+import json
+import os
+import shutil
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from pathlib import Path
+
+import interrupts
+import outputs
+from proving import catalog, page, tasks
+from proving.tools import Broken, Tools
+from seeding.patches import DefectError
+
+SCHEMA = "feltgate-prove/1"
+
+
+def arguments(argv):
+    parser = argparse.ArgumentParser(
+        allow_abbrev=False,
+        prog="feltgate prove",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("proof", nargs="*", metavar="BLOCK[.NAME]", help="a block or one proof; default: all")
+    parser.add_argument("--list", action="store_true", help="what there is; runs nothing")
+    parser.add_argument("--fast", action="store_true", help="only what every test run repeats: short proofs, on their first design")
+    parser.add_argument("--no-defects", action="store_true", help="base, induction and covers only")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N",
+                        help="runs at the same time; default: one per core")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the results here")
+    parser.add_argument("--keep", type=Path, metavar="DIR", help="keep SMT2, logs and VCD here")
+    parser.add_argument("--update", action="store_true",
+                        help="write the table of docs/verification.md, after a run of everything")
+    parser.add_argument("--check-page", action="store_true",
+                        help="only look whether that table is of the proofs as they are")
+    options = parser.parse_args(argv)
+    outputs.check(parser, json=options.json)
+    if options.jobs < 1:
+        parser.error("argument --jobs: at least 1")
+    if options.update and (options.proof or options.fast or options.no_defects):
+        parser.error("--update takes a run of everything")
+    return options
+
+
+def chosen(proofs, wanted, fast):
+    unknown = [w for w in wanted if not any(w in (p.block, p.key) for p in proofs)]
+    if unknown:
+        names = ", ".join(dict.fromkeys(p.block for p in proofs))
+        raise catalog.CatalogError(f"no proof of {', '.join(unknown)}; there are those of {names}")
+    found = [p for p in proofs if not wanted or p.block in wanted or p.key in wanted]
+    return [p for p in found if p.fast] if fast else found
+
+
+def print_list(root, proofs):
+    for proof in proofs:
+        designs = ", ".join(proof.designs)
+        print(f"{proof.key}  {proof.title} ({designs}){'  [fast]' if proof.fast else ''}")
+        for entry in proof.properties:
+            print(f"  {entry.name:28} {entry.says}")
+            print(f"  {'':28} fails with {entry.defect.relative_to(root)}")
+        for name, says in proof.covers.items():
+            print(f"  {name:28} is reached: {says}")
+    count = sum(len(proof.properties) for proof in proofs)
+    print(f"{count} properties in {len(proofs)} proofs of {len({p.block for p in proofs})} blocks")
+
+
+def progress(done, total, text):
+    if sys.stderr.isatty():
+        print(f"\r\033[K[{done}/{total}] {text}"[:100], end="", file=sys.stderr, flush=True)
+
+
+def run(options, root, proofs, folder):
+    """Runs all tasks; returns the rows of the table."""
+    tools = Tools(folder)
+    todo = tasks.plan(proofs, not options.no_defects, options.fast)
+    rows = tasks.rows(proofs, options.fast)
+    with ThreadPoolExecutor(options.jobs) as pool:
+        pending = {pool.submit(task.run, tools, root): task for task in todo}
+        try:
+            for number, future in enumerate(as_completed(pending), 1):
+                task = pending[future]
+                for complaint in tasks.enter(rows, task, future.result()):
+                    progress(number, len(todo), "")
+                    print(complaint, flush=True)
+                progress(number, len(todo), f"{task.proof.key} {task.what}")
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+    progress(0, 0, "\r\033[K")
+    return rows, tools.versions()
+
+
+def report(options, root, rows, versions):
+    print(page.text_table(rows))
+    bad = [row for row in rows if not row.good(not options.no_defects)]
+    properties = sum(len(row.proof.properties) for row in rows if row.first)
+    print(f"{properties} properties, {len(rows)} runs of proofs, {len(bad)} not good; "
+          f"{versions['yosys']}, {versions['z3']}")
+    result = {"schema": SCHEMA, "tools": versions, "proofs": [row.as_json(root) for row in rows]}
+    if options.json:
+        outputs.write_whole(options.json, json.dumps(result, indent=2) + "\n")
+    if options.update and not bad:
+        page.write(root, result)
+        print("prove: wrote docs/verification.md")
+    return 1 if bad else 0
+
+
+def main(argv=None):
+    root = Path(os.environ.get("FELTGATE_ROOT") or Path(__file__).resolve().parents[1])
+    options = arguments(argv)
+    interrupts.end_on_signals()
+    try:
+        everything = catalog.read(root)
+        if options.check_page:
+            return page.check(root, everything)
+        proofs = chosen(everything, options.proof, options.fast)
+        if options.list:
+            print_list(root, proofs)
+            return 0
+        if options.keep:
+            shutil.rmtree(options.keep, ignore_errors=True)
+            options.keep.mkdir(parents=True)
+            rows, versions = run(options, root, proofs, options.keep.resolve())
+        else:
+            with tempfile.TemporaryDirectory(prefix="feltgate-prove-") as temporary:
+                rows, versions = run(options, root, proofs, Path(temporary))
+        return report(options, root, rows, versions)
+    except (catalog.CatalogError, Broken, DefectError, OSError) as error:
+        print(f"prove: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt as error:
+        return interrupts.tell("prove", error)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""What is to be proven: testbench/BLOCK/proofs/proofs.toml, one table per proof."""
+
+import re
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+import rtl_sources
+
+KEYS = {"name", "title", "depth", "cover_depth", "defect_depth", "designs", "assumes", "show",
+        "sources", "defines", "abstract", "fast", "property", "cover"}
+ASSERTION = re.compile(r"\b(\w+):\s*assert\b")
+COVER = re.compile(r"\b(\w+):\s*cover\b")
+
+
+class CatalogError(Exception):
+    """A proof that is described wrongly; the message names the file and what to change."""
+
+
+@dataclass(frozen=True)
+class Property:
+    name: str
+    says: str
+    defect: Path  # the patch that must break it
+    ports: tuple
+    from_any: bool  # the defect shows too late after a reset: from any state that meets the rest
+
+
+@dataclass(frozen=True)
+class Proof:
+    """One wrapper around a block: testbench/BLOCK/proofs/NAME.sv, module NAME_proof."""
+
+    block: str
+    name: str
+    title: str
+    depth: int  # of the induction at most, and of the base
+    cover_depth: int
+    defect_depth: int
+    designs: tuple
+    assumes: tuple
+    show: tuple  # signals printed for a failed step
+    sources: tuple  # modules beside those that the wrapper instantiates
+    defines: tuple
+    abstract: tuple  # selections of cells whose outputs may be anything
+    fast: bool  # a test of every run
+    properties: tuple
+    covers: dict  # name: what it shows
+    wrapper: Path
+
+    @property
+    def key(self):
+        return f"{self.block}.{self.name}"
+
+    @property
+    def top(self):
+        return f"{self.name}_proof"
+
+
+def defect_path(root, block, name):
+    """NAME is a patch of the block's proofs, of its test, or BLOCK/NAME of another's test."""
+    where, _, stem = name.rpartition("/")
+    own = root / f"testbench/{block}/proofs/defects/{name}.patch"
+    return own if own.is_file() else root / f"testbench/{where or block}/defects/{stem}.patch"
+
+
+def read_proof(root, block, path, table):
+    def wrong(what):
+        return CatalogError(f"{path.relative_to(root)}: {what}")
+
+    unknown = table.keys() - KEYS
+    if unknown:
+        raise wrong(f"unknown key {', '.join(sorted(unknown))}; there are {', '.join(sorted(KEYS))}")
+    for key in ("name", "title", "depth", "property"):
+        if key not in table:
+            raise wrong(f"a proof without '{key}'")
+    name = table["name"]
+    wrapper = path.with_name(f"{name}.sv")
+    if not wrapper.is_file():
+        raise wrong(f"'{name}' has no {wrapper.name} beside it")
+    text = rtl_sources.code_only(wrapper.read_text(encoding="utf-8"))
+    properties = []
+    for label, entry in table["property"].items():
+        if label not in ASSERTION.findall(text):
+            raise wrong(f"{wrapper.name} has no assertion '{label}'")
+        defect = defect_path(root, block, entry["defect"])
+        if not defect.is_file():
+            raise wrong(f"property '{label}': no defect {defect.relative_to(root)}")
+        properties.append(Property(label, entry["says"], defect, tuple(entry["ports"].split()),
+                                   entry.get("from_any", False)))
+    covers = table.get("cover", {})
+    if set(covers) != set(COVER.findall(text)):
+        raise wrong(f"{wrapper.name} has the covers {', '.join(COVER.findall(text)) or 'none'}")
+    if not covers:
+        raise wrong(f"'{name}' has no cover: nothing shows that its assumptions can be met")
+    return Proof(
+        block=block,
+        name=name,
+        title=table["title"],
+        depth=table["depth"],
+        cover_depth=table.get("cover_depth", 20),
+        defect_depth=table.get("defect_depth", 20),
+        designs=tuple(table.get("designs", ["lever"])),
+        assumes=tuple(table.get("assumes", [])),
+        show=tuple(table.get("show", [])),
+        sources=tuple(table.get("sources", [])),
+        defines=tuple(table.get("defines", [])),
+        abstract=tuple(table.get("abstract", [])),
+        fast=table.get("fast", False),
+        properties=tuple(properties),
+        covers=covers,
+        wrapper=wrapper,
+    )
+
+
+def read(root):
+    """All proofs, block by block in the order of their names."""
+    proofs = []
+    for path in sorted(root.glob("testbench/*/proofs/proofs.toml")):
+        block = path.parents[1].name
+        try:
+            tables = tomllib.loads(path.read_text(encoding="utf-8"))
+        except tomllib.TOMLDecodeError as error:
+            raise CatalogError(f"{path.relative_to(root)}: {error}") from error
+        proofs += [read_proof(root, block, path, table) for table in tables.get("proof", [])]
+    return proofs
+
+
+def ports(root, block):
+    """Names of a block's ports."""
+    text = rtl_sources.code_only((root / f"rtl/{block}.sv").read_text(encoding="utf-8"))
+    header = text[: text.index(");")]
+    return re.findall(r"^\s*(?:input|output)\b[^,;]*?\b(\w+)\s*(?:,|$)", header, re.M)
+
+
+def open_ports(root, proofs):
+    """{block: its ports that no property of it names}; clock and reset are in all."""
+    found = {}
+    for block in dict.fromkeys(proof.block for proof in proofs):
+        named = {p for proof in proofs if proof.block == block
+                 for entry in proof.properties for p in entry.ports}
+        there = set(ports(root, block))
+        strange = named - there
+        if strange:
+            raise CatalogError(f"{block}: rtl/{block}.sv has no port {', '.join(sorted(strange))}")
+        found[block] = sorted(there - named - {"clk_i", "rst_ni"})
+    return found

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Tables of feltgate prove: on the terminal, and the generated part of docs/verification.md."""
+
+import sys
+
+from .tasks import BASE, COVERS, INDUCTION
+
+BEGIN = "<!-- proofs: written by feltgate prove --update -->"
+END = "<!-- end of proofs -->"
+PAGE = "docs/verification.md"
+
+
+def seconds(result):
+    return f"{result.seconds:.1f}" if result else "-"
+
+
+def text_table(rows):
+    lines = [f"{'proof':32}{'design':10}{'k':>3}{'base s':>9}{'induct. s':>10}  covers"]
+    for row in rows:
+        induction, covers = row.results.get(INDUCTION), row.results.get(COVERS)
+        k = induction.depth if induction and induction.passed else "-"
+        reached = ", ".join(f"{n} {s}" for n, s in covers.reached.items()) if covers else ""
+        lines.append(f"{row.proof.key:32}{row.design:10}{k:>3}{seconds(row.results.get(BASE)):>9}"
+                     f"{seconds(induction):>10}  {reached}")
+        for entry in row.proof.properties if row.first else ():
+            caught = row.caught.get(entry.name)
+            fate = f"fails in clock {caught.step} with" if caught and not caught.passed else "not seen with"
+            lines.append(f"  {entry.name:30}{fate if caught else 'not tried with'} {entry.defect.stem}")
+    return "\n".join(lines)
+
+
+def generated(result, proofs):
+    """The part between the markers: one table per block."""
+    said = {p.key: p for p in proofs}
+    blocks = {}
+    for entry in result["proofs"]:
+        blocks.setdefault(entry["proof"].partition(".")[0], []).append(entry)
+    count = sum(len(p.properties) for p in proofs)
+    tools = result["tools"]
+    lines = [BEGIN, "", f"{count} properties in {len(proofs)} proofs of {len(blocks)} blocks; {tools['yosys']}, "
+             f"{tools['z3']}.", ""]
+    for block, entries in blocks.items():
+        lines += [f"### {block}", ""]
+        for key in dict.fromkeys(entry["proof"] for entry in entries):
+            lines += proof_lines(said[key], [e for e in entries if e["proof"] == key])
+    return "\n".join([*lines, END, ""])
+
+
+def proof_lines(proof, entries):
+    relative = f"../testbench/{proof.block}/proofs/{proof.name}.sv"
+    lines = [f"[`{proof.key}`]({relative}): {proof.title}.", ""]
+    lines += [f"- assumed: {text}" for text in proof.assumes]
+    covers = [f"{says} (clock {entries[0]['covers'].get(name, '-')})" for name, says in proof.covers.items()]
+    lines.append(f"- reached: {'; '.join(covers)}")
+    times = [f"{e['design']} k = {e['k']}, {e['base_seconds']:.1f} s + {e['induction_seconds']:.1f} s"
+             for e in entries]
+    lines += [f"- base + induction: {'; '.join(times)}", "", "| property | holds | fails with, in clock |", "|---|---|---|"]
+    for entry in entries[0]["properties"]:
+        stem = entry["defect"].rpartition("/")[2].removesuffix(".patch")
+        lines.append(f"| `{entry['name']}` | {entry['says']} | [{stem}](../{entry['defect']}), {entry['caught_at']} |")
+    return [*lines, ""]
+
+
+def write(root, result):
+    from . import catalog
+
+    path = root / PAGE
+    before, rest = path.read_text(encoding="utf-8").split(BEGIN, 1)
+    after = rest.split(END, 1)[1].lstrip("\n")
+    text = before + generated(result, catalog.read(root)) + ("\n" + after if after else "")
+    path.write_text(text, encoding="utf-8")
+
+
+def check(root, proofs):
+    """Whether the page tells of every property, defect, assumption and cover as they are now."""
+    part = (root / PAGE).read_text(encoding="utf-8").split(BEGIN, 1)[1].split(END, 1)[0]
+    missing = []
+    count = sum(len(p.properties) for p in proofs)
+    if f"{count} properties in {len(proofs)} proofs" not in part:
+        missing.append(f"{count} properties in {len(proofs)} proofs")
+    for proof in proofs:
+        wanted = [f"`{proof.key}`", f": {proof.title}.", *proof.assumes, *proof.covers.values()]
+        wanted += [f"{design} k = " for design in proof.designs]
+        wanted += [f"| `{e.name}` | {e.says} | [{e.defect.stem}]" for e in proof.properties]
+        missing += [text for text in wanted if text not in part]
+    for text in missing:
+        print(f"{PAGE}: stale, lacks: {text}; run ./feltgate prove --update", file=sys.stderr)
+    return 1 if missing else 0

@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""The runs that decide a proof, and the rows that their results end in."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from . import tools as engine
+
+BASE, INDUCTION, COVERS, DEFECT = "base", "induction", "covers", "defect"
+
+
+@dataclass(frozen=True)
+class Task:
+    proof: object
+    design: str
+    kind: str
+    patch: Path = None
+
+    @property
+    def what(self):
+        return f"{self.design} {self.kind}{f' {self.patch.stem}' if self.patch else ''}"
+
+    def run(self, tools, root):
+        """A Result; of a defect {property: Result}."""
+        name = f"{self.proof.key}-{self.what}".replace(" ", "-").replace("/", "-")
+        folder = tools.folder / name
+        engine.elaborate(tools, root, self.proof, self.design, folder, self.patch)
+        proof, show = self.proof, self.proof.show
+        if self.kind == BASE:
+            return engine.solve(tools, folder, "all.smt2", ["-t", str(proof.depth)], show)
+        if self.kind == INDUCTION:
+            return engine.solve(tools, folder, "all.smt2", ["-i", "-t", str(proof.depth)], show)
+        if self.kind == COVERS:
+            return engine.solve(tools, folder, "covers.smt2", ["-c", "-t", str(proof.cover_depth)])
+        bmc = ["-t", str(proof.defect_depth)]
+        step = ["-i", "-t", str(proof.depth)]
+        return {
+            entry.name: engine.solve(
+                tools, folder, f"{entry.name}.smt2", step if entry.from_any else bmc, show
+            )
+            for entry in proof.properties
+            if entry.defect == self.patch
+        }
+
+
+@dataclass
+class Row:
+    """One proof on one design."""
+
+    proof: object
+    design: str
+    first: bool  # defects and covers are tried on the first design only
+    results: dict = field(default_factory=dict)  # kind: Result
+    caught: dict = field(default_factory=dict)  # property: Result
+
+    def good(self, with_defects):
+        kinds = (BASE, INDUCTION, COVERS) if self.first else (BASE, INDUCTION)
+        if not all(kind in self.results and self.results[kind].passed for kind in kinds):
+            return False
+        return not (with_defects and self.first) or all(
+            entry.name in self.caught and not self.caught[entry.name].passed
+            for entry in self.proof.properties
+        )
+
+    def as_json(self, root):
+        base, induction = self.results[BASE], self.results[INDUCTION]
+        covers = self.results.get(COVERS)
+        return {
+            "proof": self.proof.key,
+            "design": self.design,
+            "k": induction.depth,
+            "base_proven": base.passed,
+            "induction_proven": induction.passed,
+            "base_seconds": round(base.seconds, 2),
+            "induction_seconds": round(induction.seconds, 2),
+            "covers": covers.reached if covers else {},
+            "unreached_covers": covers.unreached if covers else [],
+            "properties": [
+                {
+                    "name": entry.name,
+                    "says": entry.says,
+                    "defect": str(entry.defect.relative_to(root)),
+                    "caught_at": None if caught is None or caught.passed else caught.step,
+                }
+                for entry in self.proof.properties
+                for caught in [self.caught.get(entry.name)]
+            ],
+        }
+
+
+def designs(proof, first_only):
+    return proof.designs[:1] if first_only else proof.designs
+
+
+def plan(proofs, with_defects, first_only):
+    """The tasks, those that may take long first."""
+    todo = []
+    for proof in proofs:
+        for number, design in enumerate(designs(proof, first_only)):
+            todo += [Task(proof, design, INDUCTION), Task(proof, design, BASE)]
+            if number == 0:
+                todo.append(Task(proof, design, COVERS))
+                for patch in dict.fromkeys(entry.defect for entry in proof.properties):
+                    if with_defects:
+                        todo.append(Task(proof, design, DEFECT, patch))
+    return todo
+
+
+def rows(proofs, first_only):
+    return [
+        Row(proof, design, number == 0)
+        for proof in proofs
+        for number, design in enumerate(designs(proof, first_only))
+    ]
+
+
+def enter(all_rows, task, result):
+    """Puts a result where it belongs; yields what a user must know of it."""
+    row = next(r for r in all_rows if r.proof is task.proof and r.design == task.design)
+    if task.kind == DEFECT:
+        row.caught |= result
+        for name, one in result.items():
+            if one.passed:
+                yield (f"{task.proof.key} ({task.design}): {name} holds in the first {task.proof.defect_depth} "
+                       f"clocks with the defect {task.patch.stem}: it does not see it")
+        return
+    row.results[task.kind] = result
+    where = f"{task.proof.key} ({task.design})"
+    if result.passed:
+        return
+    if task.kind == COVERS:
+        yield f"{where}: not reached within {task.proof.cover_depth} clocks: {', '.join(result.unreached)}"
+    elif task.kind == BASE:
+        yield f"{where}: {', '.join(result.failed)} fails in clock {result.step}:\n{result.trace}"
+    else:
+        yield (f"{where}: {', '.join(result.failed)} is not inductive within {task.proof.depth} clocks; "
+               f"from a state that a reset may never lead to:\n{result.trace}")

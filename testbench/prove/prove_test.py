@@ -1,0 +1,168 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""The parts of `feltgate prove` that need no solver: the catalogue, options, traces, verdicts."""
+
+import contextlib
+import io
+import os
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts"))
+import prove  # noqa: E402
+from proving import catalog, tasks, tools, trace  # noqa: E402
+
+TOML = """
+[[proof]]
+name = "p"
+title = "t"
+depth = 2
+[proof.property.a]
+says = "s"
+defect = "d"
+ports = "x_i y_o"
+[proof.cover]
+c = "reached"
+"""
+WRAPPER = "module p_proof; always_comb begin a: assert (1); c: cover (1); end endmodule\n"
+RTL = "module b (\n  input logic clk_i,\n  input logic [3:0] x_i,\n  output logic y_o\n);\nendmodule\n"
+
+
+class Catalogue(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.root = Path(self.folder.name)
+        self.write("testbench/b/proofs/proofs.toml", TOML)
+        self.write("testbench/b/proofs/p.sv", WRAPPER)
+        self.write("testbench/b/defects/d.patch", "It breaks.\n")
+        self.write("rtl/b.sv", RTL)
+
+    def write(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+    def refused(self, *said):
+        with self.assertRaises(catalog.CatalogError) as error:
+            catalog.read(self.root)
+        for words in said:
+            self.assertIn(words, str(error.exception))
+
+    def test_a_good_one(self):
+        (proof,) = catalog.read(self.root)
+        self.assertEqual((proof.key, proof.top, proof.depth), ("b.p", "p_proof", 2))
+        self.assertEqual(catalog.open_ports(self.root, [proof]), {"b": []})
+
+    def test_a_port_in_no_property(self):
+        self.write("rtl/b.sv", RTL.replace("x_i,", "x_i,\n  input logic signed [2:0] z_i,"))
+        self.assertEqual(catalog.open_ports(self.root, catalog.read(self.root)), {"b": ["z_i"]})
+
+    def test_a_port_that_is_none(self):
+        self.write("rtl/b.sv", RTL.replace("x_i", "u_i"))
+        with self.assertRaises(catalog.CatalogError):
+            catalog.open_ports(self.root, catalog.read(self.root))
+
+    def test_defects_beside_the_proof_come_first(self):
+        self.write("testbench/b/proofs/defects/d.patch", "It breaks.\n")
+        (proof,) = catalog.read(self.root)
+        self.assertEqual(proof.properties[0].defect.parent.parent.name, "proofs")
+
+    def test_what_is_wrong(self):
+        for old, new, said in (
+            ("property.a", "property.z", "no assertion 'z'"),
+            ('"d"', '"e"', "no defect"),
+            ("c = ", "e = ", "has the covers c"),
+            ("depth = 2", "", "without 'depth'"),
+            ("depth = 2", "depth = 2\nspeed = 1", "unknown key speed"),
+        ):
+            with self.subTest(said):
+                self.write("testbench/b/proofs/proofs.toml", TOML.replace(old, new))
+                self.refused("testbench/b/proofs/proofs.toml", said)
+
+    def test_without_a_cover(self):
+        self.write("testbench/b/proofs/proofs.toml", TOML.partition("[proof.cover]")[0])
+        self.write("testbench/b/proofs/p.sv", WRAPPER.replace("c: cover (1);", ""))
+        self.refused("no cover")
+
+
+class Product(unittest.TestCase):
+    def setUp(self):
+        self.proofs = catalog.read(ROOT)
+
+    def test_every_port_is_in_a_property(self):
+        for block, names in catalog.open_ports(ROOT, self.proofs).items():
+            self.assertEqual(names, [], block)
+
+    def test_every_defect_applies_and_says_what_it_breaks(self):
+        for patch in {entry.defect for proof in self.proofs for entry in proof.properties}:
+            self.assertTrue(tools.patches.patched(patch, ROOT))
+
+    def test_there_are_enough(self):
+        self.assertGreaterEqual(sum(len(proof.properties) for proof in self.proofs), 24)
+
+
+class Verdicts(unittest.TestCase):
+    def test_reached_covers_of_both_versions(self):
+        text = ("## 0:00:00 Reached cover statement at one in step 7.\n"
+                "## 0:00:00 Reached cover statement in step 9 at top: two (a.sv:3)\n")
+        self.assertEqual(tools.reached_covers(text), {"one": 7, "two": 9})
+
+    def test_a_row(self):
+        proof = type("P", (), {"properties": [type("E", (), {"name": "a"})]})
+        good = tools.Result(True, 1.0)
+        row = tasks.Row(proof, "lever", True)
+        self.assertFalse(row.good(False))
+        row.results = {tasks.BASE: good, tasks.INDUCTION: good, tasks.COVERS: good}
+        self.assertTrue(row.good(False))
+        self.assertFalse(row.good(True))  # no defect was tried
+        row.caught = {"a": good}
+        self.assertFalse(row.good(True))  # the assertion holds with its defect
+        row.caught = {"a": tools.Result(False, 1.0)}
+        self.assertTrue(row.good(True))
+
+    def test_the_trace_ends_with_the_failing_clock(self):
+        vcd = ("$scope module top $end\n$var wire 4 n0 x $end\n$scope module in $end\n"
+               "$var wire 4 n1 y $end\n$upscope $end\n$upscope $end\n$enddefinitions $end\n"
+               "#0\nb0001 n0\nb1111 n1\n#5\n#10\nb1000 n0\n#15\n#20\n")
+        step, text = trace.table(trace.read(vcd), ())
+        self.assertEqual(step, 1)
+        self.assertEqual([line.split() for line in text.splitlines()], [["clock", "0", "1"], ["x", "1", "-8"]])
+
+
+class Command(unittest.TestCase):
+    def status(self, *words):
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            try:
+                status = prove.main(list(words))
+            except SystemExit as end:
+                status = end.code
+        return status, out.getvalue(), err.getvalue()
+
+    def test_the_list_names_every_property(self):
+        status, out, _ = self.status("--list")
+        self.assertEqual(status, 0)
+        self.assertIn("limiter.clamp", out)
+
+    def test_wrong_words(self):
+        for words in (["nothing"], ["--jobs", "0"], ["--json", "/nowhere/x"], ["--update", "limiter"]):
+            with self.subTest(words):
+                status, _, err = self.status(*words)
+                self.assertEqual(status, 2, err)
+
+    def test_without_a_solver(self):
+        path = os.environ["PATH"]
+        self.addCleanup(os.environ.__setitem__, "PATH", path)
+        os.environ["PATH"] = "/nowhere"
+        status, _, err = self.status("limiter")
+        self.assertEqual(status, 2)
+        self.assertIn("no Yosys", err)
+
+
+if __name__ == "__main__":
+    unittest.main()

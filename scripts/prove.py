@@ -17,7 +17,7 @@ Table, assumptions and what is not proven: docs/verification.md
 Exit code: 0 all is proven and every defect is caught, 1 something is not, 2 when a tool, a file or an
 argument is wrong.
 
-  feltgate prove                         all proofs, some minutes on two cores
+  feltgate prove                         all proofs, three minutes on two cores
   feltgate prove limiter quad_decoder    those of two blocks
   feltgate prove limiter.clamp           one proof
   feltgate prove --list                  properties, defects and covers; runs nothing
@@ -35,7 +35,7 @@ from pathlib import Path
 import interrupts
 import outputs
 from proving import catalog, page, tasks
-from proving.tools import Broken, Tools
+from proving.tools import Broken, Tools, end_all
 from seeding.patches import DefectError
 
 SCHEMA = "feltgate-prove/1"
@@ -112,6 +112,7 @@ def run(options, root, proofs, folder):
                 progress(number, len(todo), f"{task.proof.key} {task.what}")
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
+            end_all()
             raise
     progress(0, 0, "\r\033[K")
     return rows, tools.versions()

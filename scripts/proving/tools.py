@@ -9,6 +9,7 @@ with relative names.
 import os
 import re
 import shutil
+import signal
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -141,17 +142,23 @@ def elaborate(tools, root, proof, design, folder, patch=None):
         raise Broken("\n".join([f"{proof.key}: Yosys failed; all files: {folder}", *tail]))
 
 
+RUNNING = set()  # what end_all ends: a signal reaches the main thread only
+
+
 def run_timed(command, **options):
     """(status, seconds of CPU time of the program and of those that it started)."""
     process = interrupts.start(command, **options)
-    try:
-        _, status, usage = os.wait4(process.pid, 0)
-    except BaseException:
-        interrupts.stop(process)
-        raise
+    RUNNING.add(process)
+    _, status, usage = os.wait4(process.pid, 0)
+    RUNNING.discard(process)
     process.returncode = os.waitstatus_to_exitcode(status)
-    interrupts.check(process.returncode)
     return process.returncode, usage.ru_utime + usage.ru_stime
+
+
+def end_all():
+    """Ends every solver; timeout passes the signal on to what it runs."""
+    for process in list(RUNNING):
+        os.kill(process.pid, signal.SIGTERM)
 
 
 def solve(tools, folder, smt2, options, show=()):

@@ -72,7 +72,7 @@ module clocks_proof (
           (clock_q < 16'd64 && feltgate_map_pkg::SCENE_SLOTS[clock_q[5:0]] && clock_q != 16'd0));
       count_counts_ticks: assert (!started_q || tick_count == tick_count_q + 32'(tick_q));
       inside_clock: assert (16'(inner) == clock_q && clock_q < 16'(N));
-      second_wave: cover (ticks_q == 32'd1 && wave[First]);
+      first_wave: cover (ticks_q == 32'd0 && wave[1]);
     end
   end
 endmodule

@@ -14,9 +14,11 @@ module encoder_monitor (
     input  logic [31:0] tick_count_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic [1:0]  levels_i,    // of A (bit 0) and B, as accepted
+    input  logic        index_wrong_i,  // sticky: the count at an index does not fit
     output logic        moved_o,     // an edge came since the tick before
     output logic        chatters_o,  // no torque may grow
-    output logic        trip_o       // a channel is dead: one clock
+    output logic        trip_o,      // a channel is dead: one clock
+    output logic        index_trip_o // the count has slipped: one clock
 );
   localparam int RowW = $clog2(feltgate_map_pkg::DEAD_CHANNEL_EDGES);
   localparam int EdgeW = $clog2(feltgate_map_pkg::EDGE_UNITS + 1);
@@ -32,7 +34,7 @@ module encoder_monitor (
   // An edge on the channel of the last one turns the count back. Edges of both in one tick are no
   // motion: the channels are shorted.
   logic [1:0] levels_q, changed;
-  logic       of_b_q, moved, both, of_row, late;
+  logic       index_wrong_q, of_b_q, moved, both, of_row, late;
   assign changed = levels_i ^ levels_q;
   assign moved   = changed != 2'b00;
   assign both    = changed == 2'b11;
@@ -58,9 +60,13 @@ module encoder_monitor (
       edge_units_q    <= '0;
       chatter_units_q <= '0;
       trip_o          <= 1'b0;
+      index_trip_o    <= 1'b0;
+      index_wrong_q   <= 1'b0;
     end else begin
-      trip_o <= sample && dead;
+      trip_o       <= sample && dead;
+      index_trip_o <= sample && index_wrong_i && !index_wrong_q;
       if (sample) begin
+        index_wrong_q <= index_wrong_i;
         levels_q <= levels_i;
         moved_o  <= moved;
         if (moved && !both) of_b_q <= changed[1];

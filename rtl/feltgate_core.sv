@@ -73,7 +73,7 @@ module feltgate_core #(
   logic [ 1:0] mode;
   logic host, arm_request, set_zero, clear_faults, kick, region_high, snap_valid;
   logic disarm, host_stop, restart, refused, unkicked, word_error;
-  logic moved, frozen, eased, channel_trip;
+  logic moved, frozen, eased, channel_trip, index_trip;
   logic [ 5:0] snap_slot;
   assign host         = control[feltgate_map_pkg::B_CONTROL_HOST];
   assign mode         = control[feltgate_map_pkg::B_CONTROL_MODE+:feltgate_map_pkg::W_CONTROL_MODE];
@@ -126,10 +126,10 @@ module feltgate_core #(
   logic signed [31:0] position, index_position;
   logic signed [feltgate_pkg::TRAVEL_BITS-1:0] travel;
   logic [15:0] error_count, rejected_count;
-  logic encoder_error, illegal, unused_index_seen;
+  logic encoder_error, illegal, unused_index_seen, index_wrong;
   logic signed [1:0] unused_step;
   logic [1:0] levels;
-  quad_decoder u_quad_decoder (
+  quad_decoder #(.IndexCounts(feltgate_pkg::INDEX_COUNTS)) u_quad_decoder (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .a_i(enc_a_i),
       .b_i(enc_b_i),
@@ -146,11 +146,12 @@ module feltgate_core #(
       .error_o(encoder_error),
       .error_count_o(error_count), .rejected_count_o(rejected_count),
       .index_position_o(index_position),
-      .index_seen_o(unused_index_seen)
+      .index_seen_o(unused_index_seen), .index_wrong_o(index_wrong)
   );
 
   encoder_monitor u_encoder_monitor (
       .clk_i(clk_i), .rst_ni(rst_ni), .wave_i(wave), .tick_count_i(tick_count_o), .levels_i(levels),
+      .index_wrong_i(index_wrong), .index_trip_o(index_trip),
       .moved_o(moved), .chatters_o(frozen), .trip_o(channel_trip)
   );
   hold_timer u_hold_timer (
@@ -289,7 +290,7 @@ module feltgate_core #(
       .product_i(supervisor_product),
       .trips_i((FaultsW'(host_stop) << feltgate_map_pkg::FAULT_STOP) |
                (FaultsW'(word_error) << feltgate_map_pkg::FAULT_WORD) |
-               (FaultsW'(channel_trip) << feltgate_map_pkg::FAULT_CHANNEL) |
+               (FaultsW'(channel_trip) << feltgate_map_pkg::FAULT_CHANNEL) | (FaultsW'(index_trip) << feltgate_map_pkg::FAULT_INDEX) |
                (FaultsW'(velocity_jumped) << feltgate_map_pkg::FAULT_JUMP)),
       .current_estimate_o(current_estimate),
       .armed_o(armed_o),

@@ -7,7 +7,8 @@
 `default_nettype none
 
 module quad_decoder #(
-  parameter int ResetPosition = 0  // test only: brings the wrap near
+  parameter int ResetPosition = 0,  // test only: brings the wrap near
+  parameter int IndexCounts   = 0   // a revolution, a power of two; 0: the index is not checked
 ) (
   input  logic               clk_i,
   input  logic               rst_ni,
@@ -27,7 +28,8 @@ module quad_decoder #(
   output logic        [15:0] error_count_o,     // saturates
   output logic        [15:0] rejected_count_o,  // saturates
   output logic signed [31:0] index_position_o,
-  output logic               index_seen_o
+  output logic               index_seen_o,
+  output logic               index_wrong_o      // sticky: an index does not fit a revolution
 );
 
   // Channels: 0 = A, 1 = B, 2 = Z. sync_q[0] may be metastable and feeds nothing but sync_q[1].
@@ -122,6 +124,32 @@ module quad_decoder #(
   assign travel_o = count_q[15:0];
   assign step_o   = step_q;
   assign levels_o = level_q[1:0];
+
+  // From the first index on the count must differ by whole revolutions. Both ways the index rises at its
+  // near side, so by its width too.
+  if (IndexCounts > 0) begin : g_index
+    localparam int W    = $clog2(IndexCounts);
+    localparam int Near = feltgate_map_pkg::INDEX_WIDTH_BITS;
+
+    if (!(IndexCounts == 1 << W && W > Near)) begin : g_check_index
+      INDEX_COUNTS_must_be_a_power_of_two missing ();
+    end
+
+    logic [W-1:0]    first_q;
+    logic [W-1:Near] apart;  // whole widths of an index
+    logic            wrong;
+
+    assign apart = (W - Near)'((count_q[W-1:0] - first_q) >> Near);
+    assign wrong = index_q && index_seen_o && apart != '0 && apart != '1;
+
+    always_ff @(posedge clk_i) if (index_q && !index_seen_o) first_q <= count_q[W-1:0];
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) index_wrong_o <= 1'b0;
+      else index_wrong_o <= wrong || (index_wrong_o && !clear_error_i);
+    end
+  end else begin : g_no_index
+    assign index_wrong_o = 1'b0;
+  end
 
   // One counter is served in a clock; an event waits while it is the other's turn.
   logic error_wait_q, rejected_wait_q, serve_error, serve_rejected;

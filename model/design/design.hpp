@@ -22,6 +22,7 @@ struct Design {
   std::string name, path, description;
   std::int64_t clock_hz = 0, tick_hz = 0;
   int lines = 0, filter_samples = 0, encoder_polarity = 0;
+  bool has_index = false;
   int m1 = 0, n = 0;
   bool exact_gain = false;  ///< the exact factor, quantised, stands for 2^n
   double velocity_cutoff_rad_s = 0;

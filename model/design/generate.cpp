@@ -71,6 +71,7 @@ std::vector<Constant> constants(const Elaborated& e) {
       {"velocity_shift", d.n, "raw velocity = 2^n * counts"},
       {"velocity_gain", e.velocity_gain, "mantissa of the gain that stands for 2^n; 0: none"},
       {"velocity_gain_f", e.base.velocity_gain.fraction, "its fraction bits"},
+      {"index_counts", d.has_index ? 4 * d.lines : 0, "counts from index to index; 0: not checked"},
       {"pwm_period", d.pwm_period_clocks(), "clocks"},
       {"dead_clocks", d.dead_clocks(), "clocks"},
       {"scene_mask", scene_mask(e), "bit n: scene n is built"},

@@ -178,6 +178,11 @@ Design design_of(const toml::table& root, const std::string& path) {
     d.lines = static_cast<int>(r.integer("lines", 1, 1'000'000));
     d.filter_samples = static_cast<int>(r.integer("filter_samples", 0, 15));
     d.encoder_polarity = static_cast<int>(r.integer("polarity", 0, 1));
+    d.has_index = r.has("index") && r.integer("index", 0, 1) == 1;
+    if (d.has_index && (d.lines < 16 || (d.lines & (d.lines - 1)) != 0)) {
+      r.fail("index", fmt::format("an index cannot be checked against {} lines", d.lines),
+             "leave index out, or take an encoder of 2^n lines, 16 or more");
+    }
   });
   section("velocity", [&](config::TomlReader& r) {
     d.m1 = static_cast<int>(r.integer("m1", 1, 1534));

@@ -28,6 +28,7 @@ package feltgate_map_pkg;
   localparam int EDGE_UNITS = 19;  // so many of them without an edge end the row
   localparam int CHATTER_UNIT_BITS = 8;  // bits of the ticks in which the time of chatter is counted
   localparam int CHATTER_UNITS = 20;  // chatter for so many of them is a dead channel
+  localparam int INDEX_WIDTH_BITS = 3;  // an index may be less than 2^index_width_bits counts wide
   localparam int HOLD_UNIT_BITS = 10;  // bits of the ticks in which hold_time is counted
   localparam int HOLD_BITS = 13;  // bits of the longest hold_time
 

@@ -23,12 +23,14 @@ struct Adapter {
     rtl.wave_i = in.wave;
     rtl.tick_count_i = in.tick_count;
     rtl.levels_i = in.levels;
+    rtl.index_wrong_i = in.index_wrong;
   }
   template <class Check>
   static void compare(Check& check, const Vencoder_monitor& rtl, const Twin::Out& out) {
     check("moved", rtl.moved_o, out.moved);
     check("chatters", rtl.chatters_o, out.chatters);
     check("trip", rtl.trip_o, out.trip);
+    check("index_trip", rtl.index_trip_o, out.index_trip);
   }
 };
 using Bench = LockStep<Vencoder_monitor, Twin, Adapter>;
@@ -92,6 +94,7 @@ struct Stimulus {
   Twin::In operator()(std::int64_t) {
     in.wave = clock == 0 ? kSample : random.bits() & ~kSample;
     if (clock == 0) tick();
+    if (random.one_in(50)) in.index_wrong = !in.index_wrong;
     clock = clock + 1 >= period ? 0 : clock + 1;
     return in;
   }

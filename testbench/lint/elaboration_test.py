@@ -47,6 +47,7 @@ BAD = (
     ("core", "PWM_PERIOD", 5001, "PWM_PERIOD_must_be_even_and_4_to_4094"),
     ("core", "CLOCKS_PER_TICK", 40, "CLOCKS_PER_TICK_must_hold_the_wave"),
     ("core", "DEAD_CLOCKS", 0, "DEAD_CLOCKS_must_be_1_to_64"),
+    ("core", "INDEX_COUNTS", 4095, "INDEX_COUNTS_must_be_a_power_of_two"),
     ("core", "M1", 0, "M1_must_be_1_to_32767"),
     ("core", "VELOCITY_SHIFT", 10, "the_velocity_must_have_room_for_its_counts"),
     ("core", "VELOCITY_DIFFERENCE_W", 34, "the_widths_of_a_lowpass_must_nest"),

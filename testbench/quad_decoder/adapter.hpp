@@ -32,6 +32,7 @@ struct QuadDecoderAdapter {
     check("error_count", rtl.error_count_o, out.error_count);
     check("rejected_count", rtl.rejected_count_o, out.rejected_count);
     check("index_position", rtl.index_position_o, out.index_position);
+    check("index_wrong", rtl.index_wrong_o, out.index_wrong);
     check("index_seen", rtl.index_seen_o, out.index_seen);
   }
 };

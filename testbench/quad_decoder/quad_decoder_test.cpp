@@ -24,7 +24,7 @@ std::int32_t moved(const QuadDecoder& decoder) {
 }
 
 QuadDecoder play(const Script& script, std::uint64_t seed = 1) {
-  QuadDecoderBench bench("quad_decoder", seed, QuadDecoder(kStart));
+  QuadDecoderBench bench("quad_decoder", seed, QuadDecoder(kStart, INDEX_COUNTS));
   return bench.run_list(script.list);
 }
 
@@ -111,7 +111,7 @@ TEST_CASE("quad_decoder: the filter rejects pulses up to its length and counts t
           script.hold(length);
           script.now.*pin = rest;
           const auto passed = length > filter;
-          QuadDecoderBench bench("quad_decoder", 5, QuadDecoder(kStart));
+          QuadDecoderBench bench("quad_decoder", 5, QuadDecoder(kStart, INDEX_COUNTS));
           const QuadDecoder end = bench.run_list(script.hold(25).list);
           REQUIRE(end.out().rejected_count == (passed ? 0 : 1));
           REQUIRE(end.out().index_seen == (passed && channel == 2));
@@ -207,7 +207,7 @@ TEST_CASE("quad_decoder: random shafts against twin and oracle") {
   std::uint64_t seed = 10;
   Oracle::Totals sum;
   for (const Mix& mix : mixes) {
-    QuadDecoderBench bench("quad_decoder", ++seed, QuadDecoder(kStart));
+    QuadDecoderBench bench("quad_decoder", ++seed, QuadDecoder(kStart, INDEX_COUNTS));
     Oracle::Totals totals;
     const auto watch = [oracle = Oracle(kStart), &totals](const auto& in, const auto&,
                                                           const QuadDecoder& twin,
@@ -236,13 +236,90 @@ TEST_CASE("quad_decoder: everything at random") {
   mix.glitch = 100;
   mix.jump = 50;
   mix.registers = 300;
-  QuadDecoderBench bench("quad_decoder", 77, QuadDecoder(kStart));
+  QuadDecoderBench bench("quad_decoder", 77, QuadDecoder(kStart, INDEX_COUNTS));
   bench.run(Wander(77, mix), scaled_clocks(5'000'000), ResetPlan{3000});
 }
 
+namespace {
+
+/// A shaft with an index of `width` counts in a revolution of INDEX_COUNTS.
+class Shaft {
+ public:
+  explicit Shaft(int width, int start) : script_(at_phase(start)), at_(start), width_(width) {
+    now();
+    script_.hold(9);
+  }
+  Shaft& turn(int counts) {
+    for (; counts != 0; counts += counts > 0 ? -1 : 1) {
+      at_ += counts > 0 ? 1 : -1;
+      now();
+      script_.phase(at_ - slipped_, 4);
+    }
+    return *this;
+  }
+  /// The shaft moves and the channels do not tell.
+  Shaft& slip(int counts) {
+    at_ += counts;
+    slipped_ += counts;
+    now();
+    script_.hold(4);
+    return *this;
+  }
+  Shaft& zero() {
+    script_.now.set_zero = true;
+    script_.hold(1).now.set_zero = false;
+    return *this;
+  }
+  Shaft& clear() {
+    script_.now.clear_error = true;
+    script_.hold(1).now.clear_error = false;
+    return *this;
+  }
+  bool wrong() const { return play(script_).out().index_wrong; }
+
+ private:
+  void now() { script_.now.z = ((at_ % INDEX_COUNTS) + INDEX_COUNTS) % INDEX_COUNTS < width_; }
+  Script script_;
+  int at_, width_, slipped_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("quad_decoder: an index fits whole revolutions, by its width both ways") {
+  for (const int width : {1, 2, 4, 7}) {
+    for (const int way : {1, -1}) {
+      Shaft shaft(width, way > 0 ? -20 : 40);
+      shaft.turn(way * 150).zero().turn(-way * 170).turn(way * 3 * INDEX_COUNTS);
+      REQUIRE_FALSE(shaft.wrong());
+      for (int k = 0; k < 5; ++k) shaft.turn(-way * 70).turn(way * 70);  // both ways over it
+      REQUIRE_FALSE(shaft.wrong());
+    }
+  }
+}
+
+TEST_CASE("quad_decoder: a count that has slipped does not fit its index, until it is cleared") {
+  for (const int slip : {-20, -12, -8, 9, 12, 20}) {
+    Shaft shaft(1, -10);
+    shaft.turn(45).slip(slip).turn(5);
+    REQUIRE_FALSE(shaft.wrong());  // no index yet
+    shaft.turn(INDEX_COUNTS);
+    REQUIRE(shaft.wrong());
+    shaft.turn(-2 * INDEX_COUNTS).zero();
+    REQUIRE(shaft.wrong());
+    shaft.clear();
+    REQUIRE_FALSE(shaft.wrong());
+    shaft.turn(4 * INDEX_COUNTS);  // the next index is the first
+    REQUIRE_FALSE(shaft.wrong());
+  }
+  for (const int slip : {-7, -4, 4, 8}) {
+    Shaft near(1, -10);
+    REQUIRE_FALSE(near.turn(40).slip(slip).turn(2 * INDEX_COUNTS).wrong());
+  }
+}
+
 TEST_CASE("quad_decoder: a settled twin may be skipped") {
-  QuadDecoder every(kStart);
-  QuadDecoder skipping(kStart);
+  QuadDecoder every(kStart, INDEX_COUNTS);
+  QuadDecoder skipping(kStart, INDEX_COUNTS);
   Mix mix;
   mix.filter = 4;
   mix.glitch = 10;

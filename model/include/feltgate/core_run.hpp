@@ -71,10 +71,12 @@ bool FeltgateCore<D, ReadBack>::calm(const In& in, std::int64_t clocks) const {
     return false;
   }
   if (!out_.gates_enable) return out_.duty_active == 0;
-  // What can close the gates is over-speed, over-current and a wrong polarity, a dead channel.
+  // What can close the gates is over-speed, over-current, a wrong polarity, and what the encoder's
+  // monitor finds.
   const auto limit = static_cast<std::int32_t>(supervisor_words_.overspeed);
   const auto slow = [limit](std::int64_t w) { return w <= limit && -w <= limit; };
-  return !monitor_.chatters() && !supervisor_.near_trip(supervisor_words_) && slow(out_.velocity) &&
+  return !monitor_.chatters() && decoder_.out().index_wrong == monitor_.index_wrong() &&
+         !supervisor_.near_trip(supervisor_words_) && slow(out_.velocity) &&
          slow(wave_.velocity_input(static_cast<std::int16_t>(decoder_.out().travel)));
 }
 
@@ -100,6 +102,7 @@ template <bool Read, class OnSnapshot>
   switch (step) {
     case Step::channel:
       if (monitor_.trips() && supervisor_.trip(Fault::channel)) s.close(after(T::channel));
+      if (monitor_.index_trips() && supervisor_.trip(Fault::index)) s.close(after(T::channel));
       return;
     case Step::speed:
       if (s.to < after(T::polarity)) before_wave_ = supervisor_;

@@ -13,8 +13,11 @@ namespace feltgate {
 
 class EncoderMonitorLaw {
  public:
-  /// A tick with these levels of the channels, A in bit 0. `tick` is the count of ticks.
-  void tick(unsigned levels, std::uint32_t tick) {
+  /// A tick with these levels of the channels, A in bit 0. `tick` is the count of ticks;
+  /// `index_wrong` stays once the count at an index does not fit.
+  void tick(unsigned levels, std::uint32_t tick, bool index_wrong = false) {
+    index_trips_ = index_wrong && !index_wrong_;
+    index_wrong_ = index_wrong;
     const unsigned changed = levels ^ levels_;
     const bool both = changed == 3;
     const bool late = edge_units_ == Map::edge_units;
@@ -47,6 +50,9 @@ class EncoderMonitorLaw {
   bool chatters() const { return row_ >= Map::one_channel_edges; }
   /// A channel is dead: in the tick that finds it.
   bool trips() const { return trips_; }
+  /// The count at an index does not fit: in the tick that finds it.
+  bool index_trips() const { return index_trips_; }
+  bool index_wrong() const { return index_wrong_; }
   /// An edge has come in this tick.
   bool moved() const { return moved_; }
 
@@ -57,7 +63,7 @@ class EncoderMonitorLaw {
   int row_ = 0;            ///< edges of one channel, but for the first
   int edge_units_ = 0;     ///< since the last edge
   int chatter_units_ = 0;  ///< since the row was long enough
-  bool moved_ = false, trips_ = false;
+  bool moved_ = false, trips_ = false, index_wrong_ = false, index_trips_ = false;
 };
 
 }  // namespace feltgate

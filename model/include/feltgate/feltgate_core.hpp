@@ -69,8 +69,10 @@ class FeltgateCore {
     sup.kick = tick && registers_.commands(D::C::command_kick);
     sup.encoder_error = decoder_.out().illegal;
     if (registers_.out().word_error) sup.trips |= 1u << static_cast<unsigned>(Fault::word);
-    if (clock_ == core_steps::clock_of(T::channel) && monitor_.trips()) {
-      sup.trips |= 1u << static_cast<unsigned>(Fault::channel);
+    if (clock_ == core_steps::clock_of(T::channel)) {
+      sup.trips |=
+          static_cast<std::uint16_t>(monitor_.trips() << static_cast<unsigned>(Fault::channel) |
+                                     monitor_.index_trips() << static_cast<unsigned>(Fault::index));
     }
     Pwm::In pwm = pwm_inputs(supervisor_.out().gates_enable, out_.duty);
     pwm.clear = supervisor_.stopped(in.stop);
@@ -244,7 +246,7 @@ class FeltgateCore {
         out_.snapshot_valid = true;
         return;
       case Step::levels:
-        monitor_.tick(decoded.levels, out_.tick_count);
+        monitor_.tick(decoded.levels, out_.tick_count, decoded.index_wrong);
         wave_.set_frozen(monitor_.chatters());
         return;
       case Step::hold:
@@ -356,7 +358,7 @@ class FeltgateCore {
   }
 
   Registers<D, ReadBack> registers_;
-  QuadDecoder decoder_;
+  QuadDecoder decoder_{0, static_cast<std::uint32_t>(D::index_counts)};
   CoreWave<D> wave_;
   EncoderMonitorLaw monitor_;
   HoldTimerLaw hold_;

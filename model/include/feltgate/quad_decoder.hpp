@@ -9,6 +9,8 @@
 #include <array>
 #include <cstdint>
 
+#include "feltgate/generated/map.hpp"
+
 namespace feltgate {
 
 /// Bit-exact and clock-exact with the RTL; every member below named x_q_ is the register x_q there.
@@ -37,17 +39,20 @@ class QuadDecoder {
     std::uint16_t rejected_count = 0;  ///< clocks in which the filter rejected, saturates at 65535
     std::int32_t index_position = 0;   ///< position at the last rising edge of Z
     bool index_seen = false;
-    std::uint8_t levels = 0;  ///< of A (bit 0) and B, as accepted
+    bool index_wrong = false;  ///< sticky: an index does not fit a revolution
+    std::uint8_t levels = 0;   ///< of A (bit 0) and B, as accepted
     bool operator==(const Out& o) const {
       return position == o.position && travel == o.travel && step == o.step && error == o.error &&
              illegal == o.illegal && error_count == o.error_count &&
              rejected_count == o.rejected_count && index_position == o.index_position &&
-             index_seen == o.index_seen && levels == o.levels;
+             index_seen == o.index_seen && index_wrong == o.index_wrong && levels == o.levels;
     }
   };
 
-  /// `reset_position` is the RTL parameter ResetPosition (tests of the wrap).
-  explicit QuadDecoder(std::int32_t reset_position = 0) : reset_position_(reset_position) {
+  /// `reset_position` is the RTL parameter ResetPosition (tests of the wrap), `index_counts` is
+  /// IndexCounts: a revolution, a power of two, or 0.
+  explicit QuadDecoder(std::int32_t reset_position = 0, std::uint32_t index_counts = 0)
+      : reset_position_(reset_position), index_counts_(index_counts) {
     reset();
   }
 
@@ -80,6 +85,9 @@ class QuadDecoder {
     const auto position = static_cast<std::int32_t>(count_q_ - zero_q_);
     serve_counters(in.clear_error);
     rejected_wait_q_ |= rejected;
+    const bool wrong = index_q_ && out_.index_seen && slipped();
+    if (index_q_ && !out_.index_seen) first_ = count_q_;
+    out_.index_wrong = wrong || (out_.index_wrong && !in.clear_error);
     out_.index_seen = index_q_ || (out_.index_seen && !in.clear_error);
     if (index_q_) out_.index_position = position;
     index_q_ = (changed & kZ) != 0 && index_level;
@@ -166,7 +174,16 @@ class QuadDecoder {
     }
   }
 
+  /// The count at this index differs from that at the first one by more than revolutions and the
+  /// width of an index.
+  bool slipped() const {
+    constexpr std::uint32_t near = 1u << Map::index_width_bits;
+    return index_counts_ != 0 && ((count_q_ - first_ + near) & (index_counts_ - 1)) >= 2 * near;
+  }
+
   std::int32_t reset_position_;
+  std::uint32_t index_counts_;
+  std::uint32_t first_ = 0;  ///< count at the first index; not reset
   std::uint32_t meta_q_ = 0;
   std::uint32_t sync_q_ = 0;
   std::uint32_t previous_q_ = 0;

@@ -13,6 +13,7 @@ package feltgate_pkg;
   localparam int VELOCITY_SHIFT = 0;  // raw velocity = 2^n * counts
   localparam int VELOCITY_GAIN = 66139;  // mantissa of the gain that stands for 2^n; 0: none
   localparam int VELOCITY_GAIN_F = 13;  // its fraction bits
+  localparam int INDEX_COUNTS = 4096;  // counts from index to index; 0: not checked
   localparam int PWM_PERIOD = 1000;  // clocks
   localparam int DEAD_CLOCKS = 25;  // clocks
   localparam int SCENE_MASK = 1021;  // bit n: scene n is built

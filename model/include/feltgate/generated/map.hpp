@@ -34,6 +34,7 @@ struct Map {
   static constexpr int edge_units = 19;  ///< so many of them without an edge end the row
   static constexpr int chatter_unit_bits = 8;  ///< bits of the ticks in which the time of chatter is counted
   static constexpr int chatter_units = 20;  ///< chatter for so many of them is a dead channel
+  static constexpr int index_width_bits = 3;  ///< an index may be less than 2^index_width_bits counts wide
   static constexpr int hold_unit_bits = 10;  ///< bits of the ticks in which hold_time is counted
   static constexpr int hold_bits = 13;  ///< bits of the longest hold_time
 

@@ -28,6 +28,7 @@ struct Paper {
   static constexpr int velocity_shift = 2;  // raw velocity = 2^n * counts
   static constexpr int velocity_gain = 0;  // mantissa of the gain that stands for 2^n; 0: none
   static constexpr int velocity_gain_f = 17;  // its fraction bits
+  static constexpr int index_counts = 4096;  // counts from index to index; 0: not checked
   static constexpr int pwm_period = 2500;  // clocks
   static constexpr int dead_clocks = 25;  // clocks
   static constexpr int scene_mask = 1021;  // bit n: scene n is built

@@ -20,6 +20,7 @@ scene_charge.sv
 scene_wall.sv
 rounding.sv
 scenes.sv
+self_test.sv
 limiter.sv
 ramp.sv
 torque_control.sv

@@ -72,7 +72,7 @@ module feltgate_core #(
   logic [ 3:0] scene_wanted, scene_q;
   logic [ 1:0] mode;
   logic host, arm_request, set_zero, clear_faults, kick, region_high, snap_valid;
-  logic disarm, host_stop, restart, refused, unkicked, word_error;
+  logic disarm, host_stop, restart, refused, unkicked, word_error, testing, self_test_trip;
   logic moved, frozen, eased, channel_trip, index_trip;
   logic [ 5:0] snap_slot;
   assign host         = control[feltgate_map_pkg::B_CONTROL_HOST];
@@ -87,8 +87,7 @@ module feltgate_core #(
   sequencer u_sequencer (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .tick_o(tick),
-      .slot_fetch_o(slot_fetch),
-      .scene_slot_fetch_o(scene_slot_fetch),
+      .slot_fetch_o(slot_fetch), .scene_slot_fetch_o(scene_slot_fetch),
       .wave_o(wave),
       .tick_count_o(tick_count_o)
   );
@@ -106,8 +105,7 @@ module feltgate_core #(
       .slot_fetch_i(slot_fetch),
       .scene_slot_fetch_i(scene_slot_fetch),
       .scene_i(scene_q),
-      .region_high_i(region_high),
-      .eased_i(eased),
+      .region_high_i(region_high), .eased_i(eased), .testing_i(testing),
       .param_o(param),
       .word_error_o(word_error),
       .control_o(control),
@@ -178,8 +176,7 @@ module feltgate_core #(
   velocity_n u_velocity_n (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .wave_i(wave),
-      .travel_i(travel),
-      .operand_o(velocity_difference),
+      .travel_i(travel), .operand_o(velocity_difference),
       .product_i(velocity_product),
       .velocity_o(velocity_o),
       .saturated_o(velocity_saturated)
@@ -209,10 +206,9 @@ module feltgate_core #(
   logic signed [feltgate_pkg::TORQUE_W-1:0] scene_late;
   scenes u_scenes (
       .clk_i(clk_i), .rst_ni(rst_ni),
-      .armed_i(armed_o),
+      .armed_i(armed_o && !testing),
       .scene_i(scene_q),
-      .wave_i(wave),
-      .position_i(scene_position_q),
+      .wave_i(wave), .position_i(scene_position_q),
       .param_i(param),
       .product_i(scene_product),
       .beyond_i(beyond),
@@ -222,16 +218,26 @@ module feltgate_core #(
       .late_o(scene_late)
   );
 
+  logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] pulse_ahead;
+  logic [feltgate_map_pkg::W_STATUS_SELF_TEST-1:0] test_result;
+  self_test u_self_test (
+      .clk_i(clk_i), .rst_ni(rst_ni),
+      .armed_i(armed_o), .direct_i(mode == 2'd2),
+      .travel_i(travel[1:0]), .tick_count_i(tick_count_o),
+      .wave_i(wave), .param_i(param),
+      .busy_o(testing), .ahead_o(pulse_ahead),
+      .result_o(test_result), .trip_o(self_test_trip)
+  );
+
   logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] control_ahead, control_late;
   limiter u_limiter (
       .clk_i(clk_i),
       .valid_i(wave[feltgate_map_pkg::S_TORQUE_LIMIT-1] ||
                wave[feltgate_map_pkg::S_CURRENT_LIMIT-1] || wave[feltgate_map_pkg::S_DEAD_VOLTAGE-1] ||
                wave[feltgate_map_pkg::S_VOLTAGE_LIMIT-1] || wave[feltgate_map_pkg::S_DUTY_LIMIT-1]),
-      .torque_i(wave[feltgate_map_pkg::S_TORQUE_LIMIT-1]),
-      .voltage_i(wave[feltgate_map_pkg::S_VOLTAGE_LIMIT-1]),
+      .torque_i(wave[feltgate_map_pkg::S_TORQUE_LIMIT-1]), .voltage_i(wave[feltgate_map_pkg::S_VOLTAGE_LIMIT-1]),
       .duty_i(wave[feltgate_map_pkg::S_DUTY_LIMIT-1]),
-      .ahead_i(control_ahead | feltgate_pkg::LIMITER_INPUT_W'(scene_ahead)),
+      .ahead_i(control_ahead | feltgate_pkg::LIMITER_INPUT_W'(scene_ahead | pulse_ahead)),
       .late_i(control_late | feltgate_pkg::LIMITER_INPUT_W'(scene_late)),
       .param_i(param),
       .limited_o(limited),
@@ -240,13 +246,11 @@ module feltgate_core #(
   logic limit_torque, limit_ramp, limit_hold, limit_current, limit_voltage, limit_duty;
   ramp u_ramp (
       .clk_i(clk_i), .rst_ni(rst_ni),
-      .armed_i(armed_o),
+      .armed_i(armed_o && !testing),
       .scene_i(scene_q),
       .restart_i(restart),
-      .wave_i(wave),
-      .param_i(param),
-      .limited_i(limited),
-      .beyond_i(beyond),
+      .wave_i(wave), .param_i(param),
+      .limited_i(limited), .beyond_i(beyond),
       .tau_ref_o(tau_ref_o),
       .frozen_i(frozen), .eased_i(eased),
       .limit_torque_o(limit_torque), .limit_ramp_o(limit_ramp),
@@ -257,8 +261,7 @@ module feltgate_core #(
       .clk_i(clk_i), .rst_ni(rst_ni),
       .armed_i(armed_o),
       .mode_i(mode),
-      .wave_i(wave),
-      .param_i(param),
+      .wave_i(wave), .param_i(param),
       .product_i(control_product),
       .tau_ref_i(tau_ref_o),
       .ahead_o(control_ahead),
@@ -283,12 +286,12 @@ module feltgate_core #(
       .clear_faults_i(clear_faults),
       .kick_i(kick),
       .encoder_error_i(illegal),
-      .velocity_i(velocity_o),
-      .current_ref_i(current_ref_o),
+      .velocity_i(velocity_o), .current_ref_i(current_ref_o),
       .wave_i(wave),
       .param_i(param),
       .product_i(supervisor_product),
-      .trips_i((FaultsW'(host_stop) << feltgate_map_pkg::FAULT_STOP) |
+      .trips_i((FaultsW'(self_test_trip) << feltgate_map_pkg::FAULT_SELF_TEST) |
+               (FaultsW'(host_stop) << feltgate_map_pkg::FAULT_STOP) |
                (FaultsW'(word_error) << feltgate_map_pkg::FAULT_WORD) |
                (FaultsW'(channel_trip) << feltgate_map_pkg::FAULT_CHANNEL) | (FaultsW'(index_trip) << feltgate_map_pkg::FAULT_INDEX) |
                (FaultsW'(velocity_jumped) << feltgate_map_pkg::FAULT_JUMP)),
@@ -325,13 +328,14 @@ module feltgate_core #(
                   (32'(scene_q) << feltgate_map_pkg::B_STATUS_SCENE) |
                   (32'(armed_o) << feltgate_map_pkg::B_STATUS_ARMED) |
                   (32'(mode) << feltgate_map_pkg::B_STATUS_MODE) |
+                  (32'(test_result) << feltgate_map_pkg::B_STATUS_SELF_TEST) |
+                  (32'(testing) << feltgate_map_pkg::B_STATUS_TESTING) |
                   (32'(encoder_error) << feltgate_map_pkg::B_STATUS_ENCODER_ERROR) |
                   (32'(refused) << feltgate_map_pkg::B_STATUS_REFUSED) | (32'(unkicked) << feltgate_map_pkg::B_STATUS_UNKICKED);
   snapshot #(.ReadBack(ReadBack)) u_snapshot (
       .slot_fetch_i(slot_fetch),
       .wave_i(wave),
-      .status_i(status),
-      .faults_i(faults),
+      .status_i(status), .faults_i(faults),
       .position_i(position_o),
       .tick_count_i(tick_count_o),
       .index_position_i(index_position),
@@ -360,10 +364,8 @@ module feltgate_core #(
       .current_estimate_i(current_estimate),
       .snapshot_i(snapshot_word),
       .operand_o(operand),
-      .dob_o(dob_operand),
-      .scene_o(scene_operand),
-      .control_o(control_operand),
-      .supervisor_o(supervisor_operand),
+      .dob_o(dob_operand), .scene_o(scene_operand),
+      .control_o(control_operand), .supervisor_o(supervisor_operand),
       .signed_o(signed_word),
       .estimate_o(estimate_operand),
       .square_estimate_o(square_estimate)
@@ -375,10 +377,8 @@ module feltgate_core #(
       .clk_i(clk_i),
       .operand_i(operand),
       .velocity_i(velocity_difference),
-      .dob_i(dob_operand),
-      .scene_i(scene_operand),
-      .control_i(control_operand),
-      .supervisor_i(supervisor_operand),
+      .dob_i(dob_operand), .scene_i(scene_operand),
+      .control_i(control_operand), .supervisor_i(supervisor_operand),
       .signed_i(signed_word),
       .param_i(param),
       .square_distance_i(square_q),

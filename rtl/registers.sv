@@ -27,6 +27,7 @@ module registers #(
   input  logic [3:0]  scene_i,             // the bank of the scene in force; not 1
   input  logic        region_high_i,       // the voltage gain is that of high torque
   input  logic        eased_i,             // the torque limit is hold_limit
+  input  logic        testing_i,           // the torque limit is the self-test's torque
   output logic [31:0] param_o,
   output logic        word_error_o,        // the word on the bus, or a held control bit, has changed by itself
 
@@ -48,6 +49,7 @@ module registers #(
   localparam logic [5:0] HIGH = 6'(feltgate_map_pkg::S_VOLTAGE_GAIN_HIGH);
   localparam logic [5:0] FULL  = 6'(feltgate_map_pkg::S_TORQUE_LIMIT);
   localparam logic [5:0] EASED = 6'(feltgate_map_pkg::S_HOLD_LIMIT);
+  localparam logic [5:0] TEST  = 6'(feltgate_map_pkg::S_SELF_TEST_TORQUE);
 
   // The waiting write: where it goes (none set: nothing waits), and its word.
   logic        to_parameter_q, to_control_q, to_command_q;
@@ -154,7 +156,7 @@ module registers #(
     if (tick_i && to_parameter_q && !refuses) parameter_ram[address_q] <= {check_of(data_q), data_q};
   end
 
-  logic        high, eased;
+  logic        high, eased, test;
   logic [8:0]  fetch_address;
   logic [35:0] fetch_q;
   logic [ 3:0] check_q;                // of the word on the bus
@@ -163,8 +165,9 @@ module registers #(
 
   assign high = region_high_i && slot_fetch_i == LOW;
   assign eased = eased_i && slot_fetch_i == FULL;
+  assign test = testing_i && slot_fetch_i == FULL;
   assign fetch_address = scene_slot_fetch_i ? {scene_i, slot_fetch_i[4:0]}
-                                            : {3'b000, high ? HIGH : eased ? EASED : slot_fetch_i};
+                       : {3'b000, high ? HIGH : test ? TEST : eased ? EASED : slot_fetch_i};
 
   always_ff @(posedge clk_i) fetch_q <= parameter_ram[fetch_address];
 

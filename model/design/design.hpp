@@ -41,6 +41,9 @@ struct Design {
   double polarity_speed_rad_s = 0, polarity_current_a = 0, polarity_time_s = 0, watchdog_s = 0;
   double hold_torque_nm = 0, hold_s = 0, hold_limit_nm = 0;
   bool require_watchdog = false;  ///< arming waits for the first kick
+  // [self_test], optional: without it no test, and words that make none.
+  bool self_test = false, arm_when_held = true, arm_when_moving = true;
+  double self_test_nm = 0, self_test_pulse_s = 0, self_test_quiet_s = 0;
   std::vector<std::string> scenes;
   double setpoint_nm = 0, membrane_lower_rad = 0, membrane_upper_rad = 0, membrane_nm = 0;
   double compression_contact_rad = 0, compression_nm_rad = 0;
@@ -57,6 +60,8 @@ struct Design {
 
   int clocks_per_tick() const { return static_cast<int>(clock_hz / tick_hz); }
   int pwm_period_clocks() const { return static_cast<int>(clock_hz / pwm_hz); }
+  /// A time in the units of the self-test, SELF_TEST_UNIT_BITS of ticks.
+  double self_test_units(double seconds) const;
   int dead_clocks() const;
   double tick_s() const { return 1.0 / static_cast<double>(tick_hz); }
   /// One count in radians.

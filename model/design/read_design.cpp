@@ -10,6 +10,7 @@
 
 #include "config/toml_reader.hpp"
 #include "design/design.hpp"
+#include "feltgate/generated/map.hpp"
 
 namespace feltgate::design {
 
@@ -126,7 +127,49 @@ void read_supervisor(config::TomlReader& r, Design& d) {
   d.require_watchdog = r.flag_or("require_watchdog", false);
 }
 
+/// The pulse must move the lever's own inertia by as many counts as its answer takes.
+void read_self_test(config::TomlReader& r, Design& d) {
+  d.self_test = r.choice("mode", {"off", "on"}) == 1;
+  d.self_test_nm = r.number("torque_nm", {1e-4, 15.0});
+  d.self_test_pulse_s = 1e-3 * r.number("pulse_ms", {0.1, 1000.0});
+  d.self_test_quiet_s = 1e-3 * r.number("quiet_ms", {0.1, 1000.0});
+  d.arm_when_held = r.flag("arm_when_held");
+  d.arm_when_moving = r.flag("arm_when_moving");
+  const auto fits = [&r, &d](const char* key, double seconds) {
+    constexpr double most = (1 << Map::self_test_count_bits) - 1;
+    const double units = d.self_test_units(seconds);
+    if (units >= 0.5 && units <= most) return;
+    r.fail(key,
+           fmt::format("\"{}\" is {:.3g} units of {} ticks", key, units,
+                       1 << Map::self_test_unit_bits),
+           fmt::format("choose {:.3g} to {:.3g} ms", 1e3 / d.self_test_units(1.0),
+                       1e3 * most / d.self_test_units(1.0)));
+  };
+  fits("pulse_ms", d.self_test_pulse_s);
+  fits("quiet_ms", d.self_test_quiet_s);
+  if (d.self_test_nm > d.torque_limit_nm) {
+    r.fail("torque_nm",
+           fmt::format("the self-test's {:g} Nm are more than the torque limit of {:g} Nm",
+                       d.self_test_nm, d.torque_limit_nm),
+           "lower it");
+  }
+  const double pulse_s =
+      std::round(d.self_test_units(d.self_test_pulse_s)) / d.self_test_units(1.0);
+  const double counts = 0.5 * d.self_test_nm / d.inertia_kg_m2 * pulse_s * pulse_s / d.count_rad();
+  if (counts < Map::self_test_counts) {
+    r.fail("torque_nm",
+           fmt::format("the self-test's pulse moves the inertia of {:.3g} kg m^2 by {:.2g} counts, "
+                       "less than the {} that its answer takes",
+                       d.inertia_kg_m2, counts, Map::self_test_counts),
+           "raise torque_nm or pulse_ms");
+  }
+}
+
 }  // namespace
+
+double Design::self_test_units(double seconds) const {
+  return seconds * static_cast<double>(tick_hz) / (1 << Map::self_test_unit_bits);
+}
 
 int Design::dead_clocks() const {
   return static_cast<int>(std::lround(dead_time_s * static_cast<double>(clock_hz)));
@@ -222,6 +265,9 @@ Design design_of(const toml::table& root, const std::string& path) {
     d.supply_v = r.number("supply_v", {1.0, 31.9});
   });
   section("supervisor", [&](config::TomlReader& r) { read_supervisor(r, d); });
+  if (top.has("self_test")) {
+    section("self_test", [&](config::TomlReader& r) { read_self_test(r, d); });
+  }
   section("scenes", [&](config::TomlReader& r) { read_scenes(r, d); });
   section("formats", [&](config::TomlReader& r) {
     d.velocity = read_format(r, "velocity");

@@ -13,7 +13,7 @@ package feltgate_map_pkg;
   localparam int MULTIPLIER_LATENCY = 4;  // clocks from the operands to the product
   localparam logic [63:0] SCENE_SLOTS = 64'h000000000000044e;  // bit n: slot n is read from the scene's bank
   // While armed: words of all scenes that are refused or ramp, by address; scenes whose words act at once.
-  localparam logic [63:0] REFUSED_WHILE_ARMED = 64'h0004218e78c083b0;
+  localparam logic [63:0] REFUSED_WHILE_ARMED = 64'h000c23ee78c083b0;
   localparam logic [63:0] RAMPS_WHILE_ARMED = 64'h0100000001000000;
   localparam logic [15:0] INPUT_SCENES = 16'h0004;
   localparam int ERRORS_BORNE = 7;  // encoder errors that are borne, less one every 2^forgive_bits ticks
@@ -21,6 +21,12 @@ package feltgate_map_pkg;
   localparam int RUNAWAY_BITS = 16;  // bits of the longest window of the wrong-polarity check [tick]
   localparam int RUNAWAY_WINDOWS = 2;  // windows on end in which the speed must grow against the commanded current
   localparam int GROWTH_BITS = 5;  // fraction bits of the velocity whose growth is watched
+  localparam int SELF_TEST_UNIT_BITS = 7;  // bits of the ticks in a unit of the self-test's times
+  localparam int SELF_TEST_COUNT_BITS = 8;  // bits of these times
+  localparam int SELF_TEST_PATIENCE_BITS = 17;  // bits of the ticks of which the second multiple ends the self-test's wait
+  localparam int SELF_TEST_COUNTS = 2;  // counts that are an answer to the self-test
+  localparam int SELF_TEST_HELD_BIT = 0;  // of self_test_arms: the scene begins though the lever is held
+  localparam int SELF_TEST_MOVING_BIT = 1;  // of self_test_arms: the scene begins though the lever moves
   localparam int KICKLESS_BITS = 24;  // bits of the longest time without a kick [tick]
   localparam int ONE_CHANNEL_EDGES = 16;  // edges of one channel in a row from which it is chatter or a dead channel
   localparam int DEAD_CHANNEL_EDGES = 24;  // as many are a dead channel
@@ -65,6 +71,10 @@ package feltgate_map_pkg;
   localparam int S_DUTY_GAIN = 40;
   localparam int S_DUTY_LIMIT = 45;
   localparam int S_WATCHDOG_TICKS = 46;
+  localparam int S_SELF_TEST_TORQUE = 51;
+  localparam int S_SELF_TEST_QUIET = 37;
+  localparam int S_SELF_TEST_PULSE = 38;
+  localparam int S_SELF_TEST_ARMS = 41;
   localparam int S_SETPOINT_TORQUE = 10;
   localparam int S_MEMBRANE_LOWER = 1;
   localparam int S_MEMBRANE_UPPER = 2;
@@ -204,6 +214,10 @@ package feltgate_map_pkg;
   localparam int T_STRONG = 20;
   localparam int T_RUNAWAY_TICKS = 21;
   localparam int T_POLARITY = 22;
+  localparam int T_SELF_TEST_QUIET = 37;
+  localparam int T_SELF_TEST_OVER = 38;
+  localparam int T_SELF_TEST_TURN = 41;
+  localparam int T_SELF_TEST = 42;
   localparam int T_SILENT = 46;
   localparam int T_WATCHDOG = 47;
   localparam int T_LEVELS = 0;
@@ -277,6 +291,9 @@ package feltgate_map_pkg;
   localparam int B_STATUS_ENCODER_ERROR = 27;
   localparam int B_STATUS_REFUSED = 28;
   localparam int B_STATUS_UNKICKED = 29;
+  localparam int B_STATUS_SELF_TEST = 16;
+  localparam int W_STATUS_SELF_TEST = 2;
+  localparam int B_STATUS_TESTING = 18;
   localparam int B_FAULTS_SEEN = 0;
   localparam int W_FAULTS_SEEN = 16;
   localparam int B_FAULTS_FIRST = 16;

@@ -187,6 +187,22 @@ TEST_CASE("resolution, width and latency beyond the limit are refused", "[design
                 "the chain takes 50 clocks and a tick has 40; lower tick_hz or raise clock_hz");
 }
 
+TEST_CASE("a self-test that cannot be answered is refused", "[design]") {
+  check_refused("lever", "torque_nm = 0.05 ", "torque_nm = 0.02 ", "torque_nm",
+                "the self-test's pulse moves the inertia of 0.000122 kg m^2 by 1.3 counts, less "
+                "than the 2 that its answer takes; raise torque_nm or pulse_ms");
+  check_refused("paper", "torque_nm = 0.15 ", "torque_nm = 0.05 ", "torque_nm",
+                "the self-test's pulse moves the inertia of 0.00049 kg m^2 by 0.83 counts, less "
+                "than the 2 that its answer takes; raise torque_nm or pulse_ms");
+  check_refused("lever", "torque_nm = 0.05 ", "torque_nm = 0.6 ", "torque_nm",
+                "the self-test's 0.6 Nm are more than the torque limit of 0.5 Nm; lower it");
+  check_refused("lever", "quiet_ms = 20.0", "quiet_ms = 40.0", "quiet_ms",
+                "\"quiet_ms\" is 312 units of 128 ticks; choose 0.128 to 32.6 ms");
+  const std::string on =
+      replaced(file_text(design_path("lever")), "mode = \"off\"", "mode = \"on\"");
+  CHECK(design_error(on) == "no error");
+}
+
 TEST_CASE("a parameter that does not fit its word is refused", "[design]") {
   check_refused("paper", "current_limit_a = 8.264463", "current_limit_a = 32.0", "current_limit_a",
                 "current_limit = 32 A does not fit its word [1,5,16]; choose a value that makes it "

@@ -97,6 +97,9 @@ class CoreStimulus {
       raw = static_cast<std::int64_t>(random_.bits() & static_cast<std::uint64_t>(high));
     // A lever that may run away, so that the observer comes to its ends.
     if (p.address == D::A::overspeed && how < 6) raw = high;
+    // Self-tests that are over soon.
+    const bool test_time = p.address == D::A::self_test_quiet || p.address == D::A::self_test_pulse;
+    if (test_time && how < 6) raw = random_.below(4);
     if (raw > high) raw = high;
     // Limits and times are magnitudes; a set-point and an offset may be negative.
     const bool may_be_negative =

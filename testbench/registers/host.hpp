@@ -31,6 +31,7 @@ struct RegistersAdapter {
     rtl.scene_i = in.scene;
     rtl.region_high_i = in.region_high;
     rtl.eased_i = in.eased;
+    rtl.testing_i = in.testing;
     rtl.snap_slot_i = in.snap_slot;
     rtl.snap_valid_i = in.snap_valid;
     rtl.snap_data_i = in.snap_data;
@@ -76,7 +77,7 @@ inline Twin::In inputs_of(const Clock::Out& now) {
 class Script {
  public:
   std::uint8_t scene = 0;
-  bool region_high = false, armed = false, set_zero = false, eased = false;
+  bool region_high = false, testing = false, armed = false, set_zero = false, eased = false;
   std::uint16_t address = 0;
 
   Script() { twin_.reset(); }
@@ -91,6 +92,7 @@ class Script {
     Twin::In in = inputs_of(clock_.out());
     in.scene = scene;
     in.region_high = region_high;
+    in.testing = testing;
     in.armed = armed;
     in.set_zero = set_zero;
     in.eased = eased;
@@ -154,6 +156,7 @@ class RandomHost {
     if (in.tick) {
       in_force_.scene = static_cast<std::uint8_t>(random_.below(16));
       in_force_.region_high = random_.coin();
+      in_force_.testing = random_.coin();
       if (random_.one_in(5)) in_force_.armed = random_.coin();
       in_force_.eased = random_.coin();
     }
@@ -162,6 +165,7 @@ class RandomHost {
     in.scene = in_force_.scene;
     in.region_high = in_force_.region_high;
     in.eased = in_force_.eased;
+    in.testing = in_force_.testing;
     // Some writes are held for a while, others are gone in the clock after.
     if (!in_force_.reg_write || random_.one_in(in.tick ? 2 : 60)) {
       if (random_.one_in(4)) in_force_.reg_addr = any_address();

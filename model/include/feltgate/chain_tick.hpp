@@ -75,8 +75,9 @@ class ChainTick {
   /// tau_hat from the velocity and the current of the tick before.
   void observe(bool armed) { observer_.tick(words_, armed, control_.current, velocity()); }
   /// tau_ref from the position, and the velocity in a damper.
-  void render(bool armed, int scene, std::int32_t position, Relief relief = {}) {
-    scenes_.tick(words_, armed, scene, scene_position<D, N>(position), velocity(), relief);
+  void render(bool armed, int scene, std::int32_t position, Relief relief = {},
+              TestPulse pulse = TestPulse::none) {
+    scenes_.tick(words_, armed, scene, scene_position<D, N>(position), velocity(), relief, pulse);
   }
   /// Current, voltage and duty.
   void drive(bool armed, Mode mode) {

@@ -71,6 +71,7 @@ bool FeltgateCore<D, ReadBack>::calm(const In& in, std::int64_t clocks) const {
     return false;
   }
   if (!out_.gates_enable) return out_.duty_active == 0;
+  if (self_test_.busy(out_.armed)) return false;
   // What can close the gates is over-speed, over-current, a wrong polarity, and what the encoder's
   // monitor finds.
   const auto limit = static_cast<std::int32_t>(supervisor_words_.overspeed);
@@ -113,6 +114,12 @@ template <bool Read, class OnSnapshot>
       return;
     case Step::polarity:
       if (supervisor_.at_polarity(words, velocity, out_.current_ref)) s.close(after(T::polarity));
+      return;
+    case Step::self_test:
+      take<Read>(step, decoded);
+      if (self_test_.failed() && supervisor_.at_cause(Fault::self_test)) {
+        s.close(after(T::self_test));
+      }
       return;
     case Step::watchdog:
       if (supervisor_.at_watchdog(words)) s.close(after(T::watchdog));

@@ -54,6 +54,7 @@ constexpr bool shows(Step step) {
     case Step::current:
     case Step::voltage:
     case Step::duty:
+    case Step::self_test:
     case Step::watchdog:
     case Step::snapshot:
       return true;

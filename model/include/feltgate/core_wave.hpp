@@ -41,7 +41,7 @@ class CoreWave {
 
   /// Position and travel are the decoder's at Step::sample.
   [[gnu::always_inline]] void take(Step step, std::int32_t position, std::uint16_t travel,
-                                   Mode mode, CoreOut& out) {
+                                   Mode mode, TestPulse pulse, CoreOut& out) {
     switch (step) {
       case Step::sample:
         out.position = position;
@@ -68,7 +68,7 @@ class CoreWave {
         }
         break;
       case Step::ramp_excess:
-        chain_.render(out.armed, out.scene, out.position, relief_);
+        chain_.render(out.armed, out.scene, out.position, relief_, pulse);
         set(Map::L::torque, chain_.limit_torque());
         break;
       case Step::tau_ref:

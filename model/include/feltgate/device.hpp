@@ -126,6 +126,7 @@ class TwinDevice final : public Device {
  public:
   TwinDevice() : Device(design_info<D>()) {}
   const CoreOut& out() const override { return core_.out(); }
+  const FeltgateCore<D>& core() const { return core_; }
 
  private:
   void step(const CoreIn& in) override {

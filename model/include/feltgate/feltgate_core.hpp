@@ -18,6 +18,7 @@
 #include "feltgate/hold_timer.hpp"
 #include "feltgate/quad_decoder.hpp"
 #include "feltgate/registers.hpp"
+#include "feltgate/self_test.hpp"
 #include "feltgate/supervisor.hpp"
 
 namespace feltgate {
@@ -44,6 +45,7 @@ class FeltgateCore {
     hold_ = {};
     supervisor_.reset();
     gates_.reset();
+    self_test_ = {};
     operand_v_ = operand_w_ = 0;
     passed_to_ = -1;
     writes_ = 0;
@@ -78,6 +80,7 @@ class FeltgateCore {
     pwm.clear = supervisor_.stopped(in.stop);
     out_.snapshot_valid = false;
     core_steps::for_each_step_of(clock_, [this](Step step) { take<true>(step, decoder_.out()); });
+    if (self_test_.failed()) sup.trips |= 1u << static_cast<unsigned>(Fault::self_test);
     supervisor_.clock(sup);
     const QuadDecoder::In d = decoder_inputs(in, zero, clear);
     if (!decoder_.settled(d)) decoder_.clock(d);
@@ -122,6 +125,9 @@ class FeltgateCore {
   std::array<std::int64_t, 4> gate_clocks() const { return gates_.on_clocks(); }
   /// Free-running count that the running wave started from.
   std::int16_t sampled_travel() const { return wave_.sampled_travel(); }
+  /// What the status word shows of the self-test.
+  SelfTestResult self_test_result() const { return self_test_.result(); }
+  bool testing() const { return self_test_.busy(out_.armed); }
   /// Register writes carried out so far.
   std::int64_t writes() const { return writes_; }
   /// The clock of the tick that comes next, 0 .. clocks_per_tick - 1.
@@ -159,6 +165,8 @@ class FeltgateCore {
         word(A::inverse_resistance), word(A::emf_over_resistance), word(A::nominal_current_squared),
         word(A::overspeed),          word(A::i2t_budget),          word(A::polarity_speed),
         word(A::polarity_current),   word(A::polarity_ticks),      word(A::watchdog_ticks)};
+    self_test_words_ = {word(A::self_test_quiet), word(A::self_test_pulse),
+                        word(A::self_test_arms)};
   }
 
   Mode mode() const {
@@ -200,6 +208,7 @@ class FeltgateCore {
       reg.slot_fetch = static_cast<std::uint8_t>(slot);
       reg.scene_slot_fetch = ((Map::scene_slots >> slot) & 1u) != 0;
       reg.region_high = wave_.region_high();
+      reg.testing = self_test_.busy(out_.armed);
     }
     return reg;
   }
@@ -254,8 +263,15 @@ class FeltgateCore {
                    registers_.parameter(D::A::hold_time));
         wave_.set_eased(hold_.eased());
         return;
+      case Step::self_test:
+        self_test_.turn(out_.armed, mode() == Mode::voltage, out_.tick_count, self_test_words_);
+        return;
+      case Step::sample:
+        self_test_.sample(decoded.travel);
+        [[fallthrough]];
       default:
-        wave_.take(step, decoded.position, decoded.travel, mode(), out_);
+        wave_.take(step, decoded.position, decoded.travel, mode(), self_test_.pulse(out_.armed),
+                   out_);
     }
   }
 
@@ -265,8 +281,11 @@ class FeltgateCore {
     const auto field = [](auto value, int at) { return static_cast<std::uint32_t>(value) << at; };
     return field(wave_.limits(s.gates_enable), C::status_limits) |
            field(out_.scene, C::status_scene) | field(s.armed, C::status_armed) |
-           field(mode(), C::status_mode) | field(encoder_error, C::status_encoder_error) |
-           field(registers_.out().refused, C::status_refused) | field(s.unkicked, C::status_unkicked);
+           field(mode(), C::status_mode) | field(self_test_.result(), C::status_self_test) |
+           field(self_test_.busy(out_.armed), C::status_testing) |
+           field(encoder_error, C::status_encoder_error) |
+           field(registers_.out().refused, C::status_refused) |
+           field(s.unkicked, C::status_unkicked);
   }
 
   std::uint32_t faults() const {
@@ -364,6 +383,8 @@ class FeltgateCore {
   HoldTimerLaw hold_;
   Supervisor<D> supervisor_, before_wave_;
   typename Supervisor<D>::Words supervisor_words_;
+  SelfTestLaw self_test_;
+  SelfTestLaw::Words self_test_words_;
   CoreGates gates_{D::pwm_period, D::dead_clocks};
   std::int64_t operand_v_ = 0, operand_w_ = 0;
   std::int64_t writes_ = 0;

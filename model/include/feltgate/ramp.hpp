@@ -44,6 +44,17 @@ class RampLaw {
         armed_ ? tau : Rendered{}, limit, &beyond);
     aim(target, beyond);
   }
+  /// With the scene away: 0, or the limit in either direction.
+  template <class Limit>
+  void pulse(int sign, Limit limit) {
+    bool beyond = false;
+    const auto held =
+        LimiterLaw<D, N>::template limited<Torque, D::f.torque.key()>(most(), limit, &beyond);
+    aim(sign == 0  ? Torque{}
+        : sign > 0 ? held
+                   : quantise<N, Torque, Round::truncate, Overflow::wrap>(-held),
+        beyond);
+  }
   /// The target, and whether it was beyond the limit.
   void aim(Torque target, bool beyond) {
     target_ = target;
@@ -90,6 +101,15 @@ class RampLaw {
   }
 
  private:
+  /// Beyond every limit, or at it.
+  static Torque most() {
+    if constexpr (N::is_fixed) {
+      return Torque::from_raw(Torque::max_raw());
+    } else {
+      return Torque(1e6);
+    }
+  }
+
   int scene_ = 0;
   bool armed_ = false, ramping_ = true, limit_torque_ = false, limit_ramp_ = false;
   Relief relief_;

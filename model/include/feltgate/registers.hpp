@@ -33,6 +33,7 @@ class Registers {
     std::uint8_t scene = 0;
     bool region_high = false;
     bool eased = false;
+    bool testing = false;
     std::uint8_t snap_slot = 0;
     bool snap_valid = false;
     std::uint32_t snap_data = 0;
@@ -210,6 +211,7 @@ class Registers {
   }
   static std::size_t fetch_address(const In& in) {
     if (in.scene_slot_fetch) return (in.scene * 32U + (in.slot_fetch & 31U)) & 0x1ffU;
+    if (in.testing && in.slot_fetch == D::A::torque_limit) return D::A::self_test_torque;
     if (in.eased && in.slot_fetch == D::A::torque_limit) return D::A::hold_limit;
     const bool high = in.region_high && in.slot_fetch == D::A::voltage_gain;
     return high ? D::A::voltage_gain_high : in.slot_fetch;

@@ -24,6 +24,9 @@ constexpr bool scene_built(int scene) {
   return scene >= 0 && scene < 16 && ((D::scene_mask >> scene) & 1) != 0;
 }
 
+/// What stands instead of a scene's torque while the self-test lasts.
+enum class TestPulse : std::uint8_t { none, rest, up, down };
+
 /// All scenes tick by tick, in number policy N.
 template <class D, class N>
 class ScenesLaw {
@@ -38,11 +41,17 @@ class ScenesLaw {
   /// One tick. Position in counts, saturated to 18 bits in Fixed; `w` holds the words in force.
   template <class W>
   void tick(const W& w, bool armed, int scene, std::int32_t position, Velocity velocity,
-            Relief relief = {}) {
-    ramp_.begin(armed, scene, relief);
-    ramp_.limit(torque(w, scene, position, velocity, &side_),
-                w.template get<RampLaw<D, N>::kLimitKey>(relief.eased ? D::A::hold_limit
-                                                                      : D::A::torque_limit));
+            Relief relief = {}, TestPulse pulse = TestPulse::none) {
+    constexpr int limit_key = RampLaw<D, N>::kLimitKey;
+    const Rendered rendered = torque(w, scene, position, velocity, &side_);
+    ramp_.begin(armed && pulse == TestPulse::none, scene, relief);
+    if (pulse == TestPulse::none) {
+      const int limit = relief.eased ? D::A::hold_limit : D::A::torque_limit;
+      ramp_.limit(rendered, w.template get<limit_key>(limit));
+    } else {
+      const int sign = pulse == TestPulse::up ? 1 : pulse == TestPulse::down ? -1 : 0;
+      ramp_.pulse(sign, w.template get<limit_key>(D::A::self_test_torque));
+    }
     ramp_.move(w.ramp_step());
   }
 

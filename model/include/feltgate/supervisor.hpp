@@ -184,6 +184,8 @@ class Supervisor {
     runaway_.turn(velocity, current_ref, words.polarity_ticks, out_.gates_enable);
     return out_.gates_enable && runaway_.due() && trip(Fault::polarity);
   }
+  /// A clock in which another block has seen a cause.
+  bool at_cause(Fault cause) { return trip(cause); }
   /// Clock watchdog_clock, where that is not the last clock of the tick.
   bool at_watchdog(const Words& words) {
     return !kWatchdogLast && silent(words) && trip(Fault::watchdog);

@@ -153,6 +153,10 @@ package feltgate_pkg;
       9'd40: parameter_reset = 32'd85333;  // duty_gain
       9'd45: parameter_reset = 32'd1000;  // duty_limit
       9'd46: parameter_reset = 32'd100000;  // watchdog_ticks
+      9'd51: parameter_reset = 32'd3277;  // self_test_torque
+      9'd37: parameter_reset = 32'd157;  // self_test_quiet
+      9'd38: parameter_reset = 32'd0;  // self_test_pulse
+      9'd41: parameter_reset = 32'd3;  // self_test_arms
       9'd74: parameter_reset = 32'd0;  // setpoint_torque
       9'd97: parameter_reset = 32'd83443;  // membrane_lower
       9'd98: parameter_reset = 32'd116820;  // membrane_upper

@@ -78,6 +78,10 @@ struct Balanced {
     static constexpr Format duty_gain{0, 6, 11};
     static constexpr Format duty_limit{0, 31, 0};
     static constexpr Format watchdog_ticks{0, 31, 0};
+    static constexpr Format self_test_torque{1, 4, 18};
+    static constexpr Format self_test_quiet{0, 31, 0};
+    static constexpr Format self_test_pulse{0, 31, 0};
+    static constexpr Format self_test_arms{0, 31, 0};
     static constexpr Format setpoint_torque{1, 4, 18};
     static constexpr Format membrane_lower{1, 17, 8};
     static constexpr Format membrane_upper{1, 17, 8};
@@ -186,6 +190,14 @@ struct Balanced {
        1000.0, 1000},
       {"watchdog_ticks", "tick", A::watchdog_ticks, P::watchdog_ticks,
        100000.0, 100000},
+      {"self_test_torque", "Nm", A::self_test_torque, P::self_test_torque,
+       0.050000000000000003, 13107},
+      {"self_test_quiet", "128 ticks", A::self_test_quiet, P::self_test_quiet,
+       157.0, 157},
+      {"self_test_pulse", "128 ticks", A::self_test_pulse, P::self_test_pulse,
+       0.0, 0},
+      {"self_test_arms", "1", A::self_test_arms, P::self_test_arms,
+       3.0, 3},
       {"setpoint_torque", "Nm", A::setpoint_torque, P::setpoint_torque,
        0.0, 0},
       {"membrane_lower", "count", A::membrane_lower, P::membrane_lower,

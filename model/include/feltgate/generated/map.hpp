@@ -19,7 +19,7 @@ struct Map {
   static constexpr std::uint64_t scene_slots = 0x44e;
   /// While armed: words of all scenes that are refused or ramp, by address; scenes whose
   /// words act at once.
-  static constexpr std::uint64_t refused_while_armed = 0x4218e78c083b0;
+  static constexpr std::uint64_t refused_while_armed = 0xc23ee78c083b0;
   static constexpr std::uint64_t ramps_while_armed = 0x100000001000000;
   static constexpr unsigned input_scenes = 0x4;
   static constexpr int errors_borne = 7;  ///< encoder errors that are borne, less one every 2^forgive_bits ticks
@@ -27,6 +27,12 @@ struct Map {
   static constexpr int runaway_bits = 16;  ///< bits of the longest window of the wrong-polarity check [tick]
   static constexpr int runaway_windows = 2;  ///< windows on end in which the speed must grow against the commanded current
   static constexpr int growth_bits = 5;  ///< fraction bits of the velocity whose growth is watched
+  static constexpr int self_test_unit_bits = 7;  ///< bits of the ticks in a unit of the self-test's times
+  static constexpr int self_test_count_bits = 8;  ///< bits of these times
+  static constexpr int self_test_patience_bits = 17;  ///< bits of the ticks of which the second multiple ends the self-test's wait
+  static constexpr int self_test_counts = 2;  ///< counts that are an answer to the self-test
+  static constexpr int self_test_held_bit = 0;  ///< of self_test_arms: the scene begins though the lever is held
+  static constexpr int self_test_moving_bit = 1;  ///< of self_test_arms: the scene begins though the lever moves
   static constexpr int kickless_bits = 24;  ///< bits of the longest time without a kick [tick]
   static constexpr int one_channel_edges = 16;  ///< edges of one channel in a row from which it is chatter or a dead channel
   static constexpr int dead_channel_edges = 24;  ///< as many are a dead channel
@@ -72,6 +78,10 @@ struct Map {
     static constexpr int duty_gain = 40;
     static constexpr int duty_limit = 45;
     static constexpr int watchdog_ticks = 46;
+    static constexpr int self_test_torque = 51;
+    static constexpr int self_test_quiet = 37;
+    static constexpr int self_test_pulse = 38;
+    static constexpr int self_test_arms = 41;
     static constexpr int setpoint_torque = 10;
     static constexpr int membrane_lower = 1;
     static constexpr int membrane_upper = 2;
@@ -215,6 +225,10 @@ struct Map {
     static constexpr int strong = 20;
     static constexpr int runaway_ticks = 21;
     static constexpr int polarity = 22;
+    static constexpr int self_test_quiet = 37;
+    static constexpr int self_test_over = 38;
+    static constexpr int self_test_turn = 41;
+    static constexpr int self_test = 42;
     static constexpr int silent = 46;
     static constexpr int watchdog = 47;
     static constexpr int levels = 0;
@@ -362,12 +376,16 @@ struct Map {
     voltage_offset,
     hold,
     set_sum,
+    self_test_quiet,
     set_ahead,
     voltage_sum,
+    self_test_over,
     voltage_limited,
     read_voltage,
     operand_duty_gain,
     voltage,
+    self_test_turn,
+    self_test,
     duty_sum,
     duty_limited,
     read_duty,
@@ -497,12 +515,16 @@ struct Map {
       {Step::voltage_offset, 36},
       {Step::hold, 36},
       {Step::set_sum, 37},
+      {Step::self_test_quiet, 37},
       {Step::set_ahead, 38},
       {Step::voltage_sum, 38},
+      {Step::self_test_over, 38},
       {Step::voltage_limited, 39},
       {Step::read_voltage, 40},
       {Step::operand_duty_gain, 40},
       {Step::voltage, 40},
+      {Step::self_test_turn, 41},
+      {Step::self_test, 42},
       {Step::duty_sum, 44},
       {Step::duty_limited, 45},
       {Step::read_duty, 46},
@@ -547,6 +569,10 @@ struct Map {
     static constexpr int duty_gain = 40;
     static constexpr int duty_limit = 45;
     static constexpr int watchdog_ticks = 46;
+    static constexpr int self_test_torque = 51;
+    static constexpr int self_test_quiet = 37;
+    static constexpr int self_test_pulse = 38;
+    static constexpr int self_test_arms = 41;
     static constexpr int setpoint_torque = 74;
     static constexpr int membrane_lower = 97;
     static constexpr int membrane_upper = 98;
@@ -643,6 +669,9 @@ struct Map {
     static constexpr int status_encoder_error = 27;
     static constexpr int status_refused = 28;
     static constexpr int status_unkicked = 29;
+    static constexpr int status_self_test = 16;
+    static constexpr int status_self_test_width = 2;
+    static constexpr int status_testing = 18;
     static constexpr int read_faults = 794;
     static constexpr int faults_seen = 0;
     static constexpr int faults_seen_width = 16;

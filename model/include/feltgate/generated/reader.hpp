@@ -106,6 +106,18 @@ struct ParameterReader {
   auto watchdog_ticks() const {
     return word<D::P::watchdog_ticks.key()>(D::A::watchdog_ticks);
   }
+  auto self_test_torque() const {
+    return word<D::P::self_test_torque.key()>(D::A::self_test_torque);
+  }
+  auto self_test_quiet() const {
+    return word<D::P::self_test_quiet.key()>(D::A::self_test_quiet);
+  }
+  auto self_test_pulse() const {
+    return word<D::P::self_test_pulse.key()>(D::A::self_test_pulse);
+  }
+  auto self_test_arms() const {
+    return word<D::P::self_test_arms.key()>(D::A::self_test_arms);
+  }
   auto setpoint_torque() const {
     return word<D::P::setpoint_torque.key()>(D::A::setpoint_torque);
   }

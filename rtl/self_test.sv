@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// After arming: waits until the lever is at rest, gives it a torque pulse and its opposite, and looks
+// which way it goes, before the scene begins. The wrong way trips.
+// Words are compared as they come by, turns are taken in S_SELF_TEST_ARMS, a trip a clock later.
+// docs/blocks/self_test.md
+
+`default_nettype none
+
+module self_test (
+    input  logic                                             clk_i,
+    input  logic                                             rst_ni,
+    input  logic                                             armed_i,
+    input  logic                                             direct_i,      // no torque to test with
+    input  logic        [                               1:0] travel_i,      // its low bits
+    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits
+    input  logic        [                              31:0] tick_count_i,
+    input  logic        [ feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
+    input  logic        [                              31:0] param_i,
+    /* verilator lint_on UNUSEDSIGNAL */
+    output logic                                             busy_o,        // the scene waits
+    output logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0]   ahead_o,       // beyond any torque limit, or 0
+    output logic        [feltgate_map_pkg::W_STATUS_SELF_TEST-1:0] result_o,
+    output logic                                             trip_o
+);
+  localparam int UnitBit = feltgate_map_pkg::SELF_TEST_UNIT_BITS;
+  localparam int PatienceBit = feltgate_map_pkg::SELF_TEST_PATIENCE_BITS;
+  localparam int CountW = feltgate_map_pkg::SELF_TEST_COUNT_BITS;
+  localparam int Turn = feltgate_map_pkg::T_SELF_TEST_TURN;
+  localparam int Rounded = feltgate_map_pkg::T_SCENE_ROUNDED;
+  localparam int ResultW = feltgate_map_pkg::W_STATUS_SELF_TEST;
+  localparam logic [ResultW-1:0] None = '0;
+  localparam logic [ResultW-1:0] Right = ResultW'(1);
+  localparam logic [ResultW-1:0] Held = ResultW'(2);
+  localparam logic [ResultW-1:0] Moving = ResultW'(3);
+
+  // What the lever has moved by since the tick before: one count, or two, whose direction is unknown.
+  logic [1:0] now_q, before_q, step;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      now_q    <= '0;
+      before_q <= '0;
+    end else if (wave_i[feltgate_map_pkg::T_SAMPLE]) begin
+      now_q    <= travel_i;
+      before_q <= now_q;
+    end
+  end
+  assign step = now_q - before_q;
+
+  // Time in units of the tick counter: one comparator, two words.
+  logic [CountW-1:0] count_q;
+  logic unit_q, patience_q, unit, impatient, enough, quiet_q, over_q;
+  assign unit      = tick_count_i[UnitBit] != unit_q;
+  assign impatient = tick_count_i[PatienceBit] != patience_q;
+  assign enough    = count_q >= param_i[CountW-1:0];
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      quiet_q <= 1'b1;
+      over_q  <= 1'b1;
+    end else begin
+      if (wave_i[feltgate_map_pkg::T_SELF_TEST_QUIET]) quiet_q <= enough;
+      if (wave_i[feltgate_map_pkg::T_SELF_TEST_OVER]) over_q <= enough;
+    end
+  end
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      unit_q     <= 1'b0;
+      patience_q <= 1'b0;
+    end else if (wave_i[Turn]) begin
+      unit_q     <= tick_count_i[UnitBit];
+      patience_q <= tick_count_i[PatienceBit];
+    end
+  end
+
+  // One of these, or none: done.
+  logic wait_q, first_q, second_q, rest_q;
+  logic still, late_q, gives_up, begins;
+  assign still    = step == 2'd0;
+  assign gives_up = impatient && late_q;
+  assign begins   = quiet_q && still && !gives_up;
+  assign busy_o   = armed_i && (wait_q || first_q || second_q || rest_q);
+
+  // Counts since the pulse began, up to the answer, where they stay. What begins with the second pulse
+  // is no answer.
+  localparam logic signed [2:0] End = 3'(feltgate_map_pkg::SELF_TEST_COUNTS);
+  logic signed [2:0] net_q, net;
+  logic              counts, against, failed, fail_q;
+  assign counts  = step[0] && net_q != End && net_q != -End && (first_q || (second_q && net_q != '0));
+  assign net     = counts ? net_q + $signed({step[1], step[1], 1'b1}) : net_q;
+  assign against = (first_q || second_q) && net == -End;
+  assign failed  = rest_q && net_q != End;
+  assign trip_o  = wave_i[feltgate_map_pkg::T_SELF_TEST] && fail_q;
+
+  logic runs;
+  assign runs = armed_i && ((wait_q && still && !begins && !gives_up) || ((first_q || second_q) && !over_q));
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {wait_q, first_q, second_q, rest_q} <= '0;
+      result_o <= None;
+      count_q  <= '0;
+      net_q    <= '0;
+      late_q   <= 1'b0;
+      fail_q   <= 1'b0;
+    end else if (wave_i[Turn]) begin
+      // A pulse of no units, 0 >= 0, is no test.
+      if (!armed_i) wait_q <= !over_q && !direct_i;
+      else if (gives_up || begins) wait_q <= 1'b0;
+      first_q  <= armed_i && ((wait_q && begins) || (first_q && !over_q));
+      second_q <= armed_i && (over_q ? first_q : second_q);
+      rest_q   <= armed_i && over_q && second_q;
+      late_q   <= armed_i && wait_q && (late_q || impatient);
+      net_q    <= wait_q ? '0 : net;
+      count_q  <= runs ? count_q + CountW'(unit) : '0;
+      fail_q   <= armed_i && (against || (failed && !param_i[feltgate_map_pkg::SELF_TEST_HELD_BIT]) ||
+                             (wait_q && gives_up && !param_i[feltgate_map_pkg::SELF_TEST_MOVING_BIT]));
+      if (rest_q && armed_i) result_o <= failed ? Held : Right;
+      else if (wait_q && armed_i) result_o <= gives_up ? Moving : None;
+      else if (!armed_i && (over_q || direct_i)) result_o <= None;
+    end
+  end
+
+  // The limiter makes the pulse of what is beyond its limit, the word of the test.
+  logic up_q, down_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      up_q   <= 1'b0;
+      down_q <= 1'b0;
+    end else begin
+      up_q   <= wave_i[Rounded] && armed_i && first_q;
+      down_q <= wave_i[Rounded] && armed_i && second_q;
+    end
+  end
+  assign ahead_o = {down_q, {(feltgate_pkg::SCENE_TORQUE_W - 1) {up_q}}};
+endmodule
+
+`default_nettype wire

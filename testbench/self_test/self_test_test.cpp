@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// self_test: RTL against twin on every clock, and its course by hand. In closed loop:
+// start_test.cpp. Documentation: docs/blocks/self_test.md
+#include <Vself_test.h>
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "catch.hpp"
+#include "feltgate/generated/lever.hpp"
+#include "feltgate/generated/paper.hpp"
+#include "lock_step.hpp"
+#include "self_test_twin.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+using Design = FELTGATE_DESIGN;
+using Twin = SelfTest<Design>;
+
+struct Adapter {
+  static void drive(Vself_test& rtl, const Twin::In& in) {
+    rtl.armed_i = in.armed;
+    rtl.direct_i = in.direct;
+    rtl.travel_i = static_cast<std::uint8_t>(in.travel & 3);
+    rtl.tick_count_i = in.tick_count;
+    rtl.wave_i = in.wave;
+    rtl.param_i = in.param;
+  }
+  template <class Check>
+  static void compare(Check& check, const Vself_test& rtl, const Twin::Out& out) {
+    check("busy", rtl.busy_o, out.busy);
+    check("ahead", sign_extend<Design::f.scene_torque.width()>(rtl.ahead_o), out.ahead);
+    check("result", rtl.result_o, out.result);
+    check("trip", rtl.trip_o, out.trip);
+  }
+};
+using Bench = LockStep<Vself_test, Twin, Adapter>;
+
+/// What one wave works on.
+struct Wave {
+  bool armed = true, direct = false;
+  int step = 0;                       ///< counts since the wave before
+  std::uint32_t ticks = 1;            ///< by which the counter has moved
+  SelfTestLaw::Words words{2, 3, 3};  ///< quiet, pulse, arms
+};
+
+/// What a wave showed.
+struct Seen {
+  bool busy = false, trip = false;
+  int pulse = 0;
+  unsigned result = 0;
+};
+
+using Next = std::function<Wave(std::int64_t k, const Seen& before)>;
+
+/// The clocks of waves of next(wave number), with any words in the clocks between.
+struct Waves {
+  Next next;
+  Random random;
+  std::vector<Seen>* seen;
+  Twin::In in;
+  Wave wave;
+  Seen now;
+  std::int64_t k = 0;
+  int clock = 0;
+
+  Twin::In operator()(std::int64_t, const Twin::Out& out) {
+    note(out);
+    if (clock == 0) {
+      if (k > 0 && seen != nullptr) seen->push_back(now);
+      wave = next(k++, now);
+      now = {};
+      in.armed = wave.armed;
+      in.direct = wave.direct;
+      in.travel = static_cast<std::uint16_t>(in.travel + wave.step);
+      in.tick_count += wave.ticks;
+    }
+    in.wave = std::uint64_t{1} << clock;
+    in.param = static_cast<std::uint32_t>(random.bits());
+    if (clock == Map::W::self_test_quiet) in.param = wave.words.quiet;
+    if (clock == Map::W::self_test_pulse) in.param = wave.words.pulse;
+    if (clock == Map::W::self_test_arms) in.param = wave.words.arms;
+    clock = clock == Map::T::self_test ? 0 : clock + 1;
+    return in;
+  }
+  /// Of the clock before.
+  void note(const Twin::Out& out) {
+    now.busy = out.busy;
+    now.result = out.result;
+    now.trip = now.trip || out.trip;
+    if (out.ahead != 0) now.pulse = out.ahead > 0 ? 1 : -1;
+  }
+};
+
+std::vector<Seen> play(const Next& next, std::int64_t waves) {
+  std::vector<Seen> seen;
+  Bench bench("self_test", 3);
+  const std::int64_t clocks = Bench::kFirstReset + (Map::T::self_test + 1) * (waves + 1);
+  bench.run(Waves{next, Random(1), nullptr, {}, {}, {}}, clocks);
+  Twin twin;  // the RTL does the same
+  twin.reset();
+  Waves live{next, Random(1), &seen, {}, {}, {}};
+  for (std::int64_t c = 0; c < clocks; ++c) twin.clock(live(c, twin.out()));
+  REQUIRE(static_cast<std::int64_t>(seen.size()) >= waves);
+  return seen;
+}
+
+constexpr int kUnit = 1 << Map::self_test_unit_bits;
+
+std::int64_t waves_with(const std::vector<Seen>& seen, int pulse) {
+  std::int64_t n = 0;
+  for (const Seen& s : seen) n += s.pulse == pulse ? 1 : 0;
+  return n;
+}
+std::int64_t trips(const std::vector<Seen>& seen) {
+  std::int64_t n = 0;
+  for (const Seen& s : seen) n += s.trip ? 1 : 0;
+  return n;
+}
+
+/// Disarmed for two waves, then armed; `step` is what the lever does beside.
+Next start(const std::function<int(std::int64_t, const Seen&)>& step, SelfTestLaw::Words words) {
+  return [step, words](std::int64_t k, const Seen& before) {
+    Wave w;
+    w.armed = k >= 2;
+    w.words = words;
+    w.step = step(k, before);
+    return w;
+  };
+}
+int still(std::int64_t, const Seen&) { return 0; }
+
+/// So many counts towards `sign` in the first pulse, one every 50 waves, none while pulse is 0.
+std::function<int(std::int64_t, const Seen&)> answers(int counts, int in_pulse = 1) {
+  int left = counts, wait = 50;
+  return [left, wait, in_pulse](std::int64_t k, const Seen& before) mutable {
+    if (k == 0) return 0;
+    if (before.pulse != in_pulse || left == 0 || --wait > 0) return 0;
+    wait = 50;
+    const int step = left > 0 ? 1 : -1;
+    left -= step;
+    return step;
+  };
+}
+
+}  // namespace
+
+TEST_CASE("self_test: random levers, words, times and resets") {
+  std::array<std::int64_t, 4> results{};
+  std::int64_t tripped = 0;
+  for (const std::uint32_t distance : {0U, 20000U}) {
+    struct Life {
+      Random random{9};
+      Wave w{};
+      int mood = 0;
+      Wave operator()(std::int64_t, const Seen& before) {
+        if (random.one_in(w.armed ? 60 : 4)) w.armed = !w.armed;
+        if (before.trip) w.armed = false;
+        w.direct = random.one_in(w.direct ? 5 : 200);
+        w.ticks = random.one_in(10) ? 3 * kUnit : random.below(2 * kUnit);
+        if (random.one_in(30)) w.ticks = 1 << Map::self_test_patience_bits;
+        if (random.one_in(15)) mood = static_cast<int>(random.below(6));
+        w.step = 0;
+        if (mood == 1) w.step = random.one_in(4) ? 1 : 0;
+        if (mood == 2) w.step = random.one_in(4) ? -1 : 0;
+        if (mood == 3) w.step = static_cast<int>(random.below(4)) - 1;
+        if (mood == 4 && before.pulse != 0) w.step = random.one_in(3) ? before.pulse : 0;
+        if (mood == 5 && before.pulse != 0) w.step = random.one_in(3) ? -before.pulse : 0;
+        if (random.one_in(40)) {
+          w.words.quiet = random.below(4);
+          w.words.pulse = random.below(6);
+          w.words.arms = random.below(4);
+          if (random.one_in(5)) w.words.quiet = static_cast<std::uint32_t>(random.bits());
+          if (random.one_in(5)) w.words.pulse = static_cast<std::uint32_t>(random.bits());
+        }
+        return w;
+      }
+    };
+    struct Watch {
+      std::array<std::int64_t, 4>* results;
+      std::int64_t* tripped;
+      unsigned before = 0;
+      const char* operator()(const Twin::In& in, const Vself_test& rtl, const Twin&,
+                             bool in_reset) {
+        if (in_reset) return rtl.busy_o != 0 || rtl.trip_o != 0 ? "rest in a reset" : nullptr;
+        if (rtl.result_o != before) ++(*results)[rtl.result_o];
+        before = rtl.result_o;
+        *tripped += rtl.trip_o;
+        if (rtl.busy_o != 0 && !in.armed) return "busy while disarmed";
+        return nullptr;
+      }
+    };
+    Bench bench("self_test", 5);
+    bench.run(Waves{Life{}, Random(2), nullptr, {}, {}, {}}, scaled_clocks(2000000), {distance},
+              Watch{&results, &tripped});
+  }
+  CAPTURE(results, tripped);
+  for (const std::int64_t n : results) CHECK(n >= 20);
+  CHECK(tripped >= 50);
+}
+
+TEST_CASE("self_test: quiet, a pulse, its opposite of the same length, a tick of rest") {
+  const auto seen = play(start(answers(3), {2, 3, 0}), 9 * kUnit);
+  CHECK(waves_with(seen, 1) == 3 * kUnit);
+  CHECK(waves_with(seen, -1) == 3 * kUnit);
+  CHECK(trips(seen) == 0);
+  std::size_t k = 0;
+  while (!seen[k].busy) ++k;
+  CHECK(k == 2);
+  const std::size_t begin = k;
+  while (seen[k].pulse == 0) ++k;
+  CHECK(k - begin > kUnit);
+  CHECK(k - begin <= 2 * kUnit + 2);
+  while (seen[k].pulse > 0) ++k;
+  while (seen[k].pulse < 0) ++k;
+  CHECK(seen[k].pulse == 0);
+  CHECK_FALSE(seen[k].busy);  // from the end of this wave on
+  CHECK(seen[k].result == static_cast<unsigned>(SelfTestResult::right));
+  CHECK(seen.back().result == static_cast<unsigned>(SelfTestResult::right));
+  CHECK_FALSE(seen.back().busy);
+}
+
+TEST_CASE("self_test: two counts against the pulse trip at once, one is no answer") {
+  for (const unsigned arms : {0U, 3U}) {
+    const auto seen = play(start(answers(-2), {1, 3, arms}), 9 * kUnit);
+    REQUIRE(trips(seen) >= 1);
+    CHECK(waves_with(seen, 1) >= 100);
+    std::size_t k = 0;
+    while (!seen[k].trip) ++k;
+    CHECK(waves_with({seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(k) + 1}, 1) == 101);
+  }
+  for (const int counts : {1, -1}) {
+    const auto seen = play(start(answers(counts), {1, 3, 1}), 9 * kUnit);
+    CHECK(trips(seen) == 0);
+    CHECK(seen.back().result == static_cast<unsigned>(SelfTestResult::held));
+  }
+}
+
+TEST_CASE("self_test: what moves with the second pulse only is no answer") {
+  const auto seen = play(start(answers(-3, -1), {1, 3, 1}), 9 * kUnit);
+  CHECK(trips(seen) == 0);
+  CHECK(waves_with(seen, -1) == 3 * kUnit);
+  CHECK(seen.back().result == static_cast<unsigned>(SelfTestResult::held));
+}
+
+TEST_CASE("self_test: a lever that is held begins its scene or trips, as the word says") {
+  for (const unsigned arms : {0U, 1U, 2U, 3U}) {
+    const auto seen = play(start(still, {1, 2, arms}), 7 * kUnit);
+    CHECK(trips(seen) == ((arms & 1U) != 0 ? 0 : 1));
+    CHECK(seen.back().result == static_cast<unsigned>(SelfTestResult::held));
+    CHECK_FALSE(seen.back().busy);
+  }
+}
+
+TEST_CASE("self_test: a lever that never rests gets no pulse, and patience ends") {
+  for (const unsigned arms : {0U, 1U, 2U, 3U}) {
+    const auto seen = play(
+        [arms](std::int64_t k, const Seen&) {
+          Wave w;
+          w.armed = k >= 2;
+          w.words = {2, 3, arms};
+          w.ticks = kUnit / 2;
+          w.step = k % 3 == 0 ? 1 : 0;
+          return w;
+        },
+        3LL << (Map::self_test_patience_bits - Map::self_test_unit_bits + 1));
+    CHECK(waves_with(seen, 1) == 0);
+    CHECK(trips(seen) == ((arms & 2U) != 0 ? 0 : 1));
+    CHECK(seen.back().result == static_cast<unsigned>(SelfTestResult::moving));
+    std::int64_t busy = 0;
+    for (const Seen& s : seen) busy += s.busy ? 1 : 0;
+    const std::int64_t turn = 1LL << (Map::self_test_patience_bits - Map::self_test_unit_bits + 1);
+    CHECK(busy > turn);
+    CHECK(busy <= 2 * turn);
+  }
+}
+
+TEST_CASE("self_test: no pulse, no test; in voltage mode neither") {
+  for (const bool direct : {false, true}) {
+    const auto seen = play(
+        [direct](std::int64_t k, const Seen&) {
+          Wave w;
+          w.armed = k >= 2;
+          w.direct = direct;
+          w.words = {0, direct ? 3U : 0U, 0};
+          return w;
+        },
+        5 * kUnit);
+    for (const Seen& s : seen) {
+      if (s.busy || s.trip || s.pulse != 0 || s.result != 0) FAIL("a test");
+    }
+  }
+}

@@ -88,6 +88,7 @@ class BitTimes {
   /// By the names of the bits; of those that were ever set.
   template <std::size_t N>
   std::map<std::string, Acted> times(const std::array<const char*, N>& names, double tick_s) {
+    static_assert(N <= kBits, "a name without a bit");
     settle();
     std::map<std::string, Acted> all;
     for (std::size_t bit = 0; bit < N; ++bit) {
@@ -103,7 +104,8 @@ class BitTimes {
 
   unsigned word_ = 0;
   std::int64_t run_ = 0, ticks_so_far_ = 0;
-  std::array<std::int64_t, 8> ticks_{}, first_{};
+  static constexpr std::size_t kBits = 16;
+  std::array<std::int64_t, kBits> ticks_{}, first_{};
 };
 
 /// Follows a run and ends with what was felt.

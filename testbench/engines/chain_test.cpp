@@ -86,6 +86,7 @@ class Beside {
     in.scene = o.scene;
     in.mode = host_.mode();
     in.restart = host_.restart(o.armed, o.scene);
+    in.relief = {(o.limits & limit::chatter) != 0, (o.limits & limit::hold) != 0};
     chain_->tick(in);
     seen.add(o, in.mode);
     const ChainRaw& r = *chain_->raw();

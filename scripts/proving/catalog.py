@@ -25,7 +25,8 @@ class Property:
     says: str
     defect: Path  # the patch that must break it
     ports: tuple
-    from_any: bool  # the defect shows too late after a reset: from any state that meets the rest
+    from_any: object  # the defect shows too late after a reset: true, from any state that meets the rest;
+    # "alone", from any state, where the assertion is inductive without the rest
 
 
 @dataclass(frozen=True)

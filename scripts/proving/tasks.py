@@ -33,8 +33,11 @@ class Task:
             return engine.solve(tools, folder, "all.smt2", ["-i", "-t", str(proof.depth)], show)
         if self.kind == COVERS:
             return engine.solve(tools, folder, "covers.smt2", ["-c", "-t", str(proof.cover_depth)])
-        bmc = ["-t", str(proof.defect_depth)]
         step = ["-i", "-t", str(proof.depth)]
+        for entry in proof.properties:
+            if entry.defect == self.patch and entry.from_any == "alone":
+                self.check_alone(tools, root, folder / "whole", entry, step)
+        bmc = ["-t", str(proof.defect_depth)]
         return {
             entry.name: engine.solve(
                 tools, folder, f"{entry.name}.smt2", step if entry.from_any else bmc, show
@@ -42,6 +45,13 @@ class Task:
             for entry in proof.properties
             if entry.defect == self.patch
         }
+
+
+    def check_alone(self, tools, root, folder, entry, options):
+        """Without the defect the assertion must be inductive by itself, or its failure says nothing."""
+        engine.elaborate(tools, root, self.proof, self.design, folder, None, entry.name)
+        if not engine.solve(tools, folder, f"{entry.name}.smt2", options).passed:
+            raise engine.Broken(f"{self.proof.key}: {entry.name} is not inductive alone; take another defect")
 
 
 @dataclass

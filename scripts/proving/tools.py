@@ -103,8 +103,8 @@ def copy_sources(root, proof, design, patch, folder):
     return [*(Path(path).name for path in paths), "proof.sv"]
 
 
-def elaborate(tools, root, proof, design, folder, patch=None):
-    """Writes all.smt2, and PROPERTY.smt2 with that assertion alone where there is a patch."""
+def elaborate(tools, root, proof, design, folder, patch=None, alone=None):
+    """Writes all.smt2, and PROPERTY.smt2 with that assertion alone: of a patch, and of the one named alone."""
     folder.mkdir(parents=True, exist_ok=True)
     names = copy_sources(root, proof, design, patch, folder)
     defines = "".join(f" -D {name}" for name in [*proof.defines, *split_design(design)[2]])
@@ -125,11 +125,13 @@ def elaborate(tools, root, proof, design, folder, patch=None):
         "write_smt2 -wires covers.smt2",
     ]
     outputs = ["all.smt2", "covers.smt2"]
-    if patch:
+    if patch or alone:
         for entry in proof.properties:
-            if entry.defect == patch:
+            if entry.name == alone or (patch and entry.defect == patch):
                 others = f"t:$assert c:{entry.name} %d"
-                rest = f"chformal -assert -assert2assume {others}" if entry.from_any else f"delete {others}"
+                rest = f"delete {others}"
+                if entry.from_any is True:
+                    rest = f"chformal -assert -assert2assume {others}"
                 script += ["design -load all", rest, f"write_smt2 -wires {entry.name}.smt2"]
                 outputs.append(f"{entry.name}.smt2")
     (folder / "elaborate.ys").write_text("\n".join(script) + "\n", encoding="utf-8")

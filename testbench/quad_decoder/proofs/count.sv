@@ -75,7 +75,9 @@ module count_proof (
       .error_count_o(),
       .rejected_count_o(),
       .index_position_o(),
-      .index_seen_o()
+      .index_seen_o(),
+      .levels_o(),
+      .index_wrong_o()
   );
   (* hierconn *) wire signed [31:0] \u_dut.count_q ;
   wire signed [31:0] count = \u_dut.count_q ;

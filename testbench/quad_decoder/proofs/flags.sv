@@ -22,7 +22,13 @@ module flags_proof (
   logic        [15:0] travel, error_count, rejected_count;
   logic signed [ 1:0] step;
   logic               error, illegal, index_seen;
-  quad_decoder u_dut (
+  localparam int N = 4096;  // of the index: any power of two
+  localparam int W = $clog2(N);
+  logic [1:0] levels;
+  logic       index_wrong;
+  quad_decoder #(
+      .IndexCounts(N)
+  ) u_dut (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
       .a_i(pins_i[0]),
@@ -40,7 +46,9 @@ module flags_proof (
       .error_count_o(error_count),
       .rejected_count_o(rejected_count),
       .index_position_o(index_position),
-      .index_seen_o(index_seen)
+      .index_seen_o(index_seen),
+      .levels_o(levels),
+      .index_wrong_o(index_wrong)
   );
   (* hierconn *) wire signed [31:0] \u_dut.count_q ;
   wire signed [31:0] count = \u_dut.count_q ;
@@ -98,6 +106,25 @@ module flags_proof (
   end
   always_comb if (rst_ni && past_ok_q) assume (filter_i == filter_q);
 
+  logic [2:0] taken;  // a new level was taken in the clock before
+  logic       rises;
+  assign taken = (after_q && primed_q) ? level ^ level_q : 3'b000;
+  assign rises = taken[2] && level[2];
+
+  // The count at the first index, and how far an index is from a whole revolution after it.
+  (* hierconn *) wire [W-1:0] \u_dut.g_index.first_q ;
+  wire [W-1:0] first = \u_dut.g_index.first_q ;
+  logic        [W-1:0] first_q;
+  logic signed [W-1:0] slip, slip_q;
+  logic                wrong_q, had_seen_q;
+  assign slip = count[W-1:0] - first_q;
+  always_ff @(posedge clk_i) begin
+    if (rises && after_q && !index_seen) first_q <= count[W-1:0];
+    slip_q     <= slip;
+    wrong_q    <= index_wrong;
+    had_seen_q <= index_seen;
+  end
+
   // The synchronised levels of the last clocks, the newest in [0].
   logic [16:0] seen_a_q, seen_b_q, seen_z_q;
   always_ff @(posedge clk_i) begin
@@ -106,10 +133,6 @@ module flags_proof (
     seen_z_q <= {seen_z_q[15:0], sync[2]};
   end
 
-  logic [2:0] taken;  // a new level was taken in the clock before
-  assign taken = (after_q && primed_q) ? level ^ level_q : 3'b000;
-  logic rises;
-  assign rises = taken[2] && level[2];
 
   always_comb begin
     if (rst_ni && past_ok_q && after_q) begin
@@ -122,6 +145,11 @@ module flags_proof (
                                 (rejects_q != 16'hffff && rejected_count == rejects_q + 16'd1));
       index_latches_position: assert (index_position == (rose_q && twice_q ? count_q - zero_q : latched_q));
       index_seen_is_sticky: assert (index_seen == ((rose_q && twice_q) || (seen_q && !clear_q)));
+      slipped_index_is_flagged: assert (index_wrong == ((rose_q && twice_q && had_seen_q &&
+          (slip_q >= (13'sd1 <<< feltgate_map_pkg::INDEX_WIDTH_BITS) ||
+           slip_q < -(13'sd1 <<< feltgate_map_pkg::INDEX_WIDTH_BITS))) || (wrong_q && !clear_q)));
+      levels_are_taken: assert (levels == level[1:0]);
+      inside_first: assert (!index_seen || first == first_q);
       inside_index: assert (index == rises);
     end
   end

@@ -6,7 +6,8 @@
 include_guard(GLOBAL)
 
 set(extremes_folder "${FELTGATE_ROOT}/testbench/extremes")
-feltgate_verilate(extremes_decoder quad_decoder "${FELTGATE_ROOT}/rtl/quad_decoder.sv"
+feltgate_verilate(extremes_decoder quad_decoder
+  "${FELTGATE_MAP_PACKAGE};${FELTGATE_ROOT}/rtl/quad_decoder.sv"
   -GResetPosition=2147483000)
 set(extremes_blocks extremes_decoder)
 foreach(mode "" _truncate _convergent)  # half up, floor, convergent

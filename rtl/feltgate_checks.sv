@@ -69,7 +69,7 @@ module feltgate_checks;
         feltgate_pkg::DUTY_W <= feltgate_pkg::LIMITER_W)) begin : g_check_limiter
     LIMITER_W_must_hold_torque_current_voltage_and_duty missing ();
   end
-  if (!(feltgate_pkg::LIMITER_W <= 32 && feltgate_pkg::SCENE_DISTANCE_W <= 32))
+  if (!(feltgate_pkg::WITH_ADDEND_W <= 32 && feltgate_pkg::SCENE_DISTANCE_W <= 32))
   begin : g_check_operands
     every_operand_but_a_difference_must_fit_32_bits missing ();
   end

@@ -230,12 +230,13 @@ module feltgate_core #(
   );
 
   logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] control_ahead, control_late;
+  logic signed [feltgate_pkg::WITH_ADDEND_W-1:0] applied;
   limiter u_limiter (
       .clk_i(clk_i),
-      .valid_i(wave[feltgate_map_pkg::S_TORQUE_LIMIT-1] ||
+      .valid_i(wave[feltgate_map_pkg::S_TORQUE_LIMIT-1] || wave[feltgate_map_pkg::S_VOLTAGE_STEP-1] ||
                wave[feltgate_map_pkg::S_CURRENT_LIMIT-1] || wave[feltgate_map_pkg::S_DEAD_VOLTAGE-1] ||
-               wave[feltgate_map_pkg::S_VOLTAGE_LIMIT-1] || wave[feltgate_map_pkg::S_DUTY_LIMIT-1]),
-      .torque_i(wave[feltgate_map_pkg::S_TORQUE_LIMIT-1]), .voltage_i(wave[feltgate_map_pkg::S_VOLTAGE_LIMIT-1]),
+               wave[feltgate_map_pkg::S_VOLTAGE_WINDOW-1] || wave[feltgate_map_pkg::S_DUTY_LIMIT-1]),
+      .torque_i(wave[feltgate_map_pkg::S_TORQUE_LIMIT-1]), .voltage_i(wave[feltgate_map_pkg::S_VOLTAGE_WINDOW-1]),
       .duty_i(wave[feltgate_map_pkg::S_DUTY_LIMIT-1]),
       .ahead_i(control_ahead | feltgate_pkg::LIMITER_INPUT_W'(scene_ahead | pulse_ahead)),
       .late_i(control_late | feltgate_pkg::LIMITER_INPUT_W'(scene_late)),
@@ -266,8 +267,7 @@ module feltgate_core #(
       .tau_ref_i(tau_ref_o),
       .ahead_o(control_ahead),
       .late_o(control_late),
-      .limited_i(limited),
-      .beyond_i(beyond),
+      .limited_i(limited), .beyond_i(beyond), .applied_o(applied),
       .region_high_o(region_high),
       .current_ref_o(current_ref_o),
       .voltage_o(voltage_o),
@@ -355,7 +355,7 @@ module feltgate_core #(
       .velocity_difference_i(velocity_difference),
       .observer_difference_i(observer_difference),
       .distance_i(distance),
-      .limited_i(limited),
+      .limited_i(applied),
       .velocity_i(velocity_o),
       .tau_hat_i(tau_hat_o),
       .tau_ref_i(tau_ref_o),

@@ -16,7 +16,7 @@ module operand_bus (
     input  logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] velocity_difference_i,
     input  logic signed [feltgate_pkg::OBSERVER_DIFFERENCE_W-1:0] observer_difference_i,
     input  logic signed [    feltgate_pkg::SCENE_DISTANCE_W-1:0]  distance_i,
-    input  logic signed [            feltgate_pkg::LIMITER_W-1:0] limited_i,
+    input  logic signed [        feltgate_pkg::WITH_ADDEND_W-1:0] limited_i,
     // held
     input  logic signed [           feltgate_pkg::VELOCITY_W-1:0] velocity_i,
     input  logic signed [             feltgate_pkg::TORQUE_W-1:0] tau_hat_i,

@@ -3,7 +3,7 @@
 //
 // Torque control: torque reference to current, voltage and duty.
 //   I = Jn*Kp/Ktn * tau_ref + (1 - Jn*Kp)/Ktn * tau_hat        limited, shown to the observer
-//   V = gain*I + Ke*w + dead voltage                           limited
+//   V = gain*I + Ke*w + dead voltage; V - Ke*w                 limited: the window around Ke*w
 //   duty = V * period/supply                                   limited
 // Sums here, limits in the core's one limiter: a term is at its input in the clock of the limit's
 // word, its result on limited_i in the clock after and in the output in the clock after that.
@@ -26,6 +26,7 @@ module torque_control (
     output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] late_o,   // in the clock of its limit
     input  logic signed [             feltgate_pkg::LIMITER_W-1:0] limited_i,
     input  logic                                                   beyond_i,
+    output logic signed [           feltgate_pkg::WITH_ADDEND_W-1:0] applied_o,  // limited_i; with the back-EMF
     output logic                                                   region_high_o,
     output logic signed [             feltgate_pkg::CURRENT_W-1:0] current_ref_o,
     output logic signed [             feltgate_pkg::VOLTAGE_W-1:0] voltage_o,
@@ -40,6 +41,9 @@ module torque_control (
   localparam int CurrentSumW = feltgate_pkg::CURRENT_SUM_W;
   localparam int VoltageSumW = feltgate_pkg::VOLTAGE_SUM_W;
   localparam int DutySumW = feltgate_pkg::DUTY_SUM_W;
+  localparam int EmfW = feltgate_pkg::EMF_W;
+  localparam bit EmfInLaw = feltgate_pkg::EMF_IN_LAW != 0;
+  localparam int AppliedSumW = feltgate_pkg::WITH_ADDEND_W;
   localparam int SumW = (CurrentSumW > VoltageSumW) ? CurrentSumW : VoltageSumW;
   localparam int Wide = feltgate_pkg::LIMITER_INPUT_W;
   // Fraction bits that each product has and its sum has not.
@@ -59,15 +63,18 @@ module torque_control (
   localparam int Gain = feltgate_map_pkg::M_VOLTAGE_GAIN;
   localparam int Duty = feltgate_map_pkg::M_DUTY_GAIN;
   localparam int SetPoint = feltgate_map_pkg::S_VOLTAGE_SETPOINT;
+  localparam int SetStep = feltgate_map_pkg::S_VOLTAGE_STEP;
   localparam int CurrentLimit = feltgate_map_pkg::S_CURRENT_LIMIT;
-  localparam int VoltageLimit = feltgate_map_pkg::S_VOLTAGE_LIMIT;
+  localparam int DeadVoltage = feltgate_map_pkg::S_DEAD_VOLTAGE;
+  localparam int Window = feltgate_map_pkg::S_VOLTAGE_WINDOW;
 
   localparam logic [1:0] Open = 2'd1;
   localparam logic [1:0] Voltage = 2'd2;
 
-  logic direct, follows;
+  logic direct, follows, ramps;
   assign direct  = mode_i == Voltage;
   assign follows = !direct && armed_i;
+  assign ramps   = direct && armed_i;
 
   logic carry;
   rounding #(
@@ -78,44 +85,67 @@ module torque_control (
       .up_o(carry)
   );
 
-  // What the sums start from: one of them at a time is not 0.
-  logic signed [VoltageSumW-1:0] emf_q, fixed_q;
-  logic signed [CurrentSumW-1:0] kept_q;
+  // What comes from the limiter, and in three clocks what is added to it: the voltage of the tick
+  // before to a step of its ramp; less the back-EMF to the dead voltage, where the law does not give
+  // the back-EMF back; the back-EMF to what the window let through.
+  logic signed [         EmfW-1:0] emf_q;
+  logic signed [  AppliedSumW-1:0] addend_q, applied;
+  assign applied   = AppliedSumW'(limited_i) + addend_q;
+  assign applied_o = applied;
   always_ff @(posedge clk_i) begin
-    if (direct) emf_q <= '0;
-    else if (wave_i[Emf]) emf_q <= VoltageSumW'(product_i >>> EmfDrop);
+    if (wave_i[Emf]) emf_q <= EmfW'(product_i >>> EmfDrop);
+    if (wave_i[SetStep] && ramps) addend_q <= AppliedSumW'(voltage_o);
+    else if (wave_i[Window] && armed_i) addend_q <= AppliedSumW'(emf_q);
+    else if (wave_i[DeadVoltage] && !EmfInLaw && !direct) addend_q <= -AppliedSumW'(emf_q);
+    else addend_q <= '0;
+  end
+
+  // What the sums start from: one of them at a time is not 0.
+  logic signed [VoltageSumW-1:0] fixed_q;
+  logic signed [CurrentSumW-1:0] kept_q;
+  logic                          fixes;
+  assign fixes = direct ? wave_i[feltgate_map_pkg::T_DIRECT_VOLTAGE] : wave_i[feltgate_map_pkg::T_VOLTAGE_OFFSET];
+  always_ff @(posedge clk_i) begin
     if (mode_i == Open || wave_i[CurrentLimit]) kept_q <= '0;
     else if (wave_i[TauHat]) kept_q <= CurrentSumW'(product_i >>> TauHatDrop);
-    if (wave_i[VoltageLimit]) fixed_q <= '0;
-    else if (wave_i[feltgate_map_pkg::T_VOLTAGE_OFFSET]) fixed_q <= VoltageSumW'(limited_i) + emf_q;
+    if (wave_i[Window]) fixed_q <= '0;
+    else if (fixes) fixed_q <= VoltageSumW'(applied);
   end
 
   // Terms, each 0 outside its clock, so that the limiter's input is but an or: clearing a register
   // costs no logic, selecting does. Disarmed, current and voltage are 0 before they reach the limiter.
   logic signed [ feltgate_pkg::TORQUE_W-1:0] border_q;
-  logic signed [feltgate_pkg::VOLTAGE_W-1:0] set_q;
+  logic signed [feltgate_pkg::VOLTAGE_W : 0] error_q;
   logic signed [CurrentSumW-1:0] direct_q;
   logic signed [VoltageSumW-1:0] dead_q;
   logic signed [       SumW-1:0] base, product, sum_q;
   logic signed [   DutySumW-1:0] duty_q;
+  logic                          less_emf;
+  assign less_emf = wave_i[Gain] && direct;
   assign base    = SumW'(kept_q) | SumW'(fixed_q);
-  assign product = wave_i[Gain] ? SumW'(product_i >>> GainDrop) : SumW'(product_i >>> TauRefDrop);
+  assign product = less_emf ? ~SumW'(emf_q)
+                            : wave_i[Gain] ? SumW'(product_i >>> GainDrop) : SumW'(product_i >>> TauRefDrop);
   always_ff @(posedge clk_i) begin
     if (!(wave_i[feltgate_map_pkg::T_BORDER] || wave_i[feltgate_map_pkg::T_HOLD_SIZE])) border_q <= '0;
     else border_q <= tau_ref_i;
-    if (!(wave_i[Direct] && direct && armed_i)) direct_q <= '0;
+    if (!(wave_i[Direct] && ramps)) direct_q <= '0;
     else direct_q <= CurrentSumW'(product_i >>> DirectDrop);
     if (!(wave_i[Slope] && !direct)) dead_q <= '0;
     else dead_q <= VoltageSumW'(product_i >>> DeadDrop);
-    if (!(wave_i[feltgate_map_pkg::T_SET_SUM] && direct && armed_i)) set_q <= '0;
-    else set_q <= voltage_o;
-    if (!((wave_i[TauRef] || wave_i[Gain]) && follows)) sum_q <= '0;
-    else sum_q <= product + base;
+    if (!(wave_i[SetPoint] && ramps)) error_q <= '0;
+    else error_q <= $signed(param_i[feltgate_pkg::VOLTAGE_W-1:0]) - voltage_o;
+    if (!((wave_i[TauRef] && follows) || (wave_i[Gain] && armed_i))) sum_q <= '0;
+    else sum_q <= product + base + SumW'({1'b0, less_emf});
     if (!wave_i[Duty]) duty_q <= '0;
     else duty_q <= DutySumW'(product_i >>> DutyDrop) + DutySumW'({1'b0, carry});
   end
-  assign ahead_o = Wide'(border_q) | Wide'(direct_q) | Wide'(dead_q) | Wide'(set_q);
-  assign late_o  = Wide'(sum_q) | Wide'(duty_q);
+  assign ahead_o = Wide'(border_q) | Wide'(direct_q) | Wide'(dead_q);
+  assign late_o  = Wide'(sum_q) | Wide'(duty_q) | Wide'(error_q);
+
+  // No voltage beyond its port: what is applied is below the supply, so this is but for the estimate.
+  localparam int VoltageW = feltgate_pkg::VOLTAGE_W;
+  logic voltage_over;
+  assign voltage_over = applied[AppliedSumW-1:VoltageW-1] != {(AppliedSumW - VoltageW + 1) {applied[AppliedSumW-1]}};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -133,9 +163,11 @@ module torque_control (
         current_ref_o   <= limited_i[feltgate_pkg::CURRENT_W-1:0];
         limit_current_o <= beyond_i && armed_i;
       end
-      if (wave_i[SetPoint] && direct) voltage_o <= param_i[feltgate_pkg::VOLTAGE_W-1:0];
-      else if (wave_i[feltgate_map_pkg::T_VOLTAGE]) voltage_o <= limited_i[feltgate_pkg::VOLTAGE_W-1:0];
-      if (wave_i[feltgate_map_pkg::T_VOLTAGE]) limit_voltage_o <= beyond_i && armed_i;
+      if (wave_i[feltgate_map_pkg::T_VOLTAGE]) begin
+        voltage_o <= voltage_over ? {applied[AppliedSumW-1], {(VoltageW - 1) {~applied[AppliedSumW-1]}}}
+                                  : applied[VoltageW-1:0];
+        limit_voltage_o <= beyond_i && armed_i;
+      end
       if (wave_i[feltgate_map_pkg::T_DUTY]) begin
         duty_o       <= limited_i[feltgate_pkg::DUTY_W-1:0];
         limit_duty_o <= beyond_i;

@@ -127,6 +127,9 @@ FELTGATE_LANES void drive(BatchLanes<D, Lanes>& b) {
   for (std::size_t k = 0; k < Lanes; ++k) {
     const typename BatchLanes<D, Lanes>::Reader words(&b, k);
     TorqueControlStep<D, FixedLanes> control;
+    if constexpr (M == Mode::voltage) {
+      control.voltage = number<D::f.voltage.key()>(b.voltage[k]);  // of the tick before
+    }
     control.tick(words, Armed, M, number<D::f.torque.key()>(b.tau_ref[k]),
                  number<D::f.torque.key()>(b.tau_hat[k]),
                  number<D::f.velocity.key()>(b.velocity[k]));

@@ -67,11 +67,11 @@ class ShiftChain {
     Word velocity_a1, torque_constant, inertia_gain, observer_a1, emf_constant, observer_gain,
         voltage_setpoint, torque_limit, ramp_step, voltage_to_current, torque_gain,
         dead_voltage_slope, region_torque, current_limit, voltage_gain, voltage_gain_high,
-        dead_voltage, voltage_limit, duty_gain, duty_limit, setpoint_torque, membrane_lower,
-        membrane_upper, membrane_torque, compression_contact, compression_stiffness, tension_rest,
-        tension_stiffness, damper_damping, attract_centre, attract_strength, attract_core,
-        attract_core_slope, repel_centre, repel_strength, repel_core, repel_core_slope,
-        wall_contact, wall_stiffness, wall_damping;
+        dead_voltage, voltage_window, voltage_step, duty_gain, duty_limit, setpoint_torque,
+        membrane_lower, membrane_upper, membrane_torque, compression_contact, compression_stiffness,
+        tension_rest, tension_stiffness, damper_damping, attract_centre, attract_strength,
+        attract_core, attract_core_slope, repel_centre, repel_strength, repel_core,
+        repel_core_slope, wall_contact, wall_stiffness, wall_damping;
   };
 
   using P = Lever::P;
@@ -190,30 +190,30 @@ class ShiftChain {
   void control(bool armed, int mode) {
     const bool direct = mode == 2;
     const bool high = tau_ref > p_.region_torque || tau_ref < -p_.region_torque;
-    Word sum = 0, offset = 0, slope = 0;
+    const Word emf = (velocity * p_.emf_constant) >> drop(P::emf_constant, 21, 14);
+    bool unused = false;
+    Word sum = 0, volts = 0;  // volts: less the back-EMF
     if (direct) {
-      sum = (p_.voltage_setpoint * p_.voltage_to_current) >> drop(P::voltage_to_current, 14, 16);
-      offset = p_.voltage_setpoint;
+      sum = (voltage * p_.voltage_to_current) >> drop(P::voltage_to_current, 14, 16);
+      volts = voltage + limited(p_.voltage_setpoint - voltage, p_.voltage_step, &unused) - emf;
     } else {
       const Word by_hat =
           mode == 1 ? 0 : (tau_hat * p_.observer_gain) >> drop(P::observer_gain, 16, 16);
       sum = ((tau_ref * p_.torque_gain) >> drop(P::torque_gain, 16, 16)) + by_hat;
-      offset = (velocity * p_.emf_constant) >> drop(P::emf_constant, 21, 14);
-      slope = (tau_ref * p_.dead_voltage_slope) >> drop(P::dead_voltage_slope, 16, 14);
+      const Word slope = (tau_ref * p_.dead_voltage_slope) >> drop(P::dead_voltage_slope, 16, 14);
+      volts = wrapped(limited(slope, p_.dead_voltage, &unused), 22);
     }
     const Word asked = wrapped(limited(sum, p_.current_limit, &limit_current), 22);
     current = armed ? asked : 0;
     limit_current = limit_current && armed;
 
-    bool unused = false;
-    Word volts = offset + wrapped(limited(slope, p_.dead_voltage, &unused), 22);
     if (!direct)
       volts += (current * (high ? p_.voltage_gain_high : p_.voltage_gain)) >>
                drop(P::voltage_gain, 16, 14);
-    const Word limit = wrapped(limited(volts, p_.voltage_limit, &limit_voltage, 20), 22);
-    const Word applied = armed ? limit : 0;
+    const Word inside = limited(volts, p_.voltage_window, &limit_voltage, 20);
+    const Word applied = armed ? inside + emf : 0;
     limit_voltage = limit_voltage && armed;
-    voltage = wrapped(applied, 20);
+    voltage = saturated(applied, 19);
     duty = wrapped(limited(half_up(applied * p_.duty_gain, drop(P::duty_gain, 14, 0)),
                            p_.duty_limit, &limit_duty, 13),
                    13);

@@ -93,6 +93,7 @@ class Chain {
   Parts parts() {
     Parts p;
     p.velocity = velocity().upper();
+    velocity_error_ = from_above(p.velocity);
     p.tau_ref = detail::scene_error(c_, region_.scene, level_, rounds_.scenes, p.velocity,
                                     real_velocity_.upper());
     const Interval one(1.0);
@@ -187,7 +188,15 @@ class Chain {
           level_ == Level::quantised ? 0.0 : std::ldexp(0.5, -c_.formats.voltage.fraction);
       const Interval dropped = detail::truncation_error(
           c_.formats.voltage.fraction + fraction_of("voltage_to_current"), c_.formats.current);
-      return by.used * Interval(half) +
+      // The ramped set-point, or an end of the window around the back-EMF: no step grows either.
+      const Pair ke = of("emf_constant");
+      const Interval end =
+          ke.used * velocity_error_ + ke.change() * real_velocity_ + of("voltage_window").change() +
+          from_above(magnitude(only(
+              rounds_.torque_control,
+              detail::truncation_error(c_.formats.velocity.fraction + fraction_of("emf_constant"),
+                                       c_.formats.voltage))));
+      return by.used * Interval(std::max(half, end.upper())) +
              by.change() * Interval(std::ldexp(1.0, c_.formats.voltage.integer)) +
              from_above(magnitude(only(rounds_.torque_control, dropped)));
     }
@@ -262,7 +271,7 @@ class Chain {
   Rounding rounds_;
   Gains& gains_;
   Pair a_, g_, k_, alpha_, limit_;
-  Interval used_gain_, real_gain_, counts_, real_velocity_, observed_;
+  Interval used_gain_, real_gain_, counts_, real_velocity_, observed_, velocity_error_;
 };
 
 SaturationFree saturation_free(const ChainNumbers& c) {

@@ -32,6 +32,9 @@ struct Design {
   double kv_low = 0, kv_high = 0, region_nm = 0;
   double dead_voltage_v = 0, dead_voltage_linear_nm = 0;
   double resistance_ohm = 0, emf_constant_v_s_rad = 0;
+  double motor_current_limit_a =
+      0;                           ///< of the window around the back-EMF; 0: what the law asks for
+  double voltage_ramp_v_s = 2400;  ///< of direct voltage mode
   std::int64_t pwm_hz = 0;
   int pwm_mode = 0, motor_polarity = 0;
   double dead_time_s = 0, supply_v = 0;

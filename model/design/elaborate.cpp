@@ -54,6 +54,12 @@ void check_signal_widths(const Design& d) {
   check_fits(d, "formats.torque", "the torque", d.torque.width(), fabric::word_bits);
   check_fits(d, "formats.current", "the current", d.current.width(), fabric::word_bits);
   check_fits(d, "formats.voltage", "the voltage", d.voltage.width(), fabric::word_bits);
+  if (d.supply_v >= std::ldexp(1.0, d.voltage.integer)) {
+    d.fail("pwm.supply_v",
+           fmt::format("the supply of {} V does not fit the voltage's format {}", text(d.supply_v),
+                       text(d.voltage)),
+           "lower it, or use more integer bits");
+  }
 }
 
 void check_resolution(const Elaborated& e) {

@@ -35,6 +35,15 @@ std::map<std::string, Value> parameter_values(const Design& d) {
   const double charge = d.charge_nm_rad2 / (q * q);
   // |x| < core on whole counts is |x| <= ceil(core) - 1.
   const double core = std::max(0.0, std::ceil(d.charge_core_rad / q) - 1);
+  // Without a limit of the motor's own: what the law asks for at stall.
+  const double law_a =
+      model ? d.current_limit_a
+            : std::max(d.kv_low, d.kv_high) * one_ohm * d.current_limit_a / d.resistance_ohm;
+  const double current_a = d.motor_current_limit_a > 0 ? d.motor_current_limit_a : law_a;
+  // Whole bits, at least one: exact in every engine.
+  const double step_v = std::ldexp(
+      std::max(1.0, std::round(std::ldexp(d.voltage_ramp_v_s / tick_hz, d.voltage.fraction))),
+      -d.voltage.fraction);
   return {
       {"velocity_a1", {low_pass_a1(d.velocity_cutoff_rad_s, d.tick_s()), "velocity.cutoff_rad_s"}},
       {"observer_a1", {low_pass_a1(d.observer_cutoff_rad_s, d.tick_s()), "observer.cutoff_rad_s"}},
@@ -50,11 +59,12 @@ std::map<std::string, Value> parameter_values(const Design& d) {
       {"polarity_speed", {d.polarity_speed_rad_s, "supervisor.polarity_speed_rad_s"}},
       {"polarity_current", {d.polarity_current_a, "supervisor.polarity_current_a"}},
       {"polarity_ticks", {std::ceil(d.polarity_time_s * tick_hz), "supervisor.polarity_time_s"}},
-      {"emf_constant", {model ? d.emf_constant_v_s_rad : 0.0, "motor.emf_constant_v_s_rad"}},
+      {"emf_constant", {d.emf_constant_v_s_rad, "motor.emf_constant_v_s_rad"}},
       {"observer_gain",
        {std::abs(observer_part) < 1e-12 ? 0.0 : observer_part / d.torque_constant_nm_a,
         "observer.torque_constant_nm_a"}},
       {"voltage_setpoint", {0.0, "voltage.law"}},
+      {"voltage_step", {step_v, "voltage.ramp_v_s"}},
       {"torque_limit", {d.torque_limit_nm, "control.torque_limit_nm"}},
       {"ramp_step", {d.ramp_nm_s / tick_hz, "control.ramp_nm_s"}},
       {"voltage_to_current",
@@ -74,7 +84,8 @@ std::map<std::string, Value> parameter_values(const Design& d) {
        {model ? d.resistance_ohm : d.kv_high * one_ohm,
         model ? "motor.resistance_ohm" : "voltage.kv_high"}},
       {"dead_voltage", {dead_v, "voltage.dead_voltage_v"}},
-      {"voltage_limit", {d.supply_v, "pwm.supply_v"}},
+      {"voltage_window",
+       {std::min(d.resistance_ohm * current_a + dead_v, d.supply_v), "motor.resistance_ohm"}},
       {"duty_gain", {d.pwm_period_clocks() / d.supply_v, "pwm.supply_v"}},
       {"duty_limit", {static_cast<double>(d.pwm_period_clocks()), "pwm.frequency_hz"}},
       {"watchdog_ticks", {std::ceil(d.watchdog_s * tick_hz), "supervisor.watchdog_s"}},

@@ -81,6 +81,7 @@ void read_voltage(config::TomlReader& r, Design& d) {
   const std::vector<std::string> laws{"regions", "motor_model"};
   d.voltage_law = laws[r.choice("law", laws)];
   d.dead_voltage_linear_nm = r.number("dead_voltage_linear_nm", {1e-4, 1.0});
+  if (r.has("ramp_v_s")) d.voltage_ramp_v_s = r.number("ramp_v_s", {1.0, 1e6});
   if (d.voltage_law == "regions") {
     d.kv_low = r.number("kv_low", {0.0, 100.0});
     d.kv_high = r.number("kv_high", {0.0, 100.0});
@@ -250,6 +251,9 @@ Design design_of(const toml::table& root, const std::string& path) {
   section("motor", [&](config::TomlReader& r) {
     d.resistance_ohm = r.number("resistance_ohm", {1e-3, 1e3});
     d.emf_constant_v_s_rad = r.number("emf_constant_v_s_rad", {0.0, 10.0});
+    if (r.has("motor_current_limit_a")) {
+      d.motor_current_limit_a = r.number("motor_current_limit_a", {1e-3, 1000.0});
+    }
   });
   section("pwm", [&](config::TomlReader& r) {
     d.pwm_hz = r.integer("frequency_hz", 1'000, 1'000'000);

@@ -51,6 +51,7 @@ BitLoop::BitLoop(const design::Elaborated& design, const BitLoopSetting& s)
     set("region_torque", largest(design.word("region_torque")));
     set("torque_limit", kLimitNm);
     set("current_limit", largest(design.word("current_limit")));
+    set("voltage_window", largest(design.word("voltage_window")));
   }
   host_ = [this](double theta_rad, double omega_rad_s) {
     if (theta_rad <= 0) return 0.0;

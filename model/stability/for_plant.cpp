@@ -121,6 +121,9 @@ std::string edited(const std::string& base, const Design& d, const Parameters& p
   edit.because("follows from the plant");
   const double current = three_digits(d.torque_limit_nm / p.motor.torque_constant_nm_a, std::ceil);
   edit.set("control", "current_limit_a", number(current));
+  if (edit.text_of("motor", "motor_current_limit_a")) {
+    edit.set("motor", "motor_current_limit_a", number(current));
+  }
   if (edit.text_of("control", "kp_1_kg_m2")) {
     edit.set("control", "kp_1_kg_m2",
              number(d.kp_1_kg_m2 * d.inertia_kg_m2 / p.lever.inertia_kg_m2));

@@ -208,8 +208,8 @@ TEST_CASE("a parameter that does not fit its word is refused", "[design]") {
                 "current_limit = 32 A does not fit its word [1,5,16]; choose a value that makes it "
                 "smaller");
   check_refused("paper", "voltage = [1, 5, 14]", "voltage = [1, 4, 14]", "supply_v",
-                "voltage_limit = 24 V does not fit its word [1,4,14]; choose a value that makes it "
-                "smaller");
+                "the supply of 24 V does not fit the voltage's format [1,4,14]; lower it, or "
+                "use more integer bits");
   // 131072 counts are 32 turns of this encoder, 0.02 turns of that.
   check_refused("paper", "lines = 1024", "lines = 1_000_000", "membrane_lower_rad",
                 "membrane_lower = 318310 count does not fit its word [1,17,8]; choose a value that "

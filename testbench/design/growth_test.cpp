@@ -105,15 +105,17 @@ void check_intervals() {
   // The dead voltage is the slope's product or its limit, a word in the format of a voltage.
   const Interval limit = range(P::dead_voltage);
   const Interval dead{std::min(slope.low, limit.low), std::max(slope.high, limit.high)};
-  CHECK(fits(emf + dead, f.voltage_sum));
-  CHECK(fits(range(f.voltage) + dead, f.voltage_sum));
-  CHECK(fits(emf + dead + resistive, f.voltage_sum));
+  CHECK(fits(emf, f.emf));
+  CHECK(fits(dead - emf, f.voltage_sum));
+  CHECK(fits(range(f.voltage) - emf, f.voltage_sum));
+  CHECK(fits(dead + resistive - emf, f.voltage_sum));
 
   using Law = TorqueControlLaw<D, Fixed>;
-  CHECK(fits(range(P::voltage_limit), Format::from_key(Law::kVoltageKey)));
+  CHECK(fits(range(P::voltage_window), Format::from_key(Law::kVoltageKey)));
   CHECK(fits(torque, Format::from_key(Law::kBorderKey)));
   CHECK(fits(range(f.duty), Format::from_key(Law::kDutyKey)));
-  const Interval applied = range(Format::from_key(Law::kVoltageKey));
+  const Interval applied = range(f.applied);
+  CHECK(fits(range(f.voltage) + emf, f.applied));
   CHECK(fits_tightly(rounded(applied * range(P::duty_gain), 0), f.duty_sum));
 
   const int estimate = f.current_estimate_part.fraction;
@@ -197,7 +199,7 @@ struct CornerWords : ParameterReader<D, CornerWords<D>> {
     if (address == D::A::observer_gain && observer_low) return fixed_of<Key>::min();
     if (address == D::A::duty_limit)
       return fixed_of<Key>::from_raw(fixed_of<D::f.duty.key()>::max_raw());
-    if (address == D::A::voltage_limit)
+    if (address == D::A::voltage_window)
       return fixed_of<Key>::from_raw(fixed_of<D::f.voltage.key()>::max_raw());
     return fixed_of<Key>::max();
   }
@@ -219,10 +221,11 @@ void check_control_at(const CornerWords<D>& words,
   check_value(step.current, clamped(wanted_a, real(fixed_of<D::f.current.key()>::max())), 2);
   const double limit = real(fixed_of<Law::kVoltageKey>::max());
   const double slope = real(tau_ref) * real(words.dead_voltage_slope());
-  const double wanted_v = real(w) * real(words.emf_constant()) + clamped(slope, limit) +
-                          real(step.current) * real(words.voltage_gain());
+  const double emf = real(w) * real(words.emf_constant());
+  const double wanted_v = clamped(slope, limit) + real(step.current) * real(words.voltage_gain()) -
+                          (D::emf_in_law != 0 ? 0.0 : emf);
   const double most_v = real(fixed_of<D::f.voltage.key()>::max());
-  const double duty = clamped(wanted_v, most_v) * real(words.duty_gain());
+  const double duty = (clamped(wanted_v, most_v) + emf) * real(words.duty_gain());
   // What the truncated parts of the voltage lose, and the rounding of the duty.
   const int last_bits = 2 + static_cast<int>(std::ldexp(
                                 3.0, P::duty_gain.integer - Law::LimitedVoltage::format.fraction));

@@ -62,7 +62,7 @@ TEST_CASE("the shipped schedule and moves that it can bear are let pass", "[sche
   CHECK(Texts().error() == "no error");
   CHECK(Texts().move("watchdog_ticks", 44).error() == "no error");
   CHECK(Texts().move("emf_constant", 21).move("polarity_ticks", 22).error() == "no error");
-  CHECK(Texts().move("voltage_setpoint", 16).move("overspeed", 14).error() == "no error");
+  CHECK(Texts().move("overspeed", 14).error() == "no error");
 }
 
 TEST_CASE("a result that comes late is refused", "[schedule]") {
@@ -74,16 +74,16 @@ TEST_CASE("a result that comes late is refused", "[schedule]") {
               .move("inertia_gain", 8)
               .in_registers("slot = 14\n", "slot = 12\n"),
           "velocity comes late for the product inertia_gain: .* clock 9 on .* clock 8");
-  refused(Texts().move("voltage_setpoint", 26),
-          "direct_voltage comes late .* clock 27 on .* clock 26");
-  refused(Texts().move("current_limit", 32),
-          "current_limited passes: .* from clock 33 to 33 .* voltage_gain needs it in clock 34");
+  refused(Texts().move("voltage_step", 42),
+          "set_error passes: it is there from clock 32 to 32 .* set_step needs it in clock 42");
+  refused(Texts().move("current_limit", 42),
+          "current_limited comes late for the product voltage_gain: .* clock 43 on .* clock 34");
 }
 
 TEST_CASE("a result that passes must be taken in its clocks", "[schedule]") {
   refused(
-      Texts().move("dead_voltage", 36),
-      "dead_ahead passes: it is there from clock 35 to 35 .* dead_voltage needs it in clock 36");
+      Texts().move("dead_voltage", 42),
+      "dead_ahead passes: it is there from clock 35 to 35 .* dead_voltage needs it in clock 42");
   refused(Texts().move("observer_a1", 16).move("overspeed", 15),
           "observer_difference passes: it is there from clock 15 to 15 .* observer_a1 needs it in "
           "clock 16");
@@ -98,9 +98,8 @@ TEST_CASE("a result that passes must be taken in its clocks", "[schedule]") {
 TEST_CASE("the value of the tick before is gone once the new one is there", "[schedule]") {
   refused(Texts().move("emf_over_resistance", 21).move("polarity_ticks", 7),
           "is to see the velocity of the tick before, but the new one is there from clock 9 on");
-  refused(Texts().move("inverse_resistance", 31).move("voltage_setpoint", 5),
-          "voltage of the tick before, but the new one is there from clock 6 on \\(step "
-          "direct_voltage");
+  refused(Texts().move("inverse_resistance", 42),
+          "voltage of the tick before, but the new one is there from clock 41 on");
   // The divider's quotient is on its way to the limiter.
   refused(Texts().move("attract_core", 11).move("repel_core", 11),
           "charge_width_limited in clock 11 is to see the charge_quotient of the tick before");

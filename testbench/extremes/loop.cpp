@@ -269,6 +269,7 @@ double growth(const Settings& s, double stiffness, double damping, double second
                       {"wall_damping", damping}, {"wall_stiffness", stiffness * count_rad},
                       {"dead_voltage", 0},       {"dead_voltage_slope", 0},
                       {"torque_limit", 0.95},    {"current_limit", 31.5},
+                      {"voltage_window", 24},
                       {"i2t_budget", 1e9}};
   plant::HandPhase hand;
   hand.kind = plant::HandPhase::Kind::kTorque;

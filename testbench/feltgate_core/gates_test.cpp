@@ -130,6 +130,7 @@ std::uint32_t volts(double v) {
 
 TEST_CASE("core: a stop between the edges closes the gates at once and is a fault") {
   Bridge bridge;
+  bridge.write(D::A::voltage_step, volts(24));  // no ramp
   bridge.write(D::A::voltage_setpoint, volts(6));
   bridge.disarm();
   for (const int width : {0, 1, 7, 20, 45}) {  // phases; 0: gone before the next look
@@ -159,6 +160,7 @@ TEST_CASE("core: a stop between the edges closes the gates at once and is a faul
 TEST_CASE("core: a stop closes the gates of a core whose clock stands") {
   for (int phase = 0; phase < kPhases; ++phase) {
     Bridge bridge;
+    bridge.write(D::A::voltage_step, volts(24));  // no ramp
     bridge.write(D::A::voltage_setpoint, volts(6));
     bridge.disarm();
     bridge.arm();
@@ -181,6 +183,7 @@ TEST_CASE("core: a stop closes the gates of a core whose clock stands") {
 
 TEST_CASE("core: a stop while disarmed keeps it disarmed and is no fault") {
   Bridge bridge;
+  bridge.write(D::A::voltage_step, volts(24));  // no ramp
   bridge.write(D::A::voltage_setpoint, volts(6));
   bridge.disarm();
   for (int phase = 0; phase < 3 * kPhases; ++phase) {
@@ -208,6 +211,7 @@ TEST_CASE("core: arming again begins with a duty of 0, not with that of the last
   Bridge bridge;
   for (int offset = 0; offset < D::pwm_period; offset += 61) {
     CAPTURE(offset);
+    bridge.write(D::A::voltage_step, volts(24));  // no ramp
     bridge.write(D::A::voltage_setpoint, volts(6));
     bridge.arm();
     REQUIRE(bridge.twin().duty_active > 0);

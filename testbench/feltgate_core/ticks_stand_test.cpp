@@ -72,6 +72,7 @@ TEST_CASE("core: ticks that stand close the gates") {
       CAPTURE(clock, period);
       Core core;
       core.tick();
+      core.write(D::A::voltage_step, 24u << D::f.voltage.fraction);  // no ramp
       core.write(D::A::voltage_setpoint, 6u << D::f.voltage.fraction);
       core.write(D::C::control, static_cast<std::uint32_t>(D::control_reset) |
                                     1u << D::C::control_host | 1u << D::C::control_arm |

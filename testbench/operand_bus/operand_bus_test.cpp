@@ -41,7 +41,7 @@ struct Adapter {
     rtl.observer_difference_i =
         port_bits<f.observer_difference.width(), Long>(in.observer_difference);
     rtl.distance_i = port_bits<f.scene_distance.width()>(in.distance);
-    rtl.limited_i = port_bits<f.limiter.width()>(in.limited);
+    rtl.limited_i = port_bits<f.with_addend.width()>(in.limited);
     rtl.velocity_i = port_bits<f.velocity.width()>(in.velocity);
     rtl.tau_hat_i = port_bits<f.torque.width()>(in.tau_hat);
     rtl.tau_ref_i = port_bits<f.torque.width()>(in.tau_ref);

@@ -21,8 +21,8 @@ inline std::int64_t torque_raw(double newton_metres) {
 
 /// tick() with the interface of RtlAlone.
 struct TwinAlone {
-  static Control::Out run(const Wave& w) {
-    Step step;
+  Step step;
+  Control::Out run(const Wave& w) {
     tick(step, w);
     Control::Out out;
     out.current_ref = step.current.raw();
@@ -34,11 +34,12 @@ struct TwinAlone {
 
 /// The classic mistake: the observer sees the current before its limit.
 struct Unlimited {
-  static Control::Out run(const Wave& w) {
-    Control::Out out = TwinAlone::run(w);
+  TwinAlone twin, without;
+  Control::Out run(const Wave& w) {
+    Control::Out out = twin.run(w);
     Wave free = w;
     free.words.set(A::current_limit, Current::max_raw());
-    out.current_ref = TwinAlone::run(free).current_ref;
+    out.current_ref = without.run(free).current_ref;
     return out;
   }
 };
@@ -87,8 +88,12 @@ struct Worst {
   /// Compares one wave; the text of the bound that does not hold, or nullptr.
   const char* add(const Wave& w) {
     Step fixed;
-    tick(fixed, w);
     TorqueControlStep<Design, Real<quad>> real;
+    if (w.mode == Mode::voltage) {  // the tick before has brought it to the set-point
+      fixed.voltage = Voltage::from_raw(w.words.at(A::voltage_setpoint));
+      real.voltage = static_cast<quad>(w.words.at(A::voltage_setpoint)) * lsb(14);
+    }
+    tick(fixed, w);
     const quad tau_ref = exact(Torque::from_raw(w.tau_ref));
     const quad tau_hat = exact(Torque::from_raw(w.tau_hat));
     const quad omega = exact(Velocity::from_raw(w.velocity));
@@ -110,13 +115,14 @@ struct Worst {
                  ? quad{0}
                  : static_cast<quad>(parameter(gain).si) * i + off(gain) * magnitude(real.current) +
                        volt + off(A::emf_constant) * magnitude(omega) + volt + dead;
-    v = std::max(v, off(A::voltage_limit));
+    // At the window's end the window errs, and the back-EMF in its middle.
+    v = std::max(v, off(A::voltage_window) + off(A::emf_constant) * magnitude(omega) + volt);
     const quad d = static_cast<quad>(parameter(A::duty_gain).si) * v +
-                   off(A::duty_gain) * magnitude(real.voltage) + quad{0.5};
+                   off(A::duty_gain) * magnitude(real.applied) + quad{0.5};
 
     const bool holds =
         raise(&current, &current_bound, exact(fixed.current) - real.current, i, ampere) &&
-        raise(&voltage, &voltage_bound, exact(fixed.voltage) - real.voltage, v, volt) &&
+        raise(&voltage, &voltage_bound, exact(fixed.applied) - real.applied, v, volt) &&
         raise(&duty, &duty_bound, exact(fixed.duty) - real.duty, d, 1);
     if (fixed.region_high != real.region_high) return "region";
     return holds ? nullptr : "error above its bound";

@@ -41,10 +41,11 @@ struct RandomWaves {
     }
     if (kind >= 1) {
       w.words.set(A::current_limit, limit<Current>());
-      w.words.set(A::voltage_limit, limit<Voltage>());
+      w.words.set(A::voltage_window, limit<Voltage>());
       w.words.set(A::duty_limit, random.between(0, 4095) >> random.below(12));
     }
     w.words.set(A::voltage_setpoint, any<Voltage>());
+    w.words.set(A::voltage_step, limit<Voltage>());
     if (kind == 3 && random.one_in(4)) {
       for (auto& word : w.words.raw) word = static_cast<std::int32_t>(random.bits() >> 32);
     }
@@ -106,11 +107,12 @@ struct Tally {
 /// tick() is due when the duty is.
 struct TickBeside {
   Tally* tally;
+  Step step{};  // the voltage of the tick before is the ramp's
 
   const char* operator()(const Twin::In& in, const Vtorque_control& rtl, const Twin&,
                          bool in_reset) {
+    if (in_reset) step = {};
     if (in_reset || ((in.port.wave >> Map::T::duty) & 1u) == 0) return nullptr;
-    Step step;
     tick(step, in.aside);
     count(in.aside, step);
     const Control::Out out = Adapter::outputs(rtl);
@@ -121,6 +123,20 @@ struct TickBeside {
     if (out.limit.current != step.limit.current || out.limit.voltage != step.limit.voltage ||
         out.limit.duty != step.limit.duty) {
       return "limits of tick() are those of clock()";
+    }
+    // Whatever the words are, the current is within the window; the port's format ends at +-32 V.
+    const Words& words = in.aside.words;
+    const auto window =
+        std::max<std::int64_t>(0, words.get<Step::Law::kVoltageKey>(A::voltage_window).raw());
+    const auto emf = (in.aside.velocity * (words.at(A::emf_constant) & 0x1ffff)) >>
+                     (Design::f.velocity.fraction + Design::P::emf_constant.fraction -
+                      Design::f.voltage.fraction);
+    const std::int64_t low = emf - window, high = emf + window;
+    const auto port = [](std::int64_t v) {
+      return std::clamp<std::int64_t>(v, Voltage::min_raw(), Voltage::max_raw());
+    };
+    if (in.port.armed && (out.voltage < port(low) || out.voltage > port(high))) {
+      return "the voltage is within the window around the back-EMF";
     }
     if (!in.port.armed && (out.current_ref != 0 || out.voltage != 0)) return "disarmed is silent";
     return nullptr;

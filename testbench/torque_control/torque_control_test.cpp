@@ -98,19 +98,41 @@ TEST_CASE("torque_control: paper's border lets the voltage fall while the torque
   REQUIRE(std::fabs(fall * 0.0725 - 0.054) < 5e-4);  // in torque of a 0.0302 Nm/A, 0.42 ohm motor
 }
 
-TEST_CASE("torque_control: voltage mode and disarming") {
+TEST_CASE("torque_control: voltage mode ramps to the set-point, within the window; disarming") {
   RtlAlone rtl;
   Wave w = stall(0.3);
   w.mode = Mode::voltage;
   w.tau_hat = torque_raw(0.2);
-  w.velocity = Velocity::max_raw() / 4;
-  for (const double set : {3.0, -3.0, 30.0}) {
+  const double step = si(A::voltage_step), window = si(A::voltage_window);
+  REQUIRE(std::fabs(step * 1e6 / 2400 - 1) < 0.01);
+  double before = 0;
+  for (const double set : {3.0, -3.0, 24.0}) {
     w.words.set(A::voltage_setpoint, std::llround(std::ldexp(set, 14)));
-    const Control::Out out = rtl.run(w);
-    REQUIRE(volts(out.voltage) == (set > 24 ? 24.0 : set));
-    REQUIRE(out.limit.voltage == (set > 24));
-    const double current = std::fmin(si(A::current_limit), set * si(A::voltage_to_current));
-    REQUIRE(std::fabs(amperes(out.current_ref) - current) < 1e-3);
+    // Arming and a change of the set-point ramp, at stall to no more than the window.
+    Control::Out out;
+    for (int k = 0; k < 15000; ++k) {
+      out = rtl.run(w);
+      const double v = volts(out.voltage);
+      const double end = std::fmin(window, std::fmax(-window, set));
+      const double left = end - before;
+      const double wanted = std::fabs(left) <= step ? end : before + std::copysign(step, left);
+      REQUIRE(std::fabs(v - wanted) < 1e-4);
+      REQUIRE(out.limit.voltage == (std::fabs(set) > window && std::fabs(left) < step));
+      const double current = std::fmin(si(A::current_limit), before * si(A::voltage_to_current));
+      REQUIRE((current < -si(A::current_limit) ||
+               std::fabs(amperes(out.current_ref) - current) < 2e-3));
+      before = v;
+    }
+  }
+  // The window moves with the back-EMF, at once.
+  for (const double omega : {100.0, -200.0, 500.0}) {
+    w.velocity = std::llround(std::ldexp(omega, 21));
+    w.words.set(A::voltage_setpoint, 0);
+    const double emf = si(A::emf_constant) * omega;
+    Control::Out out;
+    for (int k = 0; k < 15000; ++k) out = rtl.run(w);
+    const double wanted = std::copysign(std::fmax(0, std::fabs(emf) - window), emf);
+    REQUIRE(std::fabs(volts(out.voltage) - wanted) < 2e-3);
   }
   w.armed = false;
   const Control::Out out = rtl.run(w);
@@ -118,6 +140,30 @@ TEST_CASE("torque_control: voltage mode and disarming") {
   REQUIRE(out.current_ref == 0);
   REQUIRE(out.duty == 0);
   REQUIRE_FALSE(out.limit.voltage);
+}
+
+TEST_CASE("torque_control: a host's gain, current limit and dead voltage do not move the window") {
+  RtlAlone rtl;
+  Wave w;
+  for (const int address : {A::voltage_gain, A::voltage_gain_high, A::torque_gain,
+                            A::dead_voltage_slope, A::voltage_to_current}) {
+    w.words.set(address, 0x1ffff);
+  }
+  for (const int address :
+       {A::current_limit, A::dead_voltage, A::voltage_setpoint, A::voltage_step}) {
+    w.words.set(address, 0x7fff0);
+  }
+  for (const Mode mode : {Mode::closed_loop, Mode::open_loop, Mode::voltage}) {
+    w.mode = mode;
+    for (const double omega : {0.0, 300.0, -300.0}) {
+      w.velocity = std::llround(std::ldexp(omega, 21));
+      for (const double tau_ref : {15.0, -15.0}) {
+        w.tau_ref = torque_raw(tau_ref);
+        const double current = (volts(rtl.run(w).voltage) - si(A::emf_constant) * omega) / 0.42;
+        REQUIRE(std::fabs(current) <= (si(A::voltage_window) + 1e-3) / 0.42);
+      }
+    }
+  }
 }
 
 TEST_CASE("torque_control: distance from quad precision") {

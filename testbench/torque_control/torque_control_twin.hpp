@@ -30,8 +30,9 @@ class TorqueControl {
     bool beyond = false;
   };
   struct Out {
-    std::int64_t ahead = 0;  ///< to the limiter, a clock before the limit's word
-    std::int64_t late = 0;   ///< in the clock of the limit's word
+    std::int64_t ahead = 0;   ///< to the limiter, a clock before the limit's word
+    std::int64_t late = 0;    ///< in the clock of the limit's word
+    std::int64_t addend = 0;  ///< what `applied` has more than `limited`
     bool region_high = false;
     std::int64_t current_ref = 0;
     std::int64_t voltage = 0;
@@ -45,11 +46,16 @@ class TorqueControl {
     using T = Map::T;
     const auto at = [&in](int t) { return ((in.wave >> t) & 1u) != 0; };
     const bool direct = in.mode == Mode::voltage;
-    const bool follows = !direct && in.armed;
-    out_.ahead = out_.late = 0;
-    if (at(T::direct_voltage) && direct) voltage_ = word<D::P::voltage_setpoint.key()>(in.param);
-    if (at(T::voltage_part))
-      emf_ = direct ? Offset{} : Law::offset(product<P::velocity, P::emf>(in));
+    const bool follows = !direct && in.armed, ramps = direct && in.armed;
+    const std::int64_t applied = in.limited + out_.addend;
+    out_.ahead = out_.late = out_.addend = 0;
+    if (at(T::set_error) && ramps) {
+      out_.late = (word<D::P::voltage_setpoint.key()>(in.param) - voltage_).raw();
+    }
+    if (at(T::set_step) && ramps) out_.addend = voltage_.raw();
+    if (at(T::dead_voltage) && D::emf_in_law == 0 && !direct) out_.addend = -emf_.raw();
+    if (at(T::voltage_limited) && in.armed) out_.addend = emf_.raw();
+    if (at(T::voltage_part)) emf_ = Law::emf(product<P::velocity, P::emf>(in));
     if (at(T::current_part)) {
       kept_ = in.mode == Mode::open_loop ? CurrentPart{}
                                          : Law::current_part(product<P::torque, P::observer>(in));
@@ -70,20 +76,20 @@ class TorqueControl {
       out_.current_ref = shown<D::f.current.width()>(in.limited);
       out_.limit.current = in.beyond && in.armed;
     }
-    if (at(T::voltage_offset)) {
-      fixed_ = Law::voltage_sum(emf_ + LimitedVoltage::from_raw(raw<LimitedVoltage>(in.limited)));
+    if (direct ? at(T::direct_voltage) : at(T::voltage_offset)) {
+      fixed_ = VoltageSum::from_raw(raw<VoltageSum>(applied));
     }
-    if (at(T::set_sum) && direct && in.armed) out_.ahead = voltage_.raw();
     if (at(T::voltage_sum) && follows) {
       const auto resistive = Law::voltage_part(product<P::current, P::gain>(in));
       out_.late = Law::voltage_sum(resistive + fixed_).raw();
     }
+    if (at(T::voltage_sum) && ramps) out_.late = Law::voltage_sum(fixed_ - emf_).raw();
     if (at(T::voltage)) {
-      voltage_ = Law::port_voltage(LimitedVoltage::from_raw(raw<LimitedVoltage>(in.limited)));
+      voltage_ = Law::port_voltage(Applied::from_raw(raw<Applied>(applied)));
       out_.limit.voltage = in.beyond && in.armed;
     }
     if (at(T::duty_sum)) {
-      out_.late = Law::duty_sum(product<Law::kVoltageKey, P::duty>(in)).raw();
+      out_.late = Law::duty_sum(product<D::f.applied.key(), P::duty>(in)).raw();
     }
     if (at(T::duty)) {
       out_.duty = shown<D::f.duty.width()>(in.limited);
@@ -96,8 +102,8 @@ class TorqueControl {
 
  private:
   using CurrentPart = typename Law::CurrentPart;
-  using Offset = typename Law::Offset;
-  using LimitedVoltage = typename Law::LimitedVoltage;
+  using Applied = typename Law::Applied;
+  using VoltageSum = typename Law::VoltageSum;
 
   /// Formats of the factors.
   struct P {
@@ -131,8 +137,8 @@ class TorqueControl {
 
   typename Law::Voltage voltage_{};
   CurrentPart kept_{};
-  Offset emf_{};
-  typename Law::VoltageSum fixed_{};
+  typename Law::Emf emf_{};
+  VoltageSum fixed_{};
   Out out_;
 };
 

@@ -91,8 +91,8 @@ inline Control::In wave_inputs(const Wave& w, int clock, const Control::Out& out
   in.limited = shared.limiter.limited();
   in.beyond = shared.limiter.beyond();
   in.param = static_cast<std::uint32_t>(shared.garbage.bits() >> 32);
-  const bool limits =
-      is_one_of({W::current_limit, W::dead_voltage, W::voltage_limit, W::duty_limit});
+  const bool limits = is_one_of(
+      {W::current_limit, W::dead_voltage, W::voltage_step, W::voltage_window, W::duty_limit});
   const bool compares = clock == W::region_torque;
   if (limits || compares ||
       is_one_of({W::voltage_setpoint, W::emf_constant, W::observer_gain, W::voltage_to_current,
@@ -100,10 +100,11 @@ inline Control::In wave_inputs(const Wave& w, int clock, const Control::Out& out
     const bool high = clock == W::voltage_gain && out.region_high;
     in.param = static_cast<std::uint32_t>(w.words.at(high ? A::voltage_gain_high : clock));
   }
-  const bool valid = ahead_of({W::current_limit, W::dead_voltage, W::voltage_limit, W::duty_limit});
+  const bool valid = ahead_of(
+      {W::current_limit, W::dead_voltage, W::voltage_step, W::voltage_window, W::duty_limit});
   shared.limiter.clock(limits || compares,
                        {valid, out.ahead, out.late, in.param, false,
-                        clock == Map::W::voltage_limit - 1, clock == Map::W::duty_limit - 1});
+                        clock == Map::W::voltage_window - 1, clock == Map::W::duty_limit - 1});
 
   const std::int64_t coefficient = in.param & ((1u << Design::coefficient_bits) - 1);
   SharedMult& mult = shared.mult;
@@ -123,7 +124,7 @@ inline Control::In wave_inputs(const Wave& w, int clock, const Control::Out& out
       break;
     case W::voltage_gain:
     case W::duty_gain:
-      mult.operands(in.limited, coefficient);
+      mult.operands(in.limited + out.addend, coefficient);
       break;
     default:
       mult.others();
@@ -152,6 +153,9 @@ struct Adapter {
     out.region_high = rtl.region_high_o != 0;
     out.ahead = sign_extend<Design::f.limiter_input.width()>(rtl.ahead_o);
     out.late = sign_extend<Design::f.limiter_input.width()>(rtl.late_o);
+    constexpr int bits = Design::f.limiter.width();
+    out.addend = sign_extend<Design::f.with_addend.width()>(rtl.applied_o) -
+                 sign_extend<bits>(rtl.limited_i);
     out.current_ref = sign_extend<Design::f.current.width()>(rtl.current_ref_o);
     out.voltage = sign_extend<Design::f.voltage.width()>(rtl.voltage_o);
     out.duty = sign_extend<Design::f.duty.width()>(rtl.duty_o);
@@ -165,6 +169,7 @@ struct Adapter {
     if (seen.clocked) {
       check("ahead", out.ahead, seen.port.ahead);
       check("late", out.late, seen.port.late);
+      check("applied", out.addend, seen.port.addend);
     }
     check("current_ref", out.current_ref, seen.port.current_ref);
     check("voltage", out.voltage, seen.port.voltage);
@@ -188,7 +193,7 @@ class RtlAlone {
   ~RtlAlone() { rtl_.final(); }
 
   Control::Out run(const Wave& wave) {
-    for (int k = Map::W::voltage_setpoint; k <= Map::T::duty; ++k) {
+    for (int k = Map::W::emf_constant; k <= Map::T::duty; ++k) {
       clock(wave_inputs(wave, k, Adapter::outputs(rtl_), shared_));
     }
     return Adapter::outputs(rtl_);

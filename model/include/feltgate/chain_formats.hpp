@@ -78,10 +78,13 @@ struct Formats {
   Format current_sum;            ///< A, before the limit
   Format voltage;                ///< V
   Format voltage_part;           ///< V: one product of the voltage law
-  Format voltage_sum;            ///< V, before the limit
+  Format voltage_sum;            ///< V, less the back-EMF, before the limit
+  Format emf;                    ///< V: the back-EMF
+  Format applied;                ///< V: what is limited and the back-EMF
   Format duty;                   ///< clock
   Format duty_sum;               ///< clock, before the limit
   Format limiter;                ///< what the limiter lets through; the binary point is the input's
+  Format with_addend;            ///< what it lets through and what torque_control adds to it
   Format limiter_input;          ///< what it takes in
   Format current_estimate_part;  ///< A: one product of the estimate
   Format current_estimate;       ///< A: (V - Ke*w)/R
@@ -140,7 +143,11 @@ constexpr Formats derive(const BaseFormats& b) {
   const Format dead = growth::product(b.torque, b.dead_voltage_slope);
   f.voltage_part = {1, growth::max_of(growth::max_of(resistive.integer, emf.integer), dead.integer),
                     b.voltage.fraction};
-  f.voltage_sum = {1, f.voltage_part.integer + 2, b.voltage.fraction};  // three parts
+  // Three parts, or in voltage mode the set-point less the back-EMF.
+  f.voltage_sum = {1, growth::max_of(f.voltage_part.integer, b.voltage.integer) + 2,
+                   b.voltage.fraction};
+  f.emf = {1, emf.integer, b.voltage.fraction};
+  f.applied = growth::sum(f.emf, b.voltage);
   f.duty = {1, 12, 0};
   int integer = 0;
   for (const Format& k :
@@ -160,8 +167,8 @@ constexpr Formats derive(const BaseFormats& b) {
       1, growth::max_of(growth::max_of(b.current.width(), b.torque.width()), b.voltage.width()) - 1,
       0};
   // Rounding up may need one bit more.
-  const Format limited_voltage = {1, f.limiter.integer - b.voltage.fraction, b.voltage.fraction};
-  f.duty_sum = {1, growth::product(limited_voltage, b.duty_gain).integer + 1, 0};
+  f.duty_sum = {1, growth::product(f.applied, b.duty_gain).integer + 1, 0};
+  f.with_addend = {1, growth::max_of(f.limiter.width(), f.applied.width()), 0};
   f.limiter_input = {1,
                      growth::max_of(growth::max_of(f.current_sum.width(), f.voltage_sum.width()),
                                     growth::max_of(f.scene_torque.width(), f.duty_sum.width())) -

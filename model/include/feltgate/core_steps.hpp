@@ -46,7 +46,6 @@ constexpr bool shows(Step step) {
     case Step::heat:
     case Step::polarity:
     case Step::tau_hat:
-    case Step::direct_voltage:
     case Step::ramp_excess:
     case Step::tau_ref:
     case Step::current_limited:

@@ -62,11 +62,6 @@ class CoreWave {
         out.tau_hat = static_cast<std::int32_t>(chain_.tau_hat().raw());
         set(Map::L::tau_hat, chain_.limit_tau_hat());
         break;
-      case Step::direct_voltage:
-        if (mode == Mode::voltage) {
-          out.voltage = static_cast<std::int32_t>(chain_.words().voltage_setpoint().raw());
-        }
-        break;
       case Step::ramp_excess:
         chain_.render(out.armed, out.scene, out.position, relief_, pulse);
         set(Map::L::torque, chain_.limit_torque());
@@ -97,6 +92,7 @@ class CoreWave {
 
   /// As the limiter gives them, a clock before they show.
   std::int32_t current() const { return static_cast<std::int32_t>(chain_.control().current.raw()); }
+  std::int32_t applied() const { return static_cast<std::int32_t>(chain_.control().applied.raw()); }
   std::int32_t voltage() const { return static_cast<std::int32_t>(chain_.control().voltage.raw()); }
   std::int16_t duty() const { return static_cast<std::int16_t>(chain_.control().duty.raw()); }
   /// What the velocity's low-pass would take in now, raw: the next velocity lies between it and the

@@ -242,7 +242,7 @@ class FeltgateCore {
       case Step::read_current_ref:
         return keep(R::current_ref, wave_.current());
       case Step::read_voltage:
-        return keep(R::voltage, wave_.voltage());
+        return keep(R::voltage, wave_.applied());
       case Step::read_duty:
         return keep(R::duty, wave_.duty());
       case Step::operand_inverse_resistance:

@@ -3,7 +3,7 @@
 //
 // Twin of rtl/torque_control.sv: torque reference to current, voltage and duty.
 //   I = Jn*Kp/Ktn * tau_ref + (1 - Jn*Kp)/Ktn * tau_hat        limited, shown to the observer
-//   V = gain*I + Ke*w + dead voltage                           limited
+//   V = gain*I + Ke*w + dead voltage; V - Ke*w                 limited: the window around Ke*w
 //   duty = V * period/supply                                   limited
 // Documentation: docs/blocks/torque_control.md
 #pragma once
@@ -19,7 +19,7 @@ namespace feltgate {
 enum class Mode : std::uint8_t {
   closed_loop = 0,  ///< tau_hat is fed back
   open_loop = 1,    ///< tau_hat is not fed back
-  voltage = 2  ///< the voltage set-point replaces the law; the observer sees V * voltage_to_current
+  voltage = 2  ///< the ramped set-point replaces the law; the observer sees V * voltage_to_current
 };
 
 /// The arithmetic, in number policy N, for design D.
@@ -32,10 +32,10 @@ struct TorqueControlLaw {
   using Voltage = typename N::template num<D::f.voltage.key()>;
   using VoltagePart = typename N::template num<D::f.voltage_part.key()>;
   using VoltageSum = typename N::template num<D::f.voltage_sum.key()>;
-  /// What the voltage starts from: a part, or in voltage mode the set-point.
-  static constexpr Format offset_format{
-      1, growth::max_of(D::f.voltage_part.integer, D::f.voltage.integer), D::f.voltage.fraction};
-  using Offset = typename N::template num<offset_format.key()>;
+  using VoltageChange =
+      typename N::template num<growth::difference(D::f.voltage, D::f.voltage).key()>;
+  using Emf = typename N::template num<D::f.emf.key()>;
+  using Applied = typename N::template num<D::f.applied.key()>;
   using Duty = typename N::template num<D::f.duty.key()>;
   using DutySum = typename N::template num<D::f.duty_sum.key()>;
 
@@ -63,10 +63,10 @@ struct TorqueControlLaw {
   static constexpr DutySum duty_sum(Product p) {
     return quantise<N, DutySum, D::rounding, Overflow::wrap>(p);
   }
-  /// The set-point, or one product of the voltage truncated.
-  template <class X>
-  static constexpr Offset offset(X x) {
-    return quantise<N, Offset, Round::truncate, Overflow::wrap>(x);
+  /// The back-EMF, truncated to the voltage's last bit.
+  template <class Product>
+  static constexpr Emf emf(Product p) {
+    return quantise<N, Emf, Round::truncate, Overflow::wrap>(p);
   }
   /// A part, or the exact sum of parts, as the adder holds it; it fits by construction of the
   /// formats.
@@ -78,9 +78,15 @@ struct TorqueControlLaw {
   static constexpr VoltageSum voltage_sum(X x) {
     return quantise<N, VoltageSum, Round::truncate, Overflow::wrap>(x);
   }
-  /// The limited voltage as the port shows it; the same number while the limit is in its format.
-  static constexpr Voltage port_voltage(LimitedVoltage v) {
-    return quantise<N, Voltage, Round::truncate, Overflow::wrap>(v);
+  /// What the window let through, and the back-EMF.
+  template <class X>
+  static constexpr Applied applied(X x) {
+    return quantise<N, Applied, Round::truncate, Overflow::wrap>(x);
+  }
+  /// The applied voltage as the port shows it: the same number up to the end of its format.
+  template <class X>
+  static constexpr Voltage port_voltage(X v) {
+    return quantise<N, Voltage, Round::truncate, Overflow::saturate>(v);
   }
   /// x in [-limit, limit] as a To.
   template <class To, int PortKey = D::f.limiter.key(), class X, class Limit>
@@ -102,13 +108,15 @@ struct ControlLimits {
 };
 
 /// One tick of torque control. W gives the parameters: a ParameterReader.
-/// Writes current, voltage and duty; in voltage mode the voltage set-point is limited too. Torques
-/// and velocity are the chain's, or fixed-point numbers with more fraction bits (error budgets).
+/// Writes current, voltage and duty; in voltage mode the voltage of the tick before is the ramp's.
+/// Torques and velocity are the chain's, or fixed-point numbers with more fraction bits (error
+/// budgets).
 template <class D, class N>
 struct TorqueControlStep {
   using Law = TorqueControlLaw<D, N>;
   using A = typename D::A;
   typename Law::Current current{};
+  typename Law::Applied applied{};  ///< the voltage before its port's saturation
   typename Law::Voltage voltage{};
   typename Law::Duty duty{};
   ControlLimits limit;
@@ -120,7 +128,6 @@ struct TorqueControlStep {
     typename Law::CurrentSum current_sum{};
     region_high = Law::region_high(tau_ref, w.template get<Law::kBorderKey>(A::region_torque));
     if (direct) {
-      voltage = w.voltage_setpoint();
       current_sum = Law::current_sum(voltage * w.voltage_to_current());
     } else {
       const auto by_ref = Law::current_part(tau_ref * w.torque_gain());
@@ -134,32 +141,33 @@ struct TorqueControlStep {
       current = typename Law::Current{};
       limit.current = false;
     }
-    typename Law::Offset offset{};
-    typename Law::VoltagePart slope{};
+    const auto emf = Law::emf(velocity * w.emf_constant());
+    typename Law::VoltageSum asked{};  // less the back-EMF
+    bool unused = false;
     if (direct) {
-      offset = Law::offset(voltage);
+      const auto step = Law::template limited<typename Law::VoltageChange>(
+          w.voltage_setpoint() - voltage, w.template get<Law::kVoltageKey>(A::voltage_step),
+          &unused);
+      asked = Law::voltage_sum(voltage + step - emf);
     } else {
-      offset = Law::offset(velocity * w.emf_constant());
-      slope = Law::voltage_part(tau_ref * w.dead_voltage_slope());
-    }
-    bool linear = false;
-    const auto dead = Law::template limited<typename Law::LimitedVoltage>(
-        slope, w.template get<Law::kVoltageKey>(A::dead_voltage), &linear);
-    const auto pair = offset + dead;
-    typename Law::VoltageSum voltage_sum{};
-    if (direct) {
-      voltage_sum = Law::voltage_sum(pair);
-    } else {
+      const auto slope = Law::voltage_part(tau_ref * w.dead_voltage_slope());
+      const auto dead = Law::template limited<typename Law::LimitedVoltage>(
+          slope, w.template get<Law::kVoltageKey>(A::dead_voltage), &unused);
       // Both are read: a choice between addresses would keep lanes from running side by side.
       const auto gain = w.voltage_gain();
       const auto gain_high = w.voltage_gain_high();
       const auto resistive = Law::voltage_part(current * (region_high ? gain_high : gain));
-      voltage_sum = Law::voltage_sum(resistive + pair);
+      if constexpr (D::emf_in_law != 0) {
+        asked = Law::voltage_sum(resistive + dead);
+      } else {
+        asked = Law::voltage_sum(resistive + dead - emf);
+      }
     }
-    auto applied = Law::template limited<typename Law::LimitedVoltage, D::f.voltage.key()>(
-        voltage_sum, w.template get<Law::kVoltageKey>(A::voltage_limit), &limit.voltage);
+    const auto inside = Law::template limited<typename Law::LimitedVoltage, D::f.voltage.key()>(
+        asked, w.template get<Law::kVoltageKey>(A::voltage_window), &limit.voltage);
+    applied = Law::applied(inside + emf);
     if (!armed) {
-      applied = {};
+      applied = typename Law::Applied{};
       limit.voltage = false;
     }
     voltage = Law::port_voltage(applied);

@@ -19,7 +19,7 @@ struct Map {
   static constexpr std::uint64_t scene_slots = 0x44e;
   /// While armed: words of all scenes that are refused or ramp, by address; scenes whose
   /// words act at once.
-  static constexpr std::uint64_t refused_while_armed = 0xc23ee78c083b0;
+  static constexpr std::uint64_t refused_while_armed = 0xc23ef78c083b0;
   static constexpr std::uint64_t ramps_while_armed = 0x100000001000000;
   static constexpr unsigned input_scenes = 0x4;
   static constexpr int errors_borne = 7;  ///< encoder errors that are borne, less one every 2^forgive_bits ticks
@@ -60,21 +60,22 @@ struct Map {
     static constexpr int polarity_ticks = 21;
     static constexpr int emf_constant = 22;
     static constexpr int observer_gain = 23;
-    static constexpr int voltage_setpoint = 13;
+    static constexpr int voltage_setpoint = 31;
+    static constexpr int voltage_step = 32;
     static constexpr int torque_limit = 24;
     static constexpr int ramp_step = 25;
     static constexpr int voltage_to_current = 27;
     static constexpr int torque_gain = 28;
     static constexpr int dead_voltage_slope = 29;
     static constexpr int region_torque = 30;
-    static constexpr int hold_torque = 31;
-    static constexpr int hold_time = 36;
+    static constexpr int hold_torque = 36;
+    static constexpr int hold_time = 43;
     static constexpr int hold_limit = 56;
     static constexpr int current_limit = 33;
     static constexpr int voltage_gain = 34;
     static constexpr int voltage_gain_high = 50;
     static constexpr int dead_voltage = 35;
-    static constexpr int voltage_limit = 39;
+    static constexpr int voltage_window = 39;
     static constexpr int duty_gain = 40;
     static constexpr int duty_limit = 45;
     static constexpr int watchdog_ticks = 46;
@@ -180,8 +181,10 @@ struct Map {
     static constexpr int ramp_excess = 25;
     static constexpr int ramp_change = 26;
     static constexpr int tau_ref = 27;
-    static constexpr int direct_voltage = 13;
-    static constexpr int setpoint_to_bus = 26;
+    static constexpr int applied_to_bus = 26;
+    static constexpr int set_error = 31;
+    static constexpr int set_step = 32;
+    static constexpr int direct_voltage = 33;
     static constexpr int voltage_to_bus = 4;
     static constexpr int current_to_bus = 7;
     static constexpr int voltage_part = 26;
@@ -200,8 +203,6 @@ struct Map {
     static constexpr int dead_ahead = 34;
     static constexpr int dead_voltage = 35;
     static constexpr int voltage_offset = 36;
-    static constexpr int set_sum = 37;
-    static constexpr int set_ahead = 38;
     static constexpr int voltage_sum = 38;
     static constexpr int voltage_limited = 39;
     static constexpr int voltage = 40;
@@ -233,11 +234,11 @@ struct Map {
     static constexpr int watchdog = 47;
     static constexpr int levels = 0;
     static constexpr int channel = 1;
-    static constexpr int hold_size = 29;
-    static constexpr int hold_ahead = 30;
-    static constexpr int hold_limited = 31;
-    static constexpr int hold_strong = 32;
-    static constexpr int hold = 36;
+    static constexpr int hold_size = 34;
+    static constexpr int hold_ahead = 35;
+    static constexpr int hold_limited = 36;
+    static constexpr int hold_strong = 37;
+    static constexpr int hold = 43;
     static constexpr int position_word = 1;
     static constexpr int status_word = 0;
     static constexpr int duty_word = 46;
@@ -312,7 +313,6 @@ struct Map {
     estimate_to_bus,
     operand_current_square,
     observer_input,
-    direct_voltage,
     read_encoder,
     observer_difference,
     damper_part,
@@ -346,7 +346,7 @@ struct Map {
     ramp_excess,
     read_faults,
     ramp_change,
-    setpoint_to_bus,
+    applied_to_bus,
     voltage_part,
     operand_voltage_to_current,
     tau_ref,
@@ -356,28 +356,28 @@ struct Map {
     border,
     operand_dead_voltage_slope,
     border_ahead,
-    hold_size,
     region_limited,
-    hold_ahead,
+    set_error,
     region,
     direct_current,
-    hold_limited,
+    set_step,
     gain_fetch,
     direct_ahead,
     current_sum,
-    hold_strong,
+    direct_voltage,
     current_limited,
     dead_sum,
     read_current_ref,
     operand_voltage_gain,
     current,
     dead_ahead,
+    hold_size,
     dead_voltage,
+    hold_ahead,
     voltage_offset,
-    hold,
-    set_sum,
+    hold_limited,
     self_test_quiet,
-    set_ahead,
+    hold_strong,
     voltage_sum,
     self_test_over,
     voltage_limited,
@@ -386,6 +386,7 @@ struct Map {
     voltage,
     self_test_turn,
     self_test,
+    hold,
     duty_sum,
     duty_limited,
     read_duty,
@@ -451,7 +452,6 @@ struct Map {
       {Step::estimate_to_bus, 12},
       {Step::operand_current_square, 13},
       {Step::observer_input, 13},
-      {Step::direct_voltage, 13},
       {Step::read_encoder, 14},
       {Step::observer_difference, 14},
       {Step::damper_part, 14},
@@ -485,7 +485,7 @@ struct Map {
       {Step::ramp_excess, 25},
       {Step::read_faults, 26},
       {Step::ramp_change, 26},
-      {Step::setpoint_to_bus, 26},
+      {Step::applied_to_bus, 26},
       {Step::voltage_part, 26},
       {Step::operand_voltage_to_current, 27},
       {Step::tau_ref, 27},
@@ -495,28 +495,28 @@ struct Map {
       {Step::border, 28},
       {Step::operand_dead_voltage_slope, 29},
       {Step::border_ahead, 29},
-      {Step::hold_size, 29},
       {Step::region_limited, 30},
-      {Step::hold_ahead, 30},
+      {Step::set_error, 31},
       {Step::region, 31},
       {Step::direct_current, 31},
-      {Step::hold_limited, 31},
+      {Step::set_step, 32},
       {Step::gain_fetch, 32},
       {Step::direct_ahead, 32},
       {Step::current_sum, 32},
-      {Step::hold_strong, 32},
+      {Step::direct_voltage, 33},
       {Step::current_limited, 33},
       {Step::dead_sum, 33},
       {Step::read_current_ref, 34},
       {Step::operand_voltage_gain, 34},
       {Step::current, 34},
       {Step::dead_ahead, 34},
+      {Step::hold_size, 34},
       {Step::dead_voltage, 35},
+      {Step::hold_ahead, 35},
       {Step::voltage_offset, 36},
-      {Step::hold, 36},
-      {Step::set_sum, 37},
+      {Step::hold_limited, 36},
       {Step::self_test_quiet, 37},
-      {Step::set_ahead, 38},
+      {Step::hold_strong, 37},
       {Step::voltage_sum, 38},
       {Step::self_test_over, 38},
       {Step::voltage_limited, 39},
@@ -525,6 +525,7 @@ struct Map {
       {Step::voltage, 40},
       {Step::self_test_turn, 41},
       {Step::self_test, 42},
+      {Step::hold, 43},
       {Step::duty_sum, 44},
       {Step::duty_limited, 45},
       {Step::read_duty, 46},
@@ -551,21 +552,22 @@ struct Map {
     static constexpr int polarity_ticks = 21;
     static constexpr int emf_constant = 22;
     static constexpr int observer_gain = 23;
-    static constexpr int voltage_setpoint = 13;
+    static constexpr int voltage_setpoint = 31;
+    static constexpr int voltage_step = 32;
     static constexpr int torque_limit = 24;
     static constexpr int ramp_step = 25;
     static constexpr int voltage_to_current = 27;
     static constexpr int torque_gain = 28;
     static constexpr int dead_voltage_slope = 29;
     static constexpr int region_torque = 30;
-    static constexpr int hold_torque = 31;
-    static constexpr int hold_time = 36;
+    static constexpr int hold_torque = 36;
+    static constexpr int hold_time = 43;
     static constexpr int hold_limit = 56;
     static constexpr int current_limit = 33;
     static constexpr int voltage_gain = 34;
     static constexpr int voltage_gain_high = 50;
     static constexpr int dead_voltage = 35;
-    static constexpr int voltage_limit = 39;
+    static constexpr int voltage_window = 39;
     static constexpr int duty_gain = 40;
     static constexpr int duty_limit = 45;
     static constexpr int watchdog_ticks = 46;

@@ -41,6 +41,7 @@ struct Paper {
   static constexpr int travel_bits = 16;  // bits
   static constexpr int scene_guard_bits = 2;  // bits that a scene's terms keep below a torque step
   static constexpr int require_watchdog = 0;  // 1: arming waits for the first kick
+  static constexpr int emf_in_law = 0;  // 1: the voltage law gives back the back-EMF
   static constexpr int i2t_start = 1460000000;  // I2t sum after power-up: half the budget, for nobody knows how hot the motor is
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
 
@@ -58,9 +59,10 @@ struct Paper {
     static constexpr Format polarity_speed{1, 10, 21};
     static constexpr Format polarity_current{1, 5, 16};
     static constexpr Format polarity_ticks{0, 31, 0};
-    static constexpr Format emf_constant{0, 0, 17};
+    static constexpr Format emf_constant{0, -5, 22};
     static constexpr Format observer_gain{1, 2, 15};
     static constexpr Format voltage_setpoint{1, 5, 14};
+    static constexpr Format voltage_step{1, 5, 14};
     static constexpr Format torque_limit{1, 4, 16};
     static constexpr Format ramp_step{1, 4, 24};
     static constexpr Format voltage_to_current{0, 1, 16};
@@ -74,7 +76,7 @@ struct Paper {
     static constexpr Format voltage_gain{0, 1, 16};
     static constexpr Format voltage_gain_high{0, 1, 16};
     static constexpr Format dead_voltage{1, 5, 14};
-    static constexpr Format voltage_limit{1, 5, 14};
+    static constexpr Format voltage_window{1, 5, 14};
     static constexpr Format duty_gain{0, 7, 10};
     static constexpr Format duty_limit{0, 31, 0};
     static constexpr Format watchdog_ticks{0, 31, 0};
@@ -151,11 +153,13 @@ struct Paper {
       {"polarity_ticks", "tick", A::polarity_ticks, P::polarity_ticks,
        4000.0, 4000},
       {"emf_constant", "V s/rad", A::emf_constant, P::emf_constant,
-       0.0, 0},
+       0.030200000000000001, 126668},
       {"observer_gain", "A/Nm", A::observer_gain, P::observer_gain,
        3.5808264462809927, 117337},
       {"voltage_setpoint", "V", A::voltage_setpoint, P::voltage_setpoint,
        0.0, 0},
+      {"voltage_step", "V/tick", A::voltage_step, P::voltage_step,
+       0.00238037109375, 39},
       {"torque_limit", "Nm", A::torque_limit, P::torque_limit,
        0.5, 32768},
       {"ramp_step", "Nm/tick", A::ramp_step, P::ramp_step,
@@ -182,8 +186,8 @@ struct Paper {
        0.94999999999999996, 62259},
       {"dead_voltage", "V", A::dead_voltage, P::dead_voltage,
        0.254, 4162},
-      {"voltage_limit", "V", A::voltage_limit, P::voltage_limit,
-       24.0, 393216},
+      {"voltage_window", "V", A::voltage_window, P::voltage_window,
+       10.754, 176194},
       {"duty_gain", "clock/V", A::duty_gain, P::duty_gain,
        104.16666666666667, 106667},
       {"duty_limit", "clock", A::duty_limit, P::duty_limit,

@@ -55,6 +55,9 @@ struct ParameterReader {
   auto voltage_setpoint() const {
     return word<D::P::voltage_setpoint.key()>(D::A::voltage_setpoint);
   }
+  auto voltage_step() const {
+    return word<D::P::voltage_step.key()>(D::A::voltage_step);
+  }
   auto torque_limit() const {
     return word<D::P::torque_limit.key()>(D::A::torque_limit);
   }
@@ -94,8 +97,8 @@ struct ParameterReader {
   auto dead_voltage() const {
     return word<D::P::dead_voltage.key()>(D::A::dead_voltage);
   }
-  auto voltage_limit() const {
-    return word<D::P::voltage_limit.key()>(D::A::voltage_limit);
+  auto voltage_window() const {
+    return word<D::P::voltage_window.key()>(D::A::voltage_window);
   }
   auto duty_gain() const {
     return word<D::P::duty_gain.key()>(D::A::duty_gain);

@@ -96,7 +96,7 @@ module torque_control (
     if (wave_i[Emf]) emf_q <= EmfW'(product_i >>> EmfDrop);
     if (wave_i[SetStep] && ramps) addend_q <= AppliedSumW'(voltage_o);
     else if (wave_i[Window] && armed_i) addend_q <= AppliedSumW'(emf_q);
-    else if (wave_i[DeadVoltage] && !EmfInLaw && !direct) addend_q <= -AppliedSumW'(emf_q);
+    else if (wave_i[DeadVoltage] && !EmfInLaw && !direct) addend_q <= -(AppliedSumW'(emf_q));
     else addend_q <= '0;
   end
 
@@ -123,7 +123,7 @@ module torque_control (
   logic                          less_emf;
   assign less_emf = wave_i[Gain] && direct;
   assign base    = SumW'(kept_q) | SumW'(fixed_q);
-  assign product = less_emf ? ~SumW'(emf_q)
+  assign product = less_emf ? ~(SumW'(emf_q))
                             : wave_i[Gain] ? SumW'(product_i >>> GainDrop) : SumW'(product_i >>> TauRefDrop);
   always_ff @(posedge clk_i) begin
     if (!(wave_i[feltgate_map_pkg::T_BORDER] || wave_i[feltgate_map_pkg::T_HOLD_SIZE])) border_q <= '0;

@@ -100,6 +100,7 @@ LetGo let_go(const std::string& design, const plant::Parameters& plant,
   scene.parameters = parameters;
   scene.parameters["overspeed"] = 1000;
   scene.parameters["current_limit"] = limit_a;
+  scene.parameters["voltage_window"] = 24;
   scene.parameters["i2t_budget"] = 1e9;
   plant::HandPhase hand;
   hand.kind = plant::HandPhase::Kind::kPrescribed;
@@ -269,8 +270,7 @@ double growth(const Settings& s, double stiffness, double damping, double second
                       {"wall_damping", damping}, {"wall_stiffness", stiffness * count_rad},
                       {"dead_voltage", 0},       {"dead_voltage_slope", 0},
                       {"torque_limit", 0.95},    {"current_limit", 31.5},
-                      {"voltage_window", 24},
-                      {"i2t_budget", 1e9}};
+                      {"voltage_window", 24},    {"i2t_budget", 1e9}};
   plant::HandPhase hand;
   hand.kind = plant::HandPhase::Kind::kTorque;
   hand.profile = {{plant::Segment::Kind::kStep, 1.0, press_nm, 0, 0, 0}};

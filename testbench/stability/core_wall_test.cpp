@@ -33,7 +33,8 @@ Growth swing_of_core(const design::Elaborated& design, const plant::Parameters& 
                   {"dead_voltage_slope", 0},
                   {"ramp_step", 1},
                   {"torque_limit", 0.95},
-                  {"current_limit", 31.9}};
+                  {"current_limit", 31.9},
+                  {"voltage_window", 24}};
   s.hand.start_rad = start;
   plant::HandPhase held, press;
   held.kind = plant::HandPhase::Kind::kLocked;

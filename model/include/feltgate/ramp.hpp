@@ -104,7 +104,8 @@ class RampLaw {
   /// Beyond every limit, or at it.
   static Torque most() {
     if constexpr (N::is_fixed) {
-      return Torque::from_raw(Torque::max_raw());
+      constexpr Format torque = D::f.torque;
+      return N::template from_raw<torque.key()>((std::int64_t{1} << (torque.width() - 1)) - 1);
     } else {
       return Torque(1e6);
     }

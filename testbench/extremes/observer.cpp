@@ -37,6 +37,7 @@ Releases blocked(double seconds, Cores cores, Outcome* o) {
   Bench b("paper", cores);
   b.set("current_limit", limit_a);
   b.set("setpoint_torque", 0);
+  b.set("hold_time", 8192);  // never: the torque is to stay
   b.arm("setpoint");
   b.set("setpoint_torque", pull_nm);
   Releases r;

@@ -86,7 +86,7 @@ TEST_CASE(
   };
   for (const Limit& limit : {Limit{A::torque_limit, D::f.torque.width(), &Tick::tau_ref},
                              Limit{A::current_limit, D::f.current.width(), &Tick::current},
-                             Limit{A::voltage_limit, D::f.voltage.width(), &Tick::voltage},
+                             Limit{A::voltage_window, D::f.voltage.width(), &Tick::voltage},
                              Limit{A::duty_limit, D::f.duty.width(), &Tick::duty}}) {
     const auto at_0 = under_load(limit.address, 0);
     int let_through = 0;
@@ -118,7 +118,7 @@ TEST_CASE("limits: a negative ramp, dead voltage or membrane is none") {
 }
 
 TEST_CASE("limits: the same words written to an armed core") {
-  for (const int address : {A::torque_limit, A::current_limit, A::voltage_limit, A::duty_limit,
+  for (const int address : {A::torque_limit, A::current_limit, A::voltage_window, A::duty_limit,
                             A::region_torque, A::dead_voltage, A::ramp_step}) {
     for (const std::int64_t word : kExtremes) {
       Script s;

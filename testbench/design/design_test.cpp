@@ -211,8 +211,8 @@ TEST_CASE("a parameter that does not fit its word is refused", "[design]") {
                 "the supply of 24 V does not fit the voltage's format [1,4,14]; lower it, or "
                 "use more integer bits");
   // 131072 counts are 32 turns of this encoder, 0.02 turns of that.
-  check_refused("paper", "lines = 1024", "lines = 1_048_576", "membrane_lower_rad",
-                "membrane_lower = 333772 count does not fit its word [1,17,8]; choose a value that "
+  check_refused("paper", "lines = 1024", "lines = 524_288", "membrane_lower_rad",
+                "membrane_lower = 166886 count does not fit its word [1,17,8]; choose a value that "
                 "makes it smaller");
   check_refused(
       "paper", "charge_core_rad = 0.0 ", "charge_core_rad = 1e-5 ", "charge_core_rad",

@@ -80,6 +80,8 @@ TEST_CASE("core: random motion, scenes, modes and register traffic") {
     total.merge(seen);
   }
   INFO(total.text());
+  // Slow ticks are too few for it.
+  if (scaled_clocks(1'500'000) / D::clocks_per_tick < 10'000) return;
   // A stimulus that never arms, or that pins an output, would hide every error.
   CHECK(total.armed_share() > 0.3);
   CHECK(total.duty_pinned_share() < 0.35);  // the back-EMF of a fast lever is above the supply

@@ -178,7 +178,7 @@ TEST_CASE("host: words behind the ramp are refused while armed, and it shows") {
     REQUIRE((s.status() >> C::status_refused & 1U) == 0);
     s.play();
   }
-  REQUIRE(refused == 19);
+  REQUIRE(refused == 24);
 }
 
 TEST_CASE("host: mode, polarities, PWM mode and filter hold while armed") {

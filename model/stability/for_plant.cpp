@@ -128,6 +128,20 @@ std::string edited(const std::string& base, const Design& d, const Parameters& p
     edit.set("control", "kp_1_kg_m2",
              number(d.kp_1_kg_m2 * d.inertia_kg_m2 / p.lever.inertia_kg_m2));
   }
+  // The same counts of answer to the self-test's pulse.
+  const double pulse =
+      d.self_test_nm * p.lever.inertia_kg_m2 / d.inertia_kg_m2 * d.lines / p.encoder.lines;
+  if (edit.text_of("self_test", "torque_nm") && std::abs(pulse / d.self_test_nm - 1) > noticeable) {
+    edit.set("self_test", "torque_nm",
+             number(std::min(three_digits(pulse, std::ceil), d.torque_limit_nm)));
+  }
+  const bool power_of_two = (p.encoder.lines & (p.encoder.lines - 1)) == 0;
+  if (edit.text_of("encoder", "index") && (!power_of_two || p.encoder.lines < 16)) {
+    edit.set("encoder", "index", "0");
+    notes->push_back(
+        fmt::format("encoder.index is 0: the count at the index cannot be checked against {} lines",
+                    p.encoder.lines));
+  }
   const Format f = wide_enough(d.current, current);
   if (f.integer != d.current.integer) {
     edit.set("formats", "current", fmt::format("[1, {}, {}]", f.integer, f.fraction));

@@ -45,6 +45,10 @@ class RandomScenario {
     words.i2t_budget = random_.below(1U << 17);
     words.nominal_current_squared = random_.below(1U << 10);
     if (random_.one_in(8)) words.i2t_budget = static_cast<std::uint32_t>(random_.bits());
+    if (random_.one_in(10)) words.watchdog_ticks = static_cast<std::uint32_t>(random_.bits());
+    if (random_.one_in(10)) {
+      words.nominal_current_squared = static_cast<std::uint32_t>(random_.bits());
+    }
     if (random_.one_in(20)) words.overspeed = static_cast<std::uint32_t>(random_.bits());
     if (random_.one_in(20)) words.polarity_speed = static_cast<std::uint32_t>(random_.bits());
     if (random_.one_in(20)) words.polarity_current = static_cast<std::uint32_t>(random_.bits());

@@ -73,7 +73,7 @@ module feltgate_core #(
   logic [ 1:0] mode;
   logic host, arm_request, set_zero, clear_faults, kick, region_high, snap_valid;
   logic disarm, host_stop, restart, refused, unkicked, word_error, testing, self_test_trip;
-  logic moved, frozen, eased, channel_trip, index_trip;
+  logic moved, beyond, frozen, eased, channel_trip, index_trip;
   logic [ 5:0] snap_slot;
   assign host         = control[feltgate_map_pkg::B_CONTROL_HOST];
   assign mode         = control[feltgate_map_pkg::B_CONTROL_MODE+:feltgate_map_pkg::W_CONTROL_MODE];
@@ -172,7 +172,7 @@ module feltgate_core #(
   end
 
   logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] velocity_difference;
-  logic velocity_saturated, tau_hat_saturated, beyond, square;
+  logic velocity_saturated, tau_hat_saturated, square;
   velocity_n u_velocity_n (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .wave_i(wave),
@@ -222,7 +222,7 @@ module feltgate_core #(
   logic [feltgate_map_pkg::W_STATUS_SELF_TEST-1:0] test_result;
   self_test u_self_test (
       .clk_i(clk_i), .rst_ni(rst_ni),
-      .armed_i(armed_o), .direct_i(mode == 2'd2),
+      .armed_i(armed_o), .direct_i(mode == 2'(feltgate_map_pkg::MODE_VOLTAGE)),
       .travel_i(travel[1:0]), .tick_count_i(tick_count_o),
       .wave_i(wave), .param_i(param),
       .busy_o(testing), .ahead_o(pulse_ahead),

@@ -31,9 +31,9 @@ module self_test (
   localparam int Rounded = feltgate_map_pkg::T_SCENE_ROUNDED;
   localparam int ResultW = feltgate_map_pkg::W_STATUS_SELF_TEST;
   localparam logic [ResultW-1:0] None = '0;
-  localparam logic [ResultW-1:0] Right = ResultW'(1);
-  localparam logic [ResultW-1:0] Held = ResultW'(2);
-  localparam logic [ResultW-1:0] Moving = ResultW'(3);
+  localparam logic [ResultW-1:0] Right = ResultW'(feltgate_map_pkg::SELF_TEST_RIGHT);
+  localparam logic [ResultW-1:0] Held = ResultW'(feltgate_map_pkg::SELF_TEST_HELD);
+  localparam logic [ResultW-1:0] Moving = ResultW'(feltgate_map_pkg::SELF_TEST_MOVING);
 
   // What the lever has moved by since the tick before: one count, or two, whose direction is unknown.
   logic [1:0] now_q, before_q, step;

@@ -68,8 +68,8 @@ module torque_control (
   localparam int DeadVoltage = feltgate_map_pkg::S_DEAD_VOLTAGE;
   localparam int Window = feltgate_map_pkg::S_VOLTAGE_WINDOW;
 
-  localparam logic [1:0] Open = 2'd1;
-  localparam logic [1:0] Voltage = 2'd2;
+  localparam logic [1:0] Open = 2'(feltgate_map_pkg::MODE_OPEN);
+  localparam logic [1:0] Voltage = 2'(feltgate_map_pkg::MODE_VOLTAGE);
 
   logic direct, follows, ramps;
   assign direct  = mode_i == Voltage;

@@ -63,6 +63,8 @@ struct Design {
 
   int clocks_per_tick() const { return static_cast<int>(clock_hz / tick_hz); }
   int pwm_period_clocks() const { return static_cast<int>(clock_hz / pwm_hz); }
+  /// The voltage law gives back the back-EMF.
+  bool emf_in_law() const { return voltage_law == "motor_model"; }
   /// A time in the units of the self-test, SELF_TEST_UNIT_BITS of ticks.
   double self_test_units(double seconds) const;
   int dead_clocks() const;

@@ -86,8 +86,7 @@ std::vector<Constant> constants(const Elaborated& e) {
       {"scene_guard_bits", fabric::scene_guard_bits,
        "bits that a scene's terms keep below a torque step"},
       {"require_watchdog", d.require_watchdog ? 1 : 0, "1: arming waits for the first kick"},
-      {"emf_in_law", d.voltage_law == "motor_model" ? 1 : 0,
-       "1: the voltage law gives back the back-EMF"},
+      {"emf_in_law", d.emf_in_law() ? 1 : 0, "1: the voltage law gives back the back-EMF"},
       {"i2t_start", e.word("i2t_budget").raw / 2,
        "I2t sum after power-up: half the budget, for nobody knows how hot the motor is"},
   };

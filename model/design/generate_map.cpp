@@ -293,7 +293,9 @@ std::string causes_header(const RegisterMap& map) {
   for (const Cause& c : map.faults) {
     s << "  " << c.name << " = " << c.number << ",  ///< " << c.doc << "\n";
   }
-  s << "};\n/// By the number of the cause.\ninline constexpr std::array<const char*, "
+  s << "};\n/// Its bit of faults.\nconstexpr std::uint16_t fault_bit(Fault cause) {\n"
+    << "  return static_cast<std::uint16_t>(1U << static_cast<unsigned>(cause));\n}\n"
+    << "/// By the number of the cause.\ninline constexpr std::array<const char*, "
     << map.faults.size() + 1 << "> fault_names{\n    \"none\"";
   for (const Cause& c : map.faults) s << ",\n    \"" << c.name << "\"";
   s << "};\n\n}  // namespace feltgate\n";

@@ -96,7 +96,8 @@ std::map<std::string, Value> parameter_values(const Design& d) {
        {d.self_test ? std::round(d.self_test_units(d.self_test_pulse_s)) : 0.0,
         "self_test.pulse_ms"}},
       {"self_test_arms",
-       {(d.arm_when_held ? 1.0 : 0.0) + (d.arm_when_moving ? 2.0 : 0.0),
+       {static_cast<double>(d.arm_when_held << Map::self_test_held_bit |
+                            d.arm_when_moving << Map::self_test_moving_bit),
         "self_test.arm_when_held"}},
       {"setpoint_torque", {d.setpoint_nm, "scenes.setpoint_nm"}},
       {"membrane_lower", {d.membrane_lower_rad / q, "scenes.membrane_lower_rad"}},

@@ -16,6 +16,8 @@ package feltgate_map_pkg;
   localparam logic [63:0] REFUSED_WHILE_ARMED = 64'h000c23ef78c083b0;
   localparam logic [63:0] RAMPS_WHILE_ARMED = 64'h0100000001000000;
   localparam logic [15:0] INPUT_SCENES = 16'h0004;
+  localparam int MODE_OPEN = 1;  // control.mode: open loop
+  localparam int MODE_VOLTAGE = 2;  // control.mode: direct voltage
   localparam int ERRORS_BORNE = 7;  // encoder errors that are borne, less one every 2^forgive_bits ticks
   localparam int FORGIVE_BITS = 10;  // bits of the ticks after which one encoder error is forgiven
   localparam int RUNAWAY_BITS = 16;  // bits of the longest window of the wrong-polarity check [tick]
@@ -25,6 +27,9 @@ package feltgate_map_pkg;
   localparam int SELF_TEST_COUNT_BITS = 8;  // bits of these times
   localparam int SELF_TEST_PATIENCE_BITS = 17;  // bits of the ticks of which the second multiple ends the self-test's wait
   localparam int SELF_TEST_COUNTS = 2;  // counts that are an answer to the self-test
+  localparam int SELF_TEST_RIGHT = 1;  // what status.self_test says: the lever answered the right way
+  localparam int SELF_TEST_HELD = 2;  // it did not answer
+  localparam int SELF_TEST_MOVING = 3;  // it was not still for long enough to be asked
   localparam int SELF_TEST_HELD_BIT = 0;  // of self_test_arms: the scene begins though the lever is held
   localparam int SELF_TEST_MOVING_BIT = 1;  // of self_test_arms: the scene begins though the lever moves
   localparam int KICKLESS_BITS = 24;  // bits of the longest time without a kick [tick]

@@ -12,7 +12,12 @@
 
 namespace feltgate {
 
-enum class SelfTestResult : std::uint8_t { none = 0, right = 1, held = 2, moving = 3 };
+enum class SelfTestResult : std::uint8_t {
+  none = 0,
+  right = Map::self_test_right,
+  held = Map::self_test_held,
+  moving = Map::self_test_moving
+};
 
 class SelfTestLaw {
  public:

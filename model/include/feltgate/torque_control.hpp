@@ -17,9 +17,10 @@ namespace feltgate {
 
 /// What the control word's mode bits mean.
 enum class Mode : std::uint8_t {
-  closed_loop = 0,  ///< tau_hat is fed back
-  open_loop = 1,    ///< tau_hat is not fed back
-  voltage = 2  ///< the ramped set-point replaces the law; the observer sees V * voltage_to_current
+  closed_loop = 0,             ///< tau_hat is fed back
+  open_loop = Map::mode_open,  ///< tau_hat is not fed back
+  voltage = Map::mode_voltage  ///< the ramped set-point replaces the law; the observer sees V *
+                               ///< voltage_to_current
 };
 
 /// The arithmetic, in number policy N, for design D.

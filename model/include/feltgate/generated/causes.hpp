@@ -56,6 +56,10 @@ enum class Fault : std::uint8_t {
   axis = 14,  ///< reserved for further axes
   link = 15,  ///< reserved for the host's link
 };
+/// Its bit of faults.
+constexpr std::uint16_t fault_bit(Fault cause) {
+  return static_cast<std::uint16_t>(1U << static_cast<unsigned>(cause));
+}
 /// By the number of the cause.
 inline constexpr std::array<const char*, 16> fault_names{
     "none",

@@ -22,6 +22,8 @@ struct Map {
   static constexpr std::uint64_t refused_while_armed = 0xc23ef78c083b0;
   static constexpr std::uint64_t ramps_while_armed = 0x100000001000000;
   static constexpr unsigned input_scenes = 0x4;
+  static constexpr int mode_open = 1;  ///< control.mode: open loop
+  static constexpr int mode_voltage = 2;  ///< control.mode: direct voltage
   static constexpr int errors_borne = 7;  ///< encoder errors that are borne, less one every 2^forgive_bits ticks
   static constexpr int forgive_bits = 10;  ///< bits of the ticks after which one encoder error is forgiven
   static constexpr int runaway_bits = 16;  ///< bits of the longest window of the wrong-polarity check [tick]
@@ -31,6 +33,9 @@ struct Map {
   static constexpr int self_test_count_bits = 8;  ///< bits of these times
   static constexpr int self_test_patience_bits = 17;  ///< bits of the ticks of which the second multiple ends the self-test's wait
   static constexpr int self_test_counts = 2;  ///< counts that are an answer to the self-test
+  static constexpr int self_test_right = 1;  ///< what status.self_test says: the lever answered the right way
+  static constexpr int self_test_held = 2;  ///< it did not answer
+  static constexpr int self_test_moving = 3;  ///< it was not still for long enough to be asked
   static constexpr int self_test_held_bit = 0;  ///< of self_test_arms: the scene begins though the lever is held
   static constexpr int self_test_moving_bit = 1;  ///< of self_test_arms: the scene begins though the lever moves
   static constexpr int kickless_bits = 24;  ///< bits of the longest time without a kick [tick]

@@ -148,11 +148,9 @@ inline constexpr int kHeat = Twin::heat_clock + 1;
 inline constexpr int kPolarity = Twin::polarity_clock + 1;
 inline constexpr int kWatchdog = Twin::watchdog_clock + 1;
 
-constexpr unsigned bit(Fault cause) { return 1U << static_cast<unsigned>(cause); }
-
 /// This cause and no other.
 inline bool only(const Script& script, Fault cause) {
-  return script.out().faults == bit(cause) &&
+  return script.out().faults == fault_bit(cause) &&
          script.out().first_fault == static_cast<unsigned>(cause);
 }
 

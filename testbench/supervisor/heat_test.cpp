@@ -51,7 +51,7 @@ class Pair {
       compare();
     }
   }
-  bool hot() const { return (rtl_->faults_o & bit(Fault::i2t)) != 0; }
+  bool hot() const { return (rtl_->faults_o & fault_bit(Fault::i2t)) != 0; }
 
  private:
   void compare() {
@@ -142,7 +142,7 @@ TEST_CASE("supervisor: the tick in which the gates fall still heats") {
   s.ticks(1);
   REQUIRE(only(s, Fault::stop));
   s.ticks(1);
-  REQUIRE(s.out().faults == (bit(Fault::stop) | bit(Fault::i2t)));
+  REQUIRE(s.out().faults == (fault_bit(Fault::stop) | fault_bit(Fault::i2t)));
   s.play();
 }
 
@@ -162,7 +162,7 @@ TEST_CASE("supervisor: the I2t sum does not wrap at the largest budget") {
   REQUIRE(only(s, Fault::i2t));
   for (int k = 0; k < 10; ++k) {
     s.clear().ticks(1);
-    REQUIRE(s.out().faults == bit(Fault::i2t));
+    REQUIRE(s.out().faults == fault_bit(Fault::i2t));
   }
   // Nothing was added in the tick of the fault: at most 8 ticks more, and it is below the budget.
   s.now.words.nominal_current_squared = static_cast<std::uint32_t>(square / 8 + 1);

@@ -82,7 +82,7 @@ TEST_CASE("supervisor: over-speed at the limit plus one bit, either way") {
     s.until(0);
     REQUIRE_FALSE(s.out().armed);
     s.clear().ticks(1);
-    REQUIRE(s.out().faults == bit(Fault::speed));  // the cause stands
+    REQUIRE(s.out().faults == fault_bit(Fault::speed));  // the cause stands
     s.now.velocity = 0;
     s.clear().clear();
     REQUIRE(s.out().faults == 0);
@@ -163,7 +163,7 @@ TEST_CASE("supervisor: a stop shortly before arming prevents it, or is a fault o
     REQUIRE(s.out().armed == (before < 3 || before > 5));
     s.clocks(5);
     REQUIRE(s.out().gates_enable == (before > 5));
-    REQUIRE(s.out().faults == (before < 3 ? bit(Fault::stop) : 0));
+    REQUIRE(s.out().faults == (before < 3 ? fault_bit(Fault::stop) : 0));
     s.play();
   }
 }
@@ -204,10 +204,11 @@ TEST_CASE("supervisor: the first cause stays, of two at once the lower number") 
   s.now.words.i2t_budget = 0;  // trips in every tick
   s.now.velocity = std::numeric_limits<std::int32_t>::max();
   s.ticks(1);
-  REQUIRE(s.out().faults == (bit(Fault::speed) | bit(Fault::i2t)));
+  REQUIRE(s.out().faults == (fault_bit(Fault::speed) | fault_bit(Fault::i2t)));
   REQUIRE(s.out().first_fault == static_cast<unsigned>(Fault::speed));
   s.errors(16);
-  REQUIRE(s.out().faults == (bit(Fault::speed) | bit(Fault::i2t) | bit(Fault::encoder)));
+  REQUIRE(s.out().faults ==
+          (fault_bit(Fault::speed) | fault_bit(Fault::i2t) | fault_bit(Fault::encoder)));
   REQUIRE(s.out().first_fault == static_cast<unsigned>(Fault::speed));
   s.now.words.i2t_budget = 0xffffffffU;
   s.now.velocity = 0;
@@ -220,7 +221,8 @@ TEST_CASE("supervisor: the first cause stays, of two at once the lower number") 
     s.until(Twin::speed_clock);
     REQUIRE(s.out().gates_enable);
     s.errors(1);
-    REQUIRE(s.out().faults == (bit(Fault::encoder) | (too_fast ? bit(Fault::speed) : 0)));
+    REQUIRE(s.out().faults ==
+            (fault_bit(Fault::encoder) | (too_fast ? fault_bit(Fault::speed) : 0)));
     REQUIRE(s.out().first_fault == static_cast<unsigned>(Fault::encoder));
     s.now.velocity = 0;
     s.clear().clear();
@@ -236,7 +238,7 @@ TEST_CASE("supervisor: a cause of another block, in every clock of a tick and be
       s.arm();
       REQUIRE(s.out().armed);
       s.until(clock);
-      s.now.trips = static_cast<std::uint16_t>(bit(cause));
+      s.now.trips = static_cast<std::uint16_t>(fault_bit(cause));
       s.clocks(1);
       s.now.trips = 0;
       REQUIRE((!s.out().gates_enable && only(s, cause)));
@@ -245,10 +247,10 @@ TEST_CASE("supervisor: a cause of another block, in every clock of a tick and be
     }
   }
   s.arm();
-  s.now.trips = static_cast<std::uint16_t>(bit(Fault::word) | bit(Fault::jump));
+  s.now.trips = static_cast<std::uint16_t>(fault_bit(Fault::word) | fault_bit(Fault::jump));
   s.clocks(1);
   s.now.trips = 0;
-  REQUIRE(s.out().faults == (bit(Fault::word) | bit(Fault::jump)));
+  REQUIRE(s.out().faults == (fault_bit(Fault::word) | fault_bit(Fault::jump)));
   REQUIRE(s.out().first_fault == static_cast<unsigned>(Fault::word));
   s.play();
 }

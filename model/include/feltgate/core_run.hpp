@@ -117,7 +117,7 @@ template <bool Read, class OnSnapshot>
       return;
     case Step::self_test:
       take<Read>(step, decoded);
-      if (self_test_.failed() && supervisor_.at_cause(Fault::self_test)) {
+      if (self_test_.failed() && supervisor_.trip(Fault::self_test)) {
         s.close(after(T::self_test));
       }
       return;

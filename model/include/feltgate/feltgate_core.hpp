@@ -65,22 +65,21 @@ class FeltgateCore {
     typename Supervisor<D>::In sup = supervisor_inputs(clock_);
     sup.tick = tick;
     sup.arm = (host ? bit(control, D::C::control_arm) : in.arm) && !registers_.out().disarm;
-    if (registers_.out().stop) sup.trips |= 1U << static_cast<unsigned>(Fault::stop);
+    if (registers_.out().stop) sup.trips |= fault_bit(Fault::stop);
     sup.stop = in.stop;
     sup.clear_faults = clear;
     sup.kick = tick && registers_.commands(D::C::command_kick);
     sup.encoder_error = decoder_.out().illegal;
-    if (registers_.out().word_error) sup.trips |= 1u << static_cast<unsigned>(Fault::word);
+    if (registers_.out().word_error) sup.trips |= fault_bit(Fault::word);
     if (clock_ == core_steps::clock_of(T::channel)) {
-      sup.trips |=
-          static_cast<std::uint16_t>(monitor_.trips() << static_cast<unsigned>(Fault::channel) |
-                                     monitor_.index_trips() << static_cast<unsigned>(Fault::index));
+      if (monitor_.trips()) sup.trips |= fault_bit(Fault::channel);
+      if (monitor_.index_trips()) sup.trips |= fault_bit(Fault::index);
     }
     Pwm::In pwm = pwm_inputs(supervisor_.out().gates_enable, out_.duty);
     pwm.clear = supervisor_.stopped(in.stop);
     out_.snapshot_valid = false;
     core_steps::for_each_step_of(clock_, [this](Step step) { take<true>(step, decoder_.out()); });
-    if (self_test_.failed()) sup.trips |= 1u << static_cast<unsigned>(Fault::self_test);
+    if (self_test_.failed()) sup.trips |= fault_bit(Fault::self_test);
     supervisor_.clock(sup);
     const QuadDecoder::In d = decoder_inputs(in, zero, clear);
     if (!decoder_.settled(d)) decoder_.clock(d);
@@ -209,6 +208,7 @@ class FeltgateCore {
       reg.scene_slot_fetch = ((Map::scene_slots >> slot) & 1u) != 0;
       reg.region_high = wave_.region_high();
       reg.testing = self_test_.busy(out_.armed);
+      reg.eased = hold_.eased();
     }
     return reg;
   }

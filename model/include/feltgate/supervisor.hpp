@@ -116,11 +116,11 @@ class Supervisor {
   void clock(const In& in) {
     const bool live = out_.gates_enable;
     std::uint16_t trip = in.trips;
-    if (in.encoder_error && errors_ == kBorne) trip |= bit(Fault::encoder);
+    if (in.encoder_error && errors_ == kBorne) trip |= fault_bit(Fault::encoder);
     const bool stopped_now = stopped(in.stop);
     const bool dealt_with = stop_2_ && !live && out_.first_fault == 0;
-    if (in.period_start && tickless_ == kTickPeriods) trip |= bit(Fault::tick);
-    if (stop_2_ && live) trip |= bit(Fault::stop);
+    if (in.period_start && tickless_ == kTickPeriods) trip |= fault_bit(Fault::tick);
+    if (stop_2_ && live) trip |= fault_bit(Fault::stop);
     if ((in.wave & kWaveClocks) != 0) wave_clock(in, &trip);
     if (in.encoder_error) errors_ = errors_ == kBorne ? 0 : errors_ + 1;
     if (in.tick) {
@@ -152,6 +152,15 @@ class Supervisor {
     return stop || !stopped_ || out_.gates_enable || out_.first_fault != 0;
   }
 
+  /// A cause, here or in another block, seen before the last clock of a tick; returns whether it
+  /// closed the gates.
+  bool trip(Fault cause) {
+    const bool live = out_.gates_enable;
+    latch(fault_bit(cause));
+    out_.gates_enable = false;
+    return live;
+  }
+
   // A tick from its first to its last clock without encoder errors and with steady(stop), in the
   // steps that change something; each stands for all clocks up to its own. The first four return
   // whether the gates fell with it.
@@ -161,13 +170,6 @@ class Supervisor {
                 std::int32_t velocity) {
     out_.current_estimate = static_cast<std::int32_t>(estimate_of(v_product, w_product));
     return over(velocity, words.overspeed) && trip(Fault::speed);
-  }
-  /// A cause seen before the last clock of a tick; returns whether it closed the gates.
-  bool trip(Fault cause) {
-    const bool live = out_.gates_enable;
-    latch(bit(cause));
-    out_.gates_enable = false;
-    return live;
   }
   /// Clock heat_clock.
   bool at_heat(const Words& words) {
@@ -184,8 +186,6 @@ class Supervisor {
     runaway_.turn(velocity, current_ref, words.polarity_ticks, out_.gates_enable);
     return out_.gates_enable && runaway_.due() && trip(Fault::polarity);
   }
-  /// A clock in which another block has seen a cause.
-  bool at_cause(Fault cause) { return trip(cause); }
   /// Clock watchdog_clock, where that is not the last clock of the tick.
   bool at_watchdog(const Words& words) {
     return !kWatchdogLast && silent(words) && trip(Fault::watchdog);
@@ -194,7 +194,7 @@ class Supervisor {
   bool at_end(const Words& words, bool arm, bool clear_faults = false, bool kick = false) {
     const bool trips = kWatchdogLast && silent(words);
     forgive(true);
-    end_tick(arm, clear_faults, kick, trips ? bit(Fault::watchdog) : std::uint16_t{0});
+    end_tick(arm, clear_faults, kick, trips ? fault_bit(Fault::watchdog) : std::uint16_t{0});
     return trips;
   }
 
@@ -238,9 +238,6 @@ class Supervisor {
       at(T::speed) | at(T::cooled) | at(T::current_squared) | at(T::too_hot) | at(T::heat) |
       at(T::growth_size) | at(T::growth) | at(T::strong_size) | at(T::strong) |
       at(T::runaway_ticks) | at(T::polarity) | at(T::silent) | at(T::watchdog);
-  static constexpr std::uint16_t bit(Fault cause) {
-    return static_cast<std::uint16_t>(1U << static_cast<unsigned>(cause));
-  }
 
   /// A product as it leaves the multiplier, with F fraction bits.
   template <int F>
@@ -283,25 +280,27 @@ class Supervisor {
     if (now(T::current_estimate)) {
       out_.current_estimate = static_cast<std::int32_t>(estimate_of(v_product_, in.product));
     }
-    if (now(T::speed) && too_fast_) *trip |= bit(Fault::speed);
+    if (now(T::speed) && too_fast_) *trip |= fault_bit(Fault::speed);
     if (now(T::too_fast)) too_fast_ = over(signal_, in.param);
 
     if (now(T::heat)) {
-      if (too_hot_) *trip |= bit(Fault::i2t);
+      if (too_hot_) *trip |= fault_bit(Fault::i2t);
       sum_ = Law::heated(cooled_, square_);
     }
     if (now(T::cooled)) cooled_ = Law::cooled(sum_, nominal_of(in.param));
     if (now(T::current_squared)) square_ = square_of(in.product);
     if (now(T::too_hot)) too_hot_ = sum_.raw() >= std::int64_t{in.param};
 
-    if (now(T::polarity) && out_.gates_enable && runaway_.due()) *trip |= bit(Fault::polarity);
+    if (now(T::polarity) && out_.gates_enable && runaway_.due())
+      *trip |= fault_bit(Fault::polarity);
     if (now(T::runaway_ticks)) {
       runaway_.turn(in.velocity, in.current_ref, in.param, out_.gates_enable);
     }
     if (now(T::growth)) runaway_.compare_growth(signal_, in.velocity, in.param);
     if (now(T::strong)) runaway_.compare_current(signal_, in.param);
 
-    if (now(T::watchdog) && out_.gates_enable && awake_ && silent_) *trip |= bit(Fault::watchdog);
+    if (now(T::watchdog) && out_.gates_enable && awake_ && silent_)
+      *trip |= fault_bit(Fault::watchdog);
     if (now(T::silent)) silent_ = too_long(in.param);
 
     if (now(T::speed_size)) signal_ = in.velocity;

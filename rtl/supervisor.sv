@@ -283,8 +283,7 @@ module supervisor (
                 (FAULTS_W'(stop_trip) << feltgate_map_pkg::FAULT_STOP) |
                 (FAULTS_W'(tick_trip) << feltgate_map_pkg::FAULT_TICK) | trips_i;
 
-  assign any_trip = encoder_trip || speed_trip || polarity_trip || i2t_trip || watchdog_trip ||
-                    stop_trip || tick_trip || trips_i != '0;
+  assign any_trip = trip != '0;
   assign clear    = clear_faults_i && !arm_i;
 
   function automatic logic [FIRST_W-1:0] lowest(input logic [FAULTS_W-1:0] causes);

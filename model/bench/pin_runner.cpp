@@ -48,7 +48,7 @@ void PinRunner::inspect(const Work& work, const Inspector& each) {
              s.current_ref,
              s.voltage,
              s.duty,
-             s.limits & ~(limit::gates_closed | limit::hold | limit::chatter)};
+             s.limits & ~limits_of_core};
     r.velocity_rad_s = si(s.velocity, d.velocity);
     r.tau_hat_nm = si(s.tau_hat, d.torque);
     r.torque_nm = d.torque_constant_nm_a * si(s.current_ref, d.current);

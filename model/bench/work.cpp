@@ -32,8 +32,8 @@ void sample(Work* work, const std::string& design) {
       }
     }
     const bool restart = host.restart(s.armed, s.scene);
-    const Relief relief{(s.limits & limit::chatter) != 0, (s.limits & limit::hold) != 0};
-    work->ticks.push_back({s.position, s.travel, s.armed, s.scene, host.mode(), restart, relief});
+    work->ticks.push_back(
+        {s.position, s.travel, s.armed, s.scene, host.mode(), restart, relief_of(s.limits)});
   });
 }
 

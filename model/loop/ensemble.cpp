@@ -73,13 +73,11 @@ void Ensemble::ride(const Snapshot& s) {
     for (Rider& r : riders_) r.chain->set_parameter(w.address, w.value);
     if (passenger_ != nullptr) passenger_->set_parameter(w.address, w.value);
   }
-  constexpr unsigned no_saturation =
-      limit::ramp | limit::gates_closed | limit::hold | limit::chatter;
-  lead_figures_.saturations += (s.limits & ~no_saturation) != 0 ? 1 : 0;
+  lead_figures_.saturations += (s.limits & ~(limit::ramp | limits_of_core)) != 0 ? 1 : 0;
   const bool restart = host_.restart(s.armed, s.scene);
   if (riders_.empty() && passenger_ == nullptr) return;
-  const Relief relief{(s.limits & limit::chatter) != 0, (s.limits & limit::hold) != 0};
-  const ChainIn in{s.position, s.travel, s.armed, s.scene, host_.mode(), restart, relief};
+  const ChainIn in{s.position, s.travel,           s.armed, s.scene, host_.mode(),
+                   restart,    relief_of(s.limits)};
   watch_velocity(s.travel);
   if (passenger_ != nullptr) passenger_->tick(in);
   for (Rider& r : riders_) {

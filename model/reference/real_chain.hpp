@@ -10,9 +10,13 @@
 #include <memory>
 #include <string>
 
+#include "feltgate/generated/causes.hpp"
 #include "feltgate/ramp.hpp"
 
 namespace feltgate {
+
+/// Limits that a chain knows nothing of.
+inline constexpr unsigned limits_of_core = limit::gates_closed | limit::hold | limit::chatter;
 
 /// What the wave of one tick starts from.
 struct ChainIn {
@@ -35,7 +39,7 @@ struct ChainRaw {
   std::int64_t velocity = 0;
   std::int32_t tau_hat = 0, tau_ref = 0, current_ref = 0, voltage = 0;
   std::int16_t duty = 0;
-  std::uint16_t limits = 0;  ///< Snapshot::limits without gates_closed
+  std::uint16_t limits = 0;  ///< Snapshot::limits without limits_of_core
 };
 
 class RealChain {

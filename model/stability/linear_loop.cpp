@@ -137,7 +137,7 @@ LinearLoop make_linear_loop(const design::Elaborated& e, const plant::Parameters
   m.inertia_gain = word("inertia_gain");
   m.torque_gain = word("torque_gain");
   m.observer_gain = word("observer_gain");
-  m.emf_constant = e.design.voltage_law == "motor_model" ? word("emf_constant") : 0.0;
+  m.emf_constant = e.design.emf_in_law() ? word("emf_constant") : 0.0;
   m.applied = p.supply.voltage_v / e.design.supply_v;
   return m;
 }

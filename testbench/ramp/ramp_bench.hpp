@@ -27,6 +27,7 @@ struct Wave {
   bool restart = false;                              ///< the torque may jump with it
   std::int64_t rendered = 0;                         ///< torque of the scene
   std::int64_t limit = Torque::max_raw(), step = 0;  ///< words
+  int pulse = 0;  ///< sign of the self-test's, while the ramp takes the motor for disarmed
   Relief relief;
 };
 using Twin = Watched<Ramp<Design>, Wave>;
@@ -89,8 +90,11 @@ struct Waves {
     in.port.param = static_cast<std::uint32_t>(word & 0xffffffff);
     in.port.limited = limiter.limited();
     in.port.beyond = limiter.beyond();
-    // Disarmed, the scenes give 0.
-    const std::int64_t x = limits && in.aside.armed ? in.aside.rendered : 0;
+    // Disarmed, the scenes give 0; the self-test gives what is beyond every limit.
+    const std::int64_t beyond = in.aside.pulse > 0   ? Rendered::max_raw()
+                                : in.aside.pulse < 0 ? Rendered::min_raw()
+                                                     : 0;
+    const std::int64_t x = limits ? (in.aside.armed ? in.aside.rendered : beyond) : 0;
     const bool comes = clock == Map::W::torque_limit - 1;
     limiter.clock(limits, {comes, 0, x, in.port.param, comes});
     clock = clock + 1 == period ? 0 : clock + 1;
@@ -112,7 +116,7 @@ struct Waves {
 struct Tally {
   std::int64_t waves = 0, disarmed = 0, free = 0, limited[2] = {}, ramping[2] = {}, ended[2] = {},
                scene_changes = 0, restarts = 0, held = 0, negative_step = 0, negative_limit = 0,
-               eased_changes = 0, frozen[2] = {}, fallen[2] = {};
+               eased_changes = 0, frozen[2] = {}, fallen[2] = {}, pulsed = 0, pulsed_frozen = 0;
 };
 
 /// The chain gives the same; and what limit and ramp promise.
@@ -135,7 +139,12 @@ struct ChainBeside {
     const std::int64_t step = decode_word(Step::format, static_cast<std::uint32_t>(w.step));
     if (w.restart) chain.restart();
     chain.begin(w.armed, w.scene, w.relief);
-    chain.limit(Rendered::from_raw(w.rendered), Fixed::from_raw<Law::kLimitKey>(limit));
+    const bool pulsed = !w.armed && w.pulse != 0;
+    if (pulsed) {
+      chain.pulse(w.pulse, Fixed::from_raw<Law::kLimitKey>(limit));
+    } else {
+      chain.limit(Rendered::from_raw(w.rendered), Fixed::from_raw<Law::kLimitKey>(limit));
+    }
     chain.move(Fixed::from_raw<Step::format.key()>(step));
     const std::int64_t tau = sign_extend<Torque::width>(rtl.tau_ref_o);
     const bool ramped = rtl.limit_ramp_o != 0;
@@ -150,8 +159,9 @@ struct ChainBeside {
     if (chain.limit_torque() != (rtl.limit_torque_o != 0)) return "limit_torque of the chain";
     if (chain.limit_ramp() != ramped) return "limit_ramp of the chain";
     if (chain.limit_hold() != (rtl.limit_hold_o != 0)) return "limit_hold of the chain";
-    if (w.relief.frozen && grown) return "a frozen torque grows";
-    if (!w.armed && tau != 0) return "a torque while disarmed";
+    if (w.relief.frozen && grown && !pulsed) return "a frozen torque grows";
+    if (!w.armed && !pulsed && tau != 0) return "a torque while disarmed";
+    if (pulsed) ++(w.relief.frozen ? tally->pulsed_frozen : tally->pulsed);
     const std::int64_t most = std::max<std::int64_t>(limit, 0);
     if (!ramped && (tau > most || tau < -most)) return "beyond the limit";
     const std::int64_t fine = std::int64_t{1} << kFine;

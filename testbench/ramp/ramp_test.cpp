@@ -33,6 +33,7 @@ struct RandomWaves {
     if (random.one_in(30)) wave.scene = static_cast<int>(random.below(16));
     wave.restart = random.one_in(30);
     if (random.one_in(30)) wave.armed = !random.one_in(4);
+    if (random.one_in(10)) wave.pulse = static_cast<int>(random.between(-1, 1));
     if (random.one_in(20)) wave.relief.eased = random.coin();
     if (random.one_in(15)) wave.relief.frozen = random.one_in(3);
     if (random.one_in(20)) {
@@ -111,6 +112,8 @@ TEST_CASE("ramp: random torques, limits, steps, arming, scenes and resets") {
   REQUIRE(t.negative_step > 300);
   REQUIRE(t.negative_limit > 300);
   REQUIRE(t.eased_changes > 200);
+  REQUIRE(t.pulsed > 300);
+  REQUIRE(t.pulsed_frozen > 100);
   for (const int sign : {0, 1}) {
     REQUIRE(t.frozen[sign] > 1000);
     REQUIRE(t.fallen[sign] > 50);

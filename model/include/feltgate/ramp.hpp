@@ -6,6 +6,9 @@
 // docs/blocks/ramp.md
 #pragma once
 
+#include <cstdint>
+
+#include "feltgate/generated/map.hpp"
 #include "feltgate/limiter.hpp"
 #include "feltgate/numbers.hpp"
 
@@ -16,6 +19,11 @@ struct Relief {
   bool frozen = false;  ///< the reference may only fall
   bool eased = false;   ///< the limit is hold_limit
 };
+
+/// As a core's limits say.
+constexpr Relief relief_of(unsigned limits) {
+  return {((limits >> Map::L::chatter) & 1U) != 0, ((limits >> Map::L::hold) & 1U) != 0};
+}
 
 /// In number policy N, for design D: what stands between a scene and the torque reference, its
 /// limit included.

@@ -17,7 +17,7 @@ Table, assumptions and what is not proven: docs/verification.md
 Exit code: 0 all is proven and every defect is caught, 1 something is not, 2 when a tool, a file or an
 argument is wrong.
 
-  feltgate prove                         all proofs, three minutes on two cores
+  feltgate prove                         all proofs
   feltgate prove limiter quad_decoder    those of two blocks
   feltgate prove limiter.clamp           one proof
   feltgate prove --list                  properties, defects and covers; runs nothing
@@ -26,7 +26,6 @@ argument is wrong.
 import argparse
 import json
 import os
-import shutil
 import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -55,13 +54,17 @@ def arguments(argv):
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N",
                         help="runs at the same time; default: one per core")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the results here")
-    parser.add_argument("--keep", type=Path, metavar="DIR", help="keep SMT2, logs and VCD here")
+    parser.add_argument("--keep", type=Path, metavar="DIR", help="keep SMT2, logs and VCD in this new folder")
     parser.add_argument("--update", action="store_true",
                         help="write the table of docs/verification.md, after a run of everything")
     parser.add_argument("--check-page", action="store_true",
                         help="only look whether that table is of the proofs as they are")
     options = parser.parse_args(argv)
     outputs.check(parser, json=options.json)
+    if options.keep and options.keep.exists() and (
+        not options.keep.is_dir() or any(options.keep.iterdir())
+    ):
+        parser.error(f"argument --keep: {options.keep} is not an empty folder; name a new one")
     if options.jobs < 1:
         parser.error("argument --jobs: at least 1")
     if options.update and (options.proof or options.fast or options.no_defects):
@@ -146,8 +149,7 @@ def main(argv=None):
             print_list(root, proofs)
             return 0
         if options.keep:
-            shutil.rmtree(options.keep, ignore_errors=True)
-            options.keep.mkdir(parents=True)
+            options.keep.mkdir(parents=True, exist_ok=True)
             rows, versions = run(options, root, proofs, options.keep.resolve())
         else:
             with tempfile.TemporaryDirectory(prefix="feltgate-prove-") as temporary:

@@ -85,6 +85,9 @@ def read_proof(root, block, path, table):
     for label, entry in table["property"].items():
         if label not in ASSERTION.findall(text):
             raise wrong(f"{wrapper.name} has no assertion '{label}'")
+        for key in ("says", "defect", "ports"):
+            if key not in entry:
+                raise wrong(f"property '{label}' without '{key}'")
         defect = defect_path(root, block, entry["defect"])
         if not defect.is_file():
             raise wrong(f"property '{label}': no defect {defect.relative_to(root)}")

@@ -78,6 +78,7 @@ class Catalogue(unittest.TestCase):
             ('"d"', '"e"', "no defect"),
             ("c = ", "e = ", "has the covers c"),
             ("depth = 2", "", "without 'depth'"),
+            ('defect = "d"', "", "property 'a' without 'defect'"),
             ("depth = 2", "depth = 2\nspeed = 1", "unknown key speed"),
         ):
             with self.subTest(said):
@@ -154,6 +155,15 @@ class Command(unittest.TestCase):
             with self.subTest(words):
                 status, _, err = self.status(*words)
                 self.assertEqual(status, 2, err)
+
+    def test_what_is_in_a_folder_is_kept(self):
+        with tempfile.TemporaryDirectory() as folder:
+            mine = Path(folder, "mine.txt")
+            mine.write_text("mine", encoding="utf-8")
+            status, _, err = self.status("--keep", folder, "limiter")
+            self.assertEqual(status, 2)
+            self.assertIn("is not an empty folder", err)
+            self.assertEqual(mine.read_text(encoding="utf-8"), "mine")
 
     def test_without_a_solver(self):
         path = os.environ["PATH"]

@@ -8,10 +8,7 @@
 
 `default_nettype none
 
-module velocity_jump #(
-    parameter int Weight = feltgate_pkg::VELOCITY_W + feltgate_pkg::COEFFICIENT_BITS -
-                           feltgate_pkg::P_VELOCITY_A1_F
-) (
+module velocity_jump (
     input  logic                                            clk_i,
     input  logic                                            rst_ni,
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clock and the upper bits
@@ -21,6 +18,7 @@ module velocity_jump #(
     output logic                                            trip_o
 );
   localparam int W = feltgate_pkg::VELOCITY_W;
+  localparam int Weight = W + feltgate_pkg::COEFFICIENT_BITS - feltgate_pkg::P_VELOCITY_A1_F;
   localparam int Now = feltgate_map_pkg::T_JUMP;
 
   if (Weight >= 0 && Weight <= W - 2) begin : gen_compare

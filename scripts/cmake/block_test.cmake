@@ -4,9 +4,9 @@
 # feltgate_block_test(<block> [WITH_DEFECTS] [NAME <test>] [DESIGN <design> | PACKAGE <feltgate_pkg.sv>]
 #                     [ROUNDING <mode>] [SOURCES extra.sv...] [PARAMS -GName=value...]
 #                     [DEFINES NAME=value...] [LIBRARIES target...] [TESTS more.cpp...])
-# verilates rtl/<block>.sv, links testbench/<block>/<block>_test.cpp and TESTS beside it to it and adds the CTest <test>
-# (default <block>, labels unit and lockstep). WITH_DEFECTS: also <test>.<defect> (label mutation) for
-# each patch in testbench/<block>/defects, which passes only when an assertion fails.
+# verilates rtl/<block>.sv, links testbench/<block>/<block>_test.cpp and TESTS beside it to it and adds
+# the CTest <test> (default <block>, labels unit and lockstep). WITH_DEFECTS: also <test>.<defect> (label
+# mutation) for each patch in testbench/<block>/defects, which passes only when an assertion fails.
 # ROUNDING is another value of the package's constant. SOURCES are relative to the repository. PARAMS
 # reach the RTL, DEFINES the test. docs/testing.md
 include_guard(GLOBAL)

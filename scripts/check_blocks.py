@@ -8,7 +8,7 @@ share one folder testbench/scene*/), at least one seeded defect, and a page that
 twin is the class of the block's name: in model/include/feltgate/<b>.hpp where the product uses it,
 else in testbench/<b>/<b>_twin.hpp; the law that it evaluates, if any, is in the former then. Beside
 that: no hand-written source of more than 400 lines, no number formatted but by libfmt in model/, and
-the lists made from the blocks are fresh: docs/blocks.md, and the sources in rtl/*.f, feltgate.core
+the lists made from the blocks are fresh: docs/blocks.md with the results of docs/verification, and the sources in rtl/*.f, feltgate.core
 and the boards' .qsf.
 
   check_blocks.py           check; one line 'path: what; mend' for each finding, status 1
@@ -23,6 +23,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from seeding import patches
+import block_results
 import rtl_sources
 
 MAX_LINES = 400
@@ -171,7 +172,7 @@ def check_formatting(root):
                 yield f"{relative}:{number}: {found.group(1)}; write it by fmt::format"
 
 
-def blocks_table(blocks):
+def blocks_table(root, blocks):
     def link(path):
         return "" if path is None else f"[{path.name}]({os.path.relpath(path, 'docs')})"
 
@@ -195,6 +196,14 @@ def blocks_table(blocks):
             "| block | RTL | law | twin | test | page | seeded defects |",
             "|---|---|---|---|---|---|---|",
             *rows,
+            "",
+            "## Verification",
+            "",
+            "What was measured of each, from the files in [verification](verification); a dash is what was not",
+            "measured. Seconds are of CPU time, of all that is in the row. What the columns say and do not say:",
+            "[verification](verification.md).",
+            "",
+            *block_results.table(root, [b.name for b in blocks]),
             "",
         ]
     )
@@ -222,7 +231,7 @@ def replace_list(text, lines, indent=""):
 
 def fresh_lists(root, blocks):
     """(path, wanted text) of everything that is made from the blocks."""
-    yield Path("docs/blocks.md"), blocks_table(blocks)
+    yield Path("docs/blocks.md"), blocks_table(root, blocks)
     yield (
         Path("rtl/feltgate_core.f"),
         file_list("The core; a design's feltgate_pkg.sv comes first", rtl_sources.core_files(root)),
@@ -263,7 +272,10 @@ def check_lists(root, blocks, write):
 def check(root, write=False):
     blocks = find_blocks(root)
     found = [] if blocks else ["rtl: no blocks; is this the root of the repository?"]
-    found += check_lists(root, blocks, write)
+    try:
+        found += check_lists(root, blocks, write)
+    except block_results.ResultsError as error:
+        found.append(str(error))
     for name in rtl_sources.modules(root)[1]:
         found.append(f"rtl/{name}.sv: the core does not instantiate it; do, or remove it")
     for block in blocks:

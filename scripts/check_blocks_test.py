@@ -3,10 +3,12 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """check_blocks.py must find what it promises: each test breaks a small complete tree in one way."""
 
+import json
 import tempfile
 import unittest
 from pathlib import Path
 
+import block_results
 import check_blocks
 
 PAGE = "[{0}](../../rtl/{0}.sv) [twin](../../model/include/feltgate/{0}.hpp) [test](../../{1})\n"
@@ -70,6 +72,31 @@ class CheckBlocks(unittest.TestCase):
         files = (self.root / "rtl/feltgate_core.f").read_text(encoding="utf-8").splitlines()
         self.assertEqual(files[2:], ["scene_spring.sv", "alpha.sv"])
         self.assertIn("      - rtl/alpha.sv\n", (self.root / "feltgate.core").read_text())
+
+    def test_results(self):
+        results = {"alpha": {"line": [3, 4], "toggle": [9, 9], "seconds": 1.6}, "whole core": {"seconds": 2}}
+        block_results.write(self.root, "coverage", "measured", results)
+        self.expect("docs/blocks.md: stale")
+        self.assertEqual(check_blocks.check(self.root, write=True), [])
+        table = (self.root / "docs/blocks.md").read_text(encoding="utf-8")
+        self.assertIn("| alpha | - | 3 of 4 | - | 9 of 9 | - | - | - | - | - | 2 |", table)
+        self.assertIn("| scene_spring | - |", table)
+        self.assertIn("| whole core | - |", table)
+        self.assertIn("- coverage: `measured`", table)
+
+    def test_wrong_results(self):
+        for blocks, said in (
+            ({"beta": {}}, "beta, which is no block"),
+            ({"alpha": {"lines": [1, 1]}}, "has the key 'lines'"),
+            ({"alpha": {"line": [2, 1]}}, "2 of 1"),
+            ({"alpha": {"line": "all"}}, "'all' is no number"),
+        ):
+            with self.subTest(said):
+                path = block_results.path_of(self.root, "coverage")
+                path.parent.mkdir(parents=True, exist_ok=True)
+                head = {"schema": block_results.SCHEMA, "kind": "coverage", "blocks": blocks}
+                path.write_text(json.dumps(head), encoding="utf-8")
+                self.expect(said)
 
     def test_every_missing_sibling(self):
         for path in (

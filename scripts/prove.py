@@ -12,7 +12,7 @@ named assertions. Four kinds of run decide it:
   defect      with a patch of the product (testbench/BLOCK/defects) the assertion fails
 
 A counter-example is printed as a table of the wrapper's signals, the failing clock last.
-Table, assumptions and what is not proven: docs/verification.md
+Table, assumptions and what is not proven: docs/proofs.md
 
 Exit code: 0 all is proven and every defect is caught, 1 something is not, 2 when a tool, a file or an
 argument is wrong.
@@ -56,7 +56,7 @@ def arguments(argv):
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the results here")
     parser.add_argument("--keep", type=Path, metavar="DIR", help="keep SMT2, logs and VCD in this new folder")
     parser.add_argument("--update", action="store_true",
-                        help="write the table of docs/verification.md, after a run of everything")
+                        help="write the table of docs/proofs.md, after a run of everything")
     parser.add_argument("--check-page", action="store_true",
                         help="only look whether that table is of the proofs as they are")
     options = parser.parse_args(argv)
@@ -132,7 +132,7 @@ def report(options, root, rows, versions):
         outputs.write_whole(options.json, json.dumps(result, indent=2) + "\n")
     if options.update and not bad:
         page.write(root, result)
-        print("prove: wrote docs/verification.md")
+        print("prove: wrote docs/proofs.md")
     return 1 if bad else 0
 
 

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Tables of feltgate prove: on the terminal, and the generated part of docs/verification.md."""
+"""Tables of feltgate prove: on the terminal, and the generated part of docs/proofs.md."""
 
 import sys
+
+import block_results
 
 from .tasks import BASE, COVERS, INDUCTION
 
 BEGIN = "<!-- proofs: written by feltgate prove --update -->"
 END = "<!-- end of proofs -->"
-PAGE = "docs/verification.md"
+PAGE = "docs/proofs.md"
 
 
 def seconds(result):
@@ -70,12 +72,34 @@ def write(root, result):
     after = rest.split(END, 1)[1].lstrip("\n")
     text = before + generated(result, catalog.read(root)) + ("\n" + after if after else "")
     path.write_text(text, encoding="utf-8")
+    block_results.write(root, "proofs", "./feltgate prove --update", per_block(result))
+
+
+def per_block(result):
+    """The row of each block in docs/blocks.md; seconds of base and induction."""
+    blocks = {}
+    for entry in result["proofs"]:
+        row = blocks.setdefault(entry["proof"].partition(".")[0], {"properties": {}, "seconds": 0.0})
+        row["properties"] |= {(entry["proof"], one["name"]): 1 for one in entry["properties"]}
+        row["seconds"] += entry["base_seconds"] + entry["induction_seconds"]
+    return {name: {"properties": len(row["properties"]), "seconds": round(row["seconds"], 1)}
+            for name, row in blocks.items()}
+
+
+def counted(root, proofs):
+    """What docs/verification/proofs.json lacks of the proofs as they are."""
+    found = block_results.read(root, "proofs")
+    there = {name: row["properties"] for name, row in found["blocks"].items()} if found else {}
+    wanted = {}
+    for proof in proofs:
+        wanted[proof.block] = wanted.get(proof.block, 0) + len(proof.properties)
+    return [] if there == wanted else [f"the properties of each block in {block_results.path_of('', 'proofs')}"]
 
 
 def check(root, proofs):
     """Whether the page tells of every property, defect, assumption and cover as they are now."""
     part = (root / PAGE).read_text(encoding="utf-8").split(BEGIN, 1)[1].split(END, 1)[0]
-    missing = []
+    missing = counted(root, proofs)
     count = sum(len(p.properties) for p in proofs)
     if f"{count} properties in {len(proofs)} proofs" not in part:
         missing.append(f"{count} properties in {len(proofs)} proofs")

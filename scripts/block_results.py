@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""What was measured of each block: docs/verification/KIND.json, and the table of docs/blocks.md.
+
+One file per kind, written by the command that measures (its --update) and committed:
+
+  {"schema": "feltgate-results/1", "kind": "coverage", "command": "...", "machine": "...", "date": "2026-11-20",
+   "blocks": {"dob": {"line": [40, 40], ..., "seconds": 12.5}}}
+
+A count is [reached, of]. The keys of each kind are in KINDS; seconds are of CPU time. A block, a key or
+a file that is not there is a dash in the table. Rows that are no block of rtl/ are named in EXTRA.
+"""
+
+import datetime
+import json
+import os
+from pathlib import Path
+
+import outputs
+
+SCHEMA = "feltgate-results/1"
+FOLDER = "docs/verification"
+# kind: {key: what it is}; a key is a count [reached, of] unless it is said to be a number.
+KINDS = {
+    "proofs": {
+        "properties": "proven, and seen to fail with a defect (number)",
+    },
+    "coverage": {
+        "line": "lines",
+        "branch": "branches",
+        "toggle": "bits that went up and down",
+        "cover": "cover points",
+    },
+    "mutants": {
+        "rtl": "mutants of the RTL killed, of those not proven equivalent",
+        "twin": "mutants of the twin killed, of those that were tried",
+    },
+    "faults": {
+        "unsafe": "faults that ended unsafe",
+        "silent": "faults that ended in a torque or position that is wrong and unflagged",
+    },
+}
+EXTRA = ("whole core", "twin of the core")  # rows beside the blocks
+HEADINGS = {
+    "properties": "properties proven",
+    "line": "lines",
+    "branch": "branches",
+    "toggle": "toggles",
+    "cover": "cover points",
+    "rtl": "RTL mutants killed",
+    "twin": "twin mutants killed",
+    "unsafe": "faults unsafe",
+    "silent": "faults silent",
+}
+DASH = "-"
+
+
+class ResultsError(Exception):
+    """A file of results that is wrong; the message names it and says what."""
+
+
+def path_of(root, kind):
+    return Path(root, FOLDER, f"{kind}.json")
+
+
+def machine():
+    """Cores and processor, as the kernel names it."""
+    name = "processor unknown"
+    for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
+        if line.startswith("model name"):
+            name = line.partition(":")[2].strip()
+            break
+    return f"{os.cpu_count()} cores, {name}"
+
+
+def check(kind, blocks, where):
+    for block, found in blocks.items():
+        for key, value in found.items():
+            if key != "seconds" and key not in KINDS[kind]:
+                raise ResultsError(f"{where}: {block} has the key '{key}'; there are {', '.join(KINDS[kind])}, seconds")
+            pair = isinstance(value, list) and len(value) == 2 and all(isinstance(n, int) for n in value)
+            if isinstance(value, bool) or not (pair or isinstance(value, (int, float))):
+                raise ResultsError(f"{where}: {block}, {key}: {value!r} is no number and no [reached, of]")
+            if pair and not 0 <= value[0] <= value[1]:
+                raise ResultsError(f"{where}: {block}, {key}: {value[0]} of {value[1]}")
+
+
+def write(root, kind, command, blocks, date=None):
+    """Puts the results of `command` where docs/blocks.md takes them from."""
+    where = path_of(root, kind)
+    check(kind, blocks, where)
+    head = {
+        "schema": SCHEMA,
+        "kind": kind,
+        "command": command,
+        "machine": machine(),
+        "date": date or datetime.date.today().isoformat(),
+    }
+    # One line per block, so that a change is seen as one.
+    lines = [f"  {json.dumps(key)}: {json.dumps(value)}," for key, value in head.items()]
+    rows = [f"    {json.dumps(name)}: {json.dumps(blocks[name])}" for name in sorted(blocks)]
+    text = "\n".join(["{", *lines, '  "blocks": {', ",\n".join(rows), "  }", "}", ""])
+    where.parent.mkdir(parents=True, exist_ok=True)
+    outputs.write_whole(where, text)
+
+
+def read(root, kind):
+    """The file's object; None where it is not there."""
+    where = path_of(root, kind)
+    if not where.exists():
+        return None
+    try:
+        found = json.loads(where.read_text(encoding="utf-8"))
+    except json.JSONDecodeError as error:
+        raise ResultsError(f"{where}: {error}") from error
+    if found.get("schema") != SCHEMA or found.get("kind") != kind:
+        raise ResultsError(f"{where}: schema {found.get('schema')}, kind {found.get('kind')}; "
+                           f"wanted {SCHEMA}, {kind}")
+    check(kind, found["blocks"], where)
+    return found
+
+
+def cell(value):
+    if value is None:
+        return DASH
+    return f"{value[0]} of {value[1]}" if isinstance(value, list) else str(value)
+
+
+def table(root, names):
+    """Lines of the table, one row per block, and what each kind was measured with."""
+    kinds = {kind: read(root, kind) for kind in KINDS}
+    measured = {kind: found["blocks"] for kind, found in kinds.items() if found}
+    strange = {n for blocks in measured.values() for n in blocks} - {*names, *EXTRA}
+    if strange:
+        raise ResultsError(f"{FOLDER}: results of {', '.join(sorted(strange))}, which is no block")
+    keys = [(kind, key) for kind, them in KINDS.items() for key in them]
+    lines = [
+        "| block | " + " | ".join(HEADINGS[key] for _, key in keys) + " | s of CPU |",
+        "|---|" + "---|" * (len(keys) + 1),
+    ]
+    for name in [*names, *(extra for extra in EXTRA if any(extra in b for b in measured.values()))]:
+        cells = [cell(measured.get(kind, {}).get(name, {}).get(key)) for kind, key in keys]
+        seconds = [b[name]["seconds"] for b in measured.values() if "seconds" in b.get(name, {})]
+        lines.append(f"| {name} | " + " | ".join(cells) + f" | {round(sum(seconds)) if seconds else DASH} |")
+    lines.append("")
+    for kind, found in kinds.items():
+        if found:
+            lines.append(f"- {kind}: `{found['command']}`, {found['date']}, {found['machine']}")
+    return lines

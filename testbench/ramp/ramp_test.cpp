@@ -30,7 +30,7 @@ struct RandomWaves {
     return random.one_in(8) ? static_cast<std::int64_t>(random.bits() >> 32) : usual;
   }
   Wave operator()(std::int64_t) {
-    if (random.one_in(30)) wave.scene = static_cast<int>(random.below(16));
+    if (random.one_in(25)) wave.scene = static_cast<int>(random.below(16));
     wave.restart = random.one_in(30);
     if (random.one_in(30)) wave.armed = !random.one_in(4);
     if (random.one_in(10)) wave.pulse = static_cast<int>(random.between(-1, 1));

@@ -17,14 +17,6 @@ constexpr int kTick = Design::clocks_per_tick;
 constexpr std::int32_t kRadS = 1 << Design::f.velocity.fraction;
 constexpr std::int32_t kVolt = 1 << Design::f.voltage.fraction;
 
-/// Lets the heat of power-up go at once.
-void cool(Script& s) {
-  const std::uint32_t nominal = s.now.words.nominal_current_squared;
-  s.now.words.nominal_current_squared = (1U << 31) - 1;
-  s.ticks(2);
-  s.now.words.nominal_current_squared = nominal;
-}
-
 /// RTL and twin side by side, reset when the test wants.
 class Pair {
  public:
@@ -144,63 +136,4 @@ TEST_CASE("supervisor: the tick in which the gates fall still heats") {
   s.ticks(1);
   REQUIRE(s.out().faults == (fault_bit(Fault::stop) | fault_bit(Fault::i2t)));
   s.play();
-}
-
-TEST_CASE("supervisor: the I2t sum does not wrap at the largest budget") {
-  Script s;
-  cool(s);
-  s.now.words.nominal_current_squared = 0;
-  s.now.words.i2t_budget = 0xffffffffU;
-  s.now.words.inverse_resistance = 0x1ffff;
-  s.now.voltage = 31 * kVolt;
-  s.arm();
-  s.ticks(2);
-  const std::int64_t square =
-      std::int64_t{s.out().current_estimate} * s.out().current_estimate / (1 << 14);
-  const std::int64_t ticks = (0xffffffffLL + square - 1) / square;
-  REQUIRE(s.clocks_to_fall(2 * ticks * kTick) > 0);
-  REQUIRE(only(s, Fault::i2t));
-  for (int k = 0; k < 10; ++k) {
-    s.clear().ticks(1);
-    REQUIRE(s.out().faults == fault_bit(Fault::i2t));
-  }
-  // Nothing was added in the tick of the fault: at most 8 ticks more, and it is below the budget.
-  s.now.words.nominal_current_squared = static_cast<std::uint32_t>(square / 8 + 1);
-  for (int k = 0; k < 5; ++k) s.clear();
-  REQUIRE(s.out().faults == 0);
-  s.play();
-}
-
-TEST_CASE("supervisor: I2t trips when the closed form says") {
-  const double lsb = std::ldexp(1.0, -Design::f.current_estimate.fraction);
-  for (const double volts : {3.0, 6.95, 12.0, -9.5}) {
-    Script s;
-    cool(s);
-    s.now.voltage = static_cast<std::int32_t>(volts * kVolt);
-    const double current = volts / 0.42;
-    const double nominal = s.now.words.nominal_current_squared / 4.0;
-    const double excess = current * current - nominal;
-    const double budget = 3000.0 * excess + current * current;
-    s.now.words.i2t_budget = static_cast<std::uint32_t>(budget * 4.0);
-    s.arm();
-    // The sum is I^2 after the first armed tick and is compared in the tick after.
-    const std::int64_t clocks = s.clocks_to_fall(4000 * kTick);
-    REQUIRE(only(s, Fault::i2t));
-    REQUIRE((clocks - kHeat) % kTick == 0);
-    const auto ticks = static_cast<double>((clocks - kHeat) / kTick);
-    // I is one LSB off at most and I^2 loses up to a quarter more.
-    const double error = (3 * lsb * std::fabs(current) + 0.25) / excess * 3000.0 + 2.0;
-    REQUIRE(std::fabs(ticks - 3001.0) <= error);
-    // The heat is not forgotten with the fault: it goes by the nominal square per tick.
-    for (int k = 0; k < 100 && s.out().faults != 0; ++k) s.clear().ticks(1);
-    s.arm();
-    REQUIRE(s.clocks_to_fall(60 * kTick) > 0);
-    REQUIRE(only(s, Fault::i2t));
-    s.now.arm = false;
-    s.now.words.nominal_current_squared = 1U << 18;
-    s.ticks(static_cast<std::int64_t>(budget * 4.0 / (1 << 18)) + 2);
-    s.clear().clear();
-    REQUIRE(s.out().faults == 0);
-    s.play();
-  }
 }

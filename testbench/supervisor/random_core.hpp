@@ -30,6 +30,11 @@ class RandomCore {
     s_.encoder_error = random_.one_in(3000) || (storm_ > 0 && random_.coin());
     if (storm_ > 0) --storm_;
     s_.period_start = random_.one_in(hurry_ ? 30 : 3000);
+    // Causes of other blocks, and the command stop.
+    s_.trips = 0;
+    if (random_.one_in(3000)) {
+      s_.trips = static_cast<std::uint16_t>(1U << (7 + random_.below(9)));
+    }
     return bus_.clock(now, s_, out.current_estimate);
   }
 

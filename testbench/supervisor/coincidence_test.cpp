@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// supervisor: two things in one clock, and the far end of the watchdog.
+// Documentation: docs/blocks/supervisor.md
+#include <set>
+#include <utility>
+
+#include "bench.hpp"
+#include "catch.hpp"
+
+using namespace feltgate::test;
+using feltgate::Fault;
+
+namespace {
+
+constexpr int kTick = Design::clocks_per_tick;
+constexpr int kForgiveTicks = 1 << feltgate::Map::forgive_bits;
+
+/// Armed, and `fixed` due in its clock of this tick or a later one; returns that clock.
+int provoke(Script& s, Fault fixed) {
+  const auto design = Scenario::design_words();
+  switch (fixed) {
+    case Fault::speed:
+      s.arm();
+      s.now.velocity = static_cast<std::int32_t>(design.overspeed) + 1;
+      return Twin::speed_clock;
+    case Fault::i2t:
+      s.arm();
+      s.now.words.i2t_budget = 0;
+      return Twin::heat_clock;
+    case Fault::polarity:
+      s.now.words.polarity_ticks = 1;
+      s.now.words.polarity_speed = 0;
+      s.now.velocity = 0;
+      s.now.current_ref = -static_cast<std::int32_t>(design.polarity_current) - 1;
+      s.arm().ticks(2);
+      for (int k = 1; k <= 2; ++k) {  // a tick is a window
+        s.now.velocity = k << Design::f.velocity.fraction;
+        if (k == 1) s.ticks(1);
+      }
+      return Twin::polarity_clock;
+    default:
+      s.now.words.watchdog_ticks = 3;
+      s.now.kick = true;
+      s.arm();
+      s.now.kick = false;
+      s.ticks(3);
+      return Twin::watchdog_clock;
+  }
+}
+
+/// Lets `free` be seen in clock c of the running tick, which has reached clock 0.
+void join(Script& s, Fault free, int c) {
+  const auto to = [&s](int clock) {
+    if (clock > s.clock_of_tick()) s.until(clock);
+  };
+  switch (free) {
+    case Fault::encoder:
+      s.errors(feltgate::Map::errors_borne);
+      to(c);
+      s.errors(1);
+      return;
+    case Fault::stop:
+      to(c - 2);
+      s.now.stop = true;
+      s.clocks(1);
+      s.now.stop = false;
+      s.clocks(2);
+      return;
+    case Fault::tick:
+      // More periods begin than a tick has.
+      s.now.period_start = true;
+      s.clocks((kTick + Design::pwm_period - 1) / Design::pwm_period);
+      s.now.period_start = false;
+      to(c);
+      s.now.period_start = true;
+      s.clocks(1);
+      s.now.period_start = false;
+      return;
+    default:
+      to(c);
+      s.now.trips = static_cast<std::uint16_t>(fault_bit(free));
+      s.clocks(1);
+      s.now.trips = 0;
+      return;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("supervisor: two causes in one clock are both latched, the lower is the first") {
+  std::set<std::pair<Fault, Fault>> reached;
+  for (const Fault fixed : {Fault::speed, Fault::i2t, Fault::polarity, Fault::watchdog}) {
+    for (const Fault free : {Fault::encoder, Fault::stop, Fault::tick, Fault::link}) {
+      CAPTURE(static_cast<int>(fixed), static_cast<int>(free));
+      Script s;
+      const int clock = provoke(s, fixed);
+      REQUIRE(s.out().gates_enable);
+      Script alone = s;
+      alone.until(clock);
+      REQUIRE(alone.out().faults == 0);
+      alone.clocks(1);
+      REQUIRE(only(alone, fixed));  // and this clock it is
+      join(s, free, clock);
+      REQUIRE(s.clock_of_tick() == (clock + 1) % kTick);
+      REQUIRE(s.out().faults == (fault_bit(fixed) | fault_bit(free)));
+      const Fault first = fixed < free ? fixed : free;
+      REQUIRE(s.out().first_fault == static_cast<unsigned>(first));
+      REQUIRE_FALSE(s.out().gates_enable);
+      reached.insert({fixed, free});
+      s.play();
+    }
+  }
+  REQUIRE(reached.size() == 16);
+}
+
+TEST_CASE("supervisor: another cause in the clock of the clear is then the first") {
+  Script s;
+  s.arm();
+  s.now.velocity = std::numeric_limits<std::int32_t>::max();
+  s.ticks(1);
+  REQUIRE(only(s, Fault::speed));
+  s.now.velocity = 0;
+  s.now.arm = false;
+  s.ticks(2);
+  s.now.clear_faults = true;
+  s.until(kTick - 1);
+  REQUIRE(only(s, Fault::speed));
+  s.now.trips = static_cast<std::uint16_t>(fault_bit(Fault::link));
+  s.clocks(1);
+  s.now.trips = 0;
+  s.now.clear_faults = false;
+  REQUIRE(only(s, Fault::link));
+  s.arm();  // not beside a fault
+  REQUIRE_FALSE(s.out().armed);
+  s.clear();
+  s.arm();
+  REQUIRE(s.out().armed);
+  s.play();
+}
+
+TEST_CASE(
+    "supervisor: an encoder error in the clock that forgives one counts, and none is forgiven") {
+  for (const int before : {0, 1, 6, 7}) {
+    Script s;
+    s.arm();
+    s.errors(before);
+    s.until(0).ticks(kForgiveTicks - 5).clocks(kTick - 1);  // five of them are over
+    s.errors(1);  // in the last clock of the tick that forgives
+    CAPTURE(before);
+    REQUIRE(s.out().faults == (before == 7 ? fault_bit(Fault::encoder) : 0));
+    if (before == 7) s.clear().arm();  // from 0 on
+    s.errors(before == 7 ? 7 : 6 - before);
+    REQUIRE(s.out().gates_enable);
+    s.errors(1);
+    REQUIRE(only(s, Fault::encoder));
+    s.play();
+  }
+}

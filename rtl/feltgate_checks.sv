@@ -11,6 +11,7 @@
 module feltgate_checks;
   localparam int A = feltgate_pkg::MULTIPLIER_A_BITS;
 
+  generate
   if (!(feltgate_map_pkg::MULTIPLIER_LATENCY == 4 && feltgate_map_pkg::FIRST_WAVE_CLOCK == 2))
   begin : g_check_map
     the_map_must_have_the_latencies_of_this_RTL missing ();
@@ -110,6 +111,7 @@ module feltgate_checks;
         feltgate_pkg::LIMITER_INPUT_W > feltgate_pkg::LIMITER_W)) begin : g_check_scene_torque
     a_scenes_torque_must_hold_its_terms_and_fit_the_limiter missing ();
   end
+  endgenerate
 endmodule
 
 `default_nettype wire

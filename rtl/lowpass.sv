@@ -25,10 +25,12 @@ module lowpass #(
     input  logic signed [ProductW-1:0] product_i,
     output logic signed [   Width-1:0] y_o
 );
+  generate
   if (!(OperandW <= Width + 1 && ProductDrop >= 1 && ProductW > ProductDrop))
   begin : g_check_widths
     the_widths_of_a_lowpass_must_nest missing ();
   end
+  endgenerate
 
   logic signed [Width-1:0] y_q;
 

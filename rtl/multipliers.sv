@@ -36,6 +36,7 @@ module multipliers (
                                     param_i[feltgate_pkg::COEFFICIENT_BITS-1:0]}));
   assign supervisor_factor = 18'(estimate_i);  // 0 outside its clock
 
+  generate
   if (feltgate_pkg::PARALLEL_MULTIPLIERS == 0) begin : gen_shared
     logic signed [feltgate_pkg::PRODUCT_BITS-1:0] product;
     mult u_mult (
@@ -84,6 +85,7 @@ module multipliers (
     logic unused;
     assign unused = ^operand_i;
   end
+  endgenerate
 endmodule
 
 `default_nettype wire

@@ -26,12 +26,14 @@ module pwm #(
   output logic signed [12:0] duty_active_o    // as taken, 0 while disabled
 );
 
+  generate
   if (!(Period >= 4 && Period <= 4094 && Period % 2 == 0)) begin : g_check_period
     PWM_PERIOD_must_be_even_and_4_to_4094 missing ();
   end
   if (!(DeadClocks >= 1 && DeadClocks <= 64)) begin : g_check_dead_time
     DEAD_CLOCKS_must_be_1_to_64 missing ();
   end
+  endgenerate
 
   localparam logic signed [13:0] HALF = 14'(Period / 2);
   localparam logic        [10:0] LAST = 11'(Period / 2 - 1);
@@ -127,7 +129,9 @@ module pwm #(
     else wanted_q <= high_q;
   end
 
-  for (genvar l = 0; l < 2; l++) begin : g_leg
+  generate
+  genvar l;
+  for (l = 0; l < 2; l = l + 1) begin : g_leg
     logic [DEAD_BITS:0] dead_q;
 
     assign elapsed[l] = dead_q[DEAD_BITS];
@@ -138,6 +142,7 @@ module pwm #(
       else if (!dead_q[DEAD_BITS]) dead_q <= dead_q + 1'b1;
     end
   end
+  endgenerate
 
   // The gates: four registers with one clear, nothing behind them and no other load, for the I/O cells.
   logic       clear;

@@ -64,7 +64,9 @@ module quad_decoder #(
   assign accept   = elapsed_q | {3{!primed_q}};  // the first sample counts as no edge
   assign reload   = ~differs | accept;
 
-  for (genvar c = 0; c < 3; c++) begin : g_filter
+  generate
+  genvar c;
+  for (c = 0; c < 3; c = c + 1) begin : g_filter
     logic [3:0] wait_q;
 
     assign ends[c] = wait_q == 4'd1;
@@ -74,6 +76,7 @@ module quad_decoder #(
       else wait_q <= reload[c] ? filter_i : wait_q - 4'd1;
     end
   end
+  endgenerate
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -127,6 +130,7 @@ module quad_decoder #(
 
   // From the first index on the count must differ by whole revolutions. Both ways the index rises at its
   // near side, so by its width too.
+  generate
   if (IndexCounts > 0) begin : g_index
     localparam int W    = $clog2(IndexCounts);
     localparam int Near = feltgate_map_pkg::INDEX_WIDTH_BITS;
@@ -150,6 +154,7 @@ module quad_decoder #(
   end else begin : g_no_index
     assign index_wrong_o = 1'b0;
   end
+  endgenerate
 
   // One counter is served in a clock; an event waits while it is the other's turn.
   logic error_wait_q, rejected_wait_q, serve_error, serve_rejected;

@@ -189,6 +189,7 @@ module registers #(
     end
   end
 
+  generate
   if (ReadBack != 0) begin : g_read
     // Words of the running tick go to bank write_bank_q, the port reads the other bank.
     (* no_rw_check, ram_style = "block", ramstyle = "no_rw_check" *)
@@ -250,6 +251,7 @@ module registers #(
     assign unused      = ^{snap_slot_i, snap_valid_i, snap_data_i, data_q[31:feltgate_map_pkg::W_CONTROL]};
     assign reg_rdata_o = 32'd0;
   end
+  endgenerate
 
 endmodule
 

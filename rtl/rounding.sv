@@ -20,6 +20,7 @@ module rounding #(
   assign half = low_i[Drop-1];
   assign rest = (low_i[Drop-1:0] & Below) != '0;  // beyond the half
 
+  generate
   if (feltgate_pkg::ROUNDING == 0) begin : gen_half_up
     assign up_o = half && (rest || !negated_i);
   end else if (feltgate_pkg::ROUNDING == 1) begin : gen_floor
@@ -27,6 +28,7 @@ module rounding #(
   end else begin : gen_to_even
     assign up_o = half && (rest || low_i[Drop]);
   end
+  endgenerate
 
   logic unused;
   assign unused = ^{low_i, negated_i, rest};

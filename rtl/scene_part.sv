@@ -21,6 +21,7 @@ module scene_part #(
   logic signed [W-1:0] whole;
   logic                rest;
   assign whole = W'(product_i >>> Drop);
+  generate
   if (Exact != 0 && feltgate_pkg::ROUNDING == 2) begin : gen_rest
     localparam logic [feltgate_pkg::PRODUCT_BITS-1:0] Below =
         (feltgate_pkg::PRODUCT_BITS'(1) << Drop) - feltgate_pkg::PRODUCT_BITS'(1);
@@ -28,6 +29,7 @@ module scene_part #(
   end else begin : gen_no_rest
     assign rest = 1'b0;
   end
+  endgenerate
   assign part_o = {whole[W-1:1], whole[0] || rest};
 endmodule
 

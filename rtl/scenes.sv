@@ -75,6 +75,7 @@ module scenes #(
   logic signed [TorqueW-1:0] setpoint_plus, membrane_plus, membrane_minus;
   logic signed [PartW-1:0] spring_plus, damper_minus, charge_plus, charge_minus, wall_plus, wall_minus;
 
+  generate
   if (Mask[{1'b0, feltgate_map_pkg::SCENE_SETPOINT}]) begin : gen_setpoint
     scene_setpoint u_setpoint (
         .clk_i(clk_i),
@@ -168,6 +169,7 @@ module scenes #(
     assign wall_plus  = '0;
     assign wall_minus = '0;
   end
+  endgenerate
 
   // At most one scene's terms are not 0, so that they may be ored.
   logic signed [  PartW-1:0] plus, minus;

@@ -23,6 +23,7 @@ module sequencer #(
   localparam logic [CLOCK_W-1:0] BEFORE_LAST = CLOCK_W'(ClocksPerTick - 2);
   localparam int BEFORE_WAVE = feltgate_map_pkg::FIRST_WAVE_CLOCK - 1;
 
+  generate
   if (!(ClocksPerTick >= WaveLength && WaveLength >= feltgate_map_pkg::WAVE_LENGTH))
   begin : g_check_tick
     CLOCKS_PER_TICK_must_hold_the_wave missing ();
@@ -30,18 +31,21 @@ module sequencer #(
   if (!(!feltgate_map_pkg::SCENE_SLOTS[0] && !feltgate_map_pkg::SCENE_SLOTS[63])) begin : g_check_slots
     slots_0_and_63_must_not_be_a_scenes missing ();
   end
+  endgenerate
 
   logic [CLOCK_W-1:0] clock_q;
   logic [5:0]         next_slot;
 
   assign next_slot = clock_q[5:0] + 6'd1;
 
+  generate
   if (CLOCK_W > 6) begin : g_long_tick
     // Past the last slot nothing is read: hold the word that no block uses.
     assign slot_fetch_o = (clock_q[CLOCK_W-1:6] != '0) ? 6'd63 : clock_q[5:0];
   end else begin : g_short_tick
     assign slot_fetch_o = clock_q[5:0];
   end
+  endgenerate
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

@@ -26,6 +26,7 @@ module snapshot #(
 );
   assign slot_o = slot_fetch_i - 6'(feltgate_map_pkg::FIRST_WAVE_CLOCK);
 
+  generate
   if (ReadBack != 0) begin : gen_words
     assign word_o = (wave_i[feltgate_map_pkg::R_STATUS] ? status_i : '0) |
                     (wave_i[feltgate_map_pkg::R_FAULTS] ? faults_i : '0) |
@@ -47,6 +48,7 @@ module snapshot #(
     assign word_o  = '0;
     assign valid_o = 1'b0;
   end
+  endgenerate
 endmodule
 
 `default_nettype wire

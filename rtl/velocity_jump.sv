@@ -21,6 +21,7 @@ module velocity_jump (
   localparam int Weight = W + feltgate_pkg::COEFFICIENT_BITS - feltgate_pkg::P_VELOCITY_A1_F;
   localparam int Now = feltgate_map_pkg::T_JUMP;
 
+  generate
   if (Weight >= 0 && Weight <= W - 2) begin : gen_compare
     localparam int TopW = W - Weight;
     logic signed [TopW-1:0] before_q;
@@ -40,6 +41,7 @@ module velocity_jump (
     assign unused = ^{clk_i, rst_ni};
     assign trip_o = 1'b0;
   end
+  endgenerate
 endmodule
 
 `default_nettype wire

@@ -30,6 +30,7 @@ module velocity_n #(
   localparam int F = feltgate_pkg::VELOCITY_F;
   localparam int AddressW = (M1 > 1) ? $clog2(M1 + 1) : 1;
 
+  generate
   if (!(M1 >= 1 && M1 < 2 ** (T - 1))) begin : g_check_window
     M1_must_be_1_to_32767 missing ();
   end
@@ -37,6 +38,7 @@ module velocity_n #(
         (F + Shift >= 1 && W - F - Shift >= 2 && W - F - Shift <= T)))) begin : g_check_gain
     the_velocity_must_have_room_for_its_counts missing ();
   end
+  endgenerate
 
   // Delay line of m1 entries; until it has filled, the position before reset stands for the oldest.
   logic        [       T-1:0] line    [2**AddressW];
@@ -80,6 +82,7 @@ module velocity_n #(
   // Counts to rad/s, saturated where the velocity has too few integer bits for them.
   logic                over;
   logic signed [W-1:0] raw, raw_q;
+  generate
   if (Gain == 0) begin : gen_shift
     localparam int Low  = F + Shift;  // weight of one count in bits of the velocity
     localparam int Room = W - Low;    // bits of a count that fit, sign included
@@ -97,6 +100,7 @@ module velocity_n #(
     assign over    = scaled[ScaledW-1:W-1] != {(ScaledW - W + 1) {scaled[ScaledW-1]}};
     assign raw     = scaled[W-1:0];
   end
+  endgenerate
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       raw_q       <= '0;

@@ -68,7 +68,7 @@ run_tests() {
   fi
   if [[ $name ]]; then mapfile -t targets < <(tests_say targets "${chosen[@]}"); fi
   if [[ ${targets[*]} ]]; then build ON "${targets[@]}"; fi
-  if [[ ! $name || $found == *lint.slang* ]]; then
+  if [[ ! $name || $found == *lint.* ]]; then
     # Without a network its test is skipped, but not in CI.
     (need_venv slang) || [[ ${CI-} != true ]] || die "slang cannot be fetched"
   fi

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Progress of many jobs: a bar with rate and time left on a terminal, else one line per job."""
+"""Progress on a terminal: a line drawn anew; a bar with rate and time left, else one line per job."""
 
 import shutil
 import sys
@@ -13,35 +13,48 @@ def clock_text(seconds):
     return f"{seconds // 60}:{seconds % 60:02d}"
 
 
-class Progress:
+class RedrawnLine:
+    """A line() that is drawn anew on a terminal while the work inside `with` goes on; silent elsewhere."""
+
+    def __init__(self, stream=None, every_s=0.2):
+        self.stream = stream or sys.stderr
+        self.live = self.stream.isatty()
+        self.every_s = every_s
+        self.began = time.monotonic()
+        self._stopped = threading.Event()
+        self._thread = None
+
+    def __enter__(self):
+        if self.live:
+            self._thread = threading.Thread(target=self._redraw, daemon=True)
+            self._thread.start()
+        return self
+
+    def __exit__(self, *_):
+        self._stopped.set()
+        if self._thread:
+            self._thread.join()
+            self.stream.write("\r\x1b[K")
+            self.stream.flush()
+
+    def _redraw(self):
+        while not self._stopped.wait(self.every_s):
+            self.stream.write("\r" + self.line() + "\x1b[K")
+            self.stream.flush()
+
+
+class Progress(RedrawnLine):
     """Thread-safe. Work is counted in device seconds; jobs under way count by the rate so far."""
 
     def __init__(self, jobs, stream=None, width=None):
-        self.stream = stream or sys.stderr
-        self.live = self.stream.isatty()
+        super().__init__(stream)
         self.total_s = sum(job.seconds for job in jobs)
         self.count = len(jobs)
         self.width = width
         self.done_s = self.spent_s = 0.0
         self.finished = 0
         self.running = {}
-        self.began = time.monotonic()
         self.lock = threading.Lock()
-        self.stopped = threading.Event()
-        self.thread = None
-
-    def __enter__(self):
-        if self.live:
-            self.thread = threading.Thread(target=self._redraw, daemon=True)
-            self.thread.start()
-        return self
-
-    def __exit__(self, *_):
-        self.stopped.set()
-        if self.thread:
-            self.thread.join()
-            self.stream.write("\r\x1b[K")
-            self.stream.flush()
 
     def begin(self, job):
         with self.lock:
@@ -90,11 +103,6 @@ class Progress:
         bar = max(8, min(30, columns - 60))
         full = int(share * bar)
         return f"[{'#' * full}{'.' * (bar - full)}]{text}"[: columns - 1]
-
-    def _redraw(self):
-        while not self.stopped.wait(0.2):
-            self.stream.write("\r" + self.line() + "\x1b[K")
-            self.stream.flush()
 
 
 def describe(run):

@@ -18,6 +18,7 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import interrupts
+import outputs
 from outputs import write_whole
 from reporting import all_figures, demo_page, recordings, run_section, runs, stability_section
 from reporting.progress import Progress, clock_text
@@ -114,6 +115,7 @@ def arguments_of(argv):
         "--no-figures", action="store_true", help="leave out the runs that only the figures need"
     )
     arguments = parser.parse_args(argv)
+    outputs.check_folder(parser, "-o", arguments.out)
     if arguments.traces and not Path(arguments.traces).is_dir():
         parser.error(f"--traces {arguments.traces}: no such folder")
     if arguments.jobs is not None and arguments.jobs < 1:

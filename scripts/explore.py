@@ -57,8 +57,15 @@ def root():
 
 
 def find_space(name):
-    shipped = root() / "vectors/spaces" / f"{name}.toml"
-    return shipped if "/" not in name and shipped.is_file() else Path(name)
+    spaces = root() / "vectors/spaces"
+    if "/" not in name and (spaces / f"{name}.toml").is_file():
+        return spaces / f"{name}.toml"
+    if not Path(name).exists():
+        known = ", ".join(sorted(path.stem for path in spaces.glob("*.toml")))
+        raise plans.PlanError(
+            f"{name} is neither a verb ({', '.join(VERBS)}), nor a space ({known}), nor a file"
+        )
+    return Path(name)
 
 
 def default_folder(name):

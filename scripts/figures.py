@@ -14,6 +14,7 @@ import sys
 from pathlib import Path
 
 import interrupts
+import outputs
 from outputs import write_whole
 from reporting import all_figures, page, run_section, runs
 from reporting.progress import Progress
@@ -90,6 +91,7 @@ def main():
         "--design", choices=DESIGNS, metavar="DESIGN", help="only lever or only paper; default: both"
     )
     arguments = parser.parse_args()
+    outputs.check_folder(parser, "-o", arguments.out)
     folder = (arguments.out or runs.build_folder() / "figures").resolve()
     designs = (arguments.design,) if arguments.design else DESIGNS
     jobs = all_figures.jobs(designs)

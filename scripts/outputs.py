@@ -46,6 +46,12 @@ def check(parser, **paths):
             parser.error(f"--{option} {path}: {why}")
 
 
+def check_folder(parser, option, path):
+    """Ends with 2, before the work, where an option's folder cannot be one."""
+    if path and Path(path).exists() and not Path(path).is_dir():
+        parser.error(f"{option} {path}: is no folder; give a folder's name")
+
+
 def write_whole(path, data):
     """Text or bytes. A symbolic link stays, its target is replaced and keeps its mode."""
     data = data.encode("utf-8", "surrogateescape") if isinstance(data, str) else data

@@ -14,6 +14,7 @@ Exit code: 0 within the budget (scripts/synth_budget.toml), 1 when a figure has 
 import argparse
 import json
 import os
+import re
 import sys
 import tempfile
 from pathlib import Path
@@ -55,6 +56,8 @@ def arguments():
     parser.add_argument("--no-route", action="store_true", help="area only, without nextpnr")
     options = parser.parse_args()
     outputs.check(parser, json=options.json)
+    if not re.fullmatch(r"\d+(,\d+)*", options.seeds):
+        parser.error(f"--seeds {options.seeds}: wants whole numbers with commas between, as 1,2,3")
     return options
 
 

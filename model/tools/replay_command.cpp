@@ -83,6 +83,9 @@ std::string probe_text(const traces::Options& o) {
 }
 
 int replay(ReplayArguments& a) {
+  if (a.every > 0 && a.csv.empty()) {
+    throw std::invalid_argument("--every thins out the rows of --csv; add --csv FILE");
+  }
   traces::Options how = a.trace.read();
   how.clock_hz = design_named(a.design).clock_hz;
   const auto source = traces::open(a.trace.path, how);
@@ -202,8 +205,8 @@ void add_import(CLI::App& app, int* exit_code) {
       "  feltgate import hand.sr hand.vec --probes XA,XB\n"
       "  feltgate import log.csv --count-column theta --scale 2048/2pi -o hand.vec\n"
       "Exit code: 0 written, 2 the recording or an option cannot be used.");
-  sub->add_option("out", a->out, "vector file to write")->type_name("FILE");
-  sub->add_option("-o,--output", a->out, "the same")->type_name("FILE");
+  CLI::Option* place = sub->add_option("out", a->out, "vector file to write")->type_name("FILE");
+  sub->add_option("-o,--output", a->out, "the same")->type_name("FILE")->excludes(place);
   sub->add_option("--design", a->design, "design whose clock stamps the edges")
       ->type_name("DESIGN")
       ->capture_default_str();

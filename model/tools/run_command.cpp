@@ -60,6 +60,9 @@ int run(const RunArguments& a) {
   resolve_effects(scenario, plant.effects);
   check_scenario(scenario, plant, design_named(a.design));
 
+  if (a.every > 0 && a.csv.empty() && a.report.empty()) {
+    throw std::invalid_argument("--every thins out the rows of --csv; add --csv FILE");
+  }
   RunOptions options;
   options.design = a.design;
   options.engine = a.engine;

@@ -59,7 +59,7 @@ class Reading(Bench):
     def test_no_file(self):
         done = self.explore("plan", self.folder / "none.toml")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("No such file", done.stderr)
+        self.assertIn("is neither a verb", done.stderr)
 
     def test_shipped_spaces_are_good(self):
         for path in (ROOT / "vectors/spaces").glob("*.toml"):

@@ -153,20 +153,26 @@ class Outputs(Bench):
         self.assertRaises(OSError, outputs.write_whole, "/dev/full", "something")
         self.assert_only("target", "link", "fresh")
 
+    def refused(self, script, *words, said):
+        with self.subTest(script, words=words):
+            done = subprocess.run(
+                [sys.executable, "-B", ROOT / "scripts" / script, *words],
+                cwd=self.folder,
+                capture_output=True,
+                text=True,
+                check=False,
+            )
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(said, done.stderr)
+
     def test_refused_before_the_work(self):
         for path, said in ((".", "is a folder"), ("no/x.json", "there is no folder")):
             for script in (("synth.py",), ("explore.py", "point", "x.toml")):
-                with self.subTest(script, path=path):
-                    done = subprocess.run(
-                        [sys.executable, "-B", ROOT / "scripts" / script[0], *script[1:]]
-                        + ["--json", path],
-                        cwd=self.folder,
-                        capture_output=True,
-                        text=True,
-                        check=False,
-                    )
-                    self.assertEqual(done.returncode, 2, done.stderr)
-                    self.assertIn(f"--json {path}: {said}", done.stderr)
+                self.refused(*script, "--json", path, said=f"--json {path}: {said}")
+        for script in ("demo.py", "figures.py"):
+            self.refused(script, "-o", "/dev/null", said="-o /dev/null: is no folder")
+        self.refused("synth.py", "--seeds", "a", said="--seeds a: wants whole numbers")
+        self.refused("explore.py", "bogus", said="bogus is neither a verb")
         self.assert_only()
 
 

@@ -40,6 +40,7 @@ def commands(build):
         # Not by the launcher: that prints the text which this compares.
         "test": ["bash", "-c", 'source "$0"; tests_usage', ROOT / "scripts/run_tests.sh"],
         "prove": [PYTHON, "-B", ROOT / "scripts/prove.py"],
+        "mutate": [PYTHON, "-B", ROOT / "scripts/mutate.py"],
         "generate": [build / "feltgate_generate", ROOT],
         "bench": [build / "feltgate_bench"],
         "extremes": [build / "feltgate_extremes"],

@@ -6,7 +6,8 @@
 #                     [DEFINES NAME=value...] [LIBRARIES target...] [TESTS more.cpp...])
 # verilates rtl/<block>.sv, links testbench/<block>/<block>_test.cpp and TESTS beside it to it and adds
 # the CTest <test> (default <block>, labels unit and lockstep). WITH_DEFECTS: also <test>.<defect> (label
-# mutation) for each patch in testbench/<block>/defects, which passes only when an assertion fails.
+# mutation) for each patch in testbench/<block>/defects, which passes only when an assertion fails, and
+# mutate.<test>, a share of the block's mutants.
 # ROUNDING is another value of the package's constant. SOURCES are relative to the repository. PARAMS
 # reach the RTL, DEFINES the test. docs/testing.md
 include_guard(GLOBAL)
@@ -15,6 +16,7 @@ if(FELTGATE_RTL)
   include("${CMAKE_CURRENT_LIST_DIR}/verilate.cmake")
 endif()
 include("${CMAKE_CURRENT_LIST_DIR}/defects.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/mutants.cmake")
 
 find_package(Catch2 QUIET)
 if(NOT Catch2_FOUND)
@@ -103,5 +105,6 @@ function(feltgate_block_test block)
     feltgate_same_class(${arg_NAME}_defects ${block} ${arg_NAME}_rtl ${arg_NAME}_defects_rtl)
     feltgate_patches(patches ${block})
     feltgate_defect_tests(${arg_NAME} ${arg_NAME}_defects PATCHES ${patches})
+    feltgate_mutants(${arg_NAME} ${block} "${package};${sources}" "${arg_LIBRARIES}" ${arg_PARAMS})
   endif()
 endfunction()

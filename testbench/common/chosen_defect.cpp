@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Which copy in a block of seeded defects is alive: the one that the environment variable
-// FELTGATE_DEFECT names. Called by what scripts/defects.py writes. Documentation: docs/testing.md
+// Which copy in a block of seeded defects is alive, and which mutant a block is: what the
+// environment variables FELTGATE_DEFECT and FELTGATE_MUTANT name. Called by what scripts/defects.py
+// and scripts/mutants.py write. Documentation: docs/testing.md
 #include <cstdlib>
 #include <iostream>
 #include <sstream>
@@ -21,4 +22,10 @@ extern "C" int feltgate_chosen_defect(const char* names) {
   if (found >= 0) return found;
   std::cerr << "FELTGATE_DEFECT must be one of: " << names << std::endl;
   std::abort();
+}
+
+/// The number of a mutant, or 0 for the block as it is.
+extern "C" int feltgate_chosen_mutant() {
+  const char* chosen = std::getenv("FELTGATE_MUTANT");
+  return chosen == nullptr ? 0 : std::atoi(chosen);
 }

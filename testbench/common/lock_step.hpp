@@ -74,6 +74,7 @@ class LockStep {
     total_clocks_ += session.cycle;
     if (!session.check.failed()) return;
     const Mismatch found = session.check.first();
+    if (!waveform_wanted()) fail_with(block_, seed_, found, "");
     const std::string file = mismatch_file(block_);
     {
       Session again(*this, resets);

@@ -14,6 +14,8 @@
 
 namespace feltgate::test {
 
+bool waveform_wanted() { return std::getenv("FELTGATE_MUTANT") == nullptr; }
+
 std::string mismatch_file(const char* block) {
   const char* asked = std::getenv("FELTGATE_MISMATCH_DIR");
   const std::filesystem::path directory =
@@ -32,10 +34,13 @@ void fail_with(const char* block, std::uint64_t seed, const Mismatch& mismatch,
     text << block << ": mismatch at clock " << mismatch.cycle << ", signal " << mismatch.signal
          << ' ' << mismatch.instant << ": RTL " << mismatch.rtl << ", twin " << mismatch.twin;
   }
-  text << " (seed " << seed << ")\nwaveform: " << waveform << " (clock c rises at 20 c + 10 ns)";
+  text << " (seed " << seed << ")";
+  if (!waveform.empty()) {
+    text << "\nwaveform: " << waveform << " (clock c rises at 20 c + 10 ns)";
+  }
   const std::filesystem::path save = std::filesystem::path(FELTGATE_SOURCE_DIR) / "scripts" /
                                      "gtkwave" / (std::string(block) + ".gtkw");
-  if (std::filesystem::exists(save)) {
+  if (!waveform.empty() && std::filesystem::exists(save)) {
     text << "\nview: gtkwave " << waveform << ' ' << save.string();
   }
   // Catch breaks lines at 80 columns; these are to be searched and copied.

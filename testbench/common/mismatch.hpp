@@ -63,6 +63,9 @@ class Check {
   Mismatch first_;
 };
 
+/// Not with a mutant, of which only the mismatch is wanted, as soon as it is there.
+bool waveform_wanted();
+
 /// Where the waveform of a mismatch goes: $FELTGATE_MISMATCH_DIR or <build>/mismatch. Creates it.
 std::string mismatch_file(const char* block);
 

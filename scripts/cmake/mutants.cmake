@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+#
+# Mutants of the RTL: a block's test program linked with a netlist that is the block with any of them.
+# docs/verification.md
+include_guard(GLOBAL)
+
+set(FELTGATE_MUTANTS 400 CACHE STRING "mutants of each block")
+set(FELTGATE_MUTANTS_SHARE 24 CACHE STRING "mutants that every test run tries of each")
+set(FELTGATE_MUTANT_SEED 1 CACHE STRING "which mutants these are")
+set(FELTGATE_WRITE_MUTANTS "${FELTGATE_ROOT}/scripts/mutants.py")
+find_program(FELTGATE_MUTANT_YOSYS yosys)
+if(NOT FELTGATE_MUTANT_YOSYS)
+  message(STATUS "no yosys: the mutants of the RTL are left out")
+endif()
+
+# feltgate_mutants(<test> <block> <sources> <libraries> [-GName=value...]): <test>_mutants is the test's object
+# with the class V<block> of a netlist; the environment variable FELTGATE_MUTANT is the number of one. The CTest
+# mutate.<test> tries a share of them.
+function(feltgate_mutants test block sources libraries)
+  if(NOT FELTGATE_MUTANT_YOSYS)
+    return()
+  endif()
+  set(target ${test}_mutants)
+  set(folder "${CMAKE_CURRENT_BINARY_DIR}/${target}.netlist")
+  file(CONFIGURE OUTPUT "${folder}/test.json" CONTENT "{\"test\": \"${test}\", \"block\": \"${block}\"}\n")
+  set(parameters ${ARGN})
+  list(TRANSFORM parameters REPLACE "^-G" "--parameter=")
+  add_custom_command(OUTPUT "${folder}/${block}.sv" "${folder}/mutants.json" "${folder}/block.il"
+    COMMAND ${Python3_EXECUTABLE} -B "${FELTGATE_WRITE_MUTANTS}" ${block} --root "${FELTGATE_ROOT}"
+            --sources ${sources} ${parameters} --count ${FELTGATE_MUTANTS} --seed ${FELTGATE_MUTANT_SEED}
+            --output "${folder}/${block}.sv"
+    DEPENDS ${sources} "${FELTGATE_WRITE_MUTANTS}" "${FELTGATE_ROOT}/scripts/mutating/netlist.py"
+            "${FELTGATE_ROOT}/scripts/seeding/block.py"
+    COMMENT "Making mutants of ${test}" VERBATIM)
+  # Packages for the types of the ports. Yosys' Verilog is not written to please a linter.
+  set(packages ${sources})
+  list(FILTER packages INCLUDE REGEX "_pkg\\.sv$")
+  feltgate_verilate(${target}_rtl ${block} "${packages};${folder}/${block}.sv"
+    -Wno-fatal -Wno-lint -Wno-style -Wno-UNOPTFLAT --trace-depth 1 --flatten ${ARGN})
+  target_compile_options(${target}_rtl PRIVATE -O1)
+  target_link_libraries(${target}_rtl PUBLIC feltgate_chosen_defect)
+  add_executable(${target} $<TARGET_OBJECTS:${test}_object>)
+  target_link_libraries(${target} PRIVATE feltgate_catch_main ${libraries} ${target}_rtl)
+  feltgate_same_class(${target} ${block} ${test}_rtl ${target}_rtl)
+
+  set(script "${FELTGATE_ROOT}/scripts/mutate.py")
+  add_test(NAME mutate.${test} COMMAND ${Python3_EXECUTABLE} -B "${script}" ${test} --no-build --jobs 1
+    --count ${FELTGATE_MUTANTS_SHARE} --require 0.9 --proof-seconds 5)
+  set_tests_properties(mutate.${test} PROPERTIES LABELS mutation TIMEOUT 3600
+    REQUIRED_FILES "${script};${CMAKE_CURRENT_BINARY_DIR}/${target};${folder}/mutants.json"
+    ENVIRONMENT "FELTGATE_ROOT=${FELTGATE_ROOT};FELTGATE_BUILD=${PROJECT_BINARY_DIR}")
+endfunction()

@@ -1,0 +1,169 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Mutants of the RTL: would the tests notice if it were wrong in some place?
+
+Yosys makes a netlist of each block and changes one bit at one pin of one cell: inverted, stuck, or
+inverted by another bit. 400 such mutants of a block (60 % of what there is where that is less) are in
+one netlist behind its ports, Verilated once and chosen at run time; the block's own test program runs in
+lock-step with the twin until it notices. What survives is proven to be the same circuit (yosys-abc), is
+listed with its reason in testbench/BLOCK/mutants.toml, or is left: a gap in the test. --show prints one
+mutant with its lines of source, cell and fate, and inputs for which it differs.
+Method, results and what this does not say: docs/verification.md
+
+Exit code: 0 all tests kill the share that is required, 1 one does not, 2 when a tool, a file or an
+argument is wrong.
+
+  feltgate mutate                        all blocks
+  feltgate mutate limiter ramp           two blocks
+  feltgate mutate limiter --count 30     a share of the mutants, chosen by --seed
+  feltgate mutate limiter --show 17      one mutant
+  feltgate mutate --list                 what there is; runs nothing
+  feltgate mutate --twin                 the headers of the C++ twin instead
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import block_results
+import interrupts
+import outputs
+from mutating import netlist, rtl
+from seeding.patches import DefectError
+
+SCHEMA = "feltgate-mutate/1"
+REQUIRED = 0.99
+
+
+def arguments(argv):
+    parser = argparse.ArgumentParser(
+        allow_abbrev=False,
+        prog="feltgate mutate",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("name", nargs="*", metavar="BLOCK", help="a block or one of its tests; default: all")
+    parser.add_argument("--list", action="store_true", help="what there is; runs nothing")
+    parser.add_argument("--show", type=int, metavar="N", help="one mutant of one test, for a person")
+    parser.add_argument("--count", type=int, default=0, metavar="N", help="mutants of each test; default: all")
+    parser.add_argument("--seed", type=int, default=1, help="which ones, where --count leaves some out; default: 1")
+    parser.add_argument("--require", type=float, default=REQUIRED, metavar="SHARE",
+                        help=f"to be killed, of those not proven equivalent; default: {REQUIRED}")
+    parser.add_argument("--survivors", action="store_true", help="list also what survives for a known reason")
+    parser.add_argument("--proof-seconds", type=int, default=20, metavar="S",
+                        help="for the proof that a survivor is equivalent, 0: none; default: 20")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N",
+                        help="programs at the same time; default: one per core")
+    parser.add_argument("--no-build", action="store_true", help="run the programs that are there")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the results here")
+    parser.add_argument("--update", action="store_true",
+                        help=f"put the results of these blocks into {block_results.FOLDER}/mutants.json")
+    parser.add_argument("--twin", action="store_true", help="mutants of the C++ twin; its options: --twin --help")
+    options = parser.parse_args(argv)
+    outputs.check(parser, json=options.json)
+    if options.jobs < 1:
+        parser.error("argument --jobs: at least 1")
+    if options.update and options.count:
+        parser.error("--update takes a run of all mutants")
+    return options
+
+
+def chosen(found, wanted):
+    if not found:
+        raise rtl.MutateError("the build folder knows no mutants: it was configured without tests, or without yosys")
+    unknown = [w for w in wanted if not any(w in (t.block, t.name) for t in found)]
+    if unknown:
+        names = ", ".join(dict.fromkeys(t.block for t in found))
+        raise rtl.MutateError(f"no block {', '.join(unknown)} with mutants; there are {names}")
+    return [t for t in found if not wanted or t.block in wanted or t.name in wanted]
+
+
+def make(build, tests, jobs):
+    """Builds the programs."""
+    targets = [test.program.name for test in tests]
+    rtl_say(f"building {len(targets)} programs in {build}")
+    log = build / "mutate.log"
+    with log.open("wb") as file:
+        done = interrupts.run(["cmake", "--build", build, "-j", str(jobs), "--target", *targets], stdout=file,
+                              stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
+    if done.returncode:
+        last = log.read_text(encoding="utf-8", errors="replace").strip().splitlines()[-5:]
+        raise rtl.MutateError("\n".join([f"the build failed; the whole log: {log}", *last]))
+
+
+def rtl_say(text):
+    print(f"mutate: {text}", file=sys.stderr, flush=True)
+
+
+def update(root, rows):
+    """Puts rtl = [killed, relevant] of these blocks beside what the file has."""
+    before = block_results.read(root, "mutants")
+    blocks = before["blocks"] if before else {}
+    for block in dict.fromkeys(row.test.block for row in rows):
+        its = [row for row in rows if row.test.block == block]
+        killed = sum(row.count(*rtl.DEAD) for row in its)
+        entry = blocks.setdefault(block, {})
+        entry["rtl"] = [killed, sum(row.relevant() for row in its)]
+        entry["seconds"] = round(sum(row.seconds for row in its), 1)
+    block_results.write(root, "mutants", "./feltgate mutate --update", blocks)
+
+
+def report(options, root, rows):
+    rtl.print_survivors(rows, options.survivors)
+    print(rtl.table(rows))
+    bad = [row.test.name for row in rows if row.share() < options.require]
+    tried = sum(len(row.fates) for row in rows)
+    killed, relevant = sum(row.count(*rtl.DEAD) for row in rows), sum(row.relevant() for row in rows)
+    print(f"{tried} mutants in {len(rows)} tests, {killed} of {relevant} not equivalent ones killed "
+          f"({100 * killed / max(1, relevant):.1f} %); "
+          f"{len(bad)} tests below {100 * options.require:.0f} %{': ' if bad else ''}{', '.join(bad)}")
+    if options.json:
+        result = {"schema": SCHEMA, "count": options.count, "seed": options.seed, "required": options.require,
+                  "tests": [row.as_json() for row in rows]}
+        outputs.write_whole(options.json, json.dumps(result, indent=1) + "\n")
+    if options.update:
+        update(root, rows)
+        print(f"mutate: wrote {block_results.path_of(root, 'mutants')}")
+    return 1 if bad else 0
+
+
+def main(argv=None):
+    argv = sys.argv[1:] if argv is None else argv
+    if "--twin" in argv:
+        from mutating import twin
+
+        return twin.main([word for word in argv if word != "--twin"])
+    root = Path(os.environ.get("FELTGATE_ROOT") or Path(__file__).resolve().parents[1])
+    build = Path(os.environ.get("FELTGATE_BUILD") or root / "build").resolve()
+    options = arguments(argv)
+    interrupts.end_on_signals()
+    try:
+        tests = chosen(rtl.tests(build), options.name)
+        if options.list:
+            for test in tests:
+                print(f"{test.name}: rtl/{test.block}.sv, {test.program.name}")
+            return 0
+        if not options.no_build:
+            make(build, tests, options.jobs)
+        for test in tests:
+            test.read()
+        if options.show is not None:
+            if len(tests) != 1:
+                raise rtl.MutateError(f"--show takes one test: {', '.join(t.name for t in tests)}")
+            rtl.show(tests[0], options.show, root, options.proof_seconds)
+            return 0
+        rows = rtl.run(tests, root, options.count, options.seed, options.jobs, options.proof_seconds, rtl_say)
+        return report(options, root, rows)
+    except (rtl.MutateError, netlist.NetlistError, block_results.ResultsError, DefectError, OSError) as error:
+        print(f"mutate: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt as error:
+        return interrupts.tell("mutate", error)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

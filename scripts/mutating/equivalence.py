@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Is a mutant the same circuit? yosys joins both to one whose output says that they differ, yosys-abc
+proves that it never does (scorr, pdr), or finds inputs for which it does.
+
+All inputs are free in every clock, reset among them; registers start at 0, or at their value at power-up.
+A memory is cut out: what it reads is an input of both, its address, data and enable are compared.
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import threading
+
+import interrupts
+
+from . import netlist
+
+EQUIVALENT, DIFFERENT, UNKNOWN = "equivalent", "different", "unknown"
+JOIN_LIMIT_S = 600
+MEMORY_INPUTS = {"RD_DATA": ("RD_PORTS", "WIDTH")}
+MEMORY_OUTPUTS = {
+    "RD_ADDR": ("RD_PORTS", "ABITS"),
+    "WR_ADDR": ("WR_PORTS", "ABITS"),
+    "WR_DATA": ("WR_PORTS", "WIDTH"),
+    "WR_EN": ("WR_PORTS", "WIDTH"),
+}
+
+
+def without_memories(rtlil):
+    """The design with ports in place of the pins of its memories."""
+    last_port = max(int(n) for n in re.findall(r"^  wire .*?(?:input|output) (\d+) ", rtlil, re.M))
+    count = 0
+
+    def ports(found):
+        nonlocal last_port, count
+        body = found.group(0)
+        count += 1
+        size = {k: int(v) for k, v in re.findall(r"parameter \\(\w+) (\d+)\n", body)}
+        lines = []
+        for pins, direction in ((MEMORY_INPUTS, "input"), (MEMORY_OUTPUTS, "output")):
+            for pin, (ports, width) in pins.items():
+                signal = re.search(rf"connect \\{pin} (.*)\n", body)
+                if not size[ports]:
+                    continue
+                last_port += 1
+                name = rf"\memory_{count}_{pin}"
+                lines.append(f"  wire width {size[ports] * size[width]} {direction} {last_port} {name}")
+                pair = (signal.group(1), name) if direction == "input" else (name, signal.group(1))
+                lines.append(f"  connect {pair[0]} {pair[1]}")
+        return "\n".join([*lines, ""])
+
+    return re.sub(r"^  cell \$mem_v2 .*?^  end\n", ports, rtlil, flags=re.M | re.S)
+
+
+def join_script(block, mutants, width):
+    """Both in one design, any of the mutants in the second one, which mutsel chooses."""
+    return [
+        "read_rtlil design.il",
+        f"rename {block} gold",
+        f"add -input mutsel {width} gold",
+        "read_rtlil design.il",
+        *(netlist.command(m, block, f"-ctrl mutsel {width} {k}") for k, m in enumerate(mutants, 1)),
+        f"rename {block} gate",
+        "miter -equiv -flatten gold gate joined",
+        "hierarchy -top joined",
+        "opt_merge -share_all",  # what no mutant reaches is there once
+        "async2sync",
+        "memory_map",
+        "opt -fast",
+        "techmap",
+        "setundef -zero -init",
+        "setundef -zero",
+        "opt -fast",
+        "dfflegalize -cell $_DFF_P_ 01",
+        "abc -g AND",
+        "opt_clean",
+        "write_blif joined.blif",
+    ]
+
+
+class Joined:
+    """The block beside itself with any of these mutants; the folder has its block.il."""
+
+    def __init__(self, folder, block, mutants, work):
+        self.work = work
+        self.numbers = {m["number"]: k for k, m in enumerate(mutants, 1)}
+        self.width = max(1, len(mutants).bit_length())
+        work.mkdir(parents=True, exist_ok=True)
+        (work / "design.il").write_text((folder / "block.il").read_text(encoding="utf-8"), encoding="utf-8")
+        netlist.run_yosys(join_script(block, mutants, self.width), "join", work, JOIN_LIMIT_S)
+        self.blif = (work / "joined.blif").read_text(encoding="utf-8")
+        self.abc = shutil.which("yosys-abc")
+        if self.abc is None:
+            raise netlist.NetlistError("no yosys-abc on the PATH; install Debian's package yosys")
+
+    def prove(self, mutant, seconds):
+        """(verdict, what was said, seconds of CPU time)"""
+        number = self.numbers[mutant["number"]]
+        bits = [f"in_mutsel[{k}]" if self.width > 1 else "in_mutsel" for k in range(self.width)]
+        inputs, rest = self.blif.split(".outputs", 1)
+        for k, bit in enumerate(bits):
+            inputs = re.sub(rf"(?<=\s){re.escape(bit)}(?=\s)", "", inputs)
+            value = "1\n" if number >> k & 1 else ""
+            rest = rest.replace("\n.names", f"\n.names {bit}\n{value}.names", 1)
+        name = f"{mutant['number']}.blif"
+        (self.work / name).write_text(inputs + ".outputs" + rest, encoding="utf-8")
+        said, spent = self.run(f"read_blif {name}; strash; bmc3 -F 12 -T {seconds // 2 + 1}; "
+                               f"scorr; dc2; scorr -F 2; pdr -T {seconds}", 10 * seconds + 60)
+        found = re.search(r"asserted in frame (\d+)", said)
+        if found:
+            return DIFFERENT, f"differs in clock {found.group(1)}", spent
+        if "Property proved" in said:
+            return EQUIVALENT, "Property proved", spent
+        return UNKNOWN, (said.strip().splitlines() or ["yosys-abc said nothing"])[-1], spent
+
+    def run(self, script, limit):
+        """(output, seconds of CPU time) of yosys-abc."""
+        log = self.work / f"{threading.get_ident()}.log"
+        with log.open("wb") as file:
+            process = interrupts.start(["timeout", str(limit), self.abc, "-c", script], cwd=self.work, stdout=file,
+                                       stderr=file, stdin=subprocess.DEVNULL)
+            _, _, usage = os.wait4(process.pid, 0)
+            process.returncode = 0
+        return log.read_text(encoding="utf-8", errors="replace"), usage.ru_utime + usage.ru_stime
+
+    def example(self, mutant):
+        """Inputs in the clocks up to the one in which it differs, changes only."""
+        name = f"{mutant['number']}.blif"
+        self.run(f"read_blif {name}; strash; bmc3 -F 60 -T 60; write_cex -n example.txt", 120)
+        found = self.work / "example.txt"
+        if not found.exists():
+            return "no example"
+        values = {}
+        for signal, bit, clock, value in re.findall(r"in_(\S+?)(?:\[(\d+)\])?@(\d+)=(\d)", found.read_text(encoding="utf-8")):
+            key = int(clock), signal
+            values[key] = values.get(key, 0) | int(value) << int(bit or 0)
+        lines, last = ["inputs that show it, from a state of 0:"], {}
+        for clock in range(max((key[0] for key in values), default=-1) + 1):
+            now = {signal: value for (c, signal), value in values.items() if c == clock and signal != "clk_i"}
+            changed = [f"{s}={v:#x}" for s, v in sorted(now.items()) if last.get(s, 0) != v]
+            lines.append(f"  clock {clock}: {' '.join(changed) or 'as before'}")
+            last |= now
+        return "\n".join(lines)
+
+
+def joined(folder, block, mutants, work):
+    """{number: Joined}; the memories are cut out unless a mutant is at their pins."""
+    text = (folder / "block.il").read_text(encoding="utf-8")
+    inside = [m for m in mutants if m["type"] == "$mem_v2"]
+    outside = [m for m in mutants if m["type"] != "$mem_v2"]
+    found = {}
+    if outside and "$mem_v2" in text:
+        cut = work / "cut"
+        cut.mkdir(parents=True)
+        (cut / "block.il").write_text(without_memories(text), encoding="utf-8")
+        together = Joined(cut, block, outside, work / "outside")
+        found |= dict.fromkeys((m["number"] for m in outside), together)
+    elif outside:
+        together = Joined(folder, block, outside, work / "outside")
+        found |= dict.fromkeys((m["number"] for m in outside), together)
+    if inside:
+        together = Joined(folder, block, inside, work / "inside")
+        found |= dict.fromkeys((m["number"] for m in inside), together)
+    return found

@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""One netlist that is a block with any of its mutants, chosen at run time. docs/verification.md
+
+Yosys writes the block as a netlist of word-wide cells and proposes the mutants: one bit of one pin of one
+cell inverted, stuck, or changed by another bit of the pin. Every mutant is in the netlist behind a
+comparison with `mutsel`. Around it stands a module of the block's own name and ports, so that the block's
+test program is linked with it as it is.
+"""
+
+import json
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+from seeding.block import Head
+
+LIST_LIMIT_S = 600  # yosys' mutate never ends when nearly all of its database is asked for
+MOST_OF_DATABASE = 0.6
+CLOCK_PINS = ("CLK", "RD_CLK", "WR_CLK")
+
+
+class NetlistError(Exception):
+    """Yosys is missing or has failed; the message says what to do."""
+
+
+def yosys():
+    found = shutil.which("yosys")
+    if found is None:
+        raise NetlistError("no yosys on the PATH; install Debian's package yosys")
+    return found
+
+
+def run_yosys(script, name, folder, limit=LIST_LIMIT_S):
+    """Runs it in the folder, since not every command takes a path with a blank."""
+    path = folder / f"{name}.ys"
+    path.write_text("\n".join(script) + "\n", encoding="utf-8")
+    log = folder / f"{name}.log"
+    with log.open("wb") as file:
+        try:
+            done = subprocess.run([yosys(), "-s", path.name], cwd=folder, stdout=file, stderr=file, check=False,
+                                  stdin=subprocess.DEVNULL, timeout=limit)
+        except subprocess.TimeoutExpired as error:
+            raise NetlistError(f"yosys did not end within {limit} s; log: {log}") from error
+    text = log.read_text(encoding="utf-8", errors="replace")
+    if done.returncode:
+        raise NetlistError("\n".join([f"yosys failed; the whole log: {log}", *text.strip().splitlines()[-3:]]))
+    return text
+
+
+def cell_types(rtlil):
+    """{cell: type} of a flat design in RTLIL."""
+    return {name: kind for kind, name in re.findall(r"^  cell (\S+) (\S+)$", rtlil, re.M)}
+
+
+def powered_up(rtlil):
+    """(cell, "Q") of registers with a value at power-up, which yosys' mutate loses when it changes Q."""
+    wires = set(re.findall(r"attribute \\init [^\n]*\n(?:  attribute [^\n]*\n)*  wire (?:\w+ \S+ )*(\S+)\n", rtlil))
+    found = set()
+    for cell, body in re.findall(r"^  cell \S+ (\S+)$(.*?)^  end$", rtlil, re.M | re.S):
+        q = re.search(r"connect \\Q (.*)", body)
+        if q and any(word in wires for word in q.group(1).split()):
+            found.add((cell.lstrip("\\"), "Q"))
+    return found
+
+
+def parse(line, types):
+    """One command of yosys' list, as the fields of a mutant."""
+    words = line.split()
+    options = {}
+    sources = []
+    for key, value in zip(words[1::1], words[2::1]):
+        if key == "-src":
+            sources.append(value)
+        elif key.startswith("-") and not re.fullmatch(r"-\d+", key):
+            options[key[1:]] = value
+    cell = options["cell"]
+    mutant = {
+        "mode": options["mode"],
+        "cell": cell,
+        "type": types.get("\\" + cell, types.get(cell, "?")),
+        "port": options["port"],
+        "bit": int(options["portbit"]),
+        "sources": sources,
+    }
+    if "ctrlbit" in options:
+        mutant["by_bit"] = int(options["ctrlbit"])
+    if "wire" in options:
+        mutant["wire"] = options["wire"]
+        mutant["wire_bit"] = int(options["wirebit"])
+    return mutant
+
+
+def command(mutant, top, control=""):
+    """The mutant as a command of yosys."""
+    words = ["mutate", control, f"-mode {mutant['mode']} -module {top} -cell {mutant['cell']}",
+             f"-port {mutant['port']} -portbit {mutant['bit']}"]
+    if "by_bit" in mutant:
+        words.append(f"-ctrlbit {mutant['by_bit']}")
+    return " ".join(word for word in words if word)
+
+
+def wrapper(block, source, width):
+    """The module of the block's own name: its ports, and which mutant it is."""
+    head = Head(block, source)
+    ports = ", ".join(f".{port}({port})" for _, _, port in head.ports)
+    return "\n".join([
+        "`default_nettype none",
+        head.text,
+        '  import "DPI-C" function int feltgate_chosen_mutant();',
+        f"  logic [{width - 1}:0] mutsel;",
+        f"  initial mutsel = {width}'(feltgate_chosen_mutant());",
+        f"  {block}_mutants u_mutants ({ports}, .mutsel(mutsel));",
+        # Verilator orders the members of its class by what is a clock: clk_i must be one here, too.
+        *(["  always @(posedge clk_i) if (&mutsel) $stop;"] if head.clocked else []),
+        "endmodule",
+        "`default_nettype wire",
+        "",
+    ])
+
+
+def write(block, sources, parameters, count, seed, output, root):
+    """Writes output (.sv) and, beside it, BLOCK.il, what the mutants change, and mutants.json."""
+    folder = output.parent
+    folder.mkdir(parents=True, exist_ok=True)
+    # Sources keep the names that they have in the repository.
+    link = folder / "rtl"
+    link.unlink(missing_ok=True)
+    link.symlink_to(root / "rtl")
+    changed = "".join(f" -chparam {p.replace('=', ' ')}" for p in parameters)
+    log = run_yosys([
+        "read_verilog -sv " + " ".join(f'"{source}"' for source in sources),
+        f"hierarchy -top {block}{changed}",
+        "proc", "flatten",
+        # Not `memory -nomap`: its ports would read X for a word that is being written.
+        "opt -full", "memory_collect", "opt_clean -purge",
+        f"rename -top {block}",
+        "write_rtlil block.il",
+        f"mutate -list 1 -seed {seed} -o one.txt",
+    ], "read", folder)
+    database = int(re.search(r"Raw database size: (\d+)", log).group(1))
+    # Clock pins are left out below; what is asked for makes up for them.
+    asked = max(1, min(count * 3 // 2, int(MOST_OF_DATABASE * database)))
+    run_yosys(["read_rtlil block.il", f"mutate -list {asked} -seed {seed} -o proposed.txt"], "list", folder)
+    design = (folder / "block.il").read_text(encoding="utf-8")
+    types = cell_types(design)
+    started = powered_up(design)
+    mutants = [parse(line, types) for line in (folder / "proposed.txt").read_text(encoding="utf-8").splitlines()]
+    mutants = [m for m in mutants if m["port"] not in CLOCK_PINS and (m["cell"], m["port"]) not in started][:count]
+    width = len(mutants).bit_length() + 1  # all bits set is no mutant
+    for number, mutant in enumerate(mutants, 1):
+        mutant["number"] = number
+    run_yosys([
+        "read_rtlil block.il",
+        *(command(m, block, f"-ctrl mutsel {width} {m['number']}") for m in mutants),
+        # Verilator 5.006 loses changes of a word that is driven in parts, some by others of it.
+        "opt_clean", "splitnets -driver",
+        f"rename {block} {block}_mutants",
+        "write_verilog -noattr netlist.v",
+    ], "netlist", folder)
+    source = next(p for p in sources if Path(p).stem == block)
+    text = wrapper(block, Path(root, source).read_text(encoding="utf-8"), width)
+    netlist = (folder / "netlist.v").read_text(encoding="utf-8")
+    output.write_text(text + netlist, encoding="utf-8")
+    result = {"block": block, "seed": seed, "database": database, "mutants": mutants}
+    (folder / "mutants.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")

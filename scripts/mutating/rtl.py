@@ -1,0 +1,349 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Mutants of the RTL: runs a block's test program on each, proves what survives, says what is left."""
+
+import json
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import tomllib
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import interrupts
+
+from . import equivalence
+
+KILLED, CRASHES, HANGS, SURVIVES = "killed", "crashes", "hangs", "survives"
+DEAD = (KILLED, CRASHES, HANGS)
+KEYS = {"line", "wire", "pin", "bits", "modes", "why"}
+MODES = {"inv": "inverted", "const0": "stuck at 0", "const1": "stuck at 1",
+         "cnot0": "inverted while another bit of the pin is 0", "cnot1": "inverted while another bit of the pin is 1"}
+
+
+class MutateError(Exception):
+    """What is missing or wrong, for the user."""
+
+
+@dataclass
+class Test:
+    """A test program and its mutants."""
+
+    name: str
+    block: str
+    folder: Path  # of the netlist
+    program: Path
+    seed: int = 0
+    database: int = 0
+    mutants: list = field(default_factory=list)
+
+    def read(self):
+        path = self.folder / "mutants.json"
+        if not path.exists():
+            raise MutateError(f"{path} is missing; build the target {self.program.name}")
+        found = json.loads(path.read_text(encoding="utf-8"))
+        self.seed, self.database, self.mutants = found["seed"], found["database"], found["mutants"]
+
+
+def tests(build):
+    """All that the build folder has been configured with."""
+    found = []
+    for path in sorted(build.glob("testbench/*/*_mutants.netlist/test.json")):
+        entry = json.loads(path.read_text(encoding="utf-8"))
+        program = path.parent.parent / f"{entry['test']}_mutants"
+        found.append(Test(entry["test"], entry["block"], path.parent, program))
+    return found
+
+
+def place(root, source):
+    """rtl/x.sv:12.3-14.9 as (file, first line, its text)."""
+    path, _, span = source.rpartition(":")
+    line = int(span.split(".")[0])
+    full = Path(root, path)
+    lines = full.read_text(encoding="utf-8").splitlines() if full.exists() else []
+    return path, line, lines[line - 1].strip() if 0 < line <= len(lines) else ""
+
+
+def pin(mutant):
+    return f"{mutant['type']}.{mutant['port']}"
+
+
+def says(mutant):
+    """One line."""
+    wire = f", {mutant['wire']}[{mutant['wire_bit']}]" if "wire" in mutant else ""
+    by = f" ({mutant['by_bit']})" if "by_bit" in mutant else ""
+    return f"bit {mutant['bit']} of {pin(mutant)}{wire} {MODES.get(mutant['mode'], mutant['mode'])}{by}"
+
+
+def where(root, mutant):
+    """The source lines, most precise first."""
+    found = sorted({place(root, source) for source in mutant["sources"]})
+    return [f"{path}:{line}: {text}" for path, line, text in found]
+
+
+class Listed:
+    """testbench/BLOCK/mutants.toml: survivors that were looked at, with the reason."""
+
+    def __init__(self, root, block):
+        path = Path(root, "testbench", block, "mutants.toml")
+        self.root = root
+        self.entries = []
+        if path.exists():
+            text = tomllib.loads(path.read_text(encoding="utf-8"))
+            self.entries = text.get("survivor", [])
+        for entry in self.entries:
+            if not entry.get("why") or not entry.keys() <= KEYS or len(entry) < 2:
+                raise MutateError(f"{path}: an entry has 'why' and some of line, wire, pin, bits, modes")
+
+    def why(self, mutant):
+        """The reason of the first entry that fits, or ''."""
+        for entry in self.entries:
+            if "line" in entry and not any(entry["line"] in place(self.root, s)[2] for s in mutant["sources"]):
+                continue
+            if "wire" in entry and not re.fullmatch(entry["wire"], mutant.get("wire", "")):
+                continue
+            if "pin" in entry and not re.fullmatch(entry["pin"], pin(mutant)):
+                continue
+            if "bits" in entry and mutant["bit"] not in entry["bits"]:
+                continue
+            if "modes" in entry and mutant["mode"] not in entry["modes"]:
+                continue
+            return entry["why"]
+        return ""
+
+
+@dataclass
+class Row:
+    """What became of a test's mutants."""
+
+    test: Test
+    listed: Listed
+    fates: dict = field(default_factory=dict)  # number: KILLED ... SURVIVES
+    proofs: dict = field(default_factory=dict)  # number: (verdict, what was said)
+    seconds: float = 0.0
+
+    def count(self, *fates):
+        return sum(fate in fates for fate in self.fates.values())
+
+    def survivors(self):
+        """Those that are not proven equivalent."""
+        return [m for m in self.test.mutants if self.fates.get(m["number"]) == SURVIVES
+                and self.proofs.get(m["number"], ("",))[0] != equivalence.EQUIVALENT]
+
+    def equivalent(self):
+        return sum(verdict == equivalence.EQUIVALENT for verdict, _ in self.proofs.values())
+
+    def of_listed(self):
+        return sum(bool(self.listed.why(m)) for m in self.survivors())
+
+    def relevant(self):
+        return len(self.fates) - self.equivalent()
+
+    def share(self):
+        return self.count(*DEAD) / self.relevant() if self.relevant() else 1.0
+
+    def as_json(self):
+        def entry(mutant):
+            verdict, said = self.proofs.get(mutant["number"], ("not tried", ""))
+            return {"number": mutant["number"], "mutant": says(mutant), "where": where(self.listed.root, mutant),
+                    "proof": verdict, "said": said, "why": self.listed.why(mutant)}
+
+        return {
+            "test": self.test.name, "block": self.test.block, "seed": self.test.seed,
+            "database": self.test.database, "mutants": len(self.fates),
+            "killed": self.count(*DEAD), "crashes": self.count(CRASHES), "hangs": self.count(HANGS),
+            "equivalent": self.equivalent(), "listed": self.of_listed(),
+            "killed_share": round(self.share(), 4), "seconds": round(self.seconds, 1),
+            "survivors": [entry(m) for m in self.survivors()],
+        }
+
+
+class Progress:
+    """Done, all, and when it will end: on a terminal one line, else one every half minute."""
+
+    def __init__(self, total):
+        self.total, self.done, self.start = total, 0, time.monotonic()
+        self.shown = self.start
+
+    def step(self, text):
+        self.done += 1
+        now = time.monotonic()
+        if sys.stderr.isatty():
+            print(f"\r\033[K{self.line(now, text)}"[:110], end="", file=sys.stderr, flush=True)
+        elif now - self.shown > 30:
+            self.shown = now
+            print(f"mutate: {self.line(now, text)}", file=sys.stderr, flush=True)
+
+    def line(self, now, text):
+        left = (now - self.start) / max(1, self.done) * (self.total - self.done)
+        return f"[{self.done}/{self.total}] {text}, {left / 60:.0f} min left"
+
+    def end(self):
+        if sys.stderr.isatty():
+            print("\r\033[K", end="", file=sys.stderr, flush=True)
+
+
+RUNNING = set()  # what end_all ends: a signal reaches the main thread only
+
+
+def end_all():
+    for process in list(RUNNING):
+        process.kill()
+
+
+def run_program(test, number, limit):
+    """(fate, seconds of CPU time, output)"""
+    kept = {k: v for k, v in os.environ.items() if k not in ("FELTGATE_DEFECT", "FELTGATE_MISMATCH_DIR")}
+    with tempfile.TemporaryFile() as output:
+        before = time.monotonic()
+        process = interrupts.start([test.program, "--abort"], env=kept | {"FELTGATE_MUTANT": str(number)},
+                                   stdin=subprocess.DEVNULL, stdout=output, stderr=output)
+        RUNNING.add(process)
+        try:
+            status, usage = None, None
+            while status is None:
+                done, code, usage = os.wait4(process.pid, os.WNOHANG)
+                if done:
+                    status = os.waitstatus_to_exitcode(code)
+                elif time.monotonic() - before > limit:
+                    process.kill()
+                    _, code, usage = os.wait4(process.pid, 0)
+                    status = "late"
+                else:
+                    time.sleep(min(0.02, 0.002 + (time.monotonic() - before) / 20))
+        finally:
+            RUNNING.discard(process)
+        process.returncode = 0
+        output.seek(0)
+        text = output.read().decode("utf-8", "replace")
+    seconds = usage.ru_utime + usage.ru_stime
+    if status == "late":
+        return HANGS, seconds, text
+    if status == 0:
+        return SURVIVES, seconds, text
+    return (CRASHES if status < 0 or "fatal error condition" in text else KILLED), seconds, text
+
+
+def chosen(test, count, seed):
+    if count <= 0 or count >= len(test.mutants):
+        return test.mutants
+    return sorted(random.Random(f"{seed}/{test.name}").sample(test.mutants, count), key=lambda m: m["number"])
+
+
+def run(wanted, root, count, seed, jobs, proof_seconds, say):
+    """The rows of these tests."""
+    rows = [Row(test, Listed(root, test.block)) for test in wanted]
+    todo = [(row, mutant) for row in rows for mutant in chosen(row.test, count, seed)]
+    pool = ThreadPoolExecutor(jobs)
+    work = Path(tempfile.mkdtemp(prefix="feltgate-mutate-"))
+    try:
+        limits = {}
+
+        def first(row):
+            fate, seconds, text = run_program(row.test, 0, 3600)
+            if fate != SURVIVES:
+                last = "\n".join(text.strip().splitlines()[-5:])
+                raise MutateError(f"{row.test.program.name} {fate} without a mutant:\n{last}")
+            limits[row.test.name] = 60 + 40 * seconds
+            row.seconds += seconds
+
+        list(pool.map(first, rows))
+        progress = Progress(len(todo))
+
+        def try_one(item):
+            row, mutant = item
+            fate, seconds, _ = run_program(row.test, mutant["number"], limits[row.test.name])
+            row.fates[mutant["number"]] = fate
+            row.seconds += seconds
+            progress.step(f"{row.test.name} {mutant['number']}")
+
+        list(pool.map(try_one, todo))
+        progress.end()
+        alive = [(row, m) for row, m in todo if row.fates[m["number"]] == SURVIVES]
+        if proof_seconds:
+            say(f"{len(alive)} survive; proving which are equivalent")
+            prove(rows, pool, work, proof_seconds)
+    finally:
+        pool.shutdown(wait=False, cancel_futures=True)
+        end_all()
+        shutil.rmtree(work, ignore_errors=True)
+    return rows
+
+
+def prove(rows, pool, work, seconds):
+    progress = Progress(sum(row.count(SURVIVES) for row in rows))
+
+    def join(row):
+        alive = [m for m in row.test.mutants if row.fates.get(m["number"]) == SURVIVES]
+        start = time.process_time()
+        found = equivalence.joined(row.test.folder, row.test.block, alive, work / row.test.name)
+        return row, alive, found, time.process_time() - start
+
+    def one(item):
+        row, mutant, design = item
+        verdict, said, spent = design.prove(mutant, seconds)
+        row.proofs[mutant["number"]] = (verdict, said)
+        row.seconds += spent
+        progress.step(f"{row.test.name} {mutant['number']} {verdict}")
+
+    todo = []
+    for row, alive, found, _ in pool.map(join, rows):
+        todo += [(row, mutant, found[mutant["number"]]) for mutant in alive]
+    list(pool.map(one, todo))
+    progress.end()
+
+
+HEAD = ("test", "database", "mutants", "killed", "equivalent", "listed", "left", "killed of rest", "s of CPU")
+
+
+def table(rows):
+    lines = [HEAD]
+    for row in rows:
+        left = len(row.survivors()) - row.of_listed()
+        lines.append((row.test.name, row.test.database, len(row.fates), row.count(*DEAD), row.equivalent(),
+                      row.of_listed(), left, f"{100 * row.share():.1f} %", f"{row.seconds:.0f}"))
+    widths = [max(len(str(line[k])) for line in lines) for k in range(len(HEAD))]
+    return "\n".join("  ".join(str(cell).ljust(w) if k == 0 else str(cell).rjust(w)
+                               for k, (cell, w) in enumerate(zip(line, widths))) for line in lines)
+
+
+def print_survivors(rows, known):
+    for row in rows:
+        for mutant in row.survivors():
+            why = row.listed.why(mutant)
+            if why and not known:
+                continue
+            verdict, said = row.proofs.get(mutant["number"], ("not tried", ""))
+            print(f"{row.test.name} {mutant['number']}: {says(mutant)}; {verdict}, {said}"
+                  f"{f'; listed: {why}' if why else ''}")
+            for line in where(row.listed.root, mutant):
+                print(f"    {line}")
+
+
+def show(test, number, root, proof_seconds):
+    """One mutant, for a person: what it is, where, and what becomes of it."""
+    mutant = next((m for m in test.mutants if m["number"] == number), None)
+    if mutant is None:
+        raise MutateError(f"{test.name} has the mutants 1 to {len(test.mutants)}")
+    print(f"{test.name} {number}: {says(mutant)}\n  cell {mutant['cell']}")
+    for line in where(root, mutant):
+        print(f"  {line}")
+    fate, seconds, text = run_program(test, number, 3600)
+    said = re.search(r"^.*mismatch (?:at|with).*$|^.*FAILED.*$", text, re.M)
+    print(f"{fate} in {seconds:.2f} s of CPU{f': {said.group(0)}' if said else ''}")
+    if fate == SURVIVES and proof_seconds:
+        with tempfile.TemporaryDirectory(prefix="feltgate-mutate-") as work:
+            design = equivalence.joined(test.folder, test.block, [mutant], Path(work, "one"))[number]
+            verdict, said, _ = design.prove(mutant, proof_seconds)
+            print(f"{verdict}: {said}")
+            if verdict == equivalence.DIFFERENT:
+                print(design.example(mutant))
+        why = Listed(root, test.block).why(mutant)
+        print(f"listed: {why}" if why else f"to list it with a reason: testbench/{test.block}/mutants.toml")
+    print(f"again: FELTGATE_MUTANT={number} {test.program}")

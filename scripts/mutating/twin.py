@@ -1,0 +1,280 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""feltgate mutate --twin: mutants of the headers of the C++ twin. Documentation: docs/verification.md"""
+
+import json
+import os
+import random
+import re
+import sys
+import time
+import tomllib
+from collections import Counter
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import outputs
+
+from . import twin_programs, twin_runs, twin_source
+
+SCHEMA = "feltgate-mutate-twin/1"
+SHARE = 200  # mutants of a header, where it offers so many
+DEAD = ("killed", "hangs", "crashes")
+
+
+class TwinError(Exception):
+    """A header or a catalogue that cannot be used."""
+
+
+@dataclass
+class Catalogue:
+    tests: dict  # header: targets
+    constant: dict = field(default_factory=dict)  # header: functions that only the compiler calls
+    survivors: dict = field(default_factory=dict)  # (header, name of the mutant): (kind, why)
+
+
+def read_catalogue(root):
+    path = root / "testbench/mutate/twin.toml"
+    text = tomllib.loads(path.read_text(encoding="utf-8"))
+    survivors = {}
+    for entry in text.get("survivor", []):
+        if entry["kind"] not in ("equivalent", "gap"):
+            raise TwinError(f"{path}: kind {entry['kind']}; there are equivalent and gap")
+        for name in entry["mutants"]:
+            survivors[entry["header"], name] = (entry["kind"], entry["why"])
+    return Catalogue(text["tests"], text.get("constant", {}), survivors)
+
+
+def options_of(parser):
+    group = parser.add_argument_group("the C++ twin")
+    group.add_argument("--twin", action="store_true",
+                       help="mutants of the headers of the C++ twin instead; names are those of headers")
+    group.add_argument("--survivors", action="store_true", help="--twin: list what survives, also what is known")
+
+
+def parse(catalogue, root, names, dropped):
+    """The mutated headers; numbers run through all of them."""
+    language = twin_source.cpp_language()
+    headers, first = [], 0
+    for name in names:
+        text = (root / twin_programs.HEADERS / f"{name}.hpp").read_text(encoding="utf-8")
+        header = twin_source.Header(name, text, first, language, catalogue.constant.get(name, ()),
+                                    dropped.get(name, ()))
+        first += len(header.mutants)
+        headers.append(header)
+    return headers
+
+
+def write_headers(headers, folder):
+    for header in headers:
+        path = folder / "include/feltgate" / f"{header.name}.hpp"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(header.result, encoding="utf-8")
+
+
+def refused(headers, folder, output):
+    """The mutants that a compiler's message is about: those of its line, the risky ones first."""
+    lines = {h.name: (folder / "include/feltgate" / f"{h.name}.hpp").read_text(encoding="utf-8").splitlines()
+             for h in headers}
+    # A compiler cache may shorten the paths.
+    path = rf"mutants/twin/{re.escape(folder.name)}/include/feltgate/(\w+)\.hpp:(\d+):\d+:"
+    places = set(re.findall(rf"{path} +(?:error|required from)", output))
+    bad = set()
+    for name, line in places:
+        header = next(h for h in headers if h.name == name)
+        numbers = {int(n) for n in re.findall(r"feltgate_mutant::\w+[<(](?:-1, )?(\d+)", lines[name][int(line) - 1])}
+        here = [m for m in header.mutants if m.number in numbers]
+        for kinds in (("arguments",), ("constant",), ("arithmetic", "rounding"), None):
+            chosen = [m for m in here if (kinds is None or m.kind in kinds)]
+            if chosen:
+                bad |= {(m.header, m.name) for m in chosen}
+                break
+    return bad
+
+
+def make(catalogue, root, build, names, folder, jobs, built, say):
+    """(headers, programs); what does not compile is dropped."""
+    targets = list(dict.fromkeys(t for name in names for t in catalogue.tests[name]))
+    if not built:
+        say(f"building {len(targets)} programs as they are")
+        twin_programs.build_targets(build, targets)
+    # Known from the last time; a mutant that is no longer there drops nothing.
+    memory = folder.parent / "not_compiled.json"
+    known = json.loads(memory.read_text(encoding="utf-8")) if memory.exists() else {}
+    dropped = {name: set(known[name]) for name in names if name in known}
+    for attempt in range(8):
+        headers = parse(catalogue, root, names, dropped)
+        write_headers(headers, folder)
+        count = sum(len(h.mutants) for h in headers)
+        say(f"compiling {count} mutants of {len(headers)} headers" + (f", attempt {attempt + 1}" if attempt else ""))
+        maker = twin_programs.Maker(build, root, folder, names, max(count, 1), jobs)
+        try:
+            programs = maker.make(targets)
+            outputs.write_whole(memory, json.dumps(known | {n: sorted(d) for n, d in dropped.items()}))
+            return headers, programs, dropped
+        except twin_programs.BuildError as error:
+            bad = refused(headers, folder, error.output)
+            if not bad:
+                raise TwinError(f"{error}\n{error.output[-4000:]}") from None
+            for name, mutant in bad:
+                dropped.setdefault(name, set()).add(mutant)
+    raise TwinError("the mutated headers do not compile, whatever is dropped")
+
+
+def choose(header, count, seed):
+    """So many of its mutants, or all; the same ones for one seed."""
+    if count <= 0 or len(header.mutants) <= count:
+        return header.mutants
+    return sorted(random.Random(f"{seed}/{header.name}").sample(header.mutants, count), key=lambda m: m.number)
+
+
+def survivors_of(path):
+    """(header, mutant) of those that results tell of."""
+    try:
+        rows = json.loads(path.read_text(encoding="utf-8"))["headers"]
+        return {(row["header"], survivor["mutant"]) for row in rows for survivor in row["survivors"]}
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise TwinError(f"{path}: no results of mutate --twin ({error})") from None
+
+
+@dataclass
+class Row:
+    header: str
+    offered: int
+    verdicts: list
+    catalogue: Catalogue
+
+    def known(self, verdict):
+        return self.catalogue.survivors.get((self.header, verdict.mutant.name))
+
+    def count(self, *hows):
+        return sum(v.how in hows for v in self.verdicts)
+
+    def left(self, kind):
+        """Not killed: equivalent, gap or None for those not listed."""
+        return [v for v in self.verdicts if v.how not in DEAD and (self.known(v) or (None,))[0] == kind]
+
+    def share(self):
+        living = len(self.verdicts) - len(self.left("equivalent"))
+        return self.count(*DEAD) / living if living else 1.0
+
+    def as_json(self):
+        return {
+            "header": self.header, "offered": self.offered, "tried": len(self.verdicts),
+            "killed": self.count("killed"), "hangs": self.count("hangs"), "crashes": self.count("crashes"),
+            "equivalent": len(self.left("equivalent")), "killed_share": round(self.share(), 4),
+            "seconds": round(sum(v.seconds for v in self.verdicts), 1),
+            "survivors": [
+                {"mutant": v.mutant.name, "line": v.mutant.line, "reached": v.how != "unreached",
+                 "kind": (self.known(v) or ("not listed", ""))[0], "why": (self.known(v) or ("", ""))[1]}
+                for v in self.verdicts if v.how not in DEAD
+            ],
+        }
+
+
+def table(rows):
+    head = ("header", "offered", "tried", "killed", "hang", "crash", "equivalent", "gaps", "not listed", "killed share")
+    lines = [head]
+    for row in rows:
+        lines.append((row.header, row.offered, len(row.verdicts), row.count("killed"), row.count("hangs"),
+                      row.count("crashes"), len(row.left("equivalent")), len(row.left("gap")),
+                      len(row.left(None)), f"{100 * row.share():.1f} %"))
+    widths = [max(len(str(line[k])) for line in lines) for k in range(len(head))]
+    return "\n".join("  ".join(str(cell).ljust(w) if k == 0 else str(cell).rjust(w)
+                               for k, (cell, w) in enumerate(zip(line, widths))) for line in lines)
+
+
+def print_survivors(rows, known):
+    for row in rows:
+        for verdict in row.verdicts:
+            if verdict.how in DEAD or (row.known(verdict) and not known):
+                continue
+            kind, why = row.known(verdict) or ("not listed", "")
+            print(f"{twin_programs.HEADERS}/{row.header}.hpp:{verdict.mutant.line}: {verdict.how}, {kind}: "
+                  f"{verdict.mutant.name}{f' ({why})' if why else ''}")
+
+
+def run(options, root, build):
+    """The exit code."""
+    catalogue = read_catalogue(root)
+    names = options.name or list(catalogue.tests)
+    unknown = [n for n in names if n not in catalogue.tests]
+    if unknown:
+        raise TwinError(f"no header {', '.join(unknown)} in testbench/mutate/twin.toml; there are {', '.join(catalogue.tests)}")
+    if options.list:
+        for header in parse(catalogue, root, names, {}):
+            print(f"{header.name}: {len(header.mutants)} mutants, tested by {', '.join(catalogue.tests[header.name])}")
+            for mutant in header.mutants if options.name else ():
+                print(f"  {mutant.line}: {mutant.name}")
+        return 0
+    start = time.monotonic()
+
+    def say(text):
+        print(f"mutate: {text}", file=sys.stderr, flush=True)
+
+    folder = build / "mutants/twin" / "-".join(names if len(names) < 4 else ["all"])
+    folder.mkdir(parents=True, exist_ok=True)
+    headers, programs, dropped = make(catalogue, root, build, names, folder, options.jobs, options.built, say)
+    runs = twin_runs.Runs(folder, options.jobs)
+    cases = runs.survey(programs, twin_runs.Progress(sys.stderr, "test cases"))
+    say(f"{len(cases)} test cases, {sum(c.seconds for c in cases):.0f} s of CPU; {time.monotonic() - start:.0f} s so far")
+    chosen = [m for h in headers for m in choose(h, options.count, options.seed)]
+    if options.again:
+        survived = survivors_of(options.again)
+        chosen = [m for h in headers for m in h.mutants if (m.header, m.name) in survived]
+    # A header's own tests only, also where another's reach it.
+    verdicts = []
+    progress = twin_runs.Progress(sys.stderr, "mutants")
+    work = []
+    for header in headers:
+        own = [c for c in cases if c.program.target in catalogue.tests[header.name]]
+        work += [(runs.try_mutant, (m, own)) for m in chosen if m.header == header.name]
+    verdicts = sorted(runs.each(work, progress), key=lambda v: v.mutant.number)
+    rows = [Row(h.name, len(h.mutants), [v for v in verdicts if v.mutant.header == h.name], catalogue)
+            for h in headers]
+    print_survivors(rows, options.survivors)
+    print(table(rows))
+    bad = [row.header for row in rows if row.share() < options.require]
+    tried = len(verdicts)
+    counts = Counter(v.how for v in verdicts)
+    print(f"{tried} mutants of {len(rows)} headers, {tried - counts['survives'] - counts['unreached']} killed, "
+          f"{len(bad)} headers below {100 * options.require:.0f} %; {time.monotonic() - start:.0f} s")
+    result = {"schema": SCHEMA, "seed": options.seed, "count": options.count,
+              "not_compiled": {name: len(d) for name, d in dropped.items()}, "headers": [r.as_json() for r in rows]}
+    if options.json:
+        outputs.write_whole(options.json, json.dumps(result, indent=1) + "\n")
+    return 1 if bad else 0
+
+
+def main(argv=None):
+    import argparse
+
+    import interrupts
+
+    parser = argparse.ArgumentParser(prog="feltgate mutate --twin", description=__doc__, allow_abbrev=False)
+    parser.add_argument("name", nargs="*", metavar="HEADER", help="default: all")
+    parser.add_argument("--list", action="store_true", help="what there is; runs nothing")
+    parser.add_argument("--count", type=int, default=SHARE, metavar="N", help="mutants of each, 0: all; default: 200")
+    parser.add_argument("--seed", type=int, default=1, help="chooses them; default: 1")
+    parser.add_argument("--require", type=float, default=0.95, metavar="SHARE", help="killed of those not equivalent")
+    parser.add_argument("--built", action="store_true", help="the test programs are built; look no further")
+    parser.add_argument("--again", type=Path, metavar="FILE",
+                        help="only those that survived in these results of --json, after tests have changed")
+    parser.add_argument("--survivors", action="store_true", help="list also what is known to survive")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N")
+    parser.add_argument("--json", type=Path, metavar="FILE")
+    options = parser.parse_args(argv)
+    root = Path(os.environ.get("FELTGATE_ROOT") or Path(__file__).resolve().parents[2])
+    build = Path(os.environ.get("FELTGATE_BUILD") or root / "build")
+    interrupts.end_on_signals()
+    try:
+        return run(options, root, build)
+    except (TwinError, twin_source.SourceError, twin_programs.BuildError) as error:
+        print(f"mutate: {error}{getattr(error, 'output', '')}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt as error:
+        return interrupts.tell("mutate", error)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,197 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Mutants of C++ headers: what is offered, and that each does what its name says. docs/verification.md
+
+twin_test.py VENV: the folder into which scripts/build.sh has fetched tree-sitter.
+"""
+
+import glob
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(os.environ.get("FELTGATE_ROOT") or Path(__file__).resolve().parents[2])
+VENV = Path(sys.argv.pop(1)) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else Path("none")
+sys.path.insert(0, str(ROOT / "scripts"))
+sys.path += glob.glob(str(VENV / "lib/python3*/site-packages"))
+from mutating import twin, twin_programs, twin_runs, twin_source  # noqa: E402
+
+try:
+    LANGUAGE = twin_source.cpp_language()
+except twin_source.SourceError:
+    LANGUAGE = None
+
+MUTANT = ROOT / "testbench/mutate/twin"
+
+
+def header(text, **more):
+    return twin_source.Header("h", text, 0, LANGUAGE, **more)
+
+
+def names(text):
+    return [m.name for m in header(text).mutants]
+
+
+@unittest.skipIf(LANGUAGE is None and not os.environ.get("CI"), "no tree-sitter; ./feltgate mutate --twin fetches it")
+class Offered(unittest.TestCase):
+    def test_operators(self):
+        found = names("int f(int a, int b) { return a < b ? a + b : a << b; }")
+        self.assertEqual(found, ["f: a < b -> a <= b", "f: a < b -> a >= b", "f: a + b -> a - b",
+                                 "f: a << b -> a >> b"])
+
+    def test_a_chain_loses_one_condition_at_a_time(self):
+        found = names("bool f(bool a, bool b, bool c) { return a && b && c; }")
+        self.assertEqual(found, ["f: a && b && c -> its opposite", "f: a -> left out of &&",
+                                 "f: b -> left out of &&", "f: c -> left out of &&", "f: && b -> || b",
+                                 "f: && c -> || c"])
+
+    def test_statements(self):
+        found = names("void f(int& a) { a = 3; if (a > 2) return; g(a); a += 1, a = 0; }")
+        for wanted in ("f: a = 3 -> removed", "f: return -> removed", "f: g(a) -> removed", "f: a = 0 -> removed"):
+            self.assertIn(wanted, found)
+
+    def test_constants(self):
+        self.assertEqual(names("int f() { return 7; }"), ["f: 7 in return 7 -> 7 + 1", "f: 7 in return 7 -> 7 - 1"])
+        self.assertEqual(names("bool f() { return true; }"), ["f: true in return true -> false"])
+
+    def test_rounding(self):
+        found = names("int f(int x) { return round<Round::half_up, Overflow::saturate>(x); }")
+        self.assertEqual(len(found), 2)
+        self.assertIn("Round::truncate", found[0])
+        self.assertIn("Overflow::wrap", found[1])
+
+    def test_the_second_of_the_same_has_its_number(self):
+        self.assertIn("f: a + b -> a - b #2", names("int f(int a, int b) { return (a + b) * (a + b); }"))
+
+    def test_what_only_the_compiler_sees_stays(self):
+        for text in ("constexpr int k = 3 + 2;", "static_assert(3 + 2 == 5);", "template <int N = 3 + 2> struct S;",
+                     "enum E { a = 1 + 1 };", "struct In { int a = 3; };", "int a[3 + 1];",
+                     "void f() { if constexpr (A + 1 == 2) { } }", "void f(int a) { switch (a) { case 1 + 1: default: } }"):
+            self.assertEqual(names(text), [], text)
+
+    def test_functions_of_the_compiler_may_be_named(self):
+        self.assertEqual(header("constexpr int f() { return 3; }", constant=["f"]).mutants, [])
+
+    def test_a_dropped_one_is_not_offered(self):
+        text = "int f(int a) { return -a; }"
+        (one,) = header(text).mutants
+        self.assertEqual(header(text, dropped=[one.name]).mutants, [])
+
+    def test_lines_and_columns_survive_comments(self):
+        (one,) = header("// a < b\n/* c\n */ int f(int a) { return -a; }\n").mutants
+        self.assertEqual(one.line, 3)
+
+    def test_no_c_plus_plus_is_said(self):
+        with self.assertRaises(twin_source.SourceError) as error:
+            header("int f( {")
+        self.assertIn("h:1", str(error.exception))
+
+    def test_every_header_is_understood(self):
+        catalogue = twin.read_catalogue(ROOT)
+        for found in twin.parse(catalogue, ROOT, list(catalogue.tests), {}):
+            every = {m.name for m in found.mutants}
+            listed = {name for h, name in catalogue.survivors if h == found.name}
+            self.assertEqual(listed - every, set(), f"testbench/mutate/twin.toml: {found.name} has no such mutant")
+
+
+@unittest.skipIf(LANGUAGE is None and not os.environ.get("CI"), "no tree-sitter")
+class Compiled(unittest.TestCase):
+    def results(self, body, calls, expected):
+        """The header's calls in every mutant, printed; {name: what they print}."""
+        with tempfile.TemporaryDirectory() as folder:
+            folder = Path(folder)
+            found = header(body)
+            main = folder / "main.cpp"
+            main.write_text('#include "mutant.hpp"\n#include <cstdio>\n' + found.result +
+                            f'\nint main() {{ std::printf("{"%d " * len(calls)}", {", ".join(calls)}); }}\n',
+                            encoding="utf-8")
+            subprocess.run(["c++", "-std=c++17", "-w", f"-I{MUTANT}", f"-DFELTGATE_MUTANTS={len(found.mutants)}", main,
+                            MUTANT / "mutant.cpp", "-o", folder / "p"], check=True)
+
+            def run(**more):
+                done = subprocess.run([folder / "p"], env=more, capture_output=True, text=True, check=True)
+                return [int(word) for word in done.stdout.split()]
+
+            self.assertEqual(run(), expected)
+            run(FELTGATE_MUTANTS_REACHED=str(folder / "reached"))
+            self.reached = {int(n) for n in (folder / "reached").read_text(encoding="ascii").split()}
+            return {m.name: run(FELTGATE_MUTANT=str(m.number)) for m in found.mutants}
+
+    def test_each_does_what_its_name_says(self):
+        body = """
+constexpr int half = 10 / 2;
+constexpr int clamp(int x, int limit) {
+  if (x > limit && limit >= 0) return limit;
+  return x;
+}
+static_assert(clamp(7, 5) == 5, "constants have no mutants");
+inline bool odd(int x) { return (x & 1) != 0; }
+inline int count(int n) {
+  int sum = 0;
+  for (int k = 0; k < n; ++k) sum += k;
+  return sum;
+}
+inline int never() { return 3; }
+"""
+        calls = ["clamp(7, 5)", "clamp(5, 5)", "clamp(7, -1)", "odd(3)", "count(3)", "half"]
+        got = self.results(body, calls, [5, 5, 7, 1, 3, 5])
+        self.assertEqual(got["clamp: x > limit -> x <= limit"][0], 7)
+        self.assertEqual(got["clamp: limit >= 0 -> left out of &&"][2], -1)
+        self.assertEqual(got["clamp: && limit >= 0 -> || limit >= 0"][2], -1)
+        self.assertEqual(got["odd: x & 1 -> x | 1"][3], 1)
+        self.assertEqual(got["odd: (x & 1) != 0 -> (x & 1) == 0"][3], 0)
+        self.assertEqual(got["count: sum += k -> removed"][4], 0)
+        self.assertEqual(got["count: sum += k -> sum -= k"][4], -3)
+        self.assertEqual(got["count: k < n -> k <= n"][4], 6)
+        self.assertEqual(len({m for m in got if m.startswith("never")} ), 2)
+        self.assertEqual(len(got) - len(self.reached), 2)
+
+
+class Verdicts(unittest.TestCase):
+    def row(self, hows, survivors):
+        mutants = [twin_source.Mutant(n, "h", 1, "k", f"m{n}") for n in range(len(hows))]
+        catalogue = twin.Catalogue({"h": ["t"]}, {}, survivors)
+        return twin.Row("h", 9, [twin_runs.Verdict(m, how) for m, how in zip(mutants, hows)], catalogue)
+
+    def test_equivalent_ones_do_not_count(self):
+        row = self.row(["killed", "hangs", "survives", "unreached"], {("h", "m2"): ("equivalent", "w")})
+        self.assertAlmostEqual(row.share(), 2 / 3)
+        self.assertEqual((len(row.left("equivalent")), len(row.left("gap")), len(row.left(None))), (1, 0, 1))
+
+    def test_a_gap_counts(self):
+        self.assertAlmostEqual(self.row(["killed", "survives"], {("h", "m1"): ("gap", "w")}).share(), 1 / 2)
+
+    def test_the_choice_is_the_seeds(self):
+        mutants = [twin_source.Mutant(n, "h", 1, "k", str(n)) for n in range(50)]
+        one = type("H", (), {"name": "h", "mutants": mutants})
+        self.assertEqual(twin.choose(one, 9, 1), twin.choose(one, 9, 1))
+        self.assertNotEqual(twin.choose(one, 9, 1), twin.choose(one, 9, 2))
+        self.assertEqual(twin.choose(one, 0, 1), mutants)
+
+    def test_a_compiler_drops_what_its_message_is_about(self):
+        with tempfile.TemporaryDirectory() as folder:
+            place = Path(folder) / "mutants/twin/h"
+            (place / "include/feltgate").mkdir(parents=True)
+            (place / "include/feltgate/h.hpp").write_text(
+                "x\n(::feltgate_mutant::on(0) ? f(b, a) : ::feltgate_mutant::plus<1>(a, b))\n", encoding="utf-8")
+            one = type("H", (), {"name": "h", "mutants": [
+                twin_source.Mutant(0, "h", 2, "arguments", "swap"), twin_source.Mutant(1, "h", 2, "arithmetic", "add")]})
+            said = "a/mutants/twin/h/include/feltgate/h.hpp:2:7: error: no match\n"
+            self.assertEqual(twin.refused([one], place, said), {("h", "swap")})
+
+    def test_catalogue_of_kinds(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "testbench/mutate/twin.toml"
+            path.parent.mkdir(parents=True)
+            path.write_text('[tests]\nh = ["t"]\n[[survivor]]\nheader = "h"\nkind = "luck"\nwhy = ""\nmutants = ["m"]\n',
+                            encoding="utf-8")
+            with self.assertRaises(twin.TwinError):
+                twin.read_catalogue(Path(folder))
+
+
+if __name__ == "__main__":
+    unittest.main()

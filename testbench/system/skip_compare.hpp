@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Two twins of the core with one stimulus, one from event to event and one clock by clock: the same
+// outputs, registers read back and gate times. Documentation: docs/blocks/feltgate_core.md
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <set>
+
+#include "catch.hpp"
+#include "feltgate/feltgate_core.hpp"
+#include "mismatch.hpp"
+#include "random.hpp"
+
+namespace feltgate::test {
+
+/// Inputs that hold for some clocks.
+struct Stretch {
+  CoreIn in;
+  std::int64_t clocks = 0;
+};
+
+inline bool same(const CoreIn& a, const CoreIn& b) {
+  return a.encoder == b.encoder && a.arm == b.arm && a.stop == b.stop && a.set_zero == b.set_zero &&
+         a.scene == b.scene && a.reg_addr == b.reg_addr && a.reg_wdata == b.reg_wdata &&
+         a.reg_write == b.reg_write;
+}
+
+/// FNV-1a over what a tick shows.
+struct Hash {
+  std::uint64_t value = 0xcbf29ce484222325u;
+  void add(std::int64_t v) {
+    for (int k = 0; k < 8; ++k) {
+      value = (value ^ (static_cast<std::uint64_t>(v) >> (8 * k) & 0xffu)) * 0x100000001b3u;
+    }
+  }
+  void add(const CoreOut& o) {
+    for (const std::int64_t v :
+         {std::int64_t{o.tick_count}, std::int64_t{o.position}, o.velocity, std::int64_t{o.tau_hat},
+          std::int64_t{o.tau_ref}, std::int64_t{o.current_ref}, std::int64_t{o.voltage},
+          std::int64_t{o.duty}, std::int64_t{o.duty_active}, std::int64_t{o.limits},
+          std::int64_t{o.faults}, std::int64_t{o.first_fault}, std::int64_t{o.scene},
+          std::int64_t{o.armed}}) {
+      add(v);
+    }
+  }
+};
+
+/// What a run has come across.
+struct Met {
+  std::set<int> faults;  ///< first causes
+  std::int64_t armed_starts = 0, armed_calm = 0;  ///< ticks asked at their first clock, and calm
+  std::int64_t idle_starts = 0, idle_calm = 0;    ///< the same while disarmed
+};
+
+/// Stretches end with the inputs, or after `longest` clocks at most; one of two ends with its tick.
+template <class D, bool ReadBack = true, class Stimulus>
+void compare_by_event(Stimulus stimulus, std::uint64_t seed, std::int64_t clocks,
+                      std::uint32_t longest, Met* met = nullptr) {
+  Random cut(seed);
+  FeltgateCore<D, ReadBack> by_clock, by_event;
+  Hash clock_hash, event_hash;
+  std::int64_t done = 0, stretches = 0;
+  CoreIn in = stimulus(0);
+  while (done < clocks) {
+    // As long as the inputs hold; a strobe lasts one clock.
+    Stretch s{in, 0};
+    auto limit = static_cast<std::int64_t>(1 + cut.below(longest));
+    if (met != nullptr && cut.coin()) limit = D::clocks_per_tick - by_clock.clock_of_tick();
+    do {
+      ++s.clocks;
+      in = stimulus(done + s.clocks);
+    } while (same(in, s.in) && !s.in.reg_write && !s.in.set_zero && s.clocks < limit);
+    // What calm() says of the coming clocks is looked at in each of them.
+    const bool strobe = s.in.reg_write || s.in.set_zero;
+    const auto quiet = static_cast<std::int64_t>(1 + cut.below(50));
+    const bool calm = !strobe && by_event.calm(s.in, quiet);
+    const CoreOut before = by_clock.out();
+    bool disturbed = false;
+    for (std::int64_t k = 0; k < s.clocks; ++k) {
+      by_clock.clock(s.in);
+      const CoreOut& now = by_clock.out();
+      if (now.snapshot_valid) clock_hash.add(now);
+      if (calm && k < quiet) {
+        disturbed = disturbed || now.snapshot_valid || now.duty_active != before.duty_active ||
+                    now.gates_enable != before.gates_enable;
+      }
+    }
+    if (met != nullptr) {
+      if (before.first_fault != 0) met->faults.insert(before.first_fault);
+      if (!strobe && by_event.clock_of_tick() == 0 && quiet < 20) {
+        ++(before.armed ? met->armed_starts : met->idle_starts);
+        (before.armed ? met->armed_calm : met->idle_calm) += calm;
+      }
+    }
+    if (strobe) {
+      by_event.clock(s.in);
+      if (by_event.out().snapshot_valid) event_hash.add(by_event.out());
+    } else {
+      by_event.run(s.in, s.clocks, [&] { event_hash.add(by_event.out()); });
+    }
+    done += s.clocks;
+    ++stretches;
+    if (disturbed) {
+      INFO("seed " << seed << ", before clock " << done);
+      FAIL("calm() is true, and within " << quiet << " clocks something changes");
+    }
+    if (!(by_clock.out() == by_event.out()) || clock_hash.value != event_hash.value ||
+        by_clock.gate_clocks() != by_event.gate_clocks()) {
+      INFO("seed " << seed << ", after clock " << done << ", stretch of " << s.clocks);
+      CHECK(clock_hash.value == event_hash.value);
+      CHECK(by_clock.gate_clocks() == by_event.gate_clocks());
+      CHECK(by_clock.out().tick_count == by_event.out().tick_count);
+      CHECK(by_clock.out().velocity == by_event.out().velocity);
+      CHECK(by_clock.out().limits == by_event.out().limits);
+      CHECK(by_clock.out().reg_rdata == by_event.out().reg_rdata);
+      CHECK(by_clock.out().faults == by_event.out().faults);
+      CHECK(by_clock.out().gates == by_event.out().gates);
+      FAIL("the twin by events differs from the twin by clocks");
+    }
+  }
+  CHECK(stretches > 100);
+}
+
+}  // namespace feltgate::test

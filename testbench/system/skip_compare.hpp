@@ -50,9 +50,10 @@ struct Hash {
 
 /// What a run has come across.
 struct Met {
-  std::set<int> faults;  ///< first causes
+  std::set<int> faults;                           ///< first causes
   std::int64_t armed_starts = 0, armed_calm = 0;  ///< ticks asked at their first clock, and calm
   std::int64_t idle_starts = 0, idle_calm = 0;    ///< the same while disarmed
+  int resets = 0, flips = 0;
 };
 
 /// Stretches end with the inputs, or after `longest` clocks at most; one of two ends with its tick.
@@ -64,7 +65,20 @@ void compare_by_event(Stimulus stimulus, std::uint64_t seed, std::int64_t clocks
   Hash clock_hash, event_hash;
   std::int64_t done = 0, stretches = 0;
   CoreIn in = stimulus(0);
+  const auto seldom = 400'000 / (longest < 50 ? longest : 50);
   while (done < clocks) {
+    if (met != nullptr && cut.one_in(seldom)) {
+      by_clock.reset(), by_event.reset();
+      clock_hash = event_hash = {};
+      ++met->resets;
+    }
+    if (met != nullptr && by_clock.clock_of_tick() == 0 && cut.one_in(seldom / 20)) {
+      // Words that the stimulus writes again.
+      const int words[] = {D::A::overspeed, D::A::i2t_budget, D::A::watchdog_ticks};
+      const int word = words[cut.below(3)], bit = static_cast<int>(cut.below(36));
+      by_clock.flip(word, bit), by_event.flip(word, bit);
+      ++met->flips;
+    }
     // As long as the inputs hold; a strobe lasts one clock.
     Stretch s{in, 0};
     auto limit = static_cast<std::int64_t>(1 + cut.below(longest));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The twin from event to event against the twin clock by clock through every fault, every word read,
-// and what it says of clocks to come. Documentation: docs/blocks/feltgate_core.md
+// The twin from event to event against the twin clock by clock through every fault, every word
+// read, and what it says of clocks to come. Documentation: docs/blocks/feltgate_core.md
 #include "../feltgate_core/core_stimulus.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"
@@ -23,10 +23,12 @@ TEST_CASE("every fault trips in the same clock from event to event") {
     compare_by_event<Lever, false>(TripStimulus<Lever>(longest + 2), 51, clocks / 4, longest, &met);
   }
   for (const Fault f : {Fault::encoder, Fault::speed, Fault::polarity, Fault::i2t, Fault::watchdog,
-                        Fault::stop, Fault::self_test, Fault::channel, Fault::index}) {
+                        Fault::stop, Fault::self_test, Fault::channel, Fault::index, Fault::word}) {
     INFO("fault " << static_cast<int>(f));
     CHECK(met.faults.count(static_cast<int>(f)) == 1);
   }
+  CHECK(met.resets > 20);
+  CHECK(met.flips > 200);
   // "Not calm" is always right, so how often it is said is all that there is to check of it.
   CAPTURE(met.armed_starts, met.armed_calm, met.idle_starts, met.idle_calm);
   CHECK(met.armed_calm * 10 > met.armed_starts);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A core's life made of faults: armed, run, tripped by one cause, cleared, armed again. The host reads
-// all words all the time and the index comes often. Documentation: docs/blocks/feltgate_core.md
+// A core's life made of faults: armed, run, tripped by one cause, cleared, armed again. The host
+// reads all words all the time and the index comes often. Documentation:
+// docs/blocks/feltgate_core.md
 #pragma once
 
 #include <cstdint>
@@ -45,8 +46,8 @@ class TripStimulus {
     }
   }
   void control(bool arm) {
-    const std::uint32_t scene =
-        random_.one_in(3) ? static_cast<std::uint32_t>(D::S::damper) : std::uint32_t{D::S::setpoint};
+    const std::uint32_t scene = random_.one_in(3) ? static_cast<std::uint32_t>(D::S::damper)
+                                                  : std::uint32_t{D::S::setpoint};
     std::uint32_t word = static_cast<std::uint32_t>(D::control_reset) | 1u << C::control_host |
                          scene << C::control_scene;
     if (arm) word |= 1u << C::control_arm;
@@ -61,7 +62,8 @@ class TripStimulus {
     left_ = kTick * (40 + random_.below(300));
     writes_.clear();
     control(false);
-    write(C::command, 1u << C::command_clear_faults | (random_.coin() ? 1u << C::command_kick : 0u));
+    write(C::command,
+          1u << C::command_clear_faults | (random_.coin() ? 1u << C::command_kick : 0u));
     for (const int a : {A::overspeed, A::i2t_budget, A::polarity_speed, A::polarity_current,
                         A::polarity_ticks, A::watchdog_ticks, A::hold_time}) {
       as_designed(a);

@@ -32,11 +32,11 @@ constexpr To as(From x) {
   }
 }
 
-#define FELTGATE_MUTANT_OPERATOR(name, was, is)                       \
-  template <int N, class A, class B>                                  \
-  [[gnu::always_inline]] constexpr auto name(A a, B b) {              \
-    if (on(N)) return as<decltype(a was b)>(a is b);                  \
-    return a was b;                                                   \
+#define FELTGATE_MUTANT_OPERATOR(name, was, is)          \
+  template <int N, class A, class B>                     \
+  [[gnu::always_inline]] constexpr auto name(A a, B b) { \
+    if (on(N)) return as<decltype(a was b)>(a is b);     \
+    return a was b;                                      \
   }
 FELTGATE_MUTANT_OPERATOR(plus, +, -)
 FELTGATE_MUTANT_OPERATOR(minus, -, +)
@@ -52,12 +52,12 @@ FELTGATE_MUTANT_OPERATOR(equal, ==, !=)
 FELTGATE_MUTANT_OPERATOR(unequal, !=, ==)
 #undef FELTGATE_MUTANT_OPERATOR
 
-#define FELTGATE_MUTANT_ORDER(name, was, is, opposite)                \
-  template <int N, int M, class A, class B>                           \
-  [[gnu::always_inline]] constexpr auto name(A a, B b) {              \
-    if (on(N)) return a is b;                                         \
-    if (on(M)) return a opposite b;                                   \
-    return a was b;                                                   \
+#define FELTGATE_MUTANT_ORDER(name, was, is, opposite)   \
+  template <int N, int M, class A, class B>              \
+  [[gnu::always_inline]] constexpr auto name(A a, B b) { \
+    if (on(N)) return a is b;                            \
+    if (on(M)) return a opposite b;                      \
+    return a was b;                                      \
   }
 FELTGATE_MUTANT_ORDER(less, <, <=, >=)
 FELTGATE_MUTANT_ORDER(less_equal, <=, <, >)

@@ -52,9 +52,8 @@ def options_of(parser):
     group.add_argument("--survivors", action="store_true", help="--twin: list what survives, also what is known")
 
 
-def parse(catalogue, root, names, dropped):
+def parse(catalogue, root, names, dropped, language):
     """The mutated headers; numbers run through all of them."""
-    language = twin_source.cpp_language()
     headers, first = [], 0
     for name in names:
         text = (root / twin_programs.HEADERS / f"{name}.hpp").read_text(encoding="utf-8")
@@ -92,7 +91,7 @@ def refused(headers, folder, output):
     return bad
 
 
-def make(catalogue, root, build, names, folder, jobs, built, say):
+def make(catalogue, root, build, names, folder, language, jobs, built, say):
     """(headers, programs); what does not compile is dropped."""
     targets = list(dict.fromkeys(t for name in names for t in catalogue.tests[name]))
     if not built:
@@ -103,7 +102,7 @@ def make(catalogue, root, build, names, folder, jobs, built, say):
     known = json.loads(memory.read_text(encoding="utf-8")) if memory.exists() else {}
     dropped = {name: set(known[name]) for name in names if name in known}
     for attempt in range(8):
-        headers = parse(catalogue, root, names, dropped)
+        headers = parse(catalogue, root, names, dropped, language)
         write_headers(headers, folder)
         count = sum(len(h.mutants) for h in headers)
         say(f"compiling {count} mutants of {len(headers)} headers" + (f", attempt {attempt + 1}" if attempt else ""))
@@ -145,6 +144,8 @@ class Row:
     catalogue: Catalogue
 
     def known(self, verdict):
+        if verdict.how == "exact":
+            return "equivalent", "nothing is rounded: the result has as many fraction bits"
         return self.catalogue.survivors.get((self.header, verdict.mutant.name))
 
     def count(self, *hows):
@@ -201,8 +202,9 @@ def run(options, root, build):
     unknown = [n for n in names if n not in catalogue.tests]
     if unknown:
         raise TwinError(f"no header {', '.join(unknown)} in testbench/mutate/twin.toml; there are {', '.join(catalogue.tests)}")
+    language = twin_source.cpp_language(build / "venv-mutate")
     if options.list:
-        for header in parse(catalogue, root, names, {}):
+        for header in parse(catalogue, root, names, {}, language):
             print(f"{header.name}: {len(header.mutants)} mutants, tested by {', '.join(catalogue.tests[header.name])}")
             for mutant in header.mutants if options.name else ():
                 print(f"  {mutant.line}: {mutant.name}")
@@ -214,7 +216,7 @@ def run(options, root, build):
 
     folder = build / "mutants/twin" / "-".join(names if len(names) < 4 else ["all"])
     folder.mkdir(parents=True, exist_ok=True)
-    headers, programs, dropped = make(catalogue, root, build, names, folder, options.jobs, options.built, say)
+    headers, programs, dropped = make(catalogue, root, build, names, folder, language, options.jobs, options.built, say)
     runs = twin_runs.Runs(folder, options.jobs)
     cases = runs.survey(programs, twin_runs.Progress(sys.stderr, "test cases"))
     say(f"{len(cases)} test cases, {sum(c.seconds for c in cases):.0f} s of CPU; {time.monotonic() - start:.0f} s so far")

@@ -32,6 +32,7 @@ class Case:
     name: str
     seconds: float = 0.0
     reached: set = field(default_factory=set)
+    exact: set = field(default_factory=set)  # mutants of a rounding that has nothing to round
 
 
 @dataclass

@@ -22,7 +22,7 @@ SLOWER, MORE_S = 2, 1  # a mutant may take this many times the CPU time, and the
 @dataclass
 class Verdict:
     mutant: object
-    how: str  # killed, hangs, crashes, survives, unreached
+    how: str  # killed, hangs, crashes, survives, unreached, exact (a rounding that has nothing to round)
     by: str = ""  # program: test case
     seconds: float = 0.0
 
@@ -83,7 +83,9 @@ class Runs:
             status, case.seconds = self.run(case, FELTGATE_MUTANTS_REACHED=str(file))
             if status != 0:
                 raise BuildError(f"{case.program.target}: '{case.name}' fails without any mutant")
-            case.reached = {int(line) for line in file.read_text(encoding="ascii").split()}
+            lines = [line.split() for line in file.read_text(encoding="ascii").splitlines()]
+            case.reached = {int(words[0]) for words in lines if len(words) == 1}
+            case.exact = {int(words[0]) for words in lines if len(words) == 2}
             return case
 
         done = self.each([(one, (n, case)) for n, case in enumerate(cases)], report)
@@ -117,6 +119,8 @@ class Runs:
                 if status < 0:
                     how = "hangs" if seconds > limit - 1 else "crashes"
                 return Verdict(mutant, how, f"{case.program.target}: {case.name}", spent)
+        if not reached and any(mutant.number in case.exact for case in cases):
+            return Verdict(mutant, "exact", "", spent)
         return Verdict(mutant, "survives" if reached else "unreached", "", spent)
 
     def try_all(self, mutants, cases, report):

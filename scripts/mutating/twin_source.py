@@ -6,9 +6,12 @@ The header is parsed by tree-sitter. What only the compiler sees, as constants a
 arguments, stays. Documentation: docs/verification.md
 """
 
+import glob
 import re
+import sys
 from collections import Counter
 from dataclasses import dataclass
+from pathlib import Path
 
 OPERATORS = {
     # operator: (function of mutant.hpp, what it becomes)
@@ -390,7 +393,12 @@ class Header:
             if old in was and "<" in was:
                 other = was.replace(old, new)
                 number = self.new(node, "rounding", f"{old} of {self.source(node)}", new)
-                result = self.choice(number, other + plain, result)
+                given = arguments.named_children
+                if number is not None and old != "Overflow::saturate" and given:
+                    ask = f"::feltgate_mutant::rounds<decltype({was + plain})>({number}, {self.source(given[0])})"
+                    result = f"({ask} ? {other + plain} : {result})"
+                else:
+                    result = self.choice(number, other + plain, result)
         for old, new in (("std::min", "std::max"), ("std::max", "std::min")):
             if was.startswith(old):
                 number = self.new(node, "arithmetic", self.source(node), new)
@@ -409,7 +417,9 @@ def walk(node):
         yield from walk(child)
 
 
-def cpp_language():
+def cpp_language(venv=None):
+    """C++ for tree-sitter, from this folder where Python itself has it not."""
+    sys.path += glob.glob(str(Path(venv or "") / "lib/python3*/site-packages")) if venv else []
     try:
         import tree_sitter
         import tree_sitter_cpp

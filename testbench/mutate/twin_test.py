@@ -6,7 +6,6 @@
 twin_test.py VENV: the folder into which scripts/build.sh has fetched tree-sitter.
 """
 
-import glob
 import os
 import subprocess
 import sys
@@ -17,11 +16,10 @@ from pathlib import Path
 ROOT = Path(os.environ.get("FELTGATE_ROOT") or Path(__file__).resolve().parents[2])
 VENV = Path(sys.argv.pop(1)) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else Path("none")
 sys.path.insert(0, str(ROOT / "scripts"))
-sys.path += glob.glob(str(VENV / "lib/python3*/site-packages"))
 from mutating import twin, twin_programs, twin_runs, twin_source  # noqa: E402
 
 try:
-    LANGUAGE = twin_source.cpp_language()
+    LANGUAGE = twin_source.cpp_language(VENV)
 except twin_source.SourceError:
     LANGUAGE = None
 
@@ -92,7 +90,7 @@ class Offered(unittest.TestCase):
 
     def test_every_header_is_understood(self):
         catalogue = twin.read_catalogue(ROOT)
-        for found in twin.parse(catalogue, ROOT, list(catalogue.tests), {}):
+        for found in twin.parse(catalogue, ROOT, list(catalogue.tests), {}, LANGUAGE):
             every = {m.name for m in found.mutants}
             listed = {name for h, name in catalogue.survivors if h == found.name}
             self.assertEqual(listed - every, set(), f"testbench/mutate/twin.toml: {found.name} has no such mutant")

@@ -3,7 +3,8 @@
 //
 // The twin from event to event against the twin clock by clock through every fault, every word
 // read, and what it says of clocks to come. Documentation: docs/blocks/feltgate_core.md
-#include "../feltgate_core/core_stimulus.hpp"
+#include <set>
+
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"
 #include "skip_compare.hpp"
@@ -14,12 +15,128 @@ using test::compare_by_event;
 using test::scaled_clocks;
 using test::TripStimulus;
 
+namespace {
+
+/// A tick that is longer than its wave, and in which the PWM's period does not begin with a tick.
+struct Slow : Lever {
+  static constexpr int clocks_per_tick = 67;
+};
+
+/// From a core at the first clock of a tick: to clock c from event to event, with a halt at `halt`,
+/// there a write, and on from event to event. The same as clock by clock.
+template <class D>
+void write_amid(const FeltgateCore<D>& start, const CoreIn& held, int halt, int c, bool arm) {
+  FeltgateCore<D> by_clock = start, by_event = start;
+  CoreIn in = held, strobe = held;
+  in.reg_write = false;
+  strobe.reg_write = true;
+  strobe.reg_addr = static_cast<std::uint16_t>(arm ? D::C::control : D::A::ramp_step);
+  strobe.reg_wdata = arm ? static_cast<std::uint32_t>(D::control_reset) | 1u << D::C::control_host |
+                               1u << D::C::control_arm
+                         : 1u << 20;
+  test::Hash clocks, events;
+  const auto clock = [&](const CoreIn& i) {
+    by_clock.clock(i);
+    if (by_clock.out().snapshot_valid) clocks.add(by_clock.out());
+  };
+  const auto note = [&] { events.add(by_event.out()); };
+  for (int k = 0; k < c; ++k) clock(in);
+  by_event.run(in, halt, note);
+  by_event.run(in, c - halt, note);
+  REQUIRE(by_clock.out() == by_event.out());
+  clock(strobe);
+  by_event.clock(strobe);
+  if (by_event.out().snapshot_valid) note();
+  REQUIRE(by_clock.out() == by_event.out());
+  for (int k = 0; k < 7; ++k)
+    clock(in), by_event.clock(in), by_event.out().snapshot_valid ? note() : void();
+  REQUIRE(by_clock.out() == by_event.out());
+  for (int k = 0; k < 2 * D::clocks_per_tick; ++k) clock(in);
+  by_event.run(in, 2 * D::clocks_per_tick, note);
+  REQUIRE(by_clock.out() == by_event.out());
+  REQUIRE(by_clock.gate_clocks() == by_event.gate_clocks());
+  REQUIRE(clocks.value == events.value);
+  if (c % 5 == 0 && halt == 0) {
+    REQUIRE(test::heat_of<FeltgateCore<D>, D>(by_clock) ==
+            test::heat_of<FeltgateCore<D>, D>(by_event));
+  }
+}
+
+/// A write in every clock of the ticks in which a fault comes up.
+template <class D>
+std::set<int> writes_amid_trips(std::uint64_t seed, int wanted) {
+  test::Random random(seed);
+  TripStimulus<D> stimulus(seed);
+  FeltgateCore<D> core, start;
+  CoreIn held;
+  std::set<int> met;
+  std::int64_t clock = 0;
+  for (int found = 0; found < wanted && clock < 20'000'000;) {
+    // From one tick to the next, the inputs of the start held: what would they bring?
+    if (core.clock_of_tick() == 0) {
+      start = core;
+      held = stimulus(clock++);
+      CoreIn in = held;
+      in.reg_write = in.set_zero = false;
+      FeltgateCore<D> ahead = core;
+      for (int k = 0; k < D::clocks_per_tick; ++k) ahead.clock(in);
+      const int cause = ahead.out().first_fault;
+      if (core.out().first_fault == 0 && (cause != 0 || random.one_in(400))) {
+        met.insert(cause);
+        ++found;
+        for (int c = 0; c < D::clocks_per_tick; ++c) {
+          write_amid(start, in, 0, c, false);
+          write_amid(start, in, static_cast<int>(random.below(static_cast<std::uint32_t>(c + 1))),
+                     c, true);
+        }
+      }
+      core.clock(held);
+    } else {
+      core.clock(stimulus(clock++));
+    }
+  }
+  return met;
+}
+
+}  // namespace
+
+TEST_CASE("a write in each clock of a tick that trips, from event to event") {
+  std::set<int> met = writes_amid_trips<Lever>(61, 60);
+  met.merge(writes_amid_trips<Slow>(62, 60));
+  for (const Fault f :
+       {Fault::speed, Fault::polarity, Fault::i2t, Fault::watchdog, Fault::channel, Fault::index}) {
+    INFO("fault " << static_cast<int>(f));
+    CHECK(met.count(static_cast<int>(f)) == 1);
+  }
+}
+
+TEST_CASE("a stop that is held, from the reset on and while the host asks to arm") {
+  for (int address = 0; address < 0x400; address += 37) {
+    FeltgateCore<Lever> by_clock, by_event;
+    CoreIn in;
+    in.stop = true;
+    in.reg_addr = static_cast<std::uint16_t>(address);
+    for (int k = 1; k < 8; ++k) {
+      for (int c = 0; c < k; ++c) by_clock.clock(in);
+      by_event.run(in, k, [] {});
+      REQUIRE(by_clock.out() == by_event.out());
+    }
+    while (by_clock.clock_of_tick() != 0) by_clock.clock(in), by_event.clock(in);
+    for (int c = 0; c < Lever::clocks_per_tick; ++c) {
+      write_amid(by_clock, in, 0, c, true);
+      write_amid(by_clock, in, c / 2, c, true);
+    }
+  }
+}
+
 TEST_CASE("every fault trips in the same clock from event to event") {
   test::Met met;
   for (const std::uint32_t longest : {9u, 60u, 3000u}) {
     const std::int64_t clocks = scaled_clocks(2'000'000);
     compare_by_event<Lever>(TripStimulus<Lever>(longest), 31 + longest, clocks, longest, &met);
     compare_by_event<Paper>(TripStimulus<Paper>(longest + 1), 41 + longest, clocks, longest, &met);
+    compare_by_event<Slow>(TripStimulus<Slow>(longest + 3), 61 + longest, clocks / 2, longest,
+                           &met);
     compare_by_event<Lever, false>(TripStimulus<Lever>(longest + 2), 51, clocks / 4, longest, &met);
   }
   for (const Fault f : {Fault::encoder, Fault::speed, Fault::polarity, Fault::i2t, Fault::watchdog,

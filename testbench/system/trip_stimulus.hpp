@@ -83,20 +83,26 @@ class TripStimulus {
       write(A::watchdog_ticks, random_.between(1, 40));
       write(C::command, 1u << C::command_kick);
     }
+    const bool sudden = cause_ == speed && random_.coin();
+    if (sudden) write(A::overspeed, random_.between(0, 2000));
     control(true);
-    if (cause_ == speed) write(A::overspeed, random_.between(0, 2000));
+    if (cause_ == speed && !sudden) write(A::overspeed, random_.between(0, 2000));
     if (cause_ == heat) write(A::i2t_budget, random_.between(0, 1000));
     if (cause_ == stop && random_.coin()) write(C::command, 1u << C::command_stop);
     if (test) left_ += std::int64_t{kTick} << (Map::self_test_unit_bits + 2);
     starts_ = random_.below(test ? static_cast<std::uint64_t>(left_) : kTick * 20);
-    spacing_ = cause_ == polarity ? 400 : cause_ == speed ? 60 : 40 + random_.below(3000);
+    spacing_ = cause_ == polarity ? 400
+               : cause_ == speed  ? 10 + random_.below(60)
+                                  : 40 + random_.below(3000);
+    if (sudden) starts_ += kTick * 40;
+    stops_ = random_.coin() ? starts_ + random_.below(kTick * 40) : left_;
     rests_ = cause_ != speed && cause_ != polarity && cause_ != channel && random_.one_in(3);
     up_ = random_.coin();
   }
 
   void move() {
     ++turn_;
-    if (turn_ >= starts_ && !rests_ && --wait_ <= 0) {
+    if (turn_ >= starts_ && turn_ < stops_ && !rests_ && --wait_ <= 0) {
       wait_ = spacing_;
       if (cause_ == polarity && spacing_ > 20) spacing_ -= spacing_ / 16;
       phase_ += cause_ == illegal && random_.one_in(3) ? 2u : up_ ? 1u : 3u;
@@ -131,7 +137,7 @@ class TripStimulus {
   CoreIn in_;
   std::deque<Write> writes_;
   Cause cause_ = none;
-  std::int64_t left_ = 0, turn_ = 0, starts_ = 0, spacing_ = 0, wait_ = 0;
+  std::int64_t left_ = 0, turn_ = 0, starts_ = 0, stops_ = 0, spacing_ = 0, wait_ = 0;
   std::int64_t until_write_ = 0, until_read_ = 0;
   bool up_ = true, rests_ = false;
   std::uint32_t phase_ = 0;

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // FELTGATE_MUTANT chooses a mutant; FELTGATE_MUTANTS_REACHED names a file for the numbers of those
-// that a run has reached. Documentation: docs/verification.md
+// that a run has reached; `exact` after one that changes nothing. Documentation:
+// docs/verification.md
 #include "mutant.hpp"
 
 #include <cstdio>
@@ -16,6 +17,7 @@ namespace {
 
 int chosen = -1;
 bool noted[FELTGATE_MUTANTS];
+bool noted_exact[FELTGATE_MUTANTS];
 
 // Before the constructors of other files, and it outlives their destructors.
 [[gnu::constructor(101)]] void choose() {
@@ -34,12 +36,14 @@ bool noted[FELTGATE_MUTANTS];
   std::FILE* file = std::fopen(name, "w");
   if (file == nullptr) return;
   for (int n = 0; n < FELTGATE_MUTANTS; ++n) {
-    if (noted[n]) std::fprintf(file, "%d\n", n);
+    if (noted[n] || noted_exact[n]) std::fprintf(file, "%d%s\n", n, noted[n] ? "" : " exact");
   }
   std::fclose(file);
 }
 
 }  // namespace
+
+void exact(int number) { noted_exact[number] = true; }
 
 bool reached(int number) {
   noted[number] = true;

@@ -20,6 +20,26 @@ constexpr bool on(int number) {
   return __builtin_expect(state[number] != 0, 0) && reached(number);
 }
 
+template <class T, class = void>
+struct HasFormat : std::false_type {};
+template <class T>
+struct HasFormat<T, std::void_t<decltype(T::format.fraction)>> : std::true_type {};
+
+/// Notes that a rounding mode can change nothing here: the result has as many fraction bits.
+void exact(int number);
+
+/// The same for another rounding of x into a To.
+template <class To, class From>
+constexpr bool rounds(int number, const From&) {
+  if constexpr (HasFormat<To>::value && HasFormat<From>::value) {
+    if constexpr (From::format.fraction <= To::format.fraction) {
+      if (!__builtin_is_constant_evaluated() && state[number] == 2) exact(number);
+      return false;
+    }
+  }
+  return on(number);
+}
+
 /// x as a To, by its raw integer where it is a fixed-point number of another format.
 template <class To, class From>
 constexpr To as(From x) {

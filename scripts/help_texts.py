@@ -46,6 +46,7 @@ def commands(build):
         "extremes": [build / "feltgate_extremes"],
     }
     found = {name: own.get(name, [build / "feltgate", name]) for name in subcommands()}
+    found["mutate--twin"] = [*own["mutate"], "--twin"]
     for verb in VERBS:
         found[f"explore-{verb}"] = [build / "feltgate", "explore", verb]
     return found

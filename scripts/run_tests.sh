@@ -72,6 +72,9 @@ run_tests() {
     # Without a network its test is skipped, but not in CI.
     (need_venv slang) || [[ ${CI-} != true ]] || die "slang cannot be fetched"
   fi
+  if [[ ! $name || $found == *mutate.twin* ]]; then
+    (need_venv mutate) || [[ ${CI-} != true ]] || die "tree-sitter cannot be fetched"
+  fi
   rm -f "$results"
   ctest --test-dir "$BUILD" --output-on-failure --no-tests=error -j "$(nproc)" \
     --output-junit "$results" "${options[@]}" || status=$?

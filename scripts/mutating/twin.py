@@ -1,7 +1,27 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""feltgate mutate --twin: mutants of the headers of the C++ twin. Documentation: docs/verification.md"""
+"""Mutants of the C++ twin: would the tests notice if a line of its headers were wrong?
 
+A header of model/include/feltgate is changed in one place at a time: another operator, a constant one off,
+a condition turned round or left out, a statement removed, arguments swapped, another rounding. All of
+them are compiled into the header's test programs once and chosen at run time. A first run without any
+notes which test cases reach which mutants; each is then run by those until one fails, within a limit of
+CPU time. What survives is listed with its reason in testbench/mutate/twin.toml, equivalent or a gap, or is
+printed. A mutant is named by its function and what it changes, so that the list outlives a change
+of other lines. Method, results and what this does not say: docs/verification.md
+
+Exit code: 0 all headers have the share that is required killed, 1 one has not, 2 when a tool, a file or
+an argument is wrong.
+
+  feltgate mutate --twin                       200 mutants of every header
+  feltgate mutate --twin ramp supervisor       those of two headers
+  feltgate mutate --twin ramp --count 0        all that there are
+  feltgate mutate --twin ramp --list           their names; runs nothing
+  feltgate mutate --twin ramp --again old.json what survived then, after tests have changed
+"""
+
+import argparse
+import datetime
 import json
 import os
 import random
@@ -13,11 +33,15 @@ from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import block_results
+import interrupts
 import outputs
 
 from . import twin_programs, twin_runs, twin_source
 
 SCHEMA = "feltgate-mutate-twin/1"
+RESULTS = "docs/verification/twin_mutants.json"
+REQUIRED = 0.95
 SHARE = 200  # mutants of a header, where it offers so many
 DEAD = ("killed", "hangs", "crashes")
 
@@ -31,6 +55,7 @@ class Catalogue:
     tests: dict  # header: targets
     constant: dict = field(default_factory=dict)  # header: functions that only the compiler calls
     survivors: dict = field(default_factory=dict)  # (header, name of the mutant): (kind, why)
+    blocks: dict = field(default_factory=dict)  # header: row of docs/blocks.md, where that has another name
 
 
 def read_catalogue(root):
@@ -42,14 +67,7 @@ def read_catalogue(root):
             raise TwinError(f"{path}: kind {entry['kind']}; there are equivalent and gap")
         for name in entry["mutants"]:
             survivors[entry["header"], name] = (entry["kind"], entry["why"])
-    return Catalogue(text["tests"], text.get("constant", {}), survivors)
-
-
-def options_of(parser):
-    group = parser.add_argument_group("the C++ twin")
-    group.add_argument("--twin", action="store_true",
-                       help="mutants of the headers of the C++ twin instead; names are those of headers")
-    group.add_argument("--survivors", action="store_true", help="--twin: list what survives, also what is known")
+    return Catalogue(text["tests"], text.get("constant", {}), survivors, text.get("block", {}))
 
 
 def parse(catalogue, root, names, dropped, language):
@@ -216,7 +234,7 @@ def run(options, root, build):
 
     folder = build / "mutants/twin" / "-".join(names if len(names) < 4 else ["all"])
     folder.mkdir(parents=True, exist_ok=True)
-    headers, programs, dropped = make(catalogue, root, build, names, folder, language, options.jobs, options.built, say)
+    headers, programs, dropped = make(catalogue, root, build, names, folder, language, options.jobs, options.no_build, say)
     runs = twin_runs.Runs(folder, options.jobs)
     cases = runs.survey(programs, twin_runs.Progress(sys.stderr, "test cases"))
     say(f"{len(cases)} test cases, {sum(c.seconds for c in cases):.0f} s of CPU; {time.monotonic() - start:.0f} s so far")
@@ -241,38 +259,88 @@ def run(options, root, build):
     counts = Counter(v.how for v in verdicts)
     print(f"{tried} mutants of {len(rows)} headers, {tried - counts['survives'] - counts['unreached']} killed, "
           f"{len(bad)} headers below {100 * options.require:.0f} %; {time.monotonic() - start:.0f} s")
-    result = {"schema": SCHEMA, "seed": options.seed, "count": options.count,
-              "not_compiled": {name: len(d) for name, d in dropped.items()}, "headers": [r.as_json() for r in rows]}
+    result = results_of(rows, options, dropped)
     if options.json:
         outputs.write_whole(options.json, json.dumps(result, indent=1) + "\n")
+    if options.update:
+        update(root, catalogue, result)
+        print(f"mutate: wrote {RESULTS}")
     return 1 if bad else 0
 
 
-def main(argv=None):
-    import argparse
+def results_of(rows, options, dropped):
+    return {
+        "schema": SCHEMA, "machine": block_results.machine(), "date": datetime.date.today().isoformat(),
+        "seed": options.seed, "count": options.count, "not_compiled": {name: len(d) for name, d in dropped.items()},
+        "headers": [row.as_json() for row in rows],
+    }
 
-    import interrupts
 
-    parser = argparse.ArgumentParser(prog="feltgate mutate --twin", description=__doc__, allow_abbrev=False)
-    parser.add_argument("name", nargs="*", metavar="HEADER", help="default: all")
+def update(root, catalogue, result):
+    """The headers' results beside those of others, and [killed, not equivalent] of their blocks."""
+    where = root / RESULTS
+    entries = {}
+    if where.exists():
+        entries = {e["header"]: e for e in json.loads(where.read_text(encoding="utf-8"))["headers"]}
+    for entry in result["headers"]:
+        entries[entry["header"]] = {
+            **{k: v for k, v in entry.items() if k != "survivors"}, "date": result["date"]}
+    known = [entries[name] for name in catalogue.tests if name in entries]
+    lines = ",\n".join("  " + json.dumps(entry) for entry in known)
+    outputs.write_whole(where, f'{{"schema": "{SCHEMA}", "machine": {json.dumps(result["machine"])}, '
+                               f'"headers": [\n{lines}\n]}}\n')
+    found = block_results.read(root, "mutants")
+    blocks = found["blocks"] if found else {}
+    sums = {}
+    for entry in known:
+        pair = sums.setdefault(catalogue.blocks.get(entry["header"], entry["header"]), [0, 0])
+        pair[0] += entry["killed"] + entry["hangs"] + entry["crashes"]
+        pair[1] += entry["tried"] - entry["equivalent"]
+    for block, pair in sums.items():
+        blocks.setdefault(block, {})["twin"] = pair
+    block_results.write(root, "mutants", "./feltgate mutate --update", blocks)
+
+
+def arguments(argv):
+    parser = argparse.ArgumentParser(prog="feltgate mutate --twin", description=__doc__, allow_abbrev=False,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("name", nargs="*", metavar="HEADER", help="without .hpp; default: all")
     parser.add_argument("--list", action="store_true", help="what there is; runs nothing")
-    parser.add_argument("--count", type=int, default=SHARE, metavar="N", help="mutants of each, 0: all; default: 200")
-    parser.add_argument("--seed", type=int, default=1, help="chooses them; default: 1")
-    parser.add_argument("--require", type=float, default=0.95, metavar="SHARE", help="killed of those not equivalent")
-    parser.add_argument("--built", action="store_true", help="the test programs are built; look no further")
-    parser.add_argument("--again", type=Path, metavar="FILE",
-                        help="only those that survived in these results of --json, after tests have changed")
-    parser.add_argument("--survivors", action="store_true", help="list also what is known to survive")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N")
-    parser.add_argument("--json", type=Path, metavar="FILE")
+    parser.add_argument("--count", type=int, default=SHARE, metavar="N",
+                        help=f"mutants of each header, 0: all; default: {SHARE}")
+    parser.add_argument("--seed", type=int, default=1, help="which ones, where --count leaves some out; default: 1")
+    parser.add_argument("--require", type=float, default=REQUIRED, metavar="SHARE",
+                        help=f"to be killed, of those not equivalent; default: {REQUIRED}")
+    parser.add_argument("--again", type=Path, metavar="RESULTS",
+                        help="only those that survived in these results of --json")
+    parser.add_argument("--survivors", action="store_true", help="list also what survives for a known reason")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N",
+                        help="programs at the same time; default: one per core")
+    parser.add_argument("--no-build", action="store_true", help="the test programs are built; look no further")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the results here")
+    parser.add_argument("--update", action="store_true",
+                        help=f"put the results of these headers into {RESULTS}, their sums where docs/blocks.md has them")
     options = parser.parse_args(argv)
+    outputs.check(parser, json=options.json)
+    if options.jobs < 1:
+        parser.error("argument --jobs: at least 1")
+    if options.update and options.again:
+        parser.error("--update takes a run without --again")
+    return options
+
+
+def main(argv=None):
+    options = arguments(argv)
     root = Path(os.environ.get("FELTGATE_ROOT") or Path(__file__).resolve().parents[2])
     build = Path(os.environ.get("FELTGATE_BUILD") or root / "build")
     interrupts.end_on_signals()
     try:
         return run(options, root, build)
-    except (TwinError, twin_source.SourceError, twin_programs.BuildError) as error:
-        print(f"mutate: {error}{getattr(error, 'output', '')}", file=sys.stderr)
+    except twin_programs.BuildError as error:
+        print(f"mutate: {error}\n{error.output}".strip(), file=sys.stderr)
+        return 2
+    except (TwinError, twin_source.SourceError, block_results.ResultsError) as error:
+        print(f"mutate: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt as error:
         return interrupts.tell("mutate", error)

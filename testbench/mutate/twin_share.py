@@ -1,0 +1,36 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Some mutants of the twin are killed as they are by `feltgate mutate --twin`. docs/verification.md
+
+twin_share.py BUILD OPTION...: those of mutate --twin; skipped where there is no tree-sitter.
+"""
+
+import os
+import sys
+import unittest
+from pathlib import Path
+
+ROOT = Path(os.environ["FELTGATE_ROOT"])
+BUILD, OPTIONS = sys.argv[1], sys.argv[2:]
+sys.path.insert(0, str(ROOT / "scripts"))
+from mutating import twin, twin_source  # noqa: E402
+
+
+def has_parser():
+    try:
+        twin_source.cpp_language(Path(BUILD) / "venv-mutate")
+    except twin_source.SourceError:
+        return False
+    return True
+
+
+@unittest.skipUnless(has_parser() or os.environ.get("CI"), "no tree-sitter; ./feltgate test fetches it")
+class Share(unittest.TestCase):
+    def test_share(self):
+        os.environ["FELTGATE_BUILD"] = BUILD
+        self.assertEqual(twin.main([*OPTIONS, "--no-build"]), 0)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -251,3 +251,14 @@ TEST_CASE("encoder_monitor: an edge of the other channel saves up to the last ti
   }
   REQUIRE(saved == 5);
 }
+
+TEST_CASE("encoder_monitor: an edge of the same channel saves in no tick") {
+  for (int early = -4; early <= 4; ++early) {
+    Script s;
+    s.edge(kB).edges(Map::one_channel_edges, kA, 1).align(kChatterUnit);
+    for (int k = 0; k < 4; ++k) s.edge(kA, kLasts / 5);
+    s.edge(kA, kLasts - 4 * (kLasts / 5) - early).edge(kA, 9);
+    REQUIRE(s.trips() == 1);
+    s.play();
+  }
+}

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "feltgate/generated/causes.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
@@ -236,6 +237,45 @@ TEST_CASE("ramp: a negative step counts as 0") {
   for (std::size_t n = 5; n < seen.size(); ++n) {
     REQUIRE(seen[n].tau == 1500);
     REQUIRE(seen[n].ramp);
+  }
+}
+
+TEST_CASE("ramp: a pulse reaches the largest limit that there is, and no other") {
+  for (const std::int64_t limit : {Torque::max_raw(), Torque::max_raw() - 1, std::int64_t{7}}) {
+    for (const int sign : {1, 0, -1}) {
+      Law law;
+      law.begin(true, 0);
+      law.pulse(sign, Fixed::from_raw<Law::kLimitKey>(limit));
+      for (int k = 0; k < 3; ++k) law.move(Fixed::from_raw<Step::format.key()>(Step::max_raw()));
+      while (law.ramping()) law.move(Fixed::from_raw<Step::format.key()>(Step::max_raw()));
+      law.move(Fixed::from_raw<Step::format.key()>(0));
+      REQUIRE(law.tau_ref().raw() == sign * limit);
+    }
+  }
+}
+
+TEST_CASE("ramp: one that is resumed elsewhere goes on as it would have") {
+  Law law;
+  law.begin(true, 3);
+  law.aim(Torque::from_raw(900), false);
+  for (int k = 0; k < 4; ++k) law.move(Fixed::from_raw<Step::format.key()>(100 * kWhole));
+  for (const int scene : {3, 4}) {
+    for (const bool ramping : {true, false}) {
+      Law other;
+      other.resume(3, ramping, law.reference());
+      REQUIRE(other.ramping() == ramping);
+      REQUIRE(other.tau_ref().raw() == 400);
+      other.begin(true, scene);
+      REQUIRE(other.ramping() == (ramping || scene != 3));
+    }
+  }
+}
+
+TEST_CASE("ramp: relief as the limits say") {
+  for (unsigned bits = 0; bits < 1u << 12; ++bits) {
+    const Relief relief = relief_of(bits);
+    REQUIRE(relief.frozen == ((bits & limit::chatter) != 0));
+    REQUIRE(relief.eased == ((bits & limit::hold) != 0));
   }
 }
 

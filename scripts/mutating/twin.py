@@ -37,7 +37,7 @@ import block_results
 import interrupts
 import outputs
 
-from . import twin_programs, twin_runs, twin_source
+from . import twin_parser, twin_programs, twin_runs, twin_source
 
 SCHEMA = "feltgate-mutate-twin/1"
 RESULTS = "docs/verification/twin_mutants.json"
@@ -220,7 +220,7 @@ def run(options, root, build):
     unknown = [n for n in names if n not in catalogue.tests]
     if unknown:
         raise TwinError(f"no header {', '.join(unknown)} in testbench/mutate/twin.toml; there are {', '.join(catalogue.tests)}")
-    language = twin_source.cpp_language(build / "venv-mutate")
+    language = twin_parser.cpp_language(build / "venv-mutate")
     if options.list:
         for header in parse(catalogue, root, names, {}, language):
             print(f"{header.name}: {len(header.mutants)} mutants, tested by {', '.join(catalogue.tests[header.name])}")
@@ -339,7 +339,7 @@ def main(argv=None):
     except twin_programs.BuildError as error:
         print(f"mutate: {error}\n{error.output}".strip(), file=sys.stderr)
         return 2
-    except (TwinError, twin_source.SourceError, block_results.ResultsError) as error:
+    except (TwinError, twin_parser.SourceError, block_results.ResultsError) as error:
         print(f"mutate: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt as error:

@@ -6,12 +6,11 @@ The header is parsed by tree-sitter. What only the compiler sees, as constants a
 arguments, stays. Documentation: docs/verification.md
 """
 
-import glob
 import re
-import sys
 from collections import Counter
 from dataclasses import dataclass
-from pathlib import Path
+
+from .twin_parser import SourceError, blanked, parsed
 
 OPERATORS = {
     # operator: (function of mutant.hpp, what it becomes)
@@ -51,10 +50,6 @@ CONSTANT = {
 SHOWN = 70
 
 
-class SourceError(Exception):
-    """A header that is not understood."""
-
-
 @dataclass
 class Mutant:
     number: int
@@ -63,20 +58,6 @@ class Mutant:
     kind: str
     name: str  # "function: was -> is", with " #2" for the second of the same
     risky: bool = False  # may not compile, as a swap of arguments
-
-
-def blanked(text):
-    """Comments become spaces: not one column moves."""
-    text = re.sub(r"//[^\n]*", lambda m: " " * len(m[0]), text)
-    text = re.sub(r"/\*.*?\*/", lambda m: re.sub(r"[^\n]", " ", m[0]), text, flags=re.S)
-    return text
-
-
-def for_parser(text):
-    """What tree-sitter does not know, in as many columns."""
-    text = re.sub(r"= \{\}(?=[,)])", "= no", text)  # a default argument
-    text = re.sub(r"\bdecltype\((\w+)\)(?=\{)", r"decltype_\1_", text)
-    return re.sub(r"(?<=::|->)template (?=\w)|(?<=\.)template (?=\w)|\btypename (?=\w)", " " * 9, text)
 
 
 def shortened(text):
@@ -100,18 +81,12 @@ class Header:
     """The mutants of one header; `first` is the number of the first one."""
 
     def __init__(self, name, text, first, language, constant=(), dropped=()):
-        import tree_sitter
-
         self.name, self.first, self.mutants = name, first, []
         self.constant, self.dropped = set(constant), set(dropped)
         self.names = Counter()
         self.text = blanked(text).encode()
-        parsed = for_parser(blanked(text)).encode()
-        tree = tree_sitter.Parser(language).parse(parsed)
-        bad = [n for n in walk(tree.root_node) if n.is_error or n.is_missing]
-        if bad:
-            raise SourceError(f"{name}:{bad[0].start_point[0] + 1}: not understood by tree-sitter")
-        self.result = self.emit(tree.root_node)
+        root = parsed(name, text, language)
+        self.result = self.emit(root)
 
     # Mutants and how they are asked for.
 
@@ -409,20 +384,3 @@ class Header:
             number = self.new(node, "arguments", self.source(node), was + swapped, risky=True)
             result = self.choice(number, was + swapped, result)
         return result
-
-
-def walk(node):
-    yield node
-    for child in node.children:
-        yield from walk(child)
-
-
-def cpp_language(venv=None):
-    """C++ for tree-sitter, from this folder where Python itself has it not."""
-    sys.path += glob.glob(str(Path(venv or "") / "lib/python3*/site-packages")) if venv else []
-    try:
-        import tree_sitter
-        import tree_sitter_cpp
-    except ImportError as error:
-        raise SourceError(f"{error}: ./feltgate mutate --twin fetches tree-sitter from PyPI") from None
-    return tree_sitter.Language(tree_sitter_cpp.language())

@@ -14,13 +14,13 @@ from pathlib import Path
 ROOT = Path(os.environ["FELTGATE_ROOT"])
 BUILD, OPTIONS = sys.argv[1], sys.argv[2:]
 sys.path.insert(0, str(ROOT / "scripts"))
-from mutating import twin, twin_source  # noqa: E402
+from mutating import twin, twin_parser  # noqa: E402
 
 
 def has_parser():
     try:
-        twin_source.cpp_language(Path(BUILD) / "venv-mutate")
-    except twin_source.SourceError:
+        twin_parser.cpp_language(Path(BUILD) / "venv-mutate")
+    except twin_parser.SourceError:
         return False
     return True
 

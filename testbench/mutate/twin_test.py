@@ -16,11 +16,11 @@ from pathlib import Path
 ROOT = Path(os.environ.get("FELTGATE_ROOT") or Path(__file__).resolve().parents[2])
 VENV = Path(sys.argv.pop(1)) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else Path("none")
 sys.path.insert(0, str(ROOT / "scripts"))
-from mutating import twin, twin_programs, twin_runs, twin_source  # noqa: E402
+from mutating import twin, twin_parser, twin_runs, twin_source  # noqa: E402
 
 try:
-    LANGUAGE = twin_source.cpp_language(VENV)
-except twin_source.SourceError:
+    LANGUAGE = twin_parser.cpp_language(VENV)
+except twin_parser.SourceError:
     LANGUAGE = None
 
 MUTANT = ROOT / "testbench/mutate/twin"
@@ -84,7 +84,7 @@ class Offered(unittest.TestCase):
         self.assertEqual(one.line, 3)
 
     def test_no_c_plus_plus_is_said(self):
-        with self.assertRaises(twin_source.SourceError) as error:
+        with self.assertRaises(twin_parser.SourceError) as error:
             header("int f( {")
         self.assertIn("h:1", str(error.exception))
 

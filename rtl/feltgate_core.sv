@@ -9,7 +9,8 @@
 `default_nettype none
 
 module feltgate_core #(
-    parameter int ReadBack = 1  // 0: no snapshot RAM, the host can only write
+    parameter int ReadBack = 1,  // 0: no snapshot RAM, the host can only write
+    parameter ParameterFile = ""  // parameters.mem of the design, for tools that want a file; "": none
 ) (
     input  logic clk_i,
     input  logic rst_ni,
@@ -92,11 +93,10 @@ module feltgate_core #(
       .tick_count_o(tick_count_o)
   );
 
-  registers #(.ReadBack(ReadBack)) u_registers (
+  registers #(.ReadBack(ReadBack), .ParameterFile(ParameterFile)) u_registers (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .tick_i(tick),
-      .reg_addr_i(reg_addr_i),
-      .reg_wdata_i(reg_wdata_i),
+      .reg_addr_i(reg_addr_i), .reg_wdata_i(reg_wdata_i),
       .reg_write_i(reg_write_i),
       .reg_rdata_o(reg_rdata_o),
       .reg_busy_o(reg_busy_o),

@@ -8,7 +8,8 @@
 `default_nettype none
 
 module registers #(
-  parameter int ReadBack = 1  // 0: no snapshot, reads give 0
+  parameter int ReadBack = 1,  // 0: no snapshot, reads give 0
+  parameter ParameterFile = ""  // what $readmemh fills the parameters from; "": the package
 ) (
   input  logic        clk_i,
   input  logic        rst_ni,
@@ -145,12 +146,18 @@ module registers #(
   (* no_rw_check, ram_style = "block", ramstyle = "no_rw_check" *)
   logic [35:0] parameter_ram [0:511];
 
-  initial begin
-    for (int i = 0; i < 512; i++) begin
-      parameter_ram[i] = {check_of(feltgate_pkg::parameter_reset(9'(i))),
-                          feltgate_pkg::parameter_reset(9'(i))};
+  generate
+  if (ParameterFile != "") begin : g_values_file
+    initial $readmemh(ParameterFile, parameter_ram);
+  end else begin : g_values
+    initial begin
+      for (int i = 0; i < 512; i++) begin
+        parameter_ram[i] = {check_of(feltgate_pkg::parameter_reset(9'(i))),
+                            feltgate_pkg::parameter_reset(9'(i))};
+      end
     end
   end
+  endgenerate
 
   always @(posedge clk_i) begin  // not always_ff: the values of the design are written by another process
     if (tick_i && to_parameter_q && !refuses) parameter_ram[address_q] <= {check_of(data_q), data_q};

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "design/text_case.hpp"
+#include "feltgate/registers.hpp"
 
 namespace feltgate::design {
 
@@ -220,6 +221,18 @@ std::string cpp_header(const Elaborated& e) {
   }
   s << "  };\n};\n\n}  // namespace feltgate\n";
   return s.str();
+}
+
+std::string memory_text(const Elaborated& e) {
+  std::vector<std::uint32_t> words(512, 0);
+  for (const Word& w : e.words) {
+    words[static_cast<std::size_t>(w.parameter.address)] = static_cast<std::uint32_t>(w.raw);
+  }
+  std::string text = banner(e, "");
+  for (const std::uint32_t word : words) {
+    text += fmt::format("{:x}{:08x}\n", check_of(word), word);
+  }
+  return text;
 }
 
 std::string values_text(const Elaborated& e) {

@@ -20,6 +20,10 @@ std::string cpp_header(const Elaborated& e);
 /// Text of model/include/feltgate/generated/reader.hpp.
 std::string reader_header(const RegisterMap& map);
 
+/// Text of rtl/generated/NAME/parameters.mem, which $readmemh takes: the 512 words, each behind its
+/// check, in hexadecimal.
+std::string memory_text(const Elaborated& e);
+
 /// A line per parameter: name, address, integer, exact value in its unit.
 std::string values_text(const Elaborated& e);
 

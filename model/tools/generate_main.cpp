@@ -57,7 +57,8 @@ constexpr const char* usage =
     "rtl/generated, the C++ headers in model/include/feltgate/generated, and docs/registers.md.\n"
     "--check only compares; exit code 1 when a file is stale.\n"
     "With --design one design, which may lie anywhere: DIR/feltgate_pkg.sv, DIR/NAME.hpp and "
-    "DIR/values.txt,\n"
+    "DIR/parameters.mem,\n"
+    "the first contents of the parameter RAM for $readmemh, and DIR/values.txt,\n"
     "a line per parameter: name, address, integer, exact value. --allow-coarse lets a resolution "
     "pass that\n"
     "is coarser than a design for use must have; what cannot work is refused all the same.\n"
@@ -105,6 +106,7 @@ void generate_one(const Options& o, const feltgate::design::RegisterMap& registe
   check_tick(e.design, read_schedule(o, registers));
   update(o.output / "feltgate_pkg.sv", systemverilog_package(e), false);
   update(o.output / (e.design.name + ".hpp"), cpp_header(e), false);
+  update(o.output / "parameters.mem", memory_text(e), false);
   update(o.output / "values.txt", values_text(e), false);
 }
 
@@ -127,6 +129,8 @@ bool generate_all(const Options& o, const feltgate::design::RegisterMap& registe
     const std::string& name = e.design.name;
     stale |= update(o.root / "rtl/generated" / name / "feltgate_pkg.sv", systemverilog_package(e),
                     o.check_only);
+    stale |=
+        update(o.root / "rtl/generated" / name / "parameters.mem", memory_text(e), o.check_only);
     stale |= update(headers / (name + ".hpp"), cpp_header(e), o.check_only);
     if (name == "lever")
       stale |= update(o.root / "docs/registers.md", register_page(e), o.check_only);

@@ -17,6 +17,13 @@
 
 namespace feltgate {
 
+/// What stands beside a parameter word: the parity of every fourth bit, of bits 0 and 2 inverted.
+constexpr unsigned check_of(std::uint32_t word) {
+  std::uint32_t folded = word ^ word >> 16;
+  folded ^= folded >> 8;
+  return ((folded ^ folded >> 4) & 15U) ^ 5U;
+}
+
 /// D: a design as generated. ReadBack = false: no snapshot, every read gives 0.
 template <class D, bool ReadBack = true>
 class Registers {

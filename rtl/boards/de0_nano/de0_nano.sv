@@ -10,7 +10,8 @@ module de0_nano #(
   parameter int DebounceBits    = 19,        // an input counts after 2^19 clocks at rest: 10.5 ms
   parameter int LongPressClocks = 50000000,  // KEY[1] held this long sets the zero: 1 s
   parameter int LampBits        = 22,        // the limit lamp stays lit 2^22 clocks: 84 ms
-  parameter int HeartbeatBits   = 26         // LED[7]: 0.75 Hz
+  parameter int HeartbeatBits   = 26,        // LED[7]: 0.75 Hz
+  parameter     ParameterFile   = "../../generated/lever/parameters.mem"  // from the project's folder
 ) (
   input  logic       CLOCK_50,
   input  logic [1:0] KEY,        // low while pressed
@@ -74,7 +75,7 @@ module de0_nano #(
 
   // Empty pins: nobody is here to read them.
   /* verilator lint_off PINCONNECTEMPTY */
-  feltgate_core #(.ReadBack(0)) u_core (
+  feltgate_core #(.ReadBack(0), .ParameterFile(ParameterFile)) u_core (
     .clk_i(CLOCK_50),
     .rst_ni(rst_n),
     .enc_a_i(ENC_A),

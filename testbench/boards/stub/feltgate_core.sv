@@ -6,7 +6,8 @@
 `default_nettype none
 
 module feltgate_core #(
-  parameter int ReadBack = 1
+  parameter int ReadBack = 1,
+  parameter ParameterFile = ""
 ) (
   input  logic        clk_i,
   input  logic        rst_ni,

@@ -121,12 +121,70 @@ TEST_CASE("a stop that is held, from the reset on and while the host asks to arm
       by_event.run(in, k, [] {});
       REQUIRE(by_clock.out() == by_event.out());
     }
-    while (by_clock.clock_of_tick() != 0) by_clock.clock(in), by_event.clock(in);
+    const auto to_next_tick = [&] {
+      do by_clock.clock(in);
+      while (by_clock.clock_of_tick() != 0);
+    };
+    to_next_tick();
+    to_next_tick();
+    in.arm = true;  // asked for in the tick to come
+    for (int c = 0; c < Lever::clocks_per_tick; ++c) write_amid(by_clock, in, c / 2, c, false);
     for (int c = 0; c < Lever::clocks_per_tick; ++c) {
       write_amid(by_clock, in, 0, c, true);
       write_amid(by_clock, in, c / 2, c, true);
     }
   }
+}
+
+TEST_CASE("calm clocks close no gates, whatever the limit of the speed") {
+  FeltgateCore<Lever> core;
+  CoreIn in;
+  const auto to_next_tick = [](FeltgateCore<Lever>& c, const CoreIn& held) {
+    do c.clock(held);
+    while (c.clock_of_tick() != 0);
+  };
+  const auto write = [&](FeltgateCore<Lever>& c, int address, std::uint32_t word) {
+    CoreIn strobe = in;
+    strobe.reg_addr = static_cast<std::uint16_t>(address);
+    strobe.reg_wdata = word;
+    strobe.reg_write = true;
+    c.clock(strobe);
+    to_next_tick(c, in);
+  };
+  const auto control =
+      static_cast<std::uint32_t>(Lever::control_reset) | 1u << Lever::C::control_host;
+  for (int k = 0; k < 4; ++k) to_next_tick(core, in);
+  write(core, Lever::A::self_test_pulse, 0);
+  write(core, Lever::A::overspeed, 0x7fffffff);
+  write(core, Lever::C::control, control);
+  write(core, Lever::C::control, control | 1u << Lever::C::control_arm);
+  to_next_tick(core, in);
+  REQUIRE(core.out().gates_enable);
+  std::int64_t calm = 0, trips = 0;
+  std::uint32_t phase = 0;
+  for (int tick = 0; tick < 12'000; ++tick) {
+    const int speed = tick / 400 % 5;  // faster and faster, a rest, and the other way
+    const bool moves = speed != 4 && tick % (60 >> speed) == 0;
+    if (moves) phase += tick / 2000 % 2 == 0 ? 1u : 3u;
+    in.encoder = {(phase & 2u) != 0, ((phase & 1u) != 0) != ((phase & 2u) != 0), false};
+    for (const std::int64_t off : {-40, -1, 0, 1, 40}) {
+      const std::int64_t size =
+          core.out().velocity < 0 ? -core.out().velocity : core.out().velocity;
+      FeltgateCore<Lever> tried = core;
+      write(tried, Lever::A::overspeed,
+            static_cast<std::uint32_t>(size + off < 0 ? 0 : size + off));
+      if (!tried.out().gates_enable) continue;
+      const bool said = tried.calm(in, 40);
+      for (int k = 0; k < 40; ++k) tried.clock(in);
+      calm += said;
+      trips += !tried.out().gates_enable;
+      REQUIRE_FALSE((said && !tried.out().gates_enable));
+    }
+    to_next_tick(core, in);
+  }
+  CAPTURE(calm, trips);
+  CHECK(calm > 1000);
+  CHECK(trips > 1000);
 }
 
 TEST_CASE("every fault trips in the same clock from event to event") {

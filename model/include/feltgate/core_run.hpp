@@ -150,7 +150,6 @@ void FeltgateCore<D, ReadBack>::pass_tick(const In& in, OnSnapshot&& on_snapshot
   });
   finish(in, s);
   out_.armed = supervisor_.out().armed;
-  out_.gates_enable = supervisor_.out().gates_enable;
   ++out_.tick_count;
 }
 

@@ -6,6 +6,9 @@
 twin_test.py VENV: the folder into which scripts/build.sh has fetched tree-sitter.
 """
 
+import contextlib
+import io
+import json
 import os
 import subprocess
 import sys
@@ -16,6 +19,7 @@ from pathlib import Path
 ROOT = Path(os.environ.get("FELTGATE_ROOT") or Path(__file__).resolve().parents[2])
 VENV = Path(sys.argv.pop(1)) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else Path("none")
 sys.path.insert(0, str(ROOT / "scripts"))
+import block_results  # noqa: E402
 from mutating import twin, twin_parser, twin_runs, twin_source  # noqa: E402
 
 try:
@@ -180,6 +184,41 @@ class Verdicts(unittest.TestCase):
                 twin_source.Mutant(0, "h", 2, "arguments", "swap"), twin_source.Mutant(1, "h", 2, "arithmetic", "add")]})
             said = "a/mutants/twin/h/include/feltgate/h.hpp:2:7: error: no match\n"
             self.assertEqual(twin.refused([one], place, said), {("h", "swap")})
+
+    def test_results_become_rows_of_the_blocks(self):
+        row = self.row(["killed", "hangs", "survives", "unreached"], {("h", "m2"): ("equivalent", "w")})
+        row.catalogue.blocks["h"] = "twin of the core"
+        with tempfile.TemporaryDirectory() as folder:
+            folder = Path(folder)
+            (folder / "docs/verification").mkdir(parents=True)
+            options = type("O", (), {"seed": 1, "count": 0})
+            result = twin.results_of([row], options, {})
+            for _ in range(2):  # the second time replaces the first
+                twin.update(folder, row.catalogue, result)
+            blocks = block_results.read(folder, "mutants")["blocks"]
+            self.assertEqual(blocks, {"twin of the core": {"twin": [2, 3]}})
+            written = json.loads((folder / twin.RESULTS).read_text(encoding="utf-8"))
+            self.assertEqual([h["header"] for h in written["headers"]], ["h"])
+            self.assertNotIn("survivors", written["headers"][0])
+
+            path = folder / "old.json"
+            path.write_text(json.dumps(result), encoding="utf-8")
+            self.assertEqual(twin.survivors_of(path), {("h", "m2"), ("h", "m3")})
+            path.write_text("{}", encoding="utf-8")
+            with self.assertRaises(twin.TwinError):
+                twin.survivors_of(path)
+
+    def test_options_that_do_nothing_are_refused(self):
+        for wrong in (["--jobs", "0"], ["--update", "--again", "x.json"], ["--coun", "3"]):
+            with self.assertRaises(SystemExit) as ended, contextlib.redirect_stderr(io.StringIO()):
+                twin.arguments(wrong)
+            self.assertEqual(ended.exception.code, 2)
+
+    def test_an_unknown_header_is_said(self):
+        said = io.StringIO()
+        with contextlib.redirect_stderr(said):
+            self.assertEqual(twin.main(["suprevisor"]), 2)
+        self.assertIn("supervisor", said.getvalue())
 
     def test_catalogue_of_kinds(self):
         with tempfile.TemporaryDirectory() as folder:

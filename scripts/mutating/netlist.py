@@ -18,7 +18,8 @@ from seeding.block import Head
 
 LIST_LIMIT_S = 600  # yosys' mutate never ends when nearly all of its database is asked for
 MOST_OF_DATABASE = 0.6
-CLOCK_PINS = ("CLK", "RD_CLK", "WR_CLK")
+# One clock cannot be wrong at one register; a memory is read without clock, enable and reset.
+LEFT_OUT = ("CLK", "RD_CLK", "WR_CLK", "RD_EN", "RD_ARST", "RD_SRST")
 
 
 class NetlistError(Exception):
@@ -140,14 +141,14 @@ def write(block, sources, parameters, count, seed, output, root):
         f"mutate -list 1 -seed {seed} -o one.txt",
     ], "read", folder)
     database = int(re.search(r"Raw database size: (\d+)", log).group(1))
-    # Clock pins are left out below; what is asked for makes up for them.
+    # Some pins are left out below; what is asked for makes up for them.
     asked = max(1, min(count * 3 // 2, int(MOST_OF_DATABASE * database)))
     run_yosys(["read_rtlil block.il", f"mutate -list {asked} -seed {seed} -o proposed.txt"], "list", folder)
     design = (folder / "block.il").read_text(encoding="utf-8")
     types = cell_types(design)
     started = powered_up(design)
     mutants = [parse(line, types) for line in (folder / "proposed.txt").read_text(encoding="utf-8").splitlines()]
-    mutants = [m for m in mutants if m["port"] not in CLOCK_PINS and (m["cell"], m["port"]) not in started][:count]
+    mutants = [m for m in mutants if m["port"] not in LEFT_OUT and (m["cell"], m["port"]) not in started][:count]
     width = len(mutants).bit_length() + 1  # all bits set is no mutant
     for number, mutant in enumerate(mutants, 1):
         mutant["number"] = number
@@ -162,6 +163,7 @@ def write(block, sources, parameters, count, seed, output, root):
     source = next(p for p in sources if Path(p).stem == block)
     text = wrapper(block, Path(root, source).read_text(encoding="utf-8"), width)
     netlist = (folder / "netlist.v").read_text(encoding="utf-8")
-    output.write_text(text + netlist, encoding="utf-8")
+    if not output.exists() or output.read_text(encoding="utf-8") != text + netlist:
+        output.write_text(text + netlist, encoding="utf-8")  # else nothing needs to be compiled again
     result = {"block": block, "seed": seed, "database": database, "mutants": mutants}
     (folder / "mutants.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")

@@ -1,0 +1,244 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""The parts of `feltgate mutate` that need no test program: netlist, proofs, reasons, figures."""
+
+import contextlib
+import io
+import json
+import os
+import shutil
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts"))
+import mutate  # noqa: E402
+from mutating import equivalence, netlist, rtl  # noqa: E402
+
+# dead_q stays 0, so that what it adds is no matter; spare is what a mutant of the word must change.
+COUNTER = """module counter (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  input  logic       up_i,
+  output logic [3:0] count_o,
+  output logic       kept_o
+);
+  logic kept_q = 1'b1;
+  logic [3:0] words [0:3];
+  logic [3:0] read_q;
+  always_ff @(posedge clk_i) begin
+    if (up_i) words[count_o[1:0]] <= count_o;
+    read_q <= words[~count_o[1:0]];
+  end
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) count_o <= 4'd0;
+    else if (up_i) count_o <= count_o + 4'd1;
+  end
+  always_ff @(posedge clk_i) if (up_i) kept_q <= !kept_q;
+  assign kept_o = kept_q ^ (read_q == 4'd3);
+endmodule
+"""
+LINE = ("mutate -mode cnot1 -module b -cell $add$rtl/b.sv:2$1 -port Y -portbit 3 -ctrlbit 1 -wire w -wirebit 2 "
+        "-src rtl/b.sv:2.1-2.9 -src rtl/b.sv:1.1-1.4")
+
+
+class Commands(unittest.TestCase):
+    def test_a_line_of_the_list_and_back(self):
+        mutant = netlist.parse(LINE, {"$add$rtl/b.sv:2$1": "$add"})
+        self.assertEqual((mutant["mode"], mutant["type"], mutant["port"], mutant["bit"], mutant["by_bit"]),
+                         ("cnot1", "$add", "Y", 3, 1))
+        self.assertEqual((mutant["wire"], mutant["wire_bit"]), ("w", 2))
+        self.assertEqual(mutant["sources"], ["rtl/b.sv:2.1-2.9", "rtl/b.sv:1.1-1.4"])
+        self.assertEqual(netlist.command(mutant, "b", "-ctrl mutsel 4 7"),
+                         "mutate -ctrl mutsel 4 7 -mode cnot1 -module b -cell $add$rtl/b.sv:2$1 -port Y -portbit 3 "
+                         "-ctrlbit 1")
+        self.assertEqual(rtl.says(mutant), "bit 3 of $add.Y, w[2] inverted while another bit of the pin is 1 (1)")
+
+
+@unittest.skipUnless(shutil.which("yosys") and shutil.which("yosys-abc"), "no yosys")
+class Netlist(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.temporary.cleanup)
+        cls.root = Path(cls.temporary.name)
+        (cls.root / "rtl").mkdir()
+        (cls.root / "rtl/counter.sv").write_text(COUNTER, encoding="utf-8")
+        cls.folder = cls.root / "with a blank"
+        netlist.write("counter", [Path("rtl/counter.sv")], [], 1000, 1, cls.folder / "counter.sv", cls.root)
+        cls.found = json.loads((cls.folder / "mutants.json").read_text(encoding="utf-8"))
+        cls.mutants = cls.found["mutants"]
+
+    def mutant(self, **wanted):
+        return next(m for m in self.mutants if all(m.get(k) == v for k, v in wanted.items()))
+
+    def verdicts(self, *mutants):
+        with tempfile.TemporaryDirectory() as work:
+            designs = equivalence.joined(self.folder, "counter", list(mutants), Path(work))
+            return [designs[m["number"]].prove(m, 10)[0] for m in mutants]
+
+    def test_at_most_60_percent_and_no_clocks(self):
+        self.assertLessEqual(len(self.mutants), 0.6 * self.found["database"])
+        self.assertGreater(len(self.mutants), 50)
+        self.assertFalse({m["port"] for m in self.mutants} & set(netlist.LEFT_OUT))
+        self.assertEqual([m["number"] for m in self.mutants], list(range(1, len(self.mutants) + 1)))
+
+    def test_a_value_at_power_up_stays(self):
+        text = (self.folder / "counter.sv").read_text(encoding="utf-8")
+        self.assertRegex(text, r"reg kept_q = 1'h1;")
+        self.assertFalse([m for m in self.mutants if m.get("wire") == "kept_q" and m["port"] == "Q"])
+
+    def test_the_wrapper_has_the_ports_and_asks_which(self):
+        text = (self.folder / "counter.sv").read_text(encoding="utf-8")
+        self.assertIn("module counter (", text)
+        self.assertIn("feltgate_chosen_mutant()", text)
+        self.assertIn("module counter_mutants(clk_i", text)
+
+    def test_the_same_seed_gives_the_same_mutants(self):
+        other = self.root / "again"
+        netlist.write("counter", [Path("rtl/counter.sv")], [], 1000, 1, other / "counter.sv", self.root)
+        self.assertEqual((other / "mutants.json").read_text(), (self.folder / "mutants.json").read_text())
+
+    def test_different(self):
+        count = self.mutant(type="$adffe", port="Q")
+        self.assertEqual(self.verdicts(count), [equivalence.DIFFERENT])
+
+    def test_none_is_equivalent(self):
+        count = dict(self.mutant(type="$adffe", port="Q"))
+        with tempfile.TemporaryDirectory() as work:
+            design = equivalence.joined(self.folder, "counter", [count], Path(work))[count["number"]]
+            design.numbers[count["number"]] = 0
+            self.assertEqual(design.prove(count, 10)[0], equivalence.EQUIVALENT)
+
+    def test_stuck_where_it_is_constant_is_equivalent(self):
+        # Of count_o + 1, the operand 1.
+        adder = next(m for m in self.mutants if m["type"] == "$add")
+        same = adder | {"port": "B", "bit": 0, "mode": "const1"}
+        same.pop("by_bit", None)
+        self.assertEqual(self.verdicts(same), [equivalence.EQUIVALENT])
+
+    def test_a_memory_is_cut_out_and_its_address_compared(self):
+        text = (self.folder / "block.il").read_text(encoding="utf-8")
+        self.assertIn("$mem_v2", text)
+        cut = equivalence.without_memories(text)
+        self.assertNotIn("$mem_v2", cut)
+        self.assertIn(r"input 6 \memory_1_RD_DATA", cut)
+        self.assertIn(r"output 7 \memory_1_RD_ADDR", cut)
+
+    def test_a_mutant_at_a_memory(self):
+        memory = self.mutant(type="$mem_v2", port="WR_DATA")
+        self.assertEqual(self.verdicts(memory), [equivalence.DIFFERENT])
+
+
+class Reasons(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.root = Path(self.temporary.name)
+        for folder in ("rtl", "testbench/b"):
+            (self.root / folder).mkdir(parents=True)
+        (self.root / "rtl/b.sv").write_text("one\n  assign w = a + 1;\n", encoding="utf-8")
+        self.mutant = netlist.parse(LINE, {"$add$rtl/b.sv:2$1": "$add"}) | {"number": 1}
+
+    def listed(self, text):
+        (self.root / "testbench/b/mutants.toml").write_text(text, encoding="utf-8")
+        return rtl.Listed(self.root, "b")
+
+    def test_where(self):
+        self.assertEqual(rtl.where(self.root, self.mutant), ["rtl/b.sv:1: one", "rtl/b.sv:2: assign w = a + 1;"])
+
+    def test_every_key_must_fit(self):
+        whole = '[[survivor]]\nline = "w = a + 1"\nwire = "w"\npin = "[$]add[.]Y"\nbits = [3]\nmodes = ["cnot1"]\nwhy = "x"\n'
+        self.assertEqual(self.listed(whole).why(self.mutant), "x")
+        for key, other in (("w = a", "v = a"), ('wire = "w"', 'wire = "v"'), ("add", "sub"), ("[3]", "[2]"), ("cnot1", "inv")):
+            self.assertEqual(self.listed(whole.replace(key, other)).why(self.mutant), "")
+
+    def test_no_reason_is_refused(self):
+        for text in ('[[survivor]]\nline = "x"\n', '[[survivor]]\nwhy = "x"\n', '[[survivor]]\nwhy = "x"\nlin = "x"\n'):
+            with self.assertRaises(rtl.MutateError):
+                self.listed(text)
+
+    def test_figures(self):
+        test = rtl.Test("b", "b", self.root, self.root / "b_mutants", 1, 100, [self.mutant | {"number": n} for n in range(1, 6)])
+        row = rtl.Row(test, self.listed('[[survivor]]\nline = "w = a"\nwhy = "seen"\n'))
+        row.fates = {1: rtl.KILLED, 2: rtl.HANGS, 3: rtl.SURVIVES, 4: rtl.SURVIVES, 5: rtl.KILLED}
+        row.proofs = {3: (equivalence.EQUIVALENT, ""), 4: (equivalence.DIFFERENT, "differs in clock 2")}
+        self.assertEqual((row.equivalent(), row.relevant(), row.of_listed(), row.share()), (1, 4, 1, 0.75))
+        self.assertIn("75.0 %", rtl.table([row]))
+        said = row.as_json()
+        self.assertEqual((said["killed"], said["hangs"], len(said["survivors"])), (3, 1, 1))
+        with contextlib.redirect_stdout(io.StringIO()) as output:
+            rtl.print_survivors([row], False)
+        self.assertEqual(output.getvalue(), "")
+
+    def test_an_unproven_survivor_counts_against_the_test(self):
+        test = rtl.Test("b", "b", self.root, self.root / "b_mutants", 1, 100, [self.mutant])
+        row = rtl.Row(test, self.listed(""), {1: rtl.SURVIVES}, {1: (equivalence.UNKNOWN, "")})
+        self.assertEqual((row.share(), len(row.survivors())), (0.0, 1))
+
+
+class Programs(unittest.TestCase):
+    """Stands in for a test program: a script that looks at FELTGATE_MUTANT."""
+
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.build = Path(self.temporary.name)
+        folder = self.build / "testbench/b/b_mutants.netlist"
+        folder.mkdir(parents=True)
+        (folder / "test.json").write_text('{"test": "b", "block": "b"}', encoding="utf-8")
+        mutant = netlist.parse(LINE, {})
+        mutants = [mutant | {"number": n} for n in range(1, 5)]
+        (folder / "mutants.json").write_text(
+            json.dumps({"block": "b", "seed": 1, "database": 9, "mutants": mutants}), encoding="utf-8")
+        self.program = self.build / "testbench/b/b_mutants"
+        self.say('case $FELTGATE_MUTANT in 0|4) exit 0;; 3) kill -SEGV $$;; *) echo mismatch at clock 3; exit 1;; esac')
+
+    def say(self, script):
+        self.program.write_text(f"#!/bin/sh\n{script}\n", encoding="utf-8")
+        self.program.chmod(0o755)
+
+    def call(self, *arguments):
+        os.environ["FELTGATE_BUILD"] = str(self.build)
+        with contextlib.redirect_stdout(io.StringIO()) as out, contextlib.redirect_stderr(io.StringIO()) as err:
+            code = mutate.main(["--no-build", "--proof-seconds", "0", *arguments])
+        return code, out.getvalue(), err.getvalue()
+
+    def test_fates(self):
+        code, out, _ = self.call("--json", str(self.build / "out.json"))
+        self.assertEqual(code, 1)
+        self.assertIn("3 of 4 not equivalent ones killed (75.0 %); 1 tests below 99 %: b", out)
+        self.assertIn("b 4: bit 3 of", out)
+        (entry,) = json.loads((self.build / "out.json").read_text())["tests"]
+        self.assertEqual((entry["killed"], entry["crashes"]), (3, 1))
+
+    def test_the_required_share(self):
+        self.assertEqual(self.call("--require", "0.7")[0], 0)
+
+    def test_a_share_is_the_same_again(self):
+        self.assertEqual(self.call("--count", "2", "--seed", "5")[1], self.call("--count", "2", "--seed", "5")[1])
+
+    def test_a_program_that_fails_without_a_mutant(self):
+        self.say("exit 1")
+        code, _, err = self.call()
+        self.assertEqual(code, 2)
+        self.assertIn("b_mutants killed without a mutant", err)
+
+    def test_what_is_unknown(self):
+        code, _, err = self.call("c")
+        self.assertEqual(code, 2)
+        self.assertIn("no block c with mutants; there are b", err)
+        self.assertEqual(self.call("--show", "9")[0], 2)
+
+    def test_show(self):
+        code, out, _ = self.call("--show", "1")
+        self.assertEqual(code, 0)
+        self.assertIn("killed in", out)
+        self.assertIn("mismatch at clock 3", out)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -41,6 +41,7 @@ def commands(build):
         "test": ["bash", "-c", 'source "$0"; tests_usage', ROOT / "scripts/run_tests.sh"],
         "prove": [PYTHON, "-B", ROOT / "scripts/prove.py"],
         "mutate": [PYTHON, "-B", ROOT / "scripts/mutate.py"],
+        "coverage": [PYTHON, "-B", ROOT / "scripts/coverage.py"],
         "generate": [build / "feltgate_generate", ROOT],
         "bench": [build / "feltgate_bench"],
         "extremes": [build / "feltgate_extremes"],

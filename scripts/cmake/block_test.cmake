@@ -9,7 +9,8 @@
 # mutation) for each patch in testbench/<block>/defects, which passes only when an assertion fails, and
 # mutate.<test>, a share of the block's mutants.
 # ROUNDING is another value of the package's constant. SOURCES are relative to the repository. PARAMS
-# reach the RTL, DEFINES the test. docs/testing.md
+# reach the RTL, DEFINES the test. <test>_cover is the same test on RTL that counts what it reaches.
+# docs/testing.md
 include_guard(GLOBAL)
 
 if(FELTGATE_RTL)
@@ -17,6 +18,7 @@ if(FELTGATE_RTL)
 endif()
 include("${CMAKE_CURRENT_LIST_DIR}/defects.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/mutants.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/coverage.cmake")
 
 find_package(Catch2 QUIET)
 if(NOT Catch2_FOUND)
@@ -97,6 +99,8 @@ function(feltgate_block_test block)
   add_test(NAME ${arg_NAME} COMMAND ${arg_NAME}_test)
   set_tests_properties(${arg_NAME} PROPERTIES LABELS "unit;lockstep" TIMEOUT 3600)
 
+  feltgate_cover_program(${arg_NAME} ${block} "${package};${sources}"
+    LIBRARIES ${arg_LIBRARIES} PARAMS ${arg_PARAMS})
   if(arg_WITH_DEFECTS)
     feltgate_verilate_defects(${arg_NAME}_defects_rtl ${block} "${package}" "${sources}" ${arg_PARAMS})
     add_executable(${arg_NAME}_defects $<TARGET_OBJECTS:${arg_NAME}_object>)

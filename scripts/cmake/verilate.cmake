@@ -7,25 +7,31 @@ include_guard(GLOBAL)
 # Slots, clocks, addresses and bits, equal in all designs; a block's sources need it beside a package.
 set(FELTGATE_MAP_PACKAGE "${FELTGATE_ROOT}/rtl/generated/feltgate_map_pkg.sv")
 set(FELTGATE_JOIN_SOURCES "${CMAKE_CURRENT_LIST_DIR}/join_sources.cmake")
+set(FELTGATE_INSTRUMENT "${FELTGATE_ROOT}/scripts/covering/instrument.py")
 
 find_package(verilator REQUIRED HINTS $ENV{VERILATOR_ROOT} /usr/share/verilator)
 find_package(ZLIB REQUIRED)
 find_package(Threads REQUIRED)
 
-# Verilator's own run-time, compiled once.
-add_library(feltgate_verilated STATIC
-  ${VERILATOR_ROOT}/include/verilated.cpp
-  ${VERILATOR_ROOT}/include/verilated_threads.cpp
-  ${VERILATOR_ROOT}/include/verilated_fst_c.cpp)
-target_include_directories(feltgate_verilated SYSTEM PUBLIC
-  ${VERILATOR_ROOT}/include ${VERILATOR_ROOT}/include/vltstd)
-target_compile_definitions(feltgate_verilated PUBLIC
-  VM_COVERAGE=0 VM_SC=0 VM_TRACE=1 VM_TRACE_FST=1 VM_TRACE_VCD=0)
-target_compile_features(feltgate_verilated PUBLIC cxx_std_17)
-target_compile_options(feltgate_verilated PRIVATE -w -O2)
+# Verilator's own run-time, compiled once; the second one has the counts that feltgate coverage reads.
 find_library(FELTGATE_ATOMIC_LIBRARY NAMES atomic libatomic.so.1)
-target_link_libraries(feltgate_verilated PUBLIC ZLIB::ZLIB Threads::Threads
-  $<$<BOOL:${FELTGATE_ATOMIC_LIBRARY}>:${FELTGATE_ATOMIC_LIBRARY}>)
+foreach(kind "" _coverage)
+  set(runtime feltgate_verilated${kind})
+  add_library(${runtime} STATIC
+    ${VERILATOR_ROOT}/include/verilated.cpp
+    ${VERILATOR_ROOT}/include/verilated_threads.cpp
+    ${VERILATOR_ROOT}/include/verilated_fst_c.cpp)
+  target_include_directories(${runtime} SYSTEM PUBLIC
+    ${VERILATOR_ROOT}/include ${VERILATOR_ROOT}/include/vltstd)
+  target_compile_definitions(${runtime} PUBLIC
+    VM_COVERAGE=$<BOOL:${kind}> VM_SC=0 VM_TRACE=1 VM_TRACE_FST=1 VM_TRACE_VCD=0)
+  target_compile_features(${runtime} PUBLIC cxx_std_17)
+  target_compile_options(${runtime} PRIVATE -w -O2)
+  target_link_libraries(${runtime} PUBLIC ZLIB::ZLIB Threads::Threads
+    $<$<BOOL:${FELTGATE_ATOMIC_LIBRARY}>:${FELTGATE_ATOMIC_LIBRARY}>)
+endforeach()
+target_sources(feltgate_verilated_coverage PRIVATE ${VERILATOR_ROOT}/include/verilated_cov.cpp)
+set_target_properties(feltgate_verilated_coverage PROPERTIES EXCLUDE_FROM_ALL TRUE)
 
 # Only the oldest supported version decides which warnings are errors: newer ones learn new warnings.
 execute_process(COMMAND ${VERILATOR_BIN} --version OUTPUT_VARIABLE FELTGATE_VERILATOR_VERSION)
@@ -39,11 +45,12 @@ endif()
 # read again one by one.
 set(FELTGATE_FASTEST_RTL -O3 -fno-tree-slp-vectorize)
 
-# feltgate_verilate(<target> <top> <sources> [CLASS <name>] [SYSTEMC] [verilator arguments...]):
+# feltgate_verilate(<target> <top> <sources> [CLASS <name>] [SYSTEMC] [COVERAGE] [verilator arguments...]):
 # static library <target> with the class <name> (default V<top>), generated and compiled at build
 # time as one translation unit. SYSTEMC: the class is an sc_module, which needs feltgate_verilated_sc.
+# COVERAGE: it counts what is reached, docs/coverage.md; built where something asks for it.
 function(feltgate_verilate target top sources)
-  cmake_parse_arguments(PARSE_ARGV 3 arg "SYSTEMC" "CLASS" "")
+  cmake_parse_arguments(PARSE_ARGV 3 arg "SYSTEMC;COVERAGE" "CLASS" "")
   if(NOT arg_CLASS)
     set(arg_CLASS V${top})
   endif()
@@ -55,6 +62,12 @@ function(feltgate_verilate target top sources)
     set(kind --sc)
     set(runtime feltgate_verilated_sc)
   endif()
+  set(instrument "")
+  if(arg_COVERAGE)
+    list(APPEND kind --coverage --coverage-max-width 4096)
+    set(runtime feltgate_verilated_coverage)
+    set(instrument COMMAND ${Python3_EXECUTABLE} -B "${FELTGATE_INSTRUMENT}" "${directory}" ${arg_CLASS})
+  endif()
   add_custom_command(
     OUTPUT "${joined}" "${directory}/${arg_CLASS}.h"
     COMMAND ${CMAKE_COMMAND} -E rm -rf "${directory}"
@@ -63,10 +76,14 @@ function(feltgate_verilate target top sources)
             --prefix ${arg_CLASS} --top-module ${top} --Mdir "${directory}"
             --x-initial unique --x-assign unique --output-split 0 ${FELTGATE_VERILATOR_WARNINGS}
             ${arg_UNPARSED_ARGUMENTS} ${sources}
+    ${instrument}
     COMMAND ${CMAKE_COMMAND} -DDIRECTORY=${directory} -P "${FELTGATE_JOIN_SOURCES}"
-    DEPENDS ${sources} "${FELTGATE_JOIN_SOURCES}"
+    DEPENDS ${sources} "${FELTGATE_JOIN_SOURCES}" $<$<BOOL:${arg_COVERAGE}>:${FELTGATE_INSTRUMENT}>
     COMMENT "Verilating ${target}" VERBATIM)
   add_library(${target} STATIC "${joined}" "${directory}/${arg_CLASS}.h")
+  if(arg_COVERAGE)
+    set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL TRUE)
+  endif()
   target_include_directories(${target} SYSTEM PUBLIC "${directory}")
   target_compile_options(${target} PRIVATE -w -O2)
   target_link_libraries(${target} PUBLIC ${runtime})

@@ -98,7 +98,7 @@ struct Waves {
     return in;
   }
 
-  static constexpr int kStart = Map::W::torque_constant;
+  static constexpr int kStart = 0;
   static constexpr int kShortest = Map::T::tau_hat + 2 - kStart;
   Next next;
   SharedMult mult;

@@ -223,13 +223,18 @@ TEST_CASE("encoder_monitor: a row must not pause") {
 TEST_CASE("encoder_monitor: chatter that lasts is a dead channel, chatter that ends is not") {
   constexpr int kSlow = kLasts / 5;  // fewer edges than trip by their number
   static_assert(kSlow < kEnds);
-  for (const bool goes_on : {true, false}) {
+  for (const int run : {0, 1, 2, 3}) {
+    const bool goes_on = run < 2;
+    const unsigned other = (run & 1) == 0 ? kA : kB;  // than the dead one
     Script s;
-    s.edge(kB).edges(Map::one_channel_edges, kA, 10).align(kChatterUnit).edge(kA, 1);
-    for (int k = 0; k < 4; ++k) s.edge(kA, kSlow);
+    s.edge(kBoth ^ other)
+        .edges(Map::one_channel_edges, other, 10)
+        .align(kChatterUnit)
+        .edge(other, 1);
+    for (int k = 0; k < 4; ++k) s.edge(other, kSlow);
     REQUIRE(s.chatters());
     REQUIRE(s.trips() == 0);
-    if (goes_on) s.edge(kA, kSlow).edge(kA, kSlow);
+    if (goes_on) s.edge(other, kSlow).edge(other, kSlow);
     if (!goes_on) s.ticks(2 * kLasts);
     REQUIRE_FALSE(s.chatters());
     REQUIRE(s.trips() == (goes_on ? 1 : 0));

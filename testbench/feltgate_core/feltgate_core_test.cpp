@@ -5,63 +5,19 @@
 // writes and resets at random times, random state before reset. Documentation: docs/testing.md
 #include "feltgate/feltgate_core.hpp"
 
-#include "Vfeltgate_core.h"
 #include "catch.hpp"
+#include "core_adapter.hpp"
 #include "core_stimulus.hpp"
-#include "engines/rtl_ports.hpp"
-#include "lock_step.hpp"
 #include "random.hpp"
 
-#ifndef FELTGATE_DESIGN
-#define FELTGATE_DESIGN Lever
-#include "feltgate/generated/lever.hpp"
-#elif defined FELTGATE_DESIGN_HEADER
-#include FELTGATE_DESIGN_HEADER
-#else
-#include "feltgate/generated/paper.hpp"
-#endif
-
 using feltgate::CoreIn;
-using feltgate::CoreOut;
-using D = feltgate::FELTGATE_DESIGN;
-using Twin = feltgate::FeltgateCore<D>;
-using feltgate::test::Random;
+using D = feltgate::test::Design;
+using Twin = feltgate::test::CoreTwin;
 using feltgate::test::scaled_clocks;
-using feltgate::test::sign_extend;
 
 namespace {
 
-struct Adapter {
-  static void drive(Vfeltgate_core& rtl, const CoreIn& in) { feltgate::drive_inputs(rtl, in); }
-  static void at_edge(Vfeltgate_core& rtl) { rtl.stop_i = 0; }
-  template <class Check>
-  static void compare(Check& check, const Vfeltgate_core& rtl, const CoreOut& out) {
-    check("tick_count", rtl.tick_count_o, out.tick_count);
-    check("position", static_cast<std::int32_t>(rtl.position_o), out.position);
-    check("velocity", sign_extend<D::f.velocity.width()>(rtl.velocity_o), out.velocity);
-    check("tau_hat", sign_extend<D::f.torque.width()>(rtl.tau_hat_o), out.tau_hat);
-    check("tau_ref", sign_extend<D::f.torque.width()>(rtl.tau_ref_o), out.tau_ref);
-    check("current_ref", sign_extend<D::f.current.width()>(rtl.current_ref_o), out.current_ref);
-    check("voltage", sign_extend<D::f.voltage.width()>(rtl.voltage_o), out.voltage);
-    check("duty", sign_extend<D::f.duty.width()>(rtl.duty_o), out.duty);
-    check("duty_active", sign_extend<D::f.duty.width()>(rtl.duty_active_o), out.duty_active);
-    check("gate_a_hi", rtl.gate_a_hi_o, out.gates & 1u);
-    check("gate_a_lo", rtl.gate_a_lo_o, (out.gates >> 1) & 1u);
-    check("gate_b_hi", rtl.gate_b_hi_o, (out.gates >> 2) & 1u);
-    check("gate_b_lo", rtl.gate_b_lo_o, (out.gates >> 3) & 1u);
-    check("gates_enable", rtl.gates_enable_o, out.gates_enable);
-    check("scene", rtl.scene_o, out.scene);
-    check("limits", rtl.limits_o, out.limits);
-    check("faults", rtl.faults_o, out.faults);
-    check("first_fault", rtl.first_fault_o, out.first_fault);
-    check("armed", rtl.armed_o, out.armed);
-    check("snapshot_valid", rtl.snapshot_valid_o, out.snapshot_valid);
-    check("reg_busy", rtl.reg_busy_o, out.reg_busy);
-    check("reg_rdata", rtl.reg_rdata_o, out.reg_rdata);
-  }
-};
-
-using Bench = feltgate::test::LockStep<Vfeltgate_core, Twin, Adapter>;
+using Bench = feltgate::test::CoreBench;
 using feltgate::test::CoreStimulus;
 using feltgate::test::Coverage;
 

@@ -95,7 +95,10 @@ struct Stimulus {
   void tick() {
     // Mostly whole units, so that times pass.
     now.tick += random.one_in(4) ? 1u : 1u << Map::hold_unit_bits;
-    if (!random.one_in(8)) now.tick &= ~((1u << Map::hold_unit_bits) - 1);
+    if (random.one_in(8))
+      now.tick = static_cast<std::uint32_t>(random.bits());
+    else
+      now.tick &= ~((1u << Map::hold_unit_bits) - 1);
     if (random.one_in(60)) now.armed = !random.one_in(5);
     now.moved = random.one_in(rare ? 20000 : 40);
     if (random.one_in(rare ? 4000 : 30)) now.strong = !random.one_in(5);

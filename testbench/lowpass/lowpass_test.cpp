@@ -133,3 +133,38 @@ TEST_CASE("lowpass: the longest step there is does not overflow") {
     REQUIRE(magnitude(value(y.back() - to)) < value(kMax) / 1000);
   }
 }
+
+TEST_CASE("lowpass: ties, and what is just beside them, from states of both signs") {
+  std::vector<Twin::In> list(8);
+  std::vector<std::int64_t> expected;
+  const std::int64_t half = std::int64_t{1} << (kDrop - 1);
+  for (const std::int64_t y : {0, 1, 2, 3, -1, -2, -3, -4, 1000, 1001, -1000, -1001}) {
+    for (std::int64_t k = -3; k <= 3; ++k) {
+      for (const std::int64_t beside : {-1, 0, 1}) {
+        const std::int64_t product = k * 2 * half + half + beside;
+        Twin::In in;
+        in.port.x = y;
+        in.port.update = in.port.follow = true;
+        list.push_back(in);
+        in.port.follow = false;
+        in.port.product = product;
+        list.push_back(in);
+        expected.push_back(y + ((product + half) >> kDrop));
+      }
+    }
+  }
+  std::vector<std::int64_t> seen;
+  Bench bench("lowpass", 6);
+  const auto play = [&list](std::int64_t clock) {
+    const std::int64_t k = clock - Bench::kFirstReset;
+    return list[k < 0 ? 0 : static_cast<std::size_t>(k)];
+  };
+  const auto keep = [&seen](const Twin::In& in, const Vlowpass& rtl, const Twin&, bool in_reset) {
+    if (in.port.update && !in.port.follow && !in_reset) {
+      seen.push_back(sign_extend<kState.width()>(rtl.y_o));
+    }
+    return static_cast<const char*>(nullptr);
+  };
+  bench.run(play, static_cast<std::int64_t>(list.size()) + Bench::kFirstReset, {}, keep);
+  REQUIRE(seen == expected);
+}

@@ -36,11 +36,17 @@ struct Next {
   }
   void write(Memory& memory) {
     memory.write(A::setpoint_torque, random.between(-60000, 60000));
-    memory.write(A::membrane_torque, random.below(60000));
+    memory.write(A::membrane_torque, random.below(1u << (kTorque.width() - 1)) >> random.below(6));
     memory.write(A::tension_rest, random.between(-300000, 300000));
     memory.write(A::attract_centre, random.between(-300000, 300000));
-    memory.write(A::attract_core, random.below(400));
-    memory.write(A::repel_core, random.below(400));
+    // Now and then so wide and steep that the core's torque is beyond any limit.
+    const bool wide = random.one_in(4);
+    for (const int core : {A::attract_core, A::repel_core}) {
+      memory.write(core, random.below(wide ? 100000 : 400));
+    }
+    for (const int slope : {A::attract_core_slope, A::repel_core_slope}) {
+      memory.write(slope, random.below(131072) >> (wide ? 0 : random.below(8)));
+    }
     memory.write(A::damper_damping, random.below(131072));
     memory.write(static_cast<int>(random.below(512)), any_word(random));
   }

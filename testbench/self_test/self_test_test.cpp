@@ -86,7 +86,7 @@ struct Waves {
     if (clock == Map::W::self_test_quiet) in.param = wave.words.quiet;
     if (clock == Map::W::self_test_pulse) in.param = wave.words.pulse;
     if (clock == Map::W::self_test_arms) in.param = wave.words.arms;
-    clock = clock == Map::T::self_test ? 0 : clock + 1;
+    clock = clock == Map::wave_length - 1 ? 0 : clock + 1;
     return in;
   }
   /// Of the clock before.
@@ -101,7 +101,7 @@ struct Waves {
 std::vector<Seen> play(const Next& next, std::int64_t waves) {
   std::vector<Seen> seen;
   Bench bench("self_test", 3);
-  const std::int64_t clocks = Bench::kFirstReset + (Map::T::self_test + 1) * (waves + 1);
+  const std::int64_t clocks = Bench::kFirstReset + Map::wave_length * (waves + 1);
   bench.run(Waves{next, Random(1), nullptr, {}, {}, {}}, clocks);
   Twin twin;  // the RTL does the same
   twin.reset();
@@ -165,6 +165,7 @@ TEST_CASE("self_test: random levers, words, times and resets") {
         w.direct = random.one_in(w.direct ? 5 : 200);
         w.ticks = random.one_in(10) ? 3 * kUnit : random.below(2 * kUnit);
         if (random.one_in(30)) w.ticks = 1 << Map::self_test_patience_bits;
+        if (random.one_in(400)) w.ticks = static_cast<std::uint32_t>(random.bits());
         if (random.one_in(15)) mood = static_cast<int>(random.below(6));
         w.step = 0;
         if (mood == 1) w.step = random.one_in(4) ? 1 : 0;

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Verilator's coverage.dat, and the sum of many of them.
+
+verilator_coverage 5.006 takes a column of the source for covered when any bit of it is; so it is not asked.
+"""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+LINE = re.compile(r"^C '(.*)' (\d+)$")
+PAGES = {"line": "line", "branch": "branch", "toggle": "toggle", "user": "cover"}
+KINDS = tuple(PAGES.values())
+NEEDED = {"toggle": 2}  # a bit must come back; of all else once is enough
+POINTS = "_cover"  # testbench/coverage/BLOCK_cover.sv has the cover points of BLOCK
+
+
+class DataError(Exception):
+    """A file that is no coverage data."""
+
+
+@dataclass(frozen=True, order=True)
+class Point:
+    """One thing that may be reached; instances and designs are not told apart."""
+
+    block: str
+    kind: str
+    file: str  # relative to the repository
+    line: int
+    column: int
+    name: str  # a bit, a branch, a cover point with its indexes
+
+    @property
+    def needed(self):
+        return NEEDED.get(self.kind, 1)
+
+    @property
+    def where(self):
+        return f"{self.file}:{self.line}"
+
+
+def fields(text):
+    return dict(pair.split("\x02", 1) for pair in text.split("\x01") if "\x02" in pair)
+
+
+def generated_index(hierarchy):
+    """The indexes of a cover point in a generate loop: '[3]', '[3][1]', or nothing."""
+    own = hierarchy.rpartition(".u_cover")[2]
+    return "".join(f"[{n}]" for n in re.findall(r"__BRA__(\d+)__KET__|\[(\d+)\]", own) for n in n if n)
+
+
+def point_of(root, entry):
+    """None for what is not asked for: the cover points' own lines and bits."""
+    kind = PAGES.get(entry.get("page", "").removeprefix("v_").partition("/")[0])
+    path = Path(entry["f"])
+    file = str(path.relative_to(root)) if path.is_relative_to(root) else str(path)
+    is_points = path.stem.endswith(POINTS)
+    if kind is None or is_points != (kind == "cover"):
+        return None
+    name = entry["o"] + (generated_index(entry["h"]) if is_points else "")
+    return Point(path.stem.removesuffix(POINTS), kind, file, int(entry["l"]), int(entry["n"]), name)
+
+
+def read(root, file):
+    """{(hierarchy, point): count} of one program."""
+    counts = {}
+    lines = file.read_text(encoding="utf-8").splitlines()
+    if not lines or not lines[0].startswith("# SystemC::Coverage"):
+        raise DataError(f"{file}: no coverage data")
+    for line in lines[1:]:
+        found = LINE.match(line)
+        if not found:
+            raise DataError(f"{file}: '{line}' is no point")
+        entry = fields(found[1])
+        point = point_of(root, entry)
+        if point:
+            key = entry["h"], point
+            counts[key] = counts.get(key, 0) + int(found[2])
+    return counts
+
+
+def merged(all_counts):
+    """{point: count} over programs and instances."""
+    total = {}
+    for counts in all_counts:
+        for (_, point), count in counts.items():
+            total[point] = total.get(point, 0) + count
+    return total
+
+
+def instances(all_counts):
+    """{(hierarchy, point): count} over programs, the instances apart."""
+    total = {}
+    for counts in all_counts:
+        for key, count in counts.items():
+            total[key] = total.get(key, 0) + count
+    return total

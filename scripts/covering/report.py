@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""What was reached of each block: the table, the list of what was not, the JSON."""
+
+from dataclasses import dataclass, field
+
+from .data import KINDS
+from . import waivers as waiving
+
+TARGET = {"line": 100.0, "branch": 100.0, "toggle": 98.0, "cover": 100.0}  # percent, waived points apart
+CORE = "whole core"
+
+
+@dataclass
+class Row:
+    block: str
+    reached: dict = field(default_factory=lambda: dict.fromkeys(KINDS, 0))
+    total: dict = field(default_factory=lambda: dict.fromkeys(KINDS, 0))
+    waived: dict = field(default_factory=lambda: dict.fromkeys(KINDS, 0))
+    seconds: float = 0.0
+
+    def short(self):
+        """The kinds that miss their target."""
+        return [k for k in KINDS if 100 * self.reached[k] < TARGET[k] * (self.total[k] - self.waived[k])]
+
+
+@dataclass
+class Report:
+    rows: list
+    core: Row  # the core's tests alone, each instance for itself; no target
+    missed: list  # points neither reached nor waived
+    waivers: list
+
+    @property
+    def bad(self):
+        return [row for row in self.rows if row.short()]
+
+
+def count(row, kind, reached):
+    row.total[kind] += 1
+    row.reached[kind] += reached
+
+
+def make(points, core_points, seconds, waivers, blocks):
+    """`points` {point: count} of all programs, `core_points` {(where, point): count} of the core's."""
+    rows = {block: Row(block, seconds=seconds.get(block, 0.0)) for block in blocks}
+    missed = []
+    for point, number in sorted(points.items()):
+        if point.block in rows:
+            count(rows[point.block], point.kind, number >= point.needed)
+            if number < point.needed:
+                missed.append(point)
+    left = waiving.take(waivers, missed)
+    for waiver in waivers:
+        if waiver.block in rows:
+            rows[waiver.block].waived[waiver.kind] += len(waiver.used)
+    core = Row(CORE)
+    for (_, point), number in core_points.items():
+        count(core, point.kind, number >= point.needed)
+    return Report(list(rows.values()), core if core_points else None, left, waivers)
+
+
+def cell(row, kind):
+    if not row.total[kind]:
+        return "-"
+    waived = f" ({row.waived[kind]} waived)" if row.waived[kind] else ""
+    return f"{row.reached[kind]}/{row.total[kind]}{waived}"
+
+
+def text(report, limit):
+    lines = [f"{'block':18}{'lines':>12}{'branches':>12}{'toggles':>24}{'cover points':>16}{'s of CPU':>10}"]
+    for row in [*report.rows, *([report.core] if report.core else [])]:
+        seconds = f"{row.seconds:.1f}" if row.seconds else "-"
+        lines.append(f"{row.block:18}{cell(row, 'line'):>12}{cell(row, 'branch'):>12}{cell(row, 'toggle'):>24}"
+                     f"{cell(row, 'cover'):>16}{seconds:>10}" + ("  short" if row in report.bad else ""))
+    if report.missed:
+        lines += ["", "not reached:"]
+        lines += [f"  {p.where}: {p.kind} {p.name}" for p in report.missed[:limit]]
+        if len(report.missed) > limit:
+            lines.append(f"  and {len(report.missed) - limit} more; --limit N shows N, --json all")
+    used = [waiver for waiver in report.waivers if waiver.used]
+    if used:
+        lines += ["", "waived:"]
+        lines += [f"  {w.block} {w.kind} {w.points.pattern} ({len(w.used)}): {w.reason}" for w in used]
+    return "\n".join(lines)
+
+
+def figures(row):
+    return {kind: [row.reached[kind], row.total[kind]] for kind in KINDS}
+
+
+def as_json(report, schema):
+    rows = {row.block: figures(row) | {"waived": row.waived, "short": row.short(), "seconds": round(row.seconds, 2)}
+            for row in report.rows}
+    return {
+        "schema": schema,
+        "blocks": rows,
+        "whole_core": figures(report.core) if report.core else None,
+        "not_reached": [{"block": p.block, "kind": p.kind, "file": p.file, "line": p.line, "point": p.name}
+                        for p in report.missed],
+        "waivers": [{"block": w.block, "kind": w.kind, "points": w.points.pattern, "reason": w.reason,
+                     "waived": [p.name for p in w.used]} for w in report.waivers],
+    }

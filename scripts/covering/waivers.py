@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""testbench/coverage/waivers.toml: points that need not be reached, each with its reason."""
+
+import re
+import tomllib
+from dataclasses import dataclass, field
+
+from .data import KINDS
+
+FILE = "testbench/coverage/waivers.toml"
+MOST = 10
+KEYS = {"block", "kind", "points", "reason"}
+
+
+class WaiverError(Exception):
+    """A waiver that cannot be used; the message says which and why."""
+
+
+@dataclass
+class Waiver:
+    block: str
+    kind: str
+    points: re.Pattern  # of the whole name, or FILE:LINE
+    reason: str
+    used: list = field(default_factory=list)
+
+    def fits(self, point):
+        return (point.block, point.kind) == (self.block, self.kind) and bool(self.points.fullmatch(point.name))
+
+
+def read(root):
+    path = root / FILE
+    try:
+        tables = tomllib.loads(path.read_text(encoding="utf-8")).get("waiver", [])
+    except (OSError, tomllib.TOMLDecodeError) as error:
+        raise WaiverError(f"{FILE}: {error}") from error
+    if len(tables) > MOST:
+        raise WaiverError(f"{FILE}: {len(tables)} waivers, more than {MOST}")
+    found = []
+    for number, table in enumerate(tables, 1):
+        where = f"{FILE}: waiver {number}"
+        if set(table) != KEYS:
+            raise WaiverError(f"{where}: needs the keys {', '.join(sorted(KEYS))} and no others")
+        if table["kind"] not in KINDS:
+            raise WaiverError(f"{where}: kind '{table['kind']}'; there are {', '.join(KINDS)}")
+        if len(table["reason"]) < 20:
+            raise WaiverError(f"{where}: a reason is a sentence")
+        try:
+            found.append(Waiver(table["block"], table["kind"], re.compile(table["points"]), table["reason"]))
+        except re.error as error:
+            raise WaiverError(f"{where}: points: {error}") from error
+    return found
+
+
+def take(waivers, missed):
+    """The points of `missed` that no waiver fits; those that one does are entered in it."""
+    left = []
+    for point in missed:
+        fitting = next((waiver for waiver in waivers if waiver.fits(point)), None)
+        if fitting:
+            fitting.used.append(point)
+        else:
+            left.append(point)
+    return left

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+#
+# coverage.share, defined after all block tests, whose programs it runs.
+set(share pwm quad_decoder rounding hold_timer encoder_monitor)
+file(STRINGS "${FELTGATE_COVERAGE_PROGRAMS}" programs)
+set(paths "")
+set(targets "")
+foreach(program IN LISTS programs)
+  string(REPLACE " " ";" words "${program}")
+  list(GET words 0 test)
+  list(GET words 1 block)
+  list(GET words 2 path)
+  if(block IN_LIST share)
+    list(APPEND targets ${test}_cover)
+    list(APPEND paths "${path}")
+  endif()
+endforeach()
+add_custom_target(coverage_share ALL)
+add_dependencies(coverage_share ${targets})
+add_test(NAME coverage.share
+  COMMAND ${Python3_EXECUTABLE} -B "${FELTGATE_ROOT}/scripts/coverage.py" --no-build --jobs 1 ${share})
+set_tests_properties(coverage.share PROPERTIES LABELS lockstep TIMEOUT 1200 REQUIRED_FILES "${paths}"
+  ENVIRONMENT "FELTGATE_ROOT=${FELTGATE_ROOT};FELTGATE_BUILD=${PROJECT_BINARY_DIR}")

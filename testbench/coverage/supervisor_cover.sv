@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Cover points of supervisor: every cause trips, is the first, is cleared; causes that come together; the ends of the timers.
+// docs/coverage.md
+`default_nettype none
+
+module supervisor_cover (
+  input logic clk_i,
+  input logic rst_ni,
+  input logic tick_i,
+  input logic arm_i,
+  input logic stop_i,
+  input logic kick_i,
+  input logic encoder_error_i,
+  input logic encoder_trip,
+  input logic forgive,
+  input logic watchdog_trip,
+  input logic i2t_trip,
+  input logic stop_trip,
+  input logic polarity_trip,
+  input logic speed_trip,
+  input logic clear,
+  input logic any_trip,
+  input logic may_arm,
+  input logic arms,
+  input logic asked_q,
+  input logic gates_enable_o,
+  input logic unkicked_o,
+  input logic full,
+  input logic of_runaway,
+  input logic cooled_negative,
+  input logic [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trip,
+  input logic [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults_o,
+  input logic [feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault_o
+);
+  localparam int NONE = feltgate_map_pkg::FAULT_NONE;
+  localparam int LAST = feltgate_map_pkg::FAULT_JUMP;
+
+  logic none;
+  assign none = 32'(first_fault_o) == NONE;
+  for (genvar n = 1; n <= LAST; n++) begin : g_fault
+    armed_trip:    cover property (@(posedge clk_i) disable iff (!rst_ni) trip[n] && gates_enable_o);
+    first:         cover property (@(posedge clk_i) disable iff (!rst_ni) trip[n] && none);
+    beside_first:  cover property (@(posedge clk_i) disable iff (!rst_ni) trip[n] && !none && 32'(first_fault_o) != n);
+    cleared:       cover property (@(posedge clk_i) disable iff (!rst_ni) clear && faults_o[n]);
+    // Clear and trip in one clock: the fault stands.
+    in_the_clear:  cover property (@(posedge clk_i) disable iff (!rst_ni) clear && trip[n]);
+  end
+
+  two_at_once:          cover property (@(posedge clk_i) disable iff (!rst_ni) (trip & (trip - 16'd1)) != '0);
+  watchdog_with_stop:   cover property (@(posedge clk_i) disable iff (!rst_ni) watchdog_trip && stop_trip);
+  i2t_with_stop:        cover property (@(posedge clk_i) disable iff (!rst_ni) i2t_trip && stop_trip);
+  trip_at_a_tick:       cover property (@(posedge clk_i) disable iff (!rst_ni) any_trip && tick_i && gates_enable_o);
+  trip_as_it_arms:      cover property (@(posedge clk_i) disable iff (!rst_ni) any_trip && tick_i && arm_i && may_arm && !gates_enable_o);
+  error_as_one_forgives: cover property (@(posedge clk_i) disable iff (!rst_ni) encoder_error_i && forgive && !encoder_trip);
+  trip_as_one_forgives: cover property (@(posedge clk_i) disable iff (!rst_ni) encoder_trip && forgive);
+  clear_while_asked:    cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && arm_i && !none);
+  arms_now:             cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && arms && !gates_enable_o);
+  refused_by_level:     cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && arm_i && asked_q && !gates_enable_o && none);
+  disarms_now:          cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && !arm_i && gates_enable_o);
+  kicked_in_time:       cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && kick_i && gates_enable_o);
+  kickless_to_the_end:  cover property (@(posedge clk_i) disable iff (!rst_ni) full && !of_runaway);
+  cooled_below_0:       cover property (@(posedge clk_i) disable iff (!rst_ni) cooled_negative);
+  speed_and_polarity:   cover property (@(posedge clk_i) disable iff (!rst_ni) polarity_trip || speed_trip);
+  stop_between_clocks:  cover property (@(posedge stop_i) rst_ni && gates_enable_o);
+  if (feltgate_pkg::REQUIRE_WATCHDOG != 0) begin : g_require
+    arming_unkicked: cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && arm_i && unkicked_o && !asked_q && none);
+  end
+endmodule
+
+bind supervisor supervisor_cover u_cover (
+  .cooled_negative(wave_i[feltgate_map_pkg::T_COOLED_AT_LEAST_0] && cooled_q < 0), .*);
+
+`default_nettype wire

@@ -10,7 +10,7 @@ from .data import KINDS
 
 FILE = "testbench/coverage/waivers.toml"
 MOST = 10
-KEYS = {"block", "kind", "points", "reason"}
+KEYS = {"block", "kind", "points", "most", "reason"}
 
 
 class WaiverError(Exception):
@@ -21,11 +21,14 @@ class WaiverError(Exception):
 class Waiver:
     block: str
     kind: str
-    points: re.Pattern  # of the whole name, or FILE:LINE
+    points: re.Pattern  # of the whole name
+    most: int  # so many of them
     reason: str
     used: list = field(default_factory=list)
 
     def fits(self, point):
+        if len(self.used) == self.most:
+            return False
         return (point.block, point.kind) == (self.block, self.kind) and bool(self.points.fullmatch(point.name))
 
 
@@ -46,8 +49,11 @@ def read(root):
             raise WaiverError(f"{where}: kind '{table['kind']}'; there are {', '.join(KINDS)}")
         if len(table["reason"]) < 20:
             raise WaiverError(f"{where}: a reason is a sentence")
+        if not isinstance(table["most"], int) or table["most"] < 1:
+            raise WaiverError(f"{where}: most is a number of points")
         try:
-            found.append(Waiver(table["block"], table["kind"], re.compile(table["points"]), table["reason"]))
+            found.append(Waiver(table["block"], table["kind"], re.compile(table["points"]),
+                                table["most"], table["reason"]))
         except re.error as error:
             raise WaiverError(f"{where}: points: {error}") from error
     return found

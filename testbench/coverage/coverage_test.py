@@ -72,10 +72,10 @@ class Data(Folder):
 
 
 class Waivers(Folder):
-    GOOD = {"block": "b", "kind": "toggle", "points": "x\\\\[1\\\\]", "reason": "its bit is never set, by the format"}
+    GOOD = {"block": "b", "kind": "toggle", "points": "x\\\\[1\\\\]", "most": 1, "reason": "its bit is never set, by the format"}
 
     def write(self, *tables):
-        lines = [f'[[waiver]]\n{"".join(f"{k} = {chr(34)}{v}{chr(34)}{chr(10)}" for k, v in t.items())}' for t in tables]
+        lines = [f'[[waiver]]\n{"".join(f"{k} = {chr(34)}{v}{chr(34)}{chr(10)}" if isinstance(v, str) else f"{k} = {v}{chr(10)}" for k, v in t.items())}' for t in tables]
         self.put(waivers.FILE, "\n".join(lines))
         return waivers.read(self.folder)
 
@@ -86,6 +86,7 @@ class Waivers(Folder):
         for other in ({"name": "x[12]"}, {"block": "c"}, {"kind": "line"}):
             self.assertFalse(waiver.fits(data.Point(**{**point.__dict__, **other})), other)
         self.assertEqual(waivers.take([waiver], [point]), [])
+        self.assertEqual(waivers.take([waiver], [point]), [point])  # one more than it may
         self.assertEqual(waiver.used, [point])
 
     def test_what_is_wrong(self):
@@ -93,6 +94,7 @@ class Waivers(Folder):
             ([self.GOOD | {"reason": "because"}], "a reason is a sentence"),
             ([self.GOOD | {"kind": "lines"}], "there are line, branch"),
             ([self.GOOD | {"points": "x["}], "points:"),
+            ([self.GOOD | {"most": 0}], "most is a number of points"),
             ([self.GOOD | {"also": "x"}], "needs the keys"),
             ([self.GOOD] * (waivers.MOST + 1), "more than 10"),
         ):
@@ -125,7 +127,7 @@ class Report(unittest.TestCase):
     def test_a_waived_point_is_not_asked_for_and_not_reached(self):
         import re
 
-        waiver = waivers.Waiver("b", "line", re.compile("p"), "nothing can reach it here")
+        waiver = waivers.Waiver("b", "line", re.compile("p"), 1, "nothing can reach it here")
         found = self.made([("line", 0), ("line", 4)], [waiver])
         self.assertEqual((found.rows[0].short(), found.missed), ([], []))
         self.assertIn("1/2 (1 waived)", report.text(found, 9))
@@ -207,7 +209,7 @@ class Command(Folder):
 
     def test_a_waiver_of_no_use(self):
         self.counting(1)
-        self.put(waivers.FILE, '[[waiver]]\nblock="b"\nkind="line"\npoints="x"\nreason="a line that is not there"\n')
+        self.put(waivers.FILE, '[[waiver]]\nblock="b"\nkind="line"\npoints="x"\nmost=1\nreason="a line that is not there"\n')
         status, out, _ = self.status()
         self.assertEqual(status, 1)
         self.assertIn("waives nothing; delete it", out)

@@ -42,10 +42,16 @@ module supervisor_cover (
   for (genvar n = 1; n <= LAST; n++) begin : g_fault
     armed_trip:    cover property (@(posedge clk_i) disable iff (!rst_ni) trip[n] && gates_enable_o);
     first:         cover property (@(posedge clk_i) disable iff (!rst_ni) trip[n] && none);
-    beside_first:  cover property (@(posedge clk_i) disable iff (!rst_ni) trip[n] && !none && 32'(first_fault_o) != n);
     cleared:       cover property (@(posedge clk_i) disable iff (!rst_ni) clear && faults_o[n]);
-    // Clear and trip in one clock: the fault stands.
-    in_the_clear:  cover property (@(posedge clk_i) disable iff (!rst_ni) clear && trip[n]);
+    if (n != feltgate_map_pkg::FAULT_POLARITY && n != feltgate_map_pkg::FAULT_WATCHDOG) begin : g_any_time
+      beside_first: cover property (@(posedge clk_i) disable iff (!rst_ni)
+                                    trip[n] && !none && 32'(first_fault_o) != n);
+    end
+    // Clear and trip in one clock: the fault stands. The other causes have their clock of the wave.
+    if (n == feltgate_map_pkg::FAULT_ENCODER || n == feltgate_map_pkg::FAULT_STOP ||
+        n == feltgate_map_pkg::FAULT_TICK || n == feltgate_map_pkg::FAULT_WORD) begin : g_in_the_clear
+      in_the_clear: cover property (@(posedge clk_i) disable iff (!rst_ni) clear && trip[n]);
+    end
   end
 
   two_at_once:          cover property (@(posedge clk_i) disable iff (!rst_ni) (trip & (trip - 16'd1)) != '0);

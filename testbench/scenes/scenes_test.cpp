@@ -69,8 +69,8 @@ TEST_CASE("scenes: everything at random") {
     const std::int64_t down = tally.down[static_cast<std::size_t>(scene)];
     CAPTURE(scene, up, down);
     const bool acts = scene != S::free && scene_built<Built>(scene);
-    REQUIRE((up > 300) == (acts && !pulls_never(scene)));
-    REQUIRE((down > 300) == (acts && !pushes_only(scene)));
+    REQUIRE((up > 100) == (acts && !pulls_never(scene)));
+    REQUIRE((down > 100) == (acts && !pushes_only(scene)));
   }
 }
 

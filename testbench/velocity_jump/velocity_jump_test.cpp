@@ -41,6 +41,7 @@ std::int64_t filtered(std::int64_t y, std::int64_t x, std::uint32_t a1) {
 struct Drive {
   Random random;
   bool flips = false;
+  Random others{3};
   int clock = 0;
   std::int64_t y = 0, x = 0;
   std::uint32_t a1 = 0;
@@ -61,7 +62,9 @@ struct Drive {
       }
     }
     in.velocity = y;
-    in.wave = clock == 2 ? std::uint64_t{1} << Map::T::jump : 0;
+    // Other clocks of the wave are not this block's.
+    constexpr std::uint64_t own = std::uint64_t{1} << Map::T::jump;
+    in.wave = clock == 2 ? own : others.bits() & ~own;
     return in;
   }
 };

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// 18 x 18 bits signed in one ECP5 MULT18X18D with its input, pipeline and output registers in use.
+// 18 x 18 bits signed in one ECP5 MULT18X18D with its pipeline and output registers in use. The operands'
+// registers stand beside the logic that ends in them, for the way to the cell is long.
 // Only with FELTGATE_ECP5: Yosys infers the cell but packs no registers into it.
 // Latency: operands in clock t, product in clock t + 3. docs/blocks/mult.md, docs/synthesis.md
 
@@ -13,15 +14,21 @@ module mult18_ecp5 (
     input  logic signed [17:0] b_i,
     output logic signed [35:0] product_o
 );
+  logic signed [17:0] a_q, b_q;
+  always_ff @(posedge clk_i) begin
+    a_q <= a_i;
+    b_q <= b_i;
+  end
+
   // No reset: what the registers hold at power-up has left them before the first wave.
   // The shift chains (SRI*, SRO*) and the copies of the operands (RO*) have no way to the fabric and
   // stay open; so do C, which SOURCEB_MODE leaves out, SIGNEDP, and clocks, enables, resets 1 to 3.
   /* verilator lint_off PINMISSING */
   MULT18X18D #(
-      .REG_INPUTA_CLK("CLK0"),
+      .REG_INPUTA_CLK("NONE"),
       .REG_INPUTA_CE("CE0"),
       .REG_INPUTA_RST("RST0"),
-      .REG_INPUTB_CLK("CLK0"),
+      .REG_INPUTB_CLK("NONE"),
       .REG_INPUTB_CE("CE0"),
       .REG_INPUTB_RST("RST0"),
       .REG_INPUTC_CLK("NONE"),
@@ -49,16 +56,16 @@ module mult18_ecp5 (
       .SIGNEDB(1'b1),
       .SOURCEA(1'b0),
       .SOURCEB(1'b0),
-      .A0(a_i[0]), .A1(a_i[1]), .A2(a_i[2]), .A3(a_i[3]),
-      .A4(a_i[4]), .A5(a_i[5]), .A6(a_i[6]), .A7(a_i[7]),
-      .A8(a_i[8]), .A9(a_i[9]), .A10(a_i[10]), .A11(a_i[11]),
-      .A12(a_i[12]), .A13(a_i[13]), .A14(a_i[14]), .A15(a_i[15]),
-      .A16(a_i[16]), .A17(a_i[17]),
-      .B0(b_i[0]), .B1(b_i[1]), .B2(b_i[2]), .B3(b_i[3]),
-      .B4(b_i[4]), .B5(b_i[5]), .B6(b_i[6]), .B7(b_i[7]),
-      .B8(b_i[8]), .B9(b_i[9]), .B10(b_i[10]), .B11(b_i[11]),
-      .B12(b_i[12]), .B13(b_i[13]), .B14(b_i[14]), .B15(b_i[15]),
-      .B16(b_i[16]), .B17(b_i[17]),
+      .A0(a_q[0]), .A1(a_q[1]), .A2(a_q[2]), .A3(a_q[3]),
+      .A4(a_q[4]), .A5(a_q[5]), .A6(a_q[6]), .A7(a_q[7]),
+      .A8(a_q[8]), .A9(a_q[9]), .A10(a_q[10]), .A11(a_q[11]),
+      .A12(a_q[12]), .A13(a_q[13]), .A14(a_q[14]), .A15(a_q[15]),
+      .A16(a_q[16]), .A17(a_q[17]),
+      .B0(b_q[0]), .B1(b_q[1]), .B2(b_q[2]), .B3(b_q[3]),
+      .B4(b_q[4]), .B5(b_q[5]), .B6(b_q[6]), .B7(b_q[7]),
+      .B8(b_q[8]), .B9(b_q[9]), .B10(b_q[10]), .B11(b_q[11]),
+      .B12(b_q[12]), .B13(b_q[13]), .B14(b_q[14]), .B15(b_q[15]),
+      .B16(b_q[16]), .B17(b_q[17]),
       .P0(product_o[0]), .P1(product_o[1]), .P2(product_o[2]), .P3(product_o[3]),
       .P4(product_o[4]), .P5(product_o[5]), .P6(product_o[6]), .P7(product_o[7]),
       .P8(product_o[8]), .P9(product_o[9]), .P10(product_o[10]), .P11(product_o[11]),

@@ -76,6 +76,7 @@ module feltgate_core #(
   logic disarm, host_stop, restart, refused, unkicked, word_error, testing, self_test_trip;
   logic moved, beyond, frozen, eased, channel_trip, index_trip;
   logic [ 5:0] snap_slot;
+  logic [31:0] snap_data;
   assign host         = control[feltgate_map_pkg::B_CONTROL_HOST];
   assign mode         = control[feltgate_map_pkg::B_CONTROL_MODE+:feltgate_map_pkg::W_CONTROL_MODE];
   assign arm_request  = (host ? control[feltgate_map_pkg::B_CONTROL_ARM] : arm_i) && !disarm;
@@ -117,7 +118,7 @@ module feltgate_core #(
       .restart_o(restart),
       .refused_o(refused),
       .snap_slot_i(snap_slot), .snap_valid_i(snap_valid),
-      .snap_data_i(operand[31:0])
+      .snap_data_i(snap_data)
   );
 
   // Encoder to position; the sample that the wave carries.
@@ -316,7 +317,7 @@ module feltgate_core #(
   );
 
   localparam int LimitsW = feltgate_map_pkg::W_STATUS_LIMITS;
-  logic [31:0] status, faults, snapshot_word;
+  logic [31:0] status, faults;
   assign limits_o = (LimitsW'(limit_torque) << feltgate_map_pkg::L_TORQUE) | (LimitsW'(limit_ramp) << feltgate_map_pkg::L_RAMP) |
                     (LimitsW'(limit_current) << feltgate_map_pkg::L_CURRENT) | (LimitsW'(limit_voltage) << feltgate_map_pkg::L_VOLTAGE) |
                     (LimitsW'(limit_duty) << feltgate_map_pkg::L_DUTY) | (LimitsW'(velocity_saturated) << feltgate_map_pkg::L_VELOCITY) |
@@ -333,17 +334,16 @@ module feltgate_core #(
                   (32'(encoder_error) << feltgate_map_pkg::B_STATUS_ENCODER_ERROR) |
                   (32'(refused) << feltgate_map_pkg::B_STATUS_REFUSED) | (32'(unkicked) << feltgate_map_pkg::B_STATUS_UNKICKED);
   snapshot #(.ReadBack(ReadBack)) u_snapshot (
+      .clk_i(clk_i), .rst_ni(rst_ni),
       .slot_fetch_i(slot_fetch),
       .wave_i(wave),
       .status_i(status), .faults_i(faults),
       .position_i(position_o),
       .tick_count_i(tick_count_o),
       .index_position_i(index_position),
-      .error_count_i(error_count),
-      .rejected_count_i(rejected_count),
-      .word_o(snapshot_word),
-      .valid_o(snap_valid),
-      .slot_o(snap_slot)
+      .error_count_i(error_count), .rejected_count_i(rejected_count),
+      .operand_i(operand[31:0]),
+      .valid_o(snap_valid), .slot_o(snap_slot), .data_o(snap_data)
   );
 
   logic signed [feltgate_pkg::MULTIPLIER_A_BITS-1:0] dob_operand, scene_operand, control_operand, supervisor_operand;
@@ -362,7 +362,6 @@ module feltgate_core #(
       .current_ref_i(current_ref_o),
       .voltage_i(voltage_o),
       .current_estimate_i(current_estimate),
-      .snapshot_i(snapshot_word),
       .operand_o(operand),
       .dob_o(dob_operand), .scene_o(scene_operand),
       .control_o(control_operand), .supervisor_o(supervisor_operand),

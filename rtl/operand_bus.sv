@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The operand bus: who holds a clock of the wave drives it. What is held longer enters by a copy that
-// is 0 outside its clocks, so that the bus is but an or. Between the operands pass the snapshot's words.
+// is 0 outside its clocks, so that the bus is but an or.
 // Documentation: docs/blocks/operand_bus.md
 
 `default_nettype none
@@ -24,7 +24,6 @@ module operand_bus (
     input  logic signed [            feltgate_pkg::CURRENT_W-1:0] current_ref_i,
     input  logic signed [            feltgate_pkg::VOLTAGE_W-1:0] voltage_i,
     input  logic signed [   feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate_i,
-    input  logic        [                                   31:0] snapshot_i,  // 0 outside its clocks
     // Of the whole core, and what each block brings of it.
     output logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] operand_o,
     output logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] dob_o,
@@ -70,12 +69,12 @@ module operand_bus (
   assign scene_o      = W'(distance_i) | W'(velocity);
   assign control_o    = W'(limited_i) | W'(tau_hat) | W'(tau_ref) | W'(voltage_q) | W'(velocity);
   assign supervisor_o = W'(estimate_q) | W'(voltage_q) | W'(velocity);
-  // What fits 32 bits is ored there: a simulation is faster by it.
+  // What fits 32 bits is ored there: a simulation is faster by it. The limiter's result comes late in the
+  // clock and is ored last.
   logic signed [31:0] narrow;
-  assign narrow       = 32'(distance_i) | 32'(limited_i) | 32'(velocity) | 32'(tau_hat) |
-                        32'(tau_ref) | 32'(current_q) | 32'(voltage_q) | 32'(estimate_q) |
-                        $signed(snapshot_i);
-  assign operand_o    = W'(narrow) | W'(velocity_difference_i) | W'(observer_difference_i);
+  assign narrow       = (32'(velocity) | 32'(voltage_q) | 32'(estimate_q)) | (32'(tau_hat) | 32'(tau_ref)) |
+                        (32'(distance_i) | 32'(current_q));
+  assign operand_o    = (W'(velocity_difference_i) | W'(observer_difference_i) | W'(narrow)) | W'(limited_i);
   assign estimate_o   = estimate_q;
 endmodule
 

@@ -2,13 +2,16 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The snapshot's words: which clocks of the wave hold one on the operand bus, and those that are no
-// operand of a product. Combinational. Documentation: docs/blocks/snapshot.md
+// operand of a product. One clock to the RAM, for the bus comes late.
+// Documentation: docs/blocks/snapshot.md
 
 `default_nettype none
 
 module snapshot #(
     parameter int ReadBack = 1
 ) (
+    input  logic               clk_i,
+    input  logic               rst_ni,
     input  logic        [ 5:0] slot_fetch_i,
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks off the wave
     input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
@@ -20,33 +23,48 @@ module snapshot #(
     input  logic signed [31:0] index_position_i,
     input  logic        [15:0] error_count_i,
     input  logic        [15:0] rejected_count_i,
-    output logic        [31:0] word_o,   // 0 in the clocks of the operands
-    output logic               valid_o,
-    output logic        [ 5:0] slot_o
+    input  logic        [31:0] operand_i,  // 0 in the clocks of the other words
+    output logic               valid_o,    // data_o is the word slot_o
+    output logic        [ 5:0] slot_o,
+    output logic        [31:0] data_o
 );
-  assign slot_o = slot_fetch_i - 6'(feltgate_map_pkg::FIRST_WAVE_CLOCK);
-
   generate
+  if (!(feltgate_map_pkg::FIRST_WAVE_CLOCK + feltgate_map_pkg::T_SNAPSHOT < feltgate_pkg::CLOCKS_PER_TICK))
+  begin : g_check_tick
+    the_last_word_must_be_stored_before_the_tick_ends missing ();
+  end
+
   if (ReadBack != 0) begin : gen_words
-    assign word_o = (wave_i[feltgate_map_pkg::R_STATUS] ? status_i : '0) |
-                    (wave_i[feltgate_map_pkg::R_FAULTS] ? faults_i : '0) |
-                    (wave_i[feltgate_map_pkg::R_POSITION] ? position_i : '0) |
-                    (wave_i[feltgate_map_pkg::R_TICK] ? tick_count_i : '0) |
-                    (wave_i[feltgate_map_pkg::R_INDEX] ? index_position_i : '0) |
-                    (wave_i[feltgate_map_pkg::R_ENCODER] ? {rejected_count_i, error_count_i} : '0);
-    assign valid_o =
-        wave_i[feltgate_map_pkg::R_STATUS] || wave_i[feltgate_map_pkg::R_FAULTS] || wave_i[feltgate_map_pkg::R_POSITION] ||
-        wave_i[feltgate_map_pkg::R_TICK] || wave_i[feltgate_map_pkg::R_INDEX] ||
+    logic [31:0] word;
+    logic        valid;
+    assign word = (wave_i[feltgate_map_pkg::R_STATUS] ? status_i : '0) |
+                  (wave_i[feltgate_map_pkg::R_FAULTS] ? faults_i : '0) |
+                  (wave_i[feltgate_map_pkg::R_POSITION] ? position_i : '0) |
+                  (wave_i[feltgate_map_pkg::R_TICK] ? tick_count_i : '0) |
+                  (wave_i[feltgate_map_pkg::R_INDEX] ? index_position_i : '0) |
+                  (wave_i[feltgate_map_pkg::R_ENCODER] ? {rejected_count_i, error_count_i} : '0);
+    assign valid =
+        wave_i[feltgate_map_pkg::R_STATUS] || wave_i[feltgate_map_pkg::R_FAULTS] ||
+        wave_i[feltgate_map_pkg::R_POSITION] || wave_i[feltgate_map_pkg::R_TICK] || wave_i[feltgate_map_pkg::R_INDEX] ||
         wave_i[feltgate_map_pkg::R_ENCODER] || wave_i[feltgate_map_pkg::R_VELOCITY] ||
         wave_i[feltgate_map_pkg::R_TAU_HAT] || wave_i[feltgate_map_pkg::R_TAU_REF] ||
         wave_i[feltgate_map_pkg::R_CURRENT_REF] || wave_i[feltgate_map_pkg::R_VOLTAGE] ||
         wave_i[feltgate_map_pkg::R_DUTY];
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) valid_o <= 1'b0;
+      else valid_o <= valid;
+    end
+    always_ff @(posedge clk_i) begin
+      slot_o <= slot_fetch_i - 6'(feltgate_map_pkg::FIRST_WAVE_CLOCK);
+      data_o <= operand_i | word;
+    end
   end else begin : gen_none
     logic unused;
-    assign unused  = ^{status_i, faults_i, position_i, tick_count_i, index_position_i, error_count_i,
-                       rejected_count_i};
-    assign word_o  = '0;
+    assign unused  = ^{clk_i, rst_ni, slot_fetch_i, operand_i, status_i, faults_i, position_i, tick_count_i,
+                       index_position_i, error_count_i, rejected_count_i};
     assign valid_o = 1'b0;
+    assign slot_o  = '0;
+    assign data_o  = '0;
   end
   endgenerate
 endmodule

@@ -256,7 +256,7 @@ void check_ends(const RegisterMap& map, const Schedule& s) {
     inside(p.place, "the product " + p.name, p.slot + s.multiplier_latency);
   }
   for (const Snapshot& n : map.snapshots) {
-    inside(n.place, fmt::format("the word {} of the snapshot", n.name), n.slot);
+    inside(n.place, fmt::format("storing {} of the snapshot", n.name), n.slot + 1);
   }
 }
 

@@ -146,6 +146,8 @@ TEST_CASE("a word in the wrong bank is refused", "[schedule]") {
 TEST_CASE("what lies outside the wave is refused", "[schedule]") {
   refused(Texts().move("watchdog_ticks", 47),
           "the step watchdog lies in clock 48, outside the clocks 0 to 47 of a tick of 50 clocks");
+  refused(Texts().in_registers("slot = 11\n", "slot = 47\n"),
+          "storing index of the snapshot lies in clock 48, outside the clocks 0 to 47");
   refused(Texts().in_schedule("clocks = 50 ", "clocks = 48 "), "outside the clocks 0 to 45");
 }
 

@@ -48,7 +48,6 @@ struct Adapter {
     rtl.current_ref_i = port_bits<f.current.width()>(in.current_ref);
     rtl.voltage_i = port_bits<f.voltage.width()>(in.voltage);
     rtl.current_estimate_i = port_bits<f.current_estimate.width()>(in.current_estimate);
-    rtl.snapshot_i = static_cast<std::uint32_t>(in.snapshot);
   }
   template <class Check>
   static void compare(Check& check, const Rtl& rtl, const Twin::Out& out) {
@@ -98,8 +97,6 @@ struct Stimulus {
     in.current_ref = any(f.current);
     in.voltage = any(f.voltage);
     in.current_estimate = any(f.current_estimate);
-    in.snapshot = static_cast<std::int32_t>(
-        driven({1, 31, 0}, {R::status, R::position, R::tick, R::index, R::encoder}));
     clock = clock + 1 >= Map::wave_length + static_cast<int>(random.below(3)) ? 0 : clock + 1;
     return in;
   }
@@ -113,7 +110,7 @@ struct BySchedule {
   const char* operator()(const Twin::In& in, const Rtl& rtl, const Twin&, bool in_reset) {
     if (in_reset) return nullptr;
     const std::int64_t driven =
-        in.velocity_difference | in.observer_difference | in.distance | in.limited | in.snapshot;
+        in.velocity_difference | in.observer_difference | in.distance | in.limited;
     for (int clock = 1; clock < Map::wave_length; ++clock) {
       if (((in.wave >> (clock - 1)) & 1u) == 0) continue;
       const std::int64_t expected = next_operand(clock, in);

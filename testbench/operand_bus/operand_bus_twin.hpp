@@ -21,7 +21,6 @@ class OperandBus {
     // held
     std::int64_t velocity = 0, tau_hat = 0, tau_ref = 0, current_ref = 0, voltage = 0;
     std::int64_t current_estimate = 0;
-    std::int32_t snapshot = 0;  ///< 0 outside its clocks
   };
   struct Out {
     std::int64_t operand = 0, dob = 0, scene = 0, control = 0, supervisor = 0;
@@ -57,8 +56,7 @@ class OperandBus {
     out.scene = in.distance | velocity;
     out.control = in.limited | tau_hat | tau_ref | voltage_ | velocity;
     out.supervisor = estimate_ | voltage_ | velocity;
-    out.operand =
-        in.velocity_difference | out.dob | out.scene | out.control | out.supervisor | in.snapshot;
+    out.operand = in.velocity_difference | out.dob | out.scene | out.control | out.supervisor;
     out.is_signed = take_tau_hat_;
     out.estimate = estimate_;
     out.square_estimate = square_estimate_;

@@ -10,7 +10,6 @@
 
 namespace feltgate {
 
-/// Combinational; the bench clocks it all the same.
 template <bool ReadBack>
 class Snapshot {
  public:
@@ -19,36 +18,37 @@ class Snapshot {
     std::uint64_t wave = 0;
     std::uint32_t status = 0, faults = 0, position = 0, tick_count = 0, index_position = 0;
     std::uint16_t error_count = 0, rejected_count = 0;
+    std::uint32_t operand = 0;  ///< the operand bus, 0 in the clocks of the words above
   };
   struct Out {
-    std::uint32_t word = 0;
     bool valid = false;
-    int slot = 0;
+    int slot = 0;            ///< where valid
+    std::uint32_t data = 0;  ///< likewise
   };
 
-  void reset() {}
-  void clock(const In&) {}
+  void reset() { out_ = Out(); }
+  const Out& out() const { return out_; }
 
-  Out peek(const In& in) const {
-    using R = Map::R;
-    Out out;
-    out.slot = (in.slot_fetch - Map::first_wave_clock) & 63;
-    if constexpr (ReadBack) {
-      for (const int t :
-           {R::status, R::faults, R::position, R::tick, R::index, R::encoder, R::velocity,
-            R::tau_hat, R::tau_ref, R::current_ref, R::voltage, R::duty}) {
-        out.valid = out.valid || ((in.wave >> t) & 1u) != 0;
-      }
-      const auto now = [&in](int t) { return ((in.wave >> t) & 1u) != 0; };
-      if (now(R::status)) out.word = in.status;
-      if (now(R::faults)) out.word = in.faults;
-      if (now(R::position)) out.word = in.position;
-      if (now(R::tick)) out.word = in.tick_count;
-      if (now(R::index)) out.word = in.index_position;
-      if (now(R::encoder)) out.word = std::uint32_t{in.rejected_count} << 16 | in.error_count;
+  void clock(const In& in) {
+    if constexpr (!ReadBack) return;
+    const auto now = [&in](int t) { return ((in.wave >> t) & 1u) != 0; };
+    out_ = {false, (in.slot_fetch - Map::first_wave_clock) & 63, in.operand};
+    for (const int t : {R::status, R::faults, R::position, R::tick, R::index, R::encoder,
+                        R::velocity, R::tau_hat, R::tau_ref, R::current_ref, R::voltage, R::duty}) {
+      out_.valid = out_.valid || now(t);
     }
-    return out;
+    if (now(R::status)) out_.data |= in.status;
+    if (now(R::faults)) out_.data |= in.faults;
+    if (now(R::position)) out_.data |= in.position;
+    if (now(R::tick)) out_.data |= in.tick_count;
+    if (now(R::index)) out_.data |= in.index_position;
+    if (now(R::encoder)) out_.data |= std::uint32_t{in.rejected_count} << 16 | in.error_count;
   }
+
+ private:
+  using R = Map::R;
+
+  Out out_;
 };
 
 }  // namespace feltgate

@@ -54,10 +54,13 @@ module limiter (
   assign below   = negative && (over || (W + 1)'(limit) + (W + 1)'(low) < 0);
   assign misfit  = (limit & misfit_q) != '0;
 
-  // x, and the limit that is on its side; clearing a register costs no logic, selecting does.
+  // x, and the limit that is on its side; clearing a register costs no logic, selecting does. With a
+  // limit that does not fit all of them are 0, so that it need not be selected.
   logic signed [W-1:0] low_q, upper_q, lower_q;
+  logic                outside_q, unfit_q;
   always_ff @(posedge clk_i) begin
-    beyond_o <= above || below || misfit;
+    outside_q <= above || below;
+    unfit_q   <= misfit;
     if (!valid_q || misfit) begin
       low_q   <= '0;
       upper_q <= '0;
@@ -70,7 +73,8 @@ module limiter (
       else lower_q <= -limit;
     end
   end
-  assign limited_o = beyond_o ? upper_q | lower_q : low_q;
+  assign limited_o = outside_q ? upper_q | lower_q : low_q;
+  assign beyond_o  = outside_q || unfit_q;
 endmodule
 
 `default_nettype wire

@@ -39,10 +39,8 @@ module ramp (
   // A negative step counts as 0, and while frozen every step.
   logic signed [W:0] excess_q;
   logic      [W-2:0] step_q;
-  logic              below_q;  // the target is negative
   always_ff @(posedge clk_i) begin
     if (wave_i[Excess]) begin
-      below_q <= limited_i[TorqueW-1];
       if (param_i[W-1] || frozen_i) step_q <= '0;
       else step_q <= param_i[W-2:0];
       excess_q <= {(TorqueW + 1)'(tau_ref_o) - (TorqueW + 1)'($signed(limited_i[TorqueW-1:0])),
@@ -51,14 +49,20 @@ module ramp (
   end
 
   // One step towards the target, or all of it. The tick in which the distance is found to be within
-  // one step ends the ramp; the reference moves on with the next.
+  // one step ends the ramp; the reference moves on with the next. Frozen, what grows, or would change its
+  // sign from above, goes by steps too: for either direction this is known before the direction is.
   logic signed [W:0] step, change, beyond;
   logic signed [W-1:0] change_q;
-  logic              ramping_q, active_q, stepping, stepping_q, down, grows, reached, carry_q, stay_q;
-  always_ff @(posedge clk_i) active_q <= ramping_q && armed_i;
+  logic ramping_q, active, frozen, steps_down_q, steps_up_q, stepping, stepping_q;
+  logic down, reached, carry_q, stay_q;
+  assign active = ramping_q && armed_i;
+  assign frozen = frozen_i && armed_i;
+  always_ff @(posedge clk_i) begin
+    steps_down_q <= active || (frozen && (ramp_q[W-1] || limited_i[TorqueW-1]));
+    steps_up_q   <= active || (frozen && !ramp_q[W-1]);
+  end
   assign down     = !excess_q[W];
-  assign grows    = ramp_q[W-1] ? down : !down || below_q;  // or would change its sign, from above
-  assign stepping = active_q || (frozen_i && armed_i && grows);
+  assign stepping = down ? steps_down_q : steps_up_q;
   assign step     = {2'b0, step_q};
   assign change   = stepping ? (step ^ {(W + 1) {down}}) : ~excess_q;
   assign beyond   = excess_q + change;

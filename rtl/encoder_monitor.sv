@@ -58,7 +58,6 @@ module encoder_monitor (
       moved_o         <= 1'b0;
       row_q           <= '0;
       edge_units_q    <= '0;
-      chatter_units_q <= '0;
       trip_o          <= 1'b0;
       index_trip_o    <= 1'b0;
       index_wrong_q   <= 1'b0;
@@ -74,9 +73,14 @@ module encoder_monitor (
         else if (moved) row_q <= row_q + RowW'(1);
         if (moved) edge_units_q <= '0;
         else if (edge_unit && !late) edge_units_q <= edge_units_q + EdgeW'(1);
-        if (!chatters_o || over) chatter_units_q <= '0;
-        else if (chatter_unit) chatter_units_q <= chatter_units_q + ChatterW'(1);
       end
+    end
+  end
+  // Not reset: without chatter the first sample clears it.
+  always_ff @(posedge clk_i) begin
+    if (sample) begin
+      if (!chatters_o || over) chatter_units_q <= '0;
+      else if (chatter_unit) chatter_units_q <= chatter_units_q + ChatterW'(1);
     end
   end
 endmodule

@@ -98,8 +98,6 @@ module self_test (
     if (!rst_ni) begin
       {wait_q, first_q, second_q, rest_q} <= '0;
       result_o <= None;
-      count_q  <= '0;
-      net_q    <= '0;
       late_q   <= 1'b0;
       fail_q   <= 1'b0;
     end else if (wave_i[Turn]) begin
@@ -110,13 +108,21 @@ module self_test (
       second_q <= armed_i && (over_q ? first_q : second_q);
       rest_q   <= armed_i && over_q && second_q;
       late_q   <= armed_i && wait_q && (late_q || impatient);
-      net_q    <= wait_q ? '0 : net;
-      count_q  <= runs ? count_q + CountW'(unit) : '0;
       fail_q   <= armed_i && (against || (failed && !param_i[feltgate_map_pkg::SELF_TEST_HELD_BIT]) ||
                              (wait_q && gives_up && !param_i[feltgate_map_pkg::SELF_TEST_MOVING_BIT]));
       if (rest_q && armed_i) result_o <= failed ? Held : Right;
       else if (wait_q && armed_i) result_o <= gives_up ? Moving : None;
       else if (!armed_i && (over_q || direct_i)) result_o <= None;
+    end
+  end
+
+  // Not reset: disarmed, the first wave clears the one, waiting does the other.
+  always_ff @(posedge clk_i) begin
+    if (wave_i[Turn]) begin
+      if (!runs) count_q <= '0;
+      else if (unit) count_q <= count_q + CountW'(1);
+      if (wait_q) net_q <= '0;
+      else net_q <= net;
     end
   end
 

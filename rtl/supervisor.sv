@@ -63,19 +63,6 @@ module supervisor (
     else if (forgive && errors_q != '0) errors_q <= errors_q - ERRORS_W'(1);
   end
 
-  // The size of a signal against the signed limit on the bus, for causes 2 and 3. The signal is
-  // taken a clock ahead. Of a negative x, {~x, 1} is 2|x| - 1: twice the size without an adder, for
-  // 2|x| - 1 > 2 * limit says |x| > limit. Above a negative limit everything is.
-  logic [31:0] twice_size_q;
-
-  function automatic logic [31:0] twice_size(input logic signed [31:0] signal);
-    twice_size = {signal[31] ? ~signal[30:0] : signal[30:0], signal[31]};
-  endfunction
-
-  function automatic logic over(input logic [31:0] doubled, input logic [31:0] limit);
-    over = limit[31] || {limit[30:0], 1'b0} < doubled;
-  endfunction
-
   // What the velocity has gained since the window of cause 3 began, without its lowest bits.
   localparam int GROWTH_DROP = (feltgate_pkg::VELOCITY_F > feltgate_map_pkg::GROWTH_BITS) ?
                                feltgate_pkg::VELOCITY_F - feltgate_map_pkg::GROWTH_BITS : 0;
@@ -85,13 +72,28 @@ module supervisor (
   logic signed [GROWTH_W-1:0] gained;
   assign gained = velocity_i[feltgate_pkg::VELOCITY_W-1:GROWTH_DROP] - begin_q;
 
+  // The size of a signal against the signed limit on the bus, for causes 2 and 3. The signal is taken a
+  // clock ahead, into a register that is 0 outside its clock, so that they are but ored. Of a negative x,
+  // {~x, 1} is 2|x| - 1: twice the size without an adder, for 2|x| - 1 > 2 * limit says |x| > limit.
+  // Above a negative limit everything is.
+  logic signed [feltgate_pkg::VELOCITY_W-1:0] speed_q;
+  logic signed [GROWTH_W-1:0]                 gained_q;
+  logic signed [feltgate_pkg::CURRENT_W-1:0]  current_q;
+  logic signed [31:0] signal;
+  logic        [31:0] twice_size;
+  logic               over;
+
+  assign signal     = 32'(speed_q) | 32'(current_q) | (32'(gained_q) <<< GROWTH_DROP);
+  assign twice_size = {signal[31] ? ~signal[30:0] : signal[30:0], signal[31]};
+  assign over       = param_i[31] || {param_i[30:0], 1'b0} < twice_size;
+
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::T_STRONG_SIZE])
-      twice_size_q <= twice_size(32'(current_ref_i));
-    else if (wave_i[feltgate_map_pkg::T_GROWTH_SIZE])
-      twice_size_q <= twice_size(32'(gained) <<< GROWTH_DROP);
-    else if (wave_i[feltgate_map_pkg::T_SPEED_SIZE])
-      twice_size_q <= twice_size(32'(velocity_i));
+    if (!wave_i[feltgate_map_pkg::T_SPEED_SIZE]) speed_q <= '0;
+    else speed_q <= velocity_i;
+    if (!wave_i[feltgate_map_pkg::T_GROWTH_SIZE]) gained_q <= '0;
+    else gained_q <= gained;
+    if (!wave_i[feltgate_map_pkg::T_STRONG_SIZE]) current_q <= '0;
+    else current_q <= current_ref_i;
   end
 
   // Cause 2, over-speed: |velocity| > overspeed.
@@ -100,7 +102,7 @@ module supervisor (
   assign speed_trip = wave_i[feltgate_map_pkg::T_SPEED] && too_fast_q;
 
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::S_OVERSPEED]) too_fast_q <= over(twice_size_q, param_i);
+    if (wave_i[feltgate_map_pkg::S_OVERSPEED]) too_fast_q <= over;
   end
 
   // Two times, in ticks, share an adder and a comparator: that of cause 3 in the clock in which its
@@ -134,11 +136,10 @@ module supervisor (
 
   always_ff @(posedge clk_i) begin
     if (wave_i[feltgate_map_pkg::S_POLARITY_SPEED])
-      grows_q <= over(twice_size_q, param_i) &&
-                 twice_size_q[0] == velocity_i[feltgate_pkg::VELOCITY_W-1];
+      grows_q <= over && signal[31] == velocity_i[feltgate_pkg::VELOCITY_W-1];
   end
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::S_POLARITY_CURRENT]) strong_q <= over(twice_size_q, param_i);
+    if (wave_i[feltgate_map_pkg::S_POLARITY_CURRENT]) strong_q <= over;
   end
   always_ff @(posedge clk_i) begin
     if (wave_i[feltgate_map_pkg::S_POLARITY_TICKS]) begin
@@ -182,18 +183,22 @@ module supervisor (
 
   // No reset clears it: a reset is a way to clear a fault, and the motor stays as hot as it is.
   logic        [SUM_W-1:0]     sum_q = SUM_W'(feltgate_pkg::I2T_START);
-  logic signed [SUM_W:0]       cooled_q;
+  logic        [30:0]          nominal_q;  // its square; a negative word counts as 0
+  logic signed [SUM_W:0]       rest;
+  logic        [SUM_W-1:0]     cooled_q;
   logic        [SQUARED_W-1:0] square_q;
   logic                        too_hot_q;
 
-  logic [31:0] nominal;  // its square; a negative word counts as 0
-  assign nominal  = param_i[31] ? 32'd0 : param_i;
+  assign rest     = $signed({1'b0, sum_q}) - $signed((SUM_W + 1)'(nominal_q));
   assign i2t_trip = wave_i[feltgate_map_pkg::T_HEAT] && too_hot_q;
 
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::T_COOLED_AT_LEAST_0] && cooled_q < 0) cooled_q <= '0;
-    else if (wave_i[feltgate_map_pkg::T_COOLED])
-      cooled_q <= $signed({1'b0, sum_q}) - $signed((SUM_W + 1)'(nominal));
+    if (!wave_i[feltgate_map_pkg::T_NOMINAL] || param_i[31]) nominal_q <= '0;
+    else nominal_q <= param_i[30:0];
+  end
+  always_ff @(posedge clk_i) begin
+    if (rest < 0) cooled_q <= '0;
+    else cooled_q <= rest[SUM_W-1:0];
   end
   always_ff @(posedge clk_i) begin
     if (wave_i[feltgate_map_pkg::S_I2T_BUDGET]) too_hot_q <= sum_q >= SUM_W'(param_i);
@@ -203,7 +208,7 @@ module supervisor (
       square_q <= (armed_o && !sum_q[SUM_W-1]) ? product_i[SQUARED_DROP+:SQUARED_W] : '0;
   end
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::T_HEAT]) sum_q <= cooled_q[SUM_W-1:0] + SUM_W'(square_q);
+    if (wave_i[feltgate_map_pkg::T_HEAT]) sum_q <= cooled_q + SUM_W'(square_q);
   end
 
   // Cause 5, host watchdog: watchdog_ticks ticks without a kick, from the first kick on.

@@ -25,14 +25,17 @@ module velocity_jump (
   if (Weight >= 0 && Weight <= W - 2) begin : gen_compare
     localparam int TopW = W - Weight;
     logic signed [TopW-1:0] before_q;
+    // Of a move of at most one all bits but the last are those of -2 to 1, which is no -2.
     logic signed [TopW  :0] moved;
+    logic                   slow;
     assign moved = (TopW + 1)'($signed(velocity_i[W-1:Weight])) - (TopW + 1)'(before_q);
+    assign slow = moved[TopW:1] == {TopW{moved[TopW]}} && !(moved[TopW] && !moved[0]);
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
         before_q <= '0;
         trip_o   <= 1'b0;
       end else begin
-        trip_o <= wave_i[Now] && (moved > 1 || moved < -1);
+        trip_o <= wave_i[Now] && !slow;
         if (wave_i[Now]) before_q <= $signed(velocity_i[W-1:Weight]);
       end
     end

@@ -223,6 +223,7 @@ class Supervisor {
  private:
   using Sum = fixed_of<Law::sum_key>;
   using Squared = fixed_of<Law::squared_key>;
+  using Nominal = fixed<0, 32 - D::f.i2t.fraction, D::f.i2t.fraction>;  ///< its square
   static constexpr bool kWatchdogLast = watchdog_clock == D::clocks_per_tick - 1;
   /// Periods of the PWM that hold at least one tick.
   static constexpr int kTickPeriods = (D::clocks_per_tick + D::pwm_period - 1) / D::pwm_period;
@@ -235,8 +236,8 @@ class Supervisor {
   /// Wave clocks in which something is taken over or compared.
   static constexpr std::uint64_t kWaveClocks =
       at(T::estimate_part) | at(T::current_estimate) | at(T::speed_size) | at(T::too_fast) |
-      at(T::speed) | at(T::cooled) | at(T::current_squared) | at(T::too_hot) | at(T::heat) |
-      at(T::growth_size) | at(T::growth) | at(T::strong_size) | at(T::strong) |
+      at(T::speed) | at(T::nominal) | at(T::cooled) | at(T::current_squared) | at(T::too_hot) |
+      at(T::heat) | at(T::growth_size) | at(T::growth) | at(T::strong_size) | at(T::strong) |
       at(T::runaway_ticks) | at(T::polarity) | at(T::silent) | at(T::watchdog);
 
   /// A product as it leaves the multiplier, with F fraction bits.
@@ -250,8 +251,8 @@ class Supervisor {
     return Law::current_estimate(product<v_fraction>(v_over_r), product<w_fraction>(emf_w_over_r))
         .raw();
   }
-  static fixed<0, 32 - D::f.i2t.fraction, D::f.i2t.fraction> nominal_of(std::uint32_t word) {
-    return fixed<0, 32 - D::f.i2t.fraction, D::f.i2t.fraction>::from_raw(negative(word) ? 0 : word);
+  static Nominal nominal_of(std::uint32_t word) {
+    return Nominal::from_raw(negative(word) ? 0 : word);
   }
   /// A negative word is no limit: it counts as 0.
   static bool negative(std::uint32_t word) { return (word >> 31) != 0; }
@@ -287,7 +288,8 @@ class Supervisor {
       if (too_hot_) *trip |= fault_bit(Fault::i2t);
       sum_ = Law::heated(cooled_, square_);
     }
-    if (now(T::cooled)) cooled_ = Law::cooled(sum_, nominal_of(in.param));
+    if (now(T::cooled)) cooled_ = Law::cooled(sum_, nominal_);
+    if (now(T::nominal)) nominal_ = nominal_of(in.param);
     if (now(T::current_squared)) square_ = square_of(in.product);
     if (now(T::too_hot)) too_hot_ = sum_.raw() >= std::int64_t{in.param};
 
@@ -346,6 +348,7 @@ class Supervisor {
   Runaway<D> runaway_;
   std::int64_t v_product_ = 0;
   Sum sum_ = Sum::from_raw(D::i2t_start);
+  Nominal nominal_;
   Sum cooled_;
   Squared square_;
   bool too_hot_ = false;

@@ -220,8 +220,8 @@ struct Map {
     static constexpr int speed_size = 15;
     static constexpr int too_fast = 16;
     static constexpr int speed = 17;
-    static constexpr int cooled = 17;
-    static constexpr int cooled_at_least_0 = 18;
+    static constexpr int nominal = 17;
+    static constexpr int cooled = 18;
     static constexpr int current_squared = 17;
     static constexpr int too_hot = 18;
     static constexpr int heat = 19;
@@ -326,9 +326,9 @@ struct Map {
     speed_size,
     too_fast,
     speed,
-    cooled,
+    nominal,
     current_squared,
-    cooled_at_least_0,
+    cooled,
     too_hot,
     growth_size,
     observer_state,
@@ -465,9 +465,9 @@ struct Map {
       {Step::speed_size, 15},
       {Step::too_fast, 16},
       {Step::speed, 17},
-      {Step::cooled, 17},
+      {Step::nominal, 17},
       {Step::current_squared, 17},
-      {Step::cooled_at_least_0, 18},
+      {Step::cooled, 18},
       {Step::too_hot, 18},
       {Step::growth_size, 18},
       {Step::observer_state, 19},

@@ -41,6 +41,7 @@ PACKAGES=(
   "bench|libsystemc-dev|sc_fixed, one of the engines of the benchmark"
   "synth|python3-venv|holds the pinned Yosys and nextpnr of scripts/requirements.txt"
   "synth|ca-certificates|lets pip fetch them over https"
+  "product|yosys|writes the RTL as Verilog-2005"
   "prove|python3-venv|holds the pinned Yosys and z3 of scripts/requirements.txt"
   "prove|ca-certificates|lets pip fetch them over https"
   "prove|patch|seeds the defects that the proofs must find"

@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""The core of a design as one file of Verilog-2005, for tools that take no SystemVerilog.
+
+Documentation: docs/product.md
+"""
+
+import argparse
+import os
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+import interrupts
+import outputs
+import rtl_sources
+import synth_measure
+from synth_tools import ToolError, Tools, version
+
+EPILOG = """examples:
+  feltgate product verilog                                feltgate.v: design lever, with read-back
+  feltgate product verilog --design paper -o paper.v
+  feltgate product verilog --design my.toml --no-read-back -o my.v
+
+Exit code: 0 written, 2 a design, tool or option cannot be used."""
+NOTICE = """// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The core feltgate_core of design {design}, {read_back}read-back, in Verilog-2005: written from its
+// SystemVerilog by `feltgate product verilog` with {yosys}. Do not edit; ports and
+// their timing: docs/blocks/feltgate_core.md.
+"""
+# What only Yosys reads.
+ATTRIBUTES = (
+    "src hdlname top module_not_derived unused_bits full_case parallel_case always_ff dynports"
+).split()
+
+
+def arguments_of(argv):
+    parser = argparse.ArgumentParser(
+        allow_abbrev=False,
+        prog="feltgate product",
+        description=__doc__.splitlines()[0],
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("kind", choices=("verilog",), help="what to write")
+    parser.add_argument(
+        "--design", default="lever", help="a name in rtl/designs, or a file; default lever"
+    )
+    parser.add_argument(
+        "--no-read-back",
+        action="store_true",
+        help="leave out what a host reads: snapshot RAM and read path",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE",
+        default=Path("feltgate.v"),
+        help="default feltgate.v",
+    )
+    options = parser.parse_args(argv)
+    outputs.check(parser, output=options.output)
+    return options
+
+
+def package_of(root, design, folder):
+    """What synth_measure.copy_sources() takes: a name, or the path of a package made here."""
+    if (root / f"rtl/generated/{design}/feltgate_pkg.sv").is_file():
+        return design
+    path = Path(design)
+    if not path.is_file():
+        packages = root.glob("rtl/generated/*/feltgate_pkg.sv")
+        known = ", ".join(sorted(package.parent.name for package in packages))
+        raise ToolError(f"{design} is neither a design ({known}) nor a file; check the path")
+    if "FELTGATE_PROGRAM" not in os.environ:
+        raise ToolError("your own design needs the built generator: run it as ./feltgate product")
+    generator = Path(os.environ["FELTGATE_PROGRAM"]).with_name("feltgate_generate")
+    command = [generator, root, "--design", path, "--output", folder]
+    done = interrupts.run(command, **interrupts.CAPTURED)
+    if done.returncode:
+        raise ToolError(done.stderr.strip())
+    return folder / "feltgate_pkg.sv"
+
+
+def renamed(text):
+    """Every module but the core with feltgate_ before its name; variants get numbers."""
+    names, counts = {}, {}
+    for found in re.findall(r"^module (\S+?)\s*\(", text, re.M):
+        word = found.lstrip("\\")
+        base = re.search(r"(?:\$paramod(?:\$[0-9a-f]+)?\\)?([a-z]\w*)", word).group(1)
+        if base == rtl_sources.CORE:
+            names[found] = base
+            continue
+        counts[base] = counts.get(base, 0) + 1
+        number = f"_{counts[base]}" if counts[base] > 1 else ""
+        names[found] = f"feltgate_{base}{number}"
+    for old, new in names.items():
+        # In its own head and where it is instantiated, first in a line; a blank ends an escaped name.
+        place = re.compile(rf"^(\s*(?:module )?){re.escape(old)}(?=[\s(])", re.M)
+        text = place.sub(lambda match, name=new: match[1] + name, text)
+    return text
+
+
+def verilog(root, options, folder):
+    tools = Tools(folder)
+    package = package_of(root, options.design, folder / "design")
+    sources = synth_measure.copy_sources(root, package, folder)
+    target = synth_measure.Target("core", rtl_sources.CORE)
+    kept = " ".join(f"-unset {name}" for name in ATTRIBUTES)
+    script = [
+        *synth_measure.read_commands(sources, target),
+        f"chparam -set ReadBack {int(not options.no_read_back)} {rtl_sources.CORE}",
+        f"hierarchy -check -top {rtl_sources.CORE}",
+        "proc",
+        "delete */t:feltgate_checks =feltgate_checks",  # it has done its work
+        "opt_expr",
+        "opt_reduce",  # one enable for a word of a memory, not one for each bit
+        "opt_clean",
+        "memory_dff",  # the registers of a block RAM beside it, as vendors know it
+        "memory_collect",
+        f"setattr -mod {kept}",
+        f"setattr {kept}",
+        "write_verilog core.v",
+    ]
+    tools.run_yosys("product", script, ["core.v"])
+    text = renamed((folder / "core.v").read_text(encoding="utf-8"))
+    head = NOTICE.format(
+        design=Path(options.design).stem,
+        read_back="without " if options.no_read_back else "with ",
+        yosys=version(tools.yosys),
+    )
+    return head + text.partition("*/\n")[2]
+
+
+def main(argv=None):
+    options = arguments_of(argv)
+    root = Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[1]))
+    interrupts.end_on_signals()
+    try:
+        with tempfile.TemporaryDirectory(prefix="feltgate-product-") as folder:
+            text = verilog(root, options, Path(folder))
+        outputs.write_whole(options.output, text)
+    except interrupts.Interrupted as error:
+        return interrupts.tell("product", error)
+    except (ToolError, OSError) as error:
+        print(f"product: {error}", file=sys.stderr)
+        return 2
+    print(f"wrote {options.output}", file=sys.stderr)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

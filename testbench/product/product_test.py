@@ -1,0 +1,110 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""feltgate product: Icarus and slang take what it writes as Verilog-2005; what it refuses.
+
+Documentation: docs/product.md
+
+product_test.py VENV: the folder into which scripts/build.sh has fetched pyslang.
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(os.environ["FELTGATE_ROOT"])
+VENV = Path(sys.argv.pop(1))
+SLANG = """
+import sys
+from pyslang import driver
+slang = driver.Driver()
+slang.addStandardArgs()
+words = f"slang --std 1364-2005 --top feltgate_core {sys.argv[1]}"
+fine = slang.parseCommandLine(words, driver.CommandLineOptions()) and slang.processOptions()
+sys.exit(0 if fine and slang.parseAllSources() and slang.runFullCompilation(True) else 1)
+"""
+
+
+@unittest.skipUnless(shutil.which("yosys") or os.environ.get("CI"), "no yosys")
+class Product(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def product(self, *words):
+        program = Path(os.environ["FELTGATE_BUILD"], "feltgate")
+        return subprocess.run(
+            [sys.executable, "-B", ROOT / "scripts/product.py", *words],
+            cwd=self.folder,
+            env=os.environ | {"FELTGATE_PROGRAM": str(program)},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+
+    def written(self, *words):
+        done = self.product("verilog", *words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        path = self.folder / "feltgate.v"
+        readers = [["iverilog", "-g2005", "-Wall", "-t", "null", "-s", "feltgate_core", path]]
+        if (VENV / "bin/python").exists():
+            readers.append([VENV / "bin/python", "-c", SLANG, path])
+        for command in readers:
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        return path.read_text()
+
+    def test_lever(self):
+        text = self.written()
+        self.assertIn("design lever, with read-back", text)
+        self.assertNotIn("$paramod", text)
+        modules = re.findall(r"^module (\w+)", text, re.M)
+        self.assertEqual(len(modules), text.count("endmodule"))
+        self.assertEqual(len(set(modules)), len(modules))
+        self.assertTrue(all(name.startswith("feltgate_") for name in modules), modules)
+        for name in ("feltgate_core", "feltgate_dob", "feltgate_pwm", "feltgate_supervisor"):
+            self.assertIn(name, modules)
+        # Memories as arrays with one write of whole words and a registered read, products as *.
+        self.assertIn("reg [35:0] parameter_ram [511:0];", text)
+        self.assertEqual(len(re.findall(r"parameter_ram\[_\w+_\] <= ", text)), 1)
+        self.assertEqual(len(re.findall(r"<= parameter_ram\[", text)), 2)
+        self.assertIn('ramstyle = "no_rw_check"', text)
+        mult = text.partition("module feltgate_mult(")[2].partition("endmodule")[0]
+        self.assertEqual(mult.count(" * "), 2)
+
+    def test_without_read_back(self):
+        text = self.written("--no-read-back", "--design", "paper")
+        self.assertIn("design paper, without read-back", text)
+        self.assertNotIn("snapshot_ram", text)
+        self.assertEqual(len(re.findall(r"<= parameter_ram\[", text)), 1)
+
+    def test_a_design_of_ones_own(self):
+        own = (ROOT / "rtl/designs/lever.toml").read_text()
+        own = re.sub(r"^lines = .*", "lines = 2048", own, flags=re.M)
+        (self.folder / "own.toml").write_text(own)
+        self.assertIn("design own", self.written("--design", "own.toml"))
+
+    def test_refused(self):
+        for words, said in (
+            (("verilog", "--design", "levr"), "levr is neither a design (balanced, exact"),
+            (("verilog", "-o", "no/x.v"), "there is no folder"),
+            (("vhdl",), "invalid choice"),
+        ):
+            done = self.product(*words)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(said, done.stderr)
+        (self.folder / "bad.toml").write_text("[clock]\n")
+        done = self.product("verilog", "--design", "bad.toml")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("bad.toml", done.stderr)
+        self.assertFalse((self.folder / "feltgate.v").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

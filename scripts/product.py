@@ -121,7 +121,12 @@ def verilog(root, options, folder):
         "opt_expr",
         "opt_reduce",  # one enable for a word of a memory, not one for each bit
         "opt_clean",
+        # A read of a word being written gives the old one, as in the RTL. That it may be any is told to
+        # vendors again afterwards; Yosys would write x for it.
+        "select -set loose m:* a:ramstyle %i",
+        "setattr -unset no_rw_check -unset ramstyle m:*",
         "memory_dff",  # the registers of a block RAM beside it, as vendors know it
+        'setattr -set ramstyle "no_rw_check" @loose',
         "memory_collect",
         f"setattr -mod {kept}",
         f"setattr {kept}",
@@ -129,6 +134,8 @@ def verilog(root, options, folder):
     ]
     tools.run_yosys("product", script, ["core.v"])
     text = renamed((folder / "core.v").read_text(encoding="utf-8"))
+    # x for a collision that cannot be, which is no read that a vendor knows.
+    text = re.sub(r"\n    if \([^\n]*\)\n      \S+ <= \d+'hx+;", "", text)
     head = NOTICE.format(
         design=Path(options.design).stem,
         read_back="without " if options.no_read_back else "with ",

@@ -74,6 +74,7 @@ class Product(unittest.TestCase):
         self.assertIn("reg [35:0] parameter_ram [511:0];", text)
         self.assertEqual(len(re.findall(r"parameter_ram\[_\w+_\] <= ", text)), 1)
         self.assertEqual(len(re.findall(r"<= parameter_ram\[", text)), 2)
+        self.assertNotRegex(text, r"<= \d+'hx")
         self.assertIn('ramstyle = "no_rw_check"', text)
         mult = text.partition("module feltgate_mult(")[2].partition("endmodule")[0]
         self.assertEqual(mult.count(" * "), 2)

@@ -6,6 +6,7 @@ First every test case runs once without a mutant and notes which ones it reaches
 tried by those that reach it, the shortest first, until one fails.
 """
 
+import contextlib
 import os
 import resource
 import subprocess
@@ -39,22 +40,20 @@ class Runs:
         return kept | {"FELTGATE_MISMATCH_DIR": str(self.folder / "mismatch" / str(threading.get_ident()))} | more
 
     def run(self, case, limit=None, **environment):
-        """(exit status, seconds of CPU); status None: it took too long."""
+        """(exit status, seconds of CPU); a signal ends it when that is more than the limit."""
         name = case.name.replace("\\", "\\\\").replace(",", "\\,").replace("[", "\\[")
-
-        def limits():
-            resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-            if limit:
-                resource.setrlimit(resource.RLIMIT_CPU, (limit, limit))
-
         with self.lock:
             if self.ended:
                 raise KeyboardInterrupt
             process = subprocess.Popen(
                 [case.program.path, "--abort", name], env=self.environment(**environment),
                 stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                preexec_fn=limits, start_new_session=True)
+                start_new_session=True)
             self.alive.add(process)
+        with contextlib.suppress(ProcessLookupError):  # it may be over already
+            resource.prlimit(process.pid, resource.RLIMIT_CORE, (0, 0))
+            if limit:
+                resource.prlimit(process.pid, resource.RLIMIT_CPU, (limit, limit))
         deadline = threading.Timer(60 + 20 * limit, process.kill) if limit else None
         if deadline:
             deadline.start()

@@ -32,7 +32,9 @@ TEST_CASE("supervisor: a tick at once is its clocks one by one") {
     int fell = -1;
     if (k > 0) {  // in the first the synchroniser settles
       REQUIRE(at_once.steady(false));
+      const bool near = at_once.near_trip(now.words);
       fell = at_once.tick(now.words, tick);
+      REQUIRE((near || (fell != Twin::heat_clock && fell != Twin::polarity_clock)));
     }
     const bool live = clocked.out().gates_enable;
     int fell_clocked = -1;
@@ -48,6 +50,63 @@ TEST_CASE("supervisor: a tick at once is its clocks one by one") {
     REQUIRE(same(at_once.out(), clocked.out()));
   }
   CHECK(falls >= 100);
+}
+
+TEST_CASE("supervisor: a tick at once at the very budget, which a negative current does not cool") {
+  constexpr std::uint32_t start = Design::i2t_start;
+  for (const std::uint32_t nominal : {0u, 1u << 31, 0xffffffffu, 1u}) {
+    for (const std::uint32_t budget : {start - 1, start, start + 1}) {
+      Twin twin;
+      Twin::Words words;
+      words.nominal_current_squared = nominal;
+      words.i2t_budget = 0xffffffffu;
+      for (int k = 0; k < 5; ++k) twin.tick(words, {});
+      const std::uint32_t heat = nominal == 1 ? start - 5 : start;
+      words.i2t_budget = budget;
+      const bool hot = heat >= budget;
+      REQUIRE(twin.near_trip(words) == hot);
+      twin.tick(words, {});
+      REQUIRE((twin.out().faults == feltgate::fault_bit(feltgate::Fault::i2t)) == hot);
+    }
+  }
+}
+
+namespace {
+
+struct Kicked : Design {
+  static constexpr int require_watchdog = 1;
+};
+
+/// Whether the gates are open after ten ticks with a watchdog of two: armed after one, kicked
+/// before or not.
+template <class D>
+bool open_after_ten(bool kicked) {
+  feltgate::Supervisor<D> twin;
+  typename feltgate::Supervisor<D>::Words words;
+  words.overspeed = words.polarity_speed = words.polarity_current = 0x7fffffff;
+  words.i2t_budget = 0xffffffffu;
+  words.watchdog_ticks = 2;
+  typename feltgate::Supervisor<D>::In idle;
+  for (int k = 0; k < 6; ++k) twin.clock(idle);
+  for (int k = 0; k < 10; ++k) {
+    typename feltgate::Supervisor<D>::Tick tick;
+    tick.arm = k > 0;
+    tick.kick = kicked && k == 0;
+    twin.tick(words, tick);
+    const bool waits = D::require_watchdog != 0 && !kicked;
+    REQUIRE(twin.out().unkicked == waits);
+    if (k == 1) REQUIRE(twin.out().gates_enable == !waits);
+  }
+  return twin.out().gates_enable;
+}
+
+}  // namespace
+
+TEST_CASE("supervisor: the watchdog sleeps until a kick, for which a design may wait") {
+  CHECK(open_after_ten<Design>(false));
+  CHECK_FALSE(open_after_ten<Design>(true));
+  CHECK_FALSE(open_after_ten<Kicked>(false));
+  CHECK_FALSE(open_after_ten<Kicked>(true));
 }
 
 TEMPLATE_TEST_CASE("supervisor: the estimate against real arithmetic", "", feltgate::Lever,

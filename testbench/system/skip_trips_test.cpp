@@ -136,6 +136,34 @@ TEST_CASE("a stop that is held, from the reset on and while the host asks to arm
   }
 }
 
+TEST_CASE("a stop that goes away while the panel asks to arm") {
+  // Held but for one clock, or a pulse of some clocks; the request comes in the same tick.
+  for (const bool held : {true, false}) {
+    for (int at = 0; at < Lever::clocks_per_tick; ++at) {
+      for (const int length : {1, 2, 3, 7}) {
+        FeltgateCore<Lever> by_clock, by_event;
+        CoreIn in;
+        const auto pass = [&](int clocks) {
+          for (int k = 0; k < clocks; ++k) by_clock.clock(in);
+          by_event.run(in, clocks, [] {});
+          REQUIRE(by_clock.out() == by_event.out());
+        };
+        in.stop = held;
+        pass(3 * Lever::clocks_per_tick);
+        in.arm = true;
+        if (at > 0) pass(at);
+        in.stop = !held;
+        pass(length);
+        in.stop = held;
+        pass(1);
+        pass(5 * Lever::clocks_per_tick);
+        in.stop = false;
+        pass(5 * Lever::clocks_per_tick);
+      }
+    }
+  }
+}
+
 TEST_CASE("calm clocks close no gates, whatever the limit of the speed") {
   FeltgateCore<Lever> core;
   CoreIn in;

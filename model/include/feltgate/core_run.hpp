@@ -56,7 +56,8 @@ void FeltgateCore<D, ReadBack>::run(const In& in, std::int64_t clocks, OnSnapsho
 template <class D, bool ReadBack>
 bool FeltgateCore<D, ReadBack>::can_pass(const In& in) const {
   return out_.tick_count != 0 && !registers_.flipped() && !registers_.out().stop &&
-         supervisor_.steady(in.stop) && !(in.stop && supervisor_.out().gates_enable) &&
+         supervisor_.steady(in.stop) &&
+         !(supervisor_.stopped(in.stop) && supervisor_.out().gates_enable) &&
          !decoder_.out().illegal && !(amid_supervisor() && passed_to_ != clock_);
 }
 

@@ -149,7 +149,7 @@ class Supervisor {
   bool steady(bool stop) const {
     const bool latched = stopped(stop);
     if (stop_1_ != latched || stop_2_ != latched) return false;
-    return stop || !stopped_ || out_.gates_enable || out_.first_fault != 0;
+    return !stopped_ || out_.gates_enable || out_.first_fault != 0;
   }
 
   /// A cause, here or in another block, seen before the last clock of a tick; returns whether it

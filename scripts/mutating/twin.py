@@ -241,7 +241,8 @@ def run(options, root, build):
     chosen = [m for h in headers for m in choose(h, options.count, options.seed)]
     if options.again:
         survived = survivors_of(options.again)
-        chosen = [m for h in headers for m in h.mutants if (m.header, m.name) in survived]
+        chosen = [m for h in headers for m in h.mutants
+                  if (m.header, m.name) in survived and (m.header, m.name) not in catalogue.survivors]
     # A header's own tests only, also where another's reach it.
     verdicts = []
     progress = twin_runs.Progress(sys.stderr, "mutants")
@@ -312,7 +313,7 @@ def arguments(argv):
     parser.add_argument("--require", type=float, default=REQUIRED, metavar="SHARE",
                         help=f"to be killed, of those not equivalent; default: {REQUIRED}")
     parser.add_argument("--again", type=Path, metavar="RESULTS",
-                        help="only those that survived in these results of --json")
+                        help="only those that survived in these results of --json and are not listed")
     parser.add_argument("--survivors", action="store_true", help="list also what survives for a known reason")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N",
                         help="programs at the same time; default: one per core")

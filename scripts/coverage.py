@@ -107,7 +107,7 @@ def measure(options, root, build, folder):
 def conclude(options, root, result):
     print(report.text(result, options.limit))
     # Of a block that was not run nothing is known.
-    idle = [w for w in result.waivers if not w.used and (not options.block or w.block in options.block)]
+    idle = [w for w in result.waivers if not w.used and (not options.block or set(w.block.split()) <= set(options.block))]
     for waiver in idle:
         print(f"{waivers.FILE}: {waiver.block} {waiver.kind} {waiver.points.pattern}: waives nothing; delete it")
     print(f"\n{len(result.rows)} blocks, {len(result.bad)} short of a target, "

@@ -52,8 +52,8 @@ def make(points, core_points, seconds, waivers, blocks):
                 missed.append(point)
     left = waiving.take(waivers, missed)
     for waiver in waivers:
-        if waiver.block in rows:
-            rows[waiver.block].waived[waiver.kind] += len(waiver.used)
+        for point in waiver.used:
+            rows[point.block].waived[point.kind] += 1
     core = Row(CORE)
     for (_, point), number in core_points.items():
         count(core, point.kind, number >= point.needed)

@@ -19,7 +19,7 @@ class WaiverError(Exception):
 
 @dataclass
 class Waiver:
-    block: str
+    block: str  # or some, with blanks between
     kind: str
     points: re.Pattern  # of the whole name
     most: int  # so many of them
@@ -29,7 +29,7 @@ class Waiver:
     def fits(self, point):
         if len(self.used) == self.most:
             return False
-        return (point.block, point.kind) == (self.block, self.kind) and bool(self.points.fullmatch(point.name))
+        return point.kind == self.kind and point.block in self.block.split() and bool(self.points.fullmatch(point.name))
 
 
 def read(root):

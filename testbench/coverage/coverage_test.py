@@ -83,6 +83,7 @@ class Waivers(Folder):
         (waiver,) = self.write(self.GOOD)
         point = data.Point("b", "toggle", "rtl/b.sv", 3, 5, "x[1]")
         self.assertTrue(waiver.fits(point))
+        self.assertTrue(self.write(self.GOOD | {"block": "a b"})[0].fits(point))
         for other in ({"name": "x[12]"}, {"block": "c"}, {"kind": "line"}):
             self.assertFalse(waiver.fits(data.Point(**{**point.__dict__, **other})), other)
         self.assertEqual(waivers.take([waiver], [point]), [])

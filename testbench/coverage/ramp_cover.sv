@@ -18,17 +18,22 @@ module ramp_cover #(
   input logic limit_torque_o,
   input logic begins,
   input logic moves,
+  input logic changes,
   input logic [3:0] scene_i,
   input logic [3:0] scene_q,
   input logic ramping_q,
   input logic stepping_q,
   input logic stay_q,
   input logic down,
-  input logic grows,
-  input logic below_q,
+  input logic stepping,
+  input logic frozen,
   input logic [W-2:0] step_q,
+  input logic signed [W-1:0] change_q,
   input logic signed [W-1:0] ramp_q
 );
+  logic signed [W-1:0] next;
+  assign next = ramp_q + change_q;
+
   begins_by_arming:  cover property (@(posedge clk_i) disable iff (!rst_ni) begins && !armed_i);
   begins_by_scene:   cover property (@(posedge clk_i) disable iff (!rst_ni) begins && armed_i && scene_i != scene_q && !ramping_q);
   begins_by_ease:    cover property (@(posedge clk_i) disable iff (!rst_ni) begins && armed_i && eased_i && !limit_hold_o);
@@ -41,14 +46,16 @@ module ramp_cover #(
   at_once_up:        cover property (@(posedge clk_i) disable iff (!rst_ni) moves && !stepping_q && !down);
   at_once_down:      cover property (@(posedge clk_i) disable iff (!rst_ni) moves && !stepping_q && down);
   step_0:            cover property (@(posedge clk_i) disable iff (!rst_ni) moves && stepping_q && step_q == '0 && !frozen_i);
-  frozen_growth:     cover property (@(posedge clk_i) disable iff (!rst_ni) moves && frozen_i && armed_i && grows);
-  frozen_fall:       cover property (@(posedge clk_i) disable iff (!rst_ni) moves && frozen_i && armed_i && !grows);
-  frozen_sign:       cover property (@(posedge clk_i) disable iff (!rst_ni) moves && frozen_i && armed_i && grows && below_q && ramp_q > 0);
-  through_0:         cover property (@(posedge clk_i) disable iff (!rst_ni) moves && !stepping_q && below_q != ramp_q[W-1] && ramp_q != 0);
+  frozen_growth:     cover property (@(posedge clk_i) disable iff (!rst_ni) changes && frozen && !ramping_q && stepping);
+  frozen_fall:       cover property (@(posedge clk_i) disable iff (!rst_ni) changes && frozen && !ramping_q && !stepping);
+  frozen_sign:       cover property (@(posedge clk_i) disable iff (!rst_ni) changes && frozen && !ramping_q && stepping && down && ramp_q > 0);
+  through_0:         cover property (@(posedge clk_i) disable iff (!rst_ni)
+                                     moves && !stepping_q && next[W-1] != ramp_q[W-1] && ramp_q != 0 && next != 0);
   at_torque_limit:   cover property (@(posedge clk_i) disable iff (!rst_ni) limit_torque_o && ramping_q);
 endmodule
 
 bind ramp ramp_cover #(.W(W)) u_cover (
-  .begins(wave_i[feltgate_map_pkg::T_RAMP_BEGIN]), .moves(wave_i[feltgate_map_pkg::T_TAU_REF]), .*);
+  .begins(wave_i[feltgate_map_pkg::T_RAMP_BEGIN]), .moves(wave_i[feltgate_map_pkg::T_TAU_REF]),
+  .changes(wave_i[feltgate_map_pkg::T_RAMP_CHANGE]), .*);
 
 `default_nettype wire

@@ -76,6 +76,6 @@ module supervisor_cover (
 endmodule
 
 bind supervisor supervisor_cover u_cover (
-  .cooled_negative(wave_i[feltgate_map_pkg::T_COOLED_AT_LEAST_0] && cooled_q < 0), .*);
+  .cooled_negative(wave_i[feltgate_map_pkg::T_COOLED] && rest < 0), .*);
 
 `default_nettype wire

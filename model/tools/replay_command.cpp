@@ -195,7 +195,7 @@ void add_replay(CLI::App& app, int* exit_code) {
 void add_import(CLI::App& app, int* exit_code) {
   struct Arguments {
     TraceArguments trace;
-    std::string out, design = "lever";
+    std::string out, place, design = "lever";
   };
   auto a = std::make_shared<Arguments>();
   CLI::App* sub =
@@ -205,12 +205,17 @@ void add_import(CLI::App& app, int* exit_code) {
       "  feltgate import hand.sr hand.vec --probes XA,XB\n"
       "  feltgate import log.csv --count-column theta --scale 2048/2pi -o hand.vec\n"
       "Exit code: 0 written, 2 the recording or an option cannot be used.");
-  CLI::Option* place = sub->add_option("out", a->out, "vector file to write")->type_name("FILE");
-  sub->add_option("-o,--output", a->out, "the same")->type_name("FILE")->excludes(place);
+  sub->add_option("out", a->place, "vector file to write")->type_name("FILE");
+  sub->add_option("-o,--output", a->out, "the same")->type_name("FILE");
   sub->add_option("--design", a->design, "design whose clock stamps the edges")
       ->type_name("DESIGN")
       ->capture_default_str();
   sub->callback([a, exit_code] {
+    if (!a->out.empty() && !a->place.empty()) {
+      throw std::invalid_argument("import: two files to write; leave out one of " + a->place +
+                                  " and -o " + a->out);
+    }
+    if (a->out.empty()) a->out = a->place;
     if (a->out.empty()) {
       throw std::invalid_argument("import: the FILE to write is missing; feltgate import --help");
     }

@@ -88,7 +88,7 @@ class CommandLine(Bench):
     def test_options_that_would_do_nothing(self):
         self.refused("run", "membrane", "--every", "2", said=("--every thins out the rows of --csv",))
         self.refused("replay", "x.vec", "--every", "2", said=("--every thins out the rows",))
-        self.refused("import", "x.vec", "a.vec", "-o", "b.vec", said=("excludes",))
+        self.refused("import", "x.vec", "a.vec", "-o", "b.vec", said=("two files to write",))
 
     def test_a_folder_is_no_scene(self):
         self.path("scenes.toml").mkdir()

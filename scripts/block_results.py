@@ -32,7 +32,7 @@ KINDS = {
         "cover": "cover points",
     },
     "mutants": {
-        "rtl": "mutants of the RTL killed, of those not proven equivalent",
+        "rtl": "mutants of the RTL killed, of those not equivalent, by proof or by argument",
         "twin": "mutants of the twin killed, of those that were tried",
     },
     "faults": {

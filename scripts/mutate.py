@@ -7,7 +7,7 @@ Yosys makes a netlist of each block and changes one bit at one pin of one cell: 
 inverted by another bit. 400 such mutants of a block (60 % of what there is where that is less) are in
 one netlist behind its ports, Verilated once and chosen at run time; the block's own test program runs in
 lock-step with the twin until it notices. What survives is proven to be the same circuit (yosys-abc), is
-listed with its reason in testbench/BLOCK/mutants.toml, or is left: a gap in the test. --show prints one
+listed in testbench/BLOCK/mutants.toml with the reason, or is a gap in the test. --show prints one
 mutant with its lines of source, cell and fate, and inputs for which it differs.
 Method, results and what this does not say: docs/verification.md
 
@@ -52,7 +52,7 @@ def arguments(argv):
     parser.add_argument("--count", type=int, default=0, metavar="N", help="mutants of each test; default: all")
     parser.add_argument("--seed", type=int, default=1, help="which ones, where --count leaves some out; default: 1")
     parser.add_argument("--require", type=float, default=REQUIRED, metavar="SHARE",
-                        help=f"to be killed, of those not proven equivalent; default: {REQUIRED}")
+                        help=f"to be killed, of those not equivalent; default: {REQUIRED}")
     parser.add_argument("--survivors", action="store_true", help="list also what survives for a known reason")
     parser.add_argument("--proof-seconds", type=int, default=20, metavar="S",
                         help="for the proof that a survivor is equivalent, 0: none; default: 20")

@@ -51,8 +51,12 @@ def run_yosys(script, name, folder, limit=LIST_LIMIT_S):
 
 
 def cell_types(rtlil):
-    """{cell: type} of a flat design in RTLIL."""
-    return {name: kind for kind, name in re.findall(r"^  cell (\S+) (\S+)$", rtlil, re.M)}
+    """{cell: (type, what it drives at Q)} of a flat design in RTLIL."""
+    found = {}
+    for kind, name, body in re.findall(r"^  cell (\S+) (\S+)$(.*?)^  end$", rtlil, re.M | re.S):
+        q = re.search(r"^    connect \\Q (.*)$", body, re.M)
+        found[name.lstrip("\\")] = kind, q.group(1).replace("\\", "") if q else ""
+    return found
 
 
 def powered_up(rtlil):
@@ -80,11 +84,13 @@ def parse(line, types):
     mutant = {
         "mode": options["mode"],
         "cell": cell,
-        "type": types.get("\\" + cell, types.get(cell, "?")),
+        "type": types.get(cell, ("?", ""))[0],
         "port": options["port"],
         "bit": int(options["portbit"]),
         "sources": sources,
     }
+    if types.get(cell, ("", ""))[1]:
+        mutant["register"] = types[cell][1]
     if "ctrlbit" in options:
         mutant["by_bit"] = int(options["ctrlbit"])
     if "wire" in options:

@@ -22,7 +22,8 @@ from . import equivalence
 
 KILLED, CRASHES, HANGS, SURVIVES = "killed", "crashes", "hangs", "survives"
 DEAD = (KILLED, CRASHES, HANGS)
-KEYS = {"line", "wire", "pin", "bits", "modes", "why"}
+KEYS = {"line", "wire", "register", "pin", "bits", "modes", "kind", "why"}
+ARGUED, GAP = "equivalent", "gap"
 MODES = {"inv": "inverted", "const0": "stuck at 0", "const1": "stuck at 1",
          "cnot0": "inverted while another bit of the pin is 0", "cnot1": "inverted while another bit of the pin is 1"}
 
@@ -76,7 +77,8 @@ def pin(mutant):
 
 def says(mutant):
     """One line."""
-    wire = f", {mutant['wire']}[{mutant['wire_bit']}]" if "wire" in mutant else ""
+    register = f" of {mutant['register']}" if mutant["port"] not in ("D", "Q") and "register" in mutant else ""
+    wire = f"{register}, {mutant['wire']}[{mutant['wire_bit']}]" if "wire" in mutant else register
     by = f" ({mutant['by_bit']})" if "by_bit" in mutant else ""
     return f"bit {mutant['bit']} of {pin(mutant)}{wire} {MODES.get(mutant['mode'], mutant['mode'])}{by}"
 
@@ -98,15 +100,18 @@ class Listed:
             text = tomllib.loads(path.read_text(encoding="utf-8"))
             self.entries = text.get("survivor", [])
         for entry in self.entries:
-            if not entry.get("why") or not entry.keys() <= KEYS or len(entry) < 2:
-                raise MutateError(f"{path}: an entry has 'why' and some of line, wire, pin, bits, modes")
+            if not entry.get("why") or entry.get("kind") not in (ARGUED, GAP) or not entry.keys() <= KEYS or len(entry) < 3:
+                raise MutateError(f"{path}: an entry has 'why', the kind {ARGUED} or {GAP}, and some of "
+                                  "line, wire, register, pin, bits, modes")
 
-    def why(self, mutant):
-        """The reason of the first entry that fits, or ''."""
+    def entry(self, mutant):
+        """(kind, reason) of the first entry that fits, or two empty texts."""
         for entry in self.entries:
             if "line" in entry and not any(entry["line"] in place(self.root, s)[2] for s in mutant["sources"]):
                 continue
             if "wire" in entry and not re.fullmatch(entry["wire"], mutant.get("wire", "")):
+                continue
+            if "register" in entry and not re.fullmatch(entry["register"], mutant.get("register", "")):
                 continue
             if "pin" in entry and not re.fullmatch(entry["pin"], pin(mutant)):
                 continue
@@ -114,8 +119,8 @@ class Listed:
                 continue
             if "modes" in entry and mutant["mode"] not in entry["modes"]:
                 continue
-            return entry["why"]
-        return ""
+            return entry["kind"], entry["why"]
+        return "", ""
 
 
 @dataclass
@@ -139,11 +144,13 @@ class Row:
     def equivalent(self):
         return sum(verdict == equivalence.EQUIVALENT for verdict, _ in self.proofs.values())
 
-    def of_listed(self):
-        return sum(bool(self.listed.why(m)) for m in self.survivors())
+    def of(self, kind):
+        """Survivors of this kind; "": not listed."""
+        return sum(self.listed.entry(m)[0] == kind for m in self.survivors())
 
     def relevant(self):
-        return len(self.fates) - self.equivalent()
+        """All but those that are equivalent, by proof or by argument."""
+        return len(self.fates) - self.equivalent() - self.of(ARGUED)
 
     def share(self):
         return self.count(*DEAD) / self.relevant() if self.relevant() else 1.0
@@ -152,13 +159,13 @@ class Row:
         def entry(mutant):
             verdict, said = self.proofs.get(mutant["number"], ("not tried", ""))
             return {"number": mutant["number"], "mutant": says(mutant), "where": where(self.listed.root, mutant),
-                    "proof": verdict, "said": said, "why": self.listed.why(mutant)}
+                    "proof": verdict, "said": said, **dict(zip(("kind", "why"), self.listed.entry(mutant)))}
 
         return {
             "test": self.test.name, "block": self.test.block, "seed": self.test.seed,
             "database": self.test.database, "mutants": len(self.fates),
             "killed": self.count(*DEAD), "crashes": self.count(CRASHES), "hangs": self.count(HANGS),
-            "equivalent": self.equivalent(), "listed": self.of_listed(),
+            "equivalent": self.equivalent(), "argued": self.of(ARGUED), "gaps": self.of(GAP), "left": self.of(""),
             "killed_share": round(self.share(), 4), "seconds": round(self.seconds, 1),
             "survivors": [entry(m) for m in self.survivors()],
         }
@@ -299,15 +306,15 @@ def prove(rows, pool, work, seconds):
     progress.end()
 
 
-HEAD = ("test", "database", "mutants", "killed", "equivalent", "listed", "left", "killed of rest", "s of CPU")
+HEAD = ("test", "database", "mutants", "killed", "proven same", "argued same", "gaps", "not listed", "killed of rest",
+        "s of CPU")
 
 
 def table(rows):
     lines = [HEAD]
     for row in rows:
-        left = len(row.survivors()) - row.of_listed()
         lines.append((row.test.name, row.test.database, len(row.fates), row.count(*DEAD), row.equivalent(),
-                      row.of_listed(), left, f"{100 * row.share():.1f} %", f"{row.seconds:.0f}"))
+                      row.of(ARGUED), row.of(GAP), row.of(""), f"{100 * row.share():.1f} %", f"{row.seconds:.0f}"))
     widths = [max(len(str(line[k])) for line in lines) for k in range(len(HEAD))]
     return "\n".join("  ".join(str(cell).ljust(w) if k == 0 else str(cell).rjust(w)
                                for k, (cell, w) in enumerate(zip(line, widths))) for line in lines)
@@ -316,12 +323,12 @@ def table(rows):
 def print_survivors(rows, known):
     for row in rows:
         for mutant in row.survivors():
-            why = row.listed.why(mutant)
-            if why and not known:
+            kind, why = row.listed.entry(mutant)
+            if kind and not known:
                 continue
             verdict, said = row.proofs.get(mutant["number"], ("not tried", ""))
             print(f"{row.test.name} {mutant['number']}: {says(mutant)}; {verdict}, {said}"
-                  f"{f'; listed: {why}' if why else ''}")
+                  f"{f'; {kind}: {why}' if kind else ''}")
             for line in where(row.listed.root, mutant):
                 print(f"    {line}")
 
@@ -344,6 +351,6 @@ def show(test, number, root, proof_seconds):
             print(f"{verdict}: {said}")
             if verdict == equivalence.DIFFERENT:
                 print(design.example(mutant))
-        why = Listed(root, test.block).why(mutant)
-        print(f"listed: {why}" if why else f"to list it with a reason: testbench/{test.block}/mutants.toml")
+        kind, why = Listed(root, test.block).entry(mutant)
+        print(f"{kind}: {why}" if kind else f"to list it with a reason: testbench/{test.block}/mutants.toml")
     print(f"again: FELTGATE_MUTANT={number} {test.program}")

@@ -82,6 +82,9 @@ struct RandomCases {
     c.ahead = random.coin();
     if (c.valid) c.signal = static_cast<int>(random.below(4));
     std::int64_t limit = kMaxLimit >> random.below(static_cast<std::uint64_t>(kWidth));
+    if (random.one_in(4))
+      limit = std::int64_t{1} << random.below(
+                  static_cast<std::uint64_t>(kWidth - 1));  // one misfit bit
     if (random.one_in(8)) limit = -1 - limit;
     c.param = static_cast<std::uint32_t>(limit);
     // What lies above the limit's bits does not count.

@@ -47,11 +47,13 @@ LINE = ("mutate -mode cnot1 -module b -cell $add$rtl/b.sv:2$1 -port Y -portbit 3
 
 class Commands(unittest.TestCase):
     def test_a_line_of_the_list_and_back(self):
-        mutant = netlist.parse(LINE, {"$add$rtl/b.sv:2$1": "$add"})
+        mutant = netlist.parse(LINE, {"$add$rtl/b.sv:2$1": ("$add", "")})
         self.assertEqual((mutant["mode"], mutant["type"], mutant["port"], mutant["bit"], mutant["by_bit"]),
                          ("cnot1", "$add", "Y", 3, 1))
         self.assertEqual((mutant["wire"], mutant["wire_bit"]), ("w", 2))
         self.assertEqual(mutant["sources"], ["rtl/b.sv:2.1-2.9", "rtl/b.sv:1.1-1.4"])
+        other = netlist.parse(LINE, {"$add$rtl/b.sv:2$1": ("$dffe", "w_q")}) | {"port": "EN"}
+        self.assertEqual(rtl.says(other).partition(",")[0], "bit 3 of $dffe.EN of w_q")
         self.assertEqual(netlist.command(mutant, "b", "-ctrl mutsel 4 7"),
                          "mutate -ctrl mutsel 4 7 -mode cnot1 -module b -cell $add$rtl/b.sv:2$1 -port Y -portbit 3 "
                          "-ctrlbit 1")
@@ -141,7 +143,7 @@ class Reasons(unittest.TestCase):
         for folder in ("rtl", "testbench/b"):
             (self.root / folder).mkdir(parents=True)
         (self.root / "rtl/b.sv").write_text("one\n  assign w = a + 1;\n", encoding="utf-8")
-        self.mutant = netlist.parse(LINE, {"$add$rtl/b.sv:2$1": "$add"}) | {"number": 1}
+        self.mutant = netlist.parse(LINE, {"$add$rtl/b.sv:2$1": ("$add", "")}) | {"number": 1}
 
     def listed(self, text):
         (self.root / "testbench/b/mutants.toml").write_text(text, encoding="utf-8")
@@ -151,22 +153,26 @@ class Reasons(unittest.TestCase):
         self.assertEqual(rtl.where(self.root, self.mutant), ["rtl/b.sv:1: one", "rtl/b.sv:2: assign w = a + 1;"])
 
     def test_every_key_must_fit(self):
-        whole = '[[survivor]]\nline = "w = a + 1"\nwire = "w"\npin = "[$]add[.]Y"\nbits = [3]\nmodes = ["cnot1"]\nwhy = "x"\n'
-        self.assertEqual(self.listed(whole).why(self.mutant), "x")
+        whole = '[[survivor]]\nline = "w = a + 1"\nwire = "w"\npin = "[$]add[.]Y"\nbits = [3]\nmodes = ["cnot1"]\nkind = "gap"\nwhy = "x"\n'
+        self.assertEqual(self.listed(whole).entry(self.mutant), ("gap", "x"))
         for key, other in (("w = a", "v = a"), ('wire = "w"', 'wire = "v"'), ("add", "sub"), ("[3]", "[2]"), ("cnot1", "inv")):
-            self.assertEqual(self.listed(whole.replace(key, other)).why(self.mutant), "")
+            self.assertEqual(self.listed(whole.replace(key, other)).entry(self.mutant), ("", ""))
 
     def test_no_reason_is_refused(self):
-        for text in ('[[survivor]]\nline = "x"\n', '[[survivor]]\nwhy = "x"\n', '[[survivor]]\nwhy = "x"\nlin = "x"\n'):
+        for text in ('kind = "gap"\nline = "x"\n', 'kind = "gap"\nwhy = "x"\n', 'kind = "gap"\nwhy = "x"\nlin = "x"\n',
+                     'why = "x"\nline = "x"\n', 'kind = "other"\nwhy = "x"\nline = "x"\n'):
             with self.assertRaises(rtl.MutateError):
-                self.listed(text)
+                self.listed(f"[[survivor]]\n{text}")
 
     def test_figures(self):
         test = rtl.Test("b", "b", self.root, self.root / "b_mutants", 1, 100, [self.mutant | {"number": n} for n in range(1, 6)])
-        row = rtl.Row(test, self.listed('[[survivor]]\nline = "w = a"\nwhy = "seen"\n'))
+        row = rtl.Row(test, self.listed('[[survivor]]\nline = "w = a"\nkind = "gap"\nwhy = "seen"\n'))
         row.fates = {1: rtl.KILLED, 2: rtl.HANGS, 3: rtl.SURVIVES, 4: rtl.SURVIVES, 5: rtl.KILLED}
         row.proofs = {3: (equivalence.EQUIVALENT, ""), 4: (equivalence.DIFFERENT, "differs in clock 2")}
-        self.assertEqual((row.equivalent(), row.relevant(), row.of_listed(), row.share()), (1, 4, 1, 0.75))
+        self.assertEqual((row.equivalent(), row.relevant(), row.of(rtl.GAP), row.share()), (1, 4, 1, 0.75))
+        row.listed = self.listed('[[survivor]]\nline = "w = a"\nkind = "equivalent"\nwhy = "seen"\n')
+        self.assertEqual((row.relevant(), row.of(rtl.ARGUED), row.share()), (3, 1, 1.0))
+        row.listed = self.listed('[[survivor]]\nline = "w = a"\nkind = "gap"\nwhy = "seen"\n')
         self.assertIn("75.0 %", rtl.table([row]))
         said = row.as_json()
         self.assertEqual((said["killed"], said["hangs"], len(said["survivors"])), (3, 1, 1))

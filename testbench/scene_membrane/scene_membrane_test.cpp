@@ -69,9 +69,12 @@ struct Next {
   Wave wave{};
   Wave operator()(Memory& memory, std::int64_t number) {
     if (number == 0 || random.one_in(40)) {
-      const std::int64_t lower = random.between(-40000, 40000);
+      std::int64_t lower = random.between(-40000, 40000);
+      if (random.one_in(4)) lower = (lower & ~std::int64_t{255}) + (1 << random.below(8));
+      // Now and then the faces cross: both sides at once, until they are written again.
+      const std::int64_t least = random.one_in(4) ? -256 * 60 : -300;
       memory.write(A::membrane_lower, lower);
-      memory.write(A::membrane_upper, lower + random.between(-300, 256 * 60));
+      memory.write(A::membrane_upper, lower + random.between(least, 256 * 60));
       memory.write(A::membrane_torque, random.one_in(4) ? any_word(random) : random.below(65536));
       if (random.one_in(16)) memory.write(A::membrane_lower, any_word(random));
     }

@@ -5,6 +5,8 @@
 // the law never pulls and takes from the hand. Documentation: docs/blocks/scene_wall.md
 #include <Vscene_wall.h>
 
+#include <algorithm>
+
 #include "../scenes/scene_bench.hpp"
 #include "catch.hpp"
 #include "feltgate/scene_wall.hpp"
@@ -59,8 +61,8 @@ std::int64_t oracle(const Memory& memory, std::int32_t position, std::int64_t ve
   // The spring's part saturates at its format, far beyond any limit.
   constexpr int128_t least = -(int128_t{1} << (kPartWidth - 1));
   const int128_t spring = (static_cast<int128_t>(x) * k) >> spring_drop;
-  const int128_t quarters = (spring < least ? least : spring) -
-                            ((static_cast<int128_t>(velocity) * b) >> damper_drop);
+  const int128_t quarters =
+      (spring < least ? least : spring) - ((static_cast<int128_t>(velocity) * b) >> damper_drop);
   tally->ties += (quarters & 3) == 2;
   const int128_t tau = (quarters + 2) >> 2;
   if (tau > 0) {
@@ -108,6 +110,13 @@ struct Next {
       }
     }
     wave.position = any_position(random, memory, S::wall);
+    if (random.one_in(24)) {
+      // A product just beyond a power of two: a single 0 among the high bits of a negative word.
+      memory.write(A::wall_contact, 0);
+      memory.write(A::wall_stiffness,
+                   random.coin() ? 0x1ffff : std::int64_t{1} << random.below(17));
+      wave.position = std::min(kEnd, (1 << random.below(18)) + 1);
+    }
     wave.velocity = any_velocity(random);
     wave.length = static_cast<int>(random.between(Wave::kShortest, 32));
     return wave;

@@ -23,7 +23,7 @@ SLOWER, MORE_S = 2, 1  # a mutant may take this many times the CPU time, and the
 @dataclass
 class Verdict:
     mutant: object
-    how: str  # killed, hangs, crashes, survives, unreached, exact (a rounding that has nothing to round)
+    how: str  # killed, hangs, crashes, survives, unreached, exact (nothing to round, or no such call)
     by: str = ""  # program: test case
     seconds: float = 0.0
 

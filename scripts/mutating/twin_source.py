@@ -191,7 +191,7 @@ class Header:
         if operator in ("&&", "||"):
             return self.logical(node, operator)
         left, right = (node.child_by_field_name(f) for f in ("left", "right"))
-        texts = self.emit(left), self.emit(right)
+        texts = self.emit(left), self.right_of(node)
         if operator not in OPERATORS:
             return f"{texts[0]} {operator} {texts[1]}"
         function, others = OPERATORS[operator]
@@ -203,6 +203,11 @@ class Header:
         ]
         arguments = ", ".join(str(-1 if n is None else n) for n in numbers)
         return f"::feltgate_mutant::{function}<{arguments}>({texts[0]}, {texts[1]})"
+
+    def right_of(self, node):
+        """The right operand, with a typename that the parser did not see."""
+        operator, right = (node.child_by_field_name(f) for f in ("operator", "right"))
+        return (self.text[operator.end_byte:right.start_byte].decode().strip() + " " + self.emit(right)).strip()
 
     def logical(self, node, operator):
         """A chain of one operator: each operand left out, each operator the other one."""
@@ -318,7 +323,7 @@ class Header:
     def emit_assignment_expression(self, node):
         operator = node.child_by_field_name("operator").type
         left, right = (node.child_by_field_name(f) for f in ("left", "right"))
-        texts = self.emit(left), self.emit(right)
+        texts = self.emit(left), self.right_of(node)
         plain = f"{texts[0]} {operator} {texts[1]}"
         if operator not in ASSIGNMENTS or node.parent.type != "expression_statement":
             return plain
@@ -360,6 +365,16 @@ class Header:
     def emit_call_expression(self, node):
         function, arguments = (node.child_by_field_name(f) for f in ("function", "arguments"))
         was, called = self.source(function), self.emit(function)
+        given = [c for c in arguments.named_children if c.type != "comment"]
+        if called == was and self.can_swap(node, was, given):
+            texts = [self.emit(argument) for argument in given]
+            swapped = f"{was}({self.source(given[1])}, {self.source(given[0])})"
+            number = self.new(node, "arguments", self.source(node), swapped)
+            if number is None:
+                return f"{was}({texts[0]}, {texts[1]})"
+            call = f"{was}(static_cast<decltype(a_)>(a_), static_cast<decltype(b_)>(b_))"
+            return (f"::feltgate_mutant::swapped<{number}>([&](auto&& a_, auto&& b_) -> decltype({call}) "
+                    f"{{ return {call}; }}, {texts[0]}, {texts[1]})")
         plain = self.emit(arguments)
         result = called + plain
         if called != was:
@@ -368,9 +383,8 @@ class Header:
             if old in was and "<" in was:
                 other = was.replace(old, new)
                 number = self.new(node, "rounding", f"{old} of {self.source(node)}", new)
-                given = arguments.named_children
                 if number is not None and old != "Overflow::saturate" and given:
-                    ask = f"::feltgate_mutant::rounds<decltype({was + plain})>({number}, {self.source(given[0])})"
+                    ask = f"::feltgate_mutant::rounds<decltype({self.source(node)})>({number}, {self.source(given[0])})"
                     result = f"({ask} ? {other + plain} : {result})"
                 else:
                     result = self.choice(number, other + plain, result)
@@ -378,9 +392,9 @@ class Header:
             if was.startswith(old):
                 number = self.new(node, "arithmetic", self.source(node), new)
                 return self.choice(number, was.replace(old, new) + plain, result)
-        given = [c for c in arguments.named_children if c.type != "comment"]
-        if len(given) == 2 and not was.startswith(("static_cast", "std::")) and arguments.type == "argument_list":
-            swapped = f"({self.source(given[1])}, {self.source(given[0])})"
-            number = self.new(node, "arguments", self.source(node), was + swapped, risky=True)
-            result = self.choice(number, was + swapped, result)
         return result
+
+    def can_swap(self, node, was, given):
+        """Two arguments of a function that is no template, in a function."""
+        return (len(given) == 2 and "<" not in was and not was.startswith(("std::", "typename"))
+                and all(c.type != "initializer_list" for c in given) and self.function(node) != "members")

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // FELTGATE_MUTANT chooses a mutant; FELTGATE_MUTANTS_REACHED names a file for the numbers of those
-// that a run has reached; `exact` after one that changes nothing. Documentation:
+// that a run has reached; `exact` after one that is none. Documentation:
 // docs/verification.md
 #include "mutant.hpp"
 

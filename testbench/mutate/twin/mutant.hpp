@@ -7,6 +7,7 @@
 #pragma once
 
 #include <type_traits>
+#include <utility>
 
 namespace feltgate_mutant {
 
@@ -25,7 +26,7 @@ struct HasFormat : std::false_type {};
 template <class T>
 struct HasFormat<T, std::void_t<decltype(T::format.fraction)>> : std::true_type {};
 
-/// Notes that a rounding mode can change nothing here: the result has as many fraction bits.
+/// Notes that there is no such mutant: a rounding with nothing to round, a call that cannot be.
 void exact(int number);
 
 /// The same for another rounding of x into a To.
@@ -52,6 +53,20 @@ constexpr To as(From x) {
   }
 }
 
+/// f(a, b), or f(b, a) where that is a call too.
+template <int N, class F, class A, class B>
+[[gnu::always_inline]] constexpr decltype(auto) swapped(F&& f, A&& a, B&& b) {
+  if constexpr (std::is_invocable_v<F&, B&&, A&&>) {
+    if constexpr (std::is_same_v<decltype(f(std::forward<B>(b), std::forward<A>(a))),
+                                 decltype(f(std::forward<A>(a), std::forward<B>(b)))>) {
+      if (on(N)) return f(std::forward<B>(b), std::forward<A>(a));
+    }
+  } else if (!__builtin_is_constant_evaluated() && state[N] == 2) {
+    exact(N);
+  }
+  return f(std::forward<A>(a), std::forward<B>(b));
+}
+
 #define FELTGATE_MUTANT_OPERATOR(name, was, is)          \
   template <int N, class A, class B>                     \
   [[gnu::always_inline]] constexpr auto name(A a, B b) { \
@@ -68,8 +83,6 @@ FELTGATE_MUTANT_OPERATOR(right, >>, <<)
 FELTGATE_MUTANT_OPERATOR(bit_and, &, |)
 FELTGATE_MUTANT_OPERATOR(bit_or, |, &)
 FELTGATE_MUTANT_OPERATOR(bit_xor, ^, &)
-FELTGATE_MUTANT_OPERATOR(equal, ==, !=)
-FELTGATE_MUTANT_OPERATOR(unequal, !=, ==)
 #undef FELTGATE_MUTANT_OPERATOR
 
 #define FELTGATE_MUTANT_ORDER(name, was, is, opposite)   \
@@ -85,6 +98,17 @@ FELTGATE_MUTANT_ORDER(greater, >, >=, <=)
 FELTGATE_MUTANT_ORDER(greater_equal, >=, >, <)
 #undef FELTGATE_MUTANT_ORDER
 
+// A type may have only one of the two.
+template <int N, class A, class B>
+[[gnu::always_inline]] constexpr auto equal(A a, B b) {
+  if (on(N)) return as<decltype(a == b)>(!(a == b));
+  return a == b;
+}
+template <int N, class A, class B>
+[[gnu::always_inline]] constexpr auto unequal(A a, B b) {
+  if (on(N)) return as<decltype(a != b)>(!(a != b));
+  return a != b;
+}
 template <int N, class A>
 [[gnu::always_inline]] constexpr auto invert(A a) {
   return on(N) != !a;

@@ -29,16 +29,14 @@ struct HasFormat<T, std::void_t<decltype(T::format.fraction)>> : std::true_type 
 /// Notes that there is no such mutant: a rounding with nothing to round, a call that cannot be.
 void exact(int number);
 
-/// The same for another rounding of x into a To.
+/// The same for another rounding of x into a To; real numbers round nothing.
 template <class To, class From>
 constexpr bool rounds(int number, const From&) {
   if constexpr (HasFormat<To>::value && HasFormat<From>::value) {
-    if constexpr (From::format.fraction <= To::format.fraction) {
-      if (!__builtin_is_constant_evaluated() && state[number] == 2) exact(number);
-      return false;
-    }
+    if constexpr (From::format.fraction > To::format.fraction) return on(number);
   }
-  return on(number);
+  if (!__builtin_is_constant_evaluated() && state[number] == 2) exact(number);
+  return false;
 }
 
 /// x as a To, by its raw integer where it is a fixed-point number of another format.

@@ -109,6 +109,31 @@ TEST_CASE("supervisor: the watchdog sleeps until a kick, for which a design may 
   CHECK_FALSE(open_after_ten<Kicked>(true));
 }
 
+TEST_CASE("supervisor: no watchdog waits longer than its counter does") {
+  const auto lasts = [](std::uint32_t limit) {
+    Twin twin;
+    Twin::Words words;
+    words.overspeed = words.polarity_speed = words.polarity_current = 0x7fffffff;
+    words.i2t_budget = 0xffffffffu;
+    words.watchdog_ticks = limit;
+    for (int k = 0; k < 6; ++k) twin.clock({});
+    Twin::Tick tick;
+    tick.kick = true;
+    twin.tick(words, tick);
+    tick.kick = false;
+    tick.arm = true;
+    std::int64_t ticks = 0;
+    while (twin.tick(words, tick) < 0 && ticks < std::int64_t{1} << 26) ++ticks;
+    return ticks;
+  };
+  const std::int64_t more = lasts(100) - 100,
+                     longest = std::int64_t{1} << feltgate::Map::kickless_bits;
+  CHECK(lasts(7) == 7 + more);
+  CHECK(lasts((1u << feltgate::Map::kickless_bits) - 1) == longest - 1 + more);
+  CHECK(lasts(1u << feltgate::Map::kickless_bits) == longest + more);
+  CHECK(lasts(0x7fffffff) == longest + more);
+}
+
 TEMPLATE_TEST_CASE("supervisor: the estimate against real arithmetic", "", feltgate::Lever,
                    feltgate::Paper) {
   using D = TestType;

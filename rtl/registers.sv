@@ -159,8 +159,12 @@ module registers #(
   end
   endgenerate
 
+  logic        lands;
+  logic [35:0] written;
+  assign lands   = tick_i && to_parameter_q && !refuses;
+  assign written = {check_of(data_q), data_q};
   always @(posedge clk_i) begin  // not always_ff: the values of the design are written by another process
-    if (tick_i && to_parameter_q && !refuses) parameter_ram[address_q] <= {check_of(data_q), data_q};
+    if (lands) parameter_ram[address_q] <= written;
   end
 
   logic        high, eased, test;

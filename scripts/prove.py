@@ -48,7 +48,7 @@ def arguments(argv):
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("proof", nargs="*", metavar="BLOCK[.NAME]", help="a block or one proof; default: all")
-    parser.add_argument("--list", action="store_true", help="what there is; runs nothing")
+    parser.add_argument("--list", action="store_true", help="what there is, and which ports are in no property; runs nothing")
     parser.add_argument("--fast", action="store_true", help="only what every test run repeats: short proofs, on their first design")
     parser.add_argument("--no-defects", action="store_true", help="base, induction and covers only")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N",
@@ -92,6 +92,12 @@ def print_list(root, proofs):
             print(f"  {name:28} is reached: {says}")
     count = sum(len(proof.properties) for proof in proofs)
     print(f"{count} properties in {len(proofs)} proofs of {len({p.block for p in proofs})} blocks")
+
+
+def print_open(blocks):
+    for block, names in blocks.items():
+        if names:
+            print(f"{block}: in no property: {', '.join(names)}")
 
 
 def progress(done, total, text):
@@ -147,6 +153,8 @@ def main(argv=None):
         proofs = chosen(everything, options.proof, options.fast)
         if options.list:
             print_list(root, proofs)
+            if not options.proof and not options.fast:
+                print_open(catalog.open_ports(root, proofs))
             return 0
         if options.keep:
             options.keep.mkdir(parents=True, exist_ok=True)

@@ -26,7 +26,8 @@ class Property:
     defect: Path  # the patch that must break it
     ports: tuple
     from_any: object  # the defect shows too late after a reset: true, from any state that meets the rest;
-    # "alone", from any state, where the assertion is inductive without the rest
+    # "next", from any that met the rest up to the clock before; "alone", from any state, where the assertion
+    # is inductive without the rest
 
 
 @dataclass(frozen=True)
@@ -139,14 +140,22 @@ def ports(root, block):
 
 
 def open_ports(root, proofs):
-    """{block: its ports that no property of it names}; clock and reset are in all."""
+    """{block: its ports that no property names}; clock and reset are in all. A property names a port of a
+    block inside as BLOCK.PORT."""
+    named = {}
+    for proof in proofs:
+        for entry in proof.properties:
+            for name in entry.ports:
+                block, _, port = name.rpartition(".")
+                named.setdefault(block or proof.block, set()).add(port)
     found = {}
-    for block in dict.fromkeys(proof.block for proof in proofs):
-        named = {p for proof in proofs if proof.block == block
-                 for entry in proof.properties for p in entry.ports}
-        there = set(ports(root, block))
-        strange = named - there
+    for path in sorted(root.glob("rtl/*.sv")):
+        block, there = path.stem, set(ports(root, path.stem))
+        strange = named.pop(block, set())
+        found[block] = sorted(there - strange - {"clk_i", "rst_ni"})
+        strange -= there
         if strange:
             raise CatalogError(f"{block}: rtl/{block}.sv has no port {', '.join(sorted(strange))}")
-        found[block] = sorted(there - named - {"clk_i", "rst_ni"})
+    if named:
+        raise CatalogError(f"no block {', '.join(sorted(named))} in rtl/")
     return found

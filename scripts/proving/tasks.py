@@ -35,7 +35,7 @@ class Task:
             return engine.solve(tools, folder, "covers.smt2", ["-c", "-t", str(proof.cover_depth)])
         step = ["-i", "-t", str(proof.depth)]
         for entry in proof.properties:
-            if entry.defect == self.patch and entry.from_any == "alone":
+            if entry.defect == self.patch and entry.from_any in ("alone", "next"):
                 self.check_alone(tools, root, folder / "whole", entry, step)
         bmc = ["-t", str(proof.defect_depth)]
         return {
@@ -48,10 +48,10 @@ class Task:
 
 
     def check_alone(self, tools, root, folder, entry, options):
-        """Without the defect the assertion must be inductive by itself, or its failure says nothing."""
+        """Without the defect the assertion must be inductive so, or its failure says nothing."""
         engine.elaborate(tools, root, self.proof, self.design, folder, None, entry.name)
         if not engine.solve(tools, folder, f"{entry.name}.smt2", options).passed:
-            raise engine.Broken(f"{self.proof.key}: {entry.name} is not inductive alone; take another defect")
+            raise engine.Broken(f"{self.proof.key}: {entry.name} is not inductive with from_any = \"{entry.from_any}\"; take another defect")
 
 
 @dataclass

@@ -130,7 +130,9 @@ def elaborate(tools, root, proof, design, folder, patch=None, alone=None):
             if entry.name == alone or (patch and entry.defect == patch):
                 others = f"t:$assert c:{entry.name} %d"
                 rest = f"delete {others}"
-                if entry.from_any is True:
+                if entry.from_any == "next":
+                    rest = f"chformal -assert -delay 1 {others}; chformal -assert -assert2assume {others}"
+                elif entry.from_any is True:
                     rest = f"chformal -assert -assert2assume {others}"
                 script += ["design -load all", rest, f"write_smt2 -wires {entry.name}.smt2"]
                 outputs.append(f"{entry.name}.smt2")

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// When the torque limit is eased and when it is given back, for any clocks, words and ticks.
+`default_nettype none
+
+module ease_proof (
+    input logic                                      clk_i,
+    input logic                                      rst_ni,
+    input logic                                      armed_i,
+    input logic [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
+    input logic [                             31:0] tick_count_i,
+    input logic [                             31:0] param_i,
+    input logic                                      moved_i,
+    input logic                                      beyond_i
+);
+  localparam int Bits = feltgate_map_pkg::HOLD_BITS;
+
+  logic past_ok_q;
+  initial past_ok_q = 1'b0;
+  always_ff @(posedge clk_i) past_ok_q <= 1'b1;
+
+  logic eased;
+  hold_timer u_dut (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .armed_i(armed_i),
+      .wave_i(wave_i),
+      .tick_count_i(tick_count_i),
+      .param_i(param_i),
+      .moved_i(moved_i),
+      .beyond_i(beyond_i),
+      .eased_o(eased)
+  );
+  (* hierconn *) wire [Bits-1:0] \u_dut.units_q ;
+  (* hierconn *) wire \u_dut.strong_q ;
+
+  logic strong_q;
+  always_comb begin
+    if (!past_ok_q) assume (!rst_ni && \u_dut.strong_q == strong_q);  // no reset clears it
+  end
+
+  // Units for which the torque was held: ends of 2^HOLD_UNIT_BITS ticks. From 2^HOLD_BITS on it says so for good.
+  // In reach: the words since the hold began were times that the block can wait for.
+  logic now, held, due, unit, in_reach_q, in_reach_was_q, eased_q, now_q, held_q, due_q, after_q;
+  logic [Bits:0] units_q;
+  assign now  = wave_i[feltgate_map_pkg::T_HOLD];
+  assign held = armed_i && !moved_i;
+  assign unit = tick_count_i[feltgate_map_pkg::HOLD_UNIT_BITS-1:0] == '0;
+  assign due  = held && strong_q && 32'(units_q) >= param_i;
+  always_ff @(posedge clk_i) begin
+    if (wave_i[feltgate_map_pkg::T_HOLD_STRONG]) strong_q <= beyond_i;
+    eased_q <= eased;
+    now_q   <= now;
+    held_q  <= held;
+    due_q   <= due;
+    in_reach_was_q <= in_reach_q;
+  end
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      units_q    <= '0;
+      in_reach_q <= 1'b1;
+      after_q    <= 1'b0;
+    end else begin
+      after_q <= 1'b1;
+      if (now) begin
+        if (!held || !strong_q) begin
+          units_q    <= '0;
+          in_reach_q <= 1'b1;
+        end else begin
+          if (unit) units_q <= (units_q + 1'b1) | {units_q[Bits], {Bits{1'b0}}};
+          if (param_i >= 32'd1 << Bits) in_reach_q <= 1'b0;
+        end
+      end
+    end
+  end
+
+  always_comb begin
+    inside_strong: assert (!past_ok_q || \u_dut.strong_q == strong_q);
+    if (rst_ni && past_ok_q && after_q) begin
+      stays_between: assert (now_q || eased == eased_q);
+      given_back: assert (!now_q || held_q || !eased);
+      kept_until_then: assert (!now_q || !held_q || !eased_q || eased);
+      eases_on_time: assert (!now_q || !in_reach_was_q || !due_q || eased);
+      eases_no_earlier: assert (!now_q || eased_q || !eased || due_q);
+      eases: cover (eased && !eased_q);
+      gives_back: cover (!eased && eased_q);
+    end
+    if (rst_ni && past_ok_q) begin
+      inside_units: assert (\u_dut.units_q == units_q[Bits-1:0]);
+      inside_reach: assert (!in_reach_q || eased || !units_q[Bits]);
+      inside_before: assert (after_q || !eased);
+    end
+  end
+endmodule
+
+`default_nettype wire

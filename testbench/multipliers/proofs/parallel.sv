@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A multiplier each: what each multiplies, and whose product is whose.
+`default_nettype none
+
+module parallel_proof (
+    input logic                                                  clk_i,
+    input logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] operand_i,
+    input logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] velocity_i,
+    input logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] dob_i,
+    input logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] scene_i,
+    input logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] control_i,
+    input logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] supervisor_i,
+    input logic                                                  signed_i,
+    input logic        [                                   31:0] param_i,
+    input logic                                                  square_distance_i,
+    input logic signed [                                   17:0] distance_i,
+    input logic                                                  square_estimate_i,
+    input logic signed [   feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate_i
+);
+  logic past_ok_q;
+  initial past_ok_q = 1'b0;
+  always_ff @(posedge clk_i) past_ok_q <= 1'b1;
+
+  logic signed [feltgate_pkg::PRODUCT_BITS-1:0] velocity, dob, scene, control, supervisor;
+  multipliers u_dut (
+      .clk_i(clk_i),
+      .operand_i(operand_i),
+      .velocity_i(velocity_i),
+      .dob_i(dob_i),
+      .scene_i(scene_i),
+      .control_i(control_i),
+      .supervisor_i(supervisor_i),
+      .signed_i(signed_i),
+      .param_i(param_i),
+      .square_distance_i(square_distance_i),
+      .distance_i(distance_i),
+      .square_estimate_i(square_estimate_i),
+      .estimate_i(estimate_i),
+      .velocity_product_o(velocity),
+      .dob_product_o(dob),
+      .scene_product_o(scene),
+      .control_product_o(control),
+      .supervisor_product_o(supervisor)
+  );
+
+  // The word on the bus: COEFFICIENT_BITS of it, and the next as a sign where it has one.
+  logic signed [17:0] coefficient;
+  assign coefficient = signed_i ? $signed(param_i[17:0]) : $signed({1'b0, param_i[16:0]});
+  (* hierconn *) wire signed [feltgate_pkg::MULTIPLIER_A_BITS-1:0] \u_dut.gen_parallel.u_velocity.a_i ;
+  (* hierconn *) wire signed [17:0] \u_dut.gen_parallel.u_velocity.b_i ;
+  (* hierconn *) wire signed [feltgate_pkg::PRODUCT_BITS-1:0] \u_dut.gen_parallel.u_velocity.product_o ;
+  (* hierconn *) wire signed [feltgate_pkg::MULTIPLIER_A_BITS-1:0] \u_dut.gen_parallel.u_dob.a_i ;
+  (* hierconn *) wire signed [17:0] \u_dut.gen_parallel.u_dob.b_i ;
+  (* hierconn *) wire signed [feltgate_pkg::PRODUCT_BITS-1:0] \u_dut.gen_parallel.u_dob.product_o ;
+  (* hierconn *) wire signed [feltgate_pkg::MULTIPLIER_A_BITS-1:0] \u_dut.gen_parallel.u_scene.a_i ;
+  (* hierconn *) wire signed [17:0] \u_dut.gen_parallel.u_scene.b_i ;
+  (* hierconn *) wire signed [feltgate_pkg::PRODUCT_BITS-1:0] \u_dut.gen_parallel.u_scene.product_o ;
+  (* hierconn *) wire signed [feltgate_pkg::MULTIPLIER_A_BITS-1:0] \u_dut.gen_parallel.u_control.a_i ;
+  (* hierconn *) wire signed [17:0] \u_dut.gen_parallel.u_control.b_i ;
+  (* hierconn *) wire signed [feltgate_pkg::PRODUCT_BITS-1:0] \u_dut.gen_parallel.u_control.product_o ;
+  (* hierconn *) wire signed [feltgate_pkg::MULTIPLIER_A_BITS-1:0] \u_dut.gen_parallel.u_supervisor.a_i ;
+  (* hierconn *) wire signed [17:0] \u_dut.gen_parallel.u_supervisor.b_i ;
+  (* hierconn *) wire signed [feltgate_pkg::PRODUCT_BITS-1:0] \u_dut.gen_parallel.u_supervisor.product_o ;
+  always_comb begin
+    if (past_ok_q) begin
+      operands_are_their_own: assert (\u_dut.gen_parallel.u_velocity.a_i  == feltgate_pkg::MULTIPLIER_A_BITS'(velocity_i) &&
+          \u_dut.gen_parallel.u_dob.a_i  == dob_i && \u_dut.gen_parallel.u_scene.a_i  == scene_i &&
+          \u_dut.gen_parallel.u_control.a_i  == control_i && \u_dut.gen_parallel.u_supervisor.a_i  == supervisor_i);
+      factors_are_the_word: assert (\u_dut.gen_parallel.u_velocity.b_i  == coefficient && \u_dut.gen_parallel.u_dob.b_i  == coefficient &&
+          \u_dut.gen_parallel.u_control.b_i  == coefficient && (square_distance_i || \u_dut.gen_parallel.u_scene.b_i  == coefficient) &&
+          (square_estimate_i || \u_dut.gen_parallel.u_supervisor.b_i  == coefficient));
+      squares_are_of_their_own: assert ((!square_distance_i || \u_dut.gen_parallel.u_scene.b_i  == distance_i) &&
+          (!square_estimate_i || \u_dut.gen_parallel.u_supervisor.b_i  == 18'(estimate_i)));
+      products_are_their_own: assert (velocity == \u_dut.gen_parallel.u_velocity.product_o  && dob == \u_dut.gen_parallel.u_dob.product_o  &&
+          scene == \u_dut.gen_parallel.u_scene.product_o  && control == \u_dut.gen_parallel.u_control.product_o  &&
+          supervisor == \u_dut.gen_parallel.u_supervisor.product_o );
+      has_a_sign: cover (signed_i && \u_dut.gen_parallel.u_control.b_i  < 0);
+    end
+  end
+endmodule
+
+`default_nettype wire

@@ -158,3 +158,42 @@ TEST_CASE(
     s.play();
   }
 }
+
+TEST_CASE(
+    "supervisor: causes of any clock beside a fault, in the clock of a clear, and as it arms") {
+  for (const Fault cause : {Fault::encoder, Fault::stop, Fault::tick, Fault::word}) {
+    CAPTURE(static_cast<int>(cause));
+    Script s;
+    const auto trip = [&s, cause] {
+      s.now.trips = static_cast<std::uint16_t>(fault_bit(cause));
+      s.clocks(1);
+      s.now.trips = 0;
+    };
+    s.arm();
+    s.now.velocity = std::numeric_limits<std::int32_t>::max();
+    s.ticks(1);
+    REQUIRE(only(s, Fault::speed));
+    s.now.velocity = 0;
+    s.now.arm = false;
+    s.ticks(2);
+    trip();
+    REQUIRE(s.out().faults == (fault_bit(Fault::speed) | fault_bit(cause)));
+    REQUIRE(s.out().first_fault == static_cast<unsigned>(Fault::speed));
+    s.now.clear_faults = true;
+    s.until(kTick - 1);
+    trip();
+    s.now.clear_faults = false;
+    REQUIRE(only(s, cause));
+    s.clear();
+    REQUIRE(s.out().faults == 0);
+    s.now.arm = true;
+    s.until(kTick - 1);
+    trip();
+    REQUIRE(only(s, cause));
+    REQUIRE_FALSE(s.out().armed);
+    REQUIRE_FALSE(s.out().gates_enable);
+    s.clear().arm();
+    REQUIRE(s.out().gates_enable);
+    s.play();
+  }
+}

@@ -11,7 +11,8 @@ Usage: ./feltgate test [NAME] [--long] [--list]
   NAME    only the tests whose name matches this regular expression, such as quad_decoder;
           only what they need is built
   --list  only lists the tests with their labels; builds nothing
-  --long  also the long runs (1e9 lock-step clocks of the core and more)
+  --long  also the long runs (1e9 lock-step clocks of the core and more), and every random run
+          ten times as long, or as many times as FELTGATE_LONG says
 
 The last line is "N passed, N failed", with ", N skipped" where tests could not run here; before it
 a run of all tests says how long each group of them took. Exit code: 0 none failed, 1 some did,
@@ -40,7 +41,7 @@ run_tests() {
         ;;
       --list) list=1 ;;
       --long)
-        export FELTGATE_LONG=1
+        export FELTGATE_LONG=${FELTGATE_LONG:-10}
         chosen+=(--long)
         groups+=" long"
         options+=(-C Long)

@@ -62,6 +62,7 @@ class LockStepRun {
     control(0, Mode::voltage, false);
     control(0, Mode::voltage, true);
     play(last, window / 8);
+    overheat(last, window / 8);
     control(0, Mode::closed_loop, false);
     play(last, window / 8);
     control(0, Mode::closed_loop, true);
@@ -97,6 +98,21 @@ class LockStepRun {
                              std::int64_t{arm} << D::C::control_arm |
                              static_cast<std::int64_t>(scene) << D::C::control_scene |
                              static_cast<std::int64_t>(mode) << D::C::control_mode);
+  }
+
+  /// The motor cold, and then too hot with the first current that is squared.
+  void overheat(const Motion& motion, std::int64_t clocks) {
+    write(D::A::nominal_current_squared, 0x7fffffff);
+    write(D::A::nominal_current_squared, 0x7fffffff);
+    write(D::A::i2t_budget, 1);
+    write(D::A::nominal_current_squared, 0);
+    play(motion, clocks);
+    if (core_.twin().out().first_fault != static_cast<unsigned>(Fault::i2t)) {
+      note("the motor did not get too hot: the I2t budget is out of reach");
+    }
+    write(D::A::i2t_budget, 0xffffffff);
+    control(0, Mode::closed_loop, false);
+    write(D::C::command, std::int64_t{1} << D::C::command_clear_faults);
   }
 
   void play(const Motion& motion, std::int64_t clocks) {

@@ -100,9 +100,9 @@ function(feltgate_defect_tests test program)
     add_test(NAME ${test}.${name}
       COMMAND ${CMAKE_COMMAND} "${command}" -P "${FELTGATE_EXPECT_FAILURE}")
     set_tests_properties(${test}.${name} PROPERTIES LABELS mutation TIMEOUT 3600
-      ENVIRONMENT "FELTGATE_DEFECT=${name};FELTGATE_MISMATCH_DIR=${PROJECT_BINARY_DIR}/mismatch/${name}")
+      ENVIRONMENT "FELTGATE_LONG=1;FELTGATE_DEFECT=${name};FELTGATE_MISMATCH_DIR=${PROJECT_BINARY_DIR}/mismatch/${name}")
   endforeach()
   add_test(NAME ${test}.none COMMAND ${CMAKE_COMMAND} "${command}" -P "${FELTGATE_EXPECT_QUIET}")
   set_tests_properties(${test}.none PROPERTIES LABELS mutation TIMEOUT 3600
-    ENVIRONMENT "FELTGATE_DEFECT=none")
+    ENVIRONMENT "FELTGATE_LONG=1;FELTGATE_DEFECT=none")
 endfunction()

@@ -113,6 +113,92 @@ void compare(const char* design, std::uint64_t seed, int steps, Faults& faults) 
 
 }  // namespace
 
+TEST_CASE("clocks that would close the gates do not wait", "[waiting]") {
+  const auto exact = make_engine("lever", "twin"), waiting = make_engine("lever", "twin");
+  const DesignInfo& d = exact->design();
+  EncoderPins pins;
+  for (Engine* e : {exact.get(), waiting.get()}) e->reset(1, pins);
+  waiting->keep_gate_times(false);
+  const auto write = [&](const char* name, std::uint32_t word) {
+    for (Engine* e : {exact.get(), waiting.get()}) e->write(d.find(name)->address, word);
+  };
+  int settled = 0;  // steps at whose end both say the same
+  /// Half ticks; whether the gates have fallen with the last.
+  const auto step = [&](const std::vector<EncoderEvent>& events) {
+    const bool open = exact->gates_enabled();
+    for (Engine* e : {exact.get(), waiting.get()}) {
+      e->advance(d.clocks_per_tick / 2, events.data(), events.data() + events.size());
+    }
+    REQUIRE(exact->duty() == waiting->duty());
+    REQUIRE(exact->gates_enabled() == waiting->gates_enabled());
+    ++settled;
+    return open && !exact->gates_enabled();
+  };
+  const auto steps = [&](int n) {
+    for (int k = 0; k < n; ++k) step({});
+  };
+  const auto control = [&](bool arm, const char* scene) {
+    const auto number = static_cast<std::uint32_t>(d.scene_number(scene));
+    for (Engine* e : {exact.get(), waiting.get()}) {
+      e->write(d.control_address, d.control_reset | 1u << d.control.host |
+                                      static_cast<std::uint32_t>(arm) << d.control.arm |
+                                      number << d.control.scene);
+    }
+    steps(8);
+  };
+  write("self_test_pulse", 0);
+  steps(4);
+  write("nominal_current_squared", (1u << 31) - 1);
+  steps(4);
+
+  // A sum of 0 at a budget of 0.
+  control(true, "free");
+  REQUIRE(exact->gates_enabled());
+  steps(20);
+  write("i2t_budget", 0);
+  int n = 0;
+  while (!step({}) && n < 10) ++n;
+  REQUIRE_FALSE(exact->gates_enabled());
+  write("i2t_budget", 0xffffffff);
+  steps(4);
+
+  // A lever that gathers speed against the torque; windows end without an edge nearby.
+  write("polarity_ticks", 5);
+  steps(4);
+  write("polarity_speed", 1);
+  steps(4);
+  write("polarity_current", 0);
+  steps(4);
+  write("ramp_step", 0x7ffffff);
+  steps(4);
+  write("setpoint_torque", 2'000);
+  unsigned phase = 0;
+  for (int life = 0; life < 20; ++life) {
+    control(false, "setpoint");
+    for (Engine* e : {exact.get(), waiting.get()}) {
+      e->write(d.command_address, 1u << d.command.clear_faults);
+    }
+    steps(4000);  // at rest
+    control(true, "setpoint");
+    REQUIRE(exact->gates_enabled());
+    bool fell = false;
+    int left = 40 + life;
+    for (n = 0; n < 4'000 && !fell; ++n) {
+      std::vector<EncoderEvent> events;
+      if (--left < 0) {
+        left = 38 - n / 100;
+        phase += 3u;
+        const bool a = (phase & 2u) != 0;
+        events.push_back({exact->now() + 1, {a, ((phase & 1u) != 0) != a, false}});
+      }
+      fell = step(events);
+    }
+    INFO("life " << life);
+    REQUIRE(fell);
+  }
+  CHECK(settled > 80'000);
+}
+
 TEST_CASE("clocks that wait change nothing", "[waiting]") {
   const auto steps = static_cast<int>(test::scaled_clocks(400'000));
   Faults faults{};

@@ -87,18 +87,25 @@ class Evaluation(unittest.TestCase):
         self.assertEqual(self.evaluate(COARSE), result)
 
     def test_a_defect_of_the_rtl_fails_the_point(self):
-        defect = ROOT / "testbench/dob/defects/other_sign_of_inertia.patch"
-        copies = {p.name: p for p in patches.write_copies(defect, Path(self.folder.name, "defect"))}
-        sources = [copies.get(path.name, path) for path in point.rtl_sources()]
-        with (
-            mock.patch.object(point, "rtl_sources", return_value=sources),
-            mock.patch.object(point, "_sources", None),
+        # The second is of the supervisor's own multiplier, and seen by the heat alone.
+        for name, changes in (
+            ("dob/defects/other_sign_of_inertia", {}),
+            ("explore/defects/supervisor_multiplies_for_control", COARSE),
         ):
-            result = self.evaluate({})
-        self.assertEqual(result["status"], "mismatch")
-        self.assertGreater(result["mismatches"], 0)
-        self.assertIn("clock", result["first_mismatch"])
-        self.assertNotIn("torque_error_max_nm", result)
+            defect = ROOT / f"testbench/{name}.patch"
+            folder = Path(self.folder.name, defect.stem)
+            copies = {p.name: p for p in patches.write_copies(defect, folder)}
+            sources = [copies.get(path.name, path) for path in point.rtl_sources()]
+            with (
+                self.subTest(name),
+                mock.patch.object(point, "rtl_sources", return_value=sources),
+                mock.patch.object(point, "_sources", None),
+            ):
+                result = self.evaluate(changes)
+                self.assertEqual(result["status"], "mismatch")
+                self.assertGreater(result["mismatches"], 0)
+                self.assertIn("clock", result["first_mismatch"])
+                self.assertNotIn("torque_error_max_nm", result)
 
     def test_what_cannot_work_is_refused_with_the_reason(self):
         result = self.evaluate({"formats.observer_fraction": 10})

@@ -6,10 +6,10 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <iterator>
-#include <set>
-#include <string>
 
+#include "core_coverage.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "random.hpp"
 
@@ -19,7 +19,8 @@ namespace feltgate::test {
 template <class D>
 class CoreStimulus {
  public:
-  explicit CoreStimulus(std::uint64_t seed) : random_(seed) {}
+  /// Draws of neighbouring seeds are the same row, a place further on; these are not.
+  explicit CoreStimulus(std::uint64_t seed) : random_(Random(seed).bits()) {}
 
   CoreIn operator()(std::int64_t) {
     move();
@@ -40,48 +41,205 @@ class CoreStimulus {
                              : 1 + random_.below(8);
       up_ = random_.one_in(2);
       bad_cable_ = random_.one_in(12);
-      dead_ = random_.one_in(10) ? 1 + random_.below(2) : 0;
+      dead_ = random_.one_in(7) ? 1 + random_.below(2) : 0;
       chatters_ = random_.one_in(10);
+      many_indices_ = random_.one_in(8);
+      gathers_ = false;
     }
     if (random_.one_in(bad_cable_ ? 3'000 : 400'000)) phase_ += 2;  // both channels at once
     if (spacing_ > 0 && --wait_ <= 0) {
       wait_ = spacing_;
+      if (gathers_) spacing_ -= spacing_ / 8;
       phase_ += up_ ? 1u : 3u;
       up_ = up_ != chatters_;
     }
     const bool a = (phase_ & 2u) != 0;
     const bool b = ((phase_ & 1u) != 0) != a;
     in_.encoder = {dead_ == 1 ? in_.encoder.a : a, dead_ == 2 ? in_.encoder.b : b,
-                   (phase_ & 0xfffu) == 0};
+                   (phase_ & (many_indices_ ? 0x7u : 0xfffu)) == 0};
   }
 
+  struct Write {
+    int address;  ///< or one of these
+    std::uint32_t word;
+  };
+  static constexpr int kSetOff = -1;  ///< the lever, a count every `word` clocks
+  static constexpr int kRest = -2;    ///< no write for `word` clocks
+  static constexpr int kBreak = -3;   ///< what is wrong with the encoder: see break_encoder()
+
   void host() {
-    in_.reg_write = random_.one_in(700);
-    if (!in_.reg_write) return;
+    if (rest_ > 0) --rest_;
+    in_.reg_write = rest_ == 0 && random_.one_in(700);
+    if (!in_.reg_write) {
+      if (random_.one_in(500)) look();
+      return;
+    }
+    if (plan_.empty() && random_.one_in(14)) make_plan();
+    if (!plan_.empty()) {
+      const Write next = plan_.front();
+      plan_.pop_front();
+      if (next.address >= 0) return write(next.address, next.word);
+      in_.reg_write = false;
+      if (next.address == kRest) {
+        rest_ = next.word;
+        return;
+      }
+      if (next.address == kBreak) return break_encoder(next.word);
+      return set_off(next.word);
+    }
     // At the design's ramp a run of some thousand ticks would see nothing but ramps.
     if (!ramp_written_ || random_.one_in(20)) {
       ramp_written_ = true;
-      in_.reg_addr = static_cast<std::uint16_t>(D::A::ramp_step);
-      in_.reg_wdata = random_.below(1u << 24);
+      write(D::A::ramp_step, random_.below(1u << 24));
       return;
     }
-    if (random_.one_in(24)) {  // at the design's nothing would be held for long enough
-      in_.reg_addr = static_cast<std::uint16_t>(D::A::hold_time);
-      in_.reg_wdata = random_.below(3);
+    if (random_.one_in(16)) {  // at the design's nothing would be held for long enough
+      write(D::A::hold_time, random_.below(3));
       return;
     }
-    const std::uint32_t what = random_.below(10);
+    const std::uint32_t what = random_.below(9);
     if (what < 5) {
       write_parameter();
     } else if (what < 8) {
       write_control();
-    } else if (what == 8) {
-      in_.reg_addr = static_cast<std::uint16_t>(D::C::command);
-      in_.reg_wdata = random_.below(32);
     } else {
-      in_.reg_write = false;  // a read
-      in_.reg_addr = static_cast<std::uint16_t>(random_.below(0x400));
+      write(D::C::command, random_.below(32));
     }
+  }
+  /// The lever, which is otherwise by itself: from now on a count every so many clocks, and faster.
+  void set_off(std::uint32_t spacing) {
+    left_ = 30'000;
+    spacing_ = spacing;
+    wait_ = 0;
+    bad_cable_ = false;
+    gathers_ = true;
+    chatters_ = false;
+    dead_ = 0;
+    up_ = !up_;
+  }
+  /// One channel is dead, or the cable bad, or the index at every eighth count; or nothing moves.
+  void break_encoder(std::uint32_t how) {
+    left_ = 25'000;
+    spacing_ = how == 4 ? 0 : 200 + random_.below(200);
+    gathers_ = chatters_ = false;
+    dead_ = how < 2 ? 1 + how : 0;
+    bad_cable_ = how == 2;
+    many_indices_ = how == 3;
+  }
+  void write(int address, std::uint32_t word) {
+    in_.reg_addr = static_cast<std::uint16_t>(address);
+    in_.reg_wdata = word;
+  }
+
+  /// Reads, mostly of the snapshot.
+  void look() {
+    const std::uint32_t what = random_.below(8);
+    const auto any = random_.below(static_cast<std::uint32_t>(snapshot_slots.size()));
+    in_.reg_addr =
+        static_cast<std::uint16_t>(what < 6    ? D::C::snapshot + snapshot_slots[any]
+                                   : what == 6 ? static_cast<std::uint32_t>(D::C::control)
+                                               : random_.below(0x400));
+  }
+
+  /// What random words would hardly ever bring about: writes one after the other.
+  void make_plan() {
+    const auto then = [this](int address, std::uint32_t word) { plan_.push_back({address, word}); };
+    const auto as_designed = [&](int address) {
+      for (const auto& p : D::parameters) {
+        if (p.address == address) then(address, static_cast<std::uint32_t>(p.raw));
+      }
+    };
+    const auto some = [this](unsigned bits) { return random_.below(std::uint64_t{1} << bits); };
+    constexpr std::uint32_t host =
+        static_cast<std::uint32_t>(D::control_reset) | 1u << D::C::control_host;
+    const auto arm = [&] {
+      then(D::C::control, host);
+      then(D::C::command, 1u << D::C::command_clear_faults | 1u << D::C::command_thaw);
+      then(D::C::control,
+           host | 1u << D::C::control_arm | random_.below(10) << D::C::control_scene);
+    };
+    switch (random_.below(14)) {
+      case 0:  // a motor that gets too hot, from cold
+        then(D::A::nominal_current_squared, 0x7fffffff);
+        as_designed(D::A::i2t_budget);
+        arm();
+        then(D::A::i2t_budget, some(8 + random_.below(12)));
+        then(D::A::nominal_current_squared, some(random_.below(10)));
+        for (int k = 0; k < 4; ++k) write_something(then);
+        then(kRest, random_.below(10'000));
+        for (int k = 0; k < 4; ++k) write_something(then);
+        as_designed(D::A::nominal_current_squared);
+        as_designed(D::A::i2t_budget);
+        break;
+      case 1:  // a host that falls silent
+        arm();
+        then(D::C::command, 1u << D::C::command_kick);
+        then(D::A::watchdog_ticks, random_.below(120));
+        write_something(then);
+        as_designed(D::A::watchdog_ticks);
+        break;
+      case 2:
+      case 6:  // a lever that seems to run away
+        arm();
+        then(D::A::polarity_ticks, random_.below(6));
+        then(D::A::polarity_speed, some(random_.below(D::f.velocity.fraction + 1)));
+        then(D::A::polarity_current, some(random_.below(D::f.current.fraction)));
+        for (int k = 0; k < 2; ++k) {  // one way and the other
+          then(kSetOff, 2'000);
+          then(kRest, 12'000);
+        }
+        for (int k = 0; k < 6; ++k) write_something(then);
+        as_designed(D::A::polarity_ticks);
+        as_designed(D::A::polarity_speed);
+        as_designed(D::A::polarity_current);
+        break;
+      case 3:  // a self-test that takes what comes for an answer
+        then(D::A::self_test_quiet, 0);
+        then(D::A::self_test_pulse, 1 + random_.below(3));
+        arm();
+        break;
+      case 4:  // a lever that is too fast
+        arm();
+        then(D::A::overspeed, some(D::f.velocity.fraction + random_.below(9)));
+        write_something(then);
+        as_designed(D::A::overspeed);
+        break;
+      case 5:  // a heavy one: the observer comes to its ends
+        then(D::C::control, host);
+        then(D::A::inertia_gain, (1u << D::coefficient_bits) - 1);
+        then(D::A::overspeed, 0x7fffffff);
+        arm();
+        then(kSetOff, 40);
+        then(kRest, 30'000);
+        then(D::C::control, host);
+        as_designed(D::A::inertia_gain);
+        break;
+      case 7:
+      case 8:
+        arm();
+        then(kBreak, random_.below(4));
+        then(kRest, 25'000);
+        break;
+      case 9:  // a torque that is held
+        arm();
+        then(D::A::hold_torque, some(10));
+        then(D::A::hold_time, 0);
+        then(kBreak, 4);
+        then(kRest, 20'000);
+        as_designed(D::A::hold_torque);
+        break;
+      default:
+        if (random_.coin()) as_designed(D::A::duty_limit);
+        arm();
+        break;
+    }
+  }
+  template <class Then>
+  void write_something(Then&& then) {
+    const CoreIn kept = in_;
+    random_.coin() ? write_parameter() : write_control();
+    then(in_.reg_addr, in_.reg_wdata);
+    in_ = kept;
   }
 
   /// Mostly around the design's value, sometimes anywhere in the word's format.
@@ -127,8 +285,14 @@ class CoreStimulus {
   void panel() {
     if (random_.one_in(50'000)) in_.arm = !in_.arm;
     if (random_.one_in(100'000)) in_.scene = static_cast<std::uint8_t>(random_.below(16));
-    in_.set_zero = random_.one_in(100'000);
-    if (in_.stop ? random_.one_in(2'000) : random_.one_in(200'000)) in_.stop = !in_.stop;
+    // Zeros in a row come in any clock of a tick.
+    if (random_.one_in(40'000)) zeros_ = 1 + random_.below(20);
+    in_.set_zero = zeros_ > 0 && random_.one_in(D::clocks_per_tick);
+    if (in_.set_zero) --zeros_;
+    if (in_.stop ? stop_left_-- == 0 : random_.one_in(150'000)) {
+      in_.stop = !in_.stop;
+      stop_left_ = random_.coin() ? random_.below(6) : random_.below(4'000);
+    }
   }
 
   Random random_;
@@ -136,61 +300,10 @@ class CoreStimulus {
   std::int64_t left_ = 0;
   std::int64_t spacing_ = 0, wait_ = 0;
   bool up_ = true, bad_cable_ = false, ramp_written_ = false;
-  bool chatters_ = false;
-  std::uint32_t phase_ = 0, dead_ = 0;
-};
-
-/// What a run has exercised.
-class Coverage {
- public:
-  void add(const CoreOut& o) {
-    ++clocks_;
-    armed_ += o.armed;
-    duty_pinned_ += (o.limits & 16u) != 0;
-    tau_ref_pinned_ += (o.limits & 1u) != 0;
-    eased_ += (o.limits & limit::hold) != 0;
-    frozen_ += o.armed && (o.limits & limit::chatter) != 0;
-    if (o.armed) scenes_.insert(o.scene);
-    if (o.first_fault != 0) faults_.insert(o.first_fault);
-  }
-  void merge(const Coverage& o) {
-    clocks_ += o.clocks_;
-    armed_ += o.armed_;
-    duty_pinned_ += o.duty_pinned_;
-    tau_ref_pinned_ += o.tau_ref_pinned_;
-    eased_ += o.eased_;
-    frozen_ += o.frozen_;
-    scenes_.insert(o.scenes_.begin(), o.scenes_.end());
-    faults_.insert(o.faults_.begin(), o.faults_.end());
-  }
-  double armed_share() const { return share(armed_); }
-  double duty_pinned_share() const { return share(duty_pinned_); }
-  double tau_ref_pinned_share() const { return share(tau_ref_pinned_); }
-  double eased_share() const { return share(eased_); }
-  double frozen_share() const { return share(frozen_); }
-  bool fault_seen(Fault cause) const { return faults_.count(static_cast<int>(cause)) != 0; }
-  /// Scenes that ran armed, the reserved number 1 and those not built left out.
-  int scenes_seen() const {
-    int n = 0;
-    for (const int s : scenes_) n += s == 0 || (s >= 2 && s <= 9) ? 1 : 0;
-    return n;
-  }
-  int faults_seen() const { return static_cast<int>(faults_.size()); }
-  std::string text() const {
-    return "armed " + std::to_string(armed_share()) + ", duty pinned " +
-           std::to_string(duty_pinned_share()) + ", tau_ref pinned " +
-           std::to_string(tau_ref_pinned_share()) + ", eased " + std::to_string(eased_share()) +
-           ", frozen " + std::to_string(frozen_share()) + ", scenes " +
-           std::to_string(scenes_seen()) + ", faults " + std::to_string(faults_seen());
-  }
-
- private:
-  double share(std::int64_t n) const {
-    return clocks_ == 0 ? 0.0 : static_cast<double>(n) / static_cast<double>(clocks_);
-  }
-  std::int64_t clocks_ = 0, armed_ = 0, duty_pinned_ = 0, tau_ref_pinned_ = 0, eased_ = 0,
-               frozen_ = 0;
-  std::set<int> scenes_, faults_;
+  bool chatters_ = false, many_indices_ = false, gathers_ = false;
+  std::deque<Write> plan_;
+  std::uint32_t rest_ = 0, zeros_ = 0;
+  std::uint32_t phase_ = 0, dead_ = 0, stop_left_ = 0;
 };
 
 }  // namespace feltgate::test

@@ -25,14 +25,16 @@ using feltgate::test::Coverage;
 
 TEST_CASE("core: random motion, scenes, modes and register traffic") {
   Coverage total;
-  for (const std::uint64_t seed : {9u, 10u, 14u, 15u}) {
+  const auto lives = static_cast<std::uint64_t>(scaled_clocks(4));
+  for (std::uint64_t seed = 9; seed < 9 + lives; ++seed) {
     Bench bench("feltgate_core", seed);
     Coverage seen;
-    bench.run(CoreStimulus<D>(seed), scaled_clocks(1'500'000), {},
-              [&seen](const CoreIn&, const Vfeltgate_core&, const Twin& twin, bool) -> const char* {
-                seen.add(twin.out());
-                return nullptr;
-              });
+    bench.run(
+        CoreStimulus<D>(seed), 1'500'000, {},
+        [&seen](const CoreIn& in, const Vfeltgate_core&, const Twin& twin, bool) -> const char* {
+          seen.add(in, twin.out(), twin.clock_of_tick());
+          return nullptr;
+        });
     total.merge(seen);
   }
   INFO(total.text());
@@ -43,16 +45,16 @@ TEST_CASE("core: random motion, scenes, modes and register traffic") {
   CHECK(total.duty_pinned_share() < 0.35);  // the back-EMF of a fast lever is above the supply
   CHECK(total.tau_ref_pinned_share() < 0.5);
   CHECK(total.scenes_seen() == 9);
-  CHECK(total.faults_seen() >= 3);
-  CHECK(total.fault_seen(feltgate::Fault::channel));
+  CHECK(total.gaps(2) == "");
   CHECK(total.eased_share() > 0.005);
   CHECK(total.frozen_share() > 0.0005);
 }
 
 TEST_CASE("core: resets at random times, random state before them") {
-  for (const std::uint64_t seed : {11u, 12u, 13u}) {
-    Bench bench("feltgate_core", seed);
-    bench.run(CoreStimulus<D>(seed), scaled_clocks(300'000), {20'000});
+  const auto lives = static_cast<std::uint64_t>(scaled_clocks(3));
+  for (std::uint64_t seed = 1; seed <= lives; ++seed) {
+    Bench bench("feltgate_core", ~seed);
+    bench.run(CoreStimulus<D>(~seed), 300'000, {20'000});
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include <Vlowpass.h>
 
+#include <array>
 #include <type_traits>
 
 #include "../mult/shared_mult.hpp"
@@ -25,6 +26,11 @@ constexpr Format kState = Paper::f.velocity, kOperand = Paper::f.velocity_differ
 constexpr Format kA1 = Paper::P::velocity_a1;
 constexpr std::int64_t kDesignA1 = 67092;
 #endif
+#ifdef FELTGATE_ROUNDING
+constexpr Round kRound = FELTGATE_ROUNDING;
+#else
+constexpr Round kRound = Round::half_up;
+#endif
 constexpr int kGivenUp = kState.fraction - kOperand.fraction;  // bits of the difference
 constexpr int kDrop = kOperand.fraction + kA1.fraction - kState.fraction;
 constexpr std::int64_t kMax = (std::int64_t{1} << (kState.width() - 1)) - 1;
@@ -32,7 +38,7 @@ constexpr std::int64_t kMax = (std::int64_t{1} << (kState.width() - 1)) - 1;
 struct Coefficient {
   std::int64_t a1 = kDesignA1;
 };
-using Twin = Watched<Lowpass<kState.key(), kOperand.key(), kA1.key()>, Coefficient>;
+using Twin = Watched<Lowpass<kState.key(), kOperand.key(), kA1.key(), kRound>, Coefficient>;
 
 struct Adapter {
   template <class Port>
@@ -103,6 +109,7 @@ struct RandomSamples {
 
   Twin::In operator()(std::int64_t y, std::int64_t) {
     if (left-- > 0) return in;
+    if (random.one_in(8)) return tie(y);
     left = random.coin() ? 0 : static_cast<int>(random.below(200));
     const auto full = static_cast<std::int64_t>(random.bits()) >> (64 - kState.width());
     switch (random.below(4)) {
@@ -130,13 +137,28 @@ struct RandomSamples {
     }
     return in;
   }
+
+  /// A step of half a bit beside whole ones: a1 is a power of two, x - y a multiple of what it
+  /// drops.
+  Twin::In tie(std::int64_t y) {
+    constexpr int power = 16;
+    const std::int64_t halves = random.between(-2000, 2000) | 1;
+    const std::int64_t x = y + halves * (std::int64_t{1} << (kDrop - 1 - power + kGivenUp));
+    if (x > kMax || x < -kMax - 1) return in;
+    in.port.x = x;
+    in.port.follow = false;
+    in.aside.a1 = 1 << power;
+    left = 0;
+    return in;
+  }
 };
 
 struct Tally {
   std::int64_t samples = 0, followed = 0, growth_bit_used = 0, still = 0, up = 0, down = 0;
+  std::array<std::int64_t, 4> ties{};  ///< of state and step, odd or even: bits 1 and 0
 };
 
-/// y += floor(a1 * floor(d / 2^k) / 2^drop + 1/2) in plain integers, due a clock after update.
+/// y += a1 * floor(d / 2^k) / 2^drop, rounded, in plain integers, due a clock after update.
 struct PlainIntegers {
   Tally* tally;
   std::int64_t y = 0;
@@ -152,7 +174,12 @@ struct PlainIntegers {
   void sample(const Twin::In& in) {
     const std::int64_t difference = in.port.x - y;
     const int128_t product = static_cast<int128_t>(difference >> kGivenUp) * in.aside.a1;
-    const auto step = static_cast<std::int64_t>((product + (int128_t{1} << (kDrop - 1))) >> kDrop);
+    constexpr int128_t half = int128_t{1} << (kDrop - 1);
+    auto step = static_cast<std::int64_t>(product >> kDrop);
+    const int128_t rest = product - (static_cast<int128_t>(step) << kDrop);
+    if (rest == half) ++tally->ties[static_cast<std::size_t>((y & 1) * 2 + (step & 1))];
+    const bool to_even = kRound == Round::convergent && rest == half;
+    if (to_even ? ((y + step) & 1) != 0 : rest >= half) ++step;
     ++tally->samples;
     if (in.port.follow) ++tally->followed;
     if (difference > kMax || difference < -kMax - 1) ++tally->growth_bit_used;

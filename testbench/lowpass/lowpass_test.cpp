@@ -81,6 +81,10 @@ TEST_CASE("lowpass: random steps, coefficients, gaps and resets") {
   REQUIRE(tally.still > tally.samples / 20);
   REQUIRE(tally.up > tally.samples / 10);
   REQUIRE(tally.down > tally.samples / 10);
+  for (std::size_t k = 0; k < tally.ties.size(); ++k) {
+    INFO("ties, state and step odd or even: " << k << ", " << tally.ties[k]);
+    REQUIRE(tally.ties[k] > tally.samples / 1000);
+  }
 }
 
 TEST_CASE("lowpass: step response is 1 - exp(-500 t)") {

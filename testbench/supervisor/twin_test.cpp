@@ -7,6 +7,7 @@
 
 #include "catch.hpp"
 #include "feltgate/generated/paper.hpp"
+#include "mismatch.hpp"
 #include "random_scenario.hpp"
 
 using namespace feltgate::test;
@@ -18,7 +19,7 @@ TEST_CASE("supervisor: a tick at once is its clocks one by one") {
   RandomScenario scenarios(4);
   Scenario now;
   std::int64_t falls = 0;
-  for (int k = 0; k < 60000; ++k) {
+  for (std::int64_t k = 0; k < scaled_clocks(60000); ++k) {
     const Scenario before = now;
     now = scenarios.next();
     Twin::Tick tick;
@@ -145,7 +146,7 @@ TEMPLATE_TEST_CASE("supervisor: the estimate against real arithmetic", "", feltg
   using Pw = feltgate::fixed_of<D::P::emf_over_resistance.key()>;
   using Real = long double;
   Random random(6);
-  for (int k = 0; k < 100000; ++k) {
+  for (std::int64_t k = 0; k < scaled_clocks(100000); ++k) {
     const auto v = V::from_raw(random.between(V::min_raw(), V::max_raw()));
     const auto w = W::from_raw(random.between(W::min_raw() / 2, W::max_raw() / 2));
     const auto pv = Pv::from_raw(random.between(0, Pv::max_raw()));

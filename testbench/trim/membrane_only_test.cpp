@@ -10,6 +10,7 @@
 #include "core_stimulus.hpp"
 #include "engines/make_engines.hpp"
 #include "membrane_only.hpp"
+#include "mismatch.hpp"
 
 using namespace feltgate;
 using D = MembraneOnly;
@@ -81,7 +82,7 @@ TEST_CASE("membrane only: RTL and twin on a random life") {
   for (const std::uint64_t seed : {1u, 2u}) {
     Pair pair(seed);
     test::CoreStimulus<D> stimulus(seed);
-    for (int k = 0; k < 1'000'000; ++k) {
+    for (std::int64_t k = 0; k < test::scaled_clocks(1'000'000); ++k) {
       if (!pair.clock(stimulus(k))) FAIL(pair.where());
       seen.add(pair.out());
     }

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What a random life would reach by luck only, brought about on purpose: each word of the snapshot,
+// a zero in each clock of a tick, positions at the ends of what scenes see. Twin against what must
+// come out, RTL against twin. Documentation: docs/blocks/feltgate_core.md
+#include "core_life.hpp"
+#include "core_stimulus.hpp"
+
+using namespace feltgate::test;
+using feltgate::CoreOut;
+using feltgate::Fault;
+using feltgate::Map;
+using D = feltgate::test::Design;
+using R = Map::R;
+
+TEST_CASE("core: each word of the snapshot is that of the pins, in every phase of the motion") {
+  Life s;
+  s.arm(D::S::spring_tension);
+  std::int64_t index = 0, errors = 0;
+  std::array<std::int64_t, 64> changes{};
+  std::array<std::uint32_t, 64> before{};
+  for (int k = 0; k < 200; ++k) {
+    // Something in each clock of a tick: an edge, an index, an illegal step.
+    s.to_clock(0);
+    s.clocks(k % kTick);
+    if (k % 7 == 6) {
+      s.in.encoder.a = !s.in.encoder.a;
+      s.in.encoder.b = !s.in.encoder.b;
+      ++errors;
+      s.clocks(kTick);
+      s.in.encoder.a = !s.in.encoder.a;
+      s.in.encoder.b = !s.in.encoder.b;
+      ++errors;
+    } else if (k % 3 == 2) {
+      s.in.encoder.z = !s.in.encoder.z;
+      if (s.in.encoder.z) index = s.out().position;
+    } else {
+      s.step(k % 50 < 40);
+    }
+    s.to_clock(0);
+    if (k % 5 == 0) s.ticks(1);
+    // All of the tick that ended, in one tick.
+    const CoreOut o = s.shown();
+    const auto check = [&](const char* name, int slot, std::uint32_t expected) {
+      const std::uint32_t word = s.read(C::snapshot + slot);
+      INFO(name << ", round " << k);
+      REQUIRE(word == expected);
+      const auto at = static_cast<std::size_t>(slot);
+      changes[at] += word != before[at];
+      before[at] = word;
+    };
+    check("tick", R::tick, o.tick_count);
+    check("position", R::position, low(o.position));
+    check("velocity", R::velocity, low(o.velocity));
+    check("tau_hat", R::tau_hat, low(o.tau_hat));
+    check("tau_ref", R::tau_ref, low(o.tau_ref));
+    check("current_ref", R::current_ref, low(o.current_ref));
+    check("voltage", R::voltage, low(o.voltage));
+    check("duty", R::duty, low(o.duty));
+    const std::uint32_t status = s.read(C::snapshot + R::status);
+    changes[R::status] += status != before[R::status];
+    before[R::status] = status;
+    CHECK(((status >> C::status_scene) & 15u) == o.scene);
+    CHECK(((status >> C::status_armed) & 1u) == o.armed);
+    CHECK(((status >> C::status_encoder_error) & 1u) == (errors > 0));
+    // These pass by in the middle of a tick: looked at when they have come to rest.
+    if (k % 5 != 0) continue;
+    check("faults", R::faults,
+          std::uint32_t{o.faults} << C::faults_seen | std::uint32_t{o.first_fault}
+                                                          << C::faults_first);
+    CHECK(s.read(C::snapshot + R::encoder) == low(errors));
+    const std::uint32_t seen = s.read(C::snapshot + R::index);
+    CHECK(std::abs(static_cast<std::int32_t>(seen) - index) <= 1);
+    changes[R::encoder] += s.out().reg_rdata != before[R::encoder];
+    changes[R::index] += seen != before[R::index];
+    before[R::index] = seen;
+  }
+  for (const int slot : feltgate::test::snapshot_slots) {
+    INFO("slot " << slot);
+    CHECK(changes[static_cast<std::size_t>(slot)] > 0);
+  }
+  s.play();
+}
+
+TEST_CASE("core: a zero of the panel in each clock of a tick, and of the host") {
+  Life s;
+  s.arm(D::S::spring_tension);
+  for (int clock = 0; clock < kTick; ++clock) {
+    s.move(3, kTick);
+    s.ticks(1);
+    REQUIRE(s.out().position == 3);
+    s.to_clock(clock);
+    s.in.set_zero = true;
+    s.clocks(1);
+    s.in.set_zero = false;
+    s.to_clock(0);
+    s.ticks(2);
+    INFO("clock " << clock);
+    REQUIRE(s.out().position == 0);
+  }
+  s.move(3, kTick);
+  s.command(C::command_set_zero);
+  s.ticks(2);
+  REQUIRE(s.out().position == 0);
+  s.play();
+}
+
+TEST_CASE("core: scenes see positions up to both ends of 18 bits, and the end beyond") {
+  constexpr std::int32_t end = (1 << (D::f.scene_position.width() - 1)) - 1;
+  for (const bool up : {true, false}) {
+    Life s;
+    s.write(A::overspeed, 0x7fffffff);
+    s.write(A::polarity_speed, 0x7fffffff);
+    // A spring from a few counts before the end on, such that one count is some torque.
+    constexpr int counts_fraction = 8;
+    const std::int64_t rest = (up ? end - 3 : -end - 1 + 3) * (std::int64_t{1} << counts_fraction);
+    s.write(A::tension_rest, low(rest));
+    s.write(A::tension_stiffness, (1u << D::coefficient_bits) / 4);
+    s.write(C::control, kHost & ~(15u << C::control_filter));
+    s.move((up ? 1 : -1) * (std::int64_t{end} - 6), 1);
+    s.arm(D::S::spring_tension);
+    s.ticks(4);
+    REQUIRE(std::abs(s.out().position) == end - 6);
+    std::vector<std::int32_t> torques;
+    for (int k = -6; k < 12; ++k) {
+      s.ticks(2);
+      torques.push_back(s.shown().tau_ref);
+      REQUIRE(s.out().position == (up ? end + k : -end - k));
+      s.move(up ? 1 : -1, kTick);
+    }
+    // A count is a step of torque up to the end, and nothing beyond; the lower end is a count on.
+    const std::size_t last = up ? 6 : 7;
+    for (std::size_t k = 1; k < torques.size(); ++k) {
+      INFO("up " << up << ", count " << k << ": " << torques[k - 1] << ", " << torques[k]);
+      REQUIRE((torques[k] != torques[k - 1]) == (k <= last));
+    }
+    s.disarm();
+    s.move((up ? 1 : -1) * (std::int64_t{end} - 100), 1);  // nearly where the bit above is used
+    s.arm(D::S::spring_tension);
+    s.ticks(4);
+    CHECK(s.shown().tau_ref == torques.back());
+    s.play();
+  }
+}

@@ -83,7 +83,7 @@ TEST_CASE("lowpass: random steps, coefficients, gaps and resets") {
   REQUIRE(tally.down > tally.samples / 10);
   for (std::size_t k = 0; k < tally.ties.size(); ++k) {
     INFO("ties, state and step odd or even: " << k << ", " << tally.ties[k]);
-    REQUIRE(tally.ties[k] > tally.samples / 1000);
+    REQUIRE(tally.ties[k] > tally.samples / 2000);
   }
 }
 
@@ -153,7 +153,8 @@ TEST_CASE("lowpass: ties, and what is just beside them, from states of both sign
         in.port.follow = false;
         in.port.product = product;
         list.push_back(in);
-        expected.push_back(y + ((product + half) >> kDrop));
+        const bool tie = kRound == Round::convergent && beside == 0;
+        expected.push_back(y + (tie ? k + ((y + k) & 1) : (product + half) >> kDrop));
       }
     }
   }

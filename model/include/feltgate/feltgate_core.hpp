@@ -37,6 +37,7 @@ class FeltgateCore {
 
   /// The parameter RAM keeps its words, as in the RTL.
   void reset() {
+    registers_.lose_snapshot(clock_ - 1 - Map::first_wave_clock);
     clock_ = 0;
     registers_.reset();
     decoder_.reset();

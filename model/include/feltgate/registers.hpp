@@ -171,7 +171,15 @@ class Registers {
 
   /// One word into the snapshot of the running tick, 0 <= slot < 64.
   void write_snapshot(int slot, std::uint32_t word) {
-    if constexpr (ReadBack) snapshot_[bank_index(write_bank_, slot)] = word;
+    if constexpr (ReadBack) {
+      last_ = bank_index(write_bank_, slot);
+      before_ = snapshot_[last_];
+      snapshot_[last_] = word;
+    }
+  }
+  /// A reset in the clock after: the word was on its way to the RAM and is lost.
+  void lose_snapshot(int slot) {
+    if (ReadBack && slot >= 0 && static_cast<int>(last_ & 63U) == slot) snapshot_[last_] = before_;
   }
   /// As `clocks` calls of clock() without the last one of a tick: no write made, reg_addr held, the
   /// words of the snapshot given to write_snapshot(), at least one tick run since the reset. The
@@ -309,6 +317,8 @@ class Registers {
   std::uint32_t fetch_ = 0;
   bool fetch_wrong_ = false, bus_wrong_ = false, held_wrong_ = false;
   std::map<std::size_t, std::uint64_t> flipped_;  ///< bits of words that are wrong, by address
+  std::size_t last_ = 0;                          ///< word of the snapshot that was written last
+  std::uint32_t before_ = 0;                      ///< and what was there
   int write_bank_ = 0;
   bool frozen_ = false;
   Source source_ = Source::nowhere;

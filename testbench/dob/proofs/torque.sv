@@ -100,7 +100,8 @@ module torque_proof (
       changes_in_its_clock: assert (due_q || (tau_hat == tau_hat_q && saturated == saturated_q));
       filter_in_its_clock: assert (state_due_q || state == state_q);
       if (new_q) begin
-        error_is_half_a_bit: assert (saturated || (error <= (ErrorW'(1) << (Drop - 1)) && error >= -(ErrorW'(1) << (Drop - 1))));
+        error_is_half_a_bit: assert (saturated || (error <= (ErrorW'(1) << (Drop - 1)) &&
+            error >= -(ErrorW'(1) << (Drop - 1))));
         saturates_at_its_end: assert (!saturated || (tau_hat == Most && error < -(ErrorW'(1) << (Drop - 1)) + 1) ||
                                       (tau_hat == ~Most && error > 0));
         disarmed_is_0: assert (armed_q || (tau_hat == '0 && !saturated));
@@ -111,7 +112,8 @@ module torque_proof (
         input_is_the_sum: assert (\u_dut.input_q == W'(drive_q) + W'(inertia_q));
       end
       operand_in_its_clock: assert (wave[feltgate_map_pkg::S_OBSERVER_A1] || !began_q || operand == '0);
-      inside_inertia: assert (!began_q || phase_q <= 9'(feltgate_map_pkg::T_OBSERVER_INPUT) || \u_dut.inertia_q == inertia_q);
+      inside_inertia: assert (!began_q || phase_q <= 9'(feltgate_map_pkg::T_OBSERVER_INPUT) ||
+          \u_dut.inertia_q == inertia_q);
     end
   end
 endmodule

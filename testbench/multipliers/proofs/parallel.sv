@@ -68,12 +68,15 @@ module parallel_proof (
       operands_are_their_own: assert (\u_dut.gen_parallel.u_velocity.a_i  == feltgate_pkg::MULTIPLIER_A_BITS'(velocity_i) &&
           \u_dut.gen_parallel.u_dob.a_i  == dob_i && \u_dut.gen_parallel.u_scene.a_i  == scene_i &&
           \u_dut.gen_parallel.u_control.a_i  == control_i && \u_dut.gen_parallel.u_supervisor.a_i  == supervisor_i);
-      factors_are_the_word: assert (\u_dut.gen_parallel.u_velocity.b_i  == coefficient && \u_dut.gen_parallel.u_dob.b_i  == coefficient &&
-          \u_dut.gen_parallel.u_control.b_i  == coefficient && (square_distance_i || \u_dut.gen_parallel.u_scene.b_i  == coefficient) &&
+      factors_are_the_word: assert (\u_dut.gen_parallel.u_velocity.b_i  == coefficient &&
+          \u_dut.gen_parallel.u_dob.b_i  == coefficient &&
+          \u_dut.gen_parallel.u_control.b_i  == coefficient && (square_distance_i ||
+              \u_dut.gen_parallel.u_scene.b_i  == coefficient) &&
           (square_estimate_i || \u_dut.gen_parallel.u_supervisor.b_i  == coefficient));
       squares_are_of_their_own: assert ((!square_distance_i || \u_dut.gen_parallel.u_scene.b_i  == distance_i) &&
           (!square_estimate_i || \u_dut.gen_parallel.u_supervisor.b_i  == 18'(estimate_i)));
-      products_are_their_own: assert (velocity == \u_dut.gen_parallel.u_velocity.product_o  && dob == \u_dut.gen_parallel.u_dob.product_o  &&
+      products_are_their_own: assert (velocity == \u_dut.gen_parallel.u_velocity.product_o  &&
+          dob == \u_dut.gen_parallel.u_dob.product_o  &&
           scene == \u_dut.gen_parallel.u_scene.product_o  && control == \u_dut.gen_parallel.u_control.product_o  &&
           supervisor == \u_dut.gen_parallel.u_supervisor.product_o );
       has_a_sign: cover (signed_i && \u_dut.gen_parallel.u_control.b_i  < 0);

@@ -101,12 +101,16 @@ module operands_proof (
       operand_is_the_schedules: assert (operand == wanted);
       parts_are_the_operand: assert (!(of_velocity && dob != wanted) && !(of_velocity && scene != wanted) &&
           !(of_velocity && control != wanted) && !(of_velocity && supervisor != wanted) &&
-          (!wave[feltgate_map_pkg::S_OBSERVER_A1] || dob == wanted) && (!wave[feltgate_map_pkg::S_TORQUE_CONSTANT] || dob == wanted) &&
+          (!wave[feltgate_map_pkg::S_OBSERVER_A1] || dob == wanted) &&
+              (!wave[feltgate_map_pkg::S_TORQUE_CONSTANT] || dob == wanted) &&
           (!of_distance || scene == wanted) && (!of_tau_ref || control == wanted) &&
-          (!wave[feltgate_map_pkg::S_OBSERVER_GAIN] || control == wanted) && (!of_voltage || (control == wanted && supervisor == wanted)) &&
-          (!(of_limited && limited_i != '0) || control == wanted) && (!wave[feltgate_map_pkg::S_CURRENT_SQUARE] || supervisor == wanted));
+          (!wave[feltgate_map_pkg::S_OBSERVER_GAIN] || control == wanted) && (!of_voltage || (control == wanted &&
+              supervisor == wanted)) &&
+          (!(of_limited && limited_i != '0) || control == wanted) && (!wave[feltgate_map_pkg::S_CURRENT_SQUARE] ||
+              supervisor == wanted));
       one_word_has_a_sign: assert (signed_word == wave[feltgate_map_pkg::S_OBSERVER_GAIN]);
-      squared_in_its_clock: assert (square == wave[feltgate_map_pkg::S_CURRENT_SQUARE] && estimate == (square ? estimate_q : '0));
+      squared_in_its_clock: assert (square == wave[feltgate_map_pkg::S_CURRENT_SQUARE] &&
+          estimate == (square ? estimate_q : '0));
       negative: cover (of_tau_ref && operand < 0);
     end
   end

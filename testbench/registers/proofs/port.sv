@@ -254,9 +254,11 @@ module port_proof (
       busy_while_it_waits: assert (busy == (to_parameter || to_control || to_command));
       disarm_passes: assert (disarm == disarm_due_q);
       stop_passes: assert (stop == stop_due_q);
-      commands_once: assert (clear_faults == (tick_i && to_command && data_q[feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS]) &&
+      commands_once: assert (clear_faults == (tick_i && to_command &&
+          data_q[feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS]) &&
                              kick == (tick_i && to_command && data_q[feltgate_map_pkg::B_COMMAND_KICK]));
-      zero_once: assert (set_zero == (tick_i && (zero_due_q || (to_command && data_q[feltgate_map_pkg::B_COMMAND_SET_ZERO]))));
+      zero_once: assert (set_zero == (tick_i && (zero_due_q || (to_command &&
+          data_q[feltgate_map_pkg::B_COMMAND_SET_ZERO]))));
       jumps_restart: assert (restart == (tick_i && ((set_zero && !feltgate_map_pkg::INPUT_SCENES[scene_i]) ||
           (to_parameter && (common ? feltgate_map_pkg::RAMPS_WHILE_ARMED[at_q[5:0]] : scene_word)))));
       banks_apart: assert (\u_dut.g_read.read_bank != \u_dut.g_read.write_bank_q );

@@ -69,8 +69,10 @@ module centre_proof (
       .outside_o(outside)
   );
   (* hierconn *) wire \u_dut.near_q ;
-  localparam int Up = (feltgate_pkg::TORQUE_F > feltgate_pkg::CHARGE_F) ? feltgate_pkg::TORQUE_F - feltgate_pkg::CHARGE_F : 0;
-  localparam int Down = (feltgate_pkg::TORQUE_F < feltgate_pkg::CHARGE_F) ? feltgate_pkg::CHARGE_F - feltgate_pkg::TORQUE_F : 0;
+  localparam int Up =
+      (feltgate_pkg::TORQUE_F > feltgate_pkg::CHARGE_F) ? feltgate_pkg::TORQUE_F - feltgate_pkg::CHARGE_F : 0;
+  localparam int Down =
+      (feltgate_pkg::TORQUE_F < feltgate_pkg::CHARGE_F) ? feltgate_pkg::CHARGE_F - feltgate_pkg::TORQUE_F : 0;
   localparam logic signed [23:0] Most = ((24'sd65535 <<< Up) >>> Down);
   localparam logic signed [23:0] Least = ((-24'sd65535 <<< Up) >>> Down);
 

@@ -95,8 +95,10 @@ module faces_proof (
       never_negative: assert (!whole_q || phase_q <= 9'(Torque) || (plus >= 0 && minus >= 0));
       one_side_at_a_time: assert (!whole_q || phase_q <= 9'(Torque) || plus == 0 || minus == 0);
       unselected_is_0: assert (!whole_q || select_q || (plus == '0 && minus == '0));
-      inside_faces: assert (!whole_q || phase_q <= 9'(Upper) || (\u_dut.below_q == below_q && \u_dut.above_q == above_q));
-      inside_begin: assert (whole_q || phase_q >= 9'(Clocks - feltgate_map_pkg::FIRST_WAVE_CLOCK) || phase_q <= 9'(Lower));
+      inside_faces: assert (!whole_q || phase_q <= 9'(Upper) || (\u_dut.below_q == below_q &&
+          \u_dut.above_q == above_q));
+      inside_begin: assert (whole_q || phase_q >= 9'(Clocks - feltgate_map_pkg::FIRST_WAVE_CLOCK) ||
+          phase_q <= 9'(Lower));
       inside_side: assert (!(came_below_q && came_above_q) && \u_dut.seen_q == (came_below_q || came_above_q) &&
                            (!\u_dut.seen_q || \u_dut.side_q == came_above_q));
       from_above: cover (new_q && plus > 0);

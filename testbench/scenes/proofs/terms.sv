@@ -17,9 +17,11 @@ module terms_proof (
   localparam int W = feltgate_pkg::SCENE_PART_W;
   localparam int P = feltgate_pkg::PRODUCT_BITS;
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
-  localparam int SpringDrop = feltgate_pkg::SCENE_DISTANCE_F + feltgate_pkg::P_COMPRESSION_STIFFNESS_F - feltgate_pkg::SCENE_PART_F;
+  localparam int SpringDrop =
+      feltgate_pkg::SCENE_DISTANCE_F + feltgate_pkg::P_COMPRESSION_STIFFNESS_F - feltgate_pkg::SCENE_PART_F;
   localparam int DamperDrop = feltgate_pkg::VELOCITY_F + feltgate_pkg::P_DAMPER_DAMPING_F - feltgate_pkg::SCENE_PART_F;
-  localparam int WallDrop = feltgate_pkg::SCENE_DISTANCE_F + feltgate_pkg::P_WALL_STIFFNESS_F - feltgate_pkg::SCENE_PART_F;
+  localparam int WallDrop =
+      feltgate_pkg::SCENE_DISTANCE_F + feltgate_pkg::P_WALL_STIFFNESS_F - feltgate_pkg::SCENE_PART_F;
   localparam int BrakeDrop = feltgate_pkg::VELOCITY_F + feltgate_pkg::P_WALL_DAMPING_F - feltgate_pkg::SCENE_PART_F;
 
   logic signed [TorqueW-1:0] setpoint;
@@ -70,7 +72,8 @@ module terms_proof (
     brake_q      <= brake;
   end
   // A term is its product less what is below its last bit, where it fits.
-  function automatic logic is_floor(input logic signed [W-1:0] term, input logic signed [P-1:0] product, input int drop);
+  function automatic logic is_floor(input logic signed [W-1:0] term, input logic signed [P-1:0] product,
+      input int drop);
     is_floor = term == W'(product >>> drop);
   endfunction
   logic signed [P-1:0] wall_whole;
@@ -83,14 +86,17 @@ module terms_proof (
     if (past_ok_q) begin
       unselected_is_0: assert ((select_q || (setpoint == 0 && damper == 0)) && (spring_on_q || spring == 0) &&
                                (wall_on_q || (wall == 0 && brake == 0)));
-      held_between: assert ((!select_q || word_q || setpoint == setpoint_q) && (!spring_on_q || stiff_q || spring == spring_q) &&
-                            (!select_q || damps_q || damper == damper_q) && (!wall_on_q || wall_stiff_q || wall == wall_q) &&
+      held_between: assert ((!select_q || word_q || setpoint == setpoint_q) && (!spring_on_q || stiff_q ||
+          spring == spring_q) &&
+                            (!select_q || damps_q || damper == damper_q) && (!wall_on_q || wall_stiff_q ||
+                                wall == wall_q) &&
                             (!wall_on_q || brakes_q || brake == brake_q));
       setpoint_is_the_word: assert (!(select_q && word_q) || setpoint == param_q);
       spring_is_its_product: assert (!(spring_on_q && stiff_q) || is_floor(spring, product_q, SpringDrop));
       damper_is_its_product: assert (!(select_q && damps_q) || is_floor(damper, product_q, DamperDrop));
       brake_is_its_product: assert (!(wall_on_q && brakes_q) || is_floor(brake, product_q, BrakeDrop));
-      wall_is_its_product: assert (!(wall_on_q && wall_stiff_q) || product_q >= 0 || (fits ? P'(wall) == wall_whole : wall == Least));
+      wall_is_its_product: assert (!(wall_on_q && wall_stiff_q) || product_q >= 0 ||
+          (fits ? P'(wall) == wall_whole : wall == Least));
       saturates: cover (wall_on_q && wall_stiff_q && product_q < 0 && !fits);
       springs: cover (spring_on_q && stiff_q && spring < 0);
     end

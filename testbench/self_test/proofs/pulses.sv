@@ -123,7 +123,8 @@ module pulses_proof (
       end
     end
   end
-  logic up_then_q, down_then_q, rests_then_q, waits_then_q, down_was_q, armed_then_q, direct_then_q, held_word_q, moving_word_q;
+  logic up_then_q, down_then_q, rests_then_q, waits_then_q, down_was_q, armed_then_q, direct_then_q, held_word_q,
+      moving_word_q;
   logic [1:0] step_then_q;
   logic signed [2:0] law_then_q, law_after_q;
   logic [ResultW-1:0] result_q;
@@ -175,43 +176,52 @@ module pulses_proof (
     end
   end
   logic [31:0] turn_tick;  // of the last turn
-  assign turn_tick = (phase_q > 9'(feltgate_map_pkg::T_SELF_TEST_TURN) && !(phase_q > 9'(Clocks - 1 - feltgate_map_pkg::FIRST_WAVE_CLOCK)))
+  assign turn_tick = (phase_q > 9'(feltgate_map_pkg::T_SELF_TEST_TURN) &&
+      !(phase_q > 9'(Clocks - 1 - feltgate_map_pkg::FIRST_WAVE_CLOCK)))
                      ? ticks_q : ticks_q - 32'd1;
   wire [6:0] part = UnitBit'(turn_tick);
   wire [PatienceBit-1:0] part_of_patience = PatienceBit'(turn_tick);
 
   always_comb begin
     if (rst_ni && past_ok_q) begin
-      size_is_beyond: assert (ahead == (pulse_up_q ? {1'b0, {(W - 1) {1'b1}}} : pulse_down_q ? {1'b1, {(W - 1) {1'b0}}} : '0));
+      size_is_beyond: assert (ahead == (pulse_up_q ? {1'b0, {(W - 1) {1'b1}}} : pulse_down_q ? {1'b1,
+          {(W - 1) {1'b0}}} : '0));
       inside_one: assert (!(waits && (up || down || rests)) && !(up && (down || rests)) && !(down && rests));
       scene_waits: assert (busy == (armed_i && (waits || up || down || rests)));
       trips_in_its_clock: assert (!trip || wave[feltgate_map_pkg::T_SELF_TEST]);
       pulse_is_bounded: assert (!(armed_i && (up || down)) || length_now_q <= 16'(length_q) << UnitBit);
       inside_travel: assert (\u_dut.now_q == now_q && \u_dut.before_q == before_q);
       if (turned_q) begin
-        in_order: assert ((!up || waits_then_q || up_then_q) && (!down || up_then_q || down_then_q) && (!rests || down_then_q));
+        in_order: assert ((!up || waits_then_q || up_then_q) && (!down || up_then_q || down_then_q) && (!rests ||
+            down_then_q));
         begins_at_rest: assert (!(up && waits_then_q) || (step_then_q == 2'd0 &&
                                 {1'b0, still_then_q} + 17'd127 >= 17'(quiet_q) << UnitBit));
         once_per_arming: assert (!(tested_q && waits));
       end
       inside_right_way: assert (!trip || rests_then_q || waits_then_q || down_was_q || step_then_q == 2'd3);
       trips_by_its_law: assert (!wave[feltgate_map_pkg::T_SELF_TEST] || !turned_q || trip == (armed_then_q &&
-          (((up_then_q || down_then_q) && law_after_q == -Answer) || (rests_then_q && law_then_q != Answer && !held_word_q) ||
+          (((up_then_q || down_then_q) && law_after_q == -Answer) || (rests_then_q && law_then_q != Answer &&
+              !held_word_q) ||
            (waits_then_q && !waits && !up && !moving_word_q))));
       result_in_its_clock: assert (turned_q || !after_q || result == result_q);
-      right_is_two_counts: assert (!turned_q || result != ResultW'(feltgate_map_pkg::SELF_TEST_RIGHT) || result_q == result ||
+      right_is_two_counts: assert (!turned_q || result != ResultW'(feltgate_map_pkg::SELF_TEST_RIGHT) ||
+          result_q == result ||
                                    (rests_then_q && law_then_q == Answer));
       inside_net: assert (!(up || down || rests) || (net == law_q && net <= Answer && net >= -Answer));
-      inside_units: assert (!turns_ok_q || (\u_dut.unit_q == turn_tick[UnitBit] && \u_dut.patience_q == turn_tick[PatienceBit]));
+      inside_units: assert (!turns_ok_q || (\u_dut.unit_q == turn_tick[UnitBit] &&
+          \u_dut.patience_q == turn_tick[PatienceBit]));
       inside_turns: assert (turns_ok_q || !(waits || up || down || rests || \u_dut.late_q ));
       inside_part: assert (!(armed_i && (up || down)) ||
-          (length_now_q <= (16'(units) << UnitBit) + 16'(part) && length_now_q + 16'd127 >= (16'(units) << UnitBit) + 16'(part) &&
+          (length_now_q <= (16'(units) << UnitBit) + 16'(part) &&
+              length_now_q + 16'd127 >= (16'(units) << UnitBit) + 16'(part) &&
            (units < length_q || (units == length_q && part == '0))));
-      inside_length: assert (!waits || length_q != '0 || (!armed_i && phase_q > 9'(feltgate_map_pkg::T_SELF_TEST_OVER) &&
+      inside_length: assert (!waits || length_q != '0 || (!armed_i &&
+          phase_q > 9'(feltgate_map_pkg::T_SELF_TEST_OVER) &&
                                                         phase_q <= 9'(feltgate_map_pkg::T_SELF_TEST_TURN)));
       inside_disarmed: assert (armed_i || phase_q <= 9'(feltgate_map_pkg::T_SELF_TEST_TURN) ||
                                phase_q > 9'(Clocks - 1 - feltgate_map_pkg::FIRST_WAVE_CLOCK) ||
-                               !turns_ok_q || (units == '0 && still_q == '0 && waited_q == '0 && !tested_q && !up && !down && !rests && !\u_dut.late_q ));
+                               !turns_ok_q || (units == '0 && still_q == '0 && waited_q == '0 && !tested_q && !up &&
+                                   !down && !rests && !\u_dut.late_q ));
       inside_answer: assert (!(up || down) || law_q >= 0 || down_seen_q);
       inside_pulse: assert (!(armed_i && (up || down)) || length_q != '0);
       inside_still: assert (!(armed_i && waits) || (units == '0 && still_q == '0) ||

@@ -115,7 +115,8 @@ module words_proof (
       each_once: assert (!valid || !stored_q[slot]);
       word_is_its_own: assert (!valid || data == wanted_q);
       inside_stored: assert (stored_q == (All & came));
-      inside_valid: assert (valid == (after_q && due_q) && (!valid || wave_q == feltgate_map_pkg::WAVE_LENGTH'(1) << slot));
+      inside_valid: assert (valid == (after_q && due_q) && (!valid ||
+          wave_q == feltgate_map_pkg::WAVE_LENGTH'(1) << slot));
       inside_clock: assert (tick_clock < 9'(N) && tick == (tick_clock == 9'(N - 1)) &&
                             slot_fetch == ((tick_clock < 9'd64) ? tick_clock[5:0] : 6'd63));
       inside_wave: assert (wave == (((whole_q || tick_clock >= 9'(First)) && at < 9'(feltgate_map_pkg::WAVE_LENGTH)) ?

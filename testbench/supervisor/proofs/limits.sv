@@ -241,11 +241,13 @@ module limits_proof (
       errors_trip: assert (errors_q <= forgiven_q + 16'(Borne));
       seven_are_borne: assert (!trip[feltgate_map_pkg::FAULT_ENCODER] || (encoder_error_i && recent_q >= 4'(Borne)));
 
-      inside_window: assert (!window_q || ({1'b0, \u_dut.runaway_ticks_q } == ticks_q && \u_dut.begin_q == before_q[VelocityW-1:Drop] &&
+      inside_window: assert (!window_q || ({1'b0, \u_dut.runaway_ticks_q } == ticks_q &&
+          \u_dut.begin_q == before_q[VelocityW-1:Drop] &&
                              \u_dut.grown_q == last_grew_q && ticks_q <= 18'(Longest) &&
                              before_q == (before_q >>> Drop) <<< Drop));
       inside_awake: assert (\u_dut.awake_q == awake_q);
-      inside_silence: assert (!gates || !awake_q || \u_dut.kickless_ticks_q == silence_q[feltgate_map_pkg::KICKLESS_BITS:0]);
+      inside_silence: assert (!gates || !awake_q ||
+          \u_dut.kickless_ticks_q == silence_q[feltgate_map_pkg::KICKLESS_BITS:0]);
       inside_whole: assert ((!gates || window_q) && (!window_q || whole_q) && (whole_q || \u_dut.asked_q || late) &&
                             (window_q || \u_dut.asked_q || late || phase_q <= 9'(feltgate_map_pkg::S_POLARITY_TICKS)));
       inside_patience: assert (!gates || !awake_q || silence_q != Patience || late ||

@@ -133,11 +133,14 @@ module window_proof (
       end
       velocity_in_its_clock: assert (!after_q || update_q || velocity == velocity_q);
       operand_in_its_clock: assert (!whole_q || wave[feltgate_map_pkg::S_VELOCITY_A1] || operand == '0);
-      inside_pointer: assert (pointer < AddressW'(M1) && (whole_q || (!filled && pointer == '0 && samples_q == '0 && !written_q)));
-      filled_after_m1: assert (filled ? samples_q >= 32'(M1) + 32'(own) : 32'(pointer) + 32'(own && whole_q) == samples_q);
+      inside_pointer: assert (pointer < AddressW'(M1) && (whole_q || (!filled && pointer == '0 && samples_q == '0 &&
+          !written_q)));
+      filled_after_m1: assert (filled ? samples_q >= 32'(M1) + 32'(own) : 32'(pointer) + 32'(own &&
+          whole_q) == samples_q);
       inside_written: assert (written_q || (!filled && pointer <= entry_q));
       window_is_m1_ticks: assert (!written_q || (own ? 32'(age_q) == ((distance != '0) ? 32'(distance) :
-                                                phase_q == 9'(feltgate_map_pkg::T_VELOCITY_DIFFERENCE) ? 32'd0 : 32'(M1))
+                                                phase_q == 9'(feltgate_map_pkg::T_VELOCITY_DIFFERENCE) ? 32'd0 :
+                                                    32'(M1))
                                              : 32'(age_q) + 32'd1 == ((distance != '0) ? 32'(distance) : 32'(M1))));
       inside_begin: assert (whole_q || phase_q >= 9'(Clocks - feltgate_map_pkg::FIRST_WAVE_CLOCK) || phase_q == '0);
       inside_travel: assert (!whole_q || \u_dut.travel_q == travel_q);

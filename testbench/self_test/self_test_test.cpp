@@ -206,6 +206,21 @@ TEST_CASE("self_test: random levers, words, times and resets") {
   CHECK(tripped >= 50);
 }
 
+TEST_CASE("self_test: the times are counted to the end of their words") {
+  // A unit passes in every wave; each word has high bits, and 0 among its low ones.
+  using Words = SelfTestLaw::Words;
+  for (const Words words : {Words{200, 130, 0}, Words{66, 249, 0}, Words{127, 96, 0}}) {
+    const auto next = [inner = start(still, words)](std::int64_t k, const Seen& before) {
+      Wave w = inner(k, before);
+      w.ticks = kUnit;
+      return w;
+    };
+    const auto seen = play(next, words.quiet + 2 * words.pulse + 20);
+    CHECK(waves_with(seen, 1) == words.pulse + 1);  // with the wave that finds it over
+    CHECK(waves_with(seen, -1) == words.pulse + 1);
+  }
+}
+
 TEST_CASE("self_test: quiet, a pulse, its opposite of the same length, a tick of rest") {
   const auto seen = play(start(answers(3), {2, 3, 0}), 9 * kUnit);
   CHECK(waves_with(seen, 1) == 3 * kUnit);

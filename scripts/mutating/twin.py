@@ -26,10 +26,11 @@ import json
 import os
 import random
 import re
+import shutil
 import sys
 import time
 import tomllib
-from collections import Counter
+import zlib
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -82,7 +83,15 @@ def parse(catalogue, root, names, dropped, language):
     return headers
 
 
+def folder_of(build, names):
+    """One for each set of headers: what others have made must not come between."""
+    some = "-".join(names[:3])
+    more = "" if len(names) < 4 else f"-{len(names) - 3}-more-{zlib.crc32(' '.join(names).encode()):08x}"
+    return build / "mutants/twin" / (some + more)
+
+
 def write_headers(headers, folder):
+    shutil.rmtree(folder / "include", ignore_errors=True)
     for header in headers:
         path = folder / "include/feltgate" / f"{header.name}.hpp"
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -232,8 +241,7 @@ def run(options, root, build):
     def say(text):
         print(f"mutate: {text}", file=sys.stderr, flush=True)
 
-    folder = build / "mutants/twin" / "-".join(names if len(names) < 4 else ["all"])
-    folder.mkdir(parents=True, exist_ok=True)
+    folder = folder_of(build, names)
     headers, programs, dropped = make(catalogue, root, build, names, folder, language, options.jobs, options.no_build, say)
     runs = twin_runs.Runs(folder, options.jobs)
     cases = runs.survey(programs, twin_runs.Progress(sys.stderr, "test cases"))
@@ -256,9 +264,8 @@ def run(options, root, build):
     print_survivors(rows, options.survivors)
     print(table(rows))
     bad = [row.header for row in rows if row.share() < options.require]
-    tried = len(verdicts)
-    counts = Counter(v.how for v in verdicts)
-    print(f"{tried} mutants of {len(rows)} headers, {tried - counts['survives'] - counts['unreached']} killed, "
+    dead = sum(v.how in DEAD for v in verdicts)
+    print(f"{len(verdicts)} mutants of {len(rows)} headers, {dead} killed, "
           f"{len(bad)} headers below {100 * options.require:.0f} %; {time.monotonic() - start:.0f} s")
     result = results_of(rows, options, dropped)
     if options.json:

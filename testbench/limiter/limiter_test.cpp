@@ -192,3 +192,17 @@ TEST_CASE("limiter: every pair of corners, each way in, back to back") {
             Plain{&t});
   REQUIRE(t.compared[1] >= static_cast<std::int64_t>(cases.size()));
 }
+
+TEST_CASE("limiter: the law takes the largest limit of a format, and the next one for none") {
+  using D = FELTGATE_DESIGN;
+  using Law = LimiterLaw<D, Fixed>;
+  constexpr int key = Law::key<D::f.torque.fraction>;
+  using Torque = fixed_of<D::f.torque.key()>;
+  for (const std::int64_t more : {-1, 0, 1, 2}) {
+    bool hit = false;
+    const auto limit = Fixed::from_raw<key>(Torque::max_raw() + more);
+    const auto got = Law::limited<Torque, D::f.torque.key()>(Torque::from_raw(9), limit, &hit);
+    REQUIRE(hit == (more > 0));
+    REQUIRE(got.raw() == (more > 0 ? 0 : 9));
+  }
+}

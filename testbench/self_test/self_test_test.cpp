@@ -313,3 +313,17 @@ TEST_CASE("self_test: no pulse, no test; in voltage mode neither") {
     }
   }
 }
+
+TEST_CASE("self_test: a failure is told once") {
+  feltgate::SelfTestLaw law;
+  const feltgate::SelfTestLaw::Words words{1, 1, 0};  // a lever that does not answer is not armed
+  int failures = 0;
+  for (std::uint32_t tick = 0; tick < 2000; ++tick) {
+    law.sample(0);
+    const bool failed = law.turn(tick > 3, false, tick, words);
+    REQUIRE(law.failed() == failed);
+    REQUIRE_FALSE(law.failed());
+    failures += failed;
+  }
+  REQUIRE(failures == 1);
+}

@@ -32,3 +32,26 @@ TEST_CASE("nor does stopping anywhere in a tick") {
     compare<Paper>(longest + 1, test::scaled_clocks(3'000'000), longest);
   }
 }
+
+TEST_CASE("a stop of one clock is a fault in every clock of a tick, by clocks and by events") {
+  for (int at = 0; at < Lever::clocks_per_tick; ++at) {
+    FeltgateCore<Lever> by_clock, by_event;
+    CoreIn in;
+    const auto both = [&](int clocks) {
+      for (int k = 0; k < clocks; ++k) by_clock.clock(in);
+      by_event.run(in, clocks, [] {});
+    };
+    both(10 * Lever::clocks_per_tick);
+    in.arm = true;
+    both(10 * Lever::clocks_per_tick + at);
+    in.stop = true;
+    both(1);
+    in.stop = false;
+    both(3);
+    INFO("clock " << at);
+    CHECK(by_event.out().faults == fault_bit(Fault::stop));
+    CHECK_FALSE(by_event.out().gates_enable);
+    both(10 * Lever::clocks_per_tick);
+    CHECK(by_clock.out() == by_event.out());
+  }
+}

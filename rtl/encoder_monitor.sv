@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Watches whether the encoder's edges come on one channel only: chatter on one edge, which goes on
-// only as long as a torque turns it, or a dead channel. Once per tick.
+// only as long as a torque turns it, or a dead channel. Once per tick. And whether the count stays as it is without them.
 // Documentation: docs/blocks/encoder_monitor.md
 `default_nettype none
 
@@ -15,10 +15,15 @@ module encoder_monitor (
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic [1:0]  levels_i,    // of A (bit 0) and B, as accepted
     input  logic        index_wrong_i,  // sticky: the count at an index does not fit
+    input  logic [31:0] count_i,     // of the decoder, and its zero
+    input  logic [31:0] zero_i,
+    input  logic [1:0]  step_i,      // what the count moved by with this clock; 0: nothing
+    input  logic        set_zero_i,  // the zero moves with the next
     output logic        moved_o,     // an edge came since the tick before
     output logic        chatters_o,  // no torque may grow
     output logic        trip_o,      // a channel is dead: one clock
-    output logic        index_trip_o // the count has slipped: one clock
+    output logic        index_trip_o, // the count has slipped: one clock
+    output logic        flip_trip_o  // a bit of count or zero has changed by itself: one clock
 );
   localparam int RowW = $clog2(feltgate_map_pkg::DEAD_CHANNEL_EDGES);
   localparam int EdgeW = $clog2(feltgate_map_pkg::EDGE_UNITS + 1);
@@ -81,6 +86,22 @@ module encoder_monitor (
     if (sample) begin
       if (!chatters_o || over) chatter_units_q <= '0;
       else if (chatter_unit) chatter_units_q <= chatter_units_q + ChatterW'(1);
+    end
+  end
+
+  // Where neither an edge nor a new zero came their parity stays.
+  logic parity, parity_q, zeroed_q;
+  assign parity = ^{count_i, zero_i};
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      parity_q    <= 1'b0;
+      zeroed_q    <= 1'b0;
+      flip_trip_o <= 1'b0;
+    end else begin
+      parity_q    <= parity;
+      zeroed_q    <= set_zero_i;
+      flip_trip_o <= parity != parity_q && step_i == 2'd0 && !zeroed_q;
     end
   end
 endmodule

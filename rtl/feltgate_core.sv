@@ -74,7 +74,7 @@ module feltgate_core #(
   logic [ 1:0] mode;
   logic host, arm_request, set_zero, clear_faults, kick, region_high, snap_valid;
   logic disarm, host_stop, restart, refused, unkicked, word_error, testing, self_test_trip;
-  logic moved, beyond, frozen, eased, channel_trip, index_trip;
+  logic moved, beyond, frozen, eased, channel_trip, index_trip, flip_trip;
   logic [ 5:0] snap_slot;
   logic [31:0] snap_data;
   assign host         = control[feltgate_map_pkg::B_CONTROL_HOST];
@@ -122,11 +122,11 @@ module feltgate_core #(
   );
 
   // Encoder to position; the sample that the wave carries.
-  logic signed [31:0] position, index_position;
+  logic signed [31:0] position, index_position, count, zero;
   logic signed [feltgate_pkg::TRAVEL_BITS-1:0] travel;
   logic [15:0] error_count, rejected_count;
   logic encoder_error, illegal, unused_index_seen, index_wrong;
-  logic signed [1:0] unused_step;
+  logic signed [1:0] step;
   logic [1:0] levels;
   quad_decoder #(.IndexCounts(feltgate_pkg::INDEX_COUNTS)) u_quad_decoder (
       .clk_i(clk_i), .rst_ni(rst_ni),
@@ -139,7 +139,7 @@ module feltgate_core #(
       .clear_error_i(clear_faults),
       .position_o(position),
       .travel_o(travel),
-      .step_o(unused_step),
+      .step_o(step), .count_o(count), .zero_o(zero),
       .levels_o(levels),
       .illegal_o(illegal),
       .error_o(encoder_error),
@@ -150,8 +150,8 @@ module feltgate_core #(
 
   encoder_monitor u_encoder_monitor (
       .clk_i(clk_i), .rst_ni(rst_ni), .wave_i(wave), .tick_count_i(tick_count_o), .levels_i(levels),
-      .index_wrong_i(index_wrong), .index_trip_o(index_trip),
-      .moved_o(moved), .chatters_o(frozen), .trip_o(channel_trip)
+      .count_i(count), .zero_i(zero), .step_i(step), .set_zero_i(set_zero), .flip_trip_o(flip_trip),
+      .index_wrong_i(index_wrong), .index_trip_o(index_trip), .moved_o(moved), .chatters_o(frozen), .trip_o(channel_trip)
   );
   hold_timer u_hold_timer (
       .clk_i(clk_i), .rst_ni(rst_ni), .armed_i(armed_o), .wave_i(wave), .tick_count_i(tick_count_o),
@@ -293,7 +293,7 @@ module feltgate_core #(
       .product_i(supervisor_product),
       .trips_i((FaultsW'(self_test_trip) << feltgate_map_pkg::FAULT_SELF_TEST) |
                (FaultsW'(host_stop) << feltgate_map_pkg::FAULT_STOP) |
-               (FaultsW'(word_error) << feltgate_map_pkg::FAULT_WORD) |
+               (FaultsW'(word_error || flip_trip) << feltgate_map_pkg::FAULT_WORD) |
                (FaultsW'(channel_trip) << feltgate_map_pkg::FAULT_CHANNEL) | (FaultsW'(index_trip) << feltgate_map_pkg::FAULT_INDEX) |
                (FaultsW'(velocity_jumped) << feltgate_map_pkg::FAULT_JUMP)),
       .current_estimate_o(current_estimate),

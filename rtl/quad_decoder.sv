@@ -22,6 +22,8 @@ module quad_decoder #(
   output logic signed [31:0] position_o,
   output logic        [15:0] travel_o,          // free-running, set_zero_i does not touch it
   output logic signed [1:0]  step_o,            // what travel_o moved by in this clock
+  output logic        [31:0] count_o,           // the whole count, and its value where zero is
+  output logic        [31:0] zero_o,
   output logic        [1:0]  levels_o,          // of A (bit 0) and B, as accepted
   output logic               error_o,           // sticky: both channels changed in one clock
   output logic               illegal_o,         // both channels changed in the clock before
@@ -126,6 +128,8 @@ module quad_decoder #(
 
   assign travel_o = count_q[15:0];
   assign step_o   = step_q;
+  assign count_o  = count_q;
+  assign zero_o   = zero_q;
   assign levels_o = level_q[1:0];
 
   // From the first index on the count must differ by whole revolutions. Both ways the index rises at its

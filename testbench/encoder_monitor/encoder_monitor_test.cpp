@@ -24,6 +24,10 @@ struct Adapter {
     rtl.tick_count_i = in.tick_count;
     rtl.levels_i = in.levels;
     rtl.index_wrong_i = in.index_wrong;
+    rtl.count_i = in.count;
+    rtl.zero_i = in.zero;
+    rtl.step_i = in.step;
+    rtl.set_zero_i = in.set_zero;
   }
   template <class Check>
   static void compare(Check& check, const Vencoder_monitor& rtl, const Twin::Out& out) {
@@ -31,6 +35,7 @@ struct Adapter {
     check("chatters", rtl.chatters_o, out.chatters);
     check("trip", rtl.trip_o, out.trip);
     check("index_trip", rtl.index_trip_o, out.index_trip);
+    check("flip_trip", rtl.flip_trip_o, out.flip_trip);
   }
 };
 using Bench = LockStep<Vencoder_monitor, Twin, Adapter>;
@@ -95,8 +100,19 @@ struct Stimulus {
     in.wave = clock == 0 ? kSample : random.bits() & ~kSample;
     if (clock == 0) tick();
     if (random.one_in(50)) in.index_wrong = !in.index_wrong;
+    count();
     clock = clock + 1 >= period ? 0 : clock + 1;
     return in;
+  }
+  /// Steps, new zeros, and bits of both that flip by themselves.
+  void count() {
+    if (in.set_zero) in.zero = in.count - in.step;
+    in.step = random.one_in(5) ? (random.coin() ? 1 : 3) : 0;
+    in.count += in.step == 3 ? ~0u : in.step;
+    in.set_zero = random.one_in(20);
+    if (random.one_in(40)) in.count ^= 1u << random.below(32);
+    if (random.one_in(40)) in.zero ^= 1u << random.below(32);
+    if (random.one_in(2000)) in.count = static_cast<std::uint32_t>(random.bits());
   }
   void tick() {
     ++in.tick_count;

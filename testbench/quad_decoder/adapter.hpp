@@ -27,6 +27,8 @@ struct QuadDecoderAdapter {
     check("travel", rtl.travel_o, out.travel);
     check("step", sign_extend<2>(rtl.step_o), out.step);
     check("levels", rtl.levels_o, out.levels);
+    check("count", rtl.count_o, out.count);
+    check("zero", rtl.zero_o, out.zero);
     check("error", rtl.error_o, out.error);
     check("illegal", rtl.illegal_o, out.illegal);
     check("error_count", rtl.error_count_o, out.error_count);

@@ -41,11 +41,14 @@ class QuadDecoder {
     bool index_seen = false;
     bool index_wrong = false;  ///< sticky: an index does not fit a revolution
     std::uint8_t levels = 0;   ///< of A (bit 0) and B, as accepted
+    std::uint32_t count = 0;   ///< counts since reset
+    std::uint32_t zero = 0;    ///< of them, where the position is 0
     bool operator==(const Out& o) const {
       return position == o.position && travel == o.travel && step == o.step && error == o.error &&
              illegal == o.illegal && error_count == o.error_count &&
              rejected_count == o.rejected_count && index_position == o.index_position &&
-             index_seen == o.index_seen && index_wrong == o.index_wrong && levels == o.levels;
+             index_seen == o.index_seen && index_wrong == o.index_wrong && levels == o.levels &&
+             count == o.count && zero == o.zero;
     }
   };
 
@@ -61,14 +64,13 @@ class QuadDecoder {
     wait_q_ = {};
     fill_q_ = 0;
     primed_q_ = false;
-    count_q_ = static_cast<std::uint32_t>(reset_position_);
-    zero_q_ = 0;
     index_q_ = false;
     error_wait_q_ = false;
     rejected_wait_q_ = false;
     out_ = Out{};
+    out_.count = static_cast<std::uint32_t>(reset_position_);
     out_.position = reset_position_;
-    out_.travel = static_cast<std::uint16_t>(count_q_);
+    out_.travel = static_cast<std::uint16_t>(out_.count);
   }
 
   void clock(const In& in) {
@@ -82,17 +84,17 @@ class QuadDecoder {
     primed_q_ = fill_q_ >= 2;
     fill_q_ = static_cast<std::uint8_t>(fill_q_ < 2 ? fill_q_ + 1 : 2);
 
-    const auto position = static_cast<std::int32_t>(count_q_ - zero_q_);
+    const auto position = static_cast<std::int32_t>(out_.count - out_.zero);
     serve_counters(in.clear_error);
     rejected_wait_q_ |= rejected;
     const bool wrong = index_q_ && out_.index_seen && slipped();
-    if (index_q_ && !out_.index_seen) first_ = count_q_;
+    if (index_q_ && !out_.index_seen) first_ = out_.count;
     out_.index_wrong = wrong || (out_.index_wrong && !in.clear_error);
     out_.index_seen = index_q_ || (out_.index_seen && !in.clear_error);
     if (index_q_) out_.index_position = position;
     index_q_ = (changed & kZ) != 0 && index_level;
     out_.position = position;
-    if (in.set_zero) zero_q_ = count_q_;
+    if (in.set_zero) out_.zero = out_.count;
 
     const bool changed_a = (changed & kA) != 0;
     const bool changed_b = (changed & kB) != 0;
@@ -106,8 +108,8 @@ class QuadDecoder {
       // Gray order of (A,B): 00 01 11 10 counts up.
       const bool down = changed_a != (ab_differ != in.polarity);
       out_.step = down ? -1 : 1;
-      count_q_ += down ? 0xffffffffU : 1U;
-      out_.travel = static_cast<std::uint16_t>(count_q_);
+      out_.count += down ? 0xffffffffU : 1U;
+      out_.travel = static_cast<std::uint16_t>(out_.count);
     }
   }
 
@@ -118,7 +120,7 @@ class QuadDecoder {
   bool settled(const In& in) const {
     if (!primed_q_ || in.set_zero || in.clear_error || error_wait_q_ || rejected_wait_q_ ||
         index_q_ || out_.step != 0 || out_.illegal ||
-        out_.position != static_cast<std::int32_t>(count_q_ - zero_q_)) {
+        out_.position != static_cast<std::int32_t>(out_.count - out_.zero)) {
       return false;
     }
     const std::uint32_t now = pins(in);
@@ -178,7 +180,7 @@ class QuadDecoder {
   /// width of an index.
   bool slipped() const {
     constexpr std::uint32_t near = 1u << Map::index_width_bits;
-    return index_counts_ != 0 && ((count_q_ - first_ + near) & (index_counts_ - 1)) >= 2 * near;
+    return index_counts_ != 0 && ((out_.count - first_ + near) & (index_counts_ - 1)) >= 2 * near;
   }
 
   std::int32_t reset_position_;
@@ -191,8 +193,6 @@ class QuadDecoder {
   std::array<std::uint8_t, 3> wait_q_{};
   std::uint8_t fill_q_ = 0;
   bool primed_q_ = false;
-  std::uint32_t count_q_ = 0;
-  std::uint32_t zero_q_ = 0;
   bool index_q_ = false;
   bool error_wait_q_ = false;
   bool rejected_wait_q_ = false;

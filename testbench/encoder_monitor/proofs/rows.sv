@@ -10,7 +10,11 @@ module rows_proof (
     input logic [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input logic [                              31:0] first_i,  // the tick in which a reset ends
     input logic [                               1:0] levels_i,
-    input logic                                      index_wrong_i
+    input logic                                      index_wrong_i,
+    input logic [                              31:0] count_i,
+    input logic [                              31:0] zero_i,
+    input logic [                               1:0] step_i,
+    input logic                                      set_zero_i
 );
   localparam int Chatter = feltgate_map_pkg::ONE_CHANNEL_EDGES;
   localparam int Dead = feltgate_map_pkg::DEAD_CHANNEL_EDGES;
@@ -32,7 +36,7 @@ module rows_proof (
   end
   always_comb if (!past_ok_q) assume (!rst_ni);
 
-  logic moved, chatters, trip, index_trip;
+  logic moved, chatters, trip, index_trip, flip_trip;
   encoder_monitor u_dut (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
@@ -40,6 +44,11 @@ module rows_proof (
       .tick_count_i(ticks_q),
       .levels_i(levels_i),
       .index_wrong_i(index_wrong_i),
+      .count_i(count_i),
+      .zero_i(zero_i),
+      .step_i(step_i),
+      .set_zero_i(set_zero_i),
+      .flip_trip_o(flip_trip),
       .moved_o(moved),
       .chatters_o(chatters),
       .trip_o(trip),
@@ -101,6 +110,23 @@ module rows_proof (
     end
   end
 
+  // Count and zero as they were a clock ago, and what of it is a flip.
+  logic [31:0] count_then_q, zero_then_q;
+  logic set_zero_then_q, flip_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      count_then_q    <= 32'd0;
+      zero_then_q     <= 32'd0;
+      set_zero_then_q <= 1'b0;
+      flip_q          <= 1'b0;
+    end else begin
+      count_then_q    <= count_i;
+      zero_then_q     <= zero_i;
+      set_zero_then_q <= set_zero_i;
+      flip_q <= ^{count_i, zero_i} != ^{count_then_q, zero_then_q} && step_i == 2'd0 && !set_zero_then_q;
+    end
+  end
+
   // What the sample before saw.
   logic other_then_q, edge_then_q;
   logic [5:0] same_then_q;
@@ -128,6 +154,7 @@ module rows_proof (
                                      still_then_q >= 12'(LateMin));
       moved_is_an_edge: assert (moved == moved_q);
       index_once: assert (index_trip == wrong_now_q);
+      flip_is_a_parity: assert (flip_trip == flip_q);
       dies: cover (trip && edge_then_q);
       wears_out: cover (chatters && long_q == 14'd2);
       inside_row: assert (same_q >= 6'(row) && row < RowW'(Dead));

@@ -56,6 +56,7 @@ module count_proof (
   logic signed [31:0] position;
   logic        [15:0] travel;
   logic signed [ 1:0] step;
+  logic signed [31:0] count, zero;
   logic               error, illegal;
   quad_decoder u_dut (
       .clk_i(clk_i),
@@ -70,6 +71,8 @@ module count_proof (
       .position_o(position),
       .travel_o(travel),
       .step_o(step),
+      .count_o(count),
+      .zero_o(zero),
       .error_o(error),
       .illegal_o(illegal),
       .error_count_o(),
@@ -79,10 +82,6 @@ module count_proof (
       .levels_o(),
       .index_wrong_o()
   );
-  (* hierconn *) wire signed [31:0] \u_dut.count_q ;
-  wire signed [31:0] count = \u_dut.count_q ;
-  (* hierconn *) wire signed [31:0] \u_dut.zero_q ;
-  wire signed [31:0] zero = \u_dut.zero_q ;
   (* hierconn *) wire [2:0] \u_dut.meta_q ;
   wire [2:0] meta = \u_dut.meta_q ;
   (* hierconn *) wire [2:0] \u_dut.sync_q ;

@@ -40,6 +40,8 @@ module flags_proof (
       .clear_error_i(clear_error_i),
       .position_o(position),
       .travel_o(travel),
+      .count_o(),
+      .zero_o(),
       .step_o(step),
       .error_o(error),
       .illegal_o(illegal),

@@ -39,6 +39,7 @@ def commands(build):
     own = {
         # Not by the launcher: that prints the text which this compares.
         "test": ["bash", "-c", 'source "$0"; tests_usage', ROOT / "scripts/run_tests.sh"],
+        "faults": [PYTHON, "-B", ROOT / "scripts/faults.py"],
         "prove": [PYTHON, "-B", ROOT / "scripts/prove.py"],
         "mutate": [PYTHON, "-B", ROOT / "scripts/mutate.py"],
         "coverage": [PYTHON, "-B", ROOT / "scripts/coverage.py"],

@@ -45,6 +45,7 @@ PACKAGES=(
   "prove|python3-venv|holds the pinned Yosys and z3 of scripts/requirements.txt"
   "prove|ca-certificates|lets pip fetch them over https"
   "prove|patch|seeds the defects that the proofs must find"
+  "faults|yosys|names the flip-flops of the core"
   "dask|python3-distributed|sends the chunks of a sweep to many machines"
 )
 

@@ -57,6 +57,7 @@ target_compile_definitions(feltgate_bench_parts PRIVATE FELTGATE_VERSION="${PROJ
 feltgate_program(feltgate_bench "bench_main.cpp;checks.cpp;commands.cpp;command_line.cpp"
   feltgate_files feltgate_bench_parts nlohmann_json::nlohmann_json CLI11::CLI11)
 include(extremes)
+include(faults)
 if(NOT FELTGATE_TESTS)
   set_target_properties(feltgate_bench feltgate_bench_parts feltgate_extremes
     feltgate_extreme_cases extremes_wide_core ${extremes_blocks} PROPERTIES EXCLUDE_FROM_ALL ON)

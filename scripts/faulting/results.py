@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""What a campaign says: rows of classes per group, what was promised, and the rows per block of the RTL."""
+
+import re
+
+CLASSES = ("masked", "latent", "transient", "off", "detected", "silent", "unsafe")
+POINTS = ("state", "two bits", "pins", "words")
+FEWEST = 300  # of a kind before a share of 99 % means anything
+SILENT_SHARE = 0.01
+FLAGGED_SHARE = 0.99
+
+
+def bound(count, of):
+    """A share as a percentage; beside a zero its 95 % bound, 3/N."""
+    if not of:
+        return "-"
+    return f"{100 * count / of:.2g} %" if count else f"0 (< {300 / of:.2g} %)"
+
+
+class Row:
+    """Faults of one group."""
+
+    def __init__(self, point, group):
+        self.point, self.group = point, group
+        self.count = dict.fromkeys(CLASSES, 0)
+        self.peaks, self.integrals = [], []
+
+    def add(self, fault):
+        self.count[fault["class"]] += 1
+        self.peaks.append(fault["peak_nm"])
+        self.integrals.append(fault["integral_nm_s"])
+
+    def total(self):
+        return sum(self.count.values())
+
+    def as_json(self):
+        return {"point": self.point, "group": self.group, "faults": self.total(), **self.count,
+                "peak_nm": max(self.peaks), "integral_nm_s": max(self.integrals)}
+
+
+def rows_of(faults):
+    rows = {}
+    for fault in faults:
+        key = (fault["point"], fault["group"])
+        rows.setdefault(key, Row(*key)).add(fault)
+    return sorted(rows.values(), key=lambda row: (POINTS.index(row.point), row.group))
+
+
+def is_safety(fault):
+    return fault["point"] == "state" and fault["safety"]
+
+
+def changes_count(fault):
+    """A break of the encoder that the count does not notice has nothing to be found by."""
+    return fault["group"] not in ("channel dead", "channels shorted") or fault["count_changed"] or (
+        fault["class"] == "detected")
+
+
+def promises(faults):
+    """[(what, reached, of, kept)]."""
+    unsafe = sum(f["class"] == "unsafe" for f in faults)
+    found = [("unsafe, of all faults", unsafe, len(faults), unsafe == 0)]
+    safety = [f for f in faults if is_safety(f)]
+    if safety:
+        silent = sum(f["class"] in ("silent", "unsafe") for f in safety)
+        found.append(("silent wrong, of single flips in the safety state", silent, len(safety),
+                      silent <= SILENT_SHARE * len(safety)))
+    for group in dict.fromkeys(f["group"] for f in faults if f.get("must_flag")):
+        its = [f for f in faults if f["group"] == group and f["point"] == "pins" and changes_count(f)]
+        missed = sum(f["class"] != "detected" for f in its)
+        found.append((f"not flagged, of '{group}'", missed, len(its), missed <= (1 - FLAGGED_SHARE) * len(its)))
+    return found
+
+
+def text_table(rows):
+    head = ["point", "group", "faults", *CLASSES, "peak Nm", "mNm s"]
+    lines = [head]
+    for row in rows:
+        lines.append([row.point, row.group, str(row.total()), *(str(row.count[c]) for c in CLASSES),
+                      f"{max(row.peaks):.3f}", f"{1e3 * max(row.integrals):.3f}"])
+    widths = [max(len(line[k]) for line in lines) for k in range(len(head))]
+    return "\n".join("  ".join(cell.ljust(w) if k < 2 else cell.rjust(w) for k, (cell, w) in
+                               enumerate(zip(line, widths))).rstrip() for line in lines)
+
+
+def markdown_table(rows):
+    head = ["point", "what", "faults", *CLASSES, "peak Nm", "mNm s"]
+    lines = ["| " + " | ".join(head) + " |", "|---|---|" + "---:|" * (len(head) - 2)]
+    for row in rows:
+        cells = [row.point, row.group, str(row.total()), *(str(row.count[c]) for c in CLASSES),
+                 f"{max(row.peaks):.2f}", f"{1e3 * max(row.integrals):.2g}"]
+        lines.append("| " + " | ".join(cells) + " |")
+    return lines
+
+
+def block_of(fault, blocks):
+    """The block that a register is in: the deepest instance that is named after one."""
+    name = fault["register"]
+    if name.startswith("parameter "):
+        return "registers"
+    if name == "velocity line":
+        return "velocity_n"
+    found = "feltgate_core"
+    for instance in re.findall(r"u_(\w+?)\.", name):
+        for block in (instance, f"scene_{instance}"):
+            if block in blocks:
+                found = block
+    return found
+
+
+def per_block(faults, blocks):
+    """{block: {"unsafe": [n, of], "silent": [n, of]}} of single flips."""
+    found = {}
+    for fault in (f for f in faults if is_safety(f)):
+        entry = found.setdefault(block_of(fault, blocks), {"unsafe": [0, 0], "silent": [0, 0]})
+        for key in entry:
+            entry[key][1] += 1
+            entry[key][0] += fault["class"] == key
+    return found

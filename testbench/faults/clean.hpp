@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Device time without any fault: nothing may be flagged. Documentation: docs/verification.md
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace feltgate::faults {
+
+struct CleanResult {
+  double scenes_s = 0, recordings_s = 0, dither_s = 0;  ///< device time of each kind
+  std::int64_t alarms = 0;                              ///< faults, and motors disarmed
+  std::string first;                                    ///< what the first one was
+  double seconds() const { return scenes_s + recordings_s + dither_s; }
+};
+
+/// So many seconds of device time on the twin: a twelfth in closed loop (scenes, hands and their
+/// strength drawn from the seed), the rest the shipped recordings in a loop, dither on one edge,
+/// and rest.
+CleanResult run_clean(const std::string& root, double seconds, std::uint64_t seed,
+                      const std::function<void(double done)>& progress);
+
+}  // namespace feltgate::faults

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A share of the fault campaign; that its classes can be told apart; the listed cases. What each
+// fault is and where the classes part: docs/verification.md
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "catch.hpp"
+#include "faults/clean.hpp"
+#include "faults/record.hpp"
+#include "faults/world.hpp"
+#include "feltgate/generated/causes.hpp"
+
+using namespace feltgate::faults;
+
+namespace {
+
+const std::string root = FELTGATE_ROOT;
+
+std::vector<Outcome> outcomes(const StateCampaign& campaign,
+                              const std::vector<StateFault>& faults) {
+  std::vector<Outcome> found;
+  const std::int64_t mismatches =
+      run(campaign, faults, [&](const StateResult& r) { found.push_back(r.outcome); });
+  CHECK(mismatches == 0);  // RTL and twin, in the ticks without a fault
+  return found;
+}
+
+std::size_t bit_of(const std::string& name, int bit) {
+  const auto bits = state_bits();
+  for (std::size_t n = 0; n < bits.size(); ++n) {
+    if (bits[n].name == name && bits[n].bit == bit) return n;
+  }
+  FAIL("no register " << name);
+  return 0;
+}
+
+/// In the scene wall, which pushes by then.
+StateFault at_the_wall(const std::string& name, int bit) {
+  StateFault f;
+  f.tick = 105'000;
+  f.clock = 17;
+  f.bits = {bit_of(name, bit)};
+  return f;
+}
+
+}  // namespace
+
+TEST_CASE("faults: every state bit has a name and a group") {
+  std::map<std::string, int> groups;
+  for (const StateBit& b : state_bits()) {
+    INFO(b.name);
+    REQUIRE_FALSE(b.group.empty());
+    ++groups[b.group];
+  }
+  CHECK(groups["pwm"] > 50);
+  CHECK(groups["supervisor"] > 200);
+  CHECK(groups["position"] > 100);
+  CHECK(groups["encoder inputs"] > 20);
+  CHECK(groups["parameter RAM"] > 1500);
+}
+
+TEST_CASE("faults: a share of the flips ends safely") {
+  StateCampaign campaign;
+  campaign.root = root;
+  campaign.seed = 7;
+  campaign.flips_per_bit = 1;
+  campaign.acts = 3;
+  std::vector<StateFault> share;
+  const auto all = plan(campaign);
+  for (std::size_t n = 5; n < all.size(); n += 23) share.push_back(all[n]);
+  const auto bits = state_bits();
+  int unsafe = 0, silent = 0, detected = 0;
+  run(campaign, share, [&](const StateResult& r) {
+    unsafe += r.outcome.is == Class::unsafe;
+    silent += r.outcome.is == Class::silent && bits[r.fault.bits[0]].safety;
+    detected += r.outcome.is == Class::detected;
+  });
+  CHECK(share.size() > 200);
+  CHECK(unsafe == 0);
+  CHECK(silent <= 3);
+  CHECK(detected > 30);
+}
+
+TEST_CASE("faults: a bit of count or zero that flips closes the gates") {
+  StateCampaign campaign;
+  campaign.root = root;
+  std::vector<StateFault> faults;
+  for (int bit = 0; bit < 32; ++bit) {
+    faults.push_back(at_the_wall("u_quad_decoder.count_q", bit));
+    faults.push_back(at_the_wall("u_quad_decoder.zero_q", bit));
+  }
+  const auto word = 1u << static_cast<unsigned>(feltgate::Fault::word);
+  for (const Outcome& o : outcomes(campaign, faults)) {
+    CHECK(o.is == Class::detected);
+    CHECK((o.flagged & word) != 0);
+    CHECK(o.off_after <= 1);
+  }
+}
+
+TEST_CASE("faults: what is broken is seen") {
+  StateCampaign campaign;
+  campaign.root = root;
+  SECTION("a gate that is stuck on") {
+    StateFault f = at_the_wall("u_pwm.gate_hi_q", 0);
+    f.stuck = true;
+    const Outcome o = outcomes(campaign, {f})[0];
+    CHECK(o.is == Class::unsafe);
+    CHECK(o.both_clocks > 1);
+  }
+  SECTION("a motor that gives more than 1.2 times the limit, and for how long it may") {
+    for (const int ticks : {900, 1100}) {
+      TorqueJudge judge(motor_of_plant(root), Limits{});
+      Outcome o;
+      for (int k = 0; k < ticks; ++k) judge.tick({}, {}, 0, 0.61, true, &o);
+      CHECK(judge.unsafe(o) == (ticks > 1000));
+    }
+  }
+  SECTION("a torque that is off by more than 5 % of the limit, unflagged") {
+    const GateTimes on{3, 47, 0, 50, 0}, off{0, 50, 0, 50, 0};
+    for (const bool flagged : {false, true}) {
+      TorqueJudge judge(motor_of_plant(root), Limits{});
+      Outcome o;
+      for (int k = 0; k < 1100; ++k) judge.tick(on, off, 0, 0, flagged, &o);
+      CHECK(judge.torque_wrong() == !flagged);
+      CHECK(o.peak_nm > 0.025);
+    }
+  }
+  SECTION("an accepted level of the encoder: a count too many, for ever") {
+    const Outcome o = outcomes(campaign, {at_the_wall("u_quad_decoder.level_q", 0)})[0];
+    CHECK(o.is == Class::silent);
+    CHECK(o.why == "position");
+  }
+  SECTION("a register that the next tick writes anew") {
+    const Outcome o = outcomes(campaign, {at_the_wall("u_dob.tau_hat_o", 3)})[0];
+    CHECK(o.is <= Class::transient);
+    CHECK(o.peak_nm < 0.025);
+  }
+  SECTION("a reset") {
+    StateFault f = at_the_wall("u_pwm.wanted_q", 0);
+    f.bits.clear();
+    f.reset_clocks = 40;
+    const Outcome o = outcomes(campaign, {f})[0];
+    CHECK(o.is == Class::off);
+    CHECK(o.flagged == 0);
+  }
+}
+
+TEST_CASE("faults: each kind at the pins ends as it must") {
+  const auto& kinds = pin_kinds();
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+      const PinResult r = run_pin_fault(root, k, seed);
+      INFO(kinds[k].name << ", seed " << seed << ": " << r.what);
+      CHECK(r.outcome.is != Class::unsafe);
+      if (kinds[k].must_flag && r.outcome.count_changed) CHECK(r.outcome.is == Class::detected);
+      if (std::string(kinds[k].name) == "channel dead") CHECK(r.outcome.travel_rad <= 0.08);
+    }
+  }
+}
+
+TEST_CASE("faults: the listed cases end as listed") {
+  std::ifstream list(root + "/vectors/faults/cases.jsonl");
+  REQUIRE(list);
+  std::vector<StateFault> states;
+  std::vector<std::string> wanted;
+  int cases = 0;
+  for (std::string line; std::getline(list, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    ++cases;
+    const CaseLine c = read_case(line);
+    if (c.pins) {
+      INFO(line);
+      CHECK(name_of(run_pin_fault(root, c.kind, c.seed).outcome.is) == c.expected);
+    } else {
+      states.push_back(c.state);
+      wanted.push_back(c.expected);
+    }
+  }
+  StateCampaign campaign;
+  campaign.root = root;
+  run(campaign, states, [&](const StateResult& r) {
+    for (std::size_t n = 0; n < states.size(); ++n) {
+      const StateFault& s = states[n];
+      if (s.act != r.fault.act || s.tick != r.fault.tick || s.clock != r.fault.clock ||
+          s.bits != r.fault.bits)
+        continue;
+      INFO("tick " << s.tick << " clock " << s.clock << " act " << s.act);
+      CHECK(name_of(r.outcome.is) == wanted[n]);
+    }
+  });
+  CHECK(cases >= 10);
+}
+
+TEST_CASE("faults: no alarm without a fault") {
+  const CleanResult r = run_clean(root, 30, 5, [](double) {});
+  CHECK(r.alarms == 0);
+  CHECK(r.scenes_s > 2);
+  CHECK(r.recordings_s > 2);
+  CHECK(r.dither_s > 2);
+}

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What becomes of a fault: the classes of the campaign and what decides between them.
+// Documentation: docs/verification.md
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+namespace feltgate::faults {
+
+enum class Class {
+  masked,     ///< no output ever differed, the state is the sound one again
+  latent,     ///< no torque, position or gate is wrong, but the state still differs at the end
+  transient,  ///< outputs differed, too little or too shortly, and are right again
+  off,        ///< the gates are off and the motor is disarmed; no fault is latched
+  detected,   ///< a fault is latched, the gates are off
+  silent,     ///< torque or position wrong, unflagged
+  unsafe,     ///< both switches of a leg on, or far too much torque
+};
+constexpr int class_count = 7;
+inline const char* name_of(Class c) {
+  constexpr const char* names[] = {"masked",   "latent", "transient", "off",
+                                   "detected", "silent", "unsafe"};
+  return names[static_cast<int>(c)];
+}
+
+/// Where the classes part, for ticks of 1 us.
+struct Limits {
+  double torque_nm = 0.5;      ///< the design's limit
+  double silent_share = 0.05;  ///< of it
+  double unsafe_share = 1.2;   ///< of it
+  int ticks = 1000;            ///< longer than this
+  int both_clocks = 1;         ///< both switches of a leg: longer than this
+};
+
+struct Outcome {
+  Class is = Class::masked;
+  std::string why;              ///< of silent and unsafe
+  unsigned flagged = 0;         ///< faults latched that a sound core has not
+  std::int64_t off_after = -1;  ///< ticks from the fault to the gates off
+  double peak_nm = 0;           ///< of the torque's deviation, from the fault to the gates off
+  double integral_nm_s = 0;     ///< of its size
+  int both_clocks = 0;          ///< longest time with both switches of a leg on
+  double motor_peak_nm = 0;     ///< of the motor's own torque
+  double travel_rad = 0;        ///< of the lever, from the fault to the flag
+  bool count_changed = false;
+};
+
+/// Gates of one tick: clocks that each was on, and the longest run with both of a leg on.
+struct GateTimes {
+  int a_hi = 0, a_lo = 0, b_hi = 0, b_lo = 0, both = 0;
+  bool on() const { return (a_hi | a_lo | b_hi | b_lo) != 0; }
+  bool operator==(const GateTimes& o) const {
+    return a_hi == o.a_hi && a_lo == o.a_lo && b_hi == o.b_hi && b_lo == o.b_lo && both == o.both;
+  }
+};
+
+/// Looks at the torque of a core under a fault beside that of a sound core on the same lever, tick
+/// by tick. Both torques are those of the winding's voltage, mean of a PWM period, less the
+/// back-EMF.
+class TorqueJudge {
+ public:
+  struct Motor {
+    double supply_v, torque_constant_nm_a, emf_v_s_rad, resistance_ohm;
+    int clocks_per_tick, period_ticks;
+  };
+  TorqueJudge(const Motor& motor, const Limits& limits) : m_(motor), l_(limits) {}
+
+  /// A tick before the fault: the means go on from there.
+  void before(const GateTimes& gates, double motor_torque_nm) {
+    faulty_.add(share(gates), gates.on(), m_.period_ticks);
+    sound_.add(share(gates), gates.on(), m_.period_ticks);
+    motor_.add(motor_torque_nm, true, m_.period_ticks);
+  }
+  void tick(const GateTimes& faulty, const GateTimes& sound, double omega_rad_s,
+            double motor_torque_nm, bool flagged, Outcome* o) {
+    faulty_.add(share(faulty), faulty.on(), m_.period_ticks);
+    sound_.add(share(sound), sound.on(), m_.period_ticks);
+    motor_.add(motor_torque_nm, true, m_.period_ticks);
+    const double e = torque(faulty_, omega_rad_s) - torque(sound_, omega_rad_s);
+    if (faulty.both > o->both_clocks) o->both_clocks = faulty.both;
+    const double motor = std::abs(motor_.mean());
+    if (motor > o->motor_peak_nm) o->motor_peak_nm = motor;
+    // What remains after the gates went off is a free lever.
+    if (faulty_.on() || !flagged) {
+      if (std::abs(e) > o->peak_nm) o->peak_nm = std::abs(e);
+      o->integral_nm_s += std::abs(e) * 1e-6;
+    }
+    over_ = motor > l_.unsafe_share * l_.torque_nm ? over_ + 1 : 0;
+    wrong_ = std::abs(e) > l_.silent_share * l_.torque_nm && !flagged ? wrong_ + 1 : 0;
+    if (over_ > l_.ticks) too_much_ = true;
+    if (wrong_ > l_.ticks) torque_wrong_ = true;
+  }
+  bool unsafe(const Outcome& o) const { return too_much_ || o.both_clocks > l_.both_clocks; }
+  bool torque_wrong() const { return torque_wrong_; }
+
+ private:
+  /// Mean of the last ticks of a PWM period.
+  class Window {
+   public:
+    void add(double share, bool on, int ticks) {
+      if (filled_ == ticks) {
+        sum_ -= shares_[at_];
+        on_ -= ons_[at_] ? 1 : 0;
+      } else {
+        ++filled_;
+      }
+      shares_[at_] = share;
+      ons_[at_] = on;
+      sum_ += share;
+      on_ += on ? 1 : 0;
+      at_ = at_ + 1 == ticks ? 0 : at_ + 1;
+      if (at_ == 0) {  // no rounding adds up
+        sum_ = 0;
+        for (int k = 0; k < filled_; ++k) sum_ += shares_[k];
+      }
+    }
+    double mean() const { return filled_ == 0 ? 0 : sum_ / filled_; }
+    bool on() const { return on_ > 0; }
+
+   private:
+    static constexpr int longest = 64;
+    double shares_[longest] = {}, sum_ = 0;
+    bool ons_[longest] = {};
+    int at_ = 0, filled_ = 0, on_ = 0;
+  };
+  double share(const GateTimes& g) const {
+    return static_cast<double>(g.a_hi - g.b_hi) / m_.clocks_per_tick;
+  }
+  double torque(const Window& w, double omega_rad_s) const {
+    if (!w.on()) return 0;
+    return m_.torque_constant_nm_a * (w.mean() * m_.supply_v - m_.emf_v_s_rad * omega_rad_s) /
+           m_.resistance_ohm;
+  }
+
+  Motor m_;
+  Limits l_;
+  Window faulty_, sound_, motor_;
+  int over_ = 0, wrong_ = 0;
+  bool too_much_ = false, torque_wrong_ = false;
+};
+
+}  // namespace feltgate::faults

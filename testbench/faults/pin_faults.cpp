@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Faults at pins and register port. Documentation: docs/verification.md
+#include "faults/pin_faults.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "faults/broken_pins.hpp"
+#include "faults/world.hpp"
+#include "feltgate/design_info.hpp"
+#include "feltgate/feltgate_core.hpp"
+#include "feltgate/generated/lever.hpp"
+#include "plant/pushing_hand.hpp"
+#include "random.hpp"
+
+namespace feltgate::faults {
+
+namespace {
+
+using test::Random;
+
+struct Case {
+  std::string what;
+  int scene = 0, filter = 0;
+  std::vector<Word> words;
+  plant::Hand hand;
+  double warm_s = 0.1;    ///< before the fault
+  double seconds = 0.06;  ///< after it
+  double from_s = 0;      ///< the fault's moment, since the warm-up
+  Break pins;             ///< clocks since the fault's tick begins
+  std::vector<Word>
+      writes;  ///< the host's, one a tick, from the fault on; the sound core gets none
+  bool stop = false;
+  bool swapped_from_the_start = false;
+  bool position_matters = true;
+  bool alone = false;  ///< what is wrong is the lever: the sound core trips as well
+};
+
+constexpr std::array moving_scenes{"wall", "membrane", "spring_tension", "damper", "free"};
+
+const DesignInfo& info() {
+  static const DesignInfo all = design_info<D>();
+  return all;
+}
+
+double share(Random* r) { return 1e-6 * (1 + static_cast<double>(r->below(999998))); }
+
+/// A hand moves the lever at this speed through a scene that acts.
+Case moving(Random* r, double rad_s) {
+  Case c;
+  const char* scene = moving_scenes[r->below(moving_scenes.size())];
+  c.scene = info().scene_number(scene);
+  const double sign = r->coin() ? 1 : -1;
+  c.words = {word("wall_contact", 20), word("membrane_lower", 20), word("membrane_upper", 2000)};
+  c.hand = moving_hand(0, sign * rad_s);
+  c.warm_s = std::clamp(0.4 / rad_s, 0.02, 0.25);
+  c.what = fmt::format("{}, {:.3g} rad/s", scene, sign * rad_s);
+  return c;
+}
+
+/// One of the acts: a hand that leans, sways or moves in a scene that acts.
+Case acting(Random* r) {
+  static const std::vector<Act> all = acts();
+  const Act& a = all[r->below(all.size() - 1)];  // the last is disarmed
+  Case c;
+  c.scene = a.scene;
+  c.words = a.words;
+  c.hand = a.hand;
+  c.warm_s = a.warm_s;
+  c.what = a.name;
+  return c;
+}
+
+void break_channels(Random* r, bool shorted, double rad_s, Case* c) {
+  using K = Break::Kind;
+  Break& b = c->pins;
+  const char* name = "";
+  if (shorted) {
+    constexpr std::array kinds{K::shorted_a, K::shorted_b, K::shorted_and, K::shorted_or};
+    constexpr std::array names{"short, A stronger", "short, B stronger", "short, and", "short, or"};
+    const auto k = r->below(kinds.size());
+    b.kind = kinds[k];
+    name = names[k];
+  } else {
+    b.kind = K::levels;
+    b.stuck = r->coin() ? 1 : 2;
+    const auto k = r->below(3);
+    b.held = k == 0;
+    b.high = k == 1 ? 3 : 0;
+    name = k == 0 ? "open" : k == 1 ? "high" : "low";
+  }
+  c->what += fmt::format(", {}{}", shorted ? "" : b.stuck == 1 ? "A " : "B ", name);
+  c->seconds = 0.1 / rad_s + 0.006;
+}
+
+void glitches(Random* r, int shortest, int longest, double per_clock, Clock last, Case* c) {
+  for (double at = 50;;) {
+    at += -std::log(share(r)) / per_clock;
+    if (at > static_cast<double>(last)) break;
+    const auto from = static_cast<Clock>(at);
+    const Clock to = from + r->between(shortest, longest);
+    const unsigned channels = r->below(8) == 0 ? 3u : r->below(6) == 0 ? 4u : 1u << r->below(2);
+    c->pins.pulses.push_back({from, to, channels});
+    at = static_cast<double>(to + longest + 4);  // apart, so that each is one pulse to the filter
+  }
+}
+
+plant::Hand spun_hand(double to_rad_s) {
+  plant::HandPhase spin;
+  spin.kind = plant::HandPhase::Kind::kPrescribed;
+  plant::Hand hand;
+  double rad = 0;
+  for (int k = 1; k <= 40; ++k) {  // speed by speed: the acceleration is bounded
+    plant::Segment s;
+    s.kind = plant::Segment::Kind::kRamp;
+    s.duration_s = 0.004;
+    rad += 0.004 * to_rad_s * k / 40;
+    s.to = rad;
+    spin.profile.push_back(s);
+  }
+  plant::Segment on = spin.profile.back();
+  on.duration_s = 3600;
+  on.to = rad + 3600 * to_rad_s;
+  spin.profile.push_back(on);
+  hand.phases = {spin};
+  return hand;
+}
+
+Case make(std::size_t kind, Random* r) {
+  const std::string name = pin_kinds()[kind].name;
+  using K = Break::Kind;
+  Case c;
+  if (name == "glitch within the filter") {
+    c = acting(r);
+    c.filter = static_cast<int>(r->between(2, 15));
+    glitches(r, 1, c.filter, std::pow(10.0, -2 - 3 * share(r)), 20'000 * kTick, &c);
+    c.seconds = 0.024;
+  } else if (name == "glitch") {
+    c = acting(r);
+    c.filter = static_cast<int>(r->between(0, 6));
+    glitches(r, c.filter + 1, 2 * c.filter + 3, std::pow(10.0, -2 - 3 * share(r)), 20'000 * kTick,
+             &c);
+    c.seconds = 0.024;
+  } else if (name == "channel dead" || name == "channels shorted") {
+    const double rad_s = 3 * std::pow(40.0, share(r));
+    c = moving(r, rad_s);
+    break_channels(r, name == "channels shorted", rad_s, &c);
+  } else if (name == "the same, slower") {
+    const double rad_s = 0.5 + 2 * share(r);
+    c = moving(r, rad_s);
+    break_channels(r, r->coin(), rad_s, &c);
+    c.seconds = 0.06;
+  } else if (name == "swapped, free lever") {
+    c.scene = D::S::setpoint;
+    const double nm = (r->coin() ? 1 : -1) * (0.3 + 0.2 * share(r));
+    c.words = {word("setpoint_torque", 0)};
+    c.writes = {word("setpoint_torque", nm)};
+    c.swapped_from_the_start = true;
+    c.what = fmt::format("{:.3f} Nm", nm);
+    c.warm_s = 0.05;
+    c.seconds = 0.06;
+    c.position_matters = false;
+  } else if (name == "swapped, in a hand") {
+    c = acting(r);
+    c.pins.kind = K::swapped;
+  } else if (name == "swapped, self-test") {
+    c.scene = D::S::free;
+    c.swapped_from_the_start = true;
+    c.words = {word("self_test_torque", 0.05), word("self_test_pulse", 39),
+               word("self_test_quiet", 156)};
+    c.hand = plant::Hand{};
+    c.warm_s = 0.012 + 0.02 * share(r);  // the fault is there already: arming begins it
+    c.seconds = 0.06;
+    c.position_matters = false;
+    c.what = "free lever at rest";
+  } else if (name == "over-speed") {
+    const double rad_s = 640 + 300 * share(r);
+    c.scene = r->coin() ? D::S::free : D::S::damper;
+    c.hand = spun_hand(r->coin() ? rad_s : -rad_s);
+    c.warm_s = 0.02;
+    c.seconds = 0.22;
+    c.what = fmt::format("to {:.0f} rad/s", rad_s);
+    c.alone = true;
+  } else if (name == "index lost" || name == "index false") {
+    const double rad_s = 30 + 60 * share(r);
+    c = moving(r, rad_s);
+    c.scene = D::S::free;
+    c.warm_s = 0.02;
+    c.seconds = 14 / rad_s;
+    if (name == "index lost") {
+      c.pins.kind = K::levels;
+      c.pins.stuck = 4;
+      c.pins.high = r->coin() ? 4 : 0;
+    } else {
+      const auto at = static_cast<Clock>(share(r) * c.seconds * 0.5 * 50e6);
+      c.pins.pulses.push_back({at, at + r->between(1, 3000), 4});
+    }
+  } else if (name == "stop") {
+    c = acting(r);
+    c.stop = true;
+    c.seconds = 0.01;
+  } else if (name == "bit of a word") {
+    c = acting(r);
+    const auto& p = D::parameters[r->below(std::size(D::parameters))];
+    c.writes = {{p.address, static_cast<std::uint32_t>(p.raw) ^ (1u << r->below(32))}};
+    c.what += std::string(", ") + p.name;
+    c.seconds = 0.02;
+  } else {  // garbage
+    c = acting(r);
+    for (int k = 0; k < 20; ++k) {
+      Word w{static_cast<int>(r->below(4096)), static_cast<std::uint32_t>(r->bits())};
+      if (r->coin()) w.address = static_cast<int>(r->below(320));
+      c.writes.push_back(w);
+    }
+    c.seconds = 0.02;
+  }
+  c.from_s = 0.02 * share(r);
+  return c;
+}
+
+}  // namespace
+
+const std::vector<PinKind>& pin_kinds() {
+  static const std::vector<PinKind> kinds{
+      {"glitch within the filter", "pins", "pulses of 1 to F clocks on A, B, Z, filter F = 2 to 15",
+       10, false},
+      {"glitch", "pins", "pulses of F+1 to 2F+3 clocks, 1e-5 to 1e-2 a clock, F = 0 to 6", 10,
+       false},
+      {"channel dead", "pins", "A or B low, high or open, a hand moves at 3 to 120 rad/s", 20,
+       true},
+      {"channels shorted", "pins", "A to B, a hand moves at 3 to 120 rad/s", 10, true},
+      {"the same, slower", "pins", "dead or shorted, 0.5 to 2.5 rad/s", 4, false},
+      {"swapped, free lever", "pins", "A and B swapped, 0.3 to 0.5 Nm at once on a free lever", 5,
+       true},
+      {"swapped, self-test", "pins", "A and B swapped, armed with the self-test on", 5, true},
+      {"swapped, in a hand", "pins", "A and B swapped under way, in a hand", 4, false},
+      {"over-speed", "pins", "a lever spun up to 640 to 940 rad/s", 4, true},
+      {"index lost", "pins", "Z stands from some clock on", 3, false},
+      {"index false", "pins", "one Z of 1 to 3000 clocks too much", 3, false},
+      {"stop", "pins", "a pulse of the stop", 4, true},
+      {"bit of a word", "words", "a word written while armed has one wrong bit", 9, false},
+      {"garbage", "words", "20 writes of any word to any address, while armed", 9, false},
+  };
+  return kinds;
+}
+
+PinResult run_pin_fault(const std::string& root, std::size_t kind, std::uint64_t seed) {
+  Random random(seed * 64 + kind);
+  Case c = make(kind, &random);
+  PinResult result{kind, seed, c.what, {}};
+  Outcome& o = result.outcome;
+  const bool self_test = std::string(pin_kinds()[kind].name) == "swapped, self-test";
+  plant::Plant lever = make_plant(root, c.hand);
+  Device faulty, sound;
+  faulty.in.encoder = sound.in.encoder = lever.encoder().pins();
+  const auto warm = static_cast<std::int64_t>((c.warm_s + c.from_s) * 1e6);
+  const std::int64_t ticks = static_cast<std::int64_t>(c.seconds * 1e6);
+  // The fault begins with a tick; its own clocks are counted from there.
+  c.pins.from = warm * kTick + 1 + random.below(kTick);
+  for (Pulse& p : c.pins.pulses) p.from += warm * kTick, p.to += warm * kTick;
+  if (c.swapped_from_the_start) c.pins.kind = Break::Kind::swapped, c.pins.from = 1;
+  BrokenPins pins(c.pins, faulty.in.encoder);
+  if (c.swapped_from_the_start) std::swap(faulty.in.encoder.a, faulty.in.encoder.b);
+  const std::uint32_t control = static_cast<std::uint32_t>(D::control_reset) |
+                                1u << D::C::control_host |
+                                static_cast<std::uint32_t>(c.scene) << D::C::control_scene |
+                                static_cast<std::uint32_t>(c.filter) << D::C::control_filter;
+  std::vector<Word> setup = c.words;
+  setup.push_back({D::C::control, control});
+  const std::size_t arm_at = self_test ? static_cast<std::size_t>(warm) : setup.size() + 1;
+  const TorqueJudge::Motor motor = motor_of_plant(root);
+  const Limits limits;
+  TorqueJudge judge(motor, limits);
+  GateTimes gates;
+  int off_for = 0;
+  bool differed = false, position_wrong = false;
+  double at_fault_rad = 0;
+  std::int32_t first_position = 0;
+  for (std::int64_t t = 0; t < warm + ticks; ++t) {
+    lever.advance(bridge_of(gates, kTick), kTick);
+    const Clock begin = t * kTick;
+    const auto& events = pins.take(lever.events(), begin, begin + kTick);
+    std::optional<Word> both, one;
+    const auto n = static_cast<std::size_t>(t - 4);
+    if (t >= 4 && n < setup.size()) both = setup[n];
+    if (t >= 4 && n == arm_at) both = Word{D::C::control, control | 1u << D::C::control_arm};
+    const bool broken = t >= warm;
+    const auto k = static_cast<std::size_t>(t - warm);
+    if (broken && k < c.writes.size()) one = c.writes[k];
+    // What the free lever is asked for is no fault: both get it.
+    if (c.swapped_from_the_start && one) both = one;
+    gates = faulty.tick(events, begin, both ? both : one, c.stop && k == 0 && broken);
+    // A swapped encoder of a lever at rest, or wrong words: beside it a sound core.
+    const GateTimes other = sound.tick(lever.events(), begin, both, false);
+    if (!broken) {
+      if (t >= warm - motor.period_ticks)
+        judge.before(gates, lever.observables().motor_torque_mean_nm);
+      at_fault_rad = lever.observables().theta_rad;
+      first_position = faulty.core.out().position;
+      continue;
+    }
+    const CoreOut &f = faulty.core.out(), &s = sound.core.out();
+    o.flagged |= f.faults & ~(c.alone ? 0u : static_cast<unsigned>(s.faults));
+    if (std::abs(f.position - first_position) > 1) o.count_changed = true;
+    const bool closed = !f.gates_enable && (s.gates_enable || o.flagged != 0);
+    if (closed && o.off_after < 0) {
+      o.off_after = t - warm;
+      o.travel_rad = std::abs(lever.observables().theta_rad - at_fault_rad);
+    }
+    if (!closed) o.off_after = -1;
+    judge.tick(gates, other, lever.observables().omega_rad_s,
+               lever.observables().motor_torque_mean_nm, closed, &o);
+    position_wrong = c.position_matters && f.position != s.position;
+    differed = differed || !(gates == other) || f.position != s.position || f.tau_ref != s.tau_ref;
+    if (judge.unsafe(o)) break;
+    off_for = closed && !gates.on() ? off_for + 1 : 0;
+    if (off_for > 60) break;
+  }
+  if (judge.unsafe(o)) {
+    o.is = Class::unsafe;
+    o.why = o.both_clocks > limits.both_clocks ? "both switches of a leg" : "too much torque";
+  } else if (off_for > 0) {
+    o.is = o.flagged != 0 ? Class::detected : Class::off;
+  } else if (judge.torque_wrong() || position_wrong) {
+    o.is = Class::silent;
+    o.why = judge.torque_wrong() ? position_wrong ? "torque and position" : "torque" : "position";
+  } else {
+    o.is = differed ? Class::transient : Class::masked;
+  }
+  return result;
+}
+
+}  // namespace feltgate::faults

@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Bits of the core's state that flip for one clock. Documentation: docs/verification.md
+#include "faults/state_faults.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <utility>
+
+#include "faults/rtl_state.hpp"
+#include "faults/world.hpp"
+#include "random.hpp"
+
+namespace feltgate::faults {
+
+namespace {
+
+bool begins(const std::string& text, const char* with) { return text.rfind(with, 0) == 0; }
+
+/// What a register belongs to.
+void sort_in(StateBit* b) {
+  const std::string& n = b->name;
+  const auto is = [&](const char* group, bool safety = true) {
+    b->group = group;
+    b->safety = safety;
+  };
+  if (begins(n, "u_snapshot") || begins(n, "u_registers.g_read")) return is("read-back", false);
+  if (begins(n, "u_quad_decoder.")) {
+    const std::string r = n.substr(15);
+    for (const char* input : {"meta_q", "sync_q", "previous_q", "level_q", "fill_q", "primed_q",
+                              "elapsed_q", "g_filter"}) {
+      if (begins(r, input)) return is("encoder inputs", false);
+    }
+    for (const char* shown : {"error_", "rejected_", "index_position_o"}) {
+      if (begins(r, shown)) return is("read-back", false);
+    }
+    return is("position");
+  }
+  if (begins(n, "position_o") || begins(n, "scene_position_q")) return is("position");
+  if (begins(n, "u_velocity_n")) return is("velocity");
+  if (begins(n, "u_dob")) return is("observer");
+  if (begins(n, "u_scenes")) return is("scenes");
+  if (begins(n, "u_pwm")) return is("pwm");
+  if (begins(n, "u_supervisor")) return is("supervisor");
+  if (begins(n, "u_sequencer")) return is("sequencer");
+  if (begins(n, "u_registers") || begins(n, "scene_q")) return is("words and control");
+  for (const char* monitor :
+       {"u_encoder_monitor", "u_hold_timer", "u_self_test", "u_velocity_jump"}) {
+    if (begins(n, monitor)) return is("monitors");
+  }
+  is("torque path");
+}
+
+constexpr int kTick = D::clocks_per_tick;
+
+/// A core in closed loop at the end of a tick.
+struct Loop {
+  plant::Plant plant;
+  GateTimes gates;
+};
+
+/// Events of the plant's step as pins per clock.
+class Pins {
+ public:
+  Pins(const std::vector<EncoderEvent>& events, Clock from, EncoderPins before)
+      : events_(events), at_(from), pins_(before) {}
+  /// Whether the pins change with this clock.
+  bool step(Clock clock) {
+    bool changed = false;
+    while (next_ < events_.size() && events_[next_].clock <= at_ + clock) {
+      pins_ = events_[next_++].pins;
+      changed = true;
+    }
+    return changed;
+  }
+  const EncoderPins& pins() const { return pins_; }
+
+ private:
+  const std::vector<EncoderEvent>& events_;
+  Clock at_;
+  EncoderPins pins_;
+  std::size_t next_ = 0;
+};
+
+struct Watched {
+  std::int64_t velocity;
+  std::int32_t position, tau_hat, tau_ref, current_ref, voltage;
+  std::int16_t duty, duty_active;
+  std::uint16_t limits, faults;
+  bool armed, gates_enable;
+  explicit Watched(const CoreOut& o)
+      : velocity(o.velocity),
+        position(o.position),
+        tau_hat(o.tau_hat),
+        tau_ref(o.tau_ref),
+        current_ref(o.current_ref),
+        voltage(o.voltage),
+        duty(o.duty),
+        duty_active(o.duty_active),
+        limits(o.limits),
+        faults(o.faults),
+        armed(o.armed),
+        gates_enable(o.gates_enable) {}
+  bool operator==(const Watched& o) const {
+    return velocity == o.velocity && position == o.position && tau_hat == o.tau_hat &&
+           tau_ref == o.tau_ref && current_ref == o.current_ref && voltage == o.voltage &&
+           duty == o.duty && duty_active == o.duty_active && limits == o.limits &&
+           faults == o.faults && armed == o.armed && gates_enable == o.gates_enable;
+  }
+};
+
+/// Runs an act with a sound core; faults branch off from it.
+class Branches {
+ public:
+  Branches(const StateCampaign& campaign, const Act& act)
+      : act_(act),
+        motor_(motor_of_plant(campaign.root)),
+        loop_{make_plant(campaign.root, act.hand), {}},
+        bits_(state_bits()) {
+    in_.encoder = loop_.plant.encoder().pins();
+    in_.scene = static_cast<std::uint8_t>(act.scene);
+  }
+
+  /// Runs to the end of this many ticks since the beginning.
+  void to(std::int64_t tick) {
+    for (; tick_ < tick; ++tick_) {
+      in_.reg_write = false;
+      if (tick_ >= 4 && static_cast<std::size_t>(tick_ - 4) < act_.words.size()) {
+        const Word& w = act_.words[static_cast<std::size_t>(tick_ - 4)];
+        in_.reg_addr = static_cast<std::uint16_t>(w.address);
+        in_.reg_wdata = w.data;
+        in_.reg_write = true;
+      }
+      in_.arm = act_.arm && tick_ >= 40;
+      loop_.plant.advance(bridge_of(loop_.gates, kTick), kTick);
+      Pins pins(loop_.plant.events(), tick_ * kTick, in_.encoder);
+      GateCount gates;
+      CoreIn held = in_;
+      int waits = 0;  // clocks that the twin is behind, all with the inputs `held`
+      const auto catch_up = [&] {
+        if (held.reg_write) {
+          twin_.clock(held);
+          held.reg_write = false;
+          --waits;
+        }
+        twin_.run(held, waits, [] {});
+        waits = 0;
+        held = in_;
+      };
+      golden_.drive(in_);
+      for (int c = 0; c < kTick; ++c) {
+        if (pins.step(c)) {
+          in_.encoder = pins.pins();
+          golden_.drive(in_);
+          if (waits > 0) catch_up();
+          held = in_;
+        }
+        ++waits;
+        golden_.clock();
+        gates.add(golden_.gates());
+        if (in_.reg_write) {
+          in_.reg_write = false;
+          golden_.drive(in_);
+          catch_up();
+        }
+      }
+      catch_up();
+      if (pins.step(kTick)) in_.encoder = pins.pins();
+      if (!(golden_.out() == twin_.out())) ++mismatches_;
+      loop_.gates = gates.take();
+      history_.emplace_back(loop_.gates, loop_.plant.observables().motor_torque_mean_nm);
+      if (history_.size() > static_cast<std::size_t>(motor_.period_ticks)) history_.pop_front();
+    }
+  }
+
+  Outcome branch(const StateFault& fault) {
+    Outcome o;
+    Loop loop = loop_;
+    CoreIn in = in_;
+    faulty_.copy(golden_);
+    sound_.copy(golden_);
+    TorqueJudge judge(motor_, limits_);
+    for (const auto& [times, torque_nm] : history_) judge.before(times, torque_nm);
+    GateCount faulty_gates, sound_gates;
+    GateTimes sound_times = loop.gates;
+    bool differed = false, position_wrong = false;
+    std::int64_t last_difference = 0;
+    int off_for = 0;
+    const bool armed_before = sound_.out().gates_enable;
+    const double begin_rad = loop.plant.observables().theta_rad;
+    for (std::int64_t t = 0; t < longest_ticks; ++t) {
+      loop.plant.advance(bridge_of(loop.gates, kTick), kTick);
+      Pins pins(loop.plant.events(), (tick_ + t) * kTick, in.encoder);
+      faulty_.drive(in);
+      sound_.drive(in);
+      for (int c = 0; c < kTick; ++c) {
+        if (pins.step(c)) {
+          in.encoder = pins.pins();
+          faulty_.drive(in);
+          sound_.drive(in);
+        }
+        const std::int64_t since = t * kTick + c - fault.clock;
+        if (since == 0 && fault.reset_clocks > 0) faulty_.reset(true);
+        if (since == fault.reset_clocks && fault.reset_clocks > 0) faulty_.reset(false);
+        faulty_.clock();
+        if (fault.stuck && since >= 0) {
+          faulty_.hold(bits_[fault.bits[0]].at, true);
+        } else if (since == 0) {
+          flip(fault);
+        }
+        sound_.clock();
+        faulty_gates.add(faulty_.gates());
+        sound_gates.add(sound_.gates());
+      }
+      if (pins.step(kTick)) in.encoder = pins.pins();
+      loop.gates = faulty_gates.take();
+      sound_times = sound_gates.take();
+      const CoreOut f = faulty_.out(), s = sound_.out();
+      o.flagged |= f.faults & ~static_cast<unsigned>(s.faults);
+      const bool closed = !f.gates_enable && (armed_before || o.flagged != 0);
+      if (closed && o.off_after < 0) {
+        o.off_after = t;
+        o.travel_rad = loop.plant.observables().theta_rad - begin_rad;
+      }
+      if (!closed) o.off_after = -1;
+      judge.tick(loop.gates, sound_times, loop.plant.observables().omega_rad_s,
+                 loop.plant.observables().motor_torque_mean_nm, closed, &o);
+      position_wrong = f.position != s.position;
+      if (!(Watched(f) == Watched(s)) || !(loop.gates == sound_times)) {
+        differed = true;
+        last_difference = t;
+      }
+      if (judge.unsafe(o)) break;
+      off_for = closed && !loop.gates.on() ? off_for + 1 : 0;
+      if (off_for > (fault.reset_clocks > 0 ? still_ticks : 60)) break;
+      if (t > 0 && faulty_.same_state(sound_)) {
+        same_ = true;
+        break;
+      }
+      same_ = false;
+      if (t - last_difference > still_ticks) break;
+    }
+    decide(judge, differed, position_wrong, off_for, &o);
+    return o;
+  }
+  std::int64_t mismatches() const { return mismatches_; }
+  const RtlState& faulty() const { return faulty_; }
+  const RtlState& sound() const { return sound_; }
+
+ private:
+  static constexpr std::int64_t longest_ticks = 20000, still_ticks = 1200;
+
+  void flip(const StateFault& fault) {
+    for (const std::size_t n : fault.bits) {
+      const StateBit& b = bits_[n];
+      if (b.kind == StateBit::Kind::flop) faulty_.flip(b.at);
+      if (b.kind == StateBit::Kind::parameter) faulty_.flip_parameter(b.at, b.bit);
+      if (b.kind == StateBit::Kind::line) faulty_.flip_line(b.at, b.bit);
+    }
+  }
+
+  void decide(const TorqueJudge& judge, bool differed, bool position_wrong, int off_for,
+              Outcome* o) {
+    if (judge.unsafe(*o)) {
+      o->is = Class::unsafe;
+      o->why = o->both_clocks > limits_.both_clocks ? "both switches of a leg" : "too much torque";
+    } else if (off_for > 0) {
+      o->is = o->flagged != 0 ? Class::detected : Class::off;
+    } else if (judge.torque_wrong() || position_wrong) {
+      o->is = Class::silent;
+      o->why =
+          judge.torque_wrong() ? position_wrong ? "torque and position" : "torque" : "position";
+    } else if (differed) {
+      o->is = Class::transient;
+    } else {
+      o->is = same_ ? Class::masked : Class::latent;
+    }
+  }
+
+  const Act& act_;
+  TorqueJudge::Motor motor_;
+  Limits limits_;
+  RtlState golden_, faulty_, sound_;
+  FeltgateCore<D> twin_;
+  Loop loop_;
+  CoreIn in_;
+  std::vector<StateBit> bits_;
+  std::int64_t tick_ = 0, mismatches_ = 0;
+  bool same_ = false;
+  std::deque<std::pair<GateTimes, double>> history_;  ///< a period of the PWM: gates, motor torque
+};
+
+}  // namespace
+
+std::vector<StateBit> state_bits() {
+  std::vector<StateBit> bits;
+  int at = 0;
+  for (const Flop& f : kFlops) {
+    StateBit b;
+    b.name = f.name;
+    b.at = at++;
+    b.bit = f.bit;
+    sort_in(&b);
+    bits.push_back(b);
+  }
+  for (const auto& p : D::parameters) {
+    for (int bit = 0; bit < 36; ++bit) {
+      bits.push_back({StateBit::Kind::parameter, std::string("parameter ") + p.name, p.address, bit,
+                      "parameter RAM", true});
+    }
+  }
+  for (int bit = 0; bit < 16; ++bit) {  // of so many words alike a few stand for all
+    for (int k = 0; k < 8; ++k) {
+      bits.push_back(
+          {StateBit::Kind::line, "velocity line", k * 127 + 5, bit, "velocity line", true});
+    }
+  }
+  return bits;
+}
+
+std::vector<StateFault> plan(const StateCampaign& c) {
+  const auto all = acts();
+  const std::size_t count = std::min(all.size(), c.acts);
+  const auto bits = state_bits();
+  test::Random random(c.seed);
+  std::vector<StateFault> faults;
+  const auto add = [&](std::size_t act, std::vector<std::size_t> flipped) {
+    const Act& a = all[act];
+    const auto from = static_cast<std::int64_t>(a.warm_s * 1e6);
+    faults.push_back({act, from + random.below(static_cast<std::uint64_t>(a.window_s * 1e6)),
+                      static_cast<int>(random.below(kTick)), std::move(flipped)});
+  };
+  std::vector<std::size_t> chosen;
+  for (std::size_t n = 0; n < bits.size(); ++n) {
+    if (c.only.empty() || bits[n].name.find(c.only) != std::string::npos) chosen.push_back(n);
+  }
+  std::size_t act = 0;
+  for (const std::size_t n : chosen) {
+    for (int k = 0; k < c.flips_per_bit; ++k) add(act++ % count, {n});
+    ++act;  // another order of acts for the next bit
+  }
+  for (int k = 0; k < c.doubles; ++k) {
+    add(act++ % count, {chosen[random.below(chosen.size())], chosen[random.below(chosen.size())]});
+  }
+  for (int k = 0; k < c.resets; ++k) {
+    add(act++ % count, {});
+    faults.back().reset_clocks =
+        static_cast<int>(std::pow(50'000.0, 1e-6 * random.below(1'000'001)));
+  }
+  return faults;
+}
+
+std::int64_t run(const StateCampaign& campaign, std::vector<StateFault> faults,
+                 const std::function<void(const StateResult&)>& each) {
+  std::stable_sort(faults.begin(), faults.end(), [](const StateFault& a, const StateFault& b) {
+    return a.act != b.act ? a.act < b.act : a.tick < b.tick;
+  });
+  const auto all = acts();
+  std::int64_t mismatches = 0;
+  for (std::size_t n = 0; n < faults.size();) {
+    const std::size_t act = faults[n].act;
+    Branches branches(campaign, all[act]);
+    for (; n < faults.size() && faults[n].act == act; ++n) {
+      branches.to(faults[n].tick);
+      each({faults[n], branches.branch(faults[n])});
+    }
+    mismatches += branches.mismatches();
+  }
+  return mismatches;
+}
+
+}  // namespace feltgate::faults

@@ -7,7 +7,9 @@
 
 module feltgate_core #(
   parameter int ReadBack = 1,
+  /* verilator lint_off UNUSEDPARAM */
   parameter ParameterFile = ""
+  /* verilator lint_on UNUSEDPARAM */
 ) (
   input  logic        clk_i,
   input  logic        rst_ni,

@@ -64,7 +64,7 @@ def arguments(argv):
                         help="flips of two bits at once; default: 600")
     parser.add_argument("--pins", type=int, default=2000, metavar="N",
                         help="faults at pins and register port; default: 2000")
-    parser.add_argument("--only", default="", metavar="TEXT", help="flips of registers with this in their name only")
+    parser.add_argument("--only", default="", metavar="NAME", help="flips of registers with this in their name only")
     parser.add_argument("--seed", type=int, default=1, metavar="N", help="of all that is drawn; default: 1")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N",
                         help="programs at the same time; default: one per core")

@@ -127,6 +127,12 @@ def wrapper(block, source, width):
     ])
 
 
+def chosen(parameter):
+    """NAME=VALUE for Yosys, which takes no sign."""
+    name, value = parameter.split("=")
+    return f"{name} 32'h{int(value) & 0xffffffff:08x}" if value.startswith("-") else f"{name} {value}"
+
+
 def write(block, sources, parameters, count, seed, output, root):
     """Writes output (.sv) and, beside it, BLOCK.il, what the mutants change, and mutants.json."""
     folder = output.parent
@@ -135,7 +141,7 @@ def write(block, sources, parameters, count, seed, output, root):
     link = folder / "rtl"
     link.unlink(missing_ok=True)
     link.symlink_to(root / "rtl")
-    changed = "".join(f" -chparam {p.replace('=', ' ')}" for p in parameters)
+    changed = "".join(f" -chparam {chosen(p)}" for p in parameters)
     log = run_yosys([
         "read_verilog -sv " + " ".join(f'"{source}"' for source in sources),
         f"hierarchy -top {block}{changed}",

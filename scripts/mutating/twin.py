@@ -13,11 +13,11 @@ of other lines. Method, results and what this does not say: docs/verification.md
 Exit code: 0 all headers have the share that is required killed, 1 one has not, 2 when a tool, a file or
 an argument is wrong.
 
-  feltgate mutate --twin                       200 mutants of every header
-  feltgate mutate --twin ramp supervisor       those of two headers
-  feltgate mutate --twin ramp --count 0        all that there are
-  feltgate mutate --twin ramp --list           their names; runs nothing
-  feltgate mutate --twin ramp --again old.json what survived then, after tests have changed
+  feltgate mutate --twin                         200 mutants of every header
+  feltgate mutate --twin ramp supervisor         those of two headers
+  feltgate mutate --twin ramp --count 0          all that there are
+  feltgate mutate --twin ramp --list             their names; runs nothing
+  feltgate mutate --twin ramp --again old.json   what survived then, after tests have changed
 """
 
 import argparse

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Watches whether the encoder's edges come on one channel only: chatter on one edge, which goes on
-// only as long as a torque turns it, or a dead channel. Once per tick. And whether the count stays as it is without them.
+// only as long as a torque turns it, or a dead channel. Once per tick. And in every clock, whether the
+// count stays as it is without them.
 // Documentation: docs/blocks/encoder_monitor.md
 `default_nettype none
 

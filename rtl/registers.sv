@@ -141,8 +141,8 @@ module registers #(
   endfunction
 
   // Parameter RAM, each word with its check. It keeps what was written through a reset; only
-  // configuration loads the values of the design. A word is written in a clock in which no block fetches a word of its own, so
-  // what a block RAM returns for a read of the word being written does not matter.
+  // configuration loads the values of the design. A word is written in a clock in which no block
+  // fetches a word of its own, so what a block RAM returns for a read of it then does not matter.
   (* no_rw_check, ram_style = "block", ramstyle = "no_rw_check" *)
   logic [35:0] parameter_ram [0:511];
 

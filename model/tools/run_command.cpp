@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <stdexcept>
 
 #include "files/output_file.hpp"
 #include "loop/bounded.hpp"

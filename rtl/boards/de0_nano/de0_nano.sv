@@ -11,7 +11,7 @@ module de0_nano #(
   parameter int LongPressClocks = 50000000,  // KEY[1] held this long sets the zero: 1 s
   parameter int LampBits        = 22,        // the limit lamp stays lit 2^22 clocks: 84 ms
   parameter int HeartbeatBits   = 26,        // LED[7]: 0.75 Hz
-  parameter     ParameterFile   = "../../generated/lever/parameters.mem"  // from the project's folder
+  parameter     ParameterFile   = ""         // parameters.mem of this very design; "": the package has the values
 ) (
   input  logic       CLOCK_50,
   input  logic [1:0] KEY,        // low while pressed

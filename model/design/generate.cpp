@@ -137,7 +137,8 @@ std::string systemverilog_package(const Elaborated& e) {
   std::ostringstream s;
   s << banner(e, "Formats [S,I,F] and constants.") << "\n`default_nettype none\n\n"
     << "/* verilator lint_off UNUSEDPARAM */  // a block uses the constants that concern it\n"
-    << "package feltgate_pkg;\n";
+    << "package feltgate_pkg;\n"
+    << "  localparam int CLOCK_HZ = " << e.design.clock_hz << ";\n";
   for (const Constant& c : constants(e)) {
     s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
   }

@@ -8,6 +8,7 @@
 
 /* verilator lint_off UNUSEDPARAM */  // a block uses the constants that concern it
 package feltgate_pkg;
+  localparam int CLOCK_HZ = 50000000;
   localparam int CLOCKS_PER_TICK = 50;  // clocks
   localparam int M1 = 767;  // ticks between the two positions of the velocity estimator
   localparam int VELOCITY_SHIFT = 1;  // raw velocity = 2^n * counts

@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """One block, one name everywhere: fails when a block lacks one of its siblings.
 
-Every rtl/<b>.sv has a twin, testbench/<b>/<b>_test.cpp and docs/blocks/<b>.md (scene_* blocks may
+Every rtl/<b>.sv, rtl/link/<b>.sv and rtl/bus/<b>.sv has a twin, testbench/<b>/<b>_test.cpp and docs/blocks/<b>.md (scene_* blocks may
 share one folder testbench/scene*/), at least one seeded defect, and a page that links the others. The
 twin is the class of the block's name: in model/include/feltgate/<b>.hpp where the product uses it,
 else in testbench/<b>/<b>_twin.hpp; the law that it evaluates, if any, is in the former then. Beside
@@ -66,8 +66,9 @@ def shared_scene_test(root, name):
 
 def find_blocks(root):
     blocks = []
-    for rtl in sorted(root.glob("rtl/*.sv")):
-        code, name = rtl_sources.code_only(rtl.read_text(encoding="utf-8")), rtl.stem
+    for name, path in rtl_sources.module_files(root).items():
+        rtl = root / "rtl" / path
+        code = rtl_sources.code_only(rtl.read_text(encoding="utf-8"))
         if name in EXEMPT or not re.search(r"^\s*module\b", code, re.M):
             continue  # a package
         test = Path(f"testbench/{name}/{name}_test.cpp")
@@ -216,6 +217,17 @@ def sources(root):
     return [*(path.relative_to(root) for path in generated), *listed]
 
 
+def linked_sources(root, board):
+    """RTL of a folder beside the core, where the board's own files instantiate something of it."""
+    listed = []
+    for folder in rtl_sources.FOLDERS:
+        files = rtl_sources.folder_files(root, folder)
+        names = {Path(path).stem for path in files}
+        if any(rtl_sources.instantiated(p.read_text(encoding="utf-8"), names) for p in board):
+            listed += [Path("rtl", path) for path in files]
+    return listed
+
+
 def file_list(head, names):
     return "\n".join([f"// {head}; paths are relative to this folder.", f"// {BEGIN[2:]}", *names, ""])
 
@@ -241,12 +253,18 @@ def fresh_lists(root, blocks):
             Path("rtl/feltgate_ecp5.f"),
             file_list("Beside it where FELTGATE_ECP5 is defined", rtl_sources.cell_files(root)),
         )
+    for folder, name in rtl_sources.FOLDERS.items():
+        files = rtl_sources.folder_files(root, folder)
+        if files:
+            head = f"The core with the blocks of {folder}/; a design's feltgate_pkg.sv comes first"
+            yield Path(f"rtl/{name}.f"), file_list(head, [*rtl_sources.core_files(root), *files])
     core = root / "feltgate.core"
     if core.exists():
         lines = [f"- {path}" for path in sources(root)]
         yield core.relative_to(root), replace_list(core.read_text(encoding="utf-8"), lines, " " * 6)
     for qsf in sorted(root.glob("rtl/boards/*/*.qsf")):
-        files = sources(root) + [p.relative_to(root) for p in sorted(qsf.parent.glob("*.sv"))]
+        board = sorted(qsf.parent.glob("*.sv"))
+        files = [*sources(root), *linked_sources(root, board), *(p.relative_to(root) for p in board)]
         lines = [
             "set_global_assignment -name SYSTEMVERILOG_FILE "
             + os.path.relpath(path, qsf.parent.relative_to(root))

@@ -73,6 +73,25 @@ class CheckBlocks(unittest.TestCase):
         self.assertEqual(files[2:], ["scene_spring.sv", "alpha.sv"])
         self.assertIn("      - rtl/alpha.sv\n", (self.root / "feltgate.core").read_text())
 
+    def test_blocks_beside_the_core(self):
+        self.add_block("beta", "testbench/beta/beta_test.cpp")
+        (self.root / "rtl/link").mkdir()
+        (self.root / "rtl/beta.sv").rename(self.root / "rtl/link/beta.sv")
+        page = PAGE.format("beta", "testbench/beta/beta_test.cpp").replace("rtl/beta", "rtl/link/beta")
+        self.put("docs/blocks/beta.md", page)
+        self.put("rtl/generated/feltgate_link_pkg.sv", "package feltgate_link_pkg;\nendpackage\n")
+        self.expect("rtl/feltgate_linked.f: stale")
+        self.assertEqual(check_blocks.check(self.root, write=True), [])
+        listed = (self.root / "rtl/feltgate_linked.f").read_text(encoding="utf-8").splitlines()[2:]
+        self.assertEqual(listed[-2:], ["generated/feltgate_link_pkg.sv", "link/beta.sv"])
+        self.assertNotIn("beta", (self.root / "rtl/feltgate_core.f").read_text(encoding="utf-8"))
+        qsf = self.root / "rtl/boards/toy/toy.qsf"
+        self.assertNotIn("beta", qsf.read_text(encoding="utf-8"))
+        self.put("rtl/boards/toy/toy.sv", "module toy;\n  beta u_beta ();\nendmodule\n")
+        self.expect("toy.qsf: stale")
+        self.assertEqual(check_blocks.check(self.root, write=True), [])
+        self.assertIn("../../link/beta.sv", qsf.read_text(encoding="utf-8"))
+
     def test_results(self):
         results = {"alpha": {"line": [3, 4], "toggle": [9, 9], "seconds": 1.6}, "whole core": {"seconds": 2}}
         block_results.write(self.root, "coverage", "measured", results)

@@ -7,6 +7,9 @@ import re
 
 CORE = "feltgate_core"
 CELL_WRAPPERS = ("mult18_ecp5",)  # one cell of one vendor: no other vendor's source
+# Folders of blocks beside the core: the list of all files up to them, and the package that they add.
+FOLDERS = {"link": "feltgate_linked", "bus": "feltgate_bus"}
+PACKAGES = {"link": "feltgate_link_pkg"}
 NO_BLOCKS = ("feltgate_checks",)  # elaborated, never clocked: no twin, no test of its own block
 
 
@@ -21,10 +24,17 @@ def instantiated(text, names):
     return [name for name in dict.fromkeys(found) if name in names]
 
 
+def module_files(root):
+    """{name: path below rtl/} of the core's modules and those of FOLDERS, by name."""
+    rtl = root / "rtl"
+    files = sorted(rtl.glob("*.sv")) + [p for folder in FOLDERS for p in sorted(rtl.glob(f"{folder}/*.sv"))]
+    return {p.stem: str(p.relative_to(rtl)) for p in files if p.stem not in CELL_WRAPPERS}
+
+
 def modules(root):
-    """{name: path below rtl/} of the modules in order, and those that the core does not reach."""
-    paths = {p.stem: p for p in sorted(root.glob("rtl/*.sv")) if p.stem not in CELL_WRAPPERS}
-    texts = {name: path.read_text(encoding="utf-8") for name, path in paths.items()}
+    """{name: path below rtl/} of the modules in order, and those of the core's that it does not reach."""
+    paths = module_files(root)
+    texts = {name: (root / "rtl" / path).read_text(encoding="utf-8") for name, path in paths.items()}
     ordered = {}
 
     def visit(name, above):
@@ -32,20 +42,31 @@ def modules(root):
             return
         for below in instantiated(texts[name], paths.keys() - {name}):
             visit(below, above | {name})
-        ordered[name] = paths[name].name
+        ordered[name] = paths[name]
 
     if CORE in paths:
         visit(CORE, frozenset())
     reached = set(ordered)
     for name in paths:
         visit(name, frozenset())
-    return ordered, [name for name in paths if CORE in paths and name not in reached]
+    lost = [name for name, path in paths.items()
+            if CORE in paths and name not in reached and "/" not in path]
+    return ordered, lost
 
 
 def core_files(root):
     """Files of the core below rtl/ that are equal in all designs, in order."""
+    beside = {f"{package}.sv" for package in PACKAGES.values()}
     packages = sorted(path.name for path in root.glob("rtl/generated/*_pkg.sv"))
-    return [*(f"generated/{name}" for name in packages), *modules(root)[0].values()]
+    listed = [f"generated/{name}" for name in packages if name not in beside]
+    return [*listed, *(path for path in modules(root)[0].values() if "/" not in path)]
+
+
+def folder_files(root, folder):
+    """Files below rtl/ that the blocks of a folder add to the core's, in order."""
+    files = [path for path in modules(root)[0].values() if path.startswith(f"{folder}/")]
+    package = [f"generated/{PACKAGES[folder]}.sv"] if folder in PACKAGES else []
+    return [*package, *files] if files else []
 
 
 def cell_files(root):

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "design/text_case.hpp"
+#include "feltgate/crc32.hpp"
 #include "feltgate/registers.hpp"
 
 namespace feltgate::design {
@@ -133,6 +134,19 @@ std::vector<std::pair<std::string, Format>> named_formats(const Formats& f) {
           {"charge", f.charge}};
 }
 
+std::uint32_t design_crc(const Elaborated& e) {
+  std::string text = fmt::format("clock_hz {}\ntick_hz {}\n", e.design.clock_hz, e.design.tick_hz);
+  for (const Constant& c : constants(e)) text += fmt::format("{} {}\n", c.name, c.value);
+  for (const auto& [name, f] : named_formats(e.formats)) {
+    text += fmt::format("{} {} {} {}\n", name, f.sign, f.integer, f.fraction);
+  }
+  for (const Word& w : e.words) {
+    text += fmt::format("{} {} {} {} {} {}\n", w.parameter.name, w.parameter.address, w.format.sign,
+                        w.format.integer, w.format.fraction, static_cast<std::uint32_t>(w.raw));
+  }
+  return crc32(text.data(), text.size());
+}
+
 std::string systemverilog_package(const Elaborated& e) {
   std::ostringstream s;
   s << banner(e, "Formats [S,I,F] and constants.") << "\n`default_nettype none\n\n"
@@ -144,6 +158,10 @@ std::string systemverilog_package(const Elaborated& e) {
   }
   s << "  localparam int ROUNDING = " << rounding(e.design.rounding).number
     << ";  // where the chain rounds: 0 half up, 1 floor, 2 convergent\n";
+  s << fmt::format(
+      "  localparam logic [31:0] DESIGN_CRC = 32'h{:08x};  // by which a host knows the "
+      "design\n",
+      design_crc(e));
   s << "\n  // Widths (W) and fraction bits (F) of the signals.\n";
   for (const auto& [name, f] : named_formats(e.formats)) {
     s << "  localparam int " << upper(name) << "_W = " << f.width() << ";  // [" << f.sign << ","
@@ -192,6 +210,10 @@ std::string cpp_header(const Elaborated& e) {
   }
   s << "  static constexpr Round rounding = Round::" << rounding(d.rounding).name
     << ";  // where the chain rounds\n";
+  s << fmt::format(
+      "  static constexpr std::uint32_t design_crc = 0x{:08x};  // by which a host knows the "
+      "design\n",
+      design_crc(e));
   s << "\n  /// Formats of the parameters.\n  struct P {\n";
   for (const Word& w : e.words) {
     s << "    static constexpr Format " << w.parameter.name << triple(w.format) << ";\n";

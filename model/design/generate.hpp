@@ -5,6 +5,7 @@
 // list registers and the wave. Documentation: docs/designs.md
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "design/design.hpp"
@@ -29,6 +30,18 @@ std::string values_text(const Elaborated& e);
 
 /// Text of docs/registers.md; the formats shown are those of `e`.
 std::string register_page(const Elaborated& e);
+
+/// Texts of rtl/generated/feltgate_link_pkg.sv and model/include/feltgate/generated/link.hpp.
+std::string link_package(const RegisterMap& map);
+std::string link_header(const RegisterMap& map);
+/// The link's part of the register page.
+std::string link_tables(const RegisterMap& map);
+
+/// "5", or "7:4" of a wider field.
+std::string bits_text(const Field& f);
+
+/// CRC-32 of all that a host must know of a design to understand its words: docs/link.md.
+std::uint32_t design_crc(const Elaborated& e);
 
 /// The table that `feltgate design NAME` prints.
 std::string design_table(const Elaborated& e);

@@ -19,12 +19,12 @@ std::string format_text(Format f) {
 
 std::string hex(int v) { return fmt::format("0x{:03x}", v); }
 
+}  // namespace
+
 std::string bits_text(const Field& f) {
   if (f.width == 1) return fmt::format("{}", f.bit);
   return fmt::format("{}:{}", f.bit + f.width - 1, f.bit);
 }
-
-}  // namespace
 
 std::string register_page(const Elaborated& e) {
   std::ostringstream s;
@@ -75,6 +75,7 @@ std::string register_page(const Elaborated& e) {
   for (const Scene& scene : e.registers.scenes) {
     s << "| " << scene.number << " | " << scene.name << " |\n";
   }
+  s << link_tables(e.registers);
   return s.str();
 }
 

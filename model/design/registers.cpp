@@ -159,6 +159,23 @@ Snapshot read_snapshot(config::TomlReader r, const RegisterMap& map) {
   return n;
 }
 
+LinkWord read_link_word(config::TomlReader r, std::set<int>& used) {
+  LinkWord w;
+  w.name = r.identifier("name");
+  w.address = static_cast<int>(r.integer("address", 0x1000, 0x1fff));
+  if (!used.insert(w.address).second) {
+    r.fail("address", w.name + " shares its address with another word", "choose a free one");
+  }
+  if (r.has("access")) {
+    static const std::vector<std::string> accesses{"read", "write"};
+    w.writable = r.choice("access", accesses) == 1;
+  }
+  w.doc = r.text("doc");
+  w.fields = read_fields(r);
+  r.finish();
+  return w;
+}
+
 /// Entries that count up from `first` under `key`.
 std::vector<Cause> read_causes(config::TomlReader& top, const std::string& section,
                                const std::string& key, int first) {
@@ -198,6 +215,15 @@ RegisterMap read_registers(const std::string& path) {
   }
   for (config::TomlReader& r : top.sections("constant")) {
     map.constants.push_back({r.identifier("name"), small(r, "value", 30), r.text("doc")});
+    r.finish();
+  }
+  std::set<int> link_used;
+  for (config::TomlReader& r : top.sections("link_word")) {
+    map.link_words.push_back(read_link_word(r, link_used));
+  }
+  for (config::TomlReader& r : top.sections("link_constant")) {
+    map.link_constants.push_back(
+        {r.identifier("name"), small(r, "value", 0x7fffffff), r.text("doc")});
     r.finish();
   }
   map.limits = read_causes(top, "limit", "bit", 0);

@@ -69,6 +69,15 @@ struct Cause {
   std::string doc;
 };
 
+/// A word of the host's link, beside the core's port.
+struct LinkWord {
+  std::string name;
+  int address = 0;
+  bool writable = false;
+  std::string doc;
+  std::vector<Field> fields;
+};
+
 struct RegisterMap {
   std::string path;
   std::vector<Parameter> parameters;
@@ -78,6 +87,8 @@ struct RegisterMap {
   std::vector<Cause> constants;  ///< plain numbers, by value
   std::vector<Cause> limits;     ///< in the order of their bits
   std::vector<Cause> faults;     ///< in the order of their numbers, from 1 on
+  std::vector<LinkWord> link_words;
+  std::vector<Cause> link_constants;  ///< numbers of the link's format, by value
 
   /// Bit of a control word's field. Throws config::ConfigError where there is none.
   int control_bit(const std::string& control, const std::string& field) const;

@@ -117,6 +117,9 @@ bool generate_all(const Options& o, const feltgate::design::RegisterMap& registe
   bool stale = update(o.root / "rtl/generated/feltgate_map_pkg.sv",
                       map_package(registers, schedule), o.check_only);
   stale |= update(headers / "map.hpp", map_header(registers, schedule), o.check_only);
+  stale |=
+      update(o.root / "rtl/generated/feltgate_link_pkg.sv", link_package(registers), o.check_only);
+  stale |= update(headers / "link.hpp", link_header(registers), o.check_only);
   stale |= update(headers / "causes.hpp", causes_header(registers), o.check_only);
   stale |= update(o.root / "docs/schedule.md", schedule_page(registers, schedule), o.check_only);
   stale |=

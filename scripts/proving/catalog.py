@@ -134,7 +134,8 @@ def read(root):
 
 def ports(root, block):
     """Names of a block's ports."""
-    text = rtl_sources.code_only((root / f"rtl/{block}.sv").read_text(encoding="utf-8"))
+    path = root / "rtl" / rtl_sources.module_files(root)[block]
+    text = rtl_sources.code_only(path.read_text(encoding="utf-8"))
     header = text[: text.index(");")]
     return re.findall(r"^\s*(?:input|output)\b[^,;]*?\b(\w+)\s*(?:,|$)", header, re.M)
 
@@ -149,13 +150,14 @@ def open_ports(root, proofs):
                 block, _, port = name.rpartition(".")
                 named.setdefault(block or proof.block, set()).add(port)
     found = {}
-    for path in sorted(root.glob("rtl/*.sv")):
-        block, there = path.stem, set(ports(root, path.stem))
+    files = rtl_sources.module_files(root)
+    for block in sorted(name for name, path in files.items() if "/" not in path or name in named):
+        there = set(ports(root, block))
         strange = named.pop(block, set())
         found[block] = sorted(there - strange - {"clk_i", "rst_ni"})
         strange -= there
         if strange:
-            raise CatalogError(f"{block}: rtl/{block}.sv has no port {', '.join(sorted(strange))}")
+            raise CatalogError(f"{block}: rtl/{files[block]} has no port {', '.join(sorted(strange))}")
     if named:
         raise CatalogError(f"no block {', '.join(sorted(named))} in rtl/")
     return found

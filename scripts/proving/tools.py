@@ -70,7 +70,7 @@ def closure(root, names):
         name = left.pop()
         if name not in needed:
             needed.add(name)
-            text = (root / "rtl" / f"{name}.sv").read_text(encoding="utf-8")
+            text = (root / "rtl" / ordered[name]).read_text(encoding="utf-8")
             left += rtl_sources.instantiated(text, ordered.keys())
     return [name for name in ordered if name in needed]
 
@@ -89,7 +89,10 @@ def copy_sources(root, proof, design, patch, folder):
     design, constants, _ = split_design(design)
     package = f"rtl/generated/{design}/feltgate_pkg.sv"
     paths = [package, "rtl/generated/feltgate_map_pkg.sv"]
-    paths += [f"rtl/{name}.sv" for name in names]
+    for folder, name in rtl_sources.PACKAGES.items():
+        if any(known[n].startswith(f"{folder}/") for n in names):
+            paths.append(f"rtl/generated/{name}.sv")
+    paths += [f"rtl/{known[name]}" for name in names]
     changed = {str(k): v for k, v in patches.patched(patch, root).items()} if patch else {}
     if not changed.keys() <= set(paths):
         raise Broken(f"{patch}: changes {', '.join(changed)}, which {proof.key} does not read")

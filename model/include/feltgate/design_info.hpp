@@ -44,6 +44,7 @@ struct DesignInfo {
   ControlBits control;
   CommandBits command;
   std::uint32_t control_reset = 0;
+  std::uint32_t design_crc = 0;  ///< by which a host knows the design, docs/link.md
   std::function<int(const std::string&)> scene_number;  ///< -1: no such scene, or not built
   std::vector<std::string> scenes;  ///< that are built, in the order of their numbers
 
@@ -119,6 +120,7 @@ DesignInfo design_info() {
   i.control = {D::C::control_host, D::C::control_arm, D::C::control_scene, D::C::control_mode};
   i.command = {D::C::command_set_zero, D::C::command_clear_faults, D::C::command_kick};
   i.control_reset = static_cast<std::uint32_t>(D::control_reset);
+  i.design_crc = D::design_crc;
   i.scene_number = [](const std::string& name) {
     const int n = D::scene_number(name);
     return n >= 0 && ((D::scene_mask >> n) & 1) != 0 ? n : -1;

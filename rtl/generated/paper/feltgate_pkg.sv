@@ -30,6 +30,7 @@ package feltgate_pkg;
   localparam int EMF_IN_LAW = 0;  // 1: the voltage law gives back the back-EMF
   localparam int I2T_START = 1460000000;  // I2t sum after power-up: half the budget, for nobody knows how hot the motor is
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
+  localparam logic [31:0] DESIGN_CRC = 32'hed50ddcd;  // by which a host knows the design
 
   // Widths (W) and fraction bits (F) of the signals.
   localparam int POSITION_W = 32;  // [1,31,0]

@@ -44,6 +44,7 @@ struct Paper {
   static constexpr int emf_in_law = 0;  // 1: the voltage law gives back the back-EMF
   static constexpr int i2t_start = 1460000000;  // I2t sum after power-up: half the budget, for nobody knows how hot the motor is
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
+  static constexpr std::uint32_t design_crc = 0xed50ddcd;  // by which a host knows the design
 
   /// Formats of the parameters.
   struct P {

@@ -53,7 +53,12 @@ module feltgate_core #(
     output logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0]  first_fault_o,
     output logic                                         armed_o,
     output logic signed [      feltgate_pkg::DUTY_W-1:0] duty_active_o,   // in force in the bridge
-    output logic                                         gates_enable_o
+    output logic                                         gates_enable_o,
+
+    // The snapshot's words one by one, as they are stored: a stream or a capture takes them from here
+    output logic                                         word_valid_o,
+    output logic        [                           5:0] word_slot_o,
+    output logic        [                          31:0] word_data_o
 );
   localparam int SceneW = feltgate_pkg::SCENE_POSITION_W;
   localparam int FaultsW = feltgate_map_pkg::W_FAULTS_SEEN;
@@ -72,11 +77,9 @@ module feltgate_core #(
   logic [feltgate_map_pkg::W_CONTROL-1:0] control;
   logic [ 3:0] scene_wanted, scene_q;
   logic [ 1:0] mode;
-  logic host, arm_request, set_zero, clear_faults, kick, region_high, snap_valid;
+  logic host, arm_request, set_zero, clear_faults, kick, region_high;
   logic disarm, host_stop, restart, refused, unkicked, word_error, testing, self_test_trip;
   logic moved, beyond, frozen, eased, channel_trip, index_trip, flip_trip;
-  logic [ 5:0] snap_slot;
-  logic [31:0] snap_data;
   assign host         = control[feltgate_map_pkg::B_CONTROL_HOST];
   assign mode         = control[feltgate_map_pkg::B_CONTROL_MODE+:feltgate_map_pkg::W_CONTROL_MODE];
   assign arm_request  = (host ? control[feltgate_map_pkg::B_CONTROL_ARM] : arm_i) && !disarm;
@@ -117,8 +120,7 @@ module feltgate_core #(
       .stop_o(host_stop),
       .restart_o(restart),
       .refused_o(refused),
-      .snap_slot_i(snap_slot), .snap_valid_i(snap_valid),
-      .snap_data_i(snap_data)
+      .snap_slot_i(word_slot_o), .snap_valid_i(word_valid_o), .snap_data_i(word_data_o)
   );
 
   // Encoder to position; the sample that the wave carries.
@@ -130,18 +132,14 @@ module feltgate_core #(
   logic [1:0] levels;
   quad_decoder #(.IndexCounts(feltgate_pkg::INDEX_COUNTS)) u_quad_decoder (
       .clk_i(clk_i), .rst_ni(rst_ni),
-      .a_i(enc_a_i),
-      .b_i(enc_b_i),
-      .z_i(enc_z_i),
+      .a_i(enc_a_i), .b_i(enc_b_i), .z_i(enc_z_i),
       .filter_i(control[feltgate_map_pkg::B_CONTROL_FILTER+:feltgate_map_pkg::W_CONTROL_FILTER]),
       .polarity_i(control[feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY]),
       .set_zero_i(set_zero),
       .clear_error_i(clear_faults),
-      .position_o(position),
-      .travel_o(travel),
+      .position_o(position), .travel_o(travel),
       .step_o(step), .count_o(count), .zero_o(zero),
-      .levels_o(levels),
-      .illegal_o(illegal),
+      .levels_o(levels), .illegal_o(illegal),
       .error_o(encoder_error),
       .error_count_o(error_count), .rejected_count_o(rejected_count),
       .index_position_o(index_position),
@@ -213,10 +211,8 @@ module feltgate_core #(
       .param_i(param),
       .product_i(scene_product),
       .beyond_i(beyond),
-      .distance_o(distance),
-      .square_o(square),
-      .ahead_o(scene_ahead),
-      .late_o(scene_late)
+      .distance_o(distance), .square_o(square),
+      .ahead_o(scene_ahead), .late_o(scene_late)
   );
 
   logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] pulse_ahead;
@@ -262,8 +258,7 @@ module feltgate_core #(
   torque_control u_torque_control (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .armed_i(armed_o),
-      .mode_i(mode),
-      .wave_i(wave), .param_i(param),
+      .mode_i(mode), .wave_i(wave), .param_i(param),
       .product_i(control_product),
       .tau_ref_i(tau_ref_o),
       .ahead_o(control_ahead),
@@ -343,7 +338,7 @@ module feltgate_core #(
       .index_position_i(index_position),
       .error_count_i(error_count), .rejected_count_i(rejected_count),
       .operand_i(operand[31:0]),
-      .valid_o(snap_valid), .slot_o(snap_slot), .data_o(snap_data)
+      .valid_o(word_valid_o), .slot_o(word_slot_o), .data_o(word_data_o)
   );
 
   logic signed [feltgate_pkg::MULTIPLIER_A_BITS-1:0] dob_operand, scene_operand, control_operand, supervisor_operand;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The snapshot's words: which clocks of the wave hold one on the operand bus, and those that are no
-// operand of a product. One clock to the RAM, for the bus comes late.
+// operand of a product. One clock to the RAM, for the bus comes late; a word stands until the next.
 // Documentation: docs/blocks/snapshot.md
 
 `default_nettype none
@@ -24,7 +24,7 @@ module snapshot #(
     input  logic        [15:0] error_count_i,
     input  logic        [15:0] rejected_count_i,
     input  logic        [31:0] operand_i,  // 0 in the clocks of the other words
-    output logic               valid_o,    // data_o is the word slot_o
+    output logic               valid_o,    // data_o is the word slot_o, new in this clock
     output logic        [ 5:0] slot_o,
     output logic        [31:0] data_o
 );
@@ -51,12 +51,17 @@ module snapshot #(
         wave_i[feltgate_map_pkg::R_CURRENT_REF] || wave_i[feltgate_map_pkg::R_VOLTAGE] ||
         wave_i[feltgate_map_pkg::R_DUTY];
     always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) valid_o <= 1'b0;
-      else valid_o <= valid;
-    end
-    always_ff @(posedge clk_i) begin
-      slot_o <= slot_fetch_i - 6'(feltgate_map_pkg::FIRST_WAVE_CLOCK);
-      data_o <= operand_i | word;
+      if (!rst_ni) begin
+        valid_o <= 1'b0;
+        slot_o  <= '0;
+        data_o  <= '0;
+      end else begin
+        valid_o <= valid;
+        if (valid) begin
+          slot_o <= slot_fetch_i - 6'(feltgate_map_pkg::FIRST_WAVE_CLOCK);
+          data_o <= operand_i | word;
+        end
+      end
     end
   end else begin : gen_none
     logic unused;

@@ -19,7 +19,7 @@ SCENE_ROW = "core without read-back, registered"
 # reads. Everything that only they need is left out of the core's figures.
 SNAPSHOT_PORTS = (
     "snapshot_valid_o tick_count_o position_o velocity_o tau_hat_o tau_ref_o current_ref_o "
-    "voltage_o duty_o duty_active_o"
+    "voltage_o duty_o duty_active_o word_valid_o word_slot_o word_data_o"
 ).split()
 # Parameters that the core sets and a block alone would not have.
 BLOCK_PARAMETERS = {

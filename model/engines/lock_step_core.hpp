@@ -20,13 +20,15 @@ namespace feltgate {
   apply(tick_count) apply(position) apply(velocity) apply(tau_hat) apply(tau_ref)                \
       apply(current_ref) apply(voltage) apply(duty) apply(duty_active) apply(gates) apply(scene) \
           apply(limits) apply(faults) apply(first_fault) apply(armed) apply(gates_enable)        \
-              apply(snapshot_valid) apply(reg_busy) apply(reg_rdata)
+              apply(snapshot_valid) apply(reg_busy) apply(reg_rdata) apply(word_valid)           \
+                  apply(word_slot) apply(word_data)
 
 /// Does not compile when an output came or went: then the list above lacks it too.
 inline void count_outputs(const CoreOut& out) {
-  [[maybe_unused]] const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s] = out;
+  [[maybe_unused]] const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v] =
+      out;
 #define FELTGATE_ONE(name) +1
-  static_assert(FELTGATE_EACH_OUTPUT(FELTGATE_ONE) == 19, "an output is not in the list above");
+  static_assert(FELTGATE_EACH_OUTPUT(FELTGATE_ONE) == 22, "an output is not in the list above");
 #undef FELTGATE_ONE
 }
 

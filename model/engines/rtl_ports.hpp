@@ -66,6 +66,9 @@ CoreOut read_outputs(const Rtl& rtl) {
   o.gates_enable = rtl.gates_enable_o != 0;
   o.snapshot_valid = rtl.snapshot_valid_o != 0;
   o.reg_busy = rtl.reg_busy_o != 0;
+  o.word_valid = rtl.word_valid_o != 0;
+  o.word_slot = rtl.word_slot_o;
+  o.word_data = rtl.word_data_o;
   return o;
 }
 

@@ -47,7 +47,10 @@
   X(std::uint32_t, first_fault_o) \
   X(bool, armed_o)                \
   X(std::uint32_t, duty_active_o) \
-  X(bool, gates_enable_o)
+  X(bool, gates_enable_o)         \
+  X(bool, word_valid_o)           \
+  X(std::uint32_t, word_slot_o)   \
+  X(std::uint32_t, word_data_o)
 
 namespace feltgate::systemc {
 

@@ -92,6 +92,9 @@ class TwinModule : public sc_core::sc_module {
     armed_o.write(o.armed);
     duty_active_o.write(word(o.duty_active, D::f.duty));
     gates_enable_o.write(o.gates_enable);
+    word_valid_o.write(o.word_valid);
+    word_slot_o.write(o.word_slot);
+    word_data_o.write(o.word_data);
   }
 
   FeltgateCore<D> core_;

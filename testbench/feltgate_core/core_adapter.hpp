@@ -55,6 +55,9 @@ struct CoreAdapter {
     check("snapshot_valid", rtl.snapshot_valid_o, out.snapshot_valid);
     check("reg_busy", rtl.reg_busy_o, out.reg_busy);
     check("reg_rdata", rtl.reg_rdata_o, out.reg_rdata);
+    check("word_valid", rtl.word_valid_o, out.word_valid);
+    check("word_slot", rtl.word_slot_o, out.word_slot);
+    check("word_data", rtl.word_data_o, out.word_data);
   }
 };
 

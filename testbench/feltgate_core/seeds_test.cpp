@@ -25,13 +25,14 @@ namespace {
 /// Every output, and what the registers drive of it.
 std::uint64_t outputs(const Vfeltgate_core& rtl) {
   std::uint64_t hash = 0;
-  for (const std::uint64_t port : std::array<std::uint64_t, 22>{
-           rtl.tick_count_o,  rtl.position_o,    rtl.velocity_o,       rtl.tau_hat_o,
-           rtl.tau_ref_o,     rtl.current_ref_o, rtl.voltage_o,        rtl.duty_o,
-           rtl.duty_active_o, rtl.gate_a_hi_o,   rtl.gate_a_lo_o,      rtl.gate_b_hi_o,
-           rtl.gate_b_lo_o,   rtl.scene_o,       rtl.limits_o,         rtl.faults_o,
-           rtl.first_fault_o, rtl.armed_o,       rtl.snapshot_valid_o, rtl.reg_busy_o,
-           rtl.reg_rdata_o,   rtl.gates_enable_o}) {
+  for (const std::uint64_t port : std::array<std::uint64_t, 25>{
+           rtl.tick_count_o,  rtl.position_o,     rtl.velocity_o,       rtl.tau_hat_o,
+           rtl.tau_ref_o,     rtl.current_ref_o,  rtl.voltage_o,        rtl.duty_o,
+           rtl.duty_active_o, rtl.gate_a_hi_o,    rtl.gate_a_lo_o,      rtl.gate_b_hi_o,
+           rtl.gate_b_lo_o,   rtl.scene_o,        rtl.limits_o,         rtl.faults_o,
+           rtl.first_fault_o, rtl.armed_o,        rtl.snapshot_valid_o, rtl.reg_busy_o,
+           rtl.reg_rdata_o,   rtl.gates_enable_o, rtl.word_valid_o,     rtl.word_slot_o,
+           rtl.word_data_o}) {
     hash = (hash ^ port) * 0x9e3779b97f4a7c15U;
     hash ^= hash >> 29;
   }

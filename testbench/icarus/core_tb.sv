@@ -9,14 +9,16 @@
 
 module core_tb;
   localparam int InputBits = 56;
-  localparam int OutputBits = 300;
+  localparam int OutputBits = 340;
 
   logic clk = 1'b0;
   logic rst_n = 1'b1;
   logic [InputBits-1:0] inputs = '0;
   logic [OutputBits-1:0] expected, shown;
 
-  wire [31:0] rdata, tick_count;
+  wire [31:0] rdata, tick_count, word_data;
+  wire [5:0] word_slot;
+  wire word_valid;
   wire signed [31:0] position;
   wire signed [feltgate_pkg::VELOCITY_W-1:0] velocity;
   wire signed [feltgate_pkg::TORQUE_W-1:0] tau_hat, tau_ref;
@@ -63,13 +65,16 @@ module core_tb;
       .first_fault_o(first_fault),
       .armed_o(armed),
       .duty_active_o(duty_active),
-      .gates_enable_o(gates_enable)
+      .gates_enable_o(gates_enable),
+      .word_valid_o(word_valid),
+      .word_slot_o(word_slot),
+      .word_data_o(word_data)
   );
 
   // Read data are left out until the host has read: a RAM that was never written holds X.
   logic compare_read;
   always @* begin
-    shown = {b_lo, b_hi, a_lo, a_hi, busy, snapshot_valid, gates_enable, armed, tick_count,
+    shown = {word_valid, 1'b0, word_slot, word_data, b_lo, b_hi, a_lo, a_hi, busy, snapshot_valid, gates_enable, armed, tick_count,
              position, velocity, {{3{tau_hat[20]}}, tau_hat}, {{3{tau_ref[20]}}, tau_ref},
              {{2{current_ref[21]}}, current_ref}, voltage, {{3{duty[12]}}, duty},
              {{3{duty_active[12]}}, duty_active}, scene, limits, faults, {3'b000, first_fault},

@@ -42,13 +42,14 @@ int main(int argc, char** argv) {
         o.armed | o.gates_enable << 1 | o.snapshot_valid << 2 | o.reg_busy << 3 | o.gates << 4);
     // One word per group of ports, each as wide as core_tb.sv reads it.
     std::fprintf(out,
-                 "%02x%01x%03x%08x %02x%08x%08x%08" PRIx64 "%06" PRIx64 "%06" PRIx64 "%06" PRIx64
-                 "%05" PRIx64 "%04" PRIx64 "%04" PRIx64 "%01x%03x%04x%02x%08x\n",
-                 pins, in.scene & 15u, in.reg_addr & 0xfffu, in.reg_wdata, flags, o.tick_count,
-                 static_cast<std::uint32_t>(o.position), bits(o.velocity, 32), bits(o.tau_hat, 24),
-                 bits(o.tau_ref, 24), bits(o.current_ref, 24), bits(o.voltage, 20),
-                 bits(o.duty, 16), bits(o.duty_active, 16), o.scene & 15u, o.limits, o.faults,
-                 o.first_fault & 31u, o.reg_rdata);
+                 "%02x%01x%03x%08x %02x%08x%02x%08x%08x%08" PRIx64 "%06" PRIx64 "%06" PRIx64
+                 "%06" PRIx64 "%05" PRIx64 "%04" PRIx64 "%04" PRIx64 "%01x%03x%04x%02x%08x\n",
+                 pins, in.scene & 15u, in.reg_addr & 0xfffu, in.reg_wdata,
+                 static_cast<unsigned>(o.word_valid << 7 | o.word_slot), o.word_data, flags,
+                 o.tick_count, static_cast<std::uint32_t>(o.position), bits(o.velocity, 32),
+                 bits(o.tau_hat, 24), bits(o.tau_ref, 24), bits(o.current_ref, 24),
+                 bits(o.voltage, 20), bits(o.duty, 16), bits(o.duty_active, 16), o.scene & 15u,
+                 o.limits, o.faults, o.first_fault & 31u, o.reg_rdata);
   }
   return std::fclose(out) == 0 ? 0 : 2;
 }

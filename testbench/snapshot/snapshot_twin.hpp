@@ -22,8 +22,8 @@ class Snapshot {
   };
   struct Out {
     bool valid = false;
-    int slot = 0;            ///< where valid
-    std::uint32_t data = 0;  ///< likewise
+    int slot = 0;  ///< these two stand until the next word
+    std::uint32_t data = 0;
   };
 
   void reset() { out_ = Out(); }
@@ -32,11 +32,14 @@ class Snapshot {
   void clock(const In& in) {
     if constexpr (!ReadBack) return;
     const auto now = [&in](int t) { return ((in.wave >> t) & 1u) != 0; };
-    out_ = {false, (in.slot_fetch - Map::first_wave_clock) & 63, in.operand};
+    out_.valid = false;
     for (const int t : {R::status, R::faults, R::position, R::tick, R::index, R::encoder,
                         R::velocity, R::tau_hat, R::tau_ref, R::current_ref, R::voltage, R::duty}) {
       out_.valid = out_.valid || now(t);
     }
+    if (!out_.valid) return;
+    out_.slot = (in.slot_fetch - Map::first_wave_clock) & 63;
+    out_.data = in.operand;
     if (now(R::status)) out_.data |= in.status;
     if (now(R::faults)) out_.data |= in.faults;
     if (now(R::position)) out_.data |= in.position;

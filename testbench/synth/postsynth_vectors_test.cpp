@@ -92,6 +92,9 @@ std::string difference(const Vpair& pair, const CoreOut& out) {
   same("snapshot_valid_o", out.snapshot_valid);
   same("reg_busy_o", out.reg_busy);
   same("reg_rdata_o", out.reg_rdata);
+  same("word_valid_o", out.word_valid);
+  same("word_slot_o", out.word_slot);
+  same("word_data_o", out.word_data);
   return found;
 }
 

@@ -36,6 +36,18 @@ struct Hash {
       value = (value ^ (static_cast<std::uint64_t>(v) >> (8 * k) & 0xffu)) * 0x100000001b3u;
     }
   }
+  /// The words of a tick, where all of them are kept.
+  template <class Core>
+  void add_words(const Core& core) {
+    using R = Map::R;
+    std::uint64_t words = 0;
+    for (const int slot :
+         {R::status, R::position, R::tick, R::velocity, R::index, R::encoder, R::tau_hat, R::faults,
+          R::tau_ref, R::current_ref, R::voltage, R::duty}) {
+      words = (words << 7 | words >> 57) ^ core.word(slot);
+    }
+    add(static_cast<std::int64_t>(words));
+  }
   void add(const CoreOut& o) {
     for (const std::int64_t v :
          {std::int64_t{o.tick_count}, std::int64_t{o.position}, o.velocity, std::int64_t{o.tau_hat},
@@ -92,6 +104,8 @@ void compare_by_event(Stimulus stimulus, std::uint64_t seed, std::int64_t clocks
   Random cut(seed);
   FeltgateCore<D, ReadBack> by_clock, by_event;
   Hash clock_hash, event_hash;
+  const bool words = ReadBack && seed % 2 == 1;
+  by_event.keep_words(words);
   std::int64_t done = 0, stretches = 0;
   CoreIn in = stimulus(0);
   const auto seldom = 400'000 / (longest < 50 ? longest : 50);
@@ -125,7 +139,10 @@ void compare_by_event(Stimulus stimulus, std::uint64_t seed, std::int64_t clocks
     for (std::int64_t k = 0; k < s.clocks; ++k) {
       by_clock.clock(s.in);
       const CoreOut& now = by_clock.out();
-      if (now.snapshot_valid) clock_hash.add(now), clock_hash.add(1);
+      if (now.snapshot_valid) {
+        clock_hash.add(now), clock_hash.add(1);
+        if (words) clock_hash.add_words(by_clock);
+      }
       if (calm && k < quiet) {
         disturbed = disturbed || now.snapshot_valid || now.duty_active != before.duty_active ||
                     now.gates_enable != before.gates_enable;
@@ -141,6 +158,7 @@ void compare_by_event(Stimulus stimulus, std::uint64_t seed, std::int64_t clocks
     const auto note = [&] {
       event_hash.add(by_event.out());
       event_hash.add(by_event.out().snapshot_valid);
+      if (words) event_hash.add_words(by_event);
     };
     if (strobe || (met != nullptr && cut.one_in(16))) {
       for (std::int64_t k = 0; k < s.clocks; ++k) {

@@ -35,8 +35,11 @@ struct CoreOut {
   std::int16_t duty = 0, duty_active = 0;
   std::uint8_t gates = 0;  ///< a_hi, a_lo, b_hi, b_lo from bit 0
   std::uint8_t scene = 0, first_fault = 0;
+  std::uint8_t word_slot = 0;   ///< of word_data, the last word that went into the snapshot
+  std::uint32_t word_data = 0;  ///< no words without read-back
   std::uint16_t limits = 0, faults = 0;
   bool armed = false, gates_enable = false, snapshot_valid = false, reg_busy = false;
+  bool word_valid = false;  ///< it is new in this clock
 
   bool operator==(const CoreOut& o) const {
     return velocity == o.velocity && tick_count == o.tick_count && reg_rdata == o.reg_rdata &&
@@ -45,7 +48,8 @@ struct CoreOut {
            duty_active == o.duty_active && gates == o.gates && scene == o.scene &&
            limits == o.limits && faults == o.faults && first_fault == o.first_fault &&
            armed == o.armed && gates_enable == o.gates_enable &&
-           snapshot_valid == o.snapshot_valid && reg_busy == o.reg_busy;
+           snapshot_valid == o.snapshot_valid && reg_busy == o.reg_busy &&
+           word_valid == o.word_valid && word_slot == o.word_slot && word_data == o.word_data;
   }
 };
 

@@ -33,7 +33,8 @@ void FeltgateCore<D, ReadBack>::run(const In& in, std::int64_t clocks, OnSnapsho
     if (settled && from == 0 && clocks >= tick && at_rest) {
       // Only the last two snapshots of a stretch can ever be read back.
       const auto ticks = static_cast<std::uint32_t>(clocks / tick);
-      const std::uint32_t unread = !ReadBack ? ticks : ticks > 2 ? ticks - 2 : 0;
+      std::uint32_t unread = ticks;
+      if (ReadBack) unread = !keep_words_ && ticks > 2 ? ticks - 2 : 0;
       for (std::uint32_t k = 0; k < unread; ++k) pass_tick<false>(in, on_snapshot);
       registers_.skip_unread_ticks(unread);
       for (std::uint32_t k = unread; k < ticks; ++k) {
@@ -180,6 +181,7 @@ int FeltgateCore<D, ReadBack>::pass(const In& in, int from, int to, OnSnapshot&&
   advance_clock(to - from);
   passed_to_ = clock_;
   out_.snapshot_valid = to == kSnapshot;
+  out_.word_valid = ReadBack && core_steps::stores_word(to - 1);
   show();
   return to;
 }

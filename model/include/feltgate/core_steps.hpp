@@ -91,6 +91,16 @@ constexpr Table make_table() {
   return table;
 }
 inline constexpr Table table = make_table();
+/// Whether a word goes into the snapshot in this clock of a tick.
+constexpr bool stores_word(int clock) {
+  using R = Map::R;
+  for (const int slot : {R::status, R::position, R::tick, R::velocity, R::index, R::encoder,
+                         R::tau_hat, R::faults, R::tau_ref, R::current_ref, R::voltage, R::duty}) {
+    if (clock == clock_of(slot)) return true;
+  }
+  return false;
+}
+
 static_assert(table.first[Map::wave_length] == count(), "a step lies beyond the shortest tick");
 
 /// action(step) for the steps of one clock of a tick, in their order.

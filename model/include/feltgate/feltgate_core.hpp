@@ -79,6 +79,7 @@ class FeltgateCore {
     Pwm::In pwm = pwm_inputs(supervisor_.out().gates_enable, out_.duty);
     pwm.clear = supervisor_.stopped(in.stop);
     out_.snapshot_valid = false;
+    out_.word_valid = ReadBack && core_steps::stores_word(clock_);
     core_steps::for_each_step_of(clock_, [this](Step step) { take<true>(step, decoder_.out()); });
     if (self_test_.failed()) sup.trips |= fault_bit(Fault::self_test);
     supervisor_.clock(sup);
@@ -121,6 +122,10 @@ class FeltgateCore {
   void flip_control(int bit) { registers_.flip_control(bit); }
 
   const Out& out() const { return out_; }
+  /// Whether run() keeps the words of every tick, not only of those that can be read back.
+  void keep_words(bool keep) { keep_words_ = keep; }
+  /// A word of the running tick's snapshot by its slot: all of them when on_snapshot() is called.
+  std::uint32_t word(int slot) const { return registers_.running_word(slot); }
   /// Clocks since reset for which each gate was on: a_hi, a_lo, b_hi, b_lo.
   std::array<std::int64_t, 4> gate_clocks() const { return gates_.on_clocks(); }
   /// Free-running count that the running wave started from.
@@ -219,7 +224,10 @@ class FeltgateCore {
   [[gnu::always_inline]] void take(Step step, const QuadDecoder::Out& decoded) {
     using R = Map::R;
     const auto keep = [this](int slot, auto word) {
-      if (Read) registers_.write_snapshot(slot, static_cast<std::uint32_t>(word));
+      if (!Read || !ReadBack) return;
+      out_.word_slot = static_cast<std::uint8_t>(slot);
+      out_.word_data = static_cast<std::uint32_t>(word);
+      registers_.write_snapshot(slot, out_.word_data);
     };
     switch (step) {
       case Step::read_tick:
@@ -276,25 +284,8 @@ class FeltgateCore {
     }
   }
 
-  std::uint32_t status(bool encoder_error) const {
-    using C = typename D::C;
-    const auto& s = supervisor_.out();
-    const auto field = [](auto value, int at) { return static_cast<std::uint32_t>(value) << at; };
-    return field(wave_.limits(s.gates_enable), C::status_limits) |
-           field(out_.scene, C::status_scene) | field(s.armed, C::status_armed) |
-           field(mode(), C::status_mode) | field(self_test_.result(), C::status_self_test) |
-           field(self_test_.busy(out_.armed), C::status_testing) |
-           field(encoder_error, C::status_encoder_error) |
-           field(registers_.out().refused, C::status_refused) |
-           field(s.unkicked, C::status_unkicked);
-  }
-
-  std::uint32_t faults() const {
-    using C = typename D::C;
-    const auto& s = supervisor_.out();
-    return std::uint32_t{s.faults} << C::faults_seen | std::uint32_t{s.first_fault}
-                                                           << C::faults_first;
-  }
+  std::uint32_t status(bool encoder_error) const;
+  std::uint32_t faults() const;
 
   QuadDecoder::In decoder_inputs(const In& in, bool zero, bool clear) const {
     const std::uint32_t control = registers_.out().control;
@@ -391,9 +382,11 @@ class FeltgateCore {
   std::int64_t writes_ = 0;
   int clock_ = 0;       ///< of the tick
   int passed_to_ = -1;  ///< the clock that a pass() has reached, -1 after a clock()
+  bool keep_words_ = false;
   Out out_;
 };
 
 }  // namespace feltgate
 
-#include "feltgate/core_run.hpp"  // IWYU pragma: export
+#include "feltgate/core_run.hpp"    // IWYU pragma: export
+#include "feltgate/core_words.hpp"  // IWYU pragma: export

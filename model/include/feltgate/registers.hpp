@@ -177,6 +177,7 @@ class Registers {
       snapshot_[last_] = word;
     }
   }
+  std::uint32_t running_word(int slot) const { return snapshot_[bank_index(write_bank_, slot)]; }
   /// A reset in the clock after: the word was on its way to the RAM and is lost.
   void lose_snapshot(int slot) {
     if (ReadBack && slot >= 0 && static_cast<int>(last_ & 63U) == slot) snapshot_[last_] = before_;

@@ -44,7 +44,10 @@ module feltgate_core #(
   output logic [11:0] limits_o,
   output logic [15:0] faults_o,
   output logic [4:0]  first_fault_o,
-  output logic        armed_o
+  output logic        armed_o,
+  output logic        word_valid_o,
+  output logic [5:0]  word_slot_o,
+  output logic [31:0] word_data_o
 );
 
   logic fault_q;
@@ -67,6 +70,7 @@ module feltgate_core #(
 
   assign {snapshot_valid_o, tick_count_o, position_o, velocity_o, tau_hat_o, tau_ref_o} = '0;
   assign {current_ref_o, voltage_o, duty_o, duty_active_o, gates_enable_o, scene_o, first_fault_o} = '0;
+  assign {word_valid_o, word_slot_o, word_data_o} = '0;
 endmodule
 
 `default_nettype wire

@@ -30,7 +30,7 @@ PACKAGES=(
   "test|pybind11-dev|binds the twin to Python"
   "test|python3-dev|headers for that"
   "test|python3-numpy|arrays of the Python package"
-  "test|python3-venv|a place to pip install it into, and the pinned slang of scripts/requirements.txt"
+  "test|python3-venv|a place to pip install it into, and what scripts/requirements.txt pins"
   "test|python3-nbclient|runs the notebook of docs/"
   "test|python3-ipykernel|the same"
   "test|python3-matplotlib|draws the notebook's pictures"

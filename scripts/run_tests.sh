@@ -76,6 +76,9 @@ run_tests() {
   if [[ ! $name || $found == *mutate.twin* ]]; then
     (need_venv mutate) || [[ ${CI-} != true ]] || die "tree-sitter cannot be fetched"
   fi
+  if [[ ! $name || $found == *register_files* || $found == *neighbours.* ]]; then
+    (need_venv neighbours) || [[ ${CI-} != true ]] || die "FuseSoC and LiteX cannot be fetched"
+  fi
   rm -f "$results"
   ctest --test-dir "$BUILD" --output-on-failure --no-tests=error -j "$(nproc)" \
     --output-junit "$results" "${options[@]}" || status=$?

@@ -34,15 +34,6 @@ unsigned scene_mask(const Elaborated& e) {
   return mask;
 }
 
-std::uint32_t control_reset(const Elaborated& e) {
-  const auto at = [&](const char* field, int value) {
-    return static_cast<std::uint32_t>(value) << e.registers.control_bit("control", field);
-  };
-  const Design& d = e.design;
-  return at("motor_polarity", d.motor_polarity) | at("encoder_polarity", d.encoder_polarity) |
-         at("pwm_mode", d.pwm_mode) | at("filter", d.filter_samples);
-}
-
 /// How RTL and twin call a rounding mode.
 struct RoundingName {
   int number;
@@ -95,6 +86,15 @@ std::vector<Constant> constants(const Elaborated& e) {
 }
 
 }  // namespace
+
+std::uint32_t control_reset(const Elaborated& e) {
+  const auto at = [&](const char* field, int value) {
+    return static_cast<std::uint32_t>(value) << e.registers.control_bit("control", field);
+  };
+  const Design& d = e.design;
+  return at("motor_polarity", d.motor_polarity) | at("encoder_polarity", d.encoder_polarity) |
+         at("pwm_mode", d.pwm_mode) | at("filter", d.filter_samples);
+}
 
 std::vector<std::pair<std::string, Format>> named_formats(const Formats& f) {
   return {{"position", f.position},

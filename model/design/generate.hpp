@@ -46,6 +46,9 @@ std::uint32_t design_crc(const Elaborated& e);
 /// The table that `feltgate design NAME` prints.
 std::string design_table(const Elaborated& e);
 
+/// The control word after a reset.
+std::uint32_t control_reset(const Elaborated& e);
+
 /// Names and formats of all signals, in the order of the wave.
 std::vector<std::pair<std::string, Format>> named_formats(const Formats& f);
 

@@ -31,7 +31,9 @@ std::string register_page(const Elaborated& e) {
   s << "# Registers\n\nGenerated from `rtl/registers.toml` by `feltgate generate`: do not edit.\n"
     << "Formats and values are those of the design `" << e.design.name
     << "`; another design's are\n"
-    << "printed by `feltgate design NAME`. A write takes effect at the end of the running tick.\n\n"
+    << "printed by `feltgate design NAME`. A write takes effect at the end of the running tick. "
+       "The\n"
+       "same as C header, SystemRDL and CSV: [register files](register-files.md).\n\n"
     << "## Parameters\n\nRead and written by the host. Slot: the clock of the wave in which the "
        "word "
        "is on the\nparameter bus. Armed: what a write does [while the motor is armed]"

@@ -153,6 +153,10 @@ Snapshot read_snapshot(config::TomlReader r, const RegisterMap& map) {
   } else {
     n.slot = small(r, "slot", 63);
   }
+  if (r.has("format")) {
+    n.signal = r.text("format");
+    n.unit = plain_text(r, "unit");
+  }
   n.doc = r.text("doc");
   n.fields = read_fields(r);
   r.finish();

@@ -54,9 +54,10 @@ struct Control {
 
 struct Snapshot {
   std::string name;
-  int slot = 0;       ///< wave clock in which the word is on the operand bus
-  std::string label;  ///< in the timing diagram
-  std::string with;   ///< the coefficient that it is multiplied by then, or empty
+  int slot = 0;              ///< wave clock in which the word is on the operand bus
+  std::string label;         ///< in the timing diagram
+  std::string with;          ///< the coefficient that it is multiplied by then, or empty
+  std::string signal, unit;  ///< whose format the word has; empty: plain bits
   std::string doc;
   std::vector<Field> fields;
   std::string place;  ///< "file:line" of the entry, for errors

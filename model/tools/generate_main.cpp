@@ -15,6 +15,7 @@
 
 #include "config/toml_reader.hpp"
 #include "design/generate.hpp"
+#include "design/host_words.hpp"
 #include "design/schedule.hpp"
 
 namespace fs = std::filesystem;
@@ -47,6 +48,15 @@ bool update(const fs::path& path, const std::string& text, bool check_only) {
   return true;
 }
 
+/// What hosts and other tools read of a design. Returns whether a file was stale.
+bool update_host_files(const fs::path& folder, const feltgate::design::Elaborated& e,
+                       bool check_only) {
+  bool stale = update(folder / "feltgate.h", c_header(e), check_only);
+  stale |= update(folder / "feltgate.rdl", system_rdl(e), check_only);
+  stale |= update(folder / "csr.csv", csr_csv(e), check_only);
+  return stale;
+}
+
 }  // namespace
 
 constexpr const char* usage =
@@ -54,12 +64,15 @@ constexpr const char* usage =
     "       feltgate generate --design FILE -o DIR [--allow-coarse]\n"
     "Writes what follows from rtl/registers.toml and rtl/designs/*.toml: the SystemVerilog "
     "packages in\n"
-    "rtl/generated, the C++ headers in model/include/feltgate/generated, and docs/registers.md.\n"
+    "rtl/generated, beside each the register map as C header, SystemRDL and CSV, the C++ headers\n"
+    "in model/include/feltgate/generated, and docs/registers.md.\n"
     "--check only compares; exit code 1 when a file is stale.\n"
     "With --design one design, which may lie anywhere: DIR/feltgate_pkg.sv, DIR/NAME.hpp and "
     "DIR/parameters.mem,\n"
     "the first contents of the parameter RAM for $readmemh, and DIR/values.txt,\n"
-    "a line per parameter: name, address, integer, exact value. --allow-coarse lets a resolution "
+    "a line per parameter: name, address, integer, exact value; and the register map for hosts:\n"
+    "DIR/feltgate.h (C), DIR/feltgate.rdl (SystemRDL), DIR/csr.csv (as of LiteX). --allow-coarse "
+    "lets a resolution "
     "pass that\n"
     "is coarser than a design for use must have; what cannot work is refused all the same.\n"
     "  feltgate generate                                        after a change in rtl/designs\n"
@@ -108,6 +121,7 @@ void generate_one(const Options& o, const feltgate::design::RegisterMap& registe
   update(o.output / (e.design.name + ".hpp"), cpp_header(e), false);
   update(o.output / "parameters.mem", memory_text(e), false);
   update(o.output / "values.txt", values_text(e), false);
+  update_host_files(o.output, e, false);
 }
 
 /// Whether a file was stale.
@@ -135,6 +149,7 @@ bool generate_all(const Options& o, const feltgate::design::RegisterMap& registe
     stale |=
         update(o.root / "rtl/generated" / name / "parameters.mem", memory_text(e), o.check_only);
     stale |= update(headers / (name + ".hpp"), cpp_header(e), o.check_only);
+    stale |= update_host_files(o.root / "rtl/generated" / name, e, o.check_only);
     if (name == "lever")
       stale |= update(o.root / "docs/registers.md", register_page(e), o.check_only);
   }

@@ -12,6 +12,7 @@
 
 #include "config/toml_reader.hpp"
 #include "design/generate.hpp"
+#include "design/host_words.hpp"
 #include "design/schedule.hpp"
 #include "faulty_reader.hpp"
 #include "loop/scenario_check.hpp"
@@ -115,6 +116,9 @@ void make_all(const design::Design& d, const design::RegisterMap& registers) {
   (void)cpp_header(e);
   (void)values_text(e);
   (void)register_page(e);
+  (void)c_header(e);
+  (void)system_rdl(e);
+  (void)csr_csv(e);
   (void)design_table(e);
 }
 

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The register map of a design for hosts and other tools: a C header, SystemRDL, and CSV as LiteX
+// writes it. Documentation: docs/register-files.md
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "design/design.hpp"
+
+namespace feltgate::design {
+
+/// A word that a host reads or writes.
+struct HostWord {
+  std::string name;
+  std::string kind;  ///< parameter, control, snapshot or link
+  int address = 0;   ///< in words
+  bool reads = false, writes = false;
+  bool number = false;      ///< it has a format and a unit; else plain bits
+  Format format{0, 32, 0};  ///< whose bits the word has
+  std::string unit, doc;
+  std::vector<Field> fields;
+  std::int64_t reset = 0;  ///< after configuration
+  double si = 0;           ///< of a parameter, in its unit
+};
+
+/// All words of the core's port, in the order of their addresses. Throws config::ConfigError where
+/// two have one name or a snapshot word names no signal.
+std::vector<HostWord> host_words(const Elaborated& e);
+
+/// Text of rtl/generated/NAME/feltgate.h.
+std::string c_header(const Elaborated& e);
+/// Text of rtl/generated/NAME/feltgate.rdl.
+std::string system_rdl(const Elaborated& e);
+/// Text of rtl/generated/NAME/csr.csv.
+std::string csr_csv(const Elaborated& e);
+
+}  // namespace feltgate::design

@@ -1,0 +1,323 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""The register map as C header, SystemRDL and CSV says what rtl/registers.toml and each design say.
+
+register_files_test.py VENV: the folder with systemrdl-compiler and LiteX. docs/register-files.md
+"""
+
+import csv
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import tomllib
+import unittest
+from fractions import Fraction
+from pathlib import Path
+
+ROOT = Path(os.environ["FELTGATE_ROOT"])
+BUILD = Path(os.environ["FELTGATE_BUILD"])
+VENV = Path(sys.argv.pop(1))
+GENERATED = ROOT / "rtl/generated"
+DESIGNS = sorted(path.stem for path in (ROOT / "rtl/designs").glob("*.toml"))
+SNAPSHOT = 0x300
+
+# Prints what systemrdl-compiler makes of a file: [name, address, access, fields] of each register.
+RDL = """
+import json, sys
+from systemrdl import RDLCompiler
+compiler = RDLCompiler()
+compiler.compile_file(sys.argv[1])
+rows = []
+for r in compiler.elaborate().top.registers():
+    fields = [[f.inst_name, f.low, f.width, f.get_property("reset"),
+               f.get_property("feltgate_format", default=None),
+               f.get_property("feltgate_unit", default=None)] for f in r.fields()]
+    rows.append([r.inst_name, r.absolute_address, [r.has_sw_readable, r.has_sw_writable], fields])
+print(json.dumps(rows))
+"""
+# Reads every register that LiteX's own reader of csr.csv finds; the port says the address.
+LITEX = """
+import json, sys
+from litex.tools.remote.csr_builder import CSRBuilder
+class Port:
+    def read(self, address, length=None): return address
+    def write(self, address, data): self.last = (address, data)
+port = Port()
+bus = CSRBuilder(port, sys.argv[1])
+rows = {}
+for name, register in bus.regs.d.items():
+    if register.mode != "ro":
+        register.write(0x12345678)
+        assert port.last == (register.addr, [0x12345678]), name
+    rows[name] = [register.addr, register.mode, register.read() if register.mode != "wo" else None]
+print(json.dumps([rows, bus.constants.d]))
+"""
+
+
+def need_venv(module):
+    found = list(VENV.glob(f"lib/python3*/site-packages/{module}"))
+    return unittest.skipUnless(
+        found or os.environ.get("CI"), f"no {module}; ./feltgate test fetches it"
+    )
+
+
+def in_venv(program, path):
+    command = [VENV / "bin/python", "-c", program, path]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def package(design):
+    """The numbers of a design's package."""
+    text = (GENERATED / design / "feltgate_pkg.sv").read_text(encoding="utf-8")
+    return {n: int(v) for n, v in re.findall(r"localparam int (\w+) = (-?\d+);", text)}
+
+
+def register_map():
+    with open(ROOT / "rtl/registers.toml", "rb") as file:
+        return tomllib.load(file)
+
+
+def values(design, folder):
+    """{parameter: (address, integer, exact)} as the generator prints them."""
+    program = [BUILD / "feltgate_generate", ROOT]
+    source = ROOT / "rtl/designs" / f"{design}.toml"
+    subprocess.run([*program, "--design", source, "-o", folder], check=True, capture_output=True)
+    rows = (line.split() for line in (Path(folder) / "values.txt").read_text().splitlines())
+    return {r[0]: (int(r[1]), int(r[2]), float(r[3])) for r in rows}
+
+
+def truth(design):
+    """{name: (address, reads, writes, fields, (sign, width, fraction) or None, unit)}."""
+    numbers, listed, words = package(design), register_map(), {}
+    scenes = {s["name"]: s["number"] for s in listed["scene"]}
+    coefficient = numbers["COEFFICIENT_BITS"]
+    for p in listed["parameter"]:
+        name, kind = p["name"], p["kind"]
+        fraction = numbers.get(f"P_{name.upper()}_F")
+        if kind == "signal":
+            signal = p["format"].upper()
+            sign = 0 if p["format"] in ("current_squared", "i2t", "charge") else 1
+            form = (sign, numbers[f"{signal}_W"], numbers[f"{signal}_F"])
+        else:
+            form = {
+                "coefficient": (0, coefficient, fraction),
+                "signed": (1, coefficient + 1, fraction),
+                "counts": (1, 26, 8),
+                "integer": (0, 31, 0),
+            }[kind]
+        address = p["slot"] + 32 * scenes[p["scene"]] if "scene" in p else p["slot"]
+        words[name] = (address, True, True, [], form, p["unit"])
+    for c in listed["control"]:
+        words[c["name"]] = (c["address"], c["name"] == "control", True, c["fields"], None, "")
+    slots = {p["name"]: p["slot"] for p in listed["parameter"]}
+    for n in listed["snapshot"]:
+        address = SNAPSHOT + (slots[n["with"]] if "with" in n else n["slot"])
+        form = None
+        if "format" in n:
+            signal = n["format"].upper()
+            form = (1, numbers[f"{signal}_W"], numbers[f"{signal}_F"])
+        words[n["name"]] = (address, True, False, n.get("fields", []), form, n.get("unit", ""))
+    return words
+
+
+def nearest(value, form):
+    """The word of a value: halves away from 0, the nearer end beyond the range."""
+    sign, width, fraction = form
+    high = (1 << (width - sign)) - 1
+    low = -high - 1 if sign else 0
+    if math.isnan(value):
+        return 0
+    if math.isinf(value):
+        return high if value > 0 else low
+    scaled = Fraction(value * 2.0**fraction)
+    whole = math.floor(abs(scaled) + Fraction(1, 2))
+    return max(low, min(high, whole if scaled >= 0 else -whole))
+
+
+def tried(form, default):
+    """Values of which the words are compared."""
+    step = 2.0 ** -form[2]
+    ends = [2.0 ** (form[1] - form[0] - form[2]), 1e300, float("inf")]
+    some = [default, 0.0, step, 0.5 * step, 1.5 * step, 0.49999999999999994 * step, 1000.25 * step]
+    return [s * v for v in [*some, *ends, ends[0] - step] for s in (1, -1)] + [float("nan")]
+
+
+def c_text(value):
+    if math.isnan(value):
+        return "(0.0 / zero)"
+    if math.isinf(value):
+        return "(1.0 / zero)" if value > 0 else "(-1.0 / zero)"
+    return value.hex()
+
+
+class RegisterFiles(unittest.TestCase):
+    maxDiff = None
+
+    def test_c_header(self):
+        for design in DESIGNS:
+            with self.subTest(design), tempfile.TemporaryDirectory() as folder:
+                self.check_c(design, folder)
+
+    def check_c(self, design, folder):
+        words, given = truth(design), values(design, folder)
+        self.assertEqual(
+            (GENERATED / design / "feltgate.h").read_text(), Path(folder, "feltgate.h").read_text()
+        )
+        rows, wanted = [], []
+
+        def row(text, number):
+            rows.append(text)
+            wanted.append(number)
+
+        for name, (address, _, writes, fields, form, _) in words.items():
+            c = f"FELTGATE_{name.upper()}"
+            row(c, address)
+            for field in fields:
+                f, width = f"{c}_{field['name'].upper()}", field.get("width", 1)
+                ones = (1 << width) - 1
+                row(f"{f}_BIT", field["bit"])
+                row(f"{f}_MASK", ones << field["bit"])
+                row(f"FELTGATE_GET({f}, 0xa5c37e19u)", 0xA5C37E19 >> field["bit"] & ones)
+                row(f"FELTGATE_PUT({f}, 0xffffffffu)", ones << field["bit"])
+            if form is not None and writes:
+                self.assertEqual(given[name][0], address)
+                row(f"{c}_WORD({c}_DEFAULT)", given[name][1])
+                row(f"{c}_RESET", given[name][1])
+                for value in tried(form, given[name][2]):
+                    row(f"{c}_WORD({c_text(value)})", nearest(value, form))
+            if form is not None:  # a word and back, in steps
+                top = 1 << (form[1] - 1)
+                for word in (0, 1, top - 1, top, 2 * top - 1):
+                    steps = word - 2 * top if form[0] and word >= top else word
+                    junk = 0xFFFFFFFF & ~(2 * top - 1)
+                    for bits in (word, word | junk):
+                        text = f"{c}_VALUE({bits}u) * {math.ldexp(1.0, form[2]).hex()}"
+                        row(f"(uint32_t)(int64_t)({text})", steps)
+        for kind, prefix, key in (("scene", "SCENE_", "number"), ("fault", "FAULT_", "number"),
+                                  ("constant", "", "value"), ("limit", "LIMIT_", "bit")):
+            for c in register_map()[kind]:
+                number = 1 << c[key] if kind == "limit" else c[key]
+                row(f"FELTGATE_{prefix}{c['name'].upper()}", number)
+        source = Path(folder, "try.c")
+        lines = "".join(f'  printf("%lu\\n", (unsigned long)({r}));\n' for r in rows)
+        source.write_text(
+            '#include <stdio.h>\n#include "feltgate.h"\nstatic volatile double zero;\n'
+            "#define ONE(name, NAME) +1\nint main(void) {\n"
+            f"{lines}  return (0 FELTGATE_PARAMETERS(ONE)) - {len(given)};\n}}\n"
+        )
+        strict = ["-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror", "-I", folder]
+        program = Path(folder, "try")
+        subprocess.run(["gcc", "-std=c99", *strict, source, "-o", program], check=True)
+        done = subprocess.run([program], capture_output=True, text=True, check=True)
+        found = [int(line) for line in done.stdout.split()]
+        wrong = [
+            (r, hex(f), w) for r, f, w in zip(rows, found, wanted, strict=True)
+            if f != w & 0xFFFFFFFF
+        ]
+        self.assertEqual(wrong[:5], [])
+        if design == "lever":
+            text = f'#include "feltgate.h"\nint main() {{ return {rows[-1]} == 0; }}\n'
+            plus = Path(folder, "try.cpp")
+            plus.write_text(text)
+            subprocess.run(["g++", "-std=c++17", *strict, "-fsyntax-only", plus], check=True)
+
+    def test_example(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = Path(folder, "registers")
+            strict = ["-std=c99", "-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror"]
+            source = ROOT / "docs/examples/registers.c"
+            subprocess.run(
+                ["gcc", *strict, "-I", GENERATED / "lever", source, "-o", program], check=True
+            )
+            said = subprocess.run([program], capture_output=True, text=True, check=True).stdout
+        page = (ROOT / "docs/register-files.md").read_text(encoding="utf-8")
+        self.assertIn(said, page)
+        self.assertIn("-0.1000 Nm, armed 1, ramping 1", said)
+
+    def compare(self, design, rows):
+        """Differences between the truth and rows {name: (address, reads, writes)}."""
+        words = {n: (4 * w[0], w[1], w[2]) for n, w in truth(design).items()}
+        return {n for n in words.keys() | rows.keys() if words.get(n) != rows.get(n)}
+
+    def csv_rows(self, path):
+        with open(path, encoding="utf-8", newline="") as file:
+            lines = [r for r in csv.reader(file) if not r[0].startswith("#")]
+        self.assertEqual({len(r) for r in lines}, {5})
+        registers = [r for r in lines if r[0] == "csr_register"]
+        rows = {
+            r[1].removeprefix("feltgate_"): (int(r[2], 16), r[4] != "wo", r[4] != "ro")
+            for r in registers
+        }
+        self.assertEqual(len(rows), len(registers))
+        return rows, {r[1]: r[2] for r in lines if r[0] == "constant"}
+
+    def test_csv(self):
+        for design in DESIGNS:
+            with self.subTest(design):
+                rows, constants = self.csv_rows(GENERATED / design / "csr.csv")
+                self.assertEqual(self.compare(design, rows), set())
+                self.assertEqual(constants["feltgate_design"], design)
+                for name, (_, _, _, _, form, unit) in truth(design).items():
+                    if form is not None:
+                        self.assertEqual(constants[f"feltgate_{name}_fraction"], str(form[2]))
+                        self.assertEqual(constants[f"feltgate_{name}_unit"], unit)
+
+    def test_a_moved_word_is_seen(self):
+        text = (GENERATED / "lever/csr.csv").read_text()
+        with tempfile.TemporaryDirectory() as folder:
+            moved = Path(folder, "csr.csv")
+            name = "feltgate_torque_limit,"
+            self.assertIn(name + "0x00000060", text)
+            moved.write_text(text.replace(name + "0x00000060", name + "0x00000064"))
+            rows, _ = self.csv_rows(moved)
+            self.assertEqual(self.compare("lever", rows), {"torque_limit"})
+            moved.write_text(re.sub(r"(feltgate_command,.*),wo", r"\1,rw", text))
+            self.assertEqual(self.compare("lever", self.csv_rows(moved)[0]), {"command"})
+
+    @need_venv("litex")
+    def test_litex_reads_the_csv(self):
+        for design in ("lever", "paper"):
+            rows, constants = in_venv(LITEX, GENERATED / design / "csr.csv")
+            found = {}
+            for name, (address, mode, read) in rows.items():
+                found[name.removeprefix("feltgate_")] = (address, mode != "wo", mode != "ro")
+                self.assertIn(read, (address, None))
+            self.assertEqual(self.compare(design, found), set())
+            self.assertEqual(constants["feltgate_tick_hz"], 1000000)
+
+    @need_venv("systemrdl")
+    def test_systemrdl(self):
+        for design in DESIGNS:
+            with self.subTest(design), tempfile.TemporaryDirectory() as folder:
+                rows = in_venv(RDL, GENERATED / design / "feltgate.rdl")
+                found = {n: (a, r, w) for n, a, (r, w), _ in rows}
+                self.assertEqual(len(found), len(rows))
+                self.assertEqual(self.compare(design, found), set())
+                given = values(design, folder)
+                for name, _, _, fields in rows:
+                    _, _, writes, wanted, form, unit = truth(design)[name]
+                    if wanted:
+                        self.assertEqual(
+                            sorted((f[0], f[1], f[2]) for f in fields),
+                            sorted((f["name"], f["bit"], f.get("width", 1)) for f in wanted),
+                        )
+                        continue
+                    ((_, low, width, reset, text, its_unit),) = fields
+                    sign, bits, fraction = form or (0, 32, 0)
+                    self.assertEqual((low, width), (0, bits), name)
+                    if form:
+                        self.assertEqual(text, f"[{sign},{bits - sign - fraction},{fraction}]")
+                        self.assertEqual(its_unit, unit)
+                    if writes:
+                        self.assertEqual(reset, given[name][1] & ((1 << bits) - 1), name)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -4,7 +4,7 @@
 # feltgate_block_test(<block> [WITH_DEFECTS] [NAME <test>] [DESIGN <design> | PACKAGE <feltgate_pkg.sv>]
 #                     [ROUNDING <mode>] [SOURCES extra.sv...] [PARAMS -GName=value...]
 #                     [DEFINES NAME=value...] [LIBRARIES target...] [TESTS more.cpp...])
-# verilates rtl/<block>.sv, links testbench/<block>/<block>_test.cpp and TESTS beside it to it and adds
+# verilates rtl/<block>.sv or rtl/FOLDER/<block>.sv, links testbench/<block>/<block>_test.cpp and TESTS beside it to it and adds
 # the CTest <test> (default <block>, labels unit and lockstep). WITH_DEFECTS: also <test>.<defect> (label
 # mutation) for each patch in testbench/<block>/defects, which passes only when an assertion fails, and
 # mutate.<test>, a share of the block's mutants.
@@ -77,7 +77,15 @@ function(feltgate_block_test block)
     get_filename_component(source "${source}" ABSOLUTE BASE_DIR "${FELTGATE_ROOT}")
     list(APPEND sources "${source}")
   endforeach()
-  list(APPEND sources "${FELTGATE_ROOT}/rtl/${block}.sv")
+  # Beside the core: rtl/link with its package, rtl/bus.
+  foreach(folder "" link/ bus/)
+    if(EXISTS "${FELTGATE_ROOT}/rtl/${folder}${block}.sv")
+      list(APPEND sources "${FELTGATE_ROOT}/rtl/${folder}${block}.sv")
+      if(folder STREQUAL link/)
+        list(APPEND package "${FELTGATE_ROOT}/rtl/generated/feltgate_link_pkg.sv")
+      endif()
+    endif()
+  endforeach()
   list(REMOVE_ITEM sources "${FELTGATE_MAP_PACKAGE}")  # among the sources of the core
 
   # A block with a defect has the same ports, so one object of the test serves both.

@@ -41,7 +41,9 @@ import outputs
 from . import twin_parser, twin_programs, twin_runs, twin_source
 
 SCHEMA = "feltgate-mutate-twin/1"
+CATALOGUE = "testbench/mutate/twin.toml"
 RESULTS = "docs/verification/twin_mutants.json"
+SURVIVOR_KEYS = {"header", "kind", "why", "mutants"}
 REQUIRED = 0.95
 SHARE = 200  # mutants of a header, where it offers so many
 DEAD = ("killed", "hangs", "crashes")
@@ -60,15 +62,24 @@ class Catalogue:
 
 
 def read_catalogue(root):
-    path = root / "testbench/mutate/twin.toml"
-    text = tomllib.loads(path.read_text(encoding="utf-8"))
-    survivors = {}
+    """testbench/mutate/twin.toml; TwinError where something in it cannot be used."""
+    path = root / CATALOGUE
+    try:
+        text = tomllib.loads(path.read_text(encoding="utf-8"))
+    except tomllib.TOMLDecodeError as error:
+        raise TwinError(f"{path}: {error}") from error
+    tests, blocks, survivors = text.get("tests", {}), text.get("block", {}), {}
+    for header in blocks:
+        if header not in tests or not isinstance(blocks[header], str):
+            raise TwinError(f"{path}: [block] has a row of docs/blocks.md for a header; not so {header}")
     for entry in text.get("survivor", []):
-        if entry["kind"] not in ("equivalent", "gap"):
-            raise TwinError(f"{path}: kind {entry['kind']}; there are equivalent and gap")
+        if entry.keys() != SURVIVOR_KEYS:
+            raise TwinError(f"{path}: a survivor has the keys {', '.join(sorted(SURVIVOR_KEYS))}")
+        if entry["kind"] not in ("equivalent", "gap") or not entry["why"]:
+            raise TwinError(f"{path}: a survivor is equivalent or a gap, and says why")
         for name in entry["mutants"]:
             survivors[entry["header"], name] = (entry["kind"], entry["why"])
-    return Catalogue(text["tests"], text.get("constant", {}), survivors, text.get("block", {}))
+    return Catalogue(tests, text.get("constant", {}), survivors, blocks)
 
 
 def parse(catalogue, root, names, dropped, language):
@@ -228,7 +239,7 @@ def run(options, root, build):
     names = options.name or list(catalogue.tests)
     unknown = [n for n in names if n not in catalogue.tests]
     if unknown:
-        raise TwinError(f"no header {', '.join(unknown)} in testbench/mutate/twin.toml; there are {', '.join(catalogue.tests)}")
+        raise TwinError(f"no header {', '.join(unknown)} in {CATALOGUE}; there are {', '.join(catalogue.tests)}")
     language = twin_parser.cpp_language(build / "venv-mutate")
     if options.list:
         for header in parse(catalogue, root, names, {}, language):
@@ -340,14 +351,14 @@ def arguments(argv):
 def main(argv=None):
     options = arguments(argv)
     root = Path(os.environ.get("FELTGATE_ROOT") or Path(__file__).resolve().parents[2])
-    build = Path(os.environ.get("FELTGATE_BUILD") or root / "build")
+    build = Path(os.environ.get("FELTGATE_BUILD") or root / "build").resolve()
     interrupts.end_on_signals()
     try:
         return run(options, root, build)
     except twin_programs.BuildError as error:
         print(f"mutate: {error}\n{error.output}".strip(), file=sys.stderr)
         return 2
-    except (TwinError, twin_parser.SourceError, block_results.ResultsError) as error:
+    except (TwinError, twin_parser.SourceError, block_results.ResultsError, OSError) as error:
         print(f"mutate: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt as error:

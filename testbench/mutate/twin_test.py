@@ -226,14 +226,25 @@ class Verdicts(unittest.TestCase):
             self.assertEqual(twin.main(["suprevisor"]), 2)
         self.assertIn("supervisor", said.getvalue())
 
-    def test_catalogue_of_kinds(self):
+    def test_the_products_catalogue_has_a_row_of_the_table_for_each_header(self):
+        catalogue = twin.read_catalogue(ROOT)
+        for header in catalogue.tests:
+            row = catalogue.blocks.get(header, header)
+            self.assertTrue(row in block_results.EXTRA or (ROOT / f"rtl/{row}.sv").is_file(), header)
+
+    def test_a_catalogue_that_cannot_be_used(self):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "testbench/mutate/twin.toml"
             path.parent.mkdir(parents=True)
-            path.write_text('[tests]\nh = ["t"]\n[[survivor]]\nheader = "h"\nkind = "luck"\nwhy = ""\nmutants = ["m"]\n',
-                            encoding="utf-8")
-            with self.assertRaises(twin.TwinError):
-                twin.read_catalogue(Path(folder))
+            good = '[tests]\nh = ["t"]\n[block]\nh = "b"\n[[survivor]]\nheader = "h"\n' \
+                   'kind = "gap"\nwhy = "w"\nmutants = ["m"]\n'
+            path.write_text(good, encoding="utf-8")
+            self.assertEqual(twin.read_catalogue(Path(folder)).survivors, {("h", "m"): ("gap", "w")})
+            for was, becomes in (('"gap"', '"luck"'), ('"w"', '""'), ('why = "w"\n', ""), ("why", "reason"),
+                                 ('h = "b"', 'h = ["b"]'), ('h = "b"', 'other = "b"'), ("[tests]", "[tests")):
+                path.write_text(good.replace(was, becomes), encoding="utf-8")
+                with self.subTest(becomes), self.assertRaises(twin.TwinError):
+                    twin.read_catalogue(Path(folder))
 
 
 if __name__ == "__main__":

@@ -46,15 +46,16 @@ lock_build() {
   flock 9
 }
 
-# configure TESTS: once per build folder, again when tests are wanted, or the repository or Python
-# moved.
+# configure TESTS: once per build folder, again when tests are wanted, the repository or Python moved,
+# or dpkg has changed something: a tool that CMake did not find may be there now.
 configure() {
   local tests=$1 had_tests='' had_root='' had_python='' fresh=()
   if [[ -f $BUILD/build.ninja && -f $STATE/configured ]]; then
     { read -r had_tests && read -r had_root && read -r had_python; } <"$STATE/configured" || true
   fi
   if [[ $had_tests == ON ]]; then tests=ON; fi
-  [[ $had_tests == "$tests" && $had_root == "$ROOT" && $had_python == "$FELTGATE_PYTHON" ]] && return
+  [[ $had_tests == "$tests" && $had_root == "$ROOT" && $had_python == "$FELTGATE_PYTHON" &&
+    ! /var/lib/dpkg/status -nt $STATE/configured ]] && return
   if [[ $had_root && $had_root != "$ROOT" ]]; then fresh=(--fresh); fi
   run_logged "configuring" "$STATE/configure.log" cmake "${fresh[@]}" -S "$ROOT" -B "$BUILD" \
     -G Ninja -DCMAKE_BUILD_TYPE=Release -DFELTGATE_TESTS="$tests" \

@@ -54,6 +54,14 @@ class FirstStart(Machine):
         self.assertEqual(self.start("run", "membrane").returncode, 0)
         self.assertEqual(len(self.calls("cmake")), 1)
 
+    def test_a_tool_that_came_later_configures_again(self):
+        """faults needs yosys at configuration, which run does not install."""
+        self.assertEqual(self.start("--yes", "run", "membrane").returncode, 0)
+        self.log()
+        self.start("--yes", "faults")
+        calls = [c.split()[0] for c in self.log()]
+        self.assertLess(calls.index("apt-get"), calls.index("cmake"))
+
 
 class Help(Machine):
     def test_every_command_helps_on_a_bare_machine(self):

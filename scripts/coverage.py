@@ -23,14 +23,13 @@ argument is wrong or a test fails.
 """
 
 import argparse
-import json
 import os
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 import block_results
+import building
 import interrupts
 import outputs
 from covering import data, programs, report, waivers
@@ -78,23 +77,11 @@ def chosen(everything, blocks):
     return [program for program in everything if not blocks or program.block in blocks]
 
 
-def progress_of(start):
-    def progress(done, total, text):
-        if sys.stderr.isatty():
-            left = (time.monotonic() - start) / done * (total - done)
-            print(f"\r\033[K[{done}/{total}, {left:.0f} s left] {text}"[:100], end="", file=sys.stderr, flush=True)
-            if done == total:
-                print("\r\033[K", end="", file=sys.stderr, flush=True)
-
-    return progress
-
-
 def measure(options, root, build, folder):
     found = chosen(programs.read(build), options.block)
     if not options.no_build:
-        print(f"coverage: building {len(found)} tests", file=sys.stderr)
-        programs.make(build, found, options.jobs)
-    runs = programs.run(root, found, folder, options.jobs, progress_of(time.monotonic()))
+        building.make("coverage", build, [f"{program.test}_cover" for program in found], options.jobs)
+    runs = programs.run(root, found, folder, options.jobs)
     seconds = {}
     for run in runs:
         seconds[run.program.block] = seconds.get(run.program.block, 0.0) + run.seconds
@@ -113,13 +100,14 @@ def conclude(options, root, result):
     print(f"\n{len(result.rows)} blocks, {len(result.bad)} short of a target, "
           f"{sum(bool(w.used) for w in result.waivers)} waivers in use")
     if options.json:
-        outputs.write_whole(options.json, json.dumps(report.as_json(result, SCHEMA), indent=2) + "\n")
-    if options.update and not result.bad and not idle:
-        rows = {row.block: {k: v for k, v in report.figures(row).items() if v[1]} | {"seconds": round(row.seconds, 1)}
-                for row in [*result.rows, result.core]}
-        block_results.write(root, "coverage", "./feltgate coverage --update", rows)
+        outputs.write_json(options.json, report.as_json(result, SCHEMA))
+    good = not result.bad and not idle
+    if options.update and good:
+        block_results.write(root, "coverage", "./feltgate coverage --update", report.per_block(result))
         print(f"coverage: wrote {block_results.path_of('', 'coverage')}; scripts/check_blocks.py --write makes the table")
-    return 1 if result.bad or idle else 0
+    elif options.update:
+        print(f"coverage: {block_results.path_of('', 'coverage')} stays as it was, for targets are missed")
+    return 0 if good else 1
 
 
 def main(argv=None):
@@ -137,7 +125,8 @@ def main(argv=None):
             return conclude(options, root, measure(options, root, build, options.keep.resolve()))
         with tempfile.TemporaryDirectory(prefix="feltgate-coverage-") as folder:
             return conclude(options, root, measure(options, root, build, Path(folder)))
-    except (programs.ProgramError, data.DataError, waivers.WaiverError, OSError) as error:
+    except (programs.ProgramError, data.DataError, waivers.WaiverError, building.BuildError,
+            block_results.ResultsError, OSError) as error:
         print(f"coverage: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt as error:

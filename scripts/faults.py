@@ -40,13 +40,13 @@ import argparse
 import json
 import os
 import sys
-import time
 from pathlib import Path
 
 import block_results
 import interrupts
 import outputs
 from faulting import campaign, results
+from reporting.progress import Steps
 
 SCHEMA = "feltgate-faults/1"
 CLEAN_S, DAY_S = 600, 86400
@@ -80,7 +80,8 @@ def arguments(argv):
     parser.add_argument("--update", action="store_true",
                         help=f"put the results into {block_results.FOLDER}/faults.json")
     options = parser.parse_args(argv)
-    outputs.check(parser, json=options.json, save=options.save, picture=options.picture)
+    outputs.check(parser, [options.replay, *(options.lines or ())], json=options.json, save=options.save,
+                  picture=options.picture)
     if options.picture and options.picture.suffix not in (".svg", ".png"):
         parser.error("argument --picture: the name of a file that ends in .svg or .png")
     if options.jobs < 1:
@@ -91,49 +92,38 @@ def arguments(argv):
         parser.error("--long goes with --clean")
     if sum(map(bool, (options.clean, options.replay, options.lines))) > 1:
         parser.error("--clean, --replay and --lines exclude each other")
-    if options.update and (options.only or options.clean or options.replay):
+    if (options.clean or options.replay) and (options.save or options.picture or options.markdown):
+        parser.error("--save, --picture and --markdown tell of a campaign, not of --clean or --replay")
+    if options.update and (options.only or options.clean or options.replay or not options.flips):
         parser.error("--update takes a campaign of all registers")
     return options
 
 
-class Progress:
-    """One line on a terminal."""
-
-    def __init__(self, total):
-        self.total, self.done, self.begun, self.share = total, 0, time.monotonic(), {}
-        self.shown = sys.stderr.isatty()
-
-    def told(self, number, line):
-        if "done" in line:
-            self.share[number] = line["done"]
-        self.done += "class" in line
-        share = sum(self.share.values()) / max(1, len(self.share)) if self.share else self.done / max(1, self.total)
-        if not self.shown or not share:
-            return
-        spent = time.monotonic() - self.begun
-        print(f"\r\033[Kfaults: {100 * share:.0f} %, {spent * (1 / share - 1):.0f} s left", end="", file=sys.stderr,
-              flush=True)
-
-    def end(self):
-        if self.shown:
-            print("\r\033[K", end="", file=sys.stderr, flush=True)
-
-
-def run(options, build, arguments_, jobs, total):
+def run(build, arguments_, jobs, total):
+    """All lines of feltgate_faults; `total` is about how many."""
     program = build / "feltgate_faults"
     if not program.exists():
         raise campaign.CampaignError(f"there is no {program}; the build makes it where yosys is installed")
-    progress = Progress(total)
-    try:
-        return campaign.Parts(program, arguments_, jobs, progress.told).run()
-    finally:
-        progress.end()
+    shares = {}
+    with Steps("faults", total) as progress:
+
+        def told(part, line):
+            if "done" in line:  # a share of the part's work
+                shares[part] = line["done"]
+                progress.step("", total * sum(shares.values()) / jobs)
+            elif "class" in line:
+                progress.step(line["group"])
+
+        return campaign.run(program, arguments_, jobs, told)
 
 
 def clean(options, build):
+    """Device time without a fault; the exit code."""
     seconds = DAY_S if options.long else CLEAN_S
-    lines = run(options, build, ["--clean", seconds, "--seed", options.seed], options.jobs, 1)
+    lines = run(build, ["--clean", seconds, "--seed", options.seed], options.jobs, 1)
     parts = [line for line in lines if "clean_s" in line]
+    if len(parts) != options.jobs:
+        raise campaign.CampaignError(f"{options.jobs - len(parts)} of {options.jobs} parts said nothing")
     total = {key: sum(p[key] for p in parts) for key in ("clean_s", "scenes_s", "recordings_s", "dither_s", "alarms")}
     print(f"{total['clean_s']:.0f} s of device time without a fault: {total['scenes_s']:.0f} s of scenes in closed "
           f"loop, {total['recordings_s']:.0f} s of recordings, {total['dither_s']:.0f} s of dither, strokes and rest")
@@ -143,13 +133,14 @@ def clean(options, build):
         if part["first"]:
             print(f"  {part['first']}")
     if options.json:
-        outputs.write_whole(options.json, json.dumps({"schema": SCHEMA, "clean": total}, indent=1) + "\n")
+        outputs.write_json(options.json, {"schema": SCHEMA, "clean": total})
     return 1 if total["alarms"] else 0
 
 
 def replay(options, build):
+    """The listed cases again; the exit code."""
     cases = campaign.read(options.replay)
-    lines = run(options, build, ["--replay", options.replay.resolve()], 1, len(cases))
+    lines = run(build, ["--replay", options.replay.resolve()], 1, len(cases))
 
     def key(fault):
         return tuple(str(fault.get(k)) for k in ("point", "group", "seed", "register", "bit", "register_2", "bit_2",
@@ -160,6 +151,9 @@ def replay(options, build):
     for case, now in differing:
         print(f"listed as {case['class']}, now {now}: {json.dumps(case)}")
     print(f"{len(cases)} cases, {len(differing)} other than listed")
+    if options.json:
+        listed = [{"listed": case, "now": now} for case, now in differing]
+        outputs.write_json(options.json, {"schema": SCHEMA, "replay": {"cases": len(cases), "differing": listed}})
     return 1 if differing else 0
 
 
@@ -176,7 +170,7 @@ def report(options, root, faults, seconds):
         result = {"schema": SCHEMA, "seed": options.seed, "faults": len(faults),
                   "rows": [row.as_json() for row in rows],
                   "promises": [{"what": w, "count": c, "of": n, "kept": g} for w, c, n, g in kept]}
-        outputs.write_whole(options.json, json.dumps(result, indent=1) + "\n")
+        outputs.write_json(options.json, result)
     if options.picture:
         from faulting import picture  # matplotlib only where it is asked for
 
@@ -184,8 +178,8 @@ def report(options, root, faults, seconds):
     if options.update:
         blocks = {path.stem for path in (root / "rtl").glob("*.sv")}
         found = results.per_block(faults, blocks)
-        if seconds:
-            found["feltgate_core"]["seconds"] = round(seconds)
+        if seconds:  # of all faults; what a block's share of it is nobody knows
+            found.setdefault("feltgate_core", {})["seconds"] = round(seconds)
         block_results.write(root, "faults", "./feltgate faults --update", found)
         print(f"faults: wrote {block_results.path_of(root, 'faults')}")
     return 0 if all(good for *_, good in kept) else 1
@@ -210,9 +204,9 @@ def main(argv=None):
                      options.seed, *(["--only", options.only] if options.only else [])]
             total = 5100 * options.flips + options.doubles + options.pins  # near enough for a percentage
             before = os.times()
-            lines = run(options, build, asked, options.jobs, total)
+            lines = run(build, asked, options.jobs, total)
             after = os.times()
-            seconds = after.children_user - before.children_user
+            seconds = after.children_user + after.children_system - before.children_user - before.children_system
             broken = [line["mismatches"] for line in lines if line.get("mismatches")]
             if broken:
                 raise campaign.CampaignError(f"RTL and twin differed in {sum(broken)} ticks without any fault")

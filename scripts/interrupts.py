@@ -8,6 +8,7 @@ Documentation: docs/json.md
 import signal
 import subprocess
 import sys
+import threading
 
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 PATIENCE_S = 10
@@ -22,14 +23,18 @@ class Interrupted(KeyboardInterrupt):
 
 
 class Held:
-    """While it lasts a signal waits: a program under way must be known before it can be ended."""
+    """While it lasts a signal waits: a program under way must be known before it can be ended. In other
+    threads than the main one, which no signal breaks off, it does nothing."""
 
     depth, waiting = 0, None
 
     def __enter__(self):
-        Held.depth += 1
+        if threading.current_thread() is threading.main_thread():
+            Held.depth += 1
 
     def __exit__(self, *_):
+        if threading.current_thread() is not threading.main_thread():
+            return
         Held.depth -= 1
         if Held.depth == 0 and Held.waiting is not None:
             number, Held.waiting = Held.waiting, None

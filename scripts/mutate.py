@@ -23,13 +23,12 @@ argument is wrong.
 """
 
 import argparse
-import json
 import os
-import subprocess
 import sys
 from pathlib import Path
 
 import block_results
+import building
 import interrupts
 import outputs
 from mutating import netlist, rtl
@@ -82,20 +81,7 @@ def chosen(found, wanted):
     return [t for t in found if not wanted or t.block in wanted or t.name in wanted]
 
 
-def make(build, tests, jobs):
-    """Builds the programs."""
-    targets = [test.program.name for test in tests]
-    rtl_say(f"building {len(targets)} programs in {build}")
-    log = build / "mutate.log"
-    with log.open("wb") as file:
-        done = interrupts.run(["cmake", "--build", build, "-j", str(jobs), "--target", *targets], stdout=file,
-                              stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
-    if done.returncode:
-        last = log.read_text(encoding="utf-8", errors="replace").strip().splitlines()[-5:]
-        raise rtl.MutateError("\n".join([f"the build failed; the whole log: {log}", *last]))
-
-
-def rtl_say(text):
+def say(text):
     print(f"mutate: {text}", file=sys.stderr, flush=True)
 
 
@@ -124,7 +110,7 @@ def report(options, root, rows):
     if options.json:
         result = {"schema": SCHEMA, "count": options.count, "seed": options.seed, "required": options.require,
                   "tests": [row.as_json() for row in rows]}
-        outputs.write_whole(options.json, json.dumps(result, indent=1) + "\n")
+        outputs.write_json(options.json, result)
     if options.update:
         update(root, rows)
         print(f"mutate: wrote {block_results.path_of(root, 'mutants')}")
@@ -148,7 +134,7 @@ def main(argv=None):
                 print(f"{test.name}: rtl/{test.block}.sv, {test.program.name}")
             return 0
         if not options.no_build:
-            make(build, tests, options.jobs)
+            building.make("mutate", build, [test.program.name for test in tests], options.jobs)
         for test in tests:
             test.read()
         if options.show is not None:
@@ -156,9 +142,10 @@ def main(argv=None):
                 raise rtl.MutateError(f"--show takes one test: {', '.join(t.name for t in tests)}")
             rtl.show(tests[0], options.show, root, options.proof_seconds)
             return 0
-        rows = rtl.run(tests, root, options.count, options.seed, options.jobs, options.proof_seconds, rtl_say)
+        rows = rtl.run(tests, root, options.count, options.seed, options.jobs, options.proof_seconds, say)
         return report(options, root, rows)
-    except (rtl.MutateError, netlist.NetlistError, block_results.ResultsError, DefectError, OSError) as error:
+    except (rtl.MutateError, netlist.NetlistError, building.BuildError, block_results.ResultsError, DefectError,
+            OSError) as error:
         print(f"mutate: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt as error:

@@ -2,6 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Files that appear whole or not at all, as those of the program. Documentation: docs/json.md"""
 
+import json
 import os
 import stat
 import sys
@@ -21,6 +22,14 @@ def is_in_place(path):
     return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
 
 
+def is_stdout(path):
+    """Whether a path is stdout, by this or another name."""
+    try:
+        return str(path) == STDOUT or os.path.samestat(os.stat(path), os.fstat(1)) and is_in_place(path)
+    except OSError:
+        return False
+
+
 def refusal(path):
     """Why nothing can be written there, with what to do, or ""."""
     path = Path(path)
@@ -38,12 +47,21 @@ def refusal(path):
     return ""
 
 
-def check(parser, **paths):
-    """Ends with 2, before the work, where an option's path cannot be written: json=path."""
+def check(parser, reads=(), **paths):
+    """Ends with 2, before the work, where an option's path cannot be written: json=path. `reads` are files
+    that the command reads, which no output may replace. Where an output goes to stdout the text for people goes
+    to stderr from now on."""
+    taken = {os.path.realpath(path): "is read by the same command" for path in reads if path and os.path.exists(path)}
     for option, path in paths.items():
         why = refusal(path) if path else ""
+        if path and not why and not is_in_place(path):
+            place = os.path.realpath(path)
+            why = taken.get(place, "")
+            taken[place] = f"is also that of --{option}"
         if why:
             parser.error(f"--{option} {path}: {why}")
+        if path and is_stdout(path):
+            sys.stdout = sys.stderr
 
 
 def check_folder(parser, option, path):
@@ -52,13 +70,18 @@ def check_folder(parser, option, path):
         parser.error(f"{option} {path}: is no folder; give a folder's name")
 
 
+def write_json(path, value):
+    """An object, with a line for each of its parts."""
+    write_whole(path, json.dumps(value, indent=1) + "\n")
+
+
 def write_whole(path, data):
     """Text or bytes. A symbolic link stays, its target is replaced and keeps its mode."""
     data = data.encode("utf-8", "surrogateescape") if isinstance(data, str) else data
     if str(path) == STDOUT:
-        sys.stdout.flush()
-        sys.stdout.buffer.write(data)
-        sys.stdout.buffer.flush()
+        sys.__stdout__.flush()
+        sys.__stdout__.buffer.write(data)
+        sys.__stdout__.buffer.flush()
         return
     if is_in_place(path):
         with open(path, "wb", buffering=0) as device:

@@ -64,7 +64,7 @@ def arguments_of(argv):
         help="default feltgate.v",
     )
     options = parser.parse_args(argv)
-    outputs.check(parser, output=options.output)
+    outputs.check(parser, [options.design], output=options.output)
     return options
 
 

@@ -24,17 +24,16 @@ argument is wrong.
 """
 
 import argparse
-import json
 import os
 import sys
 import tempfile
-from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
 import interrupts
 import outputs
 from proving import catalog, page, tasks
-from proving.tools import Broken, Tools, end_all
+from proving.tools import Broken, Tools
+from reporting.progress import Steps
 from seeding.patches import DefectError
 
 SCHEMA = "feltgate-prove/1"
@@ -100,30 +99,19 @@ def print_open(blocks):
             print(f"{block}: in no property: {', '.join(names)}")
 
 
-def progress(done, total, text):
-    if sys.stderr.isatty():
-        print(f"\r\033[K[{done}/{total}] {text}"[:100], end="", file=sys.stderr, flush=True)
-
-
 def run(options, root, proofs, folder):
     """Runs all tasks; returns the rows of the table."""
     tools = Tools(folder)
     todo = tasks.plan(proofs, not options.no_defects, options.fast)
     rows = tasks.rows(proofs, options.fast)
-    with ThreadPoolExecutor(options.jobs) as pool:
-        pending = {pool.submit(task.run, tools, root): task for task in todo}
-        try:
-            for number, future in enumerate(as_completed(pending), 1):
-                task = pending[future]
-                for complaint in tasks.enter(rows, task, future.result()):
-                    progress(number, len(todo), "")
-                    print(complaint, flush=True)
-                progress(number, len(todo), f"{task.proof.key} {task.what}")
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            end_all()
-            raise
-    progress(0, 0, "\r\033[K")
+    with Steps("prove", len(todo)) as progress:
+
+        def done(task, result):
+            for complaint in tasks.enter(rows, task, result):
+                progress.say(complaint)
+            progress.step(f"{task.proof.key} {task.what}")
+
+        tools.crew.each(lambda task: task.run(tools, root), todo, options.jobs, done)
     return rows, tools.versions()
 
 
@@ -135,7 +123,7 @@ def report(options, root, rows, versions):
           f"{versions['yosys']}, {versions['z3']}")
     result = {"schema": SCHEMA, "tools": versions, "proofs": [row.as_json(root) for row in rows]}
     if options.json:
-        outputs.write_whole(options.json, json.dumps(result, indent=2) + "\n")
+        outputs.write_json(options.json, result)
     if options.update and not bad:
         page.write(root, result)
         print("prove: wrote docs/proofs.md")

@@ -12,7 +12,6 @@ Exit code: 0 within the budget (scripts/synth_budget.toml), 1 when a figure has 
 """
 
 import argparse
-import json
 import os
 import re
 import sys
@@ -132,7 +131,7 @@ def main_scene_sets(options, root):
     measured, tools = run_scene_sets(options, root)
     if options.json:
         result = {"schema": SCHEMA, "tools": tools, "scene_sets": measured}
-        outputs.write_whole(options.json, json.dumps(result, indent=2) + "\n")
+        outputs.write_json(options.json, result)
     if options.update:
         path = root / "scripts/synth_budget.toml"
         budget = synth_budget.read(path)
@@ -185,7 +184,7 @@ def main():
         return interrupts.tell("synth", error)
     if options.json:
         result = {"schema": SCHEMA, "tools": tools, "designs": measured}
-        outputs.write_whole(options.json, json.dumps(result, indent=2) + "\n")
+        outputs.write_json(options.json, result)
     path = root / "scripts/synth_budget.toml"
     budget = synth_budget.read(path)
     if options.update:

@@ -4,9 +4,12 @@
 
 import os
 import subprocess
-from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
+
+import interrupts
+from crew import Crew
+from reporting.progress import Steps
 
 from . import data
 
@@ -40,44 +43,35 @@ def read(build):
     return [Program(test, block, Path(where)) for test, block, where in (line.split(" ", 2) for line in lines)]
 
 
-def make(build, programs, jobs):
-    """Builds what is not there or stale."""
-    command = ["cmake", "--build", str(build), f"-j{jobs}", "--target", *(f"{p.test}_cover" for p in programs)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise ProgramError("\n".join(["building failed:", *done.stdout.splitlines()[-30:], done.stderr.strip()]))
-
-
-def run_one(root, program, folder):
+def run_one(root, program, folder, crew):
+    """One test, with what it counted; ProgramError where it fails or leaves nothing."""
     file = folder / f"{program.test}.dat"
     log = folder / f"{program.test}.log"
     environment = os.environ | {"FELTGATE_COVERAGE": str(file), "FELTGATE_MISMATCH_DIR": str(folder)}
     with log.open("wb") as out:
         try:
-            process = subprocess.Popen([program.path], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
-                                       stdout=out, stderr=subprocess.STDOUT)
+            status, seconds = crew.timed([program.path], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
+                                         stdout=out, stderr=subprocess.STDOUT)
         except OSError as error:
             raise ProgramError(f"{program.path}: {error.strerror}; it is not built") from error
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode:
+    if -status in interrupts.ENDING:
+        raise interrupts.Interrupted(-status)
+    if status:
         said = log.read_text(encoding="utf-8", errors="replace").splitlines()[-20:]
-        raise ProgramError("\n".join([f"{program.test} ended with {process.returncode}:", *said]))
+        raise ProgramError("\n".join([f"{program.test} {interrupts.how_it_ended(status)}:", *said]))
     if not file.exists():
         raise ProgramError(f"{program.test} wrote no coverage data")
-    return Run(program, data.read(root, file), usage.ru_utime + usage.ru_stime)
+    return Run(program, data.read(root, file), seconds)
 
 
-def run(root, programs, folder, jobs, progress):
+def run(root, programs, folder, jobs):
     """The runs of all, in the order of the programs."""
-    with ThreadPoolExecutor(jobs) as pool:
-        pending = {pool.submit(run_one, root, program, folder): program for program in programs}
-        try:
-            runs = {}
-            for number, future in enumerate(as_completed(pending), 1):
-                runs[pending[future].test] = future.result()
-                progress(number, len(pending), pending[future].test)
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
+    crew, runs = Crew(), {}
+    with Steps("coverage", len(programs)) as progress:
+
+        def note(program, found):
+            runs[program.test] = found
+            progress.step(program.test)
+
+        crew.each(lambda program: run_one(root, program, folder, crew), programs, jobs, note)
     return [runs[program.test] for program in programs]

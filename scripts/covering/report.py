@@ -89,6 +89,16 @@ def figures(row):
     return {kind: [row.reached[kind], row.total[kind]] for kind in KINDS}
 
 
+def per_block(report):
+    """The row of each block in docs/blocks.md; the core's own tests are timed in its own row."""
+    found = {}
+    for row in [*report.rows, *([report.core] if report.core else [])]:
+        found[row.block] = {kind: pair for kind, pair in figures(row).items() if pair[1]}
+        if row.seconds:
+            found[row.block]["seconds"] = round(row.seconds, 1)
+    return found
+
+
 def as_json(report, schema):
     rows = {row.block: figures(row) | {"waived": row.waived, "short": row.short(), "seconds": round(row.seconds, 2)}
             for row in report.rows}

@@ -6,7 +6,6 @@ import re
 
 CLASSES = ("masked", "latent", "transient", "off", "detected", "silent", "unsafe")
 POINTS = ("state", "two bits", "pins", "words")
-FEWEST = 300  # of a kind before a share of 99 % means anything
 SILENT_SHARE = 0.01
 FLAGGED_SHARE = 0.99
 

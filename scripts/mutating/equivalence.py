@@ -7,18 +7,14 @@ All inputs are free in every clock, reset among them; registers start at 0, or a
 A memory is cut out: what it reads is an input of both, its address, data and enable are compared.
 """
 
-import os
 import re
 import shutil
 import subprocess
 import threading
 
-import interrupts
-
 from . import netlist
 
 EQUIVALENT, DIFFERENT, UNKNOWN = "equivalent", "different", "unknown"
-JOIN_LIMIT_S = 600
 MEMORY_INPUTS = {"RD_DATA": ("RD_PORTS", "WIDTH")}
 MEMORY_OUTPUTS = {
     "RD_ADDR": ("RD_PORTS", "ABITS"),
@@ -83,13 +79,13 @@ def join_script(block, mutants, width):
 class Joined:
     """The block beside itself with any of these mutants; the folder has its block.il."""
 
-    def __init__(self, folder, block, mutants, work):
-        self.work = work
+    def __init__(self, folder, block, mutants, work, crew):
+        self.work, self.crew = work, crew
         self.numbers = {m["number"]: k for k, m in enumerate(mutants, 1)}
         self.width = max(1, len(mutants).bit_length())
         work.mkdir(parents=True, exist_ok=True)
         (work / "design.il").write_text((folder / "block.il").read_text(encoding="utf-8"), encoding="utf-8")
-        netlist.run_yosys(join_script(block, mutants, self.width), "join", work, JOIN_LIMIT_S)
+        netlist.run_yosys(join_script(block, mutants, self.width), "join", work, crew)
         self.blif = (work / "joined.blif").read_text(encoding="utf-8")
         self.abc = shutil.which("yosys-abc")
         if self.abc is None:
@@ -118,15 +114,13 @@ class Joined:
                 return EQUIVALENT, "Property proved", total
         return UNKNOWN, f"no verdict in {seconds} s", total
 
-    def run(self, script, limit):
+    def run(self, script, limit_s):
         """(output, seconds of CPU time) of yosys-abc."""
         log = self.work / f"{threading.get_ident()}.log"
         with log.open("wb") as file:
-            process = interrupts.start(["timeout", str(limit), self.abc, "-c", script], cwd=self.work, stdout=file,
-                                       stderr=file, stdin=subprocess.DEVNULL)
-            _, _, usage = os.wait4(process.pid, 0)
-            process.returncode = 0
-        return log.read_text(encoding="utf-8", errors="replace"), usage.ru_utime + usage.ru_stime
+            _, seconds = self.crew.timed([self.abc, "-c", script], limit_s, cwd=self.work, stdout=file, stderr=file,
+                                         stdin=subprocess.DEVNULL)
+        return log.read_text(encoding="utf-8", errors="replace"), seconds
 
     def example(self, mutant):
         """Inputs in the clocks up to the one in which it differs, changes only."""
@@ -148,7 +142,7 @@ class Joined:
         return "\n".join(lines)
 
 
-def joined(folder, block, mutants, work):
+def joined(folder, block, mutants, work, crew):
     """{number: Joined}; the memories are cut out unless a mutant is at their pins."""
     text = (folder / "block.il").read_text(encoding="utf-8")
     inside = [m for m in mutants if m["type"] == "$mem_v2"]
@@ -158,12 +152,12 @@ def joined(folder, block, mutants, work):
         cut = work / "cut"
         cut.mkdir(parents=True)
         (cut / "block.il").write_text(without_memories(text), encoding="utf-8")
-        together = Joined(cut, block, outside, work / "outside")
+        together = Joined(cut, block, outside, work / "outside", crew)
         found |= dict.fromkeys((m["number"] for m in outside), together)
     elif outside:
-        together = Joined(folder, block, outside, work / "outside")
+        together = Joined(folder, block, outside, work / "outside", crew)
         found |= dict.fromkeys((m["number"] for m in outside), together)
     if inside:
-        together = Joined(folder, block, inside, work / "inside")
+        together = Joined(folder, block, inside, work / "inside", crew)
         found |= dict.fromkeys((m["number"] for m in inside), together)
     return found

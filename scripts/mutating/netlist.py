@@ -14,9 +14,10 @@ import shutil
 import subprocess
 from pathlib import Path
 
+from crew import Crew
 from seeding.block import Head
 
-LIST_LIMIT_S = 600  # yosys' mutate never ends when nearly all of its database is asked for
+LIMIT_S = 600  # yosys' mutate never ends when nearly all of its database is asked for
 MOST_OF_DATABASE = 0.6
 # One clock cannot be wrong at one register; a memory is read without clock, enable and reset.
 LEFT_OUT = ("CLK", "RD_CLK", "WR_CLK", "RD_EN", "RD_ARST", "RD_SRST")
@@ -33,17 +34,17 @@ def yosys():
     return found
 
 
-def run_yosys(script, name, folder, limit=LIST_LIMIT_S):
-    """Runs it in the folder, since not every command takes a path with a blank."""
+def run_yosys(script, name, folder, crew=None):
+    """Runs it in the folder, since not every command takes a path with a blank; its log."""
     path = folder / f"{name}.ys"
     path.write_text("\n".join(script) + "\n", encoding="utf-8")
     log = folder / f"{name}.log"
     with log.open("wb") as file:
         try:
-            done = subprocess.run([yosys(), "-s", path.name], cwd=folder, stdout=file, stderr=file, check=False,
-                                  stdin=subprocess.DEVNULL, timeout=limit)
+            done = (crew or Crew()).run([yosys(), "-s", path.name], LIMIT_S, cwd=folder, stdout=file, stderr=file,
+                                        stdin=subprocess.DEVNULL)
         except subprocess.TimeoutExpired as error:
-            raise NetlistError(f"yosys did not end within {limit} s; log: {log}") from error
+            raise NetlistError(f"yosys did not end within {LIMIT_S} s; log: {log}") from error
     text = log.read_text(encoding="utf-8", errors="replace")
     if done.returncode:
         raise NetlistError("\n".join([f"yosys failed; the whole log: {log}", *text.strip().splitlines()[-3:]]))

@@ -6,24 +6,24 @@ import json
 import os
 import random
 import re
-import shutil
 import subprocess
-import sys
 import tempfile
-import time
 import tomllib
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import interrupts
+from crew import Crew
+from reporting.progress import Steps
 
 from . import equivalence
 
 KILLED, CRASHES, HANGS, SURVIVES = "killed", "crashes", "hangs", "survives"
 DEAD = (KILLED, CRASHES, HANGS)
-KEYS = {"line", "wire", "register", "pin", "bits", "modes", "kind", "why"}
+PATTERNS = {"wire", "register", "pin"}  # of the whole name
+KEYS = {"line", *PATTERNS, "bits", "modes", "kind", "why"}
 ARGUED, GAP = "equivalent", "gap"
+LONGEST_S = 3600  # for a test without a mutant
 MODES = {"inv": "inverted", "const0": "stuck at 0", "const1": "stuck at 1",
          "cnot0": "inverted while another bit of the pin is 0", "cnot1": "inverted while another bit of the pin is 1"}
 
@@ -97,8 +97,13 @@ class Listed:
         self.root = root
         self.entries = []
         if path.exists():
-            text = tomllib.loads(path.read_text(encoding="utf-8"))
-            self.entries = text.get("survivor", [])
+            try:
+                self.entries = tomllib.loads(path.read_text(encoding="utf-8")).get("survivor", [])
+                for entry in self.entries:
+                    for key in PATTERNS & entry.keys():
+                        re.compile(entry[key])
+            except (tomllib.TOMLDecodeError, re.error) as error:
+                raise MutateError(f"{path}: {error}") from error
         for entry in self.entries:
             if not entry.get("why") or entry.get("kind") not in (ARGUED, GAP) or not entry.keys() <= KEYS or len(entry) < 3:
                 raise MutateError(f"{path}: an entry has 'why', the kind {ARGUED} or {GAP}, and some of "
@@ -109,11 +114,8 @@ class Listed:
         for entry in self.entries:
             if "line" in entry and not any(entry["line"] in place(self.root, s)[2] for s in mutant["sources"]):
                 continue
-            if "wire" in entry and not re.fullmatch(entry["wire"], mutant.get("wire", "")):
-                continue
-            if "register" in entry and not re.fullmatch(entry["register"], mutant.get("register", "")):
-                continue
-            if "pin" in entry and not re.fullmatch(entry["pin"], pin(mutant)):
+            texts = {"wire": mutant.get("wire", ""), "register": mutant.get("register", ""), "pin": pin(mutant)}
+            if not all(re.fullmatch(entry[key], texts[key]) for key in PATTERNS & entry.keys()):
                 continue
             if "bits" in entry and mutant["bit"] not in entry["bits"]:
                 continue
@@ -171,67 +173,18 @@ class Row:
         }
 
 
-class Progress:
-    """Done, all, and when it will end: on a terminal one line, else one every half minute."""
-
-    def __init__(self, total):
-        self.total, self.done, self.start = total, 0, time.monotonic()
-        self.shown = self.start
-
-    def step(self, text):
-        self.done += 1
-        now = time.monotonic()
-        if sys.stderr.isatty():
-            print(f"\r\033[K{self.line(now, text)}"[:110], end="", file=sys.stderr, flush=True)
-        elif now - self.shown > 30:
-            self.shown = now
-            print(f"mutate: {self.line(now, text)}", file=sys.stderr, flush=True)
-
-    def line(self, now, text):
-        left = (now - self.start) / max(1, self.done) * (self.total - self.done)
-        return f"[{self.done}/{self.total}] {text}, {left / 60:.0f} min left"
-
-    def end(self):
-        if sys.stderr.isatty():
-            print("\r\033[K", end="", file=sys.stderr, flush=True)
-
-
-RUNNING = set()  # what end_all ends: a signal reaches the main thread only
-
-
-def end_all():
-    for process in list(RUNNING):
-        process.kill()
-
-
-def run_program(test, number, limit):
+def run_program(crew, test, number, limit_s):
     """(fate, seconds of CPU time, output)"""
     kept = {k: v for k, v in os.environ.items() if k not in ("FELTGATE_DEFECT", "FELTGATE_MISMATCH_DIR")}
     with tempfile.TemporaryFile() as output:
-        before = time.monotonic()
-        process = interrupts.start([test.program, "--abort"], env=kept | {"FELTGATE_MUTANT": str(number)},
-                                   stdin=subprocess.DEVNULL, stdout=output, stderr=output)
-        RUNNING.add(process)
-        try:
-            status, usage = None, None
-            while status is None:
-                done, code, usage = os.wait4(process.pid, os.WNOHANG)
-                if done:
-                    status = os.waitstatus_to_exitcode(code)
-                elif time.monotonic() - before > limit:
-                    process.kill()
-                    _, code, usage = os.wait4(process.pid, 0)
-                    status = "late"
-                else:
-                    time.sleep(min(0.02, 0.002 + (time.monotonic() - before) / 20))
-        finally:
-            RUNNING.discard(process)
-        process.returncode = 0
+        status, seconds = crew.timed([test.program, "--abort"], limit_s, env=kept | {"FELTGATE_MUTANT": str(number)},
+                                     stdin=subprocess.DEVNULL, stdout=output, stderr=output)
         output.seek(0)
         text = output.read().decode("utf-8", "replace")
-    seconds = usage.ru_utime + usage.ru_stime
-    if status == "late":
+    if status is None:
         return HANGS, seconds, text
+    if -status in interrupts.ENDING:  # by somebody else: it says nothing of the mutant
+        raise interrupts.Interrupted(-status)
     if status == 0:
         return SURVIVES, seconds, text
     return (CRASHES if status < 0 or "fatal error condition" in text else KILLED), seconds, text
@@ -247,63 +200,62 @@ def run(wanted, root, count, seed, jobs, proof_seconds, say):
     """The rows of these tests."""
     rows = [Row(test, Listed(root, test.block)) for test in wanted]
     todo = [(row, mutant) for row in rows for mutant in chosen(row.test, count, seed)]
-    pool = ThreadPoolExecutor(jobs)
-    work = Path(tempfile.mkdtemp(prefix="feltgate-mutate-"))
-    try:
-        limits = {}
+    crew, limits = Crew(), {}
 
-        def first(row):
-            fate, seconds, text = run_program(row.test, 0, 3600)
-            if fate != SURVIVES:
-                last = "\n".join(text.strip().splitlines()[-5:])
-                raise MutateError(f"{row.test.program.name} {fate} without a mutant:\n{last}")
-            limits[row.test.name] = 60 + 40 * seconds
-            row.seconds += seconds
+    def first(row):
+        fate, seconds, text = run_program(crew, row.test, 0, LONGEST_S)
+        if fate != SURVIVES:
+            last = "\n".join(text.strip().splitlines()[-5:])
+            raise MutateError(f"{row.test.program.name} {fate} without a mutant:\n{last}")
+        return seconds
 
-        list(pool.map(first, rows))
-        progress = Progress(len(todo))
+    def limit(row, seconds):
+        limits[row.test.name] = 60 + 40 * seconds
+        row.seconds += seconds
 
-        def try_one(item):
+    crew.each(first, rows, jobs, limit)
+    with Steps("mutate", len(todo)) as progress:
+
+        def fate(item):
             row, mutant = item
-            fate, seconds, _ = run_program(row.test, mutant["number"], limits[row.test.name])
-            row.fates[mutant["number"]] = fate
-            row.seconds += seconds
+            return run_program(crew, row.test, mutant["number"], limits[row.test.name])
+
+        def note(item, found):
+            row, mutant = item
+            row.fates[mutant["number"]] = found[0]
+            row.seconds += found[1]
             progress.step(f"{row.test.name} {mutant['number']}")
 
-        list(pool.map(try_one, todo))
-        progress.end()
-        alive = [(row, m) for row, m in todo if row.fates[m["number"]] == SURVIVES]
-        if proof_seconds:
-            say(f"{len(alive)} survive; proving which are equivalent")
-            prove(rows, pool, work, proof_seconds)
-    finally:
-        pool.shutdown(wait=False, cancel_futures=True)
-        end_all()
-        shutil.rmtree(work, ignore_errors=True)
+        crew.each(fate, todo, jobs, note)
+    if proof_seconds:
+        say(f"{sum(row.count(SURVIVES) for row in rows)} survive; proving which are equivalent")
+        with tempfile.TemporaryDirectory(prefix="feltgate-mutate-") as work:
+            prove(rows, crew, Path(work), jobs, proof_seconds)
     return rows
 
 
-def prove(rows, pool, work, seconds):
-    progress = Progress(sum(row.count(SURVIVES) for row in rows))
+def prove(rows, crew, work, jobs, limit_s):
+    """Enters the verdict on each survivor in its row."""
+    with Steps("mutate", sum(row.count(SURVIVES) for row in rows)) as progress:
+        todo = []
 
-    def join(row):
-        alive = [m for m in row.test.mutants if row.fates.get(m["number"]) == SURVIVES]
-        start = time.process_time()
-        found = equivalence.joined(row.test.folder, row.test.block, alive, work / row.test.name)
-        return row, alive, found, time.process_time() - start
+        def join(row):
+            alive = [m for m in row.test.mutants if row.fates.get(m["number"]) == SURVIVES]
+            found = equivalence.joined(row.test.folder, row.test.block, alive, work / row.test.name, crew)
+            return [(row, mutant, found[mutant["number"]]) for mutant in alive]
 
-    def one(item):
-        row, mutant, design = item
-        verdict, said, spent = design.prove(mutant, seconds)
-        row.proofs[mutant["number"]] = (verdict, said)
-        row.seconds += spent
-        progress.step(f"{row.test.name} {mutant['number']} {verdict}")
+        def verdict(item):
+            _, mutant, design = item
+            return design.prove(mutant, limit_s)
 
-    todo = []
-    for row, alive, found, _ in pool.map(join, rows):
-        todo += [(row, mutant, found[mutant["number"]]) for mutant in alive]
-    list(pool.map(one, todo))
-    progress.end()
+        def note(item, found):
+            row, mutant, _ = item
+            row.proofs[mutant["number"]] = found[:2]
+            row.seconds += found[2]
+            progress.step(f"{row.test.name} {mutant['number']} {found[0]}")
+
+        crew.each(join, rows, jobs, lambda _, found: todo.extend(found))
+        crew.each(verdict, todo, jobs, note)
 
 
 HEAD = ("test", "database", "mutants", "killed", "proven same", "argued same", "gaps", "not listed", "killed of rest",
@@ -341,12 +293,13 @@ def show(test, number, root, proof_seconds):
     print(f"{test.name} {number}: {says(mutant)}\n  cell {mutant['cell']}")
     for line in where(root, mutant):
         print(f"  {line}")
-    fate, seconds, text = run_program(test, number, 3600)
+    crew = Crew()
+    fate, seconds, text = run_program(crew, test, number, LONGEST_S)
     said = re.search(r"^.*mismatch (?:at|with).*$|^.*FAILED.*$", text, re.M)
     print(f"{fate} in {seconds:.2f} s of CPU{f': {said.group(0)}' if said else ''}")
     if fate == SURVIVES and proof_seconds:
         with tempfile.TemporaryDirectory(prefix="feltgate-mutate-") as work:
-            design = equivalence.joined(test.folder, test.block, [mutant], Path(work, "one"))[number]
+            design = equivalence.joined(test.folder, test.block, [mutant], Path(work, "one"), crew)[number]
             verdict, said, _ = design.prove(mutant, proof_seconds)
             print(f"{verdict}: {said}")
             if verdict == equivalence.DIFFERENT:

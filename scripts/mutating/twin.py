@@ -35,6 +35,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import block_results
+import building
 import interrupts
 import outputs
 
@@ -133,8 +134,7 @@ def make(catalogue, root, build, names, folder, language, jobs, built, say):
     """(headers, programs); what does not compile is dropped."""
     targets = list(dict.fromkeys(t for name in names for t in catalogue.tests[name]))
     if not built:
-        say(f"building {len(targets)} programs as they are")
-        twin_programs.build_targets(build, targets)
+        building.make("mutate", build, targets, jobs)  # objects and libraries as they are serve the mutated ones
     # Known from the last time; a mutant that is no longer there drops nothing.
     memory = folder.parent / "not_compiled.json"
     known = json.loads(memory.read_text(encoding="utf-8")) if memory.exists() else {}
@@ -255,7 +255,7 @@ def run(options, root, build):
     folder = folder_of(build, names)
     headers, programs, dropped = make(catalogue, root, build, names, folder, language, options.jobs, options.no_build, say)
     runs = twin_runs.Runs(folder, options.jobs)
-    cases = runs.survey(programs, twin_runs.Progress(sys.stderr, "test cases"))
+    cases = runs.survey(programs)
     say(f"{len(cases)} test cases, {sum(c.seconds for c in cases):.0f} s of CPU; {time.monotonic() - start:.0f} s so far")
     chosen = [m for h in headers for m in choose(h, options.count, options.seed)]
     if options.again:
@@ -263,13 +263,8 @@ def run(options, root, build):
         chosen = [m for h in headers for m in h.mutants
                   if (m.header, m.name) in survived and (m.header, m.name) not in catalogue.survivors]
     # A header's own tests only, also where another's reach it.
-    verdicts = []
-    progress = twin_runs.Progress(sys.stderr, "mutants")
-    work = []
-    for header in headers:
-        own = [c for c in cases if c.program.target in catalogue.tests[header.name]]
-        work += [(runs.try_mutant, (m, own)) for m in chosen if m.header == header.name]
-    verdicts = sorted(runs.each(work, progress), key=lambda v: v.mutant.number)
+    own = {h.name: [c for c in cases if c.program.target in catalogue.tests[h.name]] for h in headers}
+    verdicts = runs.verdicts([(m, own[m.header]) for m in chosen])
     rows = [Row(h.name, len(h.mutants), [v for v in verdicts if v.mutant.header == h.name], catalogue)
             for h in headers]
     print_survivors(rows, options.survivors)
@@ -280,7 +275,7 @@ def run(options, root, build):
           f"{len(bad)} headers below {100 * options.require:.0f} %; {time.monotonic() - start:.0f} s")
     result = results_of(rows, options, dropped)
     if options.json:
-        outputs.write_whole(options.json, json.dumps(result, indent=1) + "\n")
+        outputs.write_json(options.json, result)
     if options.update:
         update(root, catalogue, result)
         print(f"mutate: wrote {RESULTS}")
@@ -340,7 +335,7 @@ def arguments(argv):
     parser.add_argument("--update", action="store_true",
                         help=f"put the results of these headers into {RESULTS}, their sums where docs/blocks.md has them")
     options = parser.parse_args(argv)
-    outputs.check(parser, json=options.json)
+    outputs.check(parser, [options.again], json=options.json)
     if options.jobs < 1:
         parser.error("argument --jobs: at least 1")
     if options.update and options.again:
@@ -358,7 +353,7 @@ def main(argv=None):
     except twin_programs.BuildError as error:
         print(f"mutate: {error}\n{error.output}".strip(), file=sys.stderr)
         return 2
-    except (TwinError, twin_parser.SourceError, block_results.ResultsError, OSError) as error:
+    except (TwinError, twin_parser.SourceError, building.BuildError, block_results.ResultsError, OSError) as error:
         print(f"mutate: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt as error:

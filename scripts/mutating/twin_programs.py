@@ -9,11 +9,11 @@ import os
 import re
 import shlex
 import subprocess
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import interrupts
+from crew import Crew
 
 HEADERS = "model/include/feltgate"
 
@@ -49,11 +49,6 @@ def ninja(build, *arguments):
     return done.stdout
 
 
-def build_targets(build, targets):
-    """The programs as they are: their objects and libraries serve the mutated ones."""
-    ninja(build, *targets)
-
-
 def dependencies(build, objects):
     """{object: the files that it was made of}."""
     found, at = {}, None
@@ -75,6 +70,7 @@ class Maker:
         self.headers = {os.path.realpath(root / HEADERS / f"{h}.hpp") for h in headers}
         self.count = count
         self.objects = {}
+        self.crew = Crew()
 
     def include(self):
         return [f"-I{self.folder / 'include'}", f"-I{self.root / 'testbench/mutate/twin'}"]
@@ -86,7 +82,7 @@ class Maker:
         return out
 
     def call(self, command):
-        done = interrupts.run(list(map(str, command)), cwd=self.build, **interrupts.CAPTURED)
+        done = self.crew.run(list(map(str, command)), cwd=self.build, **interrupts.CAPTURED)
         if done.returncode:
             raise BuildError(f"{' '.join(map(str, command[:2]))} ... ended with {done.returncode}",
                              done.stderr + done.stdout)
@@ -134,17 +130,22 @@ class Maker:
         wanted = {o: w for compiles, _ in plans.values() for o, w in compiles.items()}
         some = next(iter(wanted.values()))
         compiler = some[:next(k for k, w in enumerate(some) if w.startswith("-"))]
-        with ThreadPoolExecutor(self.jobs) as pool:
-            pending = {o: pool.submit(self.compile, o, w) for o, w in wanted.items()}
-            selector = self.compile_selector(compiler)
-            output = ""
-            for name, job in pending.items():
-                try:
-                    self.objects[name] = job.result()
-                except BuildError as error:
-                    output += error.output
-            if output:
-                raise BuildError("mutated headers do not compile", output)
+        selector = self.compile_selector(compiler)
+        said = []
+
+        def compiled(item):
+            try:
+                return self.compile(*item), ""
+            except BuildError as error:
+                return None, error.output or str(error)
+
+        def note(item, result):
+            self.objects[item[0]], complaint = result
+            said.append(complaint)
+
+        self.crew.each(compiled, wanted.items(), self.jobs, note)
+        if any(said):
+            raise BuildError("mutated headers do not compile", "".join(said))
         return [Program(target, self.link(target, *plans[target], selector)) for target in targets]
 
     def link(self, target, compiles, link, selector):

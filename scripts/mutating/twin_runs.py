@@ -9,11 +9,14 @@ tried by those that reach it, the shortest first, until one fails.
 import contextlib
 import os
 import resource
+import signal
 import subprocess
 import threading
-import time
-from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
+
+import interrupts
+from crew import Crew
+from reporting.progress import Steps
 
 from .twin_programs import BuildError, list_cases
 
@@ -30,79 +33,57 @@ class Verdict:
 
 class Runs:
     def __init__(self, folder, jobs):
-        self.folder, self.jobs = folder, jobs
-        self.lock = threading.Lock()
-        self.alive = set()
-        self.ended = False
+        self.folder, self.jobs, self.crew = folder, jobs, Crew()
 
     def environment(self, **more):
         kept = {k: v for k, v in os.environ.items() if not k.startswith("FELTGATE_")}
         return kept | {"FELTGATE_MISMATCH_DIR": str(self.folder / "mismatch" / str(threading.get_ident()))} | more
 
     def run(self, case, limit=None, **environment):
-        """(exit status, seconds of CPU); a signal ends it when that is more than the limit."""
+        """(exit status, None where it took far too long; seconds of CPU time). Beyond the limit of these a signal
+        ends it."""
         name = case.name.replace("\\", "\\\\").replace(",", "\\,").replace("[", "\\[")
-        with self.lock:
-            if self.ended:
-                raise KeyboardInterrupt
-            process = subprocess.Popen(
-                [case.program.path, "--abort", name], env=self.environment(**environment),
-                stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                start_new_session=True)
-            self.alive.add(process)
+        process = self.crew.start([case.program.path, "--abort", name], env=self.environment(**environment),
+                                  stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         with contextlib.suppress(ProcessLookupError):  # it may be over already
             resource.prlimit(process.pid, resource.RLIMIT_CORE, (0, 0))
             if limit:
                 resource.prlimit(process.pid, resource.RLIMIT_CPU, (limit, limit))
-        deadline = threading.Timer(60 + 20 * limit, process.kill) if limit else None
-        if deadline:
-            deadline.start()
-        try:
-            _, status, usage = os.wait4(process.pid, 0)
-        finally:
-            if deadline:
-                deadline.cancel()
-            with self.lock:
-                self.alive.discard(process)
-        process.returncode = os.waitstatus_to_exitcode(status)
-        return process.returncode, usage.ru_utime + usage.ru_stime
+        status, seconds = self.crew.wait(process, 60 + 20 * limit if limit else None)
+        if status is not None and -status in interrupts.ENDING:  # by somebody else: it says nothing
+            raise interrupts.Interrupted(-status)
+        return status, seconds
 
-    def end_all(self):
-        with self.lock:
-            self.ended = True
-            for process in self.alive:
-                process.kill()
-
-    def survey(self, programs, report):
-        """Times and what is reached, of every test case."""
+    def survey(self, programs):
+        """Times and what is reached, of every test case; the shortest first."""
         cases = [case for program in programs for case in list_cases(program)]
 
-        def one(number, case):
+        def one(numbered):
+            number, case = numbered
             file = self.folder / f"reached{number}"
+            file.unlink(missing_ok=True)
             status, case.seconds = self.run(case, FELTGATE_MUTANTS_REACHED=str(file))
             if status != 0:
                 raise BuildError(f"{case.program.target}: '{case.name}' fails without any mutant")
             lines = [line.split() for line in file.read_text(encoding="ascii").splitlines()]
             case.reached = {int(words[0]) for words in lines if len(words) == 1}
             case.exact = {int(words[0]) for words in lines if len(words) == 2}
-            return case
 
-        done = self.each([(one, (n, case)) for n, case in enumerate(cases)], report)
-        return sorted(done, key=lambda case: case.seconds)
+        with Steps("mutate", len(cases)) as progress:
+            self.crew.each(one, enumerate(cases), self.jobs, lambda item, _: progress.step(item[1].name))
+        return sorted(cases, key=lambda case: case.seconds)
 
-    def each(self, work, report):
-        results = []
-        with ThreadPoolExecutor(self.jobs) as pool:
-            pending = [pool.submit(function, *given) for function, given in work]
-            try:
-                for number, future in enumerate(as_completed(pending), 1):
-                    results.append(future.result())
-                    report(number, len(work), results[-1])
-            except BaseException:
-                self.end_all()
-                pool.shutdown(wait=False, cancel_futures=True)
-                raise
-        return results
+    def verdicts(self, work):
+        """Of work = [(mutant, the cases that may find it)], by number."""
+        found = []
+        with Steps("mutate", len(work)) as progress:
+
+            def note(item, verdict):
+                found.append(verdict)
+                progress.step(f"{item[0].header} {verdict.how}")
+
+            self.crew.each(lambda item: self.try_mutant(*item), work, self.jobs, note)
+        return sorted(found, key=lambda verdict: verdict.mutant.number)
 
     def try_mutant(self, mutant, cases):
         spent, reached = 0.0, False
@@ -114,34 +95,11 @@ class Runs:
             status, seconds = self.run(case, limit, FELTGATE_MUTANT=str(mutant.number))
             spent += seconds
             if status != 0:
-                how = "killed"
-                if status < 0:
-                    how = "hangs" if seconds > limit - 1 else "crashes"
+                if status is None or -status == signal.SIGXCPU or (status < 0 and seconds > limit - 1):
+                    how = "hangs"
+                else:
+                    how = "killed" if status > 0 else "crashes"
                 return Verdict(mutant, how, f"{case.program.target}: {case.name}", spent)
         if not reached and any(mutant.number in case.exact for case in cases):
             return Verdict(mutant, "exact", "", spent)
         return Verdict(mutant, "survives" if reached else "unreached", "", spent)
-
-    def try_all(self, mutants, cases, report):
-        return self.each([(self.try_mutant, (m, cases)) for m in mutants], report)
-
-
-class Progress:
-    """The time that is left: one line on a terminal, otherwise one every so often."""
-
-    EVERY_S = 30
-
-    def __init__(self, stream, what):
-        self.stream, self.what, self.start = stream, what, time.monotonic()
-        self.next = self.start + self.EVERY_S
-
-    def __call__(self, done, total, _=None):
-        now = time.monotonic()
-        left = (now - self.start) / done * (total - done)
-        text = f"{self.what}: {done} of {total}, {left:.0f} s left"
-        if self.stream.isatty():
-            self.stream.write("\r\033[K" + (text if done < total else ""))
-        elif now >= self.next and done < total:
-            self.next = now + self.EVERY_S
-            self.stream.write(f"mutate: {text}\n")
-        self.stream.flush()

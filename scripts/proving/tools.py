@@ -6,16 +6,14 @@ Yosys may be YoWASP's, which sees /tmp as a folder of its own, so every run work
 with relative names.
 """
 
-import os
 import re
 import shutil
-import signal
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import interrupts
 import rtl_sources
 import synth_tools
+from crew import Crew
 from seeding import patches
 
 from . import trace
@@ -48,6 +46,7 @@ class Tools:
 
     def __init__(self, folder):
         self.folder = Path(folder)
+        self.crew = Crew()
         self.yosys = synth_tools.find("yosys")
         if self.yosys is None:
             raise Broken("no Yosys: run ./feltgate prove, which fetches it, or install yosys")
@@ -142,30 +141,11 @@ def elaborate(tools, root, proof, design, folder, patch=None, alone=None):
     (folder / "elaborate.ys").write_text("\n".join(script) + "\n", encoding="utf-8")
     log = folder / "elaborate.log"
     with log.open("wb") as file:
-        done = interrupts.run([tools.yosys, "-q", "-s", "elaborate.ys"], cwd=folder, stdout=file,
+        done = tools.crew.run([tools.yosys, "-q", "-s", "elaborate.ys"], cwd=folder, stdout=file,
                               stderr=file)
     if done.returncode or not all((folder / name).exists() for name in outputs):
         tail = log.read_text(encoding="utf-8", errors="replace").strip().splitlines()[-3:]
         raise Broken("\n".join([f"{proof.key}: Yosys failed; all files: {folder}", *tail]))
-
-
-RUNNING = set()  # what end_all ends: a signal reaches the main thread only
-
-
-def run_timed(command, **options):
-    """(status, seconds of CPU time of the program and of those that it started)."""
-    process = interrupts.start(command, **options)
-    RUNNING.add(process)
-    _, status, usage = os.wait4(process.pid, 0)
-    RUNNING.discard(process)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    return process.returncode, usage.ru_utime + usage.ru_stime
-
-
-def end_all():
-    """Ends every solver; timeout passes the signal on to what it runs."""
-    for process in list(RUNNING):
-        os.kill(process.pid, signal.SIGTERM)
 
 
 def solve(tools, folder, smt2, options, show=()):
@@ -176,7 +156,7 @@ def solve(tools, folder, smt2, options, show=()):
     log = folder / f"{name}.log"
     command = ["timeout", str(TIME_LIMIT_S), tools.smtbmc, *SMTBMC, *options, "--dump-vcd", vcd, smt2]
     with log.open("wb") as file:
-        status, seconds = run_timed(command, cwd=folder, stdout=file, stderr=file)
+        status, seconds = tools.crew.timed(command, cwd=folder, stdout=file, stderr=file)
     text = log.read_text(encoding="utf-8", errors="replace")
     if status == 124:
         raise Broken(f"{folder / smt2}: no verdict within {TIME_LIMIT_S} s")

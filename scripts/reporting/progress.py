@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Progress on a terminal: a line drawn anew; a bar with rate and time left, else one line per job."""
+"""Progress on a terminal: a line drawn anew, with the time left; elsewhere a line now and then."""
 
 import shutil
 import sys
@@ -23,6 +23,7 @@ class RedrawnLine:
         self.began = time.monotonic()
         self._stopped = threading.Event()
         self._thread = None
+        self._drawing = threading.Lock()
 
     def __enter__(self):
         if self.live:
@@ -39,8 +40,48 @@ class RedrawnLine:
 
     def _redraw(self):
         while not self._stopped.wait(self.every_s):
-            self.stream.write("\r" + self.line() + "\x1b[K")
+            with self._drawing:
+                self.stream.write("\r" + self.line() + "\x1b[K")
+                self.stream.flush()
+
+    def say(self, text):
+        """Prints something to stdout while the work goes on."""
+        with self._drawing:
+            if self.live:
+                self.stream.write("\r\x1b[K")
+                self.stream.flush()
+            print(text, flush=True)
+
+
+class Steps(RedrawnLine):
+    """Work that is counted. Where there is no terminal it says a line every half a minute."""
+
+    SILENT_S = 30
+
+    def __init__(self, name, total, stream=None):
+        super().__init__(stream)
+        self.name, self.total = name, total
+        self.done, self.last = 0, ""
+        self._said = self.began
+
+    def step(self, last, done=None):
+        """One more is done, or `done` are by now; `last` says what this was."""
+        self.done = self.done + 1 if done is None else done
+        self.last = last
+        now = time.monotonic()
+        if not self.live and now - self._said > self.SILENT_S:
+            self._said = now
+            self.stream.write(self.text() + "\n")
             self.stream.flush()
+
+    def text(self):
+        share = min(1.0, self.done / self.total) if self.total else 1.0
+        spent = time.monotonic() - self.began
+        left = clock_text(spent * (1 / share - 1)) if share > 0 else "?"
+        return f"{self.name}: {100 * share:3.0f} %, {clock_text(spent)}, {left} left  {self.last}"
+
+    def line(self):
+        return self.text()[: shutil.get_terminal_size().columns - 1]
 
 
 class Progress(RedrawnLine):

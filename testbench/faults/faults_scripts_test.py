@@ -97,14 +97,65 @@ class Command(unittest.TestCase):
     def test_refusals(self):
         for words, what in ((("--long",), "--clean"), (("--jobs", "0"), "at least 1"), (("--flips", "-1"), "0 or more"),
                             (("--picture", "x.bmp"), ".svg or .png"), (("--clean", "--replay", "x"), "exclude"),
-                            (("--update", "--only", "x"), "all registers"), (("--lines", "/no/such"), "/no/such")):
+                            (("--update", "--only", "x"), "all registers"),
+                            (("--update", "--flips", "0"), "all registers"),
+                            (("--clean", "--save", "x"), "tell of a campaign"),
+                            (("--lines", "x", "--json", "y", "--save", "y"), "is also that of --json"),
+                            (("--lines", __file__, "--json", __file__), "is read by the same command"), (("--lines", "/no/such"), "/no/such")):
             code, _, err = self.run_main(*words)
             self.assertEqual(code, 2, words)
             self.assertIn(what, err)
 
+    def says(self, script):
+        """A stand-in for feltgate_faults in a build folder."""
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        program = Path(scratch.name, "feltgate_faults")
+        program.write_text(f"#!/bin/sh\n{script}\n", encoding="utf-8")
+        program.chmod(0o755)
+        before = os.environ.get("FELTGATE_BUILD")
+        os.environ["FELTGATE_BUILD"] = scratch.name
+        self.addCleanup(os.environ.update if before else os.environ.pop, *([{"FELTGATE_BUILD": before}] if before else
+                                                                           ["FELTGATE_BUILD"]))
+        return Path(scratch.name)
+
     def test_a_program_that_fails_is_told(self):
-        with self.assertRaisesRegex(campaign.CampaignError, "ended with 3"):
-            campaign.Parts("/bin/sh", ["-c", "echo oh >&2; exit 3"], 1, lambda *_: None).run()
+        for script, said in (("echo oh >&2; exit 3", "ended with status 3: oh"), ("echo nothing", "no line of JSON"),
+                             ("echo 3", "no object"), ("kill -SEGV $$", "killed by SIGSEGV"),
+                             ("exit 0", "parts said nothing")):
+            with self.subTest(script):
+                self.says(script)
+                code, _, err = self.run_main("--clean", "--jobs", "2")
+                self.assertEqual(code, 2)
+                self.assertIn(said, err)
+
+    def test_false_alarms(self):
+        line = {"clean_s": 300, "scenes_s": 100, "recordings_s": 100, "dither_s": 100, "alarms": 0, "first": ""}
+        folder = self.says(f"""echo '{{"done": 0.5}}'; echo '{json.dumps(line)}'""")
+        code, out, _ = self.run_main("--clean", "--jobs", "2", "--json", folder / "f.json")
+        self.assertEqual(code, 0)
+        self.assertIn("0 false alarms (< 18 an hour)", out)
+        self.assertEqual(json.loads((folder / "f.json").read_text())["clean"]["clean_s"], 600)
+        self.says(f"echo '{json.dumps(line | {'alarms': 1, 'first': 'speed'})}'; exit 1")
+        code, out, _ = self.run_main("--clean", "--jobs", "1")
+        self.assertEqual(code, 1)
+        self.assertIn("1 false alarms\n  speed", out)
+
+    def test_replay_tells_what_differs(self):
+        listed, now = state("u_pwm.a", "latent"), state("u_pwm.a", "silent")
+        folder = self.says(f"echo '{json.dumps(now)}'")
+        cases, found = folder / "c.jsonl", folder / "f.json"
+        cases.write_text(json.dumps(listed) + "\n", encoding="utf-8")
+        code, out, _ = self.run_main("--replay", cases, "--json", found)
+        self.assertEqual(code, 1)
+        self.assertIn("listed as latent, now silent", out)
+        self.assertEqual(json.loads(found.read_text())["replay"]["differing"], [{"listed": listed, "now": "silent"}])
+        cases.write_text(json.dumps(now) + "\n", encoding="utf-8")
+        self.assertEqual(self.run_main("--replay", cases)[0], 0)
+        cases.write_text("# no case\n", encoding="utf-8")
+        code, _, err = self.run_main("--replay", cases)
+        self.assertEqual(code, 2)
+        self.assertIn("not one line of a fault", err)
 
 
 if __name__ == "__main__":

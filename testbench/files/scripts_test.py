@@ -64,7 +64,7 @@ class Scripts(Bench):
         """Numbers of so many stand-ins, once they are under way."""
         end = time.monotonic() + WAIT_S
         while True:
-            found = [int(p.name) for p in self.pids.iterdir() if p.suffix != ".new"]
+            found = [int(p.name) for p in self.pids.iterdir() if p.name.isdigit()]
             if len(found) >= count:
                 return found
             self.assertLess(time.monotonic(), end, "never came")
@@ -112,6 +112,29 @@ class Scripts(Bench):
         path = f"{self.path('bin')}{os.pathsep}{os.environ['PATH']}"
         process = self.script("synth.py", "--block", "mult", "--no-route", PATH=path)
         self.ends(process, signal.SIGTERM, "synth: interrupted")
+
+    def test_programs_side_by_side(self):
+        """prove, mutate, coverage, faults: what threads have started ends with the command."""
+        path = f"{self.path('bin')}{os.pathsep}{os.environ['PATH']}"
+        for name in ("bin/yosys-smtbmc", "bin/z3", "build/feltgate_faults", "build/testbench/b/b_mutants", "b_cover"):
+            self.path(name).parent.mkdir(parents=True, exist_ok=True)
+            self.path(name).write_text(STAND_IN)
+            self.path(name).chmod(0o755)
+        folder = self.path("build/testbench/b/b_mutants.netlist")
+        folder.mkdir()
+        (folder / "test.json").write_text('{"test": "b", "block": "b"}')
+        (folder / "mutants.json").write_text('{"seed": 1, "database": 1, "mutants": []}')
+        self.path("build/coverage").mkdir()
+        self.path("build/coverage/programs.txt").write_text(f"b b {self.path('b_cover')}\n")
+        for command, words, count in (("prove", ("mult", "--jobs", "2"), 2), ("mutate", ("--no-build",), 1),
+                                      ("coverage", ("--no-build",), 1), ("faults", ("--jobs", "2"), 2)):
+            for number in (signal.SIGINT, signal.SIGTERM):
+                with self.subTest(command, number=number):
+                    process = self.script(f"{command}.py", *words, PATH=path, TMPDIR=str(self.path("pids")))
+                    self.ends(process, number, f"{command}: interrupted", count=count)
+                    self.assertEqual([p.name for p in self.pids.iterdir() if p.is_dir()], [])
+                    for child in self.pids.iterdir():
+                        child.unlink()
 
     def test_a_child_that_is_interrupted_alone(self):
         """A run of the demo that somebody else ended: the demo goes on and says what happened."""

@@ -16,6 +16,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 import mutate  # noqa: E402
+from crew import Crew  # noqa: E402
 from mutating import equivalence, netlist, rtl  # noqa: E402
 
 # dead_q stays 0, so that what it adds is no matter; spare is what a mutant of the word must change.
@@ -79,7 +80,7 @@ class Netlist(unittest.TestCase):
 
     def verdicts(self, *mutants):
         with tempfile.TemporaryDirectory() as work:
-            designs = equivalence.joined(self.folder, "counter", list(mutants), Path(work))
+            designs = equivalence.joined(self.folder, "counter", list(mutants), Path(work), Crew())
             return [designs[m["number"]].prove(m, 10)[0] for m in mutants]
 
     def test_at_most_60_percent_and_no_clocks(self):
@@ -111,7 +112,7 @@ class Netlist(unittest.TestCase):
     def test_none_is_equivalent(self):
         count = dict(self.mutant(type="$adffe", port="Q"))
         with tempfile.TemporaryDirectory() as work:
-            design = equivalence.joined(self.folder, "counter", [count], Path(work))[count["number"]]
+            design = equivalence.joined(self.folder, "counter", [count], Path(work), Crew())[count["number"]]
             design.numbers[count["number"]] = 0
             self.assertEqual(design.prove(count, 10)[0], equivalence.EQUIVALENT)
 

@@ -8,7 +8,9 @@ One file per kind, written by the command that measures (its --update) and commi
    "blocks": {"dob": {"line": [40, 40], ..., "seconds": 12.5}}}
 
 A count is [reached, of]. The keys of each kind are in KINDS; seconds are of CPU time. A block, a key or
-a file that is not there is a dash in the table. Rows that are no block of rtl/ are named in EXTRA.
+a file that is not there is a dash in the table. Rows that are no block of rtl/ are named in EXTRA. Where
+blocks are measured one by one "dates" of a row says when each of its keys was; the file's own date is that of
+all others.
 """
 
 import datetime
@@ -28,7 +30,7 @@ KINDS = {
     "coverage": {
         "line": "lines",
         "branch": "branches",
-        "toggle": "bits that went up and down",
+        "toggle": "bits that changed twice at least",
         "cover": "cover points",
     },
     "mutants": {
@@ -36,8 +38,8 @@ KINDS = {
         "twin": "mutants of the twin killed, of those that were tried",
     },
     "faults": {
-        "unsafe": "faults that ended unsafe",
-        "silent": "faults that ended in a torque or position that is wrong and unflagged",
+        "unsafe": "single flips of the safety state that ended unsafe",
+        "silent": "the same, in a torque or position that is wrong and unflagged",
     },
 }
 EXTRA = ("whole core", "twin of the core")  # rows beside the blocks
@@ -49,8 +51,8 @@ HEADINGS = {
     "cover": "cover points",
     "rtl": "RTL mutants killed",
     "twin": "twin mutants killed",
-    "unsafe": "faults unsafe",
-    "silent": "faults silent",
+    "unsafe": "flips unsafe",
+    "silent": "flips silent",
 }
 DASH = "-"
 
@@ -60,6 +62,7 @@ class ResultsError(Exception):
 
 
 def path_of(root, kind):
+    """The file of a kind."""
     return Path(root, FOLDER, f"{kind}.json")
 
 
@@ -74,10 +77,17 @@ def machine():
 
 
 def check(kind, blocks, where):
+    """ResultsError where a row has another key than its kind, or a value that is none."""
     for block, found in blocks.items():
         for key, value in found.items():
+            if key == "dates":
+                strange = [k for k in value if k not in KINDS[kind] or k not in found]
+                if strange:
+                    raise ResultsError(f"{where}: {block} has a date of {', '.join(strange)}, which it has not")
+                continue
             if key != "seconds" and key not in KINDS[kind]:
-                raise ResultsError(f"{where}: {block} has the key '{key}'; there are {', '.join(KINDS[kind])}, seconds")
+                known = ", ".join(KINDS[kind])
+                raise ResultsError(f"{where}: {block} has the key '{key}'; there are {known}, seconds, dates")
             pair = isinstance(value, list) and len(value) == 2 and all(isinstance(n, int) for n in value)
             if isinstance(value, bool) or not (pair or isinstance(value, (int, float))):
                 raise ResultsError(f"{where}: {block}, {key}: {value!r} is no number and no [reached, of]")
@@ -85,8 +95,31 @@ def check(kind, blocks, where):
                 raise ResultsError(f"{where}: {block}, {key}: {value[0]} of {value[1]}")
 
 
+def today():
+    return datetime.date.today().isoformat()
+
+
+def merge(root, kind, command, rows):
+    """Puts these rows' keys beside what the file has; each key keeps the date on which it was measured."""
+    before = read(root, kind)
+    blocks = before["blocks"] if before else {}
+    for row in blocks.values():
+        dates = row.setdefault("dates", {})
+        for key in row.keys() & KINDS[kind].keys():
+            dates.setdefault(key, before["date"])
+    for block, found in rows.items():
+        row = blocks.setdefault(block, {"dates": {}})
+        row["dates"] |= dict.fromkeys(found.keys() & KINDS[kind].keys(), today())
+        row |= found
+    for row in blocks.values():
+        older = {key: date for key, date in sorted(row.pop("dates").items()) if date != today()}
+        if older:
+            row["dates"] = older
+    write(root, kind, command, blocks)
+
+
 def write(root, kind, command, blocks, date=None):
-    """Puts the results of `command` where docs/blocks.md takes them from."""
+    """Puts the results of `command`, measured on `date` or today, where docs/blocks.md takes them from."""
     where = path_of(root, kind)
     check(kind, blocks, where)
     head = {
@@ -94,7 +127,7 @@ def write(root, kind, command, blocks, date=None):
         "kind": kind,
         "command": command,
         "machine": machine(),
-        "date": date or datetime.date.today().isoformat(),
+        "date": date or today(),
     }
     # One line per block, so that a change is seen as one.
     lines = [f"  {json.dumps(key)}: {json.dumps(value)}," for key, value in head.items()]
@@ -120,7 +153,18 @@ def read(root, kind):
     return found
 
 
+def when(found):
+    """The date of a file's results, or the first and the last one."""
+    dates = set()
+    for row in found["blocks"].values():
+        own = row.get("dates", {})
+        dates |= {own.get(key, found["date"]) for key in row.keys() & KINDS[found["kind"]].keys()}
+    first, last = min(dates, default=found["date"]), max(dates, default=found["date"])
+    return first if first == last else f"{first} to {last}"
+
+
 def cell(value):
+    """A count, a number or a dash."""
     if value is None:
         return DASH
     return f"{value[0]} of {value[1]}" if isinstance(value, list) else str(value)
@@ -145,5 +189,5 @@ def table(root, names):
     lines.append("")
     for kind, found in kinds.items():
         if found:
-            lines.append(f"- {kind}: `{found['command']}`, {found['date']}, {found['machine']}")
+            lines.append(f"- {kind}: `{found['command']}`, {when(found)}, {found['machine']}")
     return lines

@@ -8,8 +8,8 @@ share one folder testbench/scene*/), at least one seeded defect, and a page that
 twin is the class of the block's name: in model/include/feltgate/<b>.hpp where the product uses it,
 else in testbench/<b>/<b>_twin.hpp; the law that it evaluates, if any, is in the former then. Beside
 that: no hand-written source of more than 400 lines, no number formatted but by libfmt in model/, and
-the lists made from the blocks are fresh: docs/blocks.md with the results of docs/verification, and the sources in rtl/*.f, feltgate.core
-and the boards' .qsf.
+the lists made from the blocks are fresh: docs/blocks.md with the results of docs/verification, and the
+sources in rtl/*.f, feltgate.core and the boards' .qsf.
 
   check_blocks.py           check; one line 'path: what; mend' for each finding, status 1
   check_blocks.py --write   write the lists again, then check
@@ -201,7 +201,8 @@ def blocks_table(root, blocks):
             "## Verification",
             "",
             "What was measured of each, from the files in [verification](verification); a dash is what was not",
-            "measured. Seconds are of CPU time, of all that is in the row. What the columns say and do not say:",
+            "measured. Seconds are of CPU time, without the defects of the proofs and the twin's mutants; those of",
+            "all flips are in the row of the core. What the columns say and do not say:",
             "[verification](verification.md).",
             "",
             *block_results.table(root, [b.name for b in blocks]),

@@ -103,12 +103,26 @@ class CheckBlocks(unittest.TestCase):
         self.assertIn("| whole core | - |", table)
         self.assertIn("- coverage: `measured`", table)
 
+    def test_results_keep_the_date_on_which_they_were_measured(self):
+        write = {"root": self.root, "kind": "mutants", "command": "measured"}
+        old = {"alpha": {"rtl": [1, 2], "twin": [3, 4]}, "scene_spring": {"rtl": [5, 5]}}
+        block_results.write(**write, blocks=old, date="2020-01-02")
+        block_results.merge(**write, rows={"alpha": {"rtl": [2, 2], "seconds": 1.0}})
+        blocks = block_results.read(self.root, "mutants")["blocks"]
+        self.assertEqual(blocks["alpha"], {"rtl": [2, 2], "twin": [3, 4], "seconds": 1.0, "dates": {"twin": "2020-01-02"}})
+        self.assertEqual(blocks["scene_spring"]["dates"], {"rtl": "2020-01-02"})
+        lines = block_results.table(self.root, ["alpha", "scene_spring"])
+        self.assertIn(f"- mutants: `measured`, 2020-01-02 to {block_results.today()}", lines[-1])
+        block_results.merge(**write, rows={"alpha": {"twin": [4, 4]}, "scene_spring": {"rtl": [4, 5]}})
+        self.assertNotIn("dates", json.dumps(block_results.read(self.root, "mutants")))
+
     def test_wrong_results(self):
         for blocks, said in (
             ({"beta": {}}, "beta, which is no block"),
             ({"alpha": {"lines": [1, 1]}}, "has the key 'lines'"),
             ({"alpha": {"line": [2, 1]}}, "2 of 1"),
             ({"alpha": {"line": "all"}}, "'all' is no number"),
+            ({"alpha": {"line": [1, 1], "dates": {"toggle": "2026-01-02"}}}, "a date of toggle"),
         ):
             with self.subTest(said):
                 path = block_results.path_of(self.root, "coverage")

@@ -37,6 +37,7 @@ program, a file or an argument is wrong.
 """
 
 import argparse
+import datetime
 import json
 import os
 import sys
@@ -157,7 +158,14 @@ def replay(options, build):
     return 1 if differing else 0
 
 
+def date_of(files):
+    """Of the oldest of the files; None where there are none."""
+    oldest = min((path.stat().st_mtime for path in files or ()), default=None)
+    return datetime.date.fromtimestamp(oldest).isoformat() if oldest else None
+
+
 def report(options, root, faults, seconds):
+    """Table, promises and files; the exit code."""
     rows = results.rows_of(faults)
     print("\n".join(results.markdown_table(rows)) if options.markdown else results.text_table(rows))
     kept = results.promises(faults)
@@ -180,7 +188,7 @@ def report(options, root, faults, seconds):
         found = results.per_block(faults, blocks)
         if seconds:  # of all faults; what a block's share of it is nobody knows
             found.setdefault("feltgate_core", {})["seconds"] = round(seconds)
-        block_results.write(root, "faults", "./feltgate faults --update", found)
+        block_results.write(root, "faults", "./feltgate faults --update", found, date_of(options.lines))
         print(f"faults: wrote {block_results.path_of(root, 'faults')}")
     return 0 if all(good for *_, good in kept) else 1
 

@@ -66,8 +66,12 @@ def arguments(argv):
     outputs.check(parser, json=options.json)
     if options.jobs < 1:
         parser.error("argument --jobs: at least 1")
-    if options.update and options.count:
-        parser.error("--update takes a run of all mutants")
+    if not 0 <= options.require <= 1:
+        parser.error("argument --require: a share is from 0 to 1")
+    if min(options.count, options.proof_seconds) < 0:
+        parser.error("--count and --proof-seconds: 0 or more")
+    if options.update and (options.count or not options.proof_seconds):
+        parser.error("--update takes a run of all mutants, with proofs")
     return options
 
 
@@ -87,15 +91,13 @@ def say(text):
 
 def update(root, rows):
     """Puts rtl = [killed, relevant] of these blocks beside what the file has."""
-    before = block_results.read(root, "mutants")
-    blocks = before["blocks"] if before else {}
-    for block in dict.fromkeys(row.test.block for row in rows):
-        its = [row for row in rows if row.test.block == block]
-        killed = sum(row.count(*rtl.DEAD) for row in its)
-        entry = blocks.setdefault(block, {})
-        entry["rtl"] = [killed, sum(row.relevant() for row in its)]
-        entry["seconds"] = round(sum(row.seconds for row in its), 1)
-    block_results.write(root, "mutants", "./feltgate mutate --update", blocks)
+    blocks = {}
+    for row in rows:
+        entry = blocks.setdefault(row.test.block, {"rtl": [0, 0], "seconds": 0.0})
+        entry["rtl"][0] += row.count(*rtl.DEAD)
+        entry["rtl"][1] += row.relevant()
+        entry["seconds"] = round(entry["seconds"] + row.seconds, 1)
+    block_results.merge(root, "mutants", "./feltgate mutate [--twin] --update", blocks)
 
 
 def report(options, root, rows):
@@ -117,6 +119,14 @@ def report(options, root, rows):
     return 1 if bad else 0
 
 
+def check_whole(everything, tests):
+    """MutateError where a block has more tests than these: its row is of all of them."""
+    for block in dict.fromkeys(test.block for test in tests):
+        missing = [t.name for t in everything if t.block == block and t not in tests]
+        if missing:
+            raise rtl.MutateError(f"--update takes all tests of {block}; {', '.join(missing)} is left out")
+
+
 def main(argv=None):
     argv = sys.argv[1:] if argv is None else argv
     if "--twin" in argv:
@@ -128,7 +138,10 @@ def main(argv=None):
     options = arguments(argv)
     interrupts.end_on_signals()
     try:
-        tests = chosen(rtl.tests(build), options.name)
+        everything = rtl.tests(build)
+        tests = chosen(everything, options.name)
+        if options.update:
+            check_whole(everything, tests)
         if options.list:
             for test in tests:
                 print(f"{test.name}: rtl/{test.block}.sv, {test.program.name}")

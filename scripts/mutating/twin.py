@@ -21,7 +21,6 @@ an argument is wrong.
 """
 
 import argparse
-import datetime
 import json
 import os
 import random
@@ -284,7 +283,7 @@ def run(options, root, build):
 
 def results_of(rows, options, dropped):
     return {
-        "schema": SCHEMA, "machine": block_results.machine(), "date": datetime.date.today().isoformat(),
+        "schema": SCHEMA, "machine": block_results.machine(), "date": block_results.today(),
         "seed": options.seed, "count": options.count, "not_compiled": {name: len(d) for name, d in dropped.items()},
         "headers": [row.as_json() for row in rows],
     }
@@ -303,16 +302,18 @@ def update(root, catalogue, result):
     lines = ",\n".join("  " + json.dumps(entry) for entry in known)
     outputs.write_whole(where, f'{{"schema": "{SCHEMA}", "machine": {json.dumps(result["machine"])}, '
                                f'"headers": [\n{lines}\n]}}\n')
-    found = block_results.read(root, "mutants")
-    blocks = found["blocks"] if found else {}
-    sums = {}
+    changed, sums = {row_of(catalogue, entry["header"]) for entry in result["headers"]}, {}
     for entry in known:
-        pair = sums.setdefault(catalogue.blocks.get(entry["header"], entry["header"]), [0, 0])
+        pair = sums.setdefault(row_of(catalogue, entry["header"]), [0, 0])
         pair[0] += entry["killed"] + entry["hangs"] + entry["crashes"]
         pair[1] += entry["tried"] - entry["equivalent"]
-    for block, pair in sums.items():
-        blocks.setdefault(block, {})["twin"] = pair
-    block_results.write(root, "mutants", "./feltgate mutate --update", blocks)
+    rows = {row: {"twin": pair} for row, pair in sums.items() if row in changed}
+    block_results.merge(root, "mutants", "./feltgate mutate [--twin] --update", rows)
+
+
+def row_of(catalogue, header):
+    """The row of docs/blocks.md that a header's mutants count in."""
+    return catalogue.blocks.get(header, header)
 
 
 def arguments(argv):
@@ -338,6 +339,10 @@ def arguments(argv):
     outputs.check(parser, [options.again], json=options.json)
     if options.jobs < 1:
         parser.error("argument --jobs: at least 1")
+    if not 0 <= options.require <= 1:
+        parser.error("argument --require: a share is from 0 to 1")
+    if options.count < 0:
+        parser.error("argument --count: 0 or more")
     if options.update and options.again:
         parser.error("--update takes a run without --again")
     return options

@@ -164,6 +164,9 @@ class Reasons(unittest.TestCase):
                      'why = "x"\nline = "x"\n', 'kind = "other"\nwhy = "x"\nline = "x"\n'):
             with self.assertRaises(rtl.MutateError):
                 self.listed(f"[[survivor]]\n{text}")
+        for text in ("[[survivor]\n", '[[survivor]]\nkind = "gap"\nwhy = "x"\nwire = "a["\n'):
+            with self.assertRaisesRegex(rtl.MutateError, "mutants.toml"):
+                self.listed(text)
 
     def test_figures(self):
         test = rtl.Test("b", "b", self.root, self.root / "b_mutants", 1, 100, [self.mutant | {"number": n} for n in range(1, 6)])
@@ -239,6 +242,24 @@ class Programs(unittest.TestCase):
         self.assertEqual(code, 2)
         self.assertIn("no block c with mutants; there are b", err)
         self.assertEqual(self.call("--show", "9")[0], 2)
+
+    def test_options_that_mean_nothing(self):
+        for words in (["--require", "99"], ["--require", "nan"], ["--count", "-1"], ["--proof-seconds", "-1"],
+                      ["--update", "--count", "2"], ["--update", "--proof-seconds", "0"]):
+            with self.subTest(words), self.assertRaises(SystemExit) as ended, \
+                    contextlib.redirect_stderr(io.StringIO()):
+                mutate.arguments(words)
+            self.assertEqual(ended.exception.code, 2)
+
+    def test_a_row_of_the_table_is_of_all_tests_of_the_block(self):
+        one, other = (rtl.Test(name, "b", self.build, self.program) for name in ("b", "b_paper"))
+        mutate.check_whole([one, other], [one, other])
+        with self.assertRaisesRegex(rtl.MutateError, "b_paper is left out"):
+            mutate.check_whole([one, other], [one])
+
+    def test_a_test_that_somebody_else_ended_kills_nothing(self):
+        self.say('[ "$FELTGATE_MUTANT" = 0 ] || kill -TERM $$')
+        self.assertEqual(self.call()[0], 128 + 15)
 
     def test_show(self):
         code, out, _ = self.call("--show", "1")

@@ -35,6 +35,14 @@ feltgate_library(feltgate_stability stability feltgate_engines feltgate_plant_fi
   Eigen3::Eigen)
 target_link_libraries(feltgate_stability PRIVATE nlohmann_json::nlohmann_json)
 
+
+# Constants of a motor from readings and recordings: the verbs calibrate and identify of a host.
+feltgate_library(feltgate_calibrate host/calibrate feltgate_design feltgate_traces Eigen3::Eigen
+  Boost::headers)
+target_link_libraries(feltgate_calibrate PRIVATE nlohmann_json::nlohmann_json)
+feltgate_library(feltgate_identify host/identify feltgate_calibrate)
+target_link_libraries(feltgate_identify PRIVATE nlohmann_json::nlohmann_json)
+
 feltgate_program(feltgate_generate generate_main.cpp feltgate_design)
 
 file(GLOB tool_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/tools"

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Least squares with intervals. Documentation: docs/calibration.md
+#include "host/calibrate/regression.hpp"
+
+#include <fmt/format.h>
+
+#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+
+namespace feltgate::host {
+
+namespace {
+
+/// Columns of length 1 whose smallest singular value is below this are one column less.
+constexpr double kSameDirection = 1e-7;
+
+double product(const Eigen::VectorXd& a, const Eigen::MatrixXd& m, const Eigen::VectorXd& b) {
+  return a.dot(m * b);
+}
+
+}  // namespace
+
+Interval Interval::times(double factor) const {
+  return {value * factor, std::min(low * factor, high * factor),
+          std::max(low * factor, high * factor)};
+}
+
+Interval Interval::under(double top) const {
+  return {top / value, std::min(top / low, top / high), std::max(top / low, top / high)};
+}
+
+double student_t(double confidence, int freedom) {
+  const boost::math::students_t distribution(freedom);
+  return boost::math::quantile(boost::math::complement(distribution, (1 - confidence) / 2));
+}
+
+double f_tail(double f, int top_freedom, int bottom_freedom) {
+  if (!(f > 0)) return 1;
+  if (std::isinf(f)) return 0;
+  const boost::math::fisher_f distribution(top_freedom, bottom_freedom);
+  return boost::math::cdf(boost::math::complement(distribution, f));
+}
+
+Regression::Regression(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, double confidence) {
+  freedom_ = static_cast<int>(x.rows() - x.cols());
+  if (freedom_ < 1) {
+    throw MeasurementError(fmt::format(
+        "{} readings for {} unknowns leave nothing to judge the noise by; take at least {}, better "
+        "twice as many",
+        x.rows(), x.cols(), x.cols() + 1));
+  }
+  if (!x.allFinite() || !y.allFinite()) {
+    throw MeasurementError("a reading is not a finite number; take it again");
+  }
+  const Eigen::VectorXd length = x.colwise().norm();
+  const Eigen::VectorXd unit = length.cwiseMax(std::numeric_limits<double>::min()).cwiseInverse();
+  const Eigen::MatrixXd scaled = x * unit.asDiagonal();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::VectorXd& s = svd.singularValues();
+  if (!(s[s.size() - 1] > kSameDirection * s[0])) {
+    throw MeasurementError(
+        "the readings do not tell the unknowns apart; vary more what is commanded");
+  }
+  coefficients_ = unit.asDiagonal() * svd.solve(y);
+  residuals_ = y - x * coefficients_;
+  sigma_ = std::sqrt(residuals_.squaredNorm() / freedom_);
+  const Eigen::MatrixXd inverse = unit.asDiagonal() * svd.matrixV() *
+                                  s.cwiseAbs2().cwiseInverse().asDiagonal() *
+                                  svd.matrixV().transpose() * unit.asDiagonal();
+  covariance_ = sigma_ * sigma_ * inverse;
+  leverage_ = svd.matrixU().rowwise().squaredNorm();
+  t_ = student_t(confidence, freedom_);
+}
+
+Interval Regression::coefficient(Eigen::Index k) const {
+  const double half = t_ * std::sqrt(std::max(0.0, covariance_(k, k)));
+  return {coefficients_[k], coefficients_[k] - half, coefficients_[k] + half};
+}
+
+Interval Regression::combination(const Combination& c) const {
+  const double value = c.constant + c.weights.dot(coefficients_);
+  const double variance = product(c.weights, covariance_, c.weights);
+  const double half = t_ * std::sqrt(std::max(0.0, variance));
+  return {value, value - half, value + half};
+}
+
+std::optional<Interval> Regression::quotient(const Combination& top,
+                                             const Combination& bottom) const {
+  // All r with (top - r*bottom)^2 <= t^2*variance(top - r*bottom): a quadratic in r.
+  const double p = top.constant + top.weights.dot(coefficients_);
+  const double q = bottom.constant + bottom.weights.dot(coefficients_);
+  const double t2 = t_ * t_;
+  const double a = q * q - t2 * product(bottom.weights, covariance_, bottom.weights);
+  const double b = p * q - t2 * product(top.weights, covariance_, bottom.weights);
+  const double c = p * p - t2 * product(top.weights, covariance_, top.weights);
+  if (!(a > 0)) return {};
+  const double root = std::sqrt(std::max(0.0, b * b - a * c));
+  return Interval{p / q, (b - root) / a, (b + root) / a};
+}
+
+double Regression::studentised(Eigen::Index row) const {
+  const double free = 1 - leverage_[row];
+  const double r = residuals_[row];
+  if (freedom_ < 2 || free < 1e-9) return 0;
+  const double without = (residuals_.squaredNorm() - r * r / free) / (freedom_ - 1);
+  const double deviation = std::sqrt(std::max(0.0, without * free));
+  if (deviation > 0) return r / deviation;
+  return r == 0 ? 0 : std::copysign(std::numeric_limits<double>::infinity(), r);
+}
+
+}  // namespace feltgate::host

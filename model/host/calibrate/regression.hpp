@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Linear least squares with intervals of Student's t; of a quotient by Fieller's theorem, which is
+// exact where the usual propagation of errors is not. Documentation: docs/calibration.md
+#pragma once
+
+#include <Eigen/Dense>
+#include <optional>
+#include <stdexcept>
+
+namespace feltgate::host {
+
+/// Measurements that do not say what was asked of them: what() reads "what; mend".
+class MeasurementError : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+/// An estimate and the ends of its confidence interval.
+struct Interval {
+  double value = 0, low = 0, high = 0;
+  bool contains(double x) const { return low <= x && x <= high; }
+  double half() const { return (high - low) / 2; }
+  /// Times a constant that is known.
+  Interval times(double factor) const;
+  /// A constant that is known over this; 0 must lie outside.
+  Interval under(double top) const;
+  Interval plus(double shift) const { return {value + shift, low + shift, high + shift}; }
+};
+
+/// constant + weights . coefficients
+struct Combination {
+  double constant = 0;
+  Eigen::VectorXd weights;
+};
+
+class Regression {
+ public:
+  /// y = x . coefficients + noise of one variance. Throws MeasurementError where there are not more
+  /// rows than columns, or the columns do not tell the coefficients apart.
+  Regression(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, double confidence);
+
+  Eigen::Index size() const { return coefficients_.size(); }
+  double value(Eigen::Index k) const { return coefficients_[k]; }
+  Interval coefficient(Eigen::Index k) const;
+  Interval combination(const Combination& c) const;
+  /// top/bottom; nothing where the bottom's interval holds 0, so that the quotient has no bounds.
+  std::optional<Interval> quotient(const Combination& top, const Combination& bottom) const;
+  const Eigen::MatrixXd& covariance() const { return covariance_; }
+
+  const Eigen::VectorXd& residuals() const { return residuals_; }
+  /// Residual over its own standard deviation, estimated without that row (externally studentised).
+  double studentised(Eigen::Index row) const;
+  double sum_of_squares() const { return residuals_.squaredNorm(); }
+  /// Standard deviation of the noise.
+  double sigma() const { return sigma_; }
+  int freedom() const { return freedom_; }
+  /// Student's t at the confidence, two-sided.
+  double t() const { return t_; }
+
+ private:
+  Eigen::VectorXd coefficients_, residuals_, leverage_;
+  Eigen::MatrixXd covariance_;
+  double sigma_ = 0, t_ = 0;
+  int freedom_ = 0;
+};
+
+/// Student's t that a value exceeds in size with probability 1 - confidence.
+double student_t(double confidence, int freedom);
+/// Probability of an F at least so large.
+double f_tail(double f, int top_freedom, int bottom_freedom);
+
+}  // namespace feltgate::host

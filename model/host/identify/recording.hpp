@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Voltage and position over time, as a capture, a stream or a run leaves them.
+// Documentation: docs/identify.md
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/calibrate/columns.hpp"
+
+namespace feltgate::host {
+
+struct Recording {
+  std::string name;
+  std::vector<double> time_s, voltage_v, angle_rad;
+
+  std::size_t rows() const { return time_s.size(); }
+  double length_s() const { return rows() > 0 ? time_s.back() - time_s.front() : 0; }
+};
+
+/// Columns time_s or tick, position_rad or position (counts), and voltage_v; a coast-down needs no
+/// voltage. Throws MeasurementError where one is missing, time stands or runs back, or there are
+/// too few rows.
+Recording recording_of(const ColumnTable& table, double count_rad, double tick_s,
+                       bool needs_voltage);
+
+}  // namespace feltgate::host

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Results of an identification as text, JSON and values of a design file. Documentation:
+// docs/identify.md, docs/json.md
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "host/calibrate/design_changes.hpp"
+#include "host/identify/identify.hpp"
+
+namespace feltgate::host {
+
+std::string report_text(const Drive& drive, const std::optional<Coast>& coast, const Constants& c,
+                        double confidence);
+nlohmann::ordered_json report_json(const Drive& drive, const std::optional<Coast>& coast,
+                                   const Constants& c, double confidence);
+
+/// What a design takes of the constants that are known.
+std::vector<Change> changes_of(const Constants& c, const design::Elaborated& design,
+                               double confidence);
+
+}  // namespace feltgate::host

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The two calibrations of the paper on a simulated motor with a known dead zone and slope, with a
+// gauge that has noise. Documentation: docs/calibration.md
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include "bench.hpp"
+#include "catch.hpp"
+#include "config/toml_reader.hpp"
+#include "design/text_edit.hpp"
+#include "host/calibrate/design_changes.hpp"
+#include "host/calibrate/report.hpp"
+
+using namespace feltgate;
+using namespace feltgate::host;
+using namespace feltgate::test;
+
+namespace {
+
+const design::RegisterMap& registers() {
+  static const auto map = design::read_registers(FELTGATE_ROOT "/rtl/registers.toml");
+  return map;
+}
+std::string path_of(const std::string& name) {
+  return FELTGATE_ROOT "/rtl/designs/" + name + ".toml";
+}
+design::Elaborated design_of(const std::string& name) {
+  return elaborate(design::read_design(path_of(name)), registers());
+}
+
+/// p24 at 50 kHz: 0.34 V of the brushes and 1/40 of 25.4 V that the dead time takes.
+constexpr double kSlope = 0.0302 / 0.42, kDead = 0.34 + 0.635;
+
+std::vector<Reading> straight(std::initializer_list<double> volts, double slope, double dead,
+                              double noise_nm = 0, std::uint64_t seed = 1, double offset = 0) {
+  SplitMix64 random(seed);
+  std::vector<Reading> readings;
+  for (const double v : volts) {
+    const double beyond = std::max(0.0, std::abs(v) - dead);
+    readings.push_back(
+        {v, offset + slope * std::copysign(beyond, v) + noise_nm * random.gaussian(), {}, 0});
+  }
+  return readings;
+}
+
+std::string refused(const std::vector<Reading>& readings) {
+  try {
+    (void)fit_open_loop(readings, 0.0302, 0.95);
+  } catch (const MeasurementError& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("open loop: a simulated motor's dead zone and slope lie in the intervals", "[open]") {
+  const plant::Parameters p = shipped("p24");
+  constexpr double noise_nm = 2e-3;
+  int slopes = 0, deads = 0, both = 0;
+  constexpr int sets = 20;
+  for (int set = 0; set < sets; ++set) {
+    SplitMix64 random(static_cast<std::uint64_t>(set) + 1);
+    std::vector<Reading> readings;
+    for (const double v : {1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 5.5}) {
+      readings.push_back({v, gauge_nm(p, v, noise_nm, &random), {}, 0});
+    }
+    const OpenLoop open = fit_open_loop(readings, 0.0302, 0.99);
+    slopes += open.slope_nm_v.contains(kSlope) ? 1 : 0;
+    deads += open.dead_voltage_v.contains(kDead) ? 1 : 0;
+    both += open.resistance_ohm.contains(0.42) ? 1 : 0;
+    CHECK(open.slope_nm_v.half() < 0.05 * kSlope);
+    CHECK(open.dead_voltage_v.half() < 0.2);
+    CHECK(open.noise_nm == Approx(noise_nm).epsilon(0.7));
+    CHECK_FALSE(open.bend);
+    // The ends of R are those of the slope, exchanged.
+    CHECK(open.resistance_ohm.low == Approx(0.0302 / open.slope_nm_v.high));
+  }
+  CHECK(slopes >= sets - 1);  // of 99 %
+  CHECK(deads >= sets - 1);
+  CHECK(both == slopes);
+}
+
+TEST_CASE("open loop: readings within the dead zone do not bend the line", "[open]") {
+  for (const auto& volts :
+       {std::initializer_list<double>{0, 0.3, 0.6, 1.5, 2.5, 3.5, 4.5, 5.5},
+        std::initializer_list<double>{-5.5, -3.5, -1.5, -0.5, 0, 0.5, 1.5, 3.5, 5.5}}) {
+    const OpenLoop open = fit_open_loop(straight(volts, 0.072, 0.98, 1e-3), 0.0302, 0.99);
+    CHECK(open.slope_nm_v.contains(0.072));
+    CHECK(open.dead_voltage_v.contains(0.98));
+    CHECK(std::count_if(open.residuals.begin(), open.residuals.end(),
+                        [](const Residual& r) { return r.dead; }) == 3);
+  }
+}
+
+TEST_CASE("open loop: both signs give the gauge's offset away", "[open]") {
+  const auto volts = {-5.5, -4.5, -3.5, -2.5, -1.5, 1.5, 2.5, 3.5, 4.5, 5.5};
+  const OpenLoop open = fit_open_loop(straight(volts, 0.072, 0.98, 1e-3, 3, 0.02), 0.0302, 0.99);
+  REQUIRE(open.gauge_offset_nm);
+  CHECK(open.gauge_offset_nm->contains(0.02));
+  CHECK(open.dead_voltage_v.contains(0.98));
+  // Of one sign alone it looks like another dead voltage.
+  const OpenLoop half =
+      fit_open_loop(straight({1.5, 2.5, 3.5, 4.5, 5.5}, 0.072, 0.98, 1e-3, 3, 0.02), 0.0302, 0.99);
+  CHECK_FALSE(half.gauge_offset_nm);
+  CHECK_FALSE(half.dead_voltage_v.contains(0.98));
+}
+
+TEST_CASE("open loop: a bend is found where there is one", "[open]") {
+  const auto volts = {1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 6.0, 6.5, 7.0};
+  auto readings = straight(volts, 0.072, 0.98, 5e-4, 4);
+  CHECK_FALSE(fit_open_loop(readings, 0.0302, 0.99).bend);
+  for (Reading& r : readings) r.torque_nm -= 0.02 * std::max(0.0, r.command - 4.25);
+  const OpenLoop open = fit_open_loop(readings, 0.0302, 0.99);
+  REQUIRE(open.bend);
+  CHECK(open.bend->at_v.contains(4.25));
+  CHECK(open.bend->slope_below_nm_v.value == Approx(0.072).epsilon(0.02));
+  CHECK(open.bend->slope_above_nm_v.value == Approx(0.052).epsilon(0.03));
+  REQUIRE_FALSE(open.warnings.empty());
+}
+
+TEST_CASE("open loop: a slip of the pen is pointed at", "[open]") {
+  auto readings = straight({1.5, 2.5, 3.5, 4.5, 5.5, 6.5}, 0.072, 0.98, 5e-4, 5);
+  std::swap(readings[2].torque_nm, readings[3].torque_nm);
+  readings[3].torque_nm += 0.05;
+  const OpenLoop open = fit_open_loop(readings, 0.0302, 0.95);
+  REQUIRE_FALSE(open.warnings.empty());
+  CHECK(open.warnings[0].find("look at it again") != std::string::npos);
+}
+
+TEST_CASE("open loop: the observer's slope and the paper's ratio", "[open]") {
+  auto readings = straight({1.5, 2.5, 3.5, 4.5, 5.5}, 0.072, 0.6);
+  for (Reading& r : readings) r.tau_hat_nm = 0.0605 * r.command;
+  const OpenLoop open = fit_open_loop(readings, 0.0605, 0.95);
+  REQUIRE(open.observer_slope_nm_v);
+  CHECK(open.observer_slope_nm_v->value == Approx(0.0605));
+  CHECK(slope_ratio(open).value == Approx(0.072 / 0.0605));
+  CHECK(report_text(open, design_of("paper")).find("voltage_to_current = 1.19") !=
+        std::string::npos);
+}
+
+TEST_CASE("open loop: what cannot be judged is refused with the mend", "[open]") {
+  CHECK(refused({}).find("0 readings; take at least 3") == 0);
+  CHECK(refused(straight({1.5, 5.5}, 0.07, 1)).find("2 readings; take at least 3") == 0);
+  CHECK(refused(straight({2, 2, 2, 2}, 0.07, 1)).find("only 1 different voltage,") == 0);
+  CHECK(refused(straight({1.5, 2.5, 3.5, 4.5}, -0.07, 1)).find("the torque falls as") == 0);
+  CHECK(refused(straight({1.5, 2.5, 3.5, -4.5}, 0.07, 1)).find("one reading alone") == 0);
+  CHECK(refused(straight({1.5, 2.5, 3.5, 4.5}, 1e-6, 1, 0.05)).find("no slope stands out") == 0);
+  auto infinite = straight({1.5, 2.5, 3.5, 4.5}, 0.07, 1);
+  infinite[0].torque_nm = std::numeric_limits<double>::infinity();
+  CHECK(refused(infinite).find("a reading is not a finite number") == 0);
+}
+
+TEST_CASE("closed loop: the paper's two gains and their border", "[closed]") {
+  // docs/calibration.md: Kv = 1 leaves -29.4 % at 0.05 Nm to +13.9 % at 0.5 Nm.
+  const std::vector<std::pair<double, double>> errors{
+      {0.05, -29.4}, {0.1, -5.3}, {0.15, 2.7}, {0.16, 3.6}, {0.2, 6.7}, {0.3, 10.7}, {0.5, 13.9}};
+  std::vector<Reading> readings;
+  for (const auto& [torque, percent] : errors) {
+    readings.push_back({torque, torque * (1 + percent / 100), {}, 0});
+  }
+  const auto paper = design_of("paper");
+  const ClosedLoop closed = fit_closed_loop(readings, paper, 1, 0.95);
+  REQUIRE(closed.regions);
+  REQUIRE(closed.regions->border_nm);
+  CHECK(closed.regions->border_nm->value == Approx(0.13).margin(0.01));
+  CHECK(closed.regions->border_nm->contains(closed.regions->border_nm->value));
+  CHECK(closed.regions->low.value == Approx(1.15).margin(0.05));
+  CHECK(closed.regions->high.value == Approx(0.93).margin(0.02));
+  // The torque falls at the border, and it is said.
+  REQUIRE_FALSE(closed.warnings.empty());
+  CHECK(closed.warnings[0].find("at the border the torque falls by") == 0);
+  // Of one region alone: one gain.
+  readings.erase(readings.begin(), readings.begin() + 2);
+  const ClosedLoop high = fit_closed_loop(readings, paper, 1, 0.95);
+  CHECK_FALSE(high.regions->border_nm);
+  CHECK(high.regions->high.value == high.regions->low.value);
+}
+
+TEST_CASE("closed loop: a wrong R and dead voltage of a model are put right", "[closed]") {
+  const auto lever = design_of("lever");
+  const double assumed_v = lever.word("dead_voltage").si, kt = 0.0302;
+  for (const auto& [ohm, dead] :
+       {std::pair<double, double>{0.42, assumed_v}, {0.5, 1.1}, {0.35, 0.8}}) {
+    SplitMix64 random(11);
+    std::vector<Reading> readings;
+    for (const double torque : {-0.3, -0.1, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5}) {
+      const double volts = 0.42 * std::abs(torque) / kt + assumed_v;
+      const double size = (volts - dead) * kt / ohm + 1e-3 * random.gaussian();
+      readings.push_back({torque, std::copysign(size, torque), {}, 0});
+    }
+    readings.push_back({0.005, 0.001, {}, 0});
+    const ClosedLoop closed = fit_closed_loop(readings, lever, 1, 0.99);
+    REQUIRE(closed.model);
+    CHECK(closed.model->resistance_ohm.contains(ohm));
+    CHECK(closed.model->dead_voltage_v.contains(dead));
+    CHECK(closed.warnings[0].find("1 readings below 0.01 Nm were left out") == 0);
+  }
+  CHECK_THROWS_AS(fit_closed_loop({{0.1, 0.1, {}, 0}, {0.2, 0.2, {}, 0}}, lever, 1, 0.95),
+                  MeasurementError);
+  CHECK_THROWS_AS(
+      fit_closed_loop({{0.1, 0.1, {}, 0}, {0.1, 0.2, {}, 0}, {0.1, 0.15, {}, 0}}, lever, 1, 0.95),
+      MeasurementError);
+}
+
+TEST_CASE("the design that is written can be built and has the constants", "[write]") {
+  const auto lever = design_of("lever");
+  const OpenLoop open =
+      fit_open_loop(straight({1.5, 2.5, 3.5, 4.5, 5.5}, 0.0755, 1.1, 1e-3), 0.0302, 0.95);
+  std::vector<std::string> warnings;
+  const auto changes = changes_of(open, lever, 0.0302, false, &warnings);
+  const std::string text = changed_design(path_of("lever"), "mine", changes, registers());
+  const auto mine = elaborate(design::design_from_text(text, "mine.toml"), registers());
+  CHECK(mine.design.resistance_ohm == Approx(open.resistance_ohm.value).epsilon(1e-5));
+  CHECK(mine.word("voltage_gain").si == Approx(open.resistance_ohm.value).epsilon(1e-5));
+  CHECK(mine.word("dead_voltage").si == Approx(open.dead_voltage_v.value).epsilon(1e-5));
+  // All else as before, each change with where it is from.
+  CHECK(mine.design.torque_limit_nm == lever.design.torque_limit_nm);
+  CHECK(text.find("# measured, 95 % 0.") != std::string::npos);
+  CHECK(warnings.empty());
+
+  const OpenLoop small =
+      fit_open_loop(straight({1.5, 2.5, 3.5, 4.5, 5.5}, 0.0755, 0.2, 1e-4), 0.0302, 0.95);
+  const auto to_zero = changes_of(small, lever, 0.0302, false, &warnings);
+  CHECK(to_zero.back().value == 0);
+  REQUIRE_FALSE(warnings.empty());
+  CHECK(warnings[0].find("the dead time alone should take 0.635 V") == 0);
+
+  const auto paper = design_of("paper");
+  CHECK(changes_of(open, paper, 0.0302, false, &warnings).empty());
+  ClosedLoop closed;
+  closed.regions = Regions{{1.2, 1.1, 1.3}, {0.9, 0.8, 1.0}, Interval{0.13, 0.12, 0.14}, 0.1};
+  const std::string two =
+      changed_design(path_of("paper"), "ours", changes_of(closed, paper, &warnings), registers());
+  const auto ours = design::design_from_text(two, "ours.toml");
+  CHECK(ours.kv_low == 1.2);
+  CHECK(ours.region_nm == 0.13);
+
+  // What no design can have is refused by the generator's own words.
+  CHECK_THROWS_AS(changed_design(path_of("lever"), "bad",
+                                 {{"motor", "resistance_ohm", -1, "wrong"}}, registers()),
+                  config::ConfigError);
+}
+
+TEST_CASE("intervals are written with the digits that mean something", "[text]") {
+  CHECK(text_of({0.419712, 0.41721, 0.42231}) == "0.4197 (0.4172 to 0.4223)");
+  CHECK(text_of({123.456, 100, 150}) == "123 (100 to 150)");
+  CHECK(text_of({1.22049e-4, 1.21643e-4, 1.22456e-4}) == "0.00012205 (0.00012164 to 0.00012246)");
+  CHECK(text_of({2, 2, 2}) == "2 (2 to 2)");
+}

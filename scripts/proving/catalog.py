@@ -13,6 +13,8 @@ KEYS = {"name", "title", "depth", "cover_depth", "defect_depth", "designs", "ass
         "sources", "defines", "abstract", "fast", "property", "cover"}
 ASSERTION = re.compile(r"\b(\w+):\s*assert\b")
 COVER = re.compile(r"\b(\w+):\s*cover\b")
+INCLUDE = re.compile(r'^ *`include "(\w+\.svh)"\n', re.M)
+SHARED = "testbench/prove"  # what wrappers of several blocks include
 
 
 class CatalogError(Exception):
@@ -60,6 +62,17 @@ class Proof:
         return f"{self.name}_proof"
 
 
+def wrapper_text(root, path):
+    """A wrapper as Yosys reads it: its includes stand beside it or in testbench/prove."""
+    def included(match):
+        for folder in (path.parent, root / SHARED):
+            if (folder / match[1]).is_file():
+                return wrapper_text(root, folder / match[1])
+        raise CatalogError(f"{path.relative_to(root)}: no {match[1]} beside it or in {SHARED}")
+
+    return INCLUDE.sub(included, path.read_text(encoding="utf-8"))
+
+
 def defect_path(root, block, name):
     """NAME is a patch of the block's proofs, of its test, or BLOCK/NAME of another's test."""
     where, _, stem = name.rpartition("/")
@@ -81,7 +94,7 @@ def read_proof(root, block, path, table):
     wrapper = path.with_name(f"{name}.sv")
     if not wrapper.is_file():
         raise wrong(f"'{name}' has no {wrapper.name} beside it")
-    text = rtl_sources.code_only(wrapper.read_text(encoding="utf-8"))
+    text = rtl_sources.code_only(wrapper_text(root, wrapper))
     properties = []
     for label, entry in table["property"].items():
         if label not in ASSERTION.findall(text):
@@ -94,6 +107,10 @@ def read_proof(root, block, path, table):
             raise wrong(f"property '{label}': no defect {defect.relative_to(root)}")
         properties.append(Property(label, entry["says"], defect, tuple(entry["ports"].split()),
                                    entry.get("from_any", False)))
+    unsaid = [n for n in ASSERTION.findall(text) if n not in table["property"] and not n.startswith("inside_")]
+    if unsaid:
+        raise wrong(f"{wrapper.name} asserts {', '.join(unsaid)}: no property here; say what it means, or "
+                    "name it inside_...")
     covers = table.get("cover", {})
     if set(covers) != set(COVER.findall(text)):
         raise wrong(f"{wrapper.name} has the covers {', '.join(COVER.findall(text)) or 'none'}")

@@ -16,7 +16,7 @@ import synth_tools
 from crew import Crew
 from seeding import patches
 
-from . import trace
+from . import catalog, trace
 
 TIME_LIMIT_S = 1800
 # z3 without --unroll takes minutes where it takes a second with it.
@@ -82,7 +82,7 @@ def split_design(text):
 
 def copy_sources(root, proof, design, patch, folder):
     """Writes what the proof reads into the folder; returns the names, in order."""
-    text = proof.wrapper.read_text(encoding="utf-8")
+    text = catalog.wrapper_text(root, proof.wrapper)
     known = rtl_sources.modules(root)[0]
     names = closure(root, [*rtl_sources.instantiated(text, known.keys()), *proof.sources])
     design, constants, _ = split_design(design)
@@ -101,7 +101,7 @@ def copy_sources(root, proof, design, patch, folder):
             name, value = constant.split("=")
             source = re.sub(rf"(localparam int {name} = )\d+;", rf"\g<1>{value};", source)
         (folder / Path(path).name).write_text(source, encoding="utf-8")
-    shutil.copy(proof.wrapper, folder / "proof.sv")
+    (folder / "proof.sv").write_text(text, encoding="utf-8")
     return [*(Path(path).name for path in paths), "proof.sv"]
 
 

@@ -95,6 +95,23 @@ class Catalogue(unittest.TestCase):
                 self.write("testbench/b/proofs/proofs.toml", TOML.replace(old, new))
                 self.refused("testbench/b/proofs/proofs.toml", said)
 
+    def test_what_a_wrapper_includes(self):
+        wrapper = "module p_proof;\n  `include \"own.svh\"\nendmodule\n"
+        self.write("testbench/b/proofs/p.sv", wrapper)
+        self.refused("p.sv", "no own.svh beside it or in testbench/prove")
+        self.write("testbench/prove/shared.svh", "always_comb begin a: assert (1); c: cover (1); end\n")
+        self.write("testbench/b/proofs/own.svh", "`include \"shared.svh\"\n")
+        (proof,) = catalog.read(self.root)
+        text = catalog.wrapper_text(self.root, proof.wrapper)
+        self.assertIn("a: assert (1)", text)
+        self.assertNotIn("include", text)
+
+    def test_an_assertion_that_nothing_is_said_of(self):
+        self.write("testbench/b/proofs/p.sv", WRAPPER.replace("a: assert (1);", "a: assert (1); b: assert (1);"))
+        self.refused("p.sv asserts b")
+        self.write("testbench/b/proofs/p.sv", WRAPPER.replace("a: assert (1);", "a: assert (1); inside_b: assert (1);"))
+        self.assertEqual(len(catalog.read(self.root)), 1)
+
     def test_without_a_cover(self):
         self.write("testbench/b/proofs/proofs.toml", TOML.partition("[proof.cover]")[0])
         self.write("testbench/b/proofs/p.sv", WRAPPER.replace("c: cover (1);", ""))

@@ -11,7 +11,6 @@ module torque_proof (
     input logic                                             armed_i,
     input logic signed [     feltgate_pkg::PRODUCT_BITS-1:0] product_i
 );
-  localparam int Clocks = feltgate_pkg::CLOCKS_PER_TICK;
   localparam int W = feltgate_pkg::OBSERVER_W;
   localparam int F = feltgate_pkg::OBSERVER_F;
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
@@ -22,33 +21,17 @@ module torque_proof (
   localparam int DriveW = feltgate_pkg::DRIVE_TORQUE_W;
   localparam int DriveDrop = feltgate_pkg::CURRENT_F + feltgate_pkg::P_TORQUE_CONSTANT_F - F;
 
-  logic past_ok_q, tick, tick_q, armed_q;
-  logic [8:0] phase_q;
-  logic [feltgate_map_pkg::WAVE_LENGTH-1:0] wave;
-  initial past_ok_q = 1'b0;
-  always_ff @(posedge clk_i) begin
-    past_ok_q <= 1'b1;
-    tick_q    <= tick;
-    armed_q   <= armed_i;
-    phase_q   <= !rst_ni ? start_i : phase_q == 9'(Clocks - 1) ? 9'd0 : phase_q + 9'd1;
-  end
-  assign wave = (phase_q < 9'(feltgate_map_pkg::WAVE_LENGTH)) ? feltgate_map_pkg::WAVE_LENGTH'(1) << phase_q : '0;
-  assign tick = phase_q == 9'(Clocks - 1 - feltgate_map_pkg::FIRST_WAVE_CLOCK);
-  always_comb begin
-    if (!past_ok_q) assume (!rst_ni);
-    assume (phase_q < 9'(Clocks) && start_i < 9'(Clocks));
-    assume (tick_q || !rst_ni || armed_i == armed_q);
-  end
+  `include "wave.svh"
+  logic armed_q;
+  always_ff @(posedge clk_i) armed_q <= armed_i;
+  always_comb assume (tick_q || !rst_ni || armed_i == armed_q);
 
   logic signed [feltgate_pkg::OBSERVER_DIFFERENCE_W-1:0] operand;
   logic signed [TorqueW-1:0] tau_hat;
   logic saturated;
   dob u_dut (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
-      .armed_i(armed_i),
+      .*,
       .wave_i(wave),
-      .product_i(product_i),
       .operand_o(operand),
       .tau_hat_o(tau_hat),
       .saturated_o(saturated)
@@ -103,7 +86,7 @@ module torque_proof (
         error_is_half_a_bit: assert (saturated || (error <= (ErrorW'(1) << (Drop - 1)) &&
             error >= -(ErrorW'(1) << (Drop - 1))));
         saturates_at_its_end: assert (!saturated || (tau_hat == Most && error < -(ErrorW'(1) << (Drop - 1)) + 1) ||
-                                      (tau_hat == ~Most && error > 0));
+                                      (tau_hat == ~Most && error > (ErrorW'(1) << (Drop - 1))));
         disarmed_is_0: assert (armed_q || (tau_hat == '0 && !saturated));
         observes: cover (tau_hat < 0 && !saturated);
         saturates: cover (saturated && tau_hat > 0);
@@ -111,7 +94,7 @@ module torque_proof (
       if (wave[feltgate_map_pkg::T_OBSERVER_DIFFERENCE] && began_q) begin
         input_is_the_sum: assert (\u_dut.input_q == W'(drive_q) + W'(inertia_q));
       end
-      operand_in_its_clock: assert (wave[feltgate_map_pkg::S_OBSERVER_A1] || !began_q || operand == '0);
+      operand_in_its_clock: assert (wave[feltgate_map_pkg::S_OBSERVER_A1] || operand == '0);
       inside_inertia: assert (!began_q || phase_q <= 9'(feltgate_map_pkg::T_OBSERVER_INPUT) ||
           \u_dut.inertia_q == inertia_q);
     end

@@ -26,28 +26,16 @@ module rows_proof (
   localparam int LongMax = (feltgate_map_pkg::CHATTER_UNITS << ChatterBits) + 1;
 
   // One sample per tick; the ticks count on.
-  logic past_ok_q, sample, sampled_q, after_q;
+  `include "reset.svh"
+  logic sample, sampled_q, after_q;
   logic [31:0] ticks_q;
   assign sample = wave_i[feltgate_map_pkg::T_LEVELS];
-  initial past_ok_q = 1'b0;
-  always_ff @(posedge clk_i) begin
-    past_ok_q <= 1'b1;
-    ticks_q   <= !rst_ni ? first_i : sample ? ticks_q + 32'd1 : ticks_q;
-  end
-  always_comb if (!past_ok_q) assume (!rst_ni);
+  always_ff @(posedge clk_i) ticks_q <= !rst_ni ? first_i : sample ? ticks_q + 32'd1 : ticks_q;
 
   logic moved, chatters, trip, index_trip, flip_trip;
   encoder_monitor u_dut (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
-      .wave_i(wave_i),
+      .*,
       .tick_count_i(ticks_q),
-      .levels_i(levels_i),
-      .index_wrong_i(index_wrong_i),
-      .count_i(count_i),
-      .zero_i(zero_i),
-      .step_i(step_i),
-      .set_zero_i(set_zero_i),
       .flip_trip_o(flip_trip),
       .moved_o(moved),
       .chatters_o(chatters),

@@ -22,14 +22,7 @@ module ease_proof (
 
   logic eased;
   hold_timer u_dut (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
-      .armed_i(armed_i),
-      .wave_i(wave_i),
-      .tick_count_i(tick_count_i),
-      .param_i(param_i),
-      .moved_i(moved_i),
-      .beyond_i(beyond_i),
+      .*,
       .eased_o(eased)
   );
   (* hierconn *) wire [Bits-1:0] \u_dut.units_q ;

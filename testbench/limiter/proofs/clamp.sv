@@ -20,14 +20,7 @@ module clamp_proof (
   logic signed [W-1:0] limited;
   logic                beyond;
   limiter u_dut (
-      .clk_i(clk_i),
-      .valid_i(valid_i),
-      .torque_i(torque_i),
-      .voltage_i(voltage_i),
-      .duty_i(duty_i),
-      .ahead_i(ahead_i),
-      .late_i(late_i),
-      .param_i(param_i),
+      .*,
       .limited_o(limited),
       .beyond_o(beyond)
   );

@@ -30,10 +30,7 @@ module step_proof (
   localparam int Given = W + 1 - OperandW;  // bits of the difference that are given up
   localparam int Wide = 64;
 
-  logic past_ok_q;
-  initial past_ok_q = 1'b0;
-  always_ff @(posedge clk_i) past_ok_q <= 1'b1;
-  always_comb if (!past_ok_q) assume (!rst_ni);
+  `include "reset.svh"
 
   logic signed [       W-1:0] x, y, y_larger;
   logic signed [OperandW-1:0] operand, unused_operand;
@@ -44,14 +41,9 @@ module step_proof (
       .ProductDrop(Drop),
       .ProductW(ProductW)
   ) u_dut (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
-      .valid_i(valid_i),
-      .update_i(update_i),
-      .follow_i(follow_i),
+      .*,
       .x_i(x),
       .operand_o(operand),
-      .product_i(product_i),
       .y_o(y)
   );
   lowpass #(
@@ -60,11 +52,7 @@ module step_proof (
       .ProductDrop(Drop),
       .ProductW(ProductW)
   ) u_larger (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
-      .valid_i(valid_i),
-      .update_i(update_i),
-      .follow_i(follow_i),
+      .*,
       .x_i(x),
       .operand_o(unused_operand),
       .product_i(larger_i),

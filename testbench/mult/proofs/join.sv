@@ -13,9 +13,7 @@ module join_proof (
 );
   logic signed [52:0] product;
   mult u_dut (
-      .clk_i(clk_i),
-      .a_i(a_i),
-      .b_i(b_i),
+      .*,
       .product_o(product)
   );
   (* hierconn *) wire signed [17:0] \u_dut.low_q ;

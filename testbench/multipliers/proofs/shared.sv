@@ -4,50 +4,8 @@
 // One multiplier: what it multiplies, and that all blocks get its product.
 `default_nettype none
 
-module shared_proof (
-    input logic                                                  clk_i,
-    input logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] operand_i,
-    input logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] velocity_i,
-    input logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] dob_i,
-    input logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] scene_i,
-    input logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] control_i,
-    input logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] supervisor_i,
-    input logic                                                  signed_i,
-    input logic        [                                   31:0] param_i,
-    input logic                                                  square_distance_i,
-    input logic signed [                                   17:0] distance_i,
-    input logic                                                  square_estimate_i,
-    input logic signed [   feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate_i
-);
-  logic past_ok_q;
-  initial past_ok_q = 1'b0;
-  always_ff @(posedge clk_i) past_ok_q <= 1'b1;
-
-  logic signed [feltgate_pkg::PRODUCT_BITS-1:0] velocity, dob, scene, control, supervisor;
-  multipliers u_dut (
-      .clk_i(clk_i),
-      .operand_i(operand_i),
-      .velocity_i(velocity_i),
-      .dob_i(dob_i),
-      .scene_i(scene_i),
-      .control_i(control_i),
-      .supervisor_i(supervisor_i),
-      .signed_i(signed_i),
-      .param_i(param_i),
-      .square_distance_i(square_distance_i),
-      .distance_i(distance_i),
-      .square_estimate_i(square_estimate_i),
-      .estimate_i(estimate_i),
-      .velocity_product_o(velocity),
-      .dob_product_o(dob),
-      .scene_product_o(scene),
-      .control_product_o(control),
-      .supervisor_product_o(supervisor)
-  );
-
-  // The word on the bus: COEFFICIENT_BITS of it, and the next as a sign where it has one.
-  logic signed [17:0] coefficient;
-  assign coefficient = signed_i ? $signed(param_i[17:0]) : $signed({1'b0, param_i[16:0]});
+module shared_proof
+`include "multipliers.svh"
   (* hierconn *) wire signed [feltgate_pkg::MULTIPLIER_A_BITS-1:0] \u_dut.gen_shared.u_mult.a_i ;
   (* hierconn *) wire signed [17:0] \u_dut.gen_shared.u_mult.b_i ;
   (* hierconn *) wire signed [feltgate_pkg::PRODUCT_BITS-1:0] \u_dut.gen_shared.u_mult.product_o ;

@@ -51,18 +51,8 @@ module operands_proof (
   logic signed_word, square;
   logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate;
   operand_bus u_dut (
-      .clk_i(clk_i),
+      .*,
       .wave_i(wave),
-      .velocity_difference_i(velocity_difference_i),
-      .observer_difference_i(observer_difference_i),
-      .distance_i(distance_i),
-      .limited_i(limited_i),
-      .velocity_i(velocity_i),
-      .tau_hat_i(tau_hat_i),
-      .tau_ref_i(tau_ref_i),
-      .current_ref_i(current_ref_i),
-      .voltage_i(voltage_i),
-      .current_estimate_i(current_estimate_i),
       .operand_o(operand),
       .dob_o(dob),
       .scene_o(scene),

@@ -17,10 +17,7 @@ module legs_proof (
   localparam int Dead = feltgate_pkg::DEAD_CLOCKS;
   localparam int DeadBits = (Dead > 1) ? $clog2(Dead) : 1;
 
-  logic past_ok_q;
-  initial past_ok_q = 1'b0;
-  always_ff @(posedge clk_i) past_ok_q <= 1'b1;
-  always_comb if (!past_ok_q) assume (!rst_ni);
+  `include "reset.svh"
 
   logic a_hi, a_lo, b_hi, b_lo, period_start;
   logic signed [12:0] duty_active;
@@ -28,13 +25,7 @@ module legs_proof (
       .Period(Period),
       .DeadClocks(Dead)
   ) u_dut (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
-      .enable_i(enable_i),
-      .clear_i(clear_i),
-      .mode_i(mode_i),
-      .polarity_i(polarity_i),
-      .duty_i(duty_i),
+      .*,
       .gate_a_hi_o(a_hi),
       .gate_a_lo_o(a_lo),
       .gate_b_hi_o(b_hi),

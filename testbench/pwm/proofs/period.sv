@@ -17,10 +17,7 @@ module period_proof (
   localparam int Period = feltgate_pkg::PWM_PERIOD;
   localparam int Half = Period / 2;
 
-  logic past_ok_q;
-  initial past_ok_q = 1'b0;
-  always_ff @(posedge clk_i) past_ok_q <= 1'b1;
-  always_comb if (!past_ok_q) assume (!rst_ni);
+  `include "reset.svh"
 
   logic period_start;
   logic signed [12:0] duty_active;
@@ -28,13 +25,7 @@ module period_proof (
       .Period(Period),
       .DeadClocks(feltgate_pkg::DEAD_CLOCKS)
   ) u_dut (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
-      .enable_i(enable_i),
-      .clear_i(clear_i),
-      .mode_i(mode_i),
-      .polarity_i(polarity_i),
-      .duty_i(duty_i),
+      .*,
       .gate_a_hi_o(),
       .gate_a_lo_o(),
       .gate_b_hi_o(),

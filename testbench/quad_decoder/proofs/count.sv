@@ -16,10 +16,7 @@ module count_proof (
     input logic               set_zero_i,
     input logic               clear_error_i
 );
-  logic past_ok_q;
-  initial past_ok_q = 1'b0;
-  always_ff @(posedge clk_i) past_ok_q <= 1'b1;
-  always_comb if (!past_ok_q) assume (!rst_ni);
+  `include "reset.svh"
 
   // The angle's lowest bits now, and at the last 20 edges: [0] is what the pins showed at the last one.
   logic        fresh_q;  // nothing sampled since the reset
@@ -59,15 +56,9 @@ module count_proof (
   logic signed [31:0] count, zero;
   logic               error, illegal;
   quad_decoder u_dut (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
+      .*,
       .a_i(lines[1]),
       .b_i(lines[0]),
-      .z_i(z_i),
-      .filter_i(filter_i),
-      .polarity_i(polarity_i),
-      .set_zero_i(set_zero_i),
-      .clear_error_i(clear_error_i),
       .position_o(position),
       .travel_o(travel),
       .step_o(step),

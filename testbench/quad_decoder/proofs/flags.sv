@@ -13,10 +13,7 @@ module flags_proof (
     input logic       set_zero_i,
     input logic       clear_error_i
 );
-  logic past_ok_q;
-  initial past_ok_q = 1'b0;
-  always_ff @(posedge clk_i) past_ok_q <= 1'b1;
-  always_comb if (!past_ok_q) assume (!rst_ni);
+  `include "reset.svh"
 
   logic signed [31:0] position, index_position;
   logic        [15:0] travel, error_count, rejected_count;
@@ -29,15 +26,10 @@ module flags_proof (
   quad_decoder #(
       .IndexCounts(N)
   ) u_dut (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
+      .*,
       .a_i(pins_i[0]),
       .b_i(pins_i[1]),
       .z_i(pins_i[2]),
-      .filter_i(filter_i),
-      .polarity_i(polarity_i),
-      .set_zero_i(set_zero_i),
-      .clear_error_i(clear_error_i),
       .position_o(position),
       .travel_o(travel),
       .count_o(),

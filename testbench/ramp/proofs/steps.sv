@@ -17,7 +17,6 @@ module steps_proof (
     input logic                                      frozen_i,
     input logic                                      eased_i
 );
-  localparam int Clocks = feltgate_pkg::CLOCKS_PER_TICK;
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int W = feltgate_pkg::RAMP_W;
   localparam int Fine = feltgate_pkg::RAMP_F - feltgate_pkg::TORQUE_F;
@@ -25,28 +24,15 @@ module steps_proof (
   localparam int Excess = feltgate_map_pkg::T_RAMP_EXCESS;
   localparam int Result = feltgate_map_pkg::T_TAU_REF;
 
-  // The wave as the sequencer makes it, from any clock of a tick on.
-  logic past_ok_q, tick;
-  logic [8:0] phase_q;
-  logic [feltgate_map_pkg::WAVE_LENGTH-1:0] wave;
-  initial past_ok_q = 1'b0;
-  always_ff @(posedge clk_i) begin
-    past_ok_q <= 1'b1;
-    phase_q   <= !rst_ni ? start_i : phase_q == 9'(Clocks - 1) ? 9'd0 : phase_q + 9'd1;
-  end
-  assign wave = (phase_q < 9'(feltgate_map_pkg::WAVE_LENGTH)) ? feltgate_map_pkg::WAVE_LENGTH'(1) << phase_q : '0;
-  assign tick = phase_q == 9'(Clocks - 1 - feltgate_map_pkg::FIRST_WAVE_CLOCK);
+  `include "wave.svh"
 
   // What holds for a whole tick changes after its end, or early in the wave, and not in the ramp's clocks.
-  logic armed_q, frozen_q, tick_q;
+  logic armed_q, frozen_q;
   always_ff @(posedge clk_i) begin
-    tick_q   <= tick;
     armed_q  <= armed_i;
     frozen_q <= frozen_i;
   end
   always_comb begin
-    if (!past_ok_q) assume (!rst_ni);
-    assume (phase_q < 9'(Clocks) && start_i < 9'(Clocks));
     assume (tick_q || !rst_ni || armed_i == armed_q);
     assume (phase_q <= 9'(Begin) || frozen_i == frozen_q);
     assume (tick || !restart_i);
@@ -57,17 +43,8 @@ module steps_proof (
   logic signed [TorqueW-1:0] tau_ref;
   logic limit_torque, limit_ramp, limit_hold;
   ramp u_dut (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
-      .armed_i(armed_i),
-      .scene_i(scene_i),
-      .restart_i(restart_i),
+      .*,
       .wave_i(wave),
-      .param_i(param_i),
-      .limited_i(limited_i),
-      .beyond_i(beyond_i),
-      .frozen_i(frozen_i),
-      .eased_i(eased_i),
       .tau_ref_o(tau_ref),
       .limit_torque_o(limit_torque),
       .limit_ramp_o(limit_ramp),
@@ -153,7 +130,7 @@ module steps_proof (
                                    ((before_q >= 0) ? (fine <= before_q && fine >= 0) : fine >= before_q));
         disarmed_is_the_target: assert (armed_q || fine == target_q);
         shows_the_ramp: assert (limit_ramp ? armed_q && (ramps_q || (frozen_q && fine == before_q))
-                                           : !(armed_q && ramps_q));
+                                           : !(armed_q && (ramps_q || (frozen_q && fine != target_q))));
         inside_from_zero: assert (!(zero_q && armed_q) || (fine <= step_q && fine >= -step_q));
         rises: cover (ramps_q && armed_q && moved > 0 && ramping);
         follows: cover (!ramps_q && armed_q && fine != before_q);

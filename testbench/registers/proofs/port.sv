@@ -33,22 +33,9 @@ module port_proof (
   logic busy, word_error, set_zero, clear_faults, kick, disarm, stop, restart, refused;
   logic [ControlW-1:0] control;
   registers u_dut (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
-      .tick_i(tick_i),
-      .reg_addr_i(reg_addr_i),
-      .reg_wdata_i(reg_wdata_i),
-      .reg_write_i(reg_write_i),
+      .*,
       .reg_rdata_o(rdata),
       .reg_busy_o(busy),
-      .armed_i(armed_i),
-      .set_zero_i(set_zero_i),
-      .slot_fetch_i(slot_fetch_i),
-      .scene_slot_fetch_i(scene_slot_fetch_i),
-      .scene_i(scene_i),
-      .region_high_i(region_high_i),
-      .eased_i(eased_i),
-      .testing_i(testing_i),
       .param_o(param),
       .word_error_o(word_error),
       .control_o(control),
@@ -58,10 +45,7 @@ module port_proof (
       .disarm_o(disarm),
       .stop_o(stop),
       .restart_o(restart),
-      .refused_o(refused),
-      .snap_slot_i(snap_slot_i),
-      .snap_valid_i(snap_valid_i),
-      .snap_data_i(snap_data_i)
+      .refused_o(refused)
   );
   (* hierconn *) wire \u_dut.lands ;
   wire lands = \u_dut.lands ;

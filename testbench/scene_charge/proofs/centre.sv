@@ -54,16 +54,8 @@ module centre_proof (
   logic signed [PartW-1:0] plus, minus;
   logic signed [TorqueW-1:0] outside;
   scene_charge u_dut (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
-      .armed_i(armed_i),
-      .attract_i(attract_i),
-      .repel_i(repel_i),
-      .gap_i(gap_i),
+      .*,
       .wave_i(wave),
-      .param_i(param_i),
-      .product_i(product_i),
-      .beyond_i(beyond_i),
       .plus_o(plus),
       .minus_o(minus),
       .outside_o(outside)

@@ -13,27 +13,15 @@ module faces_proof (
     input logic        gap_zero_i,
     input logic [31:0] param_i
 );
-  localparam int Clocks = feltgate_pkg::CLOCKS_PER_TICK;
   localparam int W = feltgate_pkg::TORQUE_W;
   localparam int Lower = feltgate_map_pkg::S_MEMBRANE_LOWER;
   localparam int Upper = feltgate_map_pkg::S_MEMBRANE_UPPER;
   localparam int Torque = feltgate_map_pkg::S_MEMBRANE_TORQUE;
 
-  logic past_ok_q, tick, tick_q, select_q;
-  logic [8:0] phase_q;
-  logic [feltgate_map_pkg::WAVE_LENGTH-1:0] wave;
-  initial past_ok_q = 1'b0;
-  always_ff @(posedge clk_i) begin
-    past_ok_q <= 1'b1;
-    tick_q    <= tick;
-    select_q  <= select_i;
-    phase_q   <= !rst_ni ? start_i : phase_q == 9'(Clocks - 1) ? 9'd0 : phase_q + 9'd1;
-  end
-  assign wave = (phase_q < 9'(feltgate_map_pkg::WAVE_LENGTH)) ? feltgate_map_pkg::WAVE_LENGTH'(1) << phase_q : '0;
-  assign tick = phase_q == 9'(Clocks - 1 - feltgate_map_pkg::FIRST_WAVE_CLOCK);
+  `include "wave.svh"
+  logic select_q;
+  always_ff @(posedge clk_i) select_q <= select_i;
   always_comb begin
-    if (!past_ok_q) assume (!rst_ni);
-    assume (phase_q < 9'(Clocks) && start_i < 9'(Clocks));
     assume (rst_ni || start_i == 9'(Clocks - feltgate_map_pkg::FIRST_WAVE_CLOCK));  // where the sequencer begins
     assume (tick_q || !rst_ni || select_i == select_q);
     assume (!(gap_negative_i && gap_zero_i));
@@ -41,13 +29,8 @@ module faces_proof (
 
   logic signed [W-1:0] plus, minus;
   scene_membrane u_dut (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
-      .select_i(select_i),
-      .gap_negative_i(gap_negative_i),
-      .gap_zero_i(gap_zero_i),
+      .*,
       .wave_i(wave),
-      .param_i(param_i),
       .plus_o(plus),
       .minus_o(minus)
   );

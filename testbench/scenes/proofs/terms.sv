@@ -28,21 +28,12 @@ module terms_proof (
   logic signed [W-1:0] spring, damper, wall, brake;
   scene_setpoint u_setpoint (.clk_i(clk_i), .select_i(select_i), .wave_i(wave_i), .param_i(param_i), .plus_o(setpoint));
   scene_spring u_spring (
-      .clk_i(clk_i),
-      .tension_i(tension_i),
-      .compression_i(compression_i),
-      .behind_i(behind_i),
-      .wave_i(wave_i),
-      .product_i(product_i),
+      .*,
       .plus_o(spring)
   );
   scene_damper u_damper (.clk_i(clk_i), .select_i(select_i), .wave_i(wave_i), .product_i(product_i), .minus_o(damper));
   scene_wall u_wall (
-      .clk_i(clk_i),
-      .select_i(select_i),
-      .behind_i(behind_i),
-      .wave_i(wave_i),
-      .product_i(product_i),
+      .*,
       .plus_o(wall),
       .minus_o(brake)
   );

@@ -15,7 +15,6 @@ module torque_proof (
     input logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     input logic signed [  feltgate_pkg::SCENE_TORQUE_W-1:0] pulse_i   // of the self-test
 );
-  localparam int Clocks = feltgate_pkg::CLOCKS_PER_TICK;
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int PartW = feltgate_pkg::SCENE_PART_W;
   localparam int GapW = feltgate_pkg::SCENE_POSITION_W + 1;
@@ -27,23 +26,14 @@ module torque_proof (
   localparam int Wide = feltgate_pkg::LIMITER_INPUT_W;
   localparam int Limit = feltgate_map_pkg::S_TORQUE_LIMIT;
 
-  logic past_ok_q, tick, tick_q, armed_q;
-  logic [8:0] phase_q;
+  `include "wave.svh"
+  logic armed_q;
   logic [3:0] scene_q;
-  logic [feltgate_map_pkg::WAVE_LENGTH-1:0] wave;
-  initial past_ok_q = 1'b0;
   always_ff @(posedge clk_i) begin
-    past_ok_q <= 1'b1;
-    tick_q    <= tick;
-    armed_q   <= armed_i;
-    scene_q   <= scene_i;
-    phase_q   <= !rst_ni ? start_i : phase_q == 9'(Clocks - 1) ? 9'd0 : phase_q + 9'd1;
+    armed_q <= armed_i;
+    scene_q <= scene_i;
   end
-  assign wave = (phase_q < 9'(feltgate_map_pkg::WAVE_LENGTH)) ? feltgate_map_pkg::WAVE_LENGTH'(1) << phase_q : '0;
-  assign tick = phase_q == 9'(Clocks - 1 - feltgate_map_pkg::FIRST_WAVE_CLOCK);
   always_comb begin
-    if (!past_ok_q) assume (!rst_ni);
-    assume (phase_q < 9'(Clocks) && start_i < 9'(Clocks));
     assume (tick_q || !rst_ni || scene_i == scene_q);
     assume (tick_q || !rst_ni || phase_q > 9'(feltgate_map_pkg::T_SELF_TEST_TURN) || armed_i == armed_q);
     assume (phase_q == 9'(Limit - 1) || pulse_i == '0);
@@ -55,14 +45,8 @@ module torque_proof (
   logic signed [LimiterW-1:0] limited;
   logic square, beyond;
   scenes u_dut (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
-      .armed_i(armed_i),
-      .scene_i(scene_i),
+      .*,
       .wave_i(wave),
-      .param_i(param_i),
-      .position_i(position_i),
-      .product_i(product_i),
       .beyond_i(beyond),
       .distance_o(distance),
       .square_o(square),

@@ -14,7 +14,6 @@ module pulses_proof (
     input logic [ 1:0] travel_i,
     input logic [31:0] param_i
 );
-  localparam int Clocks = feltgate_pkg::CLOCKS_PER_TICK;
   localparam int W = feltgate_pkg::SCENE_TORQUE_W;
   localparam int UnitBit = feltgate_map_pkg::SELF_TEST_UNIT_BITS;
   localparam int PatienceBit = feltgate_map_pkg::SELF_TEST_PATIENCE_BITS;
@@ -22,20 +21,10 @@ module pulses_proof (
   localparam int ResultW = feltgate_map_pkg::W_STATUS_SELF_TEST;
   localparam logic signed [2:0] Answer = 3'(feltgate_map_pkg::SELF_TEST_COUNTS);
 
-  // The wave and the ticks as the sequencer makes them, from any clock of any tick on.
-  logic past_ok_q, tick, tick_q, turn;
-  logic [8:0] phase_q;
+  `include "wave.svh"
+  logic turn;
   logic [31:0] ticks_q;
-  logic [feltgate_map_pkg::WAVE_LENGTH-1:0] wave;
-  initial past_ok_q = 1'b0;
-  always_ff @(posedge clk_i) begin
-    past_ok_q <= 1'b1;
-    tick_q    <= tick;
-    phase_q   <= !rst_ni ? start_i : phase_q == 9'(Clocks - 1) ? 9'd0 : phase_q + 9'd1;
-    ticks_q   <= !rst_ni ? first_i : ticks_q + 32'(tick);
-  end
-  assign wave = (phase_q < 9'(feltgate_map_pkg::WAVE_LENGTH)) ? feltgate_map_pkg::WAVE_LENGTH'(1) << phase_q : '0;
-  assign tick = phase_q == 9'(Clocks - 1 - feltgate_map_pkg::FIRST_WAVE_CLOCK);
+  always_ff @(posedge clk_i) ticks_q <= !rst_ni ? first_i : ticks_q + 32'(tick);
   assign turn = wave[feltgate_map_pkg::T_SELF_TEST_TURN];
 
   // The length of a pulse stays as it is while armed.
@@ -47,8 +36,6 @@ module pulses_proof (
     if (wave[feltgate_map_pkg::T_SELF_TEST_OVER]) length_q <= param_i[CountW-1:0];
   end
   always_comb begin
-    if (!past_ok_q) assume (!rst_ni);
-    assume (phase_q < 9'(Clocks) && start_i < 9'(Clocks));
     assume (tick_q || !rst_ni || armed_i == armed_q);
     assume (!wave[feltgate_map_pkg::T_SELF_TEST_OVER] || !armed_i || param_i[CountW-1:0] == length_q);
   end
@@ -57,14 +44,9 @@ module pulses_proof (
   logic signed [W-1:0] ahead;
   logic [ResultW-1:0] result;
   self_test u_dut (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
-      .armed_i(armed_i),
-      .direct_i(direct_i),
-      .travel_i(travel_i),
+      .*,
       .tick_count_i(ticks_q),
       .wave_i(wave),
-      .param_i(param_i),
       .busy_o(busy),
       .ahead_o(ahead),
       .result_o(result),

@@ -12,10 +12,7 @@ module clocks_proof (
   localparam int L = feltgate_map_pkg::WAVE_LENGTH;
   localparam int First = feltgate_map_pkg::FIRST_WAVE_CLOCK;
 
-  logic past_ok_q;
-  initial past_ok_q = 1'b0;
-  always_ff @(posedge clk_i) past_ok_q <= 1'b1;
-  always_comb if (!past_ok_q) assume (!rst_ni);
+  `include "reset.svh"
 
   logic         tick, scene_slot_fetch;
   logic [  5:0] slot_fetch;

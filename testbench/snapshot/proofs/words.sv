@@ -33,18 +33,10 @@ module words_proof (
   logic valid;
   logic [5:0] slot;
   snapshot u_dut (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
+      .*,
       .slot_fetch_i(slot_fetch),
       .wave_i(wave),
-      .status_i(status_i),
-      .faults_i(faults_i),
-      .position_i(position_i),
       .tick_count_i(tick_count),
-      .index_position_i(index_position_i),
-      .error_count_i(error_count_i),
-      .rejected_count_i(rejected_count_i),
-      .operand_i(operand_i),
       .valid_o(valid),
       .slot_o(slot),
       .data_o(data)
@@ -62,10 +54,7 @@ module words_proof (
       (64'd1 << feltgate_map_pkg::R_TAU_REF) | (64'd1 << feltgate_map_pkg::R_CURRENT_REF) |
       (64'd1 << feltgate_map_pkg::R_VOLTAGE) | (64'd1 << feltgate_map_pkg::R_DUTY);
 
-  logic past_ok_q;
-  initial past_ok_q = 1'b0;
-  always_ff @(posedge clk_i) past_ok_q <= 1'b1;
-  always_comb if (!past_ok_q) assume (!rst_ni);
+  `include "reset.svh"
 
   // Slots stored since the last tick ended.
   logic [63:0] stored_q;

@@ -22,48 +22,14 @@ module latch_proof (
     input logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     input logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i
 );
-  localparam int FaultsW = feltgate_map_pkg::W_FAULTS_SEEN;
-  localparam int FirstW = feltgate_map_pkg::W_FAULTS_FIRST;
+  `include "reset.svh"
 
-  logic past_ok_q;
-  initial past_ok_q = 1'b0;
-  always_ff @(posedge clk_i) past_ok_q <= 1'b1;
+  `include "supervisor.svh"
   always_comb begin
-    if (!past_ok_q) assume (!rst_ni);
     assume (!trips_i[0]);  // there is no cause 0
     assume (!clear_faults_i || tick_i);
   end
 
-  logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate;
-  logic armed, gates, gates_clear, unkicked;
-  logic [FaultsW-1:0] faults;
-  logic [ FirstW-1:0] first;
-  supervisor u_dut (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
-      .tick_i(tick_i),
-      .period_start_i(period_start_i),
-      .arm_i(arm_i),
-      .stop_i(stop_i),
-      .clear_faults_i(clear_faults_i),
-      .kick_i(kick_i),
-      .encoder_error_i(encoder_error_i),
-      .velocity_i(velocity_i),
-      .current_ref_i(current_ref_i),
-      .wave_i(wave_i),
-      .param_i(param_i),
-      .product_i(product_i),
-      .current_estimate_o(estimate),
-      .armed_o(armed),
-      .gates_enable_o(gates),
-      .gates_clear_o(gates_clear),
-      .unkicked_o(unkicked),
-      .trips_i(trips_i),
-      .faults_o(faults),
-      .first_fault_o(first)
-  );
-  (* hierconn *) wire [FaultsW-1:0] \u_dut.trip ;
-  wire [FaultsW-1:0] trip = \u_dut.trip ;
   (* hierconn *) wire \u_dut.asked_q ;
   wire asked = \u_dut.asked_q ;
   (* hierconn *) wire [1:0] \u_dut.stop_q ;
@@ -124,13 +90,11 @@ module latch_proof (
       first_cause_stays: assert (clear_q || first_q == '0 || first == first_q);
       first_cause_is_the_lowest: assert (!(clear_q || first_q == '0) || trip_q == '0 ||
                                          (FaultsW'(1) << first) == lowest_bit);
-      fault_has_a_first: assert ((faults == '0) == (first == '0));
       no_gates_beside_a_fault: assert (!gates || faults == '0);
       no_arming_by_itself: assert (!(gates && !gates_q) || (tick_q && arm_q && !asked_last_q &&
                                    faults_q == '0 && trip_q == '0 && !stop_seen_q && !unkicked_q));
       disarms_with_the_request: assert (!(tick_q && !arm_q) || (!gates && !armed));
       armed_in_ticks_only: assert (tick_q || armed == armed_q);
-      gates_only_armed: assert (!gates || armed);
       estimate_in_its_clock: assert (estimate_due_q || estimate == estimate_q);
       stop_closes_gates: assert (!cleared_q[2] || !gates);
       unkicked_until_a_kick: assert (unkicked == (feltgate_pkg::REQUIRE_WATCHDOG != 0 && !kicked_q));

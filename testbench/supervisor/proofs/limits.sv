@@ -22,26 +22,16 @@ module limits_proof (
     input logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,
     input logic                                           watch_i    // from here on errors are counted
 );
-  localparam int FaultsW = feltgate_map_pkg::W_FAULTS_SEEN;
-  localparam int FirstW = feltgate_map_pkg::W_FAULTS_FIRST;
-  localparam int Clocks = feltgate_pkg::CLOCKS_PER_TICK;
+  `include "wave.svh"
+  wire tick_i = tick;
+  wire [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i = wave;
+  `include "supervisor.svh"
+
   localparam logic [FaultsW-1:0] OwnCauses = (FaultsW'(1) << feltgate_map_pkg::FAULT_ENCODER) |
       (FaultsW'(1) << feltgate_map_pkg::FAULT_SPEED) | (FaultsW'(1) << feltgate_map_pkg::FAULT_POLARITY) |
       (FaultsW'(1) << feltgate_map_pkg::FAULT_I2T) | (FaultsW'(1) << feltgate_map_pkg::FAULT_WATCHDOG) | FaultsW'(1);
   localparam int VelocityW = feltgate_pkg::VELOCITY_W;
   localparam int CurrentW = feltgate_pkg::CURRENT_W;
-
-  // The wave as the sequencer makes it: bit n in clock n + FIRST_WAVE_CLOCK, the tick in the last one.
-  logic past_ok_q, tick;
-  logic [8:0] phase_q;
-  logic [feltgate_map_pkg::WAVE_LENGTH-1:0] wave;
-  initial past_ok_q = 1'b0;
-  always_ff @(posedge clk_i) begin
-    past_ok_q <= 1'b1;
-    phase_q   <= !rst_ni ? start_i : phase_q == 9'(Clocks - 1) ? 9'd0 : phase_q + 9'd1;
-  end
-  assign wave = (phase_q < 9'(feltgate_map_pkg::WAVE_LENGTH)) ? feltgate_map_pkg::WAVE_LENGTH'(1) << phase_q : '0;
-  assign tick = phase_q == 9'(Clocks - 1 - feltgate_map_pkg::FIRST_WAVE_CLOCK);
 
   // A tick counts as whole where the reset is over before its wave.
   logic whole_q;
@@ -60,43 +50,11 @@ module limits_proof (
     current_q  <= current_ref_i;
   end
   always_comb begin
-    if (!past_ok_q) assume (!rst_ni);
-    assume (phase_q < 9'(Clocks) && start_i < 9'(Clocks));
     assume ((trips_i & OwnCauses) == '0);
     assume (tick || (!clear_faults_i && !kick_i));
     assume (!steady || (velocity_i == velocity_q && current_ref_i == current_q));
   end
 
-  logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate;
-  logic armed, gates, gates_clear, unkicked;
-  logic [FaultsW-1:0] faults;
-  logic [ FirstW-1:0] first;
-  supervisor u_dut (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
-      .tick_i(tick),
-      .period_start_i(period_start_i),
-      .arm_i(arm_i),
-      .stop_i(stop_i),
-      .clear_faults_i(clear_faults_i),
-      .kick_i(kick_i),
-      .encoder_error_i(encoder_error_i),
-      .velocity_i(velocity_i),
-      .current_ref_i(current_ref_i),
-      .wave_i(wave),
-      .param_i(param_i),
-      .product_i(product_i),
-      .current_estimate_o(estimate),
-      .armed_o(armed),
-      .gates_enable_o(gates),
-      .gates_clear_o(gates_clear),
-      .unkicked_o(unkicked),
-      .trips_i(trips_i),
-      .faults_o(faults),
-      .first_fault_o(first)
-  );
-  (* hierconn *) wire [FaultsW-1:0] \u_dut.trip ;
-  wire [FaultsW-1:0] trip = \u_dut.trip ;
 
   // Size of a signal against the word on the bus; a negative word is below everything.
   function automatic logic beyond(input logic signed [32:0] x, input logic [31:0] word);

@@ -21,56 +21,22 @@ module ticks_proof (
     input logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     input logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i
 );
-  localparam int FaultsW = feltgate_map_pkg::W_FAULTS_SEEN;
-  localparam int FirstW = feltgate_map_pkg::W_FAULTS_FIRST;
+  `include "reset.svh"
   localparam int Period = feltgate_pkg::PWM_PERIOD;
   localparam int Periods = (feltgate_pkg::CLOCKS_PER_TICK + Period - 1) / Period;
 
   // period_start_i as pwm makes it, in every Period-th clock.
-  logic past_ok_q, period_start;
+  logic period_start_i;
   logic [11:0] carrier_q;  // clocks since the last start
-  initial past_ok_q = 1'b0;
-  always_ff @(posedge clk_i) begin
-    past_ok_q <= 1'b1;
-    carrier_q <= !rst_ni ? start_i : period_start ? 12'd0 : carrier_q + 12'd1;
-  end
-  assign period_start = carrier_q == 12'(Period - 1);
+  always_ff @(posedge clk_i) carrier_q <= !rst_ni ? start_i : period_start_i ? 12'd0 : carrier_q + 12'd1;
+  assign period_start_i = carrier_q == 12'(Period - 1);
+  `include "supervisor.svh"
   always_comb begin
-    if (!past_ok_q) assume (!rst_ni);
     assume (carrier_q < 12'(Period) && start_i < 12'(Period));
     assume (!trips_i[0] && !trips_i[feltgate_map_pkg::FAULT_TICK]);
   end
 
-  logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate;
-  logic armed, gates, gates_clear, unkicked;
-  logic [FaultsW-1:0] faults;
-  logic [ FirstW-1:0] first;
-  supervisor u_dut (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
-      .tick_i(tick_i),
-      .period_start_i(period_start),
-      .arm_i(arm_i),
-      .stop_i(stop_i),
-      .clear_faults_i(clear_faults_i),
-      .kick_i(kick_i),
-      .encoder_error_i(encoder_error_i),
-      .velocity_i(velocity_i),
-      .current_ref_i(current_ref_i),
-      .wave_i(wave_i),
-      .param_i(param_i),
-      .product_i(product_i),
-      .current_estimate_o(estimate),
-      .armed_o(armed),
-      .gates_enable_o(gates),
-      .gates_clear_o(gates_clear),
-      .unkicked_o(unkicked),
-      .trips_i(trips_i),
-      .faults_o(faults),
-      .first_fault_o(first)
-  );
-  (* hierconn *) wire [FaultsW-1:0] \u_dut.trip ;
-  wire trip = \u_dut.trip [feltgate_map_pkg::FAULT_TICK];
+  wire trips = trip[feltgate_map_pkg::FAULT_TICK];
   localparam int PeriodsW = $clog2(Periods + 1);
   (* hierconn *) wire [PeriodsW-1:0] \u_dut.tickless_q ;
   (* hierconn *) wire \u_dut.tick_q ;
@@ -96,14 +62,14 @@ module ticks_proof (
   always_comb begin
     if (rst_ni && past_ok_q) begin
       standing_closes_gates: assert (!gates || open_q <= 16'((Periods + 1) * Period));
-      in_time_never_trips: assert (!trip || since_q > 16'(Periods * Period - 1));
+      in_time_never_trips: assert (!trips || since_q > 16'(Periods * Period - 1));
       inside_tick: assert (\u_dut.tick_q == tick_q);
       inside_open: assert (!gates || open_q > 16'((Periods + 1) * Period) ||
                            open_q <= 16'(\u_dut.tickless_q ) * 16'(Period) + 16'(carrier_q) + 16'd1);
       inside_since: assert (\u_dut.tickless_q <= PeriodsW'(Periods) &&
                             (\u_dut.tickless_q == '0 || since_q[15] ||
                              since_q + 16'(Period) >= 16'(\u_dut.tickless_q ) * 16'(Period) + 16'(carrier_q) + 16'd1));
-      a_period_begins: cover (period_start && gates && \u_dut.tickless_q == '0);
+      a_period_begins: cover (period_start_i && gates && \u_dut.tickless_q == '0);
     end
   end
 endmodule

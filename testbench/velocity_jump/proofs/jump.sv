@@ -15,12 +15,11 @@ module jump_proof (
   localparam logic signed [W+2:0] Most =
       (W + 3)'(1) << (W + feltgate_pkg::COEFFICIENT_BITS - feltgate_pkg::P_VELOCITY_A1_F);
 
-  logic past_ok_q, after_q, now_q;
+  `include "reset.svh"
+  logic after_q, now_q;
   logic signed [W-1:0] last_q;  // of the tick before; 0 after a reset
   logic signed [W+2:0] moved, moved_q;
   assign moved = (W + 3)'(velocity_i) - (W + 3)'(last_q);
-  initial past_ok_q = 1'b0;
-  always_ff @(posedge clk_i) past_ok_q <= 1'b1;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       after_q <= 1'b0;
@@ -34,14 +33,10 @@ module jump_proof (
       if (wave_i[feltgate_map_pkg::T_JUMP]) last_q <= velocity_i;
     end
   end
-  always_comb if (!past_ok_q) assume (!rst_ni);
 
   logic trip;
   velocity_jump u_dut (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
-      .wave_i(wave_i),
-      .velocity_i(velocity_i),
+      .*,
       .trip_o(trip)
   );
   (* hierconn *) wire signed [feltgate_pkg::P_VELOCITY_A1_F-feltgate_pkg::COEFFICIENT_BITS-1:0] \u_dut.gen_compare.before_q ;

@@ -12,32 +12,20 @@ module window_proof (
     input logic signed [      feltgate_pkg::TRAVEL_BITS-1:0] travel_i,
     input logic signed [     feltgate_pkg::PRODUCT_BITS-1:0] product_i
 );
-  localparam int Clocks = feltgate_pkg::CLOCKS_PER_TICK;
   localparam int T = feltgate_pkg::TRAVEL_BITS;
   localparam int W = feltgate_pkg::VELOCITY_W;
   localparam int M1 = feltgate_pkg::M1;
   localparam int AddressW = $clog2(M1 + 1);
 
-  logic past_ok_q;
-  logic [8:0] phase_q;
-  logic [feltgate_map_pkg::WAVE_LENGTH-1:0] wave;
-  initial past_ok_q = 1'b0;
-  always_ff @(posedge clk_i) begin
-    past_ok_q <= 1'b1;
-    phase_q   <= !rst_ni ? start_i : phase_q == 9'(Clocks - 1) ? 9'd0 : phase_q + 9'd1;
-  end
-  assign wave = (phase_q < 9'(feltgate_map_pkg::WAVE_LENGTH)) ? feltgate_map_pkg::WAVE_LENGTH'(1) << phase_q : '0;
+  `include "wave.svh"
 
   logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] operand;
   logic signed [W-1:0] velocity;
   logic saturated;
   velocity_n u_dut (
-      .clk_i(clk_i),
-      .rst_ni(rst_ni),
+      .*,
       .wave_i(wave),
-      .travel_i(travel_i),
       .operand_o(operand),
-      .product_i(product_i),
       .velocity_o(velocity),
       .saturated_o(saturated)
   );
@@ -100,8 +88,7 @@ module window_proof (
     update_q         <= wave[feltgate_map_pkg::T_VELOCITY];
   end
   always_comb begin
-    if (!past_ok_q) assume (!rst_ni);
-    assume (phase_q < 9'(Clocks) && start_i < 9'(Clocks) && entry_q < AddressW'(M1));
+    assume (entry_q < AddressW'(M1));
     // What the line returns.
     if (past_ok_q && at_entry_q) assume ($signed(\u_dut.line_q ) == kept_q);
     // A reset ends where the sequencer begins.

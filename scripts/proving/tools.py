@@ -88,8 +88,8 @@ def copy_sources(root, proof, design, patch, folder):
     design, constants, _ = split_design(design)
     package = f"rtl/generated/{design}/feltgate_pkg.sv"
     paths = [package, "rtl/generated/feltgate_map_pkg.sv"]
-    for folder, name in rtl_sources.PACKAGES.items():
-        if any(known[n].startswith(f"{folder}/") for n in names):
+    for below, name in rtl_sources.PACKAGES.items():
+        if any(known[n].startswith(f"{below}/") for n in names):
             paths.append(f"rtl/generated/{name}.sv")
     paths += [f"rtl/{known[name]}" for name in names]
     changed = {str(k): v for k, v in patches.patched(patch, root).items()} if patch else {}

@@ -3,6 +3,7 @@
 """Tables of `feltgate synth`: on the terminal, and the generated part of docs/synthesis.md."""
 
 import synth_measure
+from reporting.columns import aligned
 
 BEGIN = "<!-- written by feltgate synth --update: do not edit from here -->"
 END = "<!-- end of what feltgate synth wrote -->"
@@ -110,13 +111,8 @@ def cells(name, row):
 
 def text_table(design, rows):
     lines = [[f"design {design}", *HEADS[1:]], *(cells(n, r) for n, r in rows.items())]
-    widths = [max(len(line[k]) for line in lines) for k in range(len(HEADS))]
-    table = [
-        "  ".join([line[0].ljust(widths[0]), *(c.rjust(w) for c, w in zip(line[1:], widths[1:]))])
-        for line in lines
-    ]
     paths = [f"  {n}: {r['critical_path']}" for n, r in rows.items() if "critical_path" in r]
-    return "\n".join(table + (["critical paths:", *paths] if paths else []))
+    return "\n".join([aligned(lines), *(["critical paths:", *paths] if paths else [])])
 
 
 def markdown(heads, rows):

@@ -4,6 +4,8 @@
 
 from dataclasses import dataclass, field
 
+from reporting.columns import aligned
+
 from .data import KINDS
 from . import waivers as waiving
 
@@ -68,11 +70,12 @@ def cell(row, kind):
 
 
 def text(report, limit):
-    lines = [f"{'block':18}{'lines':>12}{'branches':>12}{'toggles':>24}{'cover points':>16}{'s of CPU':>10}"]
+    rows = [("block", "lines", "branches", "toggles", "cover points", "s of CPU", "")]
     for row in [*report.rows, *([report.core] if report.core else [])]:
         seconds = f"{row.seconds:.1f}" if row.seconds else "-"
-        lines.append(f"{row.block:18}{cell(row, 'line'):>12}{cell(row, 'branch'):>12}{cell(row, 'toggle'):>24}"
-                     f"{cell(row, 'cover'):>16}{seconds:>10}" + ("  short" if row in report.bad else ""))
+        short = "short" if row in report.bad else ""
+        rows.append((row.block, *(cell(row, kind) for kind in KINDS), seconds, short))
+    lines = [aligned(rows)]
     if report.missed:
         lines += ["", "not reached:"]
         lines += [f"  {p.where}: {p.kind} {p.name}" for p in report.missed[:limit]]

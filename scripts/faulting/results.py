@@ -4,6 +4,8 @@
 
 import re
 
+from reporting.columns import aligned
+
 CLASSES = ("masked", "latent", "transient", "off", "detected", "silent", "unsafe")
 POINTS = ("state", "two bits", "pins", "words")
 SILENT_SHARE = 0.01
@@ -73,14 +75,12 @@ def promises(faults):
 
 
 def text_table(rows):
-    head = ["point", "group", "faults", *CLASSES, "peak Nm", "mNm s"]
-    lines = [head]
+    """For a terminal."""
+    lines = [["point", "group", "faults", *CLASSES, "peak Nm", "mNm s"]]
     for row in rows:
-        lines.append([row.point, row.group, str(row.total()), *(str(row.count[c]) for c in CLASSES),
+        lines.append([row.point, row.group, row.total(), *(row.count[c] for c in CLASSES),
                       f"{max(row.peaks):.3f}", f"{1e3 * max(row.integrals):.3f}"])
-    widths = [max(len(line[k]) for line in lines) for k in range(len(head))]
-    return "\n".join("  ".join(cell.ljust(w) if k < 2 else cell.rjust(w) for k, (cell, w) in
-                               enumerate(zip(line, widths))).rstrip() for line in lines)
+    return aligned(lines, left=2)
 
 
 def markdown_table(rows):

@@ -14,6 +14,7 @@ from pathlib import Path
 
 import interrupts
 from crew import Crew
+from reporting.columns import aligned
 from reporting.progress import Steps
 
 from . import equivalence
@@ -267,9 +268,7 @@ def table(rows):
     for row in rows:
         lines.append((row.test.name, row.test.database, len(row.fates), row.count(*DEAD), row.equivalent(),
                       row.of(ARGUED), row.of(GAP), row.of(""), f"{100 * row.share():.1f} %", f"{row.seconds:.0f}"))
-    widths = [max(len(str(line[k])) for line in lines) for k in range(len(HEAD))]
-    return "\n".join("  ".join(str(cell).ljust(w) if k == 0 else str(cell).rjust(w)
-                               for k, (cell, w) in enumerate(zip(line, widths))) for line in lines)
+    return aligned(lines)
 
 
 def print_survivors(rows, known):

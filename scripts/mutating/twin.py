@@ -37,6 +37,7 @@ import block_results
 import building
 import interrupts
 import outputs
+from reporting.columns import aligned
 
 from . import twin_parser, twin_programs, twin_runs, twin_source
 
@@ -217,9 +218,7 @@ def table(rows):
         lines.append((row.header, row.offered, len(row.verdicts), row.count("killed"), row.count("hangs"),
                       row.count("crashes"), len(row.left("equivalent")), len(row.left("gap")),
                       len(row.left(None)), f"{100 * row.share():.1f} %"))
-    widths = [max(len(str(line[k])) for line in lines) for k in range(len(head))]
-    return "\n".join("  ".join(str(cell).ljust(w) if k == 0 else str(cell).rjust(w)
-                               for k, (cell, w) in enumerate(zip(line, widths))) for line in lines)
+    return aligned(lines)
 
 
 def print_survivors(rows, known):

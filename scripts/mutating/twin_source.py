@@ -10,7 +10,7 @@ import re
 from collections import Counter
 from dataclasses import dataclass
 
-from .twin_parser import SourceError, blanked, parsed
+from .twin_parser import blanked, parsed
 
 OPERATORS = {
     # operator: (function of mutant.hpp, what it becomes)

@@ -4,13 +4,14 @@
 
 One file per kind, written by the command that measures (its --update) and committed:
 
-  {"schema": "feltgate-results/1", "kind": "coverage", "command": "...", "machine": "...", "date": "2026-11-20",
+  {"schema": "feltgate-results/1", "kind": "coverage", "command": "...", "machine": "...", "date":
+  "2026-11-20",
    "blocks": {"dob": {"line": [40, 40], ..., "seconds": 12.5}}}
 
-A count is [reached, of]. The keys of each kind are in KINDS; seconds are of CPU time. A block, a key or
-a file that is not there is a dash in the table. Rows that are no block of rtl/ are named in EXTRA. Where
-blocks are measured one by one "dates" of a row says when each of its keys was; the file's own date is that of
-all others.
+A count is [reached, of]. The keys of each kind are in KINDS; seconds are of CPU time. A block, a
+key or a file that is not there is a dash in the table. Rows that are no block of rtl/ are named in
+EXTRA. Where blocks are measured one by one "dates" of a row says when each of its keys was; the
+file's own date is that of all others.
 """
 
 import datetime
@@ -24,9 +25,7 @@ SCHEMA = "feltgate-results/1"
 FOLDER = "docs/verification"
 # kind: {key: what it is}; a key is a count [reached, of] unless it is said to be a number.
 KINDS = {
-    "proofs": {
-        "properties": "proven, and seen to fail with a defect (number)",
-    },
+    "proofs": {"properties": "proven, and seen to fail with a defect (number)"},
     "coverage": {
         "line": "lines",
         "branch": "branches",
@@ -83,14 +82,24 @@ def check(kind, blocks, where):
             if key == "dates":
                 strange = [k for k in value if k not in KINDS[kind] or k not in found]
                 if strange:
-                    raise ResultsError(f"{where}: {block} has a date of {', '.join(strange)}, which it has not")
+                    raise ResultsError(
+                        f"{where}: {block} has a date of {', '.join(strange)}, which it has not"
+                    )
                 continue
             if key != "seconds" and key not in KINDS[kind]:
                 known = ", ".join(KINDS[kind])
-                raise ResultsError(f"{where}: {block} has the key '{key}'; there are {known}, seconds, dates")
-            pair = isinstance(value, list) and len(value) == 2 and all(isinstance(n, int) for n in value)
+                raise ResultsError(
+                    f"{where}: {block} has the key '{key}'; there are {known}, seconds, dates"
+                )
+            pair = (
+                isinstance(value, list)
+                and len(value) == 2
+                and all(isinstance(n, int) for n in value)
+            )
             if isinstance(value, bool) or not (pair or isinstance(value, (int, float))):
-                raise ResultsError(f"{where}: {block}, {key}: {value!r} is no number and no [reached, of]")
+                raise ResultsError(
+                    f"{where}: {block}, {key}: {value!r} is no number and no [reached, of]"
+                )
             if pair and not 0 <= value[0] <= value[1]:
                 raise ResultsError(f"{where}: {block}, {key}: {value[0]} of {value[1]}")
 
@@ -100,7 +109,8 @@ def today():
 
 
 def merge(root, kind, command, rows):
-    """Puts these rows' keys beside what the file has; each key keeps the date on which it was measured."""
+    """Puts these rows' keys beside what the file has; each key keeps the date on which it was
+    measured."""
     before = read(root, kind)
     blocks = before["blocks"] if before else {}
     for row in blocks.values():
@@ -119,7 +129,8 @@ def merge(root, kind, command, rows):
 
 
 def write(root, kind, command, blocks, date=None):
-    """Puts the results of `command`, measured on `date` or today, where docs/blocks.md takes them from."""
+    """Puts the results of `command`, measured on `date` or today, where docs/blocks.md takes them
+    from."""
     where = path_of(root, kind)
     check(kind, blocks, where)
     head = {
@@ -147,8 +158,10 @@ def read(root, kind):
     except json.JSONDecodeError as error:
         raise ResultsError(f"{where}: {error}") from error
     if found.get("schema") != SCHEMA or found.get("kind") != kind:
-        raise ResultsError(f"{where}: schema {found.get('schema')}, kind {found.get('kind')}; "
-                           f"wanted {SCHEMA}, {kind}")
+        raise ResultsError(
+            f"{where}: schema {found.get('schema')}, kind {found.get('kind')}; "
+            f"wanted {SCHEMA}, {kind}"
+        )
     check(kind, found["blocks"], where)
     return found
 
@@ -185,7 +198,9 @@ def table(root, names):
     for name in [*names, *(extra for extra in EXTRA if any(extra in b for b in measured.values()))]:
         cells = [cell(measured.get(kind, {}).get(name, {}).get(key)) for kind, key in keys]
         seconds = [b[name]["seconds"] for b in measured.values() if "seconds" in b.get(name, {})]
-        lines.append(f"| {name} | " + " | ".join(cells) + f" | {round(sum(seconds)) if seconds else DASH} |")
+        lines.append(
+            f"| {name} | " + " | ".join(cells) + f" | {round(sum(seconds)) if seconds else DASH} |"
+        )
     lines.append("")
     for kind, found in kinds.items():
         if found:

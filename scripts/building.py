@@ -17,8 +17,12 @@ def make(command, build, targets, jobs):
     print(f"{command}: building {len(targets)} programs in {build}", file=sys.stderr, flush=True)
     log = build / f"{command}.log"
     with log.open("wb") as file:
-        done = interrupts.run(["cmake", "--build", build, "-j", str(jobs), "--target", *targets], stdout=file,
-                              stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
+        done = interrupts.run(
+            ["cmake", "--build", build, "-j", str(jobs), "--target", *targets],
+            stdout=file,
+            stderr=subprocess.STDOUT,
+            stdin=subprocess.DEVNULL,
+        )
     if done.returncode:
         last = log.read_text(encoding="utf-8", errors="replace").strip().splitlines()[-10:]
         raise BuildError("\n".join([f"the build failed; the whole log: {log}", *last]))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Programs that threads run side by side. A signal reaches the main thread only, so whoever waits there
-ends all of them; none is started afterwards.
+"""Programs that threads run side by side. A signal reaches the main thread only, so whoever waits
+there ends all of them; none is started afterwards.
 """
 
 import contextlib
@@ -40,8 +40,8 @@ class Crew:
         return process
 
     def wait(self, process, limit_s=None):
-        """(status, seconds of CPU time of it and of those that it waited for); the status is None where it
-        was killed, for it took longer than the limit."""
+        """(status, seconds of CPU time of it and of those that it waited for); the status is None
+        where it was killed, for it took longer than the limit."""
         late = threading.Event()
 
         def kill():
@@ -85,8 +85,8 @@ class Crew:
         return subprocess.CompletedProcess(command, process.returncode, out, err)
 
     def each(self, function, items, jobs, done):
-        """function(item) of all in threads; done(item, result) here, as they come. What breaks it off
-        ends every program."""
+        """function(item) of all in threads; done(item, result) here, as they come. What breaks it
+        off ends every program."""
         with ThreadPoolExecutor(jobs) as pool:
             try:
                 pending = {pool.submit(function, item): item for item in items}

@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Faults: what becomes of a flipped bit, a broken wire or a wrong word, and what the hand would feel of it.
+"""Faults: what becomes of a flipped bit, a broken wire or a wrong word, and what the hand would
+feel of it.
 
-A core of design lever acts in closed loop with motor, lever and a hand (wall, spring, damper, membrane,
-setpoint, charge, free, disarmed). Beside it a sound core sees the same lever. Three points of injection:
+A core of design lever acts in closed loop with motor, lever and a hand (wall, spring, damper,
+membrane, setpoint, charge, free, disarmed). Beside it a sound core sees the same lever. Three
+points of injection:
 
   state       each flip-flop and each word of a parameter flips for one clock, in the Verilated RTL
-  pins        encoder channels dead, open, shorted, swapped, glitches, index, over-speed, stop; the twin
+  pins        encoder channels dead, open, shorted, swapped, glitches, index, over-speed, stop; the
+              twin
   words       wrong bits and garbage at the register port while armed; the twin
 
 Each fault ends in one class:
@@ -17,16 +20,17 @@ Each fault ends in one class:
   transient   outputs differed, too little or too shortly, and are right again
   off         gates off, disarmed, no fault latched
   detected    a fault is latched, the gates are off
-  silent      torque off by more than 5 % of the limit for more than 1 ms, or the position wrong for ever, unflagged
-  unsafe      both switches of a leg on for more than a clock, or the motor's torque beyond 1.2 times the limit for
-              more than 1 ms
+  silent      torque off by more than 5 % of the limit for more than 1 ms, or the position wrong for
+              ever, unflagged
+  unsafe      both switches of a leg on for more than a clock, or the motor's torque beyond 1.2
+              times the limit for more than 1 ms
 
-Peak and integral are those of the torque's deviation, from the fault to the gates off. Beside a zero stands its
-95 % bound, 3/N. Results and what this does not say: docs/verification.md
+Peak and integral are those of the torque's deviation, from the fault to the gates off. Beside a
+zero stands its 95 % bound, 3/N. Results and what this does not say: docs/verification.md
 
-Exit code: 0 what is promised is kept (none unsafe, at most 1 % of single flips silent, 99 % flagged of the faults
-that docs/safety.md says so of; with --clean no alarm; with --replay each case as listed), 1 it is not, 2 when a
-program, a file or an argument is wrong.
+Exit code: 0 what is promised is kept (none unsafe, at most 1 % of single flips silent, 99 % flagged
+of the faults that docs/safety.md says so of; with --clean no alarm; with --replay each case as
+listed), 1 it is not, 2 when a program, a file or an argument is wrong.
 
   feltgate faults                        the whole campaign, more than 10 000 faults
   feltgate faults --flips 1 --pins 200   a smaller one
@@ -60,29 +64,71 @@ def arguments(argv):
         description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("--flips", type=int, default=2, metavar="N", help="flips of each bit; default: 2")
-    parser.add_argument("--doubles", type=int, default=600, metavar="N",
-                        help="flips of two bits at once; default: 600")
-    parser.add_argument("--pins", type=int, default=2000, metavar="N",
-                        help="faults at pins and register port; default: 2000")
-    parser.add_argument("--only", default="", metavar="NAME", help="flips of registers with this in their name only")
-    parser.add_argument("--seed", type=int, default=1, metavar="N", help="of all that is drawn; default: 1")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N",
-                        help="programs at the same time; default: one per core")
-    parser.add_argument("--clean", action="store_true", help="device time without a fault instead: false alarms")
-    parser.add_argument("--long", action="store_true", help="with --clean: 24 hours, an hour or two of CPU time")
+    parser.add_argument(
+        "--flips", type=int, default=2, metavar="N", help="flips of each bit; default: 2"
+    )
+    parser.add_argument(
+        "--doubles",
+        type=int,
+        default=600,
+        metavar="N",
+        help="flips of two bits at once; default: 600",
+    )
+    parser.add_argument(
+        "--pins",
+        type=int,
+        default=2000,
+        metavar="N",
+        help="faults at pins and register port; default: 2000",
+    )
+    parser.add_argument(
+        "--only", default="", metavar="NAME", help="flips of registers with this in their name only"
+    )
+    parser.add_argument(
+        "--seed", type=int, default=1, metavar="N", help="of all that is drawn; default: 1"
+    )
+    parser.add_argument(
+        "--jobs",
+        type=int,
+        default=os.cpu_count(),
+        metavar="N",
+        help="programs at the same time; default: one per core",
+    )
+    parser.add_argument(
+        "--clean", action="store_true", help="device time without a fault instead: false alarms"
+    )
+    parser.add_argument(
+        "--long", action="store_true", help="with --clean: 24 hours, an hour or two of CPU time"
+    )
     parser.add_argument("--replay", type=Path, metavar="FILE", help="the listed cases instead")
-    parser.add_argument("--lines", type=Path, nargs="+", metavar="FILE",
-                        help="tell of the lines that --save kept; runs nothing")
+    parser.add_argument(
+        "--lines",
+        type=Path,
+        nargs="+",
+        metavar="FILE",
+        help="tell of the lines that --save kept; runs nothing",
+    )
     parser.add_argument("--save", type=Path, metavar="FILE", help="a line of JSON for each fault")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the results here")
-    parser.add_argument("--markdown", action="store_true", help="the table as it stands in docs/verification.md")
-    parser.add_argument("--picture", type=Path, metavar="FILE", help="what the hand would feel, as SVG or PNG")
-    parser.add_argument("--update", action="store_true",
-                        help=f"put the results into {block_results.FOLDER}/faults.json")
+    parser.add_argument(
+        "--markdown", action="store_true", help="the table as it stands in docs/verification.md"
+    )
+    parser.add_argument(
+        "--picture", type=Path, metavar="FILE", help="what the hand would feel, as SVG or PNG"
+    )
+    parser.add_argument(
+        "--update",
+        action="store_true",
+        help=f"put the results into {block_results.FOLDER}/faults.json",
+    )
     options = parser.parse_args(argv)
-    outputs.check(parser, [options.replay, *(options.lines or ())], json=options.json, save=options.save,
-                  picture=options.picture)
+    outputs.check(
+        parser,
+        [options.replay, *(options.lines or ())],
+        json=options.json,
+        save=options.save,
+        picture=options.picture,
+    )
     if options.picture and options.picture.suffix not in (".svg", ".png"):
         parser.error("argument --picture: the name of a file that ends in .svg or .png")
     if options.jobs < 1:
@@ -94,7 +140,9 @@ def arguments(argv):
     if sum(map(bool, (options.clean, options.replay, options.lines))) > 1:
         parser.error("--clean, --replay and --lines exclude each other")
     if (options.clean or options.replay) and (options.save or options.picture or options.markdown):
-        parser.error("--save, --picture and --markdown tell of a campaign, not of --clean or --replay")
+        parser.error(
+            "--save, --picture and --markdown tell of a campaign, not of --clean or --replay"
+        )
     if options.update and (options.only or options.clean or options.replay or not options.flips):
         parser.error("--update takes a campaign of all registers")
     return options
@@ -104,7 +152,9 @@ def run(build, arguments_, jobs, total):
     """All lines of feltgate_faults; `total` is about how many."""
     program = build / "feltgate_faults"
     if not program.exists():
-        raise campaign.CampaignError(f"there is no {program}; the build makes it where yosys is installed")
+        raise campaign.CampaignError(
+            f"there is no {program}; the build makes it where yosys is installed"
+        )
     shares = {}
     with Steps("faults", total) as progress:
 
@@ -124,12 +174,24 @@ def clean(options, build):
     lines = run(build, ["--clean", seconds, "--seed", options.seed], options.jobs, 1)
     parts = [line for line in lines if "clean_s" in line]
     if len(parts) != options.jobs:
-        raise campaign.CampaignError(f"{options.jobs - len(parts)} of {options.jobs} parts said nothing")
-    total = {key: sum(p[key] for p in parts) for key in ("clean_s", "scenes_s", "recordings_s", "dither_s", "alarms")}
-    print(f"{total['clean_s']:.0f} s of device time without a fault: {total['scenes_s']:.0f} s of scenes in closed "
-          f"loop, {total['recordings_s']:.0f} s of recordings, {total['dither_s']:.0f} s of dither, strokes and rest")
+        raise campaign.CampaignError(
+            f"{options.jobs - len(parts)} of {options.jobs} parts said nothing"
+        )
+    total = {
+        key: sum(p[key] for p in parts)
+        for key in ("clean_s", "scenes_s", "recordings_s", "dither_s", "alarms")
+    }
+    print(
+        f"{total['clean_s']:.0f} s of device time without a fault: "
+        f"{total['scenes_s']:.0f} s of scenes in closed loop, "
+        f"{total['recordings_s']:.0f} s of recordings, "
+        f"{total['dither_s']:.0f} s of dither, strokes and rest"
+    )
     hours = total["clean_s"] / 3600
-    print(f"{total['alarms']} false alarms" + (f" (< {3 / hours:.2g} an hour)" if not total["alarms"] else ""))
+    print(
+        f"{total['alarms']} false alarms"
+        + (f" (< {3 / hours:.2g} an hour)" if not total["alarms"] else "")
+    )
     for part in parts:
         if part["first"]:
             print(f"  {part['first']}")
@@ -144,17 +206,35 @@ def replay(options, build):
     lines = run(build, ["--replay", options.replay.resolve()], 1, len(cases))
 
     def key(fault):
-        return tuple(str(fault.get(k)) for k in ("point", "group", "seed", "register", "bit", "register_2", "bit_2",
-                                                 "address", "act", "tick", "clock"))
+        return tuple(
+            str(fault.get(k))
+            for k in (
+                "point",
+                "group",
+                "seed",
+                "register",
+                "bit",
+                "register_2",
+                "bit_2",
+                "address",
+                "act",
+                "tick",
+                "clock",
+            )
+        )
 
     found = {key(line): line["class"] for line in lines if "class" in line}
-    differing = [(case, found.get(key(case))) for case in cases if found.get(key(case)) != case["class"]]
+    differing = [
+        (case, found.get(key(case))) for case in cases if found.get(key(case)) != case["class"]
+    ]
     for case, now in differing:
         print(f"listed as {case['class']}, now {now}: {json.dumps(case)}")
     print(f"{len(cases)} cases, {len(differing)} other than listed")
     if options.json:
         listed = [{"listed": case, "now": now} for case, now in differing]
-        outputs.write_json(options.json, {"schema": SCHEMA, "replay": {"cases": len(cases), "differing": listed}})
+        outputs.write_json(
+            options.json, {"schema": SCHEMA, "replay": {"cases": len(cases), "differing": listed}}
+        )
     return 1 if differing else 0
 
 
@@ -175,9 +255,13 @@ def report(options, root, faults, seconds):
     if options.save:
         outputs.write_whole(options.save, "".join(json.dumps(f) + "\n" for f in faults))
     if options.json:
-        result = {"schema": SCHEMA, "seed": options.seed, "faults": len(faults),
-                  "rows": [row.as_json() for row in rows],
-                  "promises": [{"what": w, "count": c, "of": n, "kept": g} for w, c, n, g in kept]}
+        result = {
+            "schema": SCHEMA,
+            "seed": options.seed,
+            "faults": len(faults),
+            "rows": [row.as_json() for row in rows],
+            "promises": [{"what": w, "count": c, "of": n, "kept": g} for w, c, n, g in kept],
+        }
         outputs.write_json(options.json, result)
     if options.picture:
         from faulting import picture  # matplotlib only where it is asked for
@@ -188,7 +272,9 @@ def report(options, root, faults, seconds):
         found = results.per_block(faults, blocks)
         if seconds:  # of all faults; what a block's share of it is nobody knows
             found.setdefault("feltgate_core", {})["seconds"] = round(seconds)
-        block_results.write(root, "faults", "./feltgate faults --update", found, date_of(options.lines))
+        block_results.write(
+            root, "faults", "./feltgate faults --update", found, date_of(options.lines)
+        )
         print(f"faults: wrote {block_results.path_of(root, 'faults')}")
     return 0 if all(good for *_, good in kept) else 1
 
@@ -207,20 +293,41 @@ def main(argv=None):
         if options.lines:
             faults = [fault for path in options.lines for fault in campaign.read(path)]
         else:
-            asked = ["--flips", options.flips, "--doubles", options.doubles, "--pins", options.pins,
-                     "--resets", options.pins // 10, "--seed",
-                     options.seed, *(["--only", options.only] if options.only else [])]
-            total = 5100 * options.flips + options.doubles + options.pins  # near enough for a percentage
+            asked = [
+                "--flips",
+                options.flips,
+                "--doubles",
+                options.doubles,
+                "--pins",
+                options.pins,
+                "--resets",
+                options.pins // 10,
+                "--seed",
+                options.seed,
+                *(["--only", options.only] if options.only else []),
+            ]
+            total = (
+                5100 * options.flips + options.doubles + options.pins
+            )  # near enough for a percentage
             before = os.times()
             lines = run(build, asked, options.jobs, total)
             after = os.times()
-            seconds = after.children_user + after.children_system - before.children_user - before.children_system
+            seconds = (
+                after.children_user
+                + after.children_system
+                - before.children_user
+                - before.children_system
+            )
             broken = [line["mismatches"] for line in lines if line.get("mismatches")]
             if broken:
-                raise campaign.CampaignError(f"RTL and twin differed in {sum(broken)} ticks without any fault")
+                raise campaign.CampaignError(
+                    f"RTL and twin differed in {sum(broken)} ticks without any fault"
+                )
             faults = [line for line in lines if "class" in line]
         if not faults:
-            raise campaign.CampaignError("no fault was asked for; --flips, --doubles or --pins above 0")
+            raise campaign.CampaignError(
+                "no fault was asked for; --flips, --doubles or --pins above 0"
+            )
         return report(options, root, faults, seconds)
     except (campaign.CampaignError, block_results.ResultsError, OSError) as error:
         print(f"faults: {error}", file=sys.stderr)

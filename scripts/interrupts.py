@@ -23,8 +23,8 @@ class Interrupted(KeyboardInterrupt):
 
 
 class Held:
-    """While it lasts a signal waits: a program under way must be known before it can be ended. In other
-    threads than the main one, which no signal breaks off, it does nothing."""
+    """While it lasts a signal waits: a program under way must be known before it can be ended. In
+    other threads than the main one, which no signal breaks off, it does nothing."""
 
     depth, waiting = 0, None
 

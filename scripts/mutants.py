@@ -20,7 +20,9 @@ from seeding.patches import ROOT, DefectError
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("block")
-    parser.add_argument("--sources", type=Path, nargs="+", required=True, help="packages, children, block")
+    parser.add_argument(
+        "--sources", type=Path, nargs="+", required=True, help="packages, children, block"
+    )
     parser.add_argument("--parameter", action="append", default=[], metavar="NAME=VALUE")
     parser.add_argument("--count", type=int, default=400)
     parser.add_argument("--seed", type=int, default=1)
@@ -31,8 +33,15 @@ def main():
     sources = [p.resolve() for p in options.sources]
     sources = [p.relative_to(root) if p.is_relative_to(root / "rtl") else p for p in sources]
     try:
-        netlist.write(options.block, sources, options.parameter, options.count, options.seed,
-                      options.output.resolve(), root)
+        netlist.write(
+            options.block,
+            sources,
+            options.parameter,
+            options.count,
+            options.seed,
+            options.output.resolve(),
+            root,
+        )
     except (netlist.NetlistError, DefectError, OSError) as error:
         print(f"mutants: {error}", file=sys.stderr)
         return 1

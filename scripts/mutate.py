@@ -4,11 +4,11 @@
 """Mutants of the RTL: would the tests notice if it were wrong in some place?
 
 Yosys makes a netlist of each block and changes one bit at one pin of one cell: inverted, stuck, or
-inverted by another bit. 400 such mutants of a block (60 % of what there is where that is less) are in
-one netlist behind its ports, Verilated once and chosen at run time; the block's own test program runs in
-lock-step with the twin until it notices. What survives is proven to be the same circuit (yosys-abc), is
-listed in testbench/BLOCK/mutants.toml with the reason, or is a gap in the test. --show prints one
-mutant with its lines of source, cell and fate, and inputs for which it differs.
+inverted by another bit. 400 such mutants of a block (60 % of what there is where that is less) are
+in one netlist behind its ports, Verilated once and chosen at run time; the block's own test program
+runs in lock-step with the twin until it notices. What survives is proven to be the same circuit
+(yosys-abc), is listed in testbench/BLOCK/mutants.toml with the reason, or is a gap in the test.
+--show prints one mutant with its lines of source, cell and fate, and inputs for which it differs.
 Method, results and what this does not say: docs/verification.md
 
 Exit code: 0 all tests kill the share that is required, 1 one does not, 2 when a tool, a file or an
@@ -45,23 +45,53 @@ def arguments(argv):
         description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("name", nargs="*", metavar="BLOCK", help="a block or one of its tests; default: all")
+    parser.add_argument(
+        "name", nargs="*", metavar="BLOCK", help="a block or one of its tests; default: all"
+    )
     parser.add_argument("--list", action="store_true", help="what there is; runs nothing")
-    parser.add_argument("--show", type=int, metavar="N", help="one mutant of one test, for a person")
-    parser.add_argument("--count", type=int, default=0, metavar="N", help="mutants of each test; default: all")
-    parser.add_argument("--seed", type=int, default=1, help="which ones, where --count leaves some out; default: 1")
-    parser.add_argument("--require", type=float, default=REQUIRED, metavar="SHARE",
-                        help=f"to be killed, of those not equivalent; default: {REQUIRED}")
-    parser.add_argument("--survivors", action="store_true", help="list also what survives for a known reason")
-    parser.add_argument("--proof-seconds", type=int, default=20, metavar="S",
-                        help="for the proof that a survivor is equivalent, 0: none; default: 20")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N",
-                        help="programs at the same time; default: one per core")
+    parser.add_argument(
+        "--show", type=int, metavar="N", help="one mutant of one test, for a person"
+    )
+    parser.add_argument(
+        "--count", type=int, default=0, metavar="N", help="mutants of each test; default: all"
+    )
+    parser.add_argument(
+        "--seed", type=int, default=1, help="which ones, where --count leaves some out; default: 1"
+    )
+    parser.add_argument(
+        "--require",
+        type=float,
+        default=REQUIRED,
+        metavar="SHARE",
+        help=f"to be killed, of those not equivalent; default: {REQUIRED}",
+    )
+    parser.add_argument(
+        "--survivors", action="store_true", help="list also what survives for a known reason"
+    )
+    parser.add_argument(
+        "--proof-seconds",
+        type=int,
+        default=20,
+        metavar="S",
+        help="for the proof that a survivor is equivalent, 0: none; default: 20",
+    )
+    parser.add_argument(
+        "--jobs",
+        type=int,
+        default=os.cpu_count(),
+        metavar="N",
+        help="programs at the same time; default: one per core",
+    )
     parser.add_argument("--no-build", action="store_true", help="run the programs that are there")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the results here")
-    parser.add_argument("--update", action="store_true",
-                        help=f"put the results of these blocks into {block_results.FOLDER}/mutants.json")
-    parser.add_argument("--twin", action="store_true", help="mutants of the C++ twin; its options: --twin --help")
+    parser.add_argument(
+        "--update",
+        action="store_true",
+        help=f"put the results of these blocks into {block_results.FOLDER}/mutants.json",
+    )
+    parser.add_argument(
+        "--twin", action="store_true", help="mutants of the C++ twin; its options: --twin --help"
+    )
     options = parser.parse_args(argv)
     outputs.check(parser, json=options.json)
     if options.jobs < 1:
@@ -77,7 +107,9 @@ def arguments(argv):
 
 def chosen(found, wanted):
     if not found:
-        raise rtl.MutateError("the build folder knows no mutants: it was configured without tests, or without yosys")
+        raise rtl.MutateError(
+            "the build folder knows no mutants: it was configured without tests, or without yosys"
+        )
     unknown = [w for w in wanted if not any(w in (t.block, t.name) for t in found)]
     if unknown:
         names = ", ".join(dict.fromkeys(t.block for t in found))
@@ -105,13 +137,22 @@ def report(options, root, rows):
     print(rtl.table(rows))
     bad = [row.test.name for row in rows if row.share() < options.require]
     tried = sum(len(row.fates) for row in rows)
-    killed, relevant = sum(row.count(*rtl.DEAD) for row in rows), sum(row.relevant() for row in rows)
-    print(f"{tried} mutants in {len(rows)} tests, {killed} of {relevant} not equivalent ones killed "
-          f"({100 * killed / max(1, relevant):.1f} %); "
-          f"{len(bad)} tests below {100 * options.require:.0f} %{': ' if bad else ''}{', '.join(bad)}")
+    killed, relevant = sum(row.count(*rtl.DEAD) for row in rows), sum(
+        row.relevant() for row in rows
+    )
+    print(
+        f"{tried} mutants in {len(rows)} tests, {killed} of {relevant} not equivalent ones killed "
+        f"({100 * killed / max(1, relevant):.1f} %); "
+        f"{len(bad)} tests below {100 * options.require:.0f} %{': ' if bad else ''}{', '.join(bad)}"
+    )
     if options.json:
-        result = {"schema": SCHEMA, "count": options.count, "seed": options.seed, "required": options.require,
-                  "tests": [row.as_json() for row in rows]}
+        result = {
+            "schema": SCHEMA,
+            "count": options.count,
+            "seed": options.seed,
+            "required": options.require,
+            "tests": [row.as_json() for row in rows],
+        }
         outputs.write_json(options.json, result)
     if options.update:
         update(root, rows)
@@ -124,7 +165,9 @@ def check_whole(everything, tests):
     for block in dict.fromkeys(test.block for test in tests):
         missing = [t.name for t in everything if t.block == block and t not in tests]
         if missing:
-            raise rtl.MutateError(f"--update takes all tests of {block}; {', '.join(missing)} is left out")
+            raise rtl.MutateError(
+                f"--update takes all tests of {block}; {', '.join(missing)} is left out"
+            )
 
 
 def main(argv=None):
@@ -155,10 +198,18 @@ def main(argv=None):
                 raise rtl.MutateError(f"--show takes one test: {', '.join(t.name for t in tests)}")
             rtl.show(tests[0], options.show, root, options.proof_seconds)
             return 0
-        rows = rtl.run(tests, root, options.count, options.seed, options.jobs, options.proof_seconds, say)
+        rows = rtl.run(
+            tests, root, options.count, options.seed, options.jobs, options.proof_seconds, say
+        )
         return report(options, root, rows)
-    except (rtl.MutateError, netlist.NetlistError, building.BuildError, block_results.ResultsError, DefectError,
-            OSError) as error:
+    except (
+        rtl.MutateError,
+        netlist.NetlistError,
+        building.BuildError,
+        block_results.ResultsError,
+        DefectError,
+        OSError,
+    ) as error:
         print(f"mutate: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt as error:

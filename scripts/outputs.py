@@ -25,7 +25,11 @@ def is_in_place(path):
 def is_stdout(path):
     """Whether a path is stdout, by this or another name."""
     try:
-        return str(path) == STDOUT or os.path.samestat(os.stat(path), os.fstat(1)) and is_in_place(path)
+        return (
+            str(path) == STDOUT
+            or os.path.samestat(os.stat(path), os.fstat(1))
+            and is_in_place(path)
+        )
     except OSError:
         return False
 
@@ -48,10 +52,14 @@ def refusal(path):
 
 
 def check(parser, reads=(), **paths):
-    """Ends with 2, before the work, where an option's path cannot be written: json=path. `reads` are files
-    that the command reads, which no output may replace. Where an output goes to stdout the text for people goes
-    to stderr from now on."""
-    taken = {os.path.realpath(path): "is read by the same command" for path in reads if path and os.path.exists(path)}
+    """Ends with 2, before the work, where an option's path cannot be written: json=path. `reads`
+    are files that the command reads, which no output may replace. Where an output goes to stdout
+    the text for people goes to stderr from now on."""
+    taken = {
+        os.path.realpath(path): "is read by the same command"
+        for path in reads
+        if path and os.path.exists(path)
+    }
     for option, path in paths.items():
         why = refusal(path) if path else ""
         if path and not why and not is_in_place(path):

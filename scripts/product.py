@@ -28,8 +28,8 @@ Exit code: 0 written, 2 a design, tool or option cannot be used."""
 NOTICE = """// SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The core feltgate_core of design {design}, {read_back}read-back, in Verilog-2005: written from its
-// SystemVerilog by `feltgate product verilog` with {yosys}. Do not edit; ports and
+// The core feltgate_core of design {design}, {read_back}read-back, in Verilog-2005: written from
+// its SystemVerilog by `feltgate product verilog` with {yosys}. Do not edit; ports and
 // their timing: docs/blocks/feltgate_core.md.
 """
 # What only Yosys reads.
@@ -100,7 +100,8 @@ def renamed(text):
         number = f"_{counts[base]}" if counts[base] > 1 else ""
         names[found] = f"feltgate_{base}{number}"
     for old, new in names.items():
-        # In its own head and where it is instantiated, first in a line; a blank ends an escaped name.
+        # In its own head and where it is instantiated, first in a line; a blank ends an escaped
+        # name.
         place = re.compile(rf"^(\s*(?:module )?){re.escape(old)}(?=[\s(])", re.M)
         text = place.sub(lambda match, name=new: match[1] + name, text)
     return text
@@ -121,7 +122,8 @@ def verilog(root, options, folder):
         "opt_expr",
         "opt_reduce",  # one enable for a word of a memory, not one for each bit
         "opt_clean",
-        # A read of a word being written gives the old one, as in the RTL. That it may be any is told to
+        # A read of a word being written gives the old one, as in the RTL. That it may be any is
+        # told to
         # vendors again afterwards; Yosys would write x for it.
         "select -set loose m:* a:ramstyle %i",
         "setattr -unset no_rw_check -unset ramstyle m:*",

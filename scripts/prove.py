@@ -3,8 +3,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Properties of blocks, proven for all inputs and all times by k-induction (Yosys, z3).
 
-A proof is a wrapper around a block, testbench/BLOCK/proofs/NAME.sv, with assumptions about its inputs and
-named assertions. Four kinds of run decide it:
+A proof is a wrapper around a block, testbench/BLOCK/proofs/NAME.sv, with assumptions about its
+inputs and named assertions. Four kinds of run decide it:
 
   base        no assertion fails in the first k clocks after a reset
   induction   k clocks in which all hold are followed by one in which they hold, so they always do
@@ -14,8 +14,8 @@ named assertions. Four kinds of run decide it:
 A counter-example is printed as a table of the wrapper's signals, the failing clock last.
 Table, assumptions and what is not proven: docs/proofs.md
 
-Exit code: 0 all is proven and every defect is caught, 1 something is not, 2 when a tool, a file or an
-argument is wrong.
+Exit code: 0 all is proven and every defect is caught, 1 something is not, 2 when a tool, a file or
+an argument is wrong.
 
   feltgate prove                         all proofs
   feltgate prove limiter quad_decoder    those of two blocks
@@ -46,22 +46,47 @@ def arguments(argv):
         description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("proof", nargs="*", metavar="BLOCK[.NAME]", help="a block or one proof; default: all")
-    parser.add_argument("--list", action="store_true", help="what there is, and which ports are in no property; runs nothing")
-    parser.add_argument("--fast", action="store_true", help="only what every test run repeats: short proofs, on their first design")
+    parser.add_argument(
+        "proof", nargs="*", metavar="BLOCK[.NAME]", help="a block or one proof; default: all"
+    )
+    parser.add_argument(
+        "--list",
+        action="store_true",
+        help="what there is, and which ports are in no property; runs nothing",
+    )
+    parser.add_argument(
+        "--fast",
+        action="store_true",
+        help="only what every test run repeats: short proofs, on their first design",
+    )
     parser.add_argument("--no-defects", action="store_true", help="base, induction and covers only")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N",
-                        help="runs at the same time; default: one per core")
+    parser.add_argument(
+        "--jobs",
+        type=int,
+        default=os.cpu_count(),
+        metavar="N",
+        help="runs at the same time; default: one per core",
+    )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the results here")
-    parser.add_argument("--keep", type=Path, metavar="DIR", help="keep SMT2, logs and VCD in this new folder")
-    parser.add_argument("--update", action="store_true",
-                        help="write the table of docs/proofs.md, after a run of everything")
-    parser.add_argument("--check-page", action="store_true",
-                        help="only look whether that table is of the proofs as they are")
+    parser.add_argument(
+        "--keep", type=Path, metavar="DIR", help="keep SMT2, logs and VCD in this new folder"
+    )
+    parser.add_argument(
+        "--update",
+        action="store_true",
+        help="write the table of docs/proofs.md, after a run of everything",
+    )
+    parser.add_argument(
+        "--check-page",
+        action="store_true",
+        help="only look whether that table is of the proofs as they are",
+    )
     options = parser.parse_args(argv)
     outputs.check(parser, json=options.json)
-    if options.keep and options.keep.exists() and (
-        not options.keep.is_dir() or any(options.keep.iterdir())
+    if (
+        options.keep
+        and options.keep.exists()
+        and (not options.keep.is_dir() or any(options.keep.iterdir()))
     ):
         parser.error(f"argument --keep: {options.keep} is not an empty folder; name a new one")
     if options.jobs < 1:
@@ -119,8 +144,10 @@ def report(options, root, rows, versions):
     print(page.text_table(rows))
     bad = [row for row in rows if not row.good(not options.no_defects)]
     properties = sum(len(row.proof.properties) for row in rows if row.first)
-    print(f"{properties} properties, {len(rows)} runs of proofs, {len(bad)} not good; "
-          f"{versions['yosys']}, {versions['z3']}")
+    print(
+        f"{properties} properties, {len(rows)} runs of proofs, {len(bad)} not good; "
+        f"{versions['yosys']}, {versions['z3']}"
+    )
     result = {"schema": SCHEMA, "tools": versions, "proofs": [row.as_json(root) for row in rows]}
     if options.json:
         outputs.write_json(options.json, result)

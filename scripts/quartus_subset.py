@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""SystemVerilog that Quartus Standard and Lite refuse, or are known to build wrongly; run by a Python
-that has pyslang.
+"""SystemVerilog that Quartus Standard and Lite refuse, or are known to build wrongly; run by a
+Python that has pyslang.
 
-  quartus_subset.py FILE...      FILE:LINE: what stands there, and what to write; status 1 when anything does
+  quartus_subset.py FILE...      FILE:LINE: what stands there, and what to write; status 1 when
+                                 anything does
 
-It knows what others have reported, no more: docs/boards/quartus.md says which report each rule is from.
+It knows what others have reported, no more: docs/boards/quartus.md says which report each rule is
+from.
 """
 
 import sys
@@ -69,7 +71,10 @@ def complaints(node, functions):
             yield "a generate block without a name; write begin : name"
     elif kind == Kind.ImplicitAnsiPort:
         header = node.header
-        if not text_of(getattr(header, "direction", "")) or header.dataType.kind == Kind.ImplicitType:
+        if (
+            not text_of(getattr(header, "direction", ""))
+            or header.dataType.kind == Kind.ImplicitType
+        ):
             yield "a port without direction and type of its own; write both"
     elif kind == Kind.EnumType:
         if node.baseType is None:

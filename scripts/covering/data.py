@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Verilator's coverage.dat, and the sum of many of them.
 
-verilator_coverage 5.006 takes a column of the source for covered when any bit of it is; so it is not asked.
+verilator_coverage 5.006 takes a column of the source for covered when any bit of it is; so it is
+not asked.
 """
 
 import re
@@ -47,7 +48,9 @@ def fields(text):
 def generated_index(hierarchy):
     """The indexes of a cover point in a generate loop: '[3]', '[3][1]', or nothing."""
     own = hierarchy.rpartition(".u_cover")[2]
-    return "".join(f"[{n}]" for n in re.findall(r"__BRA__(\d+)__KET__|\[(\d+)\]", own) for n in n if n)
+    return "".join(
+        f"[{n}]" for n in re.findall(r"__BRA__(\d+)__KET__|\[(\d+)\]", own) for n in n if n
+    )
 
 
 def point_of(root, entry):

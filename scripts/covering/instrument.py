@@ -3,10 +3,11 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Changes what `verilator --coverage` wrote so that its counts mean what a test needs.
 
-As Verilator writes it every model counts for itself, and its counts are lost with it; a bit "toggles" where a
-reset takes it from the random bits that it was born with; and each count is an atomic one. Here all models of a
-program count together, a toggle counts only with the reset high after it has been low, and the counts are written
-when the program ends, by Verilator's own writer, to the file that FELTGATE_COVERAGE names.
+As Verilator writes it every model counts for itself, and its counts are lost with it; a bit
+"toggles" where a reset takes it from the random bits that it was born with; and each count is an
+atomic one. Here all models of a program count together, a toggle counts only with the reset high
+after it has been low, and the counts are written when the program ends, by Verilator's own writer,
+to the file that FELTGATE_COVERAGE names.
 
   instrument.py DIRECTORY CLASS
 """
@@ -44,7 +45,8 @@ static void coverage_write() {{
     const char* const file = std::getenv("FELTGATE_COVERAGE");
     if (file == nullptr) return;
     {name}__Syms::coverage_writes = true;
-    const std::vector<uint32_t> counts(std::begin({name}__Syms::__Vcoverage), std::end({name}__Syms::__Vcoverage));
+    const std::vector<uint32_t> counts(std::begin({name}__Syms::__Vcoverage), \
+std::end({name}__Syms::__Vcoverage));
     VerilatedContext context;
     {name} model{{&context}};
     std::copy(counts.begin(), counts.end(), {name}__Syms::__Vcoverage);
@@ -66,7 +68,11 @@ def once(text, old, new, where):
 
 def changed(files, name):
     """{file: new text} of the generated files."""
-    toggles = {int(n) for text in files.values() for n, page in POINT.findall(text) if page == "toggle"}
+    toggles = {
+        int(n) for text in files.values() for n, page in POINT.findall(text) if page == "toggle"
+    }
+    if not toggles:
+        raise InstrumentError(f"{name}: no bit is counted")
     out = {}
     for file, text in files.items():
         text = COUNT.sub(
@@ -75,8 +81,10 @@ def changed(files, name):
             text,
         )
         text = text.replace("std::atomic<uint32_t>* countp", "uint32_t* countp")
-        text = text.replace("uint32_t* count32p = reinterpret_cast<uint32_t*>(countp);",
-                            "if (!vlSymsp->coverage_writes) return;\n    uint32_t* count32p = countp;")
+        text = text.replace(
+            "uint32_t* count32p = reinterpret_cast<uint32_t*>(countp);",
+            "if (!vlSymsp->coverage_writes) return;\n    uint32_t* count32p = countp;",
+        )
         text = text.replace("    *count32p = 0;\n", "")
         text = text.replace("assert(sizeof(uint32_t) == sizeof(std::atomic<uint32_t>));", "")
         if file == f"{name}__Syms.h":
@@ -87,11 +95,26 @@ def changed(files, name):
         if file == f"{name}.cpp":
             has_reset = re.search(r"\brst_ni\{", text)
             where = "void " + name + "::eval_step() {"
-            text = once(text, where, WRITER.format(name=name) + where + (WITH_RESET if has_reset else WITHOUT_RESET), file)
-            text = once(text, BORN, BORN + "\n        static const bool at_exit = (std::atexit(coverage_write), true);\n"
-                        "        (void)at_exit;", file)
+            text = once(
+                text,
+                where,
+                WRITER.format(name=name) + where + (WITH_RESET if has_reset else WITHOUT_RESET),
+                file,
+            )
+            text = once(
+                text,
+                BORN,
+                BORN
+                + "\n        static const bool at_exit = (std::atexit(coverage_write), true);\n"
+                "        (void)at_exit;",
+                file,
+            )
         out[file] = text
-    left = [file for file, text in out.items() if ".fetch_add(" in text or "std::atomic<uint32_t>" in text]
+    left = [
+        file
+        for file, text in out.items()
+        if ".fetch_add(" in text or "std::atomic<uint32_t>" in text
+    ]
     if left:
         raise InstrumentError(f"{left[0]}: counts in another way")
     return out
@@ -99,8 +122,11 @@ def changed(files, name):
 
 def main(directory, name):
     folder = Path(directory)
-    files = {path.name: path.read_text(encoding="utf-8") for path in folder.glob("*.*")
-             if path.suffix in (".h", ".cpp") and path.name != "all.cpp"}
+    files = {
+        path.name: path.read_text(encoding="utf-8")
+        for path in folder.glob("*.*")
+        if path.suffix in (".h", ".cpp") and path.name != "all.cpp"
+    }
     try:
         for file, text in changed(files, name).items():
             (folder / file).write_text(text, encoding="utf-8")

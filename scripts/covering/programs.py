@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The programs that count: each block test again, built by CMake (scripts/cmake/coverage.cmake) and run."""
+"""The programs that count: each block test again, built by CMake (scripts/cmake/coverage.cmake) and
+run."""
 
 import os
 import subprocess
@@ -39,19 +40,33 @@ def read(build):
     try:
         lines = path.read_text(encoding="utf-8").splitlines()
     except OSError as error:
-        raise ProgramError(f"{path}: {error.strerror}; configure with -DFELTGATE_TESTS=ON") from error
-    return [Program(test, block, Path(where)) for test, block, where in (line.split(" ", 2) for line in lines)]
+        raise ProgramError(
+            f"{path}: {error.strerror}; configure with -DFELTGATE_TESTS=ON"
+        ) from error
+    return [
+        Program(test, block, Path(where))
+        for test, block, where in (line.split(" ", 2) for line in lines)
+    ]
 
 
 def run_one(root, program, folder, crew):
     """One test, with what it counted; ProgramError where it fails or leaves nothing."""
     file = folder / f"{program.test}.dat"
     log = folder / f"{program.test}.log"
-    environment = os.environ | {"FELTGATE_COVERAGE": str(file), "FELTGATE_MISMATCH_DIR": str(folder)}
+    environment = os.environ | {
+        "FELTGATE_COVERAGE": str(file),
+        "FELTGATE_MISMATCH_DIR": str(folder),
+    }
     with log.open("wb") as out:
         try:
-            status, seconds = crew.timed([program.path], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
-                                         stdout=out, stderr=subprocess.STDOUT)
+            status, seconds = crew.timed(
+                [program.path],
+                cwd=folder,
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                stdout=out,
+                stderr=subprocess.STDOUT,
+            )
         except OSError as error:
             raise ProgramError(f"{program.path}: {error.strerror}; it is not built") from error
     if -status in interrupts.ENDING:

@@ -9,7 +9,12 @@ from reporting.columns import aligned
 from .data import KINDS
 from . import waivers as waiving
 
-TARGET = {"line": 100.0, "branch": 100.0, "toggle": 98.0, "cover": 100.0}  # percent, waived points apart
+TARGET = {
+    "line": 100.0,
+    "branch": 100.0,
+    "toggle": 98.0,
+    "cover": 100.0,
+}  # percent, waived points apart
 CORE = "whole core"
 
 
@@ -23,7 +28,9 @@ class Row:
 
     def short(self):
         """The kinds that miss their target."""
-        return [k for k in KINDS if 100 * self.reached[k] < TARGET[k] * (self.total[k] - self.waived[k])]
+        return [
+            k for k in KINDS if 100 * self.reached[k] < TARGET[k] * (self.total[k] - self.waived[k])
+        ]
 
 
 @dataclass
@@ -44,7 +51,8 @@ def count(row, kind, reached):
 
 
 def make(points, core_points, seconds, waivers, blocks):
-    """`points` {point: count} of all programs, `core_points` {(where, point): count} of the core's."""
+    """`points` {point: count} of all programs, `core_points` {(where, point): count} of the
+    core's."""
     rows = {block: Row(block, seconds=seconds.get(block, 0.0)) for block in blocks}
     missed = []
     for point, number in sorted(points.items()):
@@ -84,7 +92,9 @@ def text(report, limit):
     used = [waiver for waiver in report.waivers if waiver.used]
     if used:
         lines += ["", "waived:"]
-        lines += [f"  {w.block} {w.kind} {w.points.pattern} ({len(w.used)}): {w.reason}" for w in used]
+        lines += [
+            f"  {w.block} {w.kind} {w.points.pattern} ({len(w.used)}): {w.reason}" for w in used
+        ]
     return "\n".join(lines)
 
 
@@ -103,14 +113,27 @@ def per_block(report):
 
 
 def as_json(report, schema):
-    rows = {row.block: figures(row) | {"waived": row.waived, "short": row.short(), "seconds": round(row.seconds, 2)}
-            for row in report.rows}
+    rows = {
+        row.block: figures(row)
+        | {"waived": row.waived, "short": row.short(), "seconds": round(row.seconds, 2)}
+        for row in report.rows
+    }
     return {
         "schema": schema,
         "blocks": rows,
         "whole_core": figures(report.core) if report.core else None,
-        "not_reached": [{"block": p.block, "kind": p.kind, "file": p.file, "line": p.line, "point": p.name}
-                        for p in report.missed],
-        "waivers": [{"block": w.block, "kind": w.kind, "points": w.points.pattern, "reason": w.reason,
-                     "waived": [p.name for p in w.used]} for w in report.waivers],
+        "not_reached": [
+            {"block": p.block, "kind": p.kind, "file": p.file, "line": p.line, "point": p.name}
+            for p in report.missed
+        ],
+        "waivers": [
+            {
+                "block": w.block,
+                "kind": w.kind,
+                "points": w.points.pattern,
+                "reason": w.reason,
+                "waived": [p.name for p in w.used],
+            }
+            for w in report.waivers
+        ],
     }

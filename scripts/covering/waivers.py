@@ -29,7 +29,11 @@ class Waiver:
     def fits(self, point):
         if len(self.used) == self.most:
             return False
-        return point.kind == self.kind and point.block in self.block.split() and bool(self.points.fullmatch(point.name))
+        return (
+            point.kind == self.kind
+            and point.block in self.block.split()
+            and bool(self.points.fullmatch(point.name))
+        )
 
 
 def read(root):
@@ -52,8 +56,15 @@ def read(root):
         if not isinstance(table["most"], int) or table["most"] < 1:
             raise WaiverError(f"{where}: most is a number of points")
         try:
-            found.append(Waiver(table["block"], table["kind"], re.compile(table["points"]),
-                                table["most"], table["reason"]))
+            found.append(
+                Waiver(
+                    table["block"],
+                    table["kind"],
+                    re.compile(table["points"]),
+                    table["most"],
+                    table["reason"],
+                )
+            )
         except re.error as error:
             raise WaiverError(f"{where}: points: {error}") from error
     return found

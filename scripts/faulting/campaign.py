@@ -36,16 +36,20 @@ def read(path):
     found = [parse(line, path) for line in lines if line.strip() and not line.startswith("#")]
     faults = [fault for fault in found if "class" in fault]
     if not faults:
-        raise CampaignError(f"{path}: not one line of a fault, as feltgate faults --save writes them")
+        raise CampaignError(
+            f"{path}: not one line of a fault, as feltgate faults --save writes them"
+        )
     return faults
 
 
 def listen(crew, command, told):
-    """All lines of one program, told(line) of each as it comes; raises where the program failed other than by
-    what it found."""
+    """All lines of one program, told(line) of each as it comes; raises where the program failed
+    other than by what it found."""
     lines = []
     with tempfile.TemporaryFile() as errors:
-        process = crew.start(command, stdout=subprocess.PIPE, stderr=errors, text=True, stdin=subprocess.DEVNULL)
+        process = crew.start(
+            command, stdout=subprocess.PIPE, stderr=errors, text=True, stdin=subprocess.DEVNULL
+        )
         try:
             for line in process.stdout:
                 lines.append(parse(line, "feltgate_faults"))
@@ -61,12 +65,15 @@ def listen(crew, command, told):
         if status not in (0, 1):
             errors.seek(0)
             said = errors.read().decode("utf-8", "replace").strip().splitlines()
-            raise CampaignError(f"feltgate_faults {interrupts.how_it_ended(status)}: {' '.join(said[-2:])}")
+            raise CampaignError(
+                f"feltgate_faults {interrupts.how_it_ended(status)}: {' '.join(said[-2:])}"
+            )
     return lines
 
 
 def run(program, arguments, jobs, told):
-    """All lines of the program in `jobs` parts at the same time; told(part, line) of each as it comes."""
+    """All lines of the program in `jobs` parts at the same time; told(part, line) of each as it
+    comes."""
     crew, lines, lock = Crew(), [], threading.Lock()
 
     def part(number):

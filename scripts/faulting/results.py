@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""What a campaign says: rows of classes per group, what was promised, and the rows per block of the RTL."""
+"""What a campaign says: rows of classes per group, what was promised, and the rows per block of the
+RTL."""
 
 import re
 
@@ -36,8 +37,14 @@ class Row:
         return sum(self.count.values())
 
     def as_json(self):
-        return {"point": self.point, "group": self.group, "faults": self.total(), **self.count,
-                "peak_nm": max(self.peaks), "integral_nm_s": max(self.integrals)}
+        return {
+            "point": self.point,
+            "group": self.group,
+            "faults": self.total(),
+            **self.count,
+            "peak_nm": max(self.peaks),
+            "integral_nm_s": max(self.integrals),
+        }
 
 
 def rows_of(faults):
@@ -54,8 +61,11 @@ def is_safety(fault):
 
 def changes_count(fault):
     """A break of the encoder that the count does not notice has nothing to be found by."""
-    return fault["group"] not in ("channel dead", "channels shorted") or fault["count_changed"] or (
-        fault["class"] == "detected")
+    return (
+        fault["group"] not in ("channel dead", "channels shorted")
+        or fault["count_changed"]
+        or (fault["class"] == "detected")
+    )
 
 
 def promises(faults):
@@ -65,12 +75,27 @@ def promises(faults):
     safety = [f for f in faults if is_safety(f)]
     if safety:
         silent = sum(f["class"] in ("silent", "unsafe") for f in safety)
-        found.append(("silent wrong, of single flips in the safety state", silent, len(safety),
-                      silent <= SILENT_SHARE * len(safety)))
+        found.append(
+            (
+                "silent wrong, of single flips in the safety state",
+                silent,
+                len(safety),
+                silent <= SILENT_SHARE * len(safety),
+            )
+        )
     for group in dict.fromkeys(f["group"] for f in faults if f.get("must_flag")):
-        its = [f for f in faults if f["group"] == group and f["point"] == "pins" and changes_count(f)]
+        its = [
+            f for f in faults if f["group"] == group and f["point"] == "pins" and changes_count(f)
+        ]
         missed = sum(f["class"] != "detected" for f in its)
-        found.append((f"not flagged, of '{group}'", missed, len(its), missed <= (1 - FLAGGED_SHARE) * len(its)))
+        found.append(
+            (
+                f"not flagged, of '{group}'",
+                missed,
+                len(its),
+                missed <= (1 - FLAGGED_SHARE) * len(its),
+            )
+        )
     return found
 
 
@@ -78,8 +103,16 @@ def text_table(rows):
     """For a terminal."""
     lines = [["point", "group", "faults", *CLASSES, "peak Nm", "mNm s"]]
     for row in rows:
-        lines.append([row.point, row.group, row.total(), *(row.count[c] for c in CLASSES),
-                      f"{max(row.peaks):.3f}", f"{1e3 * max(row.integrals):.3f}"])
+        lines.append(
+            [
+                row.point,
+                row.group,
+                row.total(),
+                *(row.count[c] for c in CLASSES),
+                f"{max(row.peaks):.3f}",
+                f"{1e3 * max(row.integrals):.3f}",
+            ]
+        )
     return aligned(lines, left=2)
 
 
@@ -87,8 +120,14 @@ def markdown_table(rows):
     head = ["point", "what", "faults", *CLASSES, "peak Nm", "mNm s"]
     lines = ["| " + " | ".join(head) + " |", "|---|---|" + "---:|" * (len(head) - 2)]
     for row in rows:
-        cells = [row.point, row.group, str(row.total()), *(str(row.count[c]) for c in CLASSES),
-                 f"{max(row.peaks):.2f}", f"{1e3 * max(row.integrals):.2g}"]
+        cells = [
+            row.point,
+            row.group,
+            str(row.total()),
+            *(str(row.count[c]) for c in CLASSES),
+            f"{max(row.peaks):.2f}",
+            f"{1e3 * max(row.integrals):.2g}",
+        ]
         lines.append("| " + " | ".join(cells) + " |")
     return lines
 

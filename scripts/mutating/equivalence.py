@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Is a mutant the same circuit? yosys joins both to one whose output says that they differ, yosys-abc
-proves that it never does (scorr, pdr), or finds inputs for which it does.
+"""Is a mutant the same circuit? yosys joins both to one whose output says that they differ,
+yosys-abc proves that it never does (scorr, pdr), or finds inputs for which it does.
 
-All inputs are free in every clock, reset among them; registers start at 0, or at their value at power-up.
-A memory is cut out: what it reads is an input of both, its address, data and enable are compared.
+All inputs are free in every clock, reset among them; registers start at 0, or at their value at
+power-up. A memory is cut out: what it reads is an input of both, its address, data and enable are
+compared.
 """
 
 import re
@@ -42,7 +43,9 @@ def without_memories(rtlil):
                     continue
                 last_port += 1
                 name = rf"\memory_{count}_{pin}"
-                lines.append(f"  wire width {size[ports] * size[width]} {direction} {last_port} {name}")
+                lines.append(
+                    f"  wire width {size[ports] * size[width]} {direction} {last_port} {name}"
+                )
                 pair = (signal.group(1), name) if direction == "input" else (name, signal.group(1))
                 lines.append(f"  connect {pair[0]} {pair[1]}")
         return "\n".join([*lines, ""])
@@ -84,7 +87,9 @@ class Joined:
         self.numbers = {m["number"]: k for k, m in enumerate(mutants, 1)}
         self.width = max(1, len(mutants).bit_length())
         work.mkdir(parents=True, exist_ok=True)
-        (work / "design.il").write_text((folder / "block.il").read_text(encoding="utf-8"), encoding="utf-8")
+        (work / "design.il").write_text(
+            (folder / "block.il").read_text(encoding="utf-8"), encoding="utf-8"
+        )
         netlist.run_yosys(join_script(block, mutants, self.width), "join", work, crew)
         self.blif = (work / "joined.blif").read_text(encoding="utf-8")
         self.abc = shutil.which("yosys-abc")
@@ -118,8 +123,14 @@ class Joined:
         """(output, seconds of CPU time) of yosys-abc."""
         log = self.work / f"{threading.get_ident()}.log"
         with log.open("wb") as file:
-            _, seconds = self.crew.timed([self.abc, "-c", script], limit_s, cwd=self.work, stdout=file, stderr=file,
-                                         stdin=subprocess.DEVNULL)
+            _, seconds = self.crew.timed(
+                [self.abc, "-c", script],
+                limit_s,
+                cwd=self.work,
+                stdout=file,
+                stderr=file,
+                stdin=subprocess.DEVNULL,
+            )
         return log.read_text(encoding="utf-8", errors="replace"), seconds
 
     def example(self, mutant):
@@ -130,12 +141,18 @@ class Joined:
         if not found.exists():
             return "no example"
         values = {}
-        for signal, bit, clock, value in re.findall(r"in_(\S+?)(?:\[(\d+)\])?@(\d+)=(\d)", found.read_text(encoding="utf-8")):
+        for signal, bit, clock, value in re.findall(
+            r"in_(\S+?)(?:\[(\d+)\])?@(\d+)=(\d)", found.read_text(encoding="utf-8")
+        ):
             key = int(clock), signal
             values[key] = values.get(key, 0) | int(value) << int(bit or 0)
         lines, last = ["inputs that show it, from a state of 0:"], {}
         for clock in range(max((key[0] for key in values), default=-1) + 1):
-            now = {signal: value for (c, signal), value in values.items() if c == clock and signal != "clk_i"}
+            now = {
+                signal: value
+                for (c, signal), value in values.items()
+                if c == clock and signal != "clk_i"
+            }
             changed = [f"{s}={v:#x}" for s, v in sorted(now.items()) if last.get(s, 0) != v]
             lines.append(f"  clock {clock}: {' '.join(changed) or 'as before'}")
             last |= now

@@ -2,10 +2,10 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """One netlist that is a block with any of its mutants, chosen at run time. docs/verification.md
 
-Yosys writes the block as a netlist of word-wide cells and proposes the mutants: one bit of one pin of one
-cell inverted, stuck, or changed by another bit of the pin. Every mutant is in the netlist behind a
-comparison with `mutsel`. Around it stands a module of the block's own name and ports, so that the block's
-test program is linked with it as it is.
+Yosys writes the block as a netlist of word-wide cells and proposes the mutants: one bit of one pin
+of one cell inverted, stuck, or changed by another bit of the pin. Every mutant is in the netlist
+behind a comparison with `mutsel`. Around it stands a module of the block's own name and ports, so
+that the block's test program is linked with it as it is.
 """
 
 import json
@@ -41,13 +41,21 @@ def run_yosys(script, name, folder, crew=None):
     log = folder / f"{name}.log"
     with log.open("wb") as file:
         try:
-            done = (crew or Crew()).run([yosys(), "-s", path.name], LIMIT_S, cwd=folder, stdout=file, stderr=file,
-                                        stdin=subprocess.DEVNULL)
+            done = (crew or Crew()).run(
+                [yosys(), "-s", path.name],
+                LIMIT_S,
+                cwd=folder,
+                stdout=file,
+                stderr=file,
+                stdin=subprocess.DEVNULL,
+            )
         except subprocess.TimeoutExpired as error:
             raise NetlistError(f"yosys did not end within {LIMIT_S} s; log: {log}") from error
     text = log.read_text(encoding="utf-8", errors="replace")
     if done.returncode:
-        raise NetlistError("\n".join([f"yosys failed; the whole log: {log}", *text.strip().splitlines()[-3:]]))
+        raise NetlistError(
+            "\n".join([f"yosys failed; the whole log: {log}", *text.strip().splitlines()[-3:]])
+        )
     return text
 
 
@@ -61,8 +69,13 @@ def cell_types(rtlil):
 
 
 def powered_up(rtlil):
-    """(cell, "Q") of registers with a value at power-up, which yosys' mutate loses when it changes Q."""
-    wires = set(re.findall(r"attribute \\init [^\n]*\n(?:  attribute [^\n]*\n)*  wire (?:\w+ \S+ )*(\S+)\n", rtlil))
+    """(cell, "Q") of registers with a value at power-up, which yosys' mutate loses when it changes
+    Q."""
+    wires = set(
+        re.findall(
+            r"attribute \\init [^\n]*\n(?:  attribute [^\n]*\n)*  wire (?:\w+ \S+ )*(\S+)\n", rtlil
+        )
+    )
     found = set()
     for cell, body in re.findall(r"^  cell \S+ (\S+)$(.*?)^  end$", rtlil, re.M | re.S):
         q = re.search(r"connect \\Q (.*)", body)
@@ -102,8 +115,12 @@ def parse(line, types):
 
 def command(mutant, top, control=""):
     """The mutant as a command of yosys."""
-    words = ["mutate", control, f"-mode {mutant['mode']} -module {top} -cell {mutant['cell']}",
-             f"-port {mutant['port']} -portbit {mutant['bit']}"]
+    words = [
+        "mutate",
+        control,
+        f"-mode {mutant['mode']} -module {top} -cell {mutant['cell']}",
+        f"-port {mutant['port']} -portbit {mutant['bit']}",
+    ]
     if "by_bit" in mutant:
         words.append(f"-ctrlbit {mutant['by_bit']}")
     return " ".join(word for word in words if word)
@@ -113,25 +130,30 @@ def wrapper(block, source, width):
     """The module of the block's own name: its ports, and which mutant it is."""
     head = Head(block, source)
     ports = ", ".join(f".{port}({port})" for _, _, port in head.ports)
-    return "\n".join([
-        "`default_nettype none",
-        head.text,
-        '  import "DPI-C" function int feltgate_chosen_mutant();',
-        f"  logic [{width - 1}:0] mutsel;",
-        f"  initial mutsel = {width}'(feltgate_chosen_mutant());",
-        f"  {block}_mutants u_mutants ({ports}, .mutsel(mutsel));",
-        # Verilator orders the members of its class by what is a clock: clk_i must be one here, too.
-        *(["  always @(posedge clk_i) if (&mutsel) $stop;"] if head.clocked else []),
-        "endmodule",
-        "`default_nettype wire",
-        "",
-    ])
+    return "\n".join(
+        [
+            "`default_nettype none",
+            head.text,
+            '  import "DPI-C" function int feltgate_chosen_mutant();',
+            f"  logic [{width - 1}:0] mutsel;",
+            f"  initial mutsel = {width}'(feltgate_chosen_mutant());",
+            f"  {block}_mutants u_mutants ({ports}, .mutsel(mutsel));",
+            # Verilator orders the members of its class by what is a clock: clk_i must be one here,
+            # too.
+            *(["  always @(posedge clk_i) if (&mutsel) $stop;"] if head.clocked else []),
+            "endmodule",
+            "`default_nettype wire",
+            "",
+        ]
+    )
 
 
 def chosen(parameter):
     """NAME=VALUE for Yosys, which takes no sign."""
     name, value = parameter.split("=")
-    return f"{name} 32'h{int(value) & 0xffffffff:08x}" if value.startswith("-") else f"{name} {value}"
+    return (
+        f"{name} 32'h{int(value) & 0xffffffff:08x}" if value.startswith("-") else f"{name} {value}"
+    )
 
 
 def write(block, sources, parameters, count, seed, output, root):
@@ -143,40 +165,63 @@ def write(block, sources, parameters, count, seed, output, root):
     link.unlink(missing_ok=True)
     link.symlink_to(root / "rtl")
     changed = "".join(f" -chparam {chosen(p)}" for p in parameters)
-    log = run_yosys([
-        "read_verilog -sv " + " ".join(f'"{source}"' for source in sources),
-        f"hierarchy -top {block}{changed}",
-        "proc", "flatten",
-        # Not `memory -nomap`: its ports would read X for a word that is being written.
-        "opt -full", "memory_collect", "opt_clean -purge",
-        f"rename -top {block}",
-        "write_rtlil block.il",
-        f"mutate -list 1 -seed {seed} -o one.txt",
-    ], "read", folder)
+    log = run_yosys(
+        [
+            "read_verilog -sv " + " ".join(f'"{source}"' for source in sources),
+            f"hierarchy -top {block}{changed}",
+            "proc",
+            "flatten",
+            # Not `memory -nomap`: its ports would read X for a word that is being written.
+            "opt -full",
+            "memory_collect",
+            "opt_clean -purge",
+            f"rename -top {block}",
+            "write_rtlil block.il",
+            f"mutate -list 1 -seed {seed} -o one.txt",
+        ],
+        "read",
+        folder,
+    )
     database = int(re.search(r"Raw database size: (\d+)", log).group(1))
     # Some pins are left out below; what is asked for makes up for them.
     asked = max(1, min(count * 3 // 2, int(MOST_OF_DATABASE * database)))
-    run_yosys(["read_rtlil block.il", f"mutate -list {asked} -seed {seed} -o proposed.txt"], "list", folder)
+    run_yosys(
+        ["read_rtlil block.il", f"mutate -list {asked} -seed {seed} -o proposed.txt"],
+        "list",
+        folder,
+    )
     design = (folder / "block.il").read_text(encoding="utf-8")
     types = cell_types(design)
     started = powered_up(design)
-    mutants = [parse(line, types) for line in (folder / "proposed.txt").read_text(encoding="utf-8").splitlines()]
-    mutants = [m for m in mutants if m["port"] not in LEFT_OUT and (m["cell"], m["port"]) not in started][:count]
+    mutants = [
+        parse(line, types)
+        for line in (folder / "proposed.txt").read_text(encoding="utf-8").splitlines()
+    ]
+    mutants = [
+        m for m in mutants if m["port"] not in LEFT_OUT and (m["cell"], m["port"]) not in started
+    ][:count]
     width = len(mutants).bit_length() + 1  # all bits set is no mutant
     for number, mutant in enumerate(mutants, 1):
         mutant["number"] = number
-    run_yosys([
-        "read_rtlil block.il",
-        *(command(m, block, f"-ctrl mutsel {width} {m['number']}") for m in mutants),
-        # Verilator 5.006 loses changes of a word that is driven in parts, some by others of it.
-        "opt_clean", "splitnets -driver",
-        f"rename {block} {block}_mutants",
-        "write_verilog -noattr netlist.v",
-    ], "netlist", folder)
+    run_yosys(
+        [
+            "read_rtlil block.il",
+            *(command(m, block, f"-ctrl mutsel {width} {m['number']}") for m in mutants),
+            # Verilator 5.006 loses changes of a word that is driven in parts, some by others of it.
+            "opt_clean",
+            "splitnets -driver",
+            f"rename {block} {block}_mutants",
+            "write_verilog -noattr netlist.v",
+        ],
+        "netlist",
+        folder,
+    )
     source = next(p for p in sources if Path(p).stem == block)
     text = wrapper(block, Path(root, source).read_text(encoding="utf-8"), width)
     netlist = (folder / "netlist.v").read_text(encoding="utf-8")
     if not output.exists() or output.read_text(encoding="utf-8") != text + netlist:
-        output.write_text(text + netlist, encoding="utf-8")  # else nothing needs to be compiled again
+        output.write_text(
+            text + netlist, encoding="utf-8"
+        )  # else nothing needs to be compiled again
     result = {"block": block, "seed": seed, "database": database, "mutants": mutants}
     (folder / "mutants.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Mutants of the RTL: runs a block's test program on each, proves what survives, says what is left."""
+"""Mutants of the RTL: runs a block's test program on each, proves what survives, says what is
+left."""
 
 import json
 import os
@@ -25,8 +26,13 @@ PATTERNS = {"wire", "register", "pin"}  # of the whole name
 KEYS = {"line", *PATTERNS, "bits", "modes", "kind", "why"}
 ARGUED, GAP = "equivalent", "gap"
 LONGEST_S = 3600  # for a test without a mutant
-MODES = {"inv": "inverted", "const0": "stuck at 0", "const1": "stuck at 1",
-         "cnot0": "inverted while another bit of the pin is 0", "cnot1": "inverted while another bit of the pin is 1"}
+MODES = {
+    "inv": "inverted",
+    "const0": "stuck at 0",
+    "const1": "stuck at 1",
+    "cnot0": "inverted while another bit of the pin is 0",
+    "cnot1": "inverted while another bit of the pin is 1",
+}
 
 
 class MutateError(Exception):
@@ -78,10 +84,15 @@ def pin(mutant):
 
 def says(mutant):
     """One line."""
-    register = f" of {mutant['register']}" if mutant["port"] not in ("D", "Q") and "register" in mutant else ""
+    register = (
+        f" of {mutant['register']}"
+        if mutant["port"] not in ("D", "Q") and "register" in mutant
+        else ""
+    )
     wire = f"{register}, {mutant['wire']}[{mutant['wire_bit']}]" if "wire" in mutant else register
     by = f" ({mutant['by_bit']})" if "by_bit" in mutant else ""
-    return f"bit {mutant['bit']} of {pin(mutant)}{wire} {MODES.get(mutant['mode'], mutant['mode'])}{by}"
+    mode = MODES.get(mutant["mode"], mutant["mode"])
+    return f"bit {mutant['bit']} of {pin(mutant)}{wire} {mode}{by}"
 
 
 def where(root, mutant):
@@ -106,16 +117,29 @@ class Listed:
             except (tomllib.TOMLDecodeError, re.error) as error:
                 raise MutateError(f"{path}: {error}") from error
         for entry in self.entries:
-            if not entry.get("why") or entry.get("kind") not in (ARGUED, GAP) or not entry.keys() <= KEYS or len(entry) < 3:
-                raise MutateError(f"{path}: an entry has 'why', the kind {ARGUED} or {GAP}, and some of "
-                                  "line, wire, register, pin, bits, modes")
+            if (
+                not entry.get("why")
+                or entry.get("kind") not in (ARGUED, GAP)
+                or not entry.keys() <= KEYS
+                or len(entry) < 3
+            ):
+                raise MutateError(
+                    f"{path}: an entry has 'why', the kind {ARGUED} or {GAP}, and some of "
+                    "line, wire, register, pin, bits, modes"
+                )
 
     def entry(self, mutant):
         """(kind, reason) of the first entry that fits, or two empty texts."""
         for entry in self.entries:
-            if "line" in entry and not any(entry["line"] in place(self.root, s)[2] for s in mutant["sources"]):
+            if "line" in entry and not any(
+                entry["line"] in place(self.root, s)[2] for s in mutant["sources"]
+            ):
                 continue
-            texts = {"wire": mutant.get("wire", ""), "register": mutant.get("register", ""), "pin": pin(mutant)}
+            texts = {
+                "wire": mutant.get("wire", ""),
+                "register": mutant.get("register", ""),
+                "pin": pin(mutant),
+            }
             if not all(re.fullmatch(entry[key], texts[key]) for key in PATTERNS & entry.keys()):
                 continue
             if "bits" in entry and mutant["bit"] not in entry["bits"]:
@@ -141,8 +165,12 @@ class Row:
 
     def survivors(self):
         """Those that are not proven equivalent."""
-        return [m for m in self.test.mutants if self.fates.get(m["number"]) == SURVIVES
-                and self.proofs.get(m["number"], ("",))[0] != equivalence.EQUIVALENT]
+        return [
+            m
+            for m in self.test.mutants
+            if self.fates.get(m["number"]) == SURVIVES
+            and self.proofs.get(m["number"], ("",))[0] != equivalence.EQUIVALENT
+        ]
 
     def equivalent(self):
         return sum(verdict == equivalence.EQUIVALENT for verdict, _ in self.proofs.values())
@@ -161,25 +189,48 @@ class Row:
     def as_json(self):
         def entry(mutant):
             verdict, said = self.proofs.get(mutant["number"], ("not tried", ""))
-            return {"number": mutant["number"], "mutant": says(mutant), "where": where(self.listed.root, mutant),
-                    "proof": verdict, "said": said, **dict(zip(("kind", "why"), self.listed.entry(mutant)))}
+            return {
+                "number": mutant["number"],
+                "mutant": says(mutant),
+                "where": where(self.listed.root, mutant),
+                "proof": verdict,
+                "said": said,
+                **dict(zip(("kind", "why"), self.listed.entry(mutant))),
+            }
 
         return {
-            "test": self.test.name, "block": self.test.block, "seed": self.test.seed,
-            "database": self.test.database, "mutants": len(self.fates),
-            "killed": self.count(*DEAD), "crashes": self.count(CRASHES), "hangs": self.count(HANGS),
-            "equivalent": self.equivalent(), "argued": self.of(ARGUED), "gaps": self.of(GAP), "left": self.of(""),
-            "killed_share": round(self.share(), 4), "seconds": round(self.seconds, 1),
+            "test": self.test.name,
+            "block": self.test.block,
+            "seed": self.test.seed,
+            "database": self.test.database,
+            "mutants": len(self.fates),
+            "killed": self.count(*DEAD),
+            "crashes": self.count(CRASHES),
+            "hangs": self.count(HANGS),
+            "equivalent": self.equivalent(),
+            "argued": self.of(ARGUED),
+            "gaps": self.of(GAP),
+            "left": self.of(""),
+            "killed_share": round(self.share(), 4),
+            "seconds": round(self.seconds, 1),
             "survivors": [entry(m) for m in self.survivors()],
         }
 
 
 def run_program(crew, test, number, limit_s):
     """(fate, seconds of CPU time, output)"""
-    kept = {k: v for k, v in os.environ.items() if k not in ("FELTGATE_DEFECT", "FELTGATE_MISMATCH_DIR")}
+    kept = {
+        k: v for k, v in os.environ.items() if k not in ("FELTGATE_DEFECT", "FELTGATE_MISMATCH_DIR")
+    }
     with tempfile.TemporaryFile() as output:
-        status, seconds = crew.timed([test.program, "--abort"], limit_s, env=kept | {"FELTGATE_MUTANT": str(number)},
-                                     stdin=subprocess.DEVNULL, stdout=output, stderr=output)
+        status, seconds = crew.timed(
+            [test.program, "--abort"],
+            limit_s,
+            env=kept | {"FELTGATE_MUTANT": str(number)},
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=output,
+        )
         output.seek(0)
         text = output.read().decode("utf-8", "replace")
     if status is None:
@@ -194,7 +245,9 @@ def run_program(crew, test, number, limit_s):
 def chosen(test, count, seed):
     if count <= 0 or count >= len(test.mutants):
         return test.mutants
-    return sorted(random.Random(f"{seed}/{test.name}").sample(test.mutants, count), key=lambda m: m["number"])
+    return sorted(
+        random.Random(f"{seed}/{test.name}").sample(test.mutants, count), key=lambda m: m["number"]
+    )
 
 
 def run(wanted, root, count, seed, jobs, proof_seconds, say):
@@ -242,7 +295,9 @@ def prove(rows, crew, work, jobs, limit_s):
 
         def join(row):
             alive = [m for m in row.test.mutants if row.fates.get(m["number"]) == SURVIVES]
-            found = equivalence.joined(row.test.folder, row.test.block, alive, work / row.test.name, crew)
+            found = equivalence.joined(
+                row.test.folder, row.test.block, alive, work / row.test.name, crew
+            )
             return [(row, mutant, found[mutant["number"]]) for mutant in alive]
 
         def verdict(item):
@@ -259,15 +314,37 @@ def prove(rows, crew, work, jobs, limit_s):
         crew.each(verdict, todo, jobs, note)
 
 
-HEAD = ("test", "database", "mutants", "killed", "proven same", "argued same", "gaps", "not listed", "killed of rest",
-        "s of CPU")
+HEAD = (
+    "test",
+    "database",
+    "mutants",
+    "killed",
+    "proven same",
+    "argued same",
+    "gaps",
+    "not listed",
+    "killed of rest",
+    "s of CPU",
+)
 
 
 def table(rows):
     lines = [HEAD]
     for row in rows:
-        lines.append((row.test.name, row.test.database, len(row.fates), row.count(*DEAD), row.equivalent(),
-                      row.of(ARGUED), row.of(GAP), row.of(""), f"{100 * row.share():.1f} %", f"{row.seconds:.0f}"))
+        lines.append(
+            (
+                row.test.name,
+                row.test.database,
+                len(row.fates),
+                row.count(*DEAD),
+                row.equivalent(),
+                row.of(ARGUED),
+                row.of(GAP),
+                row.of(""),
+                f"{100 * row.share():.1f} %",
+                f"{row.seconds:.0f}",
+            )
+        )
     return aligned(lines)
 
 
@@ -278,8 +355,10 @@ def print_survivors(rows, known):
             if kind and not known:
                 continue
             verdict, said = row.proofs.get(mutant["number"], ("not tried", ""))
-            print(f"{row.test.name} {mutant['number']}: {says(mutant)}; {verdict}, {said}"
-                  f"{f'; {kind}: {why}' if kind else ''}")
+            print(
+                f"{row.test.name} {mutant['number']}: {says(mutant)}; {verdict}, {said}"
+                f"{f'; {kind}: {why}' if kind else ''}"
+            )
             for line in where(row.listed.root, mutant):
                 print(f"    {line}")
 
@@ -298,11 +377,17 @@ def show(test, number, root, proof_seconds):
     print(f"{fate} in {seconds:.2f} s of CPU{f': {said.group(0)}' if said else ''}")
     if fate == SURVIVES and proof_seconds:
         with tempfile.TemporaryDirectory(prefix="feltgate-mutate-") as work:
-            design = equivalence.joined(test.folder, test.block, [mutant], Path(work, "one"), crew)[number]
+            design = equivalence.joined(test.folder, test.block, [mutant], Path(work, "one"), crew)[
+                number
+            ]
             verdict, said, _ = design.prove(mutant, proof_seconds)
             print(f"{verdict}: {said}")
             if verdict == equivalence.DIFFERENT:
                 print(design.example(mutant))
         kind, why = Listed(root, test.block).entry(mutant)
-        print(f"{kind}: {why}" if kind else f"to list it with a reason: testbench/{test.block}/mutants.toml")
+        print(
+            f"{kind}: {why}"
+            if kind
+            else f"to list it with a reason: testbench/{test.block}/mutants.toml"
+        )
     print(f"again: FELTGATE_MUTANT={number} {test.program}")

@@ -2,16 +2,17 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Mutants of the C++ twin: would the tests notice if a line of its headers were wrong?
 
-A header of model/include/feltgate is changed in one place at a time: another operator, a constant one off,
-a condition turned round or left out, a statement removed, arguments swapped, another rounding. All of
-them are compiled into the header's test programs once and chosen at run time. A first run without any
-notes which test cases reach which mutants; each is then run by those until one fails, within a limit of
-CPU time. What survives is listed with its reason in testbench/mutate/twin.toml, equivalent or a gap, or is
-printed. A mutant is named by its function and what it changes, so that the list outlives a change
-of other lines. Method, results and what this does not say: docs/verification.md
+A header of model/include/feltgate is changed in one place at a time: another operator, a constant
+one off, a condition turned round or left out, a statement removed, arguments swapped, another
+rounding. All of them are compiled into the header's test programs once and chosen at run time. A
+first run without any notes which test cases reach which mutants; each is then run by those until
+one fails, within a limit of CPU time. What survives is listed with its reason in
+testbench/mutate/twin.toml, equivalent or a gap, or is printed. A mutant is named by its function
+and what it changes, so that the list outlives a change of other lines. Method, results and what
+this does not say: docs/verification.md
 
-Exit code: 0 all headers have the share that is required killed, 1 one has not, 2 when a tool, a file or
-an argument is wrong.
+Exit code: 0 all headers have the share that is required killed, 1 one has not, 2 when a tool, a
+file or an argument is wrong.
 
   feltgate mutate --twin                         200 mutants of every header
   feltgate mutate --twin ramp supervisor         those of two headers
@@ -28,59 +29,19 @@ import re
 import shutil
 import sys
 import time
-import tomllib
 import zlib
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import block_results
 import building
 import interrupts
 import outputs
-from reporting.columns import aligned
 
-from . import twin_parser, twin_programs, twin_runs, twin_source
+from . import twin_parser, twin_programs, twin_results, twin_runs, twin_source
+from .twin_results import TwinError
 
-SCHEMA = "feltgate-mutate-twin/1"
-CATALOGUE = "testbench/mutate/twin.toml"
-RESULTS = "docs/verification/twin_mutants.json"
-SURVIVOR_KEYS = {"header", "kind", "why", "mutants"}
 REQUIRED = 0.95
 SHARE = 200  # mutants of a header, where it offers so many
-DEAD = ("killed", "hangs", "crashes")
-
-
-class TwinError(Exception):
-    """A header or a catalogue that cannot be used."""
-
-
-@dataclass
-class Catalogue:
-    tests: dict  # header: targets
-    constant: dict = field(default_factory=dict)  # header: functions that only the compiler calls
-    survivors: dict = field(default_factory=dict)  # (header, name of the mutant): (kind, why)
-    blocks: dict = field(default_factory=dict)  # header: row of docs/blocks.md, where that has another name
-
-
-def read_catalogue(root):
-    """testbench/mutate/twin.toml; TwinError where something in it cannot be used."""
-    path = root / CATALOGUE
-    try:
-        text = tomllib.loads(path.read_text(encoding="utf-8"))
-    except tomllib.TOMLDecodeError as error:
-        raise TwinError(f"{path}: {error}") from error
-    tests, blocks, survivors = text.get("tests", {}), text.get("block", {}), {}
-    for header in blocks:
-        if header not in tests or not isinstance(blocks[header], str):
-            raise TwinError(f"{path}: [block] has a row of docs/blocks.md for a header; not so {header}")
-    for entry in text.get("survivor", []):
-        if entry.keys() != SURVIVOR_KEYS:
-            raise TwinError(f"{path}: a survivor has the keys {', '.join(sorted(SURVIVOR_KEYS))}")
-        if entry["kind"] not in ("equivalent", "gap") or not entry["why"]:
-            raise TwinError(f"{path}: a survivor is equivalent or a gap, and says why")
-        for name in entry["mutants"]:
-            survivors[entry["header"], name] = (entry["kind"], entry["why"])
-    return Catalogue(tests, text.get("constant", {}), survivors, blocks)
 
 
 def parse(catalogue, root, names, dropped, language):
@@ -88,8 +49,9 @@ def parse(catalogue, root, names, dropped, language):
     headers, first = [], 0
     for name in names:
         text = (root / twin_programs.HEADERS / f"{name}.hpp").read_text(encoding="utf-8")
-        header = twin_source.Header(name, text, first, language, catalogue.constant.get(name, ()),
-                                    dropped.get(name, ()))
+        header = twin_source.Header(
+            name, text, first, language, catalogue.constant.get(name, ()), dropped.get(name, ())
+        )
         first += len(header.mutants)
         headers.append(header)
     return headers
@@ -98,7 +60,11 @@ def parse(catalogue, root, names, dropped, language):
 def folder_of(build, names):
     """One for each set of headers: what others have made must not come between."""
     some = "-".join(names[:3])
-    more = "" if len(names) < 4 else f"-{len(names) - 3}-more-{zlib.crc32(' '.join(names).encode()):08x}"
+    more = (
+        ""
+        if len(names) < 4
+        else f"-{len(names) - 3}-more-{zlib.crc32(' '.join(names).encode()):08x}"
+    )
     return build / "mutants/twin" / (some + more)
 
 
@@ -112,15 +78,26 @@ def write_headers(headers, folder):
 
 def refused(headers, folder, output):
     """The mutants that a compiler's message is about: those of its line, the risky ones first."""
-    lines = {h.name: (folder / "include/feltgate" / f"{h.name}.hpp").read_text(encoding="utf-8").splitlines()
-             for h in headers}
+    lines = {
+        h.name: (folder / "include/feltgate" / f"{h.name}.hpp")
+        .read_text(encoding="utf-8")
+        .splitlines()
+        for h in headers
+    }
     # A compiler cache may shorten the paths.
     path = rf"mutants/twin/{re.escape(folder.name)}/include/feltgate/(\w+)\.hpp:(\d+):\d+:"
-    places = set(re.findall(rf"{path} +error", output)) or set(re.findall(rf"{path} +required from", output))
+    places = set(re.findall(rf"{path} +error", output)) or set(
+        re.findall(rf"{path} +required from", output)
+    )
     bad = set()
     for name, line in places:
         header = next(h for h in headers if h.name == name)
-        numbers = {int(n) for n in re.findall(r"feltgate_mutant::\w+[<(](?:-1, )?(\d+)", lines[name][int(line) - 1])}
+        numbers = {
+            int(n)
+            for n in re.findall(
+                r"feltgate_mutant::\w+[<(](?:-1, )?(\d+)", lines[name][int(line) - 1]
+            )
+        }
         here = [m for m in header.mutants if m.number in numbers]
         for kinds in (("arguments",), ("constant",), ("arithmetic", "rounding"), None):
             chosen = [m for m in here if (kinds is None or m.kind in kinds)]
@@ -134,7 +111,9 @@ def make(catalogue, root, build, names, folder, language, jobs, built, say):
     """(headers, programs); what does not compile is dropped."""
     targets = list(dict.fromkeys(t for name in names for t in catalogue.tests[name]))
     if not built:
-        building.make("mutate", build, targets, jobs)  # objects and libraries as they are serve the mutated ones
+        building.make(
+            "mutate", build, targets, jobs
+        )  # objects and libraries as they are serve the mutated ones
     # Known from the last time; a mutant that is no longer there drops nothing.
     memory = folder.parent / "not_compiled.json"
     known = json.loads(memory.read_text(encoding="utf-8")) if memory.exists() else {}
@@ -143,11 +122,16 @@ def make(catalogue, root, build, names, folder, language, jobs, built, say):
         headers = parse(catalogue, root, names, dropped, language)
         write_headers(headers, folder)
         count = sum(len(h.mutants) for h in headers)
-        say(f"compiling {count} mutants of {len(headers)} headers" + (f", attempt {attempt + 1}" if attempt else ""))
+        say(
+            f"compiling {count} mutants of {len(headers)} headers"
+            + (f", attempt {attempt + 1}" if attempt else "")
+        )
         maker = twin_programs.Maker(build, root, folder, names, max(count, 1), jobs)
         try:
             programs = maker.make(targets)
-            outputs.write_whole(memory, json.dumps(known | {n: sorted(d) for n, d in dropped.items()}))
+            outputs.write_whole(
+                memory, json.dumps(known | {n: sorted(d) for n, d in dropped.items()})
+            )
             return headers, programs, dropped
         except twin_programs.BuildError as error:
             bad = refused(headers, folder, error.output)
@@ -162,86 +146,28 @@ def choose(header, count, seed):
     """So many of its mutants, or all; the same ones for one seed."""
     if count <= 0 or len(header.mutants) <= count:
         return header.mutants
-    return sorted(random.Random(f"{seed}/{header.name}").sample(header.mutants, count), key=lambda m: m.number)
-
-
-def survivors_of(path):
-    """(header, mutant) of those that results tell of."""
-    try:
-        rows = json.loads(path.read_text(encoding="utf-8"))["headers"]
-        return {(row["header"], survivor["mutant"]) for row in rows for survivor in row["survivors"]}
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise TwinError(f"{path}: no results of mutate --twin ({error})") from None
-
-
-@dataclass
-class Row:
-    header: str
-    offered: int
-    verdicts: list
-    catalogue: Catalogue
-
-    def known(self, verdict):
-        if verdict.how == "exact":
-            return "equivalent", "nothing to round, for the result has as many fraction bits, or no call with the arguments swapped"
-        return self.catalogue.survivors.get((self.header, verdict.mutant.name))
-
-    def count(self, *hows):
-        return sum(v.how in hows for v in self.verdicts)
-
-    def left(self, kind):
-        """Not killed: equivalent, gap or None for those not listed."""
-        return [v for v in self.verdicts if v.how not in DEAD and (self.known(v) or (None,))[0] == kind]
-
-    def share(self):
-        living = len(self.verdicts) - len(self.left("equivalent"))
-        return self.count(*DEAD) / living if living else 1.0
-
-    def as_json(self):
-        return {
-            "header": self.header, "offered": self.offered, "tried": len(self.verdicts),
-            "killed": self.count("killed"), "hangs": self.count("hangs"), "crashes": self.count("crashes"),
-            "equivalent": len(self.left("equivalent")), "killed_share": round(self.share(), 4),
-            "seconds": round(sum(v.seconds for v in self.verdicts), 1),
-            "survivors": [
-                {"mutant": v.mutant.name, "line": v.mutant.line, "reached": v.how != "unreached",
-                 "kind": (self.known(v) or ("not listed", ""))[0], "why": (self.known(v) or ("", ""))[1]}
-                for v in self.verdicts if v.how not in DEAD
-            ],
-        }
-
-
-def table(rows):
-    head = ("header", "offered", "tried", "killed", "hang", "crash", "equivalent", "gaps", "not listed", "killed share")
-    lines = [head]
-    for row in rows:
-        lines.append((row.header, row.offered, len(row.verdicts), row.count("killed"), row.count("hangs"),
-                      row.count("crashes"), len(row.left("equivalent")), len(row.left("gap")),
-                      len(row.left(None)), f"{100 * row.share():.1f} %"))
-    return aligned(lines)
-
-
-def print_survivors(rows, known):
-    for row in rows:
-        for verdict in row.verdicts:
-            if verdict.how in DEAD or (row.known(verdict) and not known):
-                continue
-            kind, why = row.known(verdict) or ("not listed", "")
-            print(f"{twin_programs.HEADERS}/{row.header}.hpp:{verdict.mutant.line}: {verdict.how}, {kind}: "
-                  f"{verdict.mutant.name}{f' ({why})' if why else ''}")
+    return sorted(
+        random.Random(f"{seed}/{header.name}").sample(header.mutants, count), key=lambda m: m.number
+    )
 
 
 def run(options, root, build):
     """The exit code."""
-    catalogue = read_catalogue(root)
+    catalogue = twin_results.read_catalogue(root)
     names = options.name or list(catalogue.tests)
     unknown = [n for n in names if n not in catalogue.tests]
     if unknown:
-        raise TwinError(f"no header {', '.join(unknown)} in {CATALOGUE}; there are {', '.join(catalogue.tests)}")
+        raise TwinError(
+            f"no header {', '.join(unknown)} in {twin_results.CATALOGUE}; "
+            f"there are {', '.join(catalogue.tests)}"
+        )
     language = twin_parser.cpp_language(build / "venv-mutate")
     if options.list:
         for header in parse(catalogue, root, names, {}, language):
-            print(f"{header.name}: {len(header.mutants)} mutants, tested by {', '.join(catalogue.tests[header.name])}")
+            print(
+                f"{header.name}: {len(header.mutants)} mutants, "
+                f"tested by {', '.join(catalogue.tests[header.name])}"
+            )
             for mutant in header.mutants if options.name else ():
                 print(f"  {mutant.line}: {mutant.name}")
         return 0
@@ -251,89 +177,104 @@ def run(options, root, build):
         print(f"mutate: {text}", file=sys.stderr, flush=True)
 
     folder = folder_of(build, names)
-    headers, programs, dropped = make(catalogue, root, build, names, folder, language, options.jobs, options.no_build, say)
+    headers, programs, dropped = make(
+        catalogue, root, build, names, folder, language, options.jobs, options.no_build, say
+    )
     runs = twin_runs.Runs(folder, options.jobs)
     cases = runs.survey(programs)
-    say(f"{len(cases)} test cases, {sum(c.seconds for c in cases):.0f} s of CPU; {time.monotonic() - start:.0f} s so far")
+    say(
+        f"{len(cases)} test cases, {sum(c.seconds for c in cases):.0f} s of CPU; "
+        f"{time.monotonic() - start:.0f} s so far"
+    )
     chosen = [m for h in headers for m in choose(h, options.count, options.seed)]
     if options.again:
-        survived = survivors_of(options.again)
-        chosen = [m for h in headers for m in h.mutants
-                  if (m.header, m.name) in survived and (m.header, m.name) not in catalogue.survivors]
+        survived = twin_results.survivors_of(options.again)
+        chosen = [
+            m
+            for h in headers
+            for m in h.mutants
+            if (m.header, m.name) in survived and (m.header, m.name) not in catalogue.survivors
+        ]
     # A header's own tests only, also where another's reach it.
-    own = {h.name: [c for c in cases if c.program.target in catalogue.tests[h.name]] for h in headers}
+    own = {
+        h.name: [c for c in cases if c.program.target in catalogue.tests[h.name]] for h in headers
+    }
     verdicts = runs.verdicts([(m, own[m.header]) for m in chosen])
-    rows = [Row(h.name, len(h.mutants), [v for v in verdicts if v.mutant.header == h.name], catalogue)
-            for h in headers]
-    print_survivors(rows, options.survivors)
-    print(table(rows))
+    rows = [
+        twin_results.Row(
+            h.name, len(h.mutants), [v for v in verdicts if v.mutant.header == h.name], catalogue
+        )
+        for h in headers
+    ]
+    twin_results.print_survivors(rows, options.survivors)
+    print(twin_results.table(rows))
     bad = [row.header for row in rows if row.share() < options.require]
-    dead = sum(v.how in DEAD for v in verdicts)
-    print(f"{len(verdicts)} mutants of {len(rows)} headers, {dead} killed, "
-          f"{len(bad)} headers below {100 * options.require:.0f} %; {time.monotonic() - start:.0f} s")
-    result = results_of(rows, options, dropped)
+    dead = sum(v.how in twin_results.DEAD for v in verdicts)
+    print(
+        f"{len(verdicts)} mutants of {len(rows)} headers, {dead} killed, "
+        f"{len(bad)} headers below {100 * options.require:.0f} %; {time.monotonic() - start:.0f} s"
+    )
+    result = twin_results.results_of(rows, options, dropped)
     if options.json:
         outputs.write_json(options.json, result)
     if options.update:
-        update(root, catalogue, result)
-        print(f"mutate: wrote {RESULTS}")
+        twin_results.update(root, catalogue, result)
+        print(f"mutate: wrote {twin_results.RESULTS}")
     return 1 if bad else 0
 
 
-def results_of(rows, options, dropped):
-    return {
-        "schema": SCHEMA, "machine": block_results.machine(), "date": block_results.today(),
-        "seed": options.seed, "count": options.count, "not_compiled": {name: len(d) for name, d in dropped.items()},
-        "headers": [row.as_json() for row in rows],
-    }
-
-
-def update(root, catalogue, result):
-    """The headers' results beside those of others, and [killed, not equivalent] of their blocks."""
-    where = root / RESULTS
-    entries = {}
-    if where.exists():
-        entries = {e["header"]: e for e in json.loads(where.read_text(encoding="utf-8"))["headers"]}
-    for entry in result["headers"]:
-        entries[entry["header"]] = {
-            **{k: v for k, v in entry.items() if k != "survivors"}, "date": result["date"]}
-    known = [entries[name] for name in catalogue.tests if name in entries]
-    lines = ",\n".join("  " + json.dumps(entry) for entry in known)
-    outputs.write_whole(where, f'{{"schema": "{SCHEMA}", "machine": {json.dumps(result["machine"])}, '
-                               f'"headers": [\n{lines}\n]}}\n')
-    changed, sums = {row_of(catalogue, entry["header"]) for entry in result["headers"]}, {}
-    for entry in known:
-        pair = sums.setdefault(row_of(catalogue, entry["header"]), [0, 0])
-        pair[0] += entry["killed"] + entry["hangs"] + entry["crashes"]
-        pair[1] += entry["tried"] - entry["equivalent"]
-    rows = {row: {"twin": pair} for row, pair in sums.items() if row in changed}
-    block_results.merge(root, "mutants", "./feltgate mutate [--twin] --update", rows)
-
-
-def row_of(catalogue, header):
-    """The row of docs/blocks.md that a header's mutants count in."""
-    return catalogue.blocks.get(header, header)
-
-
 def arguments(argv):
-    parser = argparse.ArgumentParser(prog="feltgate mutate --twin", description=__doc__, allow_abbrev=False,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        prog="feltgate mutate --twin",
+        description=__doc__,
+        allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     parser.add_argument("name", nargs="*", metavar="HEADER", help="without .hpp; default: all")
     parser.add_argument("--list", action="store_true", help="what there is; runs nothing")
-    parser.add_argument("--count", type=int, default=SHARE, metavar="N",
-                        help=f"mutants of each header, 0: all; default: {SHARE}")
-    parser.add_argument("--seed", type=int, default=1, help="which ones, where --count leaves some out; default: 1")
-    parser.add_argument("--require", type=float, default=REQUIRED, metavar="SHARE",
-                        help=f"to be killed, of those not equivalent; default: {REQUIRED}")
-    parser.add_argument("--again", type=Path, metavar="RESULTS",
-                        help="only those that survived in these results of --json and are not listed")
-    parser.add_argument("--survivors", action="store_true", help="list also what survives for a known reason")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N",
-                        help="programs at the same time; default: one per core")
-    parser.add_argument("--no-build", action="store_true", help="the test programs are built; look no further")
+    parser.add_argument(
+        "--count",
+        type=int,
+        default=SHARE,
+        metavar="N",
+        help=f"mutants of each header, 0: all; default: {SHARE}",
+    )
+    parser.add_argument(
+        "--seed", type=int, default=1, help="which ones, where --count leaves some out; default: 1"
+    )
+    parser.add_argument(
+        "--require",
+        type=float,
+        default=REQUIRED,
+        metavar="SHARE",
+        help=f"to be killed, of those not equivalent; default: {REQUIRED}",
+    )
+    parser.add_argument(
+        "--again",
+        type=Path,
+        metavar="RESULTS",
+        help="only those that survived in these results of --json and are not listed",
+    )
+    parser.add_argument(
+        "--survivors", action="store_true", help="list also what survives for a known reason"
+    )
+    parser.add_argument(
+        "--jobs",
+        type=int,
+        default=os.cpu_count(),
+        metavar="N",
+        help="programs at the same time; default: one per core",
+    )
+    parser.add_argument(
+        "--no-build", action="store_true", help="the test programs are built; look no further"
+    )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the results here")
-    parser.add_argument("--update", action="store_true",
-                        help=f"put the results of these headers into {RESULTS}, their sums where docs/blocks.md has them")
+    parser.add_argument(
+        "--update",
+        action="store_true",
+        help=f"put the results of these headers into {twin_results.RESULTS}, their sums where "
+        "docs/blocks.md has them",
+    )
     options = parser.parse_args(argv)
     outputs.check(parser, [options.again], json=options.json)
     if options.jobs < 1:
@@ -357,7 +298,13 @@ def main(argv=None):
     except twin_programs.BuildError as error:
         print(f"mutate: {error}\n{error.output}".strip(), file=sys.stderr)
         return 2
-    except (TwinError, twin_parser.SourceError, building.BuildError, block_results.ResultsError, OSError) as error:
+    except (
+        TwinError,
+        twin_parser.SourceError,
+        building.BuildError,
+        block_results.ResultsError,
+        OSError,
+    ) as error:
         print(f"mutate: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt as error:

@@ -23,7 +23,9 @@ def for_parser(text):
     """What tree-sitter does not know, in as many columns."""
     text = re.sub(r"= \{\}(?=[,)])", "= no", text)  # a default argument
     text = re.sub(r"\bdecltype\((\w+)\)(?=\{)", r"decltype_\1_", text)
-    return re.sub(r"(?<=::|->)template (?=\w)|(?<=\.)template (?=\w)|\btypename (?=\w)", " " * 9, text)
+    return re.sub(
+        r"(?<=::|->)template (?=\w)|(?<=\.)template (?=\w)|\btypename (?=\w)", " " * 9, text
+    )
 
 
 def parsed(name, text, language):
@@ -50,5 +52,7 @@ def cpp_language(venv=None):
         import tree_sitter
         import tree_sitter_cpp
     except ImportError as error:
-        raise SourceError(f"{error}: ./feltgate mutate --twin fetches tree-sitter from PyPI") from None
+        raise SourceError(
+            f"{error}: ./feltgate mutate --twin fetches tree-sitter from PyPI"
+        ) from None
     return tree_sitter.Language(tree_sitter_cpp.language())

@@ -45,7 +45,9 @@ class Program:
 def ninja(build, *arguments):
     done = interrupts.run(["ninja", "-C", str(build), *arguments], **interrupts.CAPTURED)
     if done.returncode:
-        raise BuildError(f"ninja {' '.join(arguments)}: {done.stdout.strip()[-2000:]}{done.stderr.strip()}")
+        raise BuildError(
+            f"ninja {' '.join(arguments)}: {done.stdout.strip()[-2000:]}{done.stderr.strip()}"
+        )
     return done.stdout
 
 
@@ -53,7 +55,9 @@ def dependencies(build, objects):
     """{object: the files that it was made of}."""
     found, at = {}, None
     # Its status is not 0 where it does not know one of them.
-    told = interrupts.run(["ninja", "-C", str(build), "-t", "deps", *objects], **interrupts.CAPTURED).stdout
+    told = interrupts.run(
+        ["ninja", "-C", str(build), "-t", "deps", *objects], **interrupts.CAPTURED
+    ).stdout
     for line in told.splitlines():
         if ": #deps" in line:
             at = found.setdefault(line.split(": #deps")[0], set())
@@ -63,7 +67,8 @@ def dependencies(build, objects):
 
 
 class Maker:
-    """Makes programs of a build folder again, with the headers of `folder` in front of the real ones."""
+    """Makes programs of a build folder again, with the headers of `folder` in front of the real
+    ones."""
 
     def __init__(self, build, root, folder, headers, count, jobs):
         self.build, self.root, self.folder, self.jobs = build, root, folder, jobs
@@ -78,14 +83,27 @@ class Maker:
     def compile_selector(self, compiler):
         out = self.folder / "mutant.o"
         source = self.root / "testbench/mutate/twin/mutant.cpp"
-        self.call([*compiler, "-std=c++17", "-O2", f"-DFELTGATE_MUTANTS={self.count}", "-c", source, "-o", out])
+        self.call(
+            [
+                *compiler,
+                "-std=c++17",
+                "-O2",
+                f"-DFELTGATE_MUTANTS={self.count}",
+                "-c",
+                source,
+                "-o",
+                out,
+            ]
+        )
         return out
 
     def call(self, command):
         done = self.crew.run(list(map(str, command)), cwd=self.build, **interrupts.CAPTURED)
         if done.returncode:
-            raise BuildError(f"{' '.join(map(str, command[:2]))} ... ended with {done.returncode}",
-                             done.stderr + done.stdout)
+            raise BuildError(
+                f"{' '.join(map(str, command[:2]))} ... ended with {done.returncode}",
+                done.stderr + done.stdout,
+            )
 
     def plan(self, target):
         """(compile commands of the objects to be made again, link command)."""
@@ -95,7 +113,14 @@ class Maker:
             words = shlex.split(line.split(" && ")[0]) if " -c " in line else []
             if "-c" in words and "-o" in words:
                 compiles[words[words.index("-o") + 1]] = words
-        link = next((line for line in reversed(lines) if re.search(rf" -o \S*\b{re.escape(target)}\b", line)), None)
+        link = next(
+            (
+                line
+                for line in reversed(lines)
+                if re.search(rf" -o \S*\b{re.escape(target)}\b", line)
+            ),
+            None,
+        )
         if link is None:
             raise BuildError(f"the build folder has no program {target}")
         made_of = dependencies(self.build, list(compiles))
@@ -105,9 +130,12 @@ class Maker:
         return chosen, link
 
     def concerns(self, source, made_of):
-        """Whether an object is of the headers; one that ninja does not know is, where its source is ours."""
+        """Whether an object is of the headers; one that ninja does not know is, where its source is
+        ours."""
         if made_of is None:
-            return any(source.startswith(f"{self.root}/{folder}/") for folder in ("model", "testbench"))
+            return any(
+                source.startswith(f"{self.root}/{folder}/") for folder in ("model", "testbench")
+            )
         return bool(self.headers & made_of)
 
     def compile(self, name, words):
@@ -115,13 +143,25 @@ class Maker:
         out = self.folder / "objects" / name
         out.parent.mkdir(parents=True, exist_ok=True)
         at = words.index("-o")
-        words = [*words[:at + 1], str(out), *words[at + 2:]]
+        words = [*words[: at + 1], str(out), *words[at + 2 :]]
         if "-MF" in words:
             words[words.index("-MF") + 1] = f"{out}.d"
         first = next(k for k, w in enumerate(words) if w.startswith("-"))
         words = [w for w in words if not w.startswith("-W") and w != "-O3"]
-        self.call([*words[:first], *self.include(), "-include", "mutant.hpp", *words[first:],
-                   "-O2", "-w", "-Wno-narrowing", "-fpermissive", "-fmax-errors=0"])
+        self.call(
+            [
+                *words[:first],
+                *self.include(),
+                "-include",
+                "mutant.hpp",
+                *words[first:],
+                "-O2",
+                "-w",
+                "-Wno-narrowing",
+                "-fpermissive",
+                "-fmax-errors=0",
+            ]
+        )
         return out
 
     def make(self, targets):
@@ -129,7 +169,7 @@ class Maker:
         plans = {target: self.plan(target) for target in targets}
         wanted = {o: w for compiles, _ in plans.values() for o, w in compiles.items()}
         some = next(iter(wanted.values()))
-        compiler = some[:next(k for k, w in enumerate(some) if w.startswith("-"))]
+        compiler = some[: next(k for k, w in enumerate(some) if w.startswith("-"))]
         selector = self.compile_selector(compiler)
         said = []
 
@@ -154,7 +194,7 @@ class Maker:
         at = words.index("-o")
         out = self.folder / target
         mine = {o: str(self.objects[o]) for o in compiles}
-        inputs = [mine.get(w, w) for w in words[at + 2:]]
+        inputs = [mine.get(w, w) for w in words[at + 2 :]]
         head = [mine.get(w, w) for w in words[:at]]
         # Members of libraries that are made again come before the library, which then is not asked.
         members = [o for o in mine.values() if o not in head and o not in inputs]

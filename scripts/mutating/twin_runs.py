@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Runs test cases with one mutant each. Documentation: docs/verification.md
 
-First every test case runs once without a mutant and notes which ones it reaches. A mutant is then only
-tried by those that reach it, the shortest first, until one fails.
+First every test case runs once without a mutant and notes which ones it reaches. A mutant is then
+only tried by those that reach it, the shortest first, until one fails.
 """
 
 import contextlib
@@ -26,7 +26,8 @@ SLOWER, MORE_S = 2, 1  # a mutant may take this many times the CPU time, and the
 @dataclass
 class Verdict:
     mutant: object
-    how: str  # killed, hangs, crashes, survives, unreached, exact (nothing to round, or no such call)
+    # killed, hangs, crashes, survives, unreached, exact (nothing to round, or no such call)
+    how: str
     by: str = ""  # program: test case
     seconds: float = 0.0
 
@@ -37,14 +38,23 @@ class Runs:
 
     def environment(self, **more):
         kept = {k: v for k, v in os.environ.items() if not k.startswith("FELTGATE_")}
-        return kept | {"FELTGATE_MISMATCH_DIR": str(self.folder / "mismatch" / str(threading.get_ident()))} | more
+        return (
+            kept
+            | {"FELTGATE_MISMATCH_DIR": str(self.folder / "mismatch" / str(threading.get_ident()))}
+            | more
+        )
 
     def run(self, case, limit=None, **environment):
-        """(exit status, None where it took far too long; seconds of CPU time). Beyond the limit of these a signal
-        ends it."""
+        """(exit status, None where it took far too long; seconds of CPU time). Beyond the limit of
+        these a signal ends it."""
         name = case.name.replace("\\", "\\\\").replace(",", "\\,").replace("[", "\\[")
-        process = self.crew.start([case.program.path, "--abort", name], env=self.environment(**environment),
-                                  stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        process = self.crew.start(
+            [case.program.path, "--abort", name],
+            env=self.environment(**environment),
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         with contextlib.suppress(ProcessLookupError):  # it may be over already
             resource.prlimit(process.pid, resource.RLIMIT_CORE, (0, 0))
             if limit:
@@ -70,7 +80,9 @@ class Runs:
             case.exact = {int(words[0]) for words in lines if len(words) == 2}
 
         with Steps("mutate", len(cases)) as progress:
-            self.crew.each(one, enumerate(cases), self.jobs, lambda item, _: progress.step(item[1].name))
+            self.crew.each(
+                one, enumerate(cases), self.jobs, lambda item, _: progress.step(item[1].name)
+            )
         return sorted(cases, key=lambda case: case.seconds)
 
     def verdicts(self, work):
@@ -95,7 +107,11 @@ class Runs:
             status, seconds = self.run(case, limit, FELTGATE_MUTANT=str(mutant.number))
             spent += seconds
             if status != 0:
-                if status is None or -status == signal.SIGXCPU or (status < 0 and seconds > limit - 1):
+                if (
+                    status is None
+                    or -status == signal.SIGXCPU
+                    or (status < 0 and seconds > limit - 1)
+                ):
                     how = "hangs"
                 else:
                     how = "killed" if status > 0 else "crashes"

@@ -23,12 +23,20 @@ def text_table(rows):
         induction, covers = row.results.get(INDUCTION), row.results.get(COVERS)
         k = induction.depth if induction and induction.passed else "-"
         reached = ", ".join(f"{n} {s}" for n, s in covers.reached.items()) if covers else ""
-        lines.append(f"{row.proof.key:32}{row.design:10}{k:>3}{seconds(row.results.get(BASE)):>9}"
-                     f"{seconds(induction):>10}  {reached}")
+        lines.append(
+            f"{row.proof.key:32}{row.design:10}{k:>3}{seconds(row.results.get(BASE)):>9}"
+            f"{seconds(induction):>10}  {reached}"
+        )
         for entry in row.proof.properties if row.first else ():
             caught = row.caught.get(entry.name)
-            fate = f"fails in clock {caught.step} with" if caught and not caught.passed else "not seen with"
-            lines.append(f"  {entry.name:30}{fate if caught else 'not tried with'} {entry.defect.stem}")
+            fate = (
+                f"fails in clock {caught.step} with"
+                if caught and not caught.passed
+                else "not seen with"
+            )
+            lines.append(
+                f"  {entry.name:30}{fate if caught else 'not tried with'} {entry.defect.stem}"
+            )
     return "\n".join(lines)
 
 
@@ -40,8 +48,13 @@ def generated(result, proofs):
         blocks.setdefault(entry["proof"].partition(".")[0], []).append(entry)
     count = sum(len(p.properties) for p in proofs)
     tools = result["tools"]
-    lines = [BEGIN, "", f"{count} properties in {len(proofs)} proofs of {len(blocks)} blocks; {tools['yosys']}, "
-             f"{tools['z3']}.", ""]
+    lines = [
+        BEGIN,
+        "",
+        f"{count} properties in {len(proofs)} proofs of {len(blocks)} blocks; {tools['yosys']}, "
+        f"{tools['z3']}.",
+        "",
+    ]
     for block, entries in blocks.items():
         lines += [f"### {block}", ""]
         for key in dict.fromkeys(entry["proof"] for entry in entries):
@@ -53,14 +66,27 @@ def proof_lines(proof, entries):
     relative = f"../testbench/{proof.block}/proofs/{proof.name}.sv"
     lines = [f"[`{proof.key}`]({relative}): {proof.title}.", ""]
     lines += [f"- assumed: {text}" for text in proof.assumes]
-    covers = [f"{says} (clock {entries[0]['covers'].get(name, '-')})" for name, says in proof.covers.items()]
+    covers = [
+        f"{says} (clock {entries[0]['covers'].get(name, '-')})"
+        for name, says in proof.covers.items()
+    ]
     lines.append(f"- reached: {'; '.join(covers)}")
-    times = [f"{e['design']} k = {e['k']}, {e['base_seconds']:.1f} s + {e['induction_seconds']:.1f} s"
-             for e in entries]
-    lines += [f"- base + induction: {'; '.join(times)}", "", "| property | holds | fails with, in clock |", "|---|---|---|"]
+    times = [
+        f"{e['design']} k = {e['k']}, {e['base_seconds']:.1f} s + {e['induction_seconds']:.1f} s"
+        for e in entries
+    ]
+    lines += [
+        f"- base + induction: {'; '.join(times)}",
+        "",
+        "| property | holds | fails with, in clock |",
+        "|---|---|---|",
+    ]
     for entry in entries[0]["properties"]:
         stem = entry["defect"].rpartition("/")[2].removesuffix(".patch")
-        lines.append(f"| `{entry['name']}` | {entry['says']} | [{stem}](../{entry['defect']}), {entry['caught_at']} |")
+        lines.append(
+            f"| `{entry['name']}` | {entry['says']} "
+            f"| [{stem}](../{entry['defect']}), {entry['caught_at']} |"
+        )
     return [*lines, ""]
 
 
@@ -79,11 +105,15 @@ def per_block(result):
     """The row of each block in docs/blocks.md; seconds of base and induction."""
     blocks = {}
     for entry in result["proofs"]:
-        row = blocks.setdefault(entry["proof"].partition(".")[0], {"properties": {}, "seconds": 0.0})
+        row = blocks.setdefault(
+            entry["proof"].partition(".")[0], {"properties": {}, "seconds": 0.0}
+        )
         row["properties"] |= {(entry["proof"], one["name"]): 1 for one in entry["properties"]}
         row["seconds"] += entry["base_seconds"] + entry["induction_seconds"]
-    return {name: {"properties": len(row["properties"]), "seconds": round(row["seconds"], 1)}
-            for name, row in blocks.items()}
+    return {
+        name: {"properties": len(row["properties"]), "seconds": round(row["seconds"], 1)}
+        for name, row in blocks.items()
+    }
 
 
 def counted(root, proofs):
@@ -93,7 +123,11 @@ def counted(root, proofs):
     wanted = {}
     for proof in proofs:
         wanted[proof.block] = wanted.get(proof.block, 0) + len(proof.properties)
-    return [] if there == wanted else [f"the properties of each block in {block_results.path_of('', 'proofs')}"]
+    return (
+        []
+        if there == wanted
+        else [f"the properties of each block in {block_results.path_of('', 'proofs')}"]
+    )
 
 
 def check(root, proofs):

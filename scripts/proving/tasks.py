@@ -46,12 +46,14 @@ class Task:
             if entry.defect == self.patch
         }
 
-
     def check_alone(self, tools, root, folder, entry, options):
         """Without the defect the assertion must be inductive so, or its failure says nothing."""
         engine.elaborate(tools, root, self.proof, self.design, folder, None, entry.name)
         if not engine.solve(tools, folder, f"{entry.name}.smt2", options).passed:
-            raise engine.Broken(f"{self.proof.key}: {entry.name} is not inductive with from_any = \"{entry.from_any}\"; take another defect")
+            raise engine.Broken(
+                f"{self.proof.key}: {entry.name} is not inductive with "
+                f'from_any = "{entry.from_any}"; take another defect'
+            )
 
 
 @dataclass
@@ -132,17 +134,23 @@ def enter(all_rows, task, result):
         row.caught |= result
         for name, one in result.items():
             if one.passed:
-                yield (f"{task.proof.key} ({task.design}): {name} holds in the first {task.proof.defect_depth} "
-                       f"clocks with the defect {task.patch.stem}: it does not see it")
+                yield (
+                    f"{task.proof.key} ({task.design}): {name} holds in the first "
+                    f"{task.proof.defect_depth} clocks with the defect {task.patch.stem}: "
+                    "it does not see it"
+                )
         return
     row.results[task.kind] = result
     where = f"{task.proof.key} ({task.design})"
     if result.passed:
         return
     if task.kind == COVERS:
-        yield f"{where}: not reached within {task.proof.cover_depth} clocks: {', '.join(result.unreached)}"
+        unreached = ", ".join(result.unreached)
+        yield f"{where}: not reached within {task.proof.cover_depth} clocks: {unreached}"
     elif task.kind == BASE:
         yield f"{where}: {', '.join(result.failed)} fails in clock {result.step}:\n{result.trace}"
     else:
-        yield (f"{where}: {', '.join(result.failed)} is not inductive within {task.proof.depth} clocks; "
-               f"from a state that a reset may never lead to:\n{result.trace}")
+        yield (
+            f"{where}: {', '.join(result.failed)} is not inductive within {task.proof.depth} "
+            f"clocks; from a state that a reset may never lead to:\n{result.trace}"
+        )

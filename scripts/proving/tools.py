@@ -58,7 +58,10 @@ class Tools:
             raise Broken("no z3: run ./feltgate prove, which fetches it, or install z3")
 
     def versions(self):
-        return {"yosys": synth_tools.version(self.yosys), "z3": synth_tools.version(shutil.which("z3"))}
+        return {
+            "yosys": synth_tools.version(self.yosys),
+            "z3": synth_tools.version(shutil.which("z3")),
+        }
 
 
 def closure(root, names):
@@ -106,7 +109,8 @@ def copy_sources(root, proof, design, patch, folder):
 
 
 def elaborate(tools, root, proof, design, folder, patch=None, alone=None):
-    """Writes all.smt2, and PROPERTY.smt2 with that assertion alone: of a patch, and of the one named alone."""
+    """Writes all.smt2, and PROPERTY.smt2 with that assertion alone: of a patch, and of the one
+    named alone."""
     folder.mkdir(parents=True, exist_ok=True)
     names = copy_sources(root, proof, design, patch, folder)
     defines = "".join(f" -D {name}" for name in [*proof.defines, *split_design(design)[2]])
@@ -133,7 +137,10 @@ def elaborate(tools, root, proof, design, folder, patch=None, alone=None):
                 others = f"t:$assert c:{entry.name} %d"
                 rest = f"delete {others}"
                 if entry.from_any == "next":
-                    rest = f"chformal -assert -delay 1 {others}; chformal -assert -assert2assume {others}"
+                    rest = (
+                        f"chformal -assert -delay 1 {others}; "
+                        f"chformal -assert -assert2assume {others}"
+                    )
                 elif entry.from_any is True:
                     rest = f"chformal -assert -assert2assume {others}"
                 script += ["design -load all", rest, f"write_smt2 -wires {entry.name}.smt2"]
@@ -141,8 +148,9 @@ def elaborate(tools, root, proof, design, folder, patch=None, alone=None):
     (folder / "elaborate.ys").write_text("\n".join(script) + "\n", encoding="utf-8")
     log = folder / "elaborate.log"
     with log.open("wb") as file:
-        done = tools.crew.run([tools.yosys, "-q", "-s", "elaborate.ys"], cwd=folder, stdout=file,
-                              stderr=file)
+        done = tools.crew.run(
+            [tools.yosys, "-q", "-s", "elaborate.ys"], cwd=folder, stdout=file, stderr=file
+        )
     if done.returncode or not all((folder / name).exists() for name in outputs):
         tail = log.read_text(encoding="utf-8", errors="replace").strip().splitlines()[-3:]
         raise Broken("\n".join([f"{proof.key}: Yosys failed; all files: {folder}", *tail]))
@@ -154,7 +162,16 @@ def solve(tools, folder, smt2, options, show=()):
     vcd = f"{name}.vcd"
     (folder / vcd).unlink(missing_ok=True)
     log = folder / f"{name}.log"
-    command = ["timeout", str(TIME_LIMIT_S), tools.smtbmc, *SMTBMC, *options, "--dump-vcd", vcd, smt2]
+    command = [
+        "timeout",
+        str(TIME_LIMIT_S),
+        tools.smtbmc,
+        *SMTBMC,
+        *options,
+        "--dump-vcd",
+        vcd,
+        smt2,
+    ]
     with log.open("wb") as file:
         status, seconds = tools.crew.timed(command, cwd=folder, stdout=file, stderr=file)
     text = log.read_text(encoding="utf-8", errors="replace")
@@ -165,7 +182,9 @@ def solve(tools, folder, smt2, options, show=()):
         raise Broken("\n".join([f"yosys-smtbmc failed; all files: {folder}", *tail]))
     result = Result("Status: PASSED" in text, seconds)
     result.failed = list(dict.fromkeys(re.findall(r"Assert failed in \S+ (\S+)", text)))
-    steps = [int(n) for n in re.findall(r"(?:Checking assertions|Trying induction) in step (\d+)", text)]
+    steps = [
+        int(n) for n in re.findall(r"(?:Checking assertions|Trying induction) in step (\d+)", text)
+    ]
     if "-i" in options and result.passed:
         result.depth = int(options[options.index("-t") + 1]) - steps[-1]
     if "-c" in options:

@@ -14,7 +14,8 @@ def clock_text(seconds):
 
 
 class RedrawnLine:
-    """A line() that is drawn anew on a terminal while the work inside `with` goes on; silent elsewhere."""
+    """A line() that is drawn anew on a terminal while the work inside `with` goes on; silent
+    elsewhere."""
 
     def __init__(self, stream=None, every_s=0.2):
         self.stream = stream or sys.stderr

@@ -159,7 +159,7 @@ class Instrument(unittest.TestCase):
 
     def test_another_verilator(self):
         for file, old, new in (("Vb.cpp", "eval_step", "step"), ("Vb_1.cpp", "(1,", "(2,"),
-                               ("Vb__Syms.h", "__Vcoverage", "counts")):
+                               ("Vb__Syms.h", "__Vcoverage", "counts"), ("Vb_1.cpp", "v_toggle", "v_bit")):
             with self.subTest(file), self.assertRaises(instrument.InstrumentError):
                 instrument.changed(self.FILES | {file: self.FILES[file].replace(old, new)}, "Vb")
 

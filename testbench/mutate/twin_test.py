@@ -20,7 +20,7 @@ ROOT = Path(os.environ.get("FELTGATE_ROOT") or Path(__file__).resolve().parents[
 VENV = Path(sys.argv.pop(1)) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else Path("none")
 sys.path.insert(0, str(ROOT / "scripts"))
 import block_results  # noqa: E402
-from mutating import twin, twin_parser, twin_runs, twin_source  # noqa: E402
+from mutating import twin, twin_parser, twin_places, twin_results, twin_runs, twin_source  # noqa: E402
 
 try:
     LANGUAGE = twin_parser.cpp_language(VENV)
@@ -93,7 +93,7 @@ class Offered(unittest.TestCase):
         self.assertIn("h:1", str(error.exception))
 
     def test_every_header_is_understood(self):
-        catalogue = twin.read_catalogue(ROOT)
+        catalogue = twin_results.read_catalogue(ROOT)
         for found in twin.parse(catalogue, ROOT, list(catalogue.tests), {}, LANGUAGE):
             every = {m.name for m in found.mutants}
             listed = {name for h, name in catalogue.survivors if h == found.name}
@@ -161,9 +161,9 @@ inline int keeps() { return mixed(7, Other()); }
 
 class Verdicts(unittest.TestCase):
     def row(self, hows, survivors):
-        mutants = [twin_source.Mutant(n, "h", 1, "k", f"m{n}") for n in range(len(hows))]
-        catalogue = twin.Catalogue({"h": ["t"]}, {}, survivors)
-        return twin.Row("h", 9, [twin_runs.Verdict(m, how) for m, how in zip(mutants, hows)], catalogue)
+        mutants = [twin_places.Mutant(n, "h", 1, "k", f"m{n}") for n in range(len(hows))]
+        catalogue = twin_results.Catalogue({"h": ["t"]}, {}, survivors)
+        return twin_results.Row("h", 9, [twin_runs.Verdict(m, how) for m, how in zip(mutants, hows)], catalogue)
 
     def test_equivalent_ones_do_not_count(self):
         row = self.row(["killed", "hangs", "survives", "unreached"], {("h", "m2"): ("equivalent", "w")})
@@ -174,7 +174,7 @@ class Verdicts(unittest.TestCase):
         self.assertAlmostEqual(self.row(["killed", "survives"], {("h", "m1"): ("gap", "w")}).share(), 1 / 2)
 
     def test_the_choice_is_the_seeds(self):
-        mutants = [twin_source.Mutant(n, "h", 1, "k", str(n)) for n in range(50)]
+        mutants = [twin_places.Mutant(n, "h", 1, "k", str(n)) for n in range(50)]
         one = type("H", (), {"name": "h", "mutants": mutants})
         self.assertEqual(twin.choose(one, 9, 1), twin.choose(one, 9, 1))
         self.assertNotEqual(twin.choose(one, 9, 1), twin.choose(one, 9, 2))
@@ -187,7 +187,7 @@ class Verdicts(unittest.TestCase):
             (place / "include/feltgate/h.hpp").write_text(
                 "x\n(::feltgate_mutant::on(0) ? f(b, a) : ::feltgate_mutant::plus<1>(a, b))\n", encoding="utf-8")
             one = type("H", (), {"name": "h", "mutants": [
-                twin_source.Mutant(0, "h", 2, "arguments", "swap"), twin_source.Mutant(1, "h", 2, "arithmetic", "add")]})
+                twin_places.Mutant(0, "h", 2, "arguments", "swap"), twin_places.Mutant(1, "h", 2, "arithmetic", "add")]})
             said = "a/mutants/twin/h/include/feltgate/h.hpp:2:7: error: no match\n"
             self.assertEqual(twin.refused([one], place, said), {("h", "swap")})
 
@@ -198,21 +198,21 @@ class Verdicts(unittest.TestCase):
             folder = Path(folder)
             (folder / "docs/verification").mkdir(parents=True)
             options = type("O", (), {"seed": 1, "count": 0})
-            result = twin.results_of([row], options, {})
+            result = twin_results.results_of([row], options, {})
             for _ in range(2):  # the second time replaces the first
-                twin.update(folder, row.catalogue, result)
+                twin_results.update(folder, row.catalogue, result)
             blocks = block_results.read(folder, "mutants")["blocks"]
             self.assertEqual(blocks, {"twin of the core": {"twin": [2, 3]}})
-            written = json.loads((folder / twin.RESULTS).read_text(encoding="utf-8"))
+            written = json.loads((folder / twin_results.RESULTS).read_text(encoding="utf-8"))
             self.assertEqual([h["header"] for h in written["headers"]], ["h"])
             self.assertNotIn("survivors", written["headers"][0])
 
             path = folder / "old.json"
             path.write_text(json.dumps(result), encoding="utf-8")
-            self.assertEqual(twin.survivors_of(path), {("h", "m2"), ("h", "m3")})
+            self.assertEqual(twin_results.survivors_of(path), {("h", "m2"), ("h", "m3")})
             path.write_text("{}", encoding="utf-8")
-            with self.assertRaises(twin.TwinError):
-                twin.survivors_of(path)
+            with self.assertRaises(twin_results.TwinError):
+                twin_results.survivors_of(path)
 
     def test_options_that_do_nothing_are_refused(self):
         for wrong in (["--jobs", "0"], ["--update", "--again", "x.json"], ["--coun", "3"]):
@@ -227,7 +227,7 @@ class Verdicts(unittest.TestCase):
         self.assertIn("supervisor", said.getvalue())
 
     def test_the_products_catalogue_has_a_row_of_the_table_for_each_header(self):
-        catalogue = twin.read_catalogue(ROOT)
+        catalogue = twin_results.read_catalogue(ROOT)
         for header in catalogue.tests:
             row = catalogue.blocks.get(header, header)
             self.assertTrue(row in block_results.EXTRA or (ROOT / f"rtl/{row}.sv").is_file(), header)
@@ -239,12 +239,12 @@ class Verdicts(unittest.TestCase):
             good = '[tests]\nh = ["t"]\n[block]\nh = "b"\n[[survivor]]\nheader = "h"\n' \
                    'kind = "gap"\nwhy = "w"\nmutants = ["m"]\n'
             path.write_text(good, encoding="utf-8")
-            self.assertEqual(twin.read_catalogue(Path(folder)).survivors, {("h", "m"): ("gap", "w")})
+            self.assertEqual(twin_results.read_catalogue(Path(folder)).survivors, {("h", "m"): ("gap", "w")})
             for was, becomes in (('"gap"', '"luck"'), ('"w"', '""'), ('why = "w"\n', ""), ("why", "reason"),
                                  ('h = "b"', 'h = ["b"]'), ('h = "b"', 'other = "b"'), ("[tests]", "[tests")):
                 path.write_text(good.replace(was, becomes), encoding="utf-8")
-                with self.subTest(becomes), self.assertRaises(twin.TwinError):
-                    twin.read_catalogue(Path(folder))
+                with self.subTest(becomes), self.assertRaises(twin_results.TwinError):
+                    twin_results.read_catalogue(Path(folder))
 
 
 if __name__ == "__main__":

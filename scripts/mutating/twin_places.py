@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Where a C++ header has mutants, what they are called, and how the header asks for them
+(testbench/mutate/twin/mutant.hpp). docs/verification.md
+"""
+
+from collections import Counter
+from dataclasses import dataclass
+
+from .twin_parser import blanked
+
+# Never looked into: what is there is known when the header is compiled, or is no code.
+CONSTANT = {
+    "template_argument_list",
+    "template_parameter_list",
+    "static_assert_declaration",
+    "enumerator_list",
+    "attribute_declaration",
+    "noexcept",
+    "bitfield_clause",
+    "array_declarator",
+    "alias_declaration",
+    "using_declaration",
+    "type_descriptor",
+    "decltype",
+    "sizeof_expression",
+    "preproc_include",
+    "preproc_def",
+    "preproc_function_def",
+    "preproc_call",
+    "type_definition",
+    "trailing_return_type",
+    "comment",
+    "string_literal",
+    "char_literal",
+    "friend_declaration",
+}
+SHOWN = 70
+
+
+@dataclass
+class Mutant:
+    number: int
+    header: str
+    line: int
+    kind: str
+    name: str  # "function: was -> is", with " #2" for the second of the same
+    risky: bool = False  # may not compile, as a swap of arguments
+
+
+def shortened(text):
+    text = " ".join(text.split())
+    if len(text) <= SHOWN:
+        return text
+    return text[: SHOWN // 2 - 2] + " .. " + text[-SHOWN // 2 + 2 :]
+
+
+class Places:
+    """The mutants of one header; `first` is the number of the first one."""
+
+    def __init__(self, name, text, first, constant, dropped):
+        self.name, self.first, self.mutants = name, first, []
+        self.constant, self.dropped = set(constant), set(dropped)
+        self.names = Counter()
+        self.text = blanked(text).encode()
+
+    # Mutants and how they are asked for.
+
+    def new(self, node, kind, was, becomes, risky=False):
+        """The number of a new mutant, or None where it has been dropped."""
+        name = f"{self.function(node)}: {shortened(was)} -> {shortened(becomes)}"
+        self.names[name] += 1
+        if self.names[name] > 1:
+            name += f" #{self.names[name]}"
+        if name in self.dropped:
+            return None
+        number = self.first + len(self.mutants)
+        self.mutants.append(Mutant(number, self.name, node.start_point[0] + 1, kind, name, risky))
+        return number
+
+    @staticmethod
+    def on(number):
+        return f"::feltgate_mutant::on({number})"
+
+    def choice(self, number, mutated, text):
+        return text if number is None else f"({self.on(number)} ? {mutated} : {text})"
+
+    def guard(self, number, statement):
+        return statement if number is None else f"{{ if (!{self.on(number)}) {statement} }}"
+
+    def negated(self, number, text):
+        return text if number is None else f"({self.on(number)} != static_cast<bool>({text}))"
+
+    # Places.
+
+    def source(self, node):
+        return self.text[node.start_byte : node.end_byte].decode()
+
+    def function(self, node):
+        while node is not None and node.type != "function_definition":
+            node = node.parent
+        if node is None:
+            return "members"
+        declarator = node.child_by_field_name("declarator")
+        while declarator is not None and declarator.type != "function_declarator":
+            declarator = declarator.child_by_field_name("declarator") or next(
+                (c for c in declarator.named_children if c.type.endswith("declarator")), None
+            )
+        if declarator is None:
+            return "members"
+        name = self.source(declarator.child_by_field_name("declarator"))
+        return " ".join(name.split()).rsplit("::", 1)[-1]
+
+    def within(self, node):
+        """A literal and where it stands."""
+        at = node.parent
+        while at.type in ("parenthesized_expression", "argument_list", "initializer_list"):
+            at = at.parent
+        if at.type.endswith("statement") and at.type != "return_statement":
+            at = node
+        return (
+            f"{self.source(node)} in {self.source(at).rstrip(';')}"
+            if at != node
+            else self.source(node)
+        )
+
+    def is_input(self, node):
+        """A member of a struct for inputs or words: whoever fills it sets it."""
+        name = node.child_by_field_name("declarator")
+        while node is not None and node.type != "struct_specifier":
+            if node.type == "class_specifier":
+                return False
+            node = node.parent
+        if node is None or name is None or self.source(name).endswith("_"):
+            return False
+        kind = node.child_by_field_name("name")
+        return kind is not None and self.source(kind) in ("In", "Words", "Tick")
+
+    def is_constant(self, node):
+        if node.type in CONSTANT:
+            return True
+        if node.type == "field_declaration" and self.is_input(node):
+            return True
+        if node.type in ("declaration", "field_declaration"):
+            return any(
+                c.type == "type_qualifier" and self.source(c) in ("constexpr", "consteval")
+                for c in node.children
+            )
+        return node.type == "function_definition" and self.function(node) in self.constant

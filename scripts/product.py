@@ -13,6 +13,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+import design_package
 import interrupts
 import outputs
 import rtl_sources
@@ -68,25 +69,6 @@ def arguments_of(argv):
     return options
 
 
-def package_of(root, design, folder):
-    """What synth_measure.copy_sources() takes: a name, or the path of a package made here."""
-    if (root / f"rtl/generated/{design}/feltgate_pkg.sv").is_file():
-        return design
-    path = Path(design)
-    if not path.is_file():
-        packages = root.glob("rtl/generated/*/feltgate_pkg.sv")
-        known = ", ".join(sorted(package.parent.name for package in packages))
-        raise ToolError(f"{design} is neither a design ({known}) nor a file; check the path")
-    if "FELTGATE_PROGRAM" not in os.environ:
-        raise ToolError("your own design needs the built generator: run it as ./feltgate product")
-    generator = Path(os.environ["FELTGATE_PROGRAM"]).with_name("feltgate_generate")
-    command = [generator, root, "--design", path, "--output", folder]
-    done = interrupts.run(command, **interrupts.CAPTURED)
-    if done.returncode:
-        raise ToolError(done.stderr.strip())
-    return folder / "feltgate_pkg.sv"
-
-
 def renamed(text):
     """Every module but the core with feltgate_ before its name; variants get numbers."""
     names, counts = {}, {}
@@ -109,7 +91,7 @@ def renamed(text):
 
 def verilog(root, options, folder):
     tools = Tools(folder)
-    package = package_of(root, options.design, folder / "design")
+    package = design_package.package_of(root, options.design, folder / "design")
     sources = synth_measure.copy_sources(root, package, folder)
     target = synth_measure.Target("core", rtl_sources.CORE)
     kept = " ".join(f"-unset {name}" for name in ATTRIBUTES)

@@ -88,6 +88,14 @@ def compare(budget, measured, tools):
     return grown
 
 
+def known(budget, measured):
+    """Those of the measured rows that have a budget."""
+    return {
+        design: {name: row for name, row in rows.items() if name in budget["figures"].get(design, {})}
+        for design, rows in measured.items()
+    }
+
+
 def past(key, value, was):
     if key in AREA:
         return value > was * (1 + AREA_MARGIN) + AREA_SLACK

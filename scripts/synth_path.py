@@ -15,11 +15,11 @@ def fmax(report):
     return next(iter(report["fmax"].values()))["achieved"]
 
 
-def signal_names(netlist):
+def signal_names(netlist, prefix="u_dut."):
     """For every bit the best name that the RTL has for it, if any."""
     names = {}
     for name, net in netlist["netnames"].items():
-        if MADE_UP.search(name) or not name.startswith("u_dut."):
+        if MADE_UP.search(name) or not name.startswith(prefix):
             continue
         for index, bit in enumerate(net["bits"]):
             label = f"{name}[{index}]" if len(net["bits"]) > 1 else name
@@ -47,10 +47,10 @@ def cell_label(cell, netlist, names):
     return cell.removeprefix("u_dut.")
 
 
-def describe(report, netlist_path):
+def describe(report, netlist_path, top="speed_top", prefix="u_dut."):
     """One line: start -> end, its time, how it divides, what it passes."""
-    netlist = json.loads(netlist_path.read_text(encoding="utf-8"))["modules"]["speed_top"]
-    names = signal_names(netlist)
+    netlist = json.loads(netlist_path.read_text(encoding="utf-8"))["modules"][top]
+    names = signal_names(netlist, prefix)
     steps = report["critical_paths"][0]["path"]
     routing = sum(step["delay"] for step in steps if step["type"] == "routing")
     total = sum(step["delay"] for step in steps)

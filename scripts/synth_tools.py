@@ -93,9 +93,9 @@ class Tools:
         self.run_yosys(name, script, [f"{name}.stat", f"{name}.il"])
         return cell_counts(self.folder / f"{name}.stat")
 
-    def write_netlist(self, name):
+    def write_netlist(self, name, *commands):
         """NAME.il as NAME.json, for nextpnr. A run of its own: see above on ABC and the log."""
-        script = [f"read_rtlil {name}.il", "autoname", "blackbox =A:whitebox"]
+        script = [f"read_rtlil {name}.il", *commands, "autoname", "blackbox =A:whitebox"]
         self.run_yosys(f"{name}_json", [*script, f"write_json {name}.json"], [f"{name}.json"])
 
     def write_simulation(self, top, read, models):
@@ -118,6 +118,27 @@ class Tools:
         command += ["--seed", str(seed), "--json", f"{name}.json", "--report", report]
         self.run([*command, "--lpf-allow-unconstrained", "-q"], f"{name}_{seed}", [report])
         return json.loads((self.folder / report).read_text(encoding="utf-8"))
+
+    def route_board(self, name, seed, constraints):
+        """Places and routes NAME.json with its pins; returns the report, and NAME_SEED.config is there."""
+        stem = f"{name}_{seed}"
+        outputs = [f"{stem}.report", f"{stem}.config"]
+        for output in outputs:
+            (self.folder / output).unlink(missing_ok=True)
+        command = [self.nextpnr, *DEVICE, "--timing-allow-fail", "--seed", str(seed), "-q"]
+        command += ["--lpf", constraints, "--json", f"{name}.json"]
+        command += ["--report", outputs[0], "--textcfg", outputs[1]]
+        self.run(command, stem, outputs)
+        return json.loads((self.folder / outputs[0]).read_text(encoding="utf-8"))
+
+    def pack(self, name):
+        """NAME.config as NAME.bit, what the FPGA loads."""
+        packer = find("ecppack")
+        if packer is None:
+            raise ToolError("no ecppack; run ./feltgate synth, which fetches it")
+        command = [packer, "--compress", f"{name}.config", f"{name}.bit"]
+        self.run(command, f"{name}_pack", [f"{name}.bit"])
+        return self.folder / f"{name}.bit"
 
     def ports(self, top, read):
         """(name, direction, width) of every port of TOP."""

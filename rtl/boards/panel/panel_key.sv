@@ -1,34 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// One key for three orders. Pressed while armed: stop. Pressed and released within LongPressClocks
-// while stopped: arm. Held for LongPressClocks: set zero (one clock), never arm. A fault takes the
-// request to arm away, so that arming again needs a new press.
-// Documentation: docs/boards/de0_nano.md
+// One key for four orders. Pressed while armed: stop. Pressed and released within LongPressClocks
+// while stopped: arm. Held for LongPressClocks: set zero (one clock), never arm; with a fault, clear the
+// faults (one clock) and leave the zero. What blocks takes the request to arm away, so that arming
+// again needs a new press. Documentation: docs/boards/panel.md
 `default_nettype none
 
-module de0_nano_key #(
+module panel_key #(
   parameter int HoldBits        = 19,
   parameter int LongPressClocks = 50000000
 ) (
   input  logic clk_i,
   input  logic rst_ni,
-  input  logic down_i,  // synchronous to clk_i, bounces
+  input  logic down_i,    // synchronous to clk_i, bounces
   input  logic fault_i,
+  input  logic blocked_i, // nothing may be armed; a fault blocks as well
   output logic arm_o,
-  output logic set_zero_o
+  output logic set_zero_o,
+  output logic clear_faults_o
 );
 
   localparam int HELD_BITS = $clog2(LongPressClocks + 1);
   localparam logic [HELD_BITS-1:0] LONG_PRESS = LongPressClocks[HELD_BITS-1:0];
 
-  logic                 down, down_q, fault_q;
+  logic                 down, down_q;
   logic                 spent_q;  // this press has done its work; its release does nothing
-  logic                 arm_q, set_zero_q;
+  logic                 arm_q, set_zero_q, clear_faults_q;
   logic [HELD_BITS-1:0] held_q;
 
   // Counts as down after reset: a key held through it must be let go before it means anything.
-  de0_nano_debounce #(.Width(1), .HoldBits(HoldBits), .ResetValue(1)) u_debounce (
+  panel_debounce #(.Width(1), .HoldBits(HoldBits), .ResetValue(1)) u_debounce (
     .clk_i(clk_i),
     .rst_ni(rst_ni),
     .level_i(down_i),
@@ -37,16 +39,16 @@ module de0_nano_key #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      down_q     <= 1'b1;
-      fault_q    <= 1'b0;
-      spent_q    <= 1'b1;
-      arm_q      <= 1'b0;
-      set_zero_q <= 1'b0;
-      held_q     <= LONG_PRESS;
+      down_q         <= 1'b1;
+      spent_q        <= 1'b1;
+      arm_q          <= 1'b0;
+      set_zero_q     <= 1'b0;
+      clear_faults_q <= 1'b0;
+      held_q         <= LONG_PRESS;
     end else begin
-      down_q     <= down;
-      fault_q    <= fault_i;
-      set_zero_q <= 1'b0;
+      down_q         <= down;
+      set_zero_q     <= 1'b0;
+      clear_faults_q <= 1'b0;
       if (down && !down_q) begin
         spent_q <= arm_q;
         arm_q   <= 1'b0;
@@ -54,18 +56,20 @@ module de0_nano_key #(
       end else if (down && held_q != LONG_PRESS) begin
         held_q <= held_q + 1'b1;
         if (held_q == LONG_PRESS - 1'b1) begin
-          spent_q    <= 1'b1;
-          set_zero_q <= 1'b1;
+          spent_q        <= 1'b1;
+          set_zero_q     <= !fault_i;
+          clear_faults_q <= fault_i;
         end
       end else if (!down && down_q) begin
         arm_q <= !spent_q;
       end
-      if (fault_i && !fault_q) arm_q <= 1'b0;
+      if (fault_i || blocked_i) arm_q <= 1'b0;
     end
   end
 
   assign arm_o = arm_q;
   assign set_zero_o = set_zero_q;
+  assign clear_faults_o = clear_faults_q;
 endmodule
 
 `default_nettype wire

@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Debounces a word: level_o takes level_i once no bit of it has moved for 2^HoldBits clocks.
-// Documentation: docs/boards/de0_nano.md
+// Documentation: docs/boards/panel.md
 `default_nettype none
 
-module de0_nano_debounce #(
+module panel_debounce #(
   parameter int Width      = 1,
   parameter int HoldBits   = 19,
   parameter int ResetValue = 0

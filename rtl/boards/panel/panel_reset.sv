@@ -3,10 +3,10 @@
 //
 // Reset from a key: asserted as the key closes, without waiting for the clock; released in step
 // with the clock once the key has been open for 2^HoldBits clocks, and likewise after power-up.
-// Documentation: docs/boards/de0_nano.md
+// Documentation: docs/boards/panel.md
 `default_nettype none
 
-module de0_nano_reset #(
+module panel_reset #(
   parameter int HoldBits = 19
 ) (
   input  logic clk_i,

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Top level for the ULX3S (ECP5 LFE5U-85F): pins, panel and clock around feltgate_core. There is no
+// host, so the register port only clears faults. Never ran on a board. Documentation: docs/boards/ulx3s.md
+`default_nettype none
+
+module ulx3s #(
+  parameter int DebounceBits    = 19,        // an input counts after 2^19 clocks at rest
+  parameter int LoopBits        = 10,        // the encoder's connector after 2^10
+  parameter int LongPressClocks = feltgate_pkg::CLOCK_HZ,  // btn[1] held this long sets the zero: 1 s
+  parameter int LampBits        = 22,        // the limit lamp stays lit 2^22 clocks
+  parameter int HeartbeatBits   = 26,        // led[7]
+  parameter int EncoderLoop     = 1,         // 0: enc_loop is not wired
+  parameter     ParameterFile   = ""         // parameters.mem of this very design; "": the package has the values
+) (
+  input  logic       clk_25mhz,
+  input  logic [2:1] btn,        // high while pressed: FIRE1, FIRE2
+  input  logic [3:0] sw,
+  output logic [7:0] led,
+  output logic       ftdi_rxd,   // to the USB serial port
+  // No host yet.
+  /* verilator lint_off UNUSEDSIGNAL */
+  input  logic       ftdi_txd,   // from it
+  /* verilator lint_on UNUSEDSIGNAL */
+  output logic       wifi_gpio0, // high: the ESP32 leaves the FPGA alone
+  input  logic       enc_a,      // asynchronous, as all inputs below; synchronised inside
+  input  logic       enc_b,
+  input  logic       enc_z,
+  input  logic       enc_loop,   // low while the encoder's connector is in: a wire to GND in it
+  input  logic       estop,      // high stops, without a clock: a normally closed switch to GND, pulled up
+  output logic       gate_a_hi,
+  output logic       gate_a_lo,
+  output logic       gate_b_hi,
+  output logic       gate_b_lo
+);
+
+  logic       clk, locked;
+  logic       rst_n;
+  logic       arm, set_zero, clear_faults, unplugged;
+  logic       armed, fault, limit;
+  logic [3:0] scene;
+  logic [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults;
+  // Of these not all bits are looked at here.
+  /* verilator lint_off UNUSEDSIGNAL */
+  logic [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits;
+  logic signed [31:0] position;
+  logic [7:0] inputs;
+  /* verilator lint_on UNUSEDSIGNAL */
+
+  ulx3s_clock u_clock (
+    .clk_25mhz_i(clk_25mhz),
+    .clk_o(clk),
+    .locked_o(locked)
+  );
+
+  // A clock that is not locked is none: then reset, whose first flip-flops need no clock.
+  panel_reset #(.HoldBits(DebounceBits)) u_reset (
+    .clk_i(clk),
+    .key_ni(locked && !btn[2]),
+    .rst_no(rst_n)
+  );
+
+  assign wifi_gpio0 = 1'b1;
+  assign ftdi_rxd = 1'b1;
+
+  // Empty pins: nobody is here to read them.
+  /* verilator lint_off PINCONNECTEMPTY */
+  feltgate_core #(.ReadBack(0), .ParameterFile(ParameterFile)) u_core (
+    .clk_i(clk),
+    .rst_ni(rst_n),
+    .enc_a_i(enc_a),
+    .enc_b_i(enc_b),
+    .enc_z_i(enc_z),
+    .gate_a_hi_o(gate_a_hi),
+    .gate_a_lo_o(gate_a_lo),
+    .gate_b_hi_o(gate_b_hi),
+    .gate_b_lo_o(gate_b_lo),
+    .arm_i(arm),
+    .stop_i(estop || unplugged),
+    .set_zero_i(set_zero),
+    .scene_i(scene),
+    .reg_addr_i(feltgate_map_pkg::A_COMMAND),
+    .reg_wdata_i(32'd1 << feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS),
+    .reg_write_i(clear_faults),
+    .reg_busy_o(),
+    .reg_rdata_o(),
+    .snapshot_valid_o(),
+    .tick_count_o(),
+    .position_o(position),
+    .velocity_o(),
+    .tau_hat_o(),
+    .tau_ref_o(),
+    .current_ref_o(),
+    .voltage_o(),
+    .duty_o(),
+    .duty_active_o(),
+    .gates_enable_o(),
+    .scene_o(),
+    .limits_o(limits),
+    .faults_o(faults),
+    .first_fault_o(),
+    .armed_o(armed)
+  );
+  /* verilator lint_on PINCONNECTEMPTY */
+
+  assign fault = |faults;
+  assign limit = |(limits & ~(feltgate_map_pkg::W_STATUS_LIMITS'(1) << feltgate_map_pkg::L_GATES_CLOSED));
+
+  panel #(
+    .DebounceBits(DebounceBits), .LoopBits(LoopBits), .LongPressClocks(LongPressClocks),
+    .LampBits(LampBits), .HeartbeatBits(HeartbeatBits), .EncoderLoop(EncoderLoop)
+  ) u_panel (
+    .clk_i(clk),
+    .rst_ni(rst_n),
+    .key_i(btn[1]),
+    .switches_i(sw),
+    .loop_ni(enc_loop),
+    .enc_a_i(enc_a),
+    .enc_b_i(enc_b),
+    .enc_z_i(enc_z),
+    .armed_i(armed),
+    .fault_i(fault),
+    .limit_i(limit),
+    .count_i(position[1:0]),
+    .angle_i(position[11:9]),
+    .arm_o(arm),
+    .set_zero_o(set_zero),
+    .clear_faults_o(clear_faults),
+    .unplugged_o(unplugged),
+    .scene_o(scene),
+    .inputs_o(inputs),
+    .lamps_o(led)
+  );
+endmodule
+
+`default_nettype wire

@@ -264,7 +264,7 @@ def fresh_lists(root, blocks):
         lines = [f"- {path}" for path in sources(root)]
         yield core.relative_to(root), replace_list(core.read_text(encoding="utf-8"), lines, " " * 6)
     for qsf in sorted(root.glob("rtl/boards/*/*.qsf")):
-        board = sorted(qsf.parent.glob("*.sv"))
+        board = sorted([*root.glob("rtl/boards/panel/*.sv"), *qsf.parent.glob("*.sv")])
         files = [*sources(root), *linked_sources(root, board), *(p.relative_to(root) for p in board)]
         lines = [
             "set_global_assignment -name SYSTEMVERILOG_FILE "

@@ -8,7 +8,7 @@ import platform
 import tomllib
 
 AREA = ("lut4_equivalents", "ff", "cyclone_cells", "cyclone_ff")
-EXACT = ("mult18", "bram")
+EXACT = ("mult18", "bram", "m9k", "memory_bits")
 AREA_MARGIN = 0.03  # of the figure, and
 AREA_SLACK = 4  # cells more: a small block may not grow by a fraction of one
 SPEED_MARGIN = 0.10  # seeds alone move Fmax by half of this

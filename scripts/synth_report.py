@@ -177,6 +177,7 @@ def generated(budget):
         f"Measured on {how['date']} with {how['yosys']} and {how['nextpnr']} ({how['machine']}).",
     ]
     for design, rows in budget["figures"].items():
+        rows = {name: row for name, row in rows.items() if not name.startswith("board ")}
         lines += ["", f"### Design `{design}`", ""]
         lines += markdown(HEADS, [cells(name, row) for name, row in rows.items()])
         lines += ["", "Critical paths of the median seed:", ""]

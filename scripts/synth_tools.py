@@ -149,6 +149,17 @@ class Tools:
         found = next(m for m in modules.values() if int(m["attributes"].get("top", "0"), 2))
         return [(n, p["direction"], len(p["bits"])) for n, p in found["ports"].items()]
 
+    def memory_bits(self, name, top, read):
+        """Bits of the memories of TOP before they are mapped."""
+        stat = f"{name}_memory.stat"
+        script = [*read, f"hierarchy -top {top}", "proc", "flatten", "opt_clean", "memory_dff"]
+        script += ["opt_clean", f"tee -q -o {stat} stat -json -top {top}"]
+        self.run_yosys(f"{name}_memory", script, [stat])
+        text = (self.folder / stat).read_text(encoding="utf-8")
+        found = json.loads(text[text.index("{") :])
+        design = found.get("design") or next(iter(found["modules"].values()))
+        return design["num_memory_bits"]
+
     def synthesize_cyclone(self, name, top, read):
         """Cell counts for Cyclone IV E: not fitted, 18 x 18 products as black boxes."""
         script = [

@@ -36,7 +36,7 @@ def read_pins(text):
 
 def read_ports(text):
     """Port bits of the top module, such as KEY[1], with their direction."""
-    text = re.sub(r"//.*", "", text)
+    text = re.sub(r"//.*|/\*.*?\*/", "", text)
     header = re.search(r"module\s+de0_nano\b.*?\)\s*\((.*?)\)\s*;", text, re.S).group(1)
     ports = {}
     for port in header.split(","):
@@ -130,7 +130,7 @@ class Committed(unittest.TestCase):
         texts = committed()
         ports = read_ports(texts["sv"])
         self.assertEqual(len(read_pins(texts["pins"])), 87)
-        self.assertEqual(len(ports), 23)
+        self.assertEqual(len(ports), 24)
         self.assertEqual(sum(d == "output" for d in ports.values()), 12)
         self.assertEqual(len(read_qsf(texts["qsf"])[0]), texts["qsf"].count("PIN_"))
 

@@ -46,7 +46,7 @@ RULES = (
     Rule(r"scripts/rtl_speed\.py", "BY", "bench.rtl_speed"),
     Rule(r"scripts/defects\.py copy", "BY", "repository.defects_test"),
     Rule(r"sbatch .*scripts/explore\.sbatch", "NAMED"),
-    Rule(r"(?:cp|mv|cd|git checkout|quartus_sh|dask-worker)", "NAMED"),
+    Rule(r"(?:cp|mv|cd|git checkout|quartus_sh|openFPGALoader|dask-worker)", "NAMED"),
     Rule(r"cmake -S \. -B build", "NAMED"),
     Rule(r"cmake -S \. -B build-aarch64", "BY", "aarch64"),
     Rule(r"cmake -S \. -B build-library|cmake --(?:build|install)", "BY", "package"),

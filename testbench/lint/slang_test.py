@@ -15,7 +15,7 @@ from pathlib import Path
 
 ROOT = Path(os.environ["FELTGATE_ROOT"])
 RTL = ROOT / "rtl"
-BOARDS = ("de0_nano",)
+BOARDS = ("de0_nano", "ulx3s")
 VENV = Path(sys.argv.pop(1))
 
 
@@ -56,7 +56,8 @@ class Slang(unittest.TestCase):
 
     def test_every_board(self):
         for board in BOARDS:
-            files = sorted((RTL / "boards" / board).glob("*.sv"))
+            files = sorted([*RTL.glob("boards/panel/*.sv"), *RTL.glob(f"boards/{board}/*.sv")])
+            files.append(ROOT / "testbench/boards/stub/EHXPLLL.sv")
             with self.subTest(board):
                 self.assertEqual(lint(board, package("lever"), *core(), *files), "")
 

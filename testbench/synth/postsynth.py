@@ -6,19 +6,23 @@ it, with the cells' models flattened in (neither Verilator nor Icarus reads Yosy
 pair.sv, which drives netlist and RTL alike. Called by testbench/synth/CMakeLists.txt.
 
   postsynth.py --root R --design lever --block dob --output DIR [--defect PATCH] [--parameter N=V]
+  postsynth.py --root R --design lever --board ulx3s --output DIR     the whole of a board, with its pins
 """
 
 import argparse
+import re
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
+import synth_board  # noqa: E402
 import synth_measure  # noqa: E402
 from seeding import patches  # noqa: E402
 from synth_tools import ToolError, Tools  # noqa: E402
 
-CLOCKS = ("clk_i", "rst_ni")
+CLOCKS = ("clk_i", "rst_ni", "clk_25mhz")
 MODELS = ("mult18x18d_model.sv", "dp16kd_model.sv")
+PLL = "EHXPLLL.sv"
 
 
 def pair(block, ports, parameters):
@@ -35,8 +39,9 @@ def pair(block, ports, parameters):
                 start += width
         instances.append(f"  {module} u_{kind} ({', '.join(pins)});")
     n_in, n_out = sum(p[2] for p in ins), sum(p[2] for p in outs)
+    clocks = ", ".join(name for name, _, _ in ports if name in CLOCKS)
     head = (
-        f"module pair (input logic clk_i, rst_ni, input logic [{n_in - 1}:0] in_i, "
+        f"module pair (input logic {clocks}, input logic [{n_in - 1}:0] in_i, "
         f"output logic [{n_out - 1}:0] rtl_o, netlist_o);"
     )
     return "\n".join([head, *instances, "endmodule", ""]), n_in, n_out
@@ -52,22 +57,38 @@ def fields(ports, wanted):
     return rows
 
 
+def change_defaults(path, values):
+    text = path.read_text(encoding="utf-8")
+    for name, value in values:
+        text, count = re.subn(rf"(parameter int {name} *= )[^,]+,", rf"\g<1>{value},", text)
+        if count != 1:
+            raise ToolError(f"{path} has no parameter {name}; correct the caller")
+    path.write_text(text, encoding="utf-8")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--root", type=Path, required=True)
     parser.add_argument("--design", required=True)
-    parser.add_argument("--block", required=True)
+    parser.add_argument("--block")
+    parser.add_argument("--board", choices=synth_board.BOARDS, help="instead of a block")
     parser.add_argument("--output", type=Path, required=True)
     parser.add_argument("--registered", action="store_true", help="MULT18X18D with its registers")
     parser.add_argument("--parameter", action="append", default=[], help="of RTL and netlist")
     parser.add_argument("--defect", type=Path, help="a patch, of the netlist alone")
     options = parser.parse_args()
-    block, output = options.block, options.output
+    block, output, models = options.board or options.block, options.output, MODELS
     output.mkdir(parents=True, exist_ok=True)
     try:
         tools = Tools(output)
         target = synth_measure.Target(block, block, registered=options.registered)
-        sources = synth_measure.copy_sources(options.root, options.design, output)
+        if options.board:
+            sources = synth_board.sources(options.root, block, options.design, output)
+            models = (*MODELS, PLL)
+            stub = options.root / "testbench/boards/stub" / PLL
+            (output / PLL).write_text(stub.read_text(encoding="utf-8"), encoding="utf-8")
+        else:
+            sources = synth_measure.copy_sources(options.root, options.design, output)
         read = synth_measure.read_commands(sources, target)
         for model in MODELS:
             (output / model).write_text(
@@ -78,10 +99,12 @@ def main():
             for path, text in patches.patched(options.defect, options.root).items():
                 (output / path.name).write_text(text, encoding="utf-8")
         change = " ".join(f"-chparam {n} {v}" for n, v in values)
-        if block.startswith("scene_") or values:
+        if options.board:  # Yosys 0.23 takes a parameter of a top with parameters below it only so
+            change_defaults(output / f"{block}.sv", values)
+        elif block.startswith("scene_") or values:
             read = [*read, f"hierarchy {change} -top {block}"]
         ports = tools.ports(block, read)
-        tools.write_simulation(block, read, MODELS)
+        tools.write_simulation(block, read, models)
     except (ToolError, patches.DefectError) as error:
         print(error, file=sys.stderr)
         return 1

@@ -7,7 +7,7 @@ create_clock -name CLOCK_50 -period 20.000 [get_ports CLOCK_50]
 derive_clock_uncertainty
 
 # Asynchronous to any clock, and each passes two flip-flops before the clock uses it:
-set_false_path -from [get_ports {ENC_A ENC_B ENC_Z}]
+set_false_path -from [get_ports {ENC_A ENC_B ENC_Z ENC_LOOP}]
 set_false_path -from [get_ports {SW[*] KEY[1]}]
 # the reset, whose release the clock takes over through two flip-flops,
 set_false_path -from [get_ports {KEY[0]}]

@@ -100,7 +100,10 @@ module ulx3s #(
     .limits_o(limits),
     .faults_o(faults),
     .first_fault_o(),
-    .armed_o(armed)
+    .armed_o(armed),
+    .word_valid_o(),
+    .word_slot_o(),
+    .word_data_o()
   );
   /* verilator lint_on PINCONNECTEMPTY */
 

@@ -52,23 +52,29 @@ module feltgate_core #(
 
   logic fault_q;
 
-  // A stop while armed is a fault until the stop circuit closes again.
+  // A stop while armed is a fault until it is cleared on the register port, or by a host, for which the three
+  // encoder lines at once stand.
+  logic clear;
+  assign clear = (reg_write_i && reg_addr_i == 12'h201 && reg_wdata_i == 32'd2) || (enc_a_i && enc_b_i && enc_z_i);
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) fault_q <= 1'b0;
-    else fault_q <= stop_i && (fault_q || arm_i);
+    else fault_q <= (stop_i && arm_i) || (fault_q && !clear);
   end
 
   assign gate_a_hi_o = enc_a_i;
   assign gate_a_lo_o = enc_b_i;
   assign gate_b_hi_o = enc_z_i;
-  assign gate_b_lo_o = scene_i == 4'd15;
+  assign gate_b_lo_o = scene_i == 4'd14;
   assign reg_busy_o  = ReadBack != 0;
   assign reg_rdata_o = {19'd0, reg_write_i, reg_addr_i} ^ reg_wdata_i;
   assign faults_o    = {10'd0, fault_q, 5'd0};
   assign armed_o     = arm_i && !fault_q;
   assign limits_o    = {4'd0, !armed_o, 3'd0, set_zero_i, 3'd0};
 
-  assign {snapshot_valid_o, tick_count_o, position_o, velocity_o, tau_hat_o, tau_ref_o} = '0;
+  assign position_o  = {20'd0, {3{enc_z_i}}, 7'd0, enc_b_i, enc_a_i ^ enc_b_i};
+
+  assign {snapshot_valid_o, tick_count_o, velocity_o, tau_hat_o, tau_ref_o} = '0;
   assign {current_ref_o, voltage_o, duty_o, duty_active_o, gates_enable_o, scene_o, first_fault_o} = '0;
   assign {word_valid_o, word_slot_o, word_data_o} = '0;
 endmodule

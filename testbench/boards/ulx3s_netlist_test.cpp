@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The ULX3S' ECP5 netlist beside its RTL, every pin in both halves of every clock: keys, switches, a lever that
+// is turned, stops and an encoder that is pulled out. The PLL is a wire in both. Panel times are short ones:
+// testbench/boards/CMakeLists.txt. Documentation: docs/boards/ulx3s.md
+#include <Vpair.h>
+
+#include <cstdint>
+#include <cstring>
+#include <iostream>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+#include "catch.hpp"
+#include "mismatch.hpp"
+#include "pair_fields.hpp"
+#include "random.hpp"
+
+namespace {
+
+static_assert(kInputBits <= 64 && kOutputBits <= 64, "pins are one integer in Verilator's class");
+
+template <int N>
+const Field& named(const Field (&fields)[N], const char* name) {
+  for (const Field& f : fields) {
+    if (std::strcmp(f.name, name) == 0) return f;
+  }
+  throw std::runtime_error(name);
+}
+
+class Board {
+ public:
+  explicit Board(std::uint64_t seed) : random_(seed) {
+    put("btn", 0);
+    put("estop", 0);
+    put("enc_loop", 0);
+    put("sw", 7);
+  }
+
+  void put(const char* name, std::uint64_t value) {
+    const Field& f = named(kInputs, name);
+    const std::uint64_t mask = ((std::uint64_t{1} << f.width) - 1) << f.first;
+    pins_ = (pins_ & ~mask) | ((value << f.first) & mask);
+  }
+
+  std::uint64_t pin(const char* name) const {
+    const Field& f = named(kFields, name);
+    return (static_cast<std::uint64_t>(pair_->rtl_o) >> f.first) & ((std::uint64_t{1} << f.width) - 1);
+  }
+
+  /// Half a clock; the name of the first pin that differs, or "".
+  std::string half(bool clock) {
+    pair_->clk_25mhz = clock;
+    pair_->in_i = static_cast<std::decay_t<decltype(pair_->in_i)>>(pins_);
+    pair_->eval();
+    for (const Field& f : kFields) {
+      for (int n = f.first; n < f.first + f.width; ++n) {
+        if ((pair_->rtl_o >> n & 1U) != (pair_->netlist_o >> n & 1U)) return f.name;
+      }
+    }
+    return "";
+  }
+
+  /// What hands do in this clock.
+  void act(std::int64_t clock) {
+    if (clock % 400 == 0) turn();
+    if (clock == key_due_) {
+      key_down_ = !key_down_;
+      put("btn", key_down_ ? 1 : 0);
+      const bool is_long = random_.below(4) == 0;
+      key_due_ = clock + (key_down_ ? (is_long ? 300 : 60) : 2000 + random_.below(40'000));
+    }
+    if (clock == switch_due_) {
+      put("sw", static_cast<std::uint64_t>(random_.below(16)));
+      switch_due_ = clock + 20'000 + random_.below(20'000);
+    }
+    if (clock == event_due_) {
+      const int kind = static_cast<int>(random_.below(3));
+      put(kind == 0 ? "estop" : kind == 1 ? "enc_loop" : "ftdi_txd", event_ ? 0 : 1);
+      if (event_) put("estop", 0), put("enc_loop", 0);
+      event_ = !event_;
+      event_due_ = clock + (event_ ? 30 : 60'000 + random_.below(30'000));
+    }
+  }
+
+ private:
+  void turn() {
+    if (random_.below(40) == 0) up_ = !up_;
+    count_ += up_ ? 1 : 3;
+    const unsigned phase = count_ % 4;
+    put("enc_a", phase == 1 || phase == 2);
+    put("enc_b", phase >= 2);
+    put("enc_z", count_ % 4096 == 0);
+  }
+
+  std::unique_ptr<Vpair> pair_ = std::make_unique<Vpair>();
+  feltgate::test::Random random_;
+  std::uint64_t pins_ = 0;
+  unsigned count_ = 1;
+  bool up_ = true, key_down_ = false, event_ = false;
+  std::int64_t key_due_ = 500, switch_due_ = 30'000, event_due_ = 90'000;
+};
+
+}  // namespace
+
+TEST_CASE("ulx3s: the netlist does at every pin what the RTL does") {
+  const std::int64_t clocks = feltgate::test::scaled_clocks(150'000);
+  std::int64_t armed = 0, driving = 0;
+  std::set<std::uint64_t> lamps;
+  for (const std::uint64_t seed : {3u, 8u}) {
+    Board board(seed);
+    for (std::int64_t clock = 0; clock < clocks; ++clock) {
+      board.act(clock);
+      for (const bool high : {false, true}) {
+        const std::string found = board.half(high);
+        if (!found.empty())
+          FAIL("mismatch at clock " << clock << ", pin " << found << " (seed " << seed << ")");
+      }
+      armed += static_cast<std::int64_t>(board.pin("led") & 1U);
+      driving += board.pin("gate_a_hi") | board.pin("gate_b_hi") ? 1 : 0;
+      lamps.insert(board.pin("led"));
+    }
+  }
+  std::cout << "the netlist of the ULX3S on 2 x " << clocks << " clocks, 0 mismatches; led[0] lit in " << armed
+            << ", an upper gate on in " << driving << ", " << lamps.size() << " pictures of lamps\n";
+  REQUIRE(armed > clocks / 5);
+  REQUIRE(driving > clocks / 200);
+  REQUIRE(lamps.size() > 30);
+}

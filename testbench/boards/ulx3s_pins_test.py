@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Checks ulx3s.lpf against the board's sites, the ports of ulx3s.sv and the wiring page.
+
+nextpnr places what it is told: a wrong site is no error there. So: each port one site, no site twice, each
+site one that at least two public files agree on, IO standard and pull on every pin, nothing driven that is an
+input on the board, pulls on the safe side, and the table of the page. The second half breaks a copy in each
+of these ways and wants to see it found. Documentation: docs/boards/ulx3s.md
+"""
+
+import csv
+import re
+import unittest
+from collections import Counter
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+BOARD = ROOT / "rtl/boards/ulx3s"
+FILES = {
+    "lpf": BOARD / "ulx3s.lpf",
+    "sv": BOARD / "ulx3s.sv",
+    "pins": BOARD / "pins.csv",
+    "doc": ROOT / "docs/boards/ulx3s.md",
+}
+PULLED_UP = ("enc_a", "enc_b", "enc_z", "enc_loop", "estop", "ftdi_txd")
+SOURCES = set("ABCD")
+
+
+def read_pins(text):
+    lines = [line for line in text.splitlines() if not line.startswith("#")]
+    return {row["site"]: row for row in csv.DictReader(lines)}
+
+
+def read_ports(text):
+    """Bits of the ports, such as btn[1], with their direction."""
+    text = re.sub(r"//.*|/\*.*?\*/", "", text)
+    header = re.search(r"module\s+ulx3s\b.*?\)\s*\((.*?)\)\s*;", text, re.S).group(1)
+    ports = {}
+    for port in header.split(","):
+        way, _, msb, lsb, name = re.fullmatch(
+            r"\s*(input|output)\s+logic\s*(\[(\d+):(\d+)\])?\s*(\w+)\s*", port
+        ).groups()
+        bits = [name] if msb is None else [f"{name}[{i}]" for i in range(int(lsb), int(msb) + 1)]
+        ports.update((bit, way) for bit in bits)
+    return ports
+
+
+def read_lpf(text):
+    """(sites, settings): lists of (port, site) and (port, {key: value})."""
+    text = re.sub(r"#.*", "", text)
+    sites = re.findall(r'LOCATE COMP "([^"]+)" SITE "([^"]+)"', text)
+    settings = [
+        (port, dict(word.split("=") for word in words.split()))
+        for port, words in re.findall(r'IOBUF PORT "([^"]+)" ([^;]+);', text)
+    ]
+    return sites, settings
+
+
+def findings(texts):
+    """One line for everything that is wrong, as 'what; mend'."""
+    pins, ports = read_pins(texts["pins"]), read_ports(texts["sv"])
+    sites, settings = read_lpf(texts["lpf"])
+    found = []
+    for site, row in pins.items():
+        named = row["sources"].split()
+        if len(set(named)) < 2 or not set(named) <= SOURCES:
+            found.append(f"pins: {row['signal']}, {site} has the sources {named}; two are needed")
+    for kind, counts in (
+        ("port", Counter(port for port, _ in sites)),
+        ("site", Counter(site for _, site in sites)),
+    ):
+        found += [f"lpf: {kind} {n} is used {c} times; once" for n, c in counts.items() if c > 1]
+    for port in {port for port, _ in sites} | {port for port, _ in settings}:
+        if port not in ports:
+            found.append(f"lpf: {port} is no port of ulx3s.sv; remove it or name the port")
+    where, how = dict(sites), dict(settings)
+    by_signal = {row["signal"]: site for site, row in pins.items()}
+    for port, way in ports.items():
+        row = pins.get(where.get(port))
+        if row is None:
+            found.append(f"lpf: port {port} is at {where.get(port)}, which is not in pins.csv")
+            continue
+        if {"in": "input", "out": "output"}.get(row["direction"], way) != way:
+            found.append(f"lpf: {port} is an {way}, {row['signal']} is not; move it")
+        if port in by_signal and by_signal[port] != row["site"]:
+            found.append(f"lpf: {port} is at {row['site']}, the board has it at {by_signal[port]}")
+        if port not in by_signal and not row["signal"].startswith("g"):
+            found.append(f"lpf: {port} is at {row['signal']}, which is on the board; use a header")
+        setting = how.get(port, {})
+        if setting.get("IO_TYPE") != "LVCMOS33":
+            found.append(f"lpf: {port} has IO_TYPE {setting.get('IO_TYPE')}; LVCMOS33")
+        if port in PULLED_UP and setting.get("PULLMODE") != "UP":
+            found.append(f"lpf: {port} is not pulled up; an open wire would be no stop")
+        if port.startswith("gate_") and setting.get("PULLMODE") != "DOWN":
+            found.append(f"lpf: {port} is not pulled down; an open gate would be on")
+        line = f"| `{port}` | {row['signal']} | {row['site']} | {row['place']} |"
+        if line not in texts["doc"]:
+            found.append(f"doc: no row '{line}'; correct the table")
+    if 'FREQUENCY PORT "clk_25mhz" 25 MHZ;' not in texts["lpf"]:
+        found.append("lpf: clk_25mhz has not its 25 MHz; nextpnr takes the PLL's clock from it")
+    return found
+
+
+def committed():
+    return {name: path.read_text(encoding="utf-8") for name, path in FILES.items()}
+
+
+class Committed(unittest.TestCase):
+    def test_board_files_agree(self):
+        self.assertEqual(findings(committed()), [])
+
+    def test_the_parsers_saw_the_whole_files(self):
+        texts = committed()
+        ports = read_ports(texts["sv"])
+        self.assertEqual(len(read_pins(texts["pins"])), 79)
+        self.assertEqual(len(ports), 27)
+        self.assertEqual(sum(d == "output" for d in ports.values()), 14)
+        sites, settings = read_lpf(texts["lpf"])
+        self.assertEqual(len(sites), texts["lpf"].count("LOCATE COMP"))
+        self.assertEqual(len(settings), texts["lpf"].count("IOBUF PORT"))
+
+
+class SeededMistakes(unittest.TestCase):
+    """Each breaks one file in one way; the named words must then stand in a finding."""
+
+    def test_all(self):
+        gate = 'IOBUF PORT "gate_a_hi" PULLMODE=DOWN'
+        for name, old, new, words in (
+            ("lpf", 'LOCATE COMP "enc_a" SITE "B11"', 'LOCATE COMP "enc_a" SITE "A10"', "site A10 is used 2"),
+            ("lpf", 'LOCATE COMP "enc_a" SITE "B11"', 'LOCATE COMP "enc_b" SITE "B11"', "port enc_b is used 2"),
+            ("lpf", 'LOCATE COMP "enc_a" SITE "B11"', 'LOCATE COMP "enc_a" SITE "Z99"', "Z99, which is not in"),
+            ("lpf", 'LOCATE COMP "gate_a_hi"', 'LOCATE COMP "gate_c_hi"', "gate_c_hi is no port"),
+            ("lpf", 'SITE "B15"', 'SITE "V1"', "is an output, btn[4] is not"),
+            ("lpf", 'SITE "B11"', 'SITE "U1"', "use a header"),
+            ("lpf", 'LOCATE COMP "sw[0]" SITE "E8"', 'LOCATE COMP "sw[0]" SITE "C6"', "the board has it at E8"),
+            ("lpf", gate, gate.replace("DOWN", "UP"), "not pulled down"),
+            ("lpf", 'IOBUF PORT "estop" PULLMODE=UP', 'IOBUF PORT "estop" PULLMODE=DOWN', "no stop"),
+            ("lpf", f"{gate} IO_TYPE=LVCMOS33", f"{gate} IO_TYPE=LVCMOS25", "IO_TYPE LVCMOS25"),
+            ("lpf", "25 MHZ", "50 MHZ", "not its 25 MHz"),
+            ("pins", "gp[0],B11,J1 pin 5+,inout,A B C", "gp[0],B11,J1 pin 5+,inout,A", "two are needed"),
+            ("sv", "output logic       gate_b_lo\n", "output logic gate_b_lo, input logic new\n", "port new"),
+            ("doc", "| `enc_b` | gp[1] | A10 |", "| `enc_b` | gp[1] | A11 |", "doc: no row"),
+        ):
+            with self.subTest(words):
+                texts = committed()
+                self.assertEqual(texts[name].count(old), 1, f"{old!r} once in {FILES[name]}")
+                texts[name] = texts[name].replace(old, new)
+                found = findings(texts)
+                self.assertTrue(any(words in line for line in found), found)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -96,6 +96,7 @@ def arguments(argv):
 
 
 def chosen(everything, blocks):
+    """The programs of these blocks, or all; ProgramError where a block has none."""
     there = list(dict.fromkeys(program.block for program in everything))
     unknown = [block for block in blocks if block not in there]
     if unknown:
@@ -106,6 +107,7 @@ def chosen(everything, blocks):
 
 
 def measure(options, root, build, folder):
+    """Builds and runs the tests; what they reached, as a report."""
     found = chosen(programs.read(build), options.block)
     if not options.no_build:
         building.make(
@@ -122,6 +124,7 @@ def measure(options, root, build, folder):
 
 
 def conclude(options, root, result):
+    """Prints and writes it; the exit code."""
     print(report.text(result, options.limit))
     # Of a block that was not run nothing is known.
     idle = [

@@ -106,6 +106,7 @@ def arguments(argv):
 
 
 def chosen(found, wanted):
+    """The tests of these names, or all; MutateError where there is none."""
     if not found:
         raise rtl.MutateError(
             "the build folder knows no mutants: it was configured without tests, or without yosys"
@@ -118,6 +119,7 @@ def chosen(found, wanted):
 
 
 def say(text):
+    """A line about the work, for a person."""
     print(f"mutate: {text}", file=sys.stderr, flush=True)
 
 
@@ -133,6 +135,7 @@ def update(root, rows):
 
 
 def report(options, root, rows):
+    """Prints and writes the rows; the exit code."""
     rtl.print_survivors(rows, options.survivors)
     print(rtl.table(rows))
     bad = [row.test.name for row in rows if row.share() < options.require]

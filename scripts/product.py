@@ -90,6 +90,7 @@ def renamed(text):
 
 
 def verilog(root, options, folder):
+    """The text of the file."""
     tools = Tools(folder)
     package = design_package.package_of(root, options.design, folder / "design")
     sources = synth_measure.copy_sources(root, package, folder)

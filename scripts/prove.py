@@ -97,6 +97,7 @@ def arguments(argv):
 
 
 def chosen(proofs, wanted, fast):
+    """The proofs of these names, or all; CatalogError where there is none."""
     unknown = [w for w in wanted if not any(w in (p.block, p.key) for p in proofs)]
     if unknown:
         names = ", ".join(dict.fromkeys(p.block for p in proofs))
@@ -106,6 +107,7 @@ def chosen(proofs, wanted, fast):
 
 
 def print_list(root, proofs):
+    """Properties, defects and covers."""
     for proof in proofs:
         designs = ", ".join(proof.designs)
         print(f"{proof.key}  {proof.title} ({designs}){'  [fast]' if proof.fast else ''}")
@@ -119,6 +121,7 @@ def print_list(root, proofs):
 
 
 def print_open(blocks):
+    """Ports that no property names."""
     for block, names in blocks.items():
         if names:
             print(f"{block}: in no property: {', '.join(names)}")
@@ -141,6 +144,7 @@ def run(options, root, proofs, folder):
 
 
 def report(options, root, rows, versions):
+    """Prints and writes the rows; the exit code."""
     print(page.text_table(rows))
     bad = [row for row in rows if not row.good(not options.no_defects)]
     properties = sum(len(row.proof.properties) for row in rows if row.first)

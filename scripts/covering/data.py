@@ -42,6 +42,7 @@ class Point:
 
 
 def fields(text):
+    """The pairs of key and value of a point."""
     return dict(pair.split("\x02", 1) for pair in text.split("\x01") if "\x02" in pair)
 
 

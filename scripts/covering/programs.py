@@ -36,6 +36,7 @@ class Run:
 
 
 def read(build):
+    """The programs that the build folder is configured with."""
     path = build / LIST
     try:
         lines = path.read_text(encoding="utf-8").splitlines()

@@ -20,6 +20,8 @@ CORE = "whole core"
 
 @dataclass
 class Row:
+    """What was reached of one block."""
+
     block: str
     reached: dict = field(default_factory=lambda: dict.fromkeys(KINDS, 0))
     total: dict = field(default_factory=lambda: dict.fromkeys(KINDS, 0))
@@ -35,6 +37,8 @@ class Row:
 
 @dataclass
 class Report:
+    """All that is told of a run."""
+
     rows: list
     core: Row  # the core's tests alone, each instance for itself; no target
     missed: list  # points neither reached nor waived
@@ -71,6 +75,7 @@ def make(points, core_points, seconds, waivers, blocks):
 
 
 def cell(row, kind):
+    """One count of the table."""
     if not row.total[kind]:
         return "-"
     waived = f" ({row.waived[kind]} waived)" if row.waived[kind] else ""
@@ -78,6 +83,7 @@ def cell(row, kind):
 
 
 def text(report, limit):
+    """The table, then at most `limit` points that were not reached, and the waivers."""
     rows = [("block", "lines", "branches", "toggles", "cover points", "s of CPU", "")]
     for row in [*report.rows, *([report.core] if report.core else [])]:
         seconds = f"{row.seconds:.1f}" if row.seconds else "-"
@@ -99,6 +105,7 @@ def text(report, limit):
 
 
 def figures(row):
+    """[reached, of] of each kind."""
     return {kind: [row.reached[kind], row.total[kind]] for kind in KINDS}
 
 
@@ -113,6 +120,7 @@ def per_block(report):
 
 
 def as_json(report, schema):
+    """The object of docs/coverage.md."""
     rows = {
         row.block: figures(row)
         | {"waived": row.waived, "short": row.short(), "seconds": round(row.seconds, 2)}

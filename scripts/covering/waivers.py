@@ -19,6 +19,8 @@ class WaiverError(Exception):
 
 @dataclass
 class Waiver:
+    """Points that need not be reached."""
+
     block: str  # or some, with blanks between
     kind: str
     points: re.Pattern  # of the whole name
@@ -27,6 +29,7 @@ class Waiver:
     used: list = field(default_factory=list)
 
     def fits(self, point):
+        """Whether it takes this point, too."""
         if len(self.used) == self.most:
             return False
         return (
@@ -37,6 +40,7 @@ class Waiver:
 
 
 def read(root):
+    """All of them; WaiverError where one cannot be used."""
     path = root / FILE
     try:
         tables = tomllib.loads(path.read_text(encoding="utf-8")).get("waiver", [])

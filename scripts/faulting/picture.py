@@ -19,6 +19,7 @@ TITLES = {"state": "one bit of state flips", "pins": "pins and words"}
 
 
 def points(faults, panel, name):
+    """(peak in Nm, integral in mNm s) of the faults of one class; both axes are logarithmic."""
     wanted = ("state",) if panel == "state" else ("pins", "words")
     return [
         (max(f["peak_nm"], 1e-4), max(1e3 * f["integral_nm_s"], 1e-4))

@@ -37,6 +37,7 @@ class Row:
         return sum(self.count.values())
 
     def as_json(self):
+        """Counts, and the largest of the deviations."""
         return {
             "point": self.point,
             "group": self.group,
@@ -48,6 +49,7 @@ class Row:
 
 
 def rows_of(faults):
+    """A row for each group, in the order of the points."""
     rows = {}
     for fault in faults:
         key = (fault["point"], fault["group"])
@@ -117,6 +119,7 @@ def text_table(rows):
 
 
 def markdown_table(rows):
+    """Lines, as in docs/verification.md."""
     head = ["point", "what", "faults", *CLASSES, "peak Nm", "mNm s"]
     lines = ["| " + " | ".join(head) + " |", "|---|---|" + "---:|" * (len(head) - 2)]
     for row in rows:

@@ -187,6 +187,8 @@ class Row:
         return self.count(*DEAD) / self.relevant() if self.relevant() else 1.0
 
     def as_json(self):
+        """Counts, and what survived."""
+
         def entry(mutant):
             verdict, said = self.proofs.get(mutant["number"], ("not tried", ""))
             return {
@@ -329,6 +331,7 @@ HEAD = (
 
 
 def table(rows):
+    """The rows, for a terminal."""
     lines = [HEAD]
     for row in rows:
         lines.append(
@@ -349,6 +352,7 @@ def table(rows):
 
 
 def print_survivors(rows, known):
+    """Those that are not listed, or all (`known`), with the lines of their source."""
     for row in rows:
         for mutant in row.survivors():
             kind, why = row.listed.entry(mutant)

@@ -40,6 +40,8 @@ SHOWN = 70
 
 @dataclass
 class Mutant:
+    """One change of a header."""
+
     number: int
     header: str
     line: int
@@ -49,6 +51,7 @@ class Mutant:
 
 
 def shortened(text):
+    """At most SHOWN letters, the middle left out."""
     text = " ".join(text.split())
     if len(text) <= SHOWN:
         return text
@@ -97,6 +100,7 @@ class Places:
         return self.text[node.start_byte : node.end_byte].decode()
 
     def function(self, node):
+        """The name of the function that a node is in, else "members"."""
         while node is not None and node.type != "function_definition":
             node = node.parent
         if node is None:
@@ -137,6 +141,7 @@ class Places:
         return kind is not None and self.source(kind) in ("In", "Words", "Tick")
 
     def is_constant(self, node):
+        """Whether only the compiler evaluates it, so that it has no mutants."""
         if node.type in CONSTANT:
             return True
         if node.type == "field_declaration" and self.is_input(node):

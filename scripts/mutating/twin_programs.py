@@ -28,6 +28,8 @@ class BuildError(Exception):
 
 @dataclass
 class Case:
+    """A test case, and the mutants that it reaches."""
+
     program: "Program"
     name: str
     seconds: float = 0.0
@@ -37,12 +39,15 @@ class Case:
 
 @dataclass
 class Program:
+    """A test program with mutants."""
+
     target: str
     path: Path
     cases: list = field(default_factory=list)
 
 
 def ninja(build, *arguments):
+    """What ninja says of the build folder; BuildError where it fails."""
     done = interrupts.run(["ninja", "-C", str(build), *arguments], **interrupts.CAPTURED)
     if done.returncode:
         raise BuildError(
@@ -81,6 +86,7 @@ class Maker:
         return [f"-I{self.folder / 'include'}", f"-I{self.root / 'testbench/mutate/twin'}"]
 
     def compile_selector(self, compiler):
+        """The object that knows which mutant was chosen."""
         out = self.folder / "mutant.o"
         source = self.root / "testbench/mutate/twin/mutant.cpp"
         self.call(
@@ -98,6 +104,7 @@ class Maker:
         return out
 
     def call(self, command):
+        """Runs a compiler in the build folder; BuildError with what it said."""
         done = self.crew.run(list(map(str, command)), cwd=self.build, **interrupts.CAPTURED)
         if done.returncode:
             raise BuildError(
@@ -189,6 +196,7 @@ class Maker:
         return [Program(target, self.link(target, *plans[target], selector)) for target in targets]
 
     def link(self, target, compiles, link, selector):
+        """The program from its objects made again and the others as they are."""
         command = next(part for part in link.split(" && ") if " -o " in part)
         words = shlex.split(command)
         at = words.index("-o")
@@ -203,6 +211,7 @@ class Maker:
 
 
 def list_cases(program):
+    """The test cases of a program, by their names."""
     for option in (["--list-test-names-only"], ["--list-tests", "--verbosity", "quiet"]):
         done = subprocess.run([program.path, *option], capture_output=True, text=True, check=False)
         names = [line.strip() for line in done.stdout.splitlines() if line.strip()]

@@ -27,6 +27,8 @@ class TwinError(Exception):
 
 @dataclass
 class Catalogue:
+    """What testbench/mutate/twin.toml says."""
+
     tests: dict  # header: targets
     constant: dict = field(default_factory=dict)  # header: functions that only the compiler calls
     survivors: dict = field(default_factory=dict)  # (header, name of the mutant): (kind, why)
@@ -71,12 +73,15 @@ def survivors_of(path):
 
 @dataclass
 class Row:
+    """What became of a header's mutants."""
+
     header: str
     offered: int
     verdicts: list
     catalogue: Catalogue
 
     def known(self, verdict):
+        """(kind, why) of one that is not killed, or None."""
         if verdict.how == "exact":
             return (
                 "equivalent",
@@ -95,10 +100,12 @@ class Row:
         ]
 
     def share(self):
+        """Killed, of those that are not equivalent."""
         living = len(self.verdicts) - len(self.left("equivalent"))
         return self.count(*DEAD) / living if living else 1.0
 
     def as_json(self):
+        """Counts, and what survived."""
         return {
             "header": self.header,
             "offered": self.offered,
@@ -124,6 +131,7 @@ class Row:
 
 
 def table(rows):
+    """The rows, for a terminal."""
     head = (
         "header",
         "offered",
@@ -156,6 +164,7 @@ def table(rows):
 
 
 def print_survivors(rows, known):
+    """Those that are not listed, or all (`known`)."""
     for row in rows:
         for verdict in row.verdicts:
             if verdict.how in DEAD or (row.known(verdict) and not known):
@@ -169,6 +178,7 @@ def print_survivors(rows, known):
 
 
 def results_of(rows, options, dropped):
+    """The object of --json."""
     return {
         "schema": SCHEMA,
         "machine": block_results.machine(),

@@ -25,6 +25,8 @@ SLOWER, MORE_S = 2, 1  # a mutant may take this many times the CPU time, and the
 
 @dataclass
 class Verdict:
+    """What became of one mutant."""
+
     mutant: object
     # killed, hangs, crashes, survives, unreached, exact (nothing to round, or no such call)
     how: str
@@ -33,10 +35,13 @@ class Verdict:
 
 
 class Runs:
+    """Test cases of programs with mutants, side by side."""
+
     def __init__(self, folder, jobs):
         self.folder, self.jobs, self.crew = folder, jobs, Crew()
 
     def environment(self, **more):
+        """Without what may be set for the project's own programs."""
         kept = {k: v for k, v in os.environ.items() if not k.startswith("FELTGATE_")}
         return (
             kept
@@ -98,6 +103,7 @@ class Runs:
         return sorted(found, key=lambda verdict: verdict.mutant.number)
 
     def try_mutant(self, mutant, cases):
+        """Its verdict: the cases that reach it run until one fails."""
         spent, reached = 0.0, False
         for case in cases:
             if mutant.number not in case.reached:

@@ -49,6 +49,7 @@ ROUNDINGS = (
 
 
 def top_operator(node):
+    """The operator of an expression, or what kind of node it is."""
     while node.type == "parenthesized_expression" and node.named_child_count == 1:
         node = node.named_children[0]
     if node.type == "binary_expression":
@@ -287,6 +288,7 @@ class Header(Places):
         return f"return {self.negated(number, self.emit(value))};"
 
     def returns_bool(self, node):
+        """Whether the function that a node is in returns one."""
         while node is not None and node.type not in ("function_definition", "lambda_expression"):
             node = node.parent
         if node is None or node.type != "function_definition":

@@ -18,6 +18,7 @@ def seconds(result):
 
 
 def text_table(rows):
+    """The rows, for a terminal."""
     lines = [f"{'proof':32}{'design':10}{'k':>3}{'base s':>9}{'induct. s':>10}  covers"]
     for row in rows:
         induction, covers = row.results.get(INDUCTION), row.results.get(COVERS)
@@ -63,6 +64,7 @@ def generated(result, proofs):
 
 
 def proof_lines(proof, entries):
+    """One proof of the page: assumptions, covers, times, properties."""
     relative = f"../testbench/{proof.block}/proofs/{proof.name}.sv"
     lines = [f"[`{proof.key}`]({relative}): {proof.title}.", ""]
     lines += [f"- assumed: {text}" for text in proof.assumes]
@@ -91,6 +93,7 @@ def proof_lines(proof, entries):
 
 
 def write(root, result):
+    """The page's part between the markers, and docs/verification/proofs.json."""
     from . import catalog
 
     path = root / PAGE

@@ -12,6 +12,8 @@ BASE, INDUCTION, COVERS, DEFECT = "base", "induction", "covers", "defect"
 
 @dataclass(frozen=True)
 class Task:
+    """One run: a proof on a design, of one of the four kinds."""
+
     proof: object
     design: str
     kind: str
@@ -67,6 +69,7 @@ class Row:
     caught: dict = field(default_factory=dict)  # property: Result
 
     def good(self, with_defects):
+        """Whether all runs of the row ended as they must."""
         kinds = (BASE, INDUCTION, COVERS) if self.first else (BASE, INDUCTION)
         if not all(kind in self.results and self.results[kind].passed for kind in kinds):
             return False
@@ -76,6 +79,7 @@ class Row:
         )
 
     def as_json(self, root):
+        """Verdicts, times, and where each defect was seen."""
         base, induction = self.results[BASE], self.results[INDUCTION]
         covers = self.results.get(COVERS)
         return {

@@ -157,6 +157,8 @@ def read(root, kind):
         found = json.loads(where.read_text(encoding="utf-8"))
     except json.JSONDecodeError as error:
         raise ResultsError(f"{where}: {error}") from error
+    if not isinstance(found, dict) or not isinstance(found.get("blocks"), dict):
+        raise ResultsError(f"{where}: no object with blocks")
     if found.get("schema") != SCHEMA or found.get("kind") != kind:
         raise ResultsError(
             f"{where}: schema {found.get('schema')}, kind {found.get('kind')}; "

@@ -46,7 +46,7 @@ def arguments(argv):
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
-        "name", nargs="*", metavar="BLOCK", help="a block or one of its tests; default: all"
+        "name", nargs="*", metavar="BLOCK", help="a block, one of its tests, or BLOCK.TEST; default: all"
     )
     parser.add_argument("--list", action="store_true", help="what there is; runs nothing")
     parser.add_argument(
@@ -111,11 +111,11 @@ def chosen(found, wanted):
         raise rtl.MutateError(
             "the build folder knows no mutants: it was configured without tests, or without yosys"
         )
-    unknown = [w for w in wanted if not any(w in (t.block, t.name) for t in found)]
+    unknown = [w for w in wanted if not any(w in t.names() for t in found)]
     if unknown:
         names = ", ".join(dict.fromkeys(t.block for t in found))
         raise rtl.MutateError(f"no block {', '.join(unknown)} with mutants; there are {names}")
-    return [t for t in found if not wanted or t.block in wanted or t.name in wanted]
+    return [t for t in found if not wanted or any(w in t.names() for w in wanted)]
 
 
 def say(text):

@@ -157,7 +157,9 @@ def report(options, root, rows, versions):
         outputs.write_json(options.json, result)
     if options.update and not bad:
         page.write(root, result)
-        print("prove: wrote docs/proofs.md")
+        print(f"prove: wrote {page.PAGE}")
+    elif options.update:
+        print(f"prove: {page.PAGE} stays as it was, for not all is good")
     return 1 if bad else 0
 
 

@@ -49,7 +49,7 @@ function(feltgate_mutants test block sources libraries)
     return()
   endif()
   set(script "${FELTGATE_ROOT}/scripts/mutate.py")
-  add_test(NAME mutate.${test} COMMAND ${Python3_EXECUTABLE} -B "${script}" ${test} --no-build --jobs 1
+  add_test(NAME mutate.${test} COMMAND ${Python3_EXECUTABLE} -B "${script}" ${block}.${test} --no-build --jobs 1
     --count ${FELTGATE_MUTANTS_SHARE} --require 0.9 --proof-seconds 5)
   set_tests_properties(mutate.${test} PROPERTIES LABELS mutation TIMEOUT 3600
     REQUIRED_FILES "${script};${CMAKE_CURRENT_BINARY_DIR}/${target};${folder}/mutants.json"

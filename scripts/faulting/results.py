@@ -14,10 +14,10 @@ FLAGGED_SHARE = 0.99
 
 
 def bound(count, of):
-    """A share as a percentage; beside a zero its 95 % bound, 3/N."""
+    """A share as a percentage; beside a zero its 95 % bound, about 3/N where N is large."""
     if not of:
         return "-"
-    return f"{100 * count / of:.2g} %" if count else f"0 (< {300 / of:.2g} %)"
+    return f"{100 * count / of:.2g} %" if count else f"0 (< {100 * (1 - 0.05 ** (1 / of)):.2g} %)"
 
 
 class Row:

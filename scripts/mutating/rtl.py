@@ -51,6 +51,10 @@ class Test:
     database: int = 0
     mutants: list = field(default_factory=list)
 
+    def names(self):
+        """What a user may call it; a test may have the name of its block."""
+        return self.block, self.name, f"{self.block}.{self.name}"
+
     def read(self):
         path = self.folder / "mutants.json"
         if not path.exists():

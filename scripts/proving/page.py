@@ -5,6 +5,7 @@
 import sys
 
 import block_results
+import outputs
 
 from .tasks import BASE, COVERS, INDUCTION
 
@@ -100,7 +101,7 @@ def write(root, result):
     before, rest = path.read_text(encoding="utf-8").split(BEGIN, 1)
     after = rest.split(END, 1)[1].lstrip("\n")
     text = before + generated(result, catalog.read(root)) + ("\n" + after if after else "")
-    path.write_text(text, encoding="utf-8")
+    outputs.write_whole(path, text)
     block_results.write(root, "proofs", "./feltgate prove --update", per_block(result))
 
 

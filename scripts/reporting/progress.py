@@ -76,10 +76,16 @@ class Steps(RedrawnLine):
             self.stream.flush()
 
     def text(self):
+        """How far it is; without a share where nobody knows how much there is (total None)."""
+        if self.total is None:
+            return f"{self.name}: {self.done} done, {clock_text(self._spent())}  {self.last}"
         share = min(1.0, self.done / self.total) if self.total else 1.0
-        spent = time.monotonic() - self.began
+        spent = self._spent()
         left = clock_text(spent * (1 / share - 1)) if share > 0 else "?"
         return f"{self.name}: {100 * share:3.0f} %, {clock_text(spent)}, {left} left  {self.last}"
+
+    def _spent(self):
+        return time.monotonic() - self.began
 
     def line(self):
         return self.text()[: shutil.get_terminal_size().columns - 1]

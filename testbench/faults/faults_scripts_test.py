@@ -31,7 +31,8 @@ def pin(kind, group="channel dead", changed=True):
 
 class Results(unittest.TestCase):
     def test_a_zero_has_its_bound(self):
-        self.assertEqual(results.bound(0, 300), "0 (< 1 %)")
+        self.assertEqual(results.bound(0, 300), "0 (< 0.99 %)")
+        self.assertEqual(results.bound(0, 2), "0 (< 78 %)")
         self.assertEqual(results.bound(3, 300), "1 %")
         self.assertEqual(results.bound(0, 0), "-")
 
@@ -86,7 +87,7 @@ class Command(unittest.TestCase):
             lines.write_text("".join(json.dumps(f) + "\n" for f in [state("a"), pin("detected"), {"mismatches": 0}]))
             code, out, _ = self.run_main("--lines", lines, "--json", found)
             self.assertEqual(code, 0)
-            self.assertIn("0 of 2, 0 (< 1.5e+02 %)", out)
+            self.assertIn("0 of 2, 0 (< 78 %)", out)
             written = json.loads(found.read_text())
             self.assertEqual((written["schema"], written["faults"]), (faults.SCHEMA, 2))
             lines.write_text(json.dumps(state("a", "unsafe")) + "\n")

@@ -4,7 +4,7 @@
 """Every flip-flop of the core, and where the Verilated model keeps it: Yosys names the flip-flops, with all
 names that each has in the hierarchy, and one of these is a member of the model.
 
-  flop_table.py --root R --design lever --header Vfaults___024root.h --class Vfaults --output flops.hpp
+  flop_table.py --root R --design lever --header Vfaults___024root.h --model Vfaults --output flops.hpp
 """
 
 import argparse
@@ -28,8 +28,9 @@ def netlist(yosys, files):
     """The core, word by word: flip-flops are still those of the source."""
     with tempfile.TemporaryDirectory() as folder:
         read = "read_verilog -sv " + " ".join(f'"{f}"' for f in files)
-        script = f"{read}; hierarchy -top {TOP}; proc; flatten; opt_expr; opt_clean; write_json {folder}/core.json"
-        run = subprocess.run([yosys, "-q", "-p", script], capture_output=True, text=True, check=False)
+        # Not every command of Yosys takes a path with a blank, and YoWASP's sees /tmp as a folder of its own.
+        script = f"{read}; hierarchy -top {TOP}; proc; flatten; opt_expr; opt_clean; write_json core.json"
+        run = subprocess.run([yosys, "-q", "-p", script], cwd=folder, capture_output=True, text=True, check=False)
         if run.returncode:
             raise SystemExit(f"yosys: {run.stdout}{run.stderr}")
         return json.loads((Path(folder) / "core.json").read_text(encoding="utf-8"))["modules"][TOP]

@@ -6,6 +6,7 @@
 A stand-in notes its number and waits. Documentation: docs/json.md
 """
 
+import json
 import os
 import signal
 import subprocess
@@ -16,6 +17,7 @@ import unittest
 from bench import ROOT, Bench
 
 sys.path.insert(0, str(ROOT / "scripts"))
+import crew  # noqa: E402
 import interrupts  # noqa: E402
 import outputs  # noqa: E402
 
@@ -162,6 +164,34 @@ class Scripts(Bench):
         self.assertIsNone(interrupts.check(2))
 
 
+class Crew(unittest.TestCase):
+    def test_status_and_time_of_each(self):
+        both = crew.Crew()
+        self.assertEqual(both.timed(["sh", "-c", "exit 3"])[0], 3)
+        self.assertEqual(both.timed(["sh", "-c", "kill -SEGV $$"])[0], -signal.SIGSEGV)
+        status, seconds = both.timed([sys.executable, "-c", "while True: pass"], 0.3)
+        self.assertIsNone(status)
+        self.assertGreater(seconds, 0)
+        self.assertRaises(subprocess.TimeoutExpired, both.run, ["sleep", "60"], 0.1)
+        self.assertEqual(both.run(["echo", "a"], **interrupts.CAPTURED).stdout, "a\n")
+
+    def test_what_fails_ends_the_others(self):
+        both, done, began = crew.Crew(), [], time.monotonic()
+
+        def one(words):
+            status, _ = both.timed(words)
+            if status == 3:
+                raise OSError("three")
+            return status
+
+        with self.assertRaisesRegex(OSError, "three"):
+            work = [["true"], ["sleep", "60"], ["sh", "-c", "sleep 0.2; exit 3"], ["sleep", "61"]]
+            both.each(one, work, 3, lambda item, status: done.append((item[0], status)))
+        self.assertLess(time.monotonic() - began, 30)
+        self.assertEqual(done[0], ("true", 0))
+        self.assertRaises(interrupts.Interrupted, both.start, ["true"])
+
+
 class Outputs(Bench):
     def test_whole_files(self):
         self.path("target").write_text("old")
@@ -175,6 +205,15 @@ class Outputs(Bench):
         outputs.write_whole("/dev/null", "nothing")
         self.assertRaises(OSError, outputs.write_whole, "/dev/full", "something")
         self.assert_only("target", "link", "fresh")
+
+    def test_stdout_is_for_the_json_alone(self):
+        self.path("lines").write_text('{"point": "pins", "group": "glitch", "class": "detected", "peak_nm": 0, '
+                                      '"integral_nm_s": 0}\n')
+        command = [sys.executable, "-B", ROOT / "scripts/faults.py", "--lines", self.path("lines"), "--json"]
+        for name in ("-", "/dev/stdout"):
+            done = subprocess.run([*command, name], capture_output=True, text=True, check=False)
+            self.assertEqual(json.loads(done.stdout)["faults"], 1)
+            self.assertIn("unsafe, of all faults: 0 of 1", done.stderr)
 
     def refused(self, script, *words, said):
         with self.subTest(script, words=words):
@@ -195,6 +234,9 @@ class Outputs(Bench):
         for script in ("demo.py", "figures.py"):
             self.refused(script, "-o", "/dev/null", said="-o /dev/null: is no folder")
         self.refused("synth.py", "--seeds", "a", said="--seeds a: wants whole numbers")
+        for same in ("a.json", "./a.json"):
+            words = ("--json", "a.json", "--save", same)
+            self.refused("faults.py", *words, said="is also that of --json")
         self.refused("explore.py", "bogus", said="bogus is neither a verb")
         self.assert_only()
 

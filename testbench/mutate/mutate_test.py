@@ -251,6 +251,11 @@ class Programs(unittest.TestCase):
                 mutate.arguments(words)
             self.assertEqual(ended.exception.code, 2)
 
+    def test_a_test_may_have_the_name_of_its_block(self):
+        one, other = (rtl.Test(name, "b", self.build, self.program) for name in ("b", "b_paper"))
+        for words, found in (([], [one, other]), (["b"], [one, other]), (["b.b"], [one]), (["b_paper"], [other])):
+            self.assertEqual(mutate.chosen([one, other], words), found)
+
     def test_a_row_of_the_table_is_of_all_tests_of_the_block(self):
         one, other = (rtl.Test(name, "b", self.build, self.program) for name in ("b", "b_paper"))
         mutate.check_whole([one, other], [one, other])

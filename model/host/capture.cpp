@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Setting a capture up, and reading it. Documentation: docs/host.md
+#include "host/capture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "config/nearest.hpp"
+#include "feltgate/generated/link.hpp"
+
+namespace feltgate::host {
+
+namespace {
+
+using M = LinkMap;
+
+constexpr int memory_row = 8;  ///< words of a row in the address space
+
+int words_in(unsigned mask) {
+  int n = 0;
+  for (; mask != 0; mask &= mask - 1) ++n;
+  return n;
+}
+
+/// Bits of the causes in a list "speed,stop"; all of them for an empty one.
+std::uint32_t bits_of(const std::vector<design::Cause>& causes, std::string list,
+                      const std::string& what) {
+  std::uint32_t bits = 0;
+  std::vector<std::string> names;
+  for (const design::Cause& c : causes) names.push_back(c.name);
+  if (list.empty()) {
+    for (const design::Cause& c : causes) bits |= 1u << c.number;
+    return bits;
+  }
+  while (!list.empty()) {
+    const std::size_t comma = std::min(list.find(','), list.size());
+    const std::string name = list.substr(0, comma);
+    list.erase(0, comma + 1);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      throw std::invalid_argument(fmt::format("{} \"{}\" is unknown; {}choose from {}", what, name,
+                                              config::did_you_mean(name, names),
+                                              fmt::join(names, ", ")));
+    }
+    bits |= 1u << causes[static_cast<std::size_t>(found - names.begin())].number;
+  }
+  return bits;
+}
+
+Trigger bit_trigger(const Quantity& q, std::uint32_t bits, const std::string& text) {
+  return {Trigger::Mode::bit, q.word, bits << q.bit, text};
+}
+
+void check_range(const char* what, std::int64_t value, std::int64_t low, std::int64_t high) {
+  if (value < low || value > high) {
+    throw std::invalid_argument(
+        fmt::format("{} {} do not go; choose from {} to {}", value, what, low, high));
+  }
+}
+
+}  // namespace
+
+Trigger parse_trigger(const Device& device, const std::string& text) {
+  const Quantities& q = device.quantities();
+  const design::RegisterMap& map = device.design().registers;
+  if (text == "now") return {Trigger::Mode::by_hand, 0, 0, text};
+  if (text == "armed") return bit_trigger(q.find("status.armed"), 1, text);
+  const std::string head = text.substr(0, text.find(':'));
+  const std::string list = head.size() < text.size() ? text.substr(head.size() + 1) : "";
+  if (head == "fault") {
+    return bit_trigger(q.find("faults.seen"), bits_of(map.faults, list, "fault"), text);
+  }
+  if (head == "limit") {
+    return bit_trigger(q.find("status.limits"), bits_of(map.limits, list, "limit"), text);
+  }
+  const std::size_t at = text.find_first_of("<>");
+  if (at == std::string::npos || at == 0) {
+    throw std::invalid_argument(fmt::format(
+        "\"{}\" is no trigger; write such as velocity>5, angle<-10deg, fault, limit:current, armed "
+        "or now",
+        text));
+  }
+  const Quantity& of = q.streamed(text.substr(0, at));
+  if (of.kind != Quantity::Kind::snapshot || of.unit.empty()) {
+    throw std::invalid_argument(fmt::format(
+        "{} is made of bits and has no level; trigger on fault, limit or armed", of.name));
+  }
+  const double level = std::round(q.value_in(of, text.substr(at + 1)) / of.scale);
+  if (!(std::abs(level) < 2147483648.0)) {
+    throw std::invalid_argument(
+        fmt::format("{} never reaches that level; choose a smaller one", of.name));
+  }
+  return {text[at] == '>' ? Trigger::Mode::rises : Trigger::Mode::falls, of.word,
+          static_cast<std::uint32_t>(static_cast<std::int64_t>(level) & 0xffffffff), text};
+}
+
+std::uint16_t mask_of(const Quantities& quantities, const std::vector<std::string>& names) {
+  unsigned mask = 0;
+  for (const std::string& name : names) mask |= 1u << quantities.streamed(name).word;
+  return static_cast<std::uint16_t>(mask);
+}
+
+void start_capture(Device& device, const CaptureSetup& setup) {
+  const BoardInfo& board = device.board();
+  if (!board.has_capture) {
+    throw Refused("this board's link is built without a capture; only get, set and watch work");
+  }
+  const std::uint16_t mask = mask_of(device.quantities(), setup.quantities);
+  if (words_in(mask) > board.capture_columns || mask == 0) {
+    throw std::invalid_argument(
+        fmt::format("{} words are asked for, a row of this board has {}; "
+                    "leave some out",
+                    words_in(mask), board.capture_columns));
+  }
+  check_range("rows before the trigger", setup.rows_before, 0, board.capture_rows - 1);
+  check_range("ticks from row to row", setup.period, 1, 0xffffffff);
+  Link& link = device.link();
+  link.write(M::A::capture_control, 1u << M::B::capture_control_abort);
+  link.write(M::A::capture_words, mask);
+  link.write(M::A::capture_pre, static_cast<std::uint32_t>(setup.rows_before));
+  link.write(M::A::capture_period, setup.period);
+  link.write(M::A::trigger_word, static_cast<std::uint32_t>(setup.trigger.word));
+  link.write(M::A::trigger_mode, static_cast<std::uint32_t>(setup.trigger.mode));
+  link.write(M::A::trigger_level, setup.trigger.level);
+  link.write(M::A::capture_control, 1u << M::B::capture_control_start);
+}
+
+int capture_state(Device& device) {
+  return static_cast<int>(device.link().read(M::A::capture_state));
+}
+
+void trigger_now(Device& device) {
+  device.link().write(M::A::capture_control, 1u << M::B::capture_control_trigger);
+}
+
+void abort_capture(Device& device) {
+  device.link().write(M::A::capture_control, 1u << M::B::capture_control_abort);
+}
+
+Captured read_capture(Device& device, const CaptureSetup& setup,
+                      const std::function<void(double)>& progress) {
+  const std::vector<std::uint32_t> words =
+      device.link().read(M::A::capture_state, M::A::capture_rows - M::A::capture_state + 1);
+  const auto at = [&words](int address) {
+    return static_cast<int>(words[static_cast<std::size_t>(address - M::A::capture_state)]);
+  };
+  const int all = device.board().capture_rows;
+  const int rows = std::clamp(at(M::A::capture_rows), 0, all);
+  Captured c;
+  c.simulated = device.board().simulated;
+  c.row_s = setup.period / device.board().tick_hz();
+  const int state = at(M::A::capture_state);
+  c.trigger_row = state == 4 ? std::min(setup.rows_before, rows - 1) : -1;
+  const std::uint16_t mask = mask_of(device.quantities(), setup.quantities);
+  for (const std::string& name : setup.quantities) {
+    c.columns.push_back(&device.quantities().streamed(name));
+  }
+  const auto used = static_cast<std::size_t>(words_in(mask));
+  const int batch = static_cast<int>(M::read_words) / memory_row;
+  for (int row = 0; row < rows;) {
+    // The ring begins at capture_first; a read must not run past its end.
+    const int place = (at(M::A::capture_first) + row) % all;
+    const int now = std::min({batch, rows - row, all - place});
+    const std::vector<std::uint32_t> got =
+        device.link().read(static_cast<int>(M::memory) + memory_row * place, memory_row * now);
+    for (int n = 0; n < now; ++n, ++row) {
+      Tick t;
+      t.mask = mask;
+      const auto from = got.begin() + memory_row * n;
+      t.words.assign(from, from + static_cast<std::ptrdiff_t>(used));
+      t.time_s = (row - std::max(c.trigger_row, 0)) * c.row_s;
+      c.rows.push_back(std::move(t));
+    }
+    progress(static_cast<double>(row) / rows);
+  }
+  return c;
+}
+
+}  // namespace feltgate::host

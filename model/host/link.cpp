@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Requests and answers. Documentation: docs/host.md, docs/link.md
+#include "host/link.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "feltgate/generated/link.hpp"
+
+namespace feltgate::host {
+
+namespace {
+
+using M = LinkMap;
+
+constexpr std::size_t head_bytes = 4;
+constexpr std::size_t most_streamed = 100'000;  ///< frames that wait for someone to take them
+/// Longest wait for an answer before it is asked for again, and the shortest: a USB adapter holds
+/// bytes back for up to 16 ms.
+constexpr double longest_wait_s = 1.0, shortest_wait_s = 0.02;
+constexpr double quiet_s = 0.02;  ///< garbage that has arrived is read until so long nothing came
+
+int bits_of(unsigned mask) {
+  int n = 0;
+  for (; mask != 0; mask &= mask - 1) ++n;
+  return n;
+}
+
+Bytes request(std::uint32_t kind, std::uint8_t sequence, int address, std::uint32_t word) {
+  Bytes bytes{static_cast<std::uint8_t>(kind), sequence};
+  put_le(bytes, static_cast<std::uint32_t>(address), 2);
+  put_le(bytes, word, 4);
+  return bytes;
+}
+
+/// Whether the frame answers this request.
+bool answers(const Bytes& frame, const Bytes& asked, std::size_t words) {
+  return frame.size() == head_bytes + 4 * words && frame[0] == (asked[0] | M::kind_reply) &&
+         std::equal(frame.begin() + 1, frame.begin() + head_bytes, asked.begin() + 1);
+}
+
+}  // namespace
+
+Link::Link(Transport& transport, LinkOptions options) : transport_(transport), options_(options) {}
+
+void Link::begin() {
+  std::array<std::uint8_t, 4096> waste{};
+  const Deadline end = within(0.5);
+  while (HostClock::now() < end &&
+         transport_.read(waste.data(), waste.size(), within(quiet_s)) > 0) {
+  }
+  const std::array<std::uint8_t, 2> ends{M::frame_end, M::frame_end};
+  transport_.write(ends.data(), ends.size());
+  in_step_ = true;
+  // Where the last host stopped: the first read must not look like a repetition either.
+  const std::uint32_t last = read(M::A::last_write_sequence);
+  write_sequence_ = static_cast<std::uint8_t>(last & 0xffu);
+}
+
+std::optional<Bytes> Link::listen(Deadline deadline, const Bytes* expected, std::size_t words) {
+  std::array<std::uint8_t, 4096> buffer{};
+  for (;;) {
+    while (auto frame = reader_.next()) {
+      if (expected != nullptr && answers(*frame, *expected, words)) return frame;
+      if ((*frame)[0] == M::kind_stream) {
+        take_stream(*frame);
+      } else {
+        ++counts_.stray;
+      }
+    }
+    // Enough came; what has arrived meanwhile must not overflow the system's buffer.
+    if (expected == nullptr && !streamed_.empty()) deadline = HostClock::now();
+    const std::size_t got = transport_.read(buffer.data(), buffer.size(), deadline);
+    if (got == 0) return {};
+    reader_.add(buffer.data(), got);
+  }
+}
+
+void Link::take_stream(const Bytes& frame) {
+  if (frame.size() < head_bytes) {
+    ++counts_.stray;
+    return;
+  }
+  StreamFrame s;
+  s.mask = static_cast<std::uint16_t>(get_le(frame, 2, 2));
+  if (frame.size() != head_bytes + 4 * static_cast<std::size_t>(bits_of(s.mask))) {
+    ++counts_.stray;
+    return;
+  }
+  for (std::size_t at = head_bytes; at < frame.size(); at += 4) {
+    s.words.push_back(get_le(frame, at, 4));
+  }
+  if (stream_counter_) s.lost = static_cast<std::uint8_t>(frame[1] - *stream_counter_ - 1);
+  stream_counter_ = frame[1];
+  ++counts_.streamed;
+  counts_.lost += s.lost;
+  streamed_.push_back(std::move(s));
+  if (streamed_.size() > most_streamed) {
+    streamed_.pop_front();
+    ++counts_.unread;
+  }
+}
+
+/// As TCP does: the mean and its deviation, so that a slow board is not asked twice.
+void Link::time_taken(double seconds) {
+  deviation_s_ += 0.25 * (std::abs(seconds - mean_s_) - deviation_s_);
+  mean_s_ += 0.125 * (seconds - mean_s_);
+}
+
+Bytes Link::ask(const Bytes& asked, std::size_t words) {
+  if (!in_step_) begin();
+  ++counts_.requests;
+  const Bytes wire = framed(asked);
+  const Deadline give_up = within(options_.patience_s);
+  double wait_s = std::clamp(mean_s_ + 4 * deviation_s_, shortest_wait_s, longest_wait_s);
+  for (bool again = false;; again = true) {
+    if (again) ++counts_.retries;
+    const Deadline sent = HostClock::now();
+    transport_.write(wire.data(), wire.size());
+    if (auto frame = listen(std::min(within(wait_s), give_up), &asked, words)) {
+      const std::chrono::duration<double> taken = HostClock::now() - sent;
+      if (!again) time_taken(taken.count());
+      return *std::move(frame);
+    }
+    if (HostClock::now() >= give_up) {
+      throw LinkLost(fmt::format(
+          "{}: no answer for {:g} s; is the board on and configured, is this its port, and "
+          "does --baud fit? {} bytes came, {} good frames",
+          transport_.name(), options_.patience_s, reader_.counts().bytes, reader_.counts().good));
+    }
+    wait_s = std::min(2 * wait_s, longest_wait_s);
+  }
+}
+
+std::vector<std::uint32_t> Link::read(int address, int count) {
+  std::vector<std::uint32_t> all;
+  while (count > 0) {
+    const int words = std::min(count, static_cast<int>(M::read_words));
+    const auto size = static_cast<std::size_t>(words);
+    const Bytes frame = ask(
+        request(M::kind_read, ++read_sequence_, address, static_cast<std::uint32_t>(words)), size);
+    for (std::size_t n = 0; n < size; ++n) all.push_back(get_le(frame, head_bytes + 4 * n, 4));
+    address += words;
+    count -= words;
+  }
+  return all;
+}
+
+std::uint32_t Link::write(int address, std::uint32_t value) {
+  if (!in_step_) begin();
+  return get_le(ask(request(M::kind_write, ++write_sequence_, address, value), 1), head_bytes, 4);
+}
+
+std::optional<StreamFrame> Link::stream(Deadline deadline) {
+  listen(deadline, nullptr, 0);
+  if (streamed_.empty()) return {};
+  StreamFrame s = std::move(streamed_.front());
+  streamed_.pop_front();
+  return s;
+}
+
+LinkCounts Link::counts() const {
+  LinkCounts c = counts_;
+  c.frames = reader_.counts();
+  return c;
+}
+
+}  // namespace feltgate::host

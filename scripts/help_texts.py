@@ -3,7 +3,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """docs/commands: what --help prints, so that ./feltgate can print it before anything is built.
 
-  ninja -C build feltgate feltgate_generate feltgate_bench feltgate_extremes && scripts/help_texts.py --write
+  ninja -C build feltgate feltgate_generate feltgate_bench feltgate_extremes \\
+    feltgate_host && scripts/help_texts.py --write
 """
 
 import argparse
@@ -32,6 +33,12 @@ def subcommands():
     return re.findall(r'^\s*"([a-z]+)\|', table, re.M)
 
 
+def host_verbs():
+    """As their table lists them."""
+    table = (ROOT / "model/tools/host/verbs.cpp").read_text(encoding="utf-8")
+    return re.findall(r'^ +\{"([a-z]+)", "', table, re.M)
+
+
 def commands(build):
     """{name of the text: command that prints it}."""
     from explore import VERBS
@@ -47,9 +54,12 @@ def commands(build):
         "generate": [build / "feltgate_generate", ROOT],
         "bench": [build / "feltgate_bench"],
         "extremes": [build / "feltgate_extremes"],
+        "host": [build / "feltgate_host"],
     }
     found = {name: own.get(name, [build / "feltgate", name]) for name in subcommands()}
     found["mutate--twin"] = [*own["mutate"], "--twin"]
+    for verb in host_verbs():
+        found[f"host-{verb}"] = [*own["host"], "PORT", verb]
     for verb in VERBS:
         found[f"explore-{verb}"] = [build / "feltgate", "explore", verb]
     return found

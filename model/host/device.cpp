@@ -48,7 +48,9 @@ std::uint32_t Tick::word(const Quantity& q) const {
 }
 
 Device::Device(Link& link, const BoardInfo& board, design::Elaborated design)
-    : link_(link), board_(board), design_(std::move(design)), quantities_(design_) {}
+    : link_(link), board_(board), design_(std::move(design)), quantities_(design_) {
+  command("thaw");  // a host that ended between its freeze and thaw has left the snapshot held
+}
 
 Tick Device::tick() {
   command("freeze");

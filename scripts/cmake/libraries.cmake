@@ -74,6 +74,11 @@ target_include_directories(feltgate_config SYSTEM PUBLIC
 # Output files that are whole or not there.
 feltgate_sim_library(files files)
 feltgate_sim_library(design design feltgate_config)
+
+# The host's side of the link; Boost.Asio in headers.
+find_package(Threads REQUIRED)
+feltgate_library(feltgate_hostlink host feltgate_design Boost::headers Threads::Threads)
+
 feltgate_sim_library(bounds bounds feltgate_design Boost::headers)
 
 # The plant itself reads no file; plant_files reads plants and hands.

@@ -59,6 +59,13 @@ feltgate_program(feltgate_point_bounds bounds_main.cpp feltgate_bounds nlohmann_
 add_dependencies(feltgate
   feltgate_generate feltgate_point_bounds feltgate_explore feltgate_verilated)
 
+# The host of a board; it needs no simulation, so it is built by itself.
+file(GLOB host_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/tools"
+  "${FELTGATE_ROOT}/model/tools/host/*.cpp")
+feltgate_program(feltgate_host
+  "host_main.cpp;checks.cpp;commands.cpp;command_line.cpp;${host_sources}"
+  feltgate_files feltgate_engines feltgate_hostlink feltgate_traces nlohmann_json::nlohmann_json CLI11::CLI11)
+
 # The benchmark links SystemC, which nothing else of the product needs: only built when asked for.
 feltgate_library(feltgate_bench_parts bench feltgate_rtl feltgate_loop systemc)
 target_compile_definitions(feltgate_bench_parts PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Port, board, design. Documentation: docs/host.md
+#include "tools/host/session.hpp"
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+
+#include "tools/commands.hpp"
+
+namespace feltgate::host {
+
+namespace {
+
+std::atomic<bool> was_interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
+struct sigaction before[std::size(signals)];
+
+extern "C" void note_signal(int) { was_interrupted = true; }
+
+}  // namespace
+
+Link& Session::link() {
+  if (!link_) {
+    transport_ = open_serial(options.port, options.baud);
+    LinkOptions how;
+    how.patience_s = options.patience_s;
+    link_.emplace(*transport_, how);
+    link_->begin();
+  }
+  return *link_;
+}
+
+const BoardInfo& Session::board() {
+  if (!board_) board_ = read_board(link());
+  return *board_;
+}
+
+const KnownDesign* Session::design_if_known() {
+  if (!looked_) {
+    looked_ = true;
+    if (!options.design.empty()) {
+      KnownDesign given = read_known_design(repository(), find_file(options.design, "rtl/designs"));
+      if (given.crc == board().design_crc) {
+        design_ = std::move(given);
+      } else {
+        const auto right = design_by_crc(repository(), board().design_crc);
+        throw std::invalid_argument(fmt::format(
+            "--design {}: its CRC is 0x{:08x}, the board's 0x{:08x}{}; values would have wrong "
+            "units",
+            options.design, given.crc, board().design_crc,
+            right ? fmt::format(", which is {}: leave --design out", right->name())
+                  : "; give the file that the board was built from"));
+      }
+    } else {
+      design_ = design_by_crc(repository(), board().design_crc);
+    }
+  }
+  return design_ ? &*design_ : nullptr;
+}
+
+const KnownDesign& Session::design() {
+  if (const KnownDesign* known = design_if_known()) return *known;
+  throw std::invalid_argument(
+      fmt::format("{}: the board's design (CRC 0x{:08x}) is none of rtl/designs as they are now; "
+                  "give its file: --design FILE",
+                  options.port, board().design_crc));
+}
+
+Device& Session::device() {
+  if (!device_) device_.emplace(link(), board(), design().design);
+  return *device_;
+}
+
+Interruptible::Interruptible() {
+  was_interrupted = false;
+  struct sigaction note {};
+  note.sa_handler = note_signal;
+  for (std::size_t n = 0; n < std::size(signals); ++n) {
+    (void)sigaction(signals[n], &note, &before[n]);
+  }
+}
+
+Interruptible::~Interruptible() {
+  for (std::size_t n = 0; n < std::size(signals); ++n) {
+    (void)sigaction(signals[n], &before[n], nullptr);
+  }
+}
+
+bool Interruptible::interrupted() { return was_interrupted; }
+
+Hold::~Hold() {
+  if (!holds_) return;
+  try {
+    release();
+  } catch (const std::exception& e) {
+    std::fputs(fmt::format("feltgate host: the disarm did not reach the board: {}\n"
+                           "  its watchdog disarms {:g} s after the last kick\n",
+                           e.what(), device_.watchdog_s())
+                   .c_str(),
+               stderr);
+  }
+}
+
+void Hold::arm(const std::string& scene) {
+  holds_ = true;  // from the first write on, so that an error in between disarms
+  device_.arm(scene, true, [] { return !Interruptible::interrupted(); });
+  next_ = HostClock::now();
+  poll();
+}
+
+void Hold::take_over() {
+  if (!device_.host_has_the_say() || !device_.armed(device_.tick())) return;
+  device_.kick();
+  holds_ = true;
+  next_ = within(device_.watchdog_s() / 4);
+}
+
+void Hold::poll() {
+  if (!holds_ || HostClock::now() < next_) return;
+  device_.kick();
+  next_ = within(device_.watchdog_s() / 4);
+}
+
+double Hold::next_in_s() const {
+  constexpr double idle_s = 0.1;
+  if (!holds_) return idle_s;
+  const std::chrono::duration<double> left = next_ - HostClock::now();
+  return std::min(idle_s, std::max(0.0, left.count()));
+}
+
+void Hold::release() {
+  if (!holds_) return;
+  device_.disarm();
+  holds_ = false;
+}
+
+std::string simulated_banner(const BoardInfo& board) {
+  return board.simulated ? "*** SIMULATED: no board, no motor; these values come from a model ***\n"
+                         : "";
+}
+
+std::string link_troubles(const LinkCounts& c) {
+  const std::uint64_t bad = c.frames.bad_crc + c.frames.bad_slip + c.frames.too_long;
+  if (c.retries + bad + c.unread == 0) return "";
+  return fmt::format(
+      "link: {} of {} requests repeated, {} damaged frames, {} frames of the stream lost\n",
+      c.retries, c.requests, bad, c.lost + c.unread);
+}
+
+}  // namespace feltgate::host

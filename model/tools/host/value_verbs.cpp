@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate host PORT get, set. Documentation: docs/host.md
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "files/output_file.hpp"
+#include "tools/commands.hpp"
+#include "tools/host/session.hpp"
+#include "tools/host/verbs.hpp"
+
+namespace feltgate::host {
+
+namespace {
+
+struct GetArguments {
+  std::vector<std::string> names;
+  std::string json;
+  bool all = false;
+};
+
+const char* mark(const Quantity& q) {
+  if (!q.writable) return "";
+  if (q.while_armed == "acts") return "set, acts at once";
+  return q.while_armed == "ramps" ? "set, the torque ramps" : "set while disarmed";
+}
+
+int get(Session& session, const GetArguments& a) {
+  if (a.all != a.names.empty()) {
+    throw std::invalid_argument(a.all ? "get: give names or --all, not both"
+                                      : "get: give NAMES, or --all for all there is");
+  }
+  files::Outputs outputs;
+  files::OutputFile* json = outputs.open("--json", a.json);
+  Device& device = session.device();
+  std::vector<const Quantity*> asked;
+  for (const std::string& name : a.names) asked.push_back(&device.quantities().find(name));
+  if (a.all) {
+    for (const Quantity& q : device.quantities().all()) asked.push_back(&q);
+  }
+  bool of_tick = false;
+  for (const Quantity* q : asked) of_tick = of_tick || q->word >= 0;
+  const Tick tick = of_tick ? device.tick() : Tick{};
+  nlohmann::ordered_json j;
+  j["schema"] = "feltgate-host-values/1";
+  j["simulated"] = device.board().simulated;
+  std::string text = simulated_banner(device.board());
+  for (const Quantity* q : asked) {
+    const std::uint32_t word = q->word >= 0 ? tick.word(*q) : device.word(*q);
+    j["values"][q->name] = {{"value", q->value_of(word)}, {"unit", q->unit}};
+    text += fmt::format("{:<24} {:<26} {:<22} {}\n", q->name, q->text_of(word), mark(*q), q->doc);
+  }
+  if (json != nullptr) json->write(j.dump(2) + "\n");
+  outputs.say(text);
+  outputs.commit();
+  return exit_ok;
+}
+
+int set(Session& session, const std::vector<std::string>& texts) {
+  Device& device = session.device();
+  // All of them first: one that cannot be used must not leave the others half done.
+  std::vector<Setting> settings;
+  for (const std::string& text : texts) {
+    settings.push_back(device.quantities().setting(text));
+  }
+  std::fputs(simulated_banner(device.board()).c_str(), stdout);
+  bool all_well = true;
+  for (const Setting& s : settings) {
+    const Quantity& q = *s.of;
+    const SetResult r = device.set(s);
+    std::string what = fmt::format("{} = {}", q.name, q.text_of(s.word));
+    if (std::abs(s.value() - s.asked) > 1e-9 * std::abs(s.asked)) {
+      what += fmt::format(", rounded from {:.9g} to a step of [{},{},{}], {:.3g} {}", s.asked,
+                          q.format.sign, q.format.integer, q.format.fraction, q.scale, q.unit);
+    }
+    if (r.refused || !r.kept) {
+      all_well = false;
+      what = fmt::format("{}: refused, stays {}; {}", q.name, q.text_of(device.word(q)),
+                         r.refused ? "the motor is armed and the torque could jump: disarm first"
+                                   : "the board did not keep it");
+    }
+    std::fputs((what + "\n").c_str(), stdout);
+  }
+  return all_well ? exit_ok : exit_failed;
+}
+
+}  // namespace
+
+Run add_get(CLI::App& sub) {
+  auto a = std::make_shared<GetArguments>();
+  sub.footer(
+      "  feltgate host /dev/ttyUSB0 get angle velocity torque_limit\n"
+      "  feltgate host /dev/ttyUSB0 get --all                  all names, and what can be set\n"
+      "Words of a tick are all of the same one. Other words are of the moment that each is read.\n"
+      "Exit code: 0 read, 2 unusable input or port, 3 the link broke down.");
+  sub.add_option("names", a->names, "parameters, words of a tick, bits such as status.armed")
+      ->type_name("NAME");
+  sub.add_flag("--all", a->all, "everything, with its meaning");
+  sub.add_option("--json", a->json, "the same as JSON (docs/json.md)")->type_name("FILE");
+  return [a](Session& session) { return get(session, *a); };
+}
+
+Run add_set(CLI::App& sub) {
+  auto settings = std::make_shared<std::vector<std::string>>();
+  sub.footer(
+      "  feltgate host /dev/ttyUSB0 set torque_limit=0.1 wall_contact=0.2rad\n"
+      "A value may have its unit behind it: the parameter's own, rad or deg for counts, Nm/rad "
+      "for\n"
+      "Nm/count, s or ms for ticks. What is set holds until the FPGA is configured anew.\n"
+      "Exit code: 0 set, 1 refused by the board, 2 unusable input: nothing is set, 3 the link "
+      "broke down.");
+  sub.add_option("settings", *settings, "what to set")->required()->type_name("NAME=VALUE");
+  return [settings](Session& session) { return set(session, *settings); };
+}
+
+}  // namespace feltgate::host

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The verbs of feltgate host; each adds its options and returns what runs it. Documentation:
+// docs/host.md
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace feltgate::host {
+
+class Session;
+using Run = std::function<int(Session&)>;
+
+Run add_info(CLI::App& sub);
+Run add_get(CLI::App& sub);
+Run add_set(CLI::App& sub);
+Run add_scene(CLI::App& sub);
+Run add_arm(CLI::App& sub);
+Run add_disarm(CLI::App& sub);
+Run add_stop(CLI::App& sub);
+Run add_clear(CLI::App& sub);
+Run add_zero(CLI::App& sub);
+Run add_watch(CLI::App& sub);
+Run add_capture(CLI::App& sub);
+Run add_record(CLI::App& sub);
+
+}  // namespace feltgate::host

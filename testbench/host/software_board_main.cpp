@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The software board on a pseudo-terminal: prints the name, then follows orders from stdin until it
+// ends: fault N, silent, loud, unplug, crc N, armed?, kicks?, word ADDRESS.
+#include <fcntl.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+#include <string>
+
+#include "software_board.hpp"
+
+namespace {
+
+int open_terminal() {
+  const int master = ::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+  if (master < 0 || ::grantpt(master) != 0 || ::unlockpt(master) != 0) std::exit(2);
+  return master;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);
+  feltgate::test::Noise noise;
+  for (int n = 1; n + 1 < argc; n += 2) {
+    const std::string name = argv[n];
+    const double value = std::strtod(argv[n + 1], nullptr);
+    if (name == "drop") noise.drop = value;
+    if (name == "flip") noise.flip = value;
+    if (name == "halve") noise.halve = value;
+    if (name == "junk") noise.junk = value;
+  }
+  const int master = open_terminal();
+  const std::string name = ::ptsname(master);
+  // Held open without the host: else the terminal hangs up whenever a host ends.
+  int slave = ::open(name.c_str(), O_RDWR | O_NOCTTY);
+  termios raw{};
+  (void)::tcgetattr(slave, &raw);
+  ::cfmakeraw(&raw);
+  (void)::tcsetattr(slave, TCSANOW, &raw);
+  feltgate::test::SoftwareBoard board(master, noise);
+  std::cout << name << std::endl;
+  for (std::string line; std::getline(std::cin, line);) {
+    std::istringstream words(line);
+    std::string order;
+    int number = 0;
+    words >> order >> std::setbase(0) >> number;
+    if (order == "fault") board.set_fault(number);
+    if (order == "silent") board.set_silent(true);
+    if (order == "loud") board.set_silent(false);
+    if (order == "unplug") {
+      ::close(slave);
+      board.unplug();
+    }
+    if (order == "crc") board.set_design_crc(static_cast<std::uint32_t>(number));
+    if (order == "armed?") std::cout << board.armed() << std::endl;
+    if (order == "kicks?") std::cout << board.kicks() << std::endl;
+    if (order == "word") std::cout << board.word(number) << std::endl;
+    if (order != "armed?" && order != "kicks?" && order != "word") std::cout << "ok" << std::endl;
+  }
+  return 0;
+}

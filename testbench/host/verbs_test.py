@@ -1,0 +1,314 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Every verb of feltgate host on a pseudo-terminal: a board in software, with and without noise, and
+the session of docs/host.md."""
+
+import csv
+import json
+import os
+import pty
+import re
+import shlex
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+ROOT = Path(os.environ["FELTGATE_ROOT"])
+BUILD = Path(os.environ["FELTGATE_BUILD"])
+PAGE = ROOT / "docs/host.md"
+# The picture needs Debian's matplotlib.
+PYTHON = "/usr/bin/python3" if os.access("/usr/bin/python3", os.X_OK) else sys.executable
+BANNER = "*** SIMULATED: no board, no motor; these values come from a model ***\n"
+
+
+class Board:
+    """The software board in a process of its own."""
+
+    def __init__(self, *noise):
+        self.process = subprocess.Popen(
+            [BUILD / "feltgate_software_board", *map(str, noise)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        self.port = self.process.stdout.readline().strip()
+
+    def order(self, words):
+        self.process.stdin.write(words + "\n")
+        self.process.stdin.flush()
+        return self.process.stdout.readline().strip()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.stdin.close()
+        self.process.wait()
+        self.process.stdout.close()
+
+
+class VerbTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def command(self, port, *words):
+        return [str(BUILD / "feltgate_host"), port, *map(str, words)]
+
+    def environment(self):
+        return os.environ | {"FELTGATE_PYTHON": PYTHON, "FELTGATE_ROOT": str(ROOT)}
+
+    def start(self, port, *words):
+        return subprocess.Popen(
+            self.command(port, *words),
+            env=self.environment(),
+            cwd=self.folder.name,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+
+    def host(self, port, *words, status=0):
+        done = subprocess.run(
+            self.command(port, *words),
+            env=self.environment(),
+            cwd=self.folder.name,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=60,
+        )
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done.stdout + done.stderr
+
+    def path(self, name):
+        return Path(self.folder.name) / name
+
+
+def patterns_of(text):
+    """Its lines without what differs from run to run; of several alike in a row, one."""
+    patterns = [pattern_of(line) for line in text.splitlines()]
+    return [p for n, p in enumerate(patterns) if n == 0 or p != patterns[n - 1]]
+
+
+def pattern_of(line):
+    """Numbers, and how columns are filled, differ from run to run."""
+    line = re.sub(r"0x[0-9a-f]+|[-+]?\d[\d.]*(?:e[-+]?\d+)?", "#", line)
+    return re.sub(r"\s+", " ", line.replace(str(ROOT) + "/", "")).strip()
+
+
+class Session(VerbTest):
+    def test_the_page(self):
+        blocks = re.findall(r"```console\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.S)
+        self.assertGreater(len(blocks), 4)
+        lines = 0
+        with Board() as board:
+            for block in blocks:
+                for part in re.split(r"^\$ ", block, flags=re.M)[1:]:
+                    line, _, shown = part.partition("\n")
+                    words = shlex.split(line)
+                    self.assertEqual(words[:3], ["./feltgate", "host", "/dev/ttyUSB0"])
+                    with self.subTest(line):
+                        done = subprocess.run(
+                            self.command(board.port, *words[3:]),
+                            env=self.environment(),
+                            cwd=self.folder.name,
+                            capture_output=True,
+                            text=True,
+                            check=False,
+                            timeout=60,
+                        )
+                        said = done.stderr + done.stdout
+                        said = said.replace(board.port, "/dev/ttyUSB0")
+                        self.assertEqual(patterns_of(said), patterns_of(shown))
+                    lines += 1
+        self.assertGreater(lines, 8)
+
+    def test_every_verb_is_on_the_page(self):
+        table = (ROOT / "model/tools/host/verbs.cpp").read_text(encoding="utf-8")
+        page = PAGE.read_text(encoding="utf-8")
+        for verb in re.findall(r'^ +\{"([a-z]+)", "', table, re.M):
+            self.assertRegex(page, rf"\b{verb}\b")
+
+
+class Verbs(VerbTest):
+    def test_info_is_json_too_and_a_fault_is_exit_code_1(self):
+        with Board() as board:
+            self.host(board.port, "info", "--json", self.path("info.json"))
+            found = json.loads(self.path("info.json").read_text(encoding="utf-8"))
+            self.assertEqual(found["schema"], "feltgate-host-info/1")
+            self.assertEqual((found["design"], found["simulated"]), ("lever", True))
+            board.order("fault 2")
+            said = self.host(board.port, "info", status=1)
+            self.assertIn("fault speed (the first): |w| above the limit", said)
+
+    def test_another_design(self):
+        with Board() as board:
+            board.order("crc 7")
+            self.assertIn("design    unknown", self.host(board.port, "info"))
+            said = self.host(board.port, "get", "angle", status=2)
+            self.assertIn("give its file: --design FILE", said)
+            said = self.host(board.port, "--design", "lever", "get", "angle", status=2)
+            self.assertIn("the board's 0x00000007", said)
+        with Board() as board:
+            said = self.host(board.port, "get", "angle", "--design", "paper", status=2)
+            self.assertIn("which is lever: leave --design out", said)
+
+    def test_values(self):
+        with Board() as board:
+            said = self.host(board.port, "get", "--all", "--json", self.path("all.json"))
+            for name in ("torque_limit", "velocity", "status.refused", "control.filter", "frames_bad"):
+                self.assertRegex(said, rf"(?m)^{name} ")
+            found = json.loads(self.path("all.json").read_text(encoding="utf-8"))
+            self.assertEqual(found["values"]["torque_limit"], {"value": 0.5, "unit": "Nm"})
+            said = self.host(board.port, "set", "hold_time=1s", "ramp_step=2Nm/s")
+            self.assertIn("hold_time = 977 1024 ticks", said)
+            before = board.order("word 0x18")
+            self.host(board.port, "set", "torque_limit=0.2", "torque_limit=99", status=2)
+            self.assertEqual(board.order("word 0x18"), before)
+            self.host(board.port, "arm", "wall")
+            said = self.host(board.port, "set", "voltage_gain=0.3", "torque_limit=0.2", status=1)
+            self.assertIn("voltage_gain: refused, stays 0.41999", said)
+            self.assertIn("torque_limit = 0.19999", said)
+            self.host(board.port, "disarm")
+            self.host(board.port, "scene", "membrane")
+            self.assertIn("scene membrane", self.host(board.port, "info"))
+            self.host(board.port, "zero")
+            self.assertIn("is not built", self.host(board.port, "scene", "nowhere", status=2))
+
+    def test_holding_kicks_and_every_way_out_disarms(self):
+        for end in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            with Board() as board, self.subTest(end):
+                held = self.start(board.port, "arm", "wall", "--hold")
+                self.assertEqual(held.stdout.readline(), BANNER)
+                self.assertIn("armed", held.stdout.readline())
+                time.sleep(0.3)
+                self.assertEqual(board.order("armed?"), "1")
+                self.assertGreater(int(board.order("kicks?")), 8)
+                held.send_signal(end)
+                out, err = held.communicate(timeout=10)
+                self.assertEqual((held.returncode, out, err), (0, "disarmed\n", ""))
+                self.assertEqual(board.order("armed?"), "0")
+
+    def test_a_fault_ends_a_hold(self):
+        with Board() as board:
+            held = self.start(board.port, "arm", "wall", "--hold")
+            held.stdout.readline(), held.stdout.readline()
+            board.order("fault 2")
+            _, err = held.communicate(timeout=10)
+            self.assertEqual(held.returncode, 1)
+            self.assertIn("the motor is off\n  fault speed (the first)", err)
+
+    def test_watch_adopts_what_the_host_armed(self):
+        with Board() as board:
+            self.host(board.port, "arm", "wall")
+            kicks = int(board.order("kicks?"))
+            self.host(board.port, "watch", "--for", 0.3)
+            self.assertGreater(int(board.order("kicks?")), kicks + 4)
+            self.assertEqual(board.order("armed?"), "0")
+            self.assertEqual(board.order("word 0x1011"), "0")  # the stream is off again
+
+    def test_watch_on_a_terminal_and_for_teleplot(self):
+        with Board() as board:
+            said = self.host(board.port, "watch", "angle", "--teleplot", "--for", 0.35)
+            self.assertRegex(said, r"(?m)^>angle:\d+\.\d{3}:-?[\d.e-]+§rad$")
+            self.assertGreaterEqual(said.count("§rad"), 3)
+            master, slave = pty.openpty()
+            words = self.command(board.port, "watch", "angle", "--for", 0.5, "--every", 0.05)
+            with subprocess.Popen(words, env=self.environment(), stdout=slave) as process:
+                process.wait(timeout=20)
+            os.close(slave)
+            shown = os.read(master, 100000).decode()
+            os.close(master)
+            self.assertEqual(process.returncode, 0)
+            self.assertIn("SIMULATED", shown)
+            self.assertRegex(shown, "[▁▂▃▄▅▆▇█]{5}")
+
+    def test_too_fast_for_the_wire(self):
+        with Board() as board:
+            said = self.host(board.port, "watch", "--every", 1e-5, status=2)
+            self.assertIn("use capture", said)
+
+    def test_capture_csv_picture_and_vector(self):
+        with Board() as board:
+            self.host(
+                board.port, "capture", "angle", "velocity", "--trigger", "angle<-5deg", "--span", 0.1,
+                "--csv", "c.csv", "--picture", "c.svg", "--vector", "c.vec", "--arm", "wall",
+            )  # fmt: skip
+            with open(self.path("c.csv"), encoding="utf-8") as file:
+                rows = list(csv.DictReader(file))
+            self.assertEqual(list(rows[0]), ["time_s", "angle_rad", "velocity_rad_s", "position"])
+            self.assertEqual(len(rows), 1024)
+            self.assertEqual(float(rows[256]["time_s"]), 0)
+            self.assertGreater(float(rows[200]["angle_rad"]), -0.0873)
+            self.assertLess(float(rows[256]["angle_rad"]), -0.086)
+            self.assertIn("SIMULATED", self.path("c.svg").read_text(encoding="utf-8"))
+            vector = self.path("c.vec").read_text(encoding="utf-8").splitlines()
+            self.assertTrue(vector[0].startswith("feltgate-vector 1 design=lever clock_hz=50000000"))
+            self.assertEqual(board.order("armed?"), "0")
+            self.host(
+                board.port, "capture", "angle", "tau_ref", "--csv", "xy.csv",
+                "--picture", "xy.png", "--xy", "angle,tau_ref",
+            )  # fmt: skip
+            self.assertEqual(self.path("xy.png").read_bytes()[1:4], b"PNG")
+            said = self.host(
+                board.port, "capture", "--trigger", "velocity>900", "--wait", 0.3, "--csv", "n.csv",
+                status=1,
+            )  # fmt: skip
+            self.assertIn("did not come within 0.3 s; nothing is written", said)
+            self.assertFalse(self.path("n.csv").exists())
+
+    def test_noise_costs_time_and_nothing_else(self):
+        with Board("drop", 0.002, "flip", 0.002, "halve", 0.02, "junk", 0.05) as board:
+            self.host(board.port, "set", "torque_limit=0.25", "wall_contact=12")
+            self.assertEqual(board.order("word 0x18"), str(1 << 14))
+            said = self.host(board.port, "get", "torque_limit")
+            self.assertIn("0.25 Nm", said)
+            said = self.host(board.port, "--patience", 20, "capture", "angle", "--csv", "noisy.csv")
+            self.assertIn("requests repeated", said)
+            self.assertEqual(len(self.path("noisy.csv").read_text(encoding="utf-8").splitlines()), 1025)
+
+
+class Trouble(VerbTest):
+    def test_no_such_port(self):
+        said = self.host("/dev/ttyNOWHERE", "info", status=2)
+        self.assertIn("there is no such port; ", said)
+
+    def test_silence(self):
+        with Board() as board:
+            board.order("silent")
+            said = self.host(board.port, "--patience", 0.5, "info", status=3)
+            self.assertIn("no answer for 0.5 s", said)
+            board.order("loud")
+            self.host(board.port, "info")
+
+    def test_the_cable_is_pulled(self):
+        for verb in (("arm", "wall", "--hold"), ("watch",), ("capture", "--trigger", "velocity>99")):
+            with Board() as board, self.subTest(verb[0]):
+                running = self.start(board.port, "--patience", 0.5, *verb)
+                time.sleep(0.6)
+                board.order("unplug")
+                _, err = running.communicate(timeout=20)
+                self.assertEqual(running.returncode, 3, err)
+                self.assertRegex(err, "the port went away|no answer")
+
+    def test_two_hosts_on_one_port(self):
+        with Board() as board:
+            first = self.start(board.port, "watch", "--for", 5)
+            self.assertEqual(first.stdout.readline(), BANNER)
+            said = self.host(board.port, "info", status=2)
+            self.assertIn(f"is in use by feltgate_host (pid {first.pid})", said)
+            first.send_signal(signal.SIGINT)
+            first.communicate(timeout=10)
+            self.assertEqual(first.returncode, 0)
+            self.host(board.port, "info")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -45,7 +45,7 @@ std::string holders_of(const std::string& path) {
   std::string text;
   for (const auto& entry : fs::directory_iterator("/proc", error)) {
     const std::string pid = entry.path().filename().string();
-    if (!is_number(pid) || pid == std::to_string(::getpid()) || !holds(entry.path(), port)) {
+    if (!is_number(pid) || pid == fmt::format("{}", ::getpid()) || !holds(entry.path(), port)) {
       continue;
     }
     std::string name;

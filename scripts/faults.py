@@ -55,6 +55,8 @@ from reporting.progress import Steps
 
 SCHEMA = "feltgate-faults/1"
 CLEAN_S, DAY_S = 600, 86400
+CASE = "point group seed register bit address register_2 bit_2 address_2 act tick clock reset_clocks"
+CASE = CASE.split()  # what tells two cases apart
 
 
 def arguments(argv):
@@ -206,22 +208,7 @@ def replay(options, build):
     lines = run(build, ["--replay", options.replay.resolve()], 1, len(cases))
 
     def key(fault):
-        return tuple(
-            str(fault.get(k))
-            for k in (
-                "point",
-                "group",
-                "seed",
-                "register",
-                "bit",
-                "register_2",
-                "bit_2",
-                "address",
-                "act",
-                "tick",
-                "clock",
-            )
-        )
+        return tuple(str(fault.get(name)) for name in CASE)
 
     found = {key(line): line["class"] for line in lines if "class" in line}
     differing = [

@@ -55,10 +55,10 @@ from reporting.progress import Steps
 
 SCHEMA = "feltgate-faults/1"
 CLEAN_S, DAY_S = 600, 86400
+# What tells two cases apart.
 CASE = (
     "point group seed register bit address register_2 bit_2 address_2 act tick clock reset_clocks"
-)
-CASE = CASE.split()  # what tells two cases apart
+).split()
 
 
 def arguments(argv):

@@ -64,14 +64,13 @@ class Row:
 
     proof: object
     design: str
-    first: bool  # defects and covers are tried on the first design only
+    first: bool  # defects are tried on the first design only
     results: dict = field(default_factory=dict)  # kind: Result
     caught: dict = field(default_factory=dict)  # property: Result
 
     def good(self, with_defects):
         """Whether all runs of the row ended as they must."""
-        kinds = (BASE, INDUCTION, COVERS) if self.first else (BASE, INDUCTION)
-        if not all(kind in self.results and self.results[kind].passed for kind in kinds):
+        if not all(kind in self.results and self.results[kind].passed for kind in (BASE, INDUCTION, COVERS)):
             return False
         return not (with_defects and self.first) or all(
             entry.name in self.caught and not self.caught[entry.name].passed
@@ -114,9 +113,8 @@ def plan(proofs, with_defects, first_only):
     todo = []
     for proof in proofs:
         for number, design in enumerate(designs(proof, first_only)):
-            todo += [Task(proof, design, INDUCTION), Task(proof, design, BASE)]
+            todo += [Task(proof, design, kind) for kind in (INDUCTION, BASE, COVERS)]
             if number == 0:
-                todo.append(Task(proof, design, COVERS))
                 for patch in dict.fromkeys(entry.defect for entry in proof.properties):
                     if with_defects:
                         todo.append(Task(proof, design, DEFECT, patch))

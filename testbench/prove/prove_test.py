@@ -135,7 +135,7 @@ class Product(unittest.TestCase):
             self.assertTrue(tools.patches.patched(patch, ROOT))
 
     def test_there_are_enough(self):
-        self.assertGreaterEqual(sum(len(proof.properties) for proof in self.proofs), 24)
+        self.assertGreaterEqual(sum(len(proof.properties) for proof in self.proofs), 200)
 
 
 class Verdicts(unittest.TestCase):

@@ -70,7 +70,8 @@ class Row:
 
     def good(self, with_defects):
         """Whether all runs of the row ended as they must."""
-        if not all(kind in self.results and self.results[kind].passed for kind in (BASE, INDUCTION, COVERS)):
+        kinds = (BASE, INDUCTION, COVERS)
+        if not all(kind in self.results and self.results[kind].passed for kind in kinds):
             return False
         return not (with_defects and self.first) or all(
             entry.name in self.caught and not self.caught[entry.name].passed

@@ -73,11 +73,12 @@ TEST_CASE("faults: a share of the flips ends safely") {
   for (std::size_t n = 5; n < all.size(); n += 23) share.push_back(all[n]);
   const auto bits = state_bits();
   int unsafe = 0, silent = 0, detected = 0;
-  run(campaign, share, [&](const StateResult& r) {
+  const auto mismatches = run(campaign, share, [&](const StateResult& r) {
     unsafe += r.outcome.is == Class::unsafe;
     silent += r.outcome.is == Class::silent && bits[r.fault.bits[0]].safety;
     detected += r.outcome.is == Class::detected;
   });
+  CHECK(mismatches == 0);
   CHECK(share.size() > 200);
   CHECK(unsafe == 0);
   CHECK(silent <= 3);
@@ -93,7 +94,9 @@ TEST_CASE("faults: a bit of count or zero that flips closes the gates") {
     faults.push_back(at_the_wall("u_quad_decoder.zero_q", bit));
   }
   const auto word = 1u << static_cast<unsigned>(feltgate::Fault::word);
-  for (const Outcome& o : outcomes(campaign, faults)) {
+  const auto found = outcomes(campaign, faults);
+  CHECK(found.size() == 64);
+  for (const Outcome& o : found) {
     CHECK(o.is == Class::detected);
     CHECK((o.flagged & word) != 0);
     CHECK(o.off_after <= 1);
@@ -151,13 +154,18 @@ TEST_CASE("faults: what is broken is seen") {
 TEST_CASE("faults: each kind at the pins ends as it must") {
   const auto& kinds = pin_kinds();
   for (std::size_t k = 0; k < kinds.size(); ++k) {
+    const std::string name = kinds[k].name;
+    int detected = 0;
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
       const PinResult r = run_pin_fault(root, k, seed);
       INFO(kinds[k].name << ", seed " << seed << ": " << r.what);
       CHECK(r.outcome.is != Class::unsafe);
-      if (kinds[k].must_flag && r.outcome.count_changed) CHECK(r.outcome.is == Class::detected);
-      if (std::string(kinds[k].name) == "channel dead") CHECK(r.outcome.travel_rad <= 0.08);
+      detected += r.outcome.is == Class::detected;
+      if (name == "channel dead") CHECK(r.outcome.travel_rad <= 0.08);
     }
+    INFO(name);
+    // Of a short all edges may be illegal; where they are few the count stands, unflagged.
+    if (kinds[k].must_flag) CHECK(detected >= (name == "channels shorted" ? 5 : 6));
   }
 }
 
@@ -181,17 +189,22 @@ TEST_CASE("faults: the listed cases end as listed") {
   }
   StateCampaign campaign;
   campaign.root = root;
-  run(campaign, states, [&](const StateResult& r) {
+  std::size_t compared = 0;
+  const auto mismatches = run(campaign, states, [&](const StateResult& r) {
     for (std::size_t n = 0; n < states.size(); ++n) {
       const StateFault& s = states[n];
       if (s.act != r.fault.act || s.tick != r.fault.tick || s.clock != r.fault.clock ||
           s.bits != r.fault.bits)
         continue;
+      ++compared;
       INFO("tick " << s.tick << " clock " << s.clock << " act " << s.act);
       CHECK(name_of(r.outcome.is) == wanted[n]);
     }
   });
-  CHECK(cases >= 10);
+  CHECK(mismatches == 0);
+  CHECK(compared == states.size());
+  CHECK(states.size() >= 10);
+  CHECK(cases >= 40);
 }
 
 TEST_CASE("faults: no alarm without a fault") {

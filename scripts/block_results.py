@@ -34,7 +34,7 @@ KINDS = {
     },
     "mutants": {
         "rtl": "mutants of the RTL killed, of those not equivalent, by proof or by argument",
-        "twin": "mutants of the twin killed, of those that were tried",
+        "twin": "mutants of the twin killed, of those not equivalent, by argument",
     },
     "faults": {
         "unsafe": "single flips of the safety state that ended unsafe",

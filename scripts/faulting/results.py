@@ -62,9 +62,13 @@ def is_safety(fault):
 
 
 def changes_count(fault):
-    """A short may leave the count where it is: all of its edges are illegal; where they are few nothing
-    finds it."""
-    return fault["group"] != "channels shorted" or fault["count_changed"] or fault["class"] == "detected"
+    """A short may leave the count where it is: all of its edges are illegal, and where they are
+    few nothing finds it."""
+    return (
+        fault["group"] != "channels shorted"
+        or fault["count_changed"]
+        or fault["class"] == "detected"
+    )
 
 
 def promises(faults):

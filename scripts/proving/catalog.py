@@ -107,10 +107,16 @@ def read_proof(root, block, path, table):
             raise wrong(f"property '{label}': no defect {defect.relative_to(root)}")
         properties.append(Property(label, entry["says"], defect, tuple(entry["ports"].split()),
                                    entry.get("from_any", False)))
-    unsaid = [n for n in ASSERTION.findall(text) if n not in table["property"] and not n.startswith("inside_")]
+    unsaid = [
+        name
+        for name in ASSERTION.findall(text)
+        if name not in table["property"] and not name.startswith("inside_")
+    ]
     if unsaid:
-        raise wrong(f"{wrapper.name} asserts {', '.join(unsaid)}: no property here; say what it means, or "
-                    "name it inside_...")
+        raise wrong(
+            f"{wrapper.name} asserts {', '.join(unsaid)}: no property here; say what it means, or "
+            "name it inside_..."
+        )
     covers = table.get("cover", {})
     if set(covers) != set(COVER.findall(text)):
         raise wrong(f"{wrapper.name} has the covers {', '.join(COVER.findall(text)) or 'none'}")

@@ -48,13 +48,19 @@ def write_sigrok(path, probes, samples, rate_hz=100_000):
 
 
 def write_recordings(folder):
-    """hand.sr: a quadrature of 40 counts forth and back; axis.sr: STEP and DIR; log.csv: angles."""
+    """hand.sr: a quadrature of 40 counts forth and back; axis.sr: STEP and DIR; log.csv: angles;
+    moved.csv and moved.vec: as a host records them."""
     counts = [round(40 * math.sin(k / 300)) for k in range(2000)]
     write_sigrok(folder / "hand.sr", ("XA", "XB", "other"), [(*quadrature(c), 0) for c in counts])
     steps = [(0, 0, 0, 0, k // 20 % 2, k < 1000) for k in range(2000)]
     write_sigrok(folder / "axis.sr", ("1", "2", "3", "4", "5", "6"), steps)
     rows = "".join(f"{k / 1000},{0.05 * math.sin(k / 10):.6f}\n" for k in range(30))
     (folder / "log.csv").write_text("t,theta\n" + rows, encoding="utf-8")
+    rows = "".join(f"{k / 1000},{k // 3}\n" for k in range(20))
+    (folder / "moved.csv").write_text("time_s,position\n" + rows, encoding="utf-8")
+    head = "feltgate-vector 1 design=lever clock_hz=50000000 signals=A,B,Z\n0 0 0 0\n"
+    rows = "900 0 1 0\n1800 1 1 0\n2700 1 0 0\nend 50000\n"
+    (folder / "moved.vec").write_text(head + rows, encoding="utf-8")
 
 
 def make(folder):

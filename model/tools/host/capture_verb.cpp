@@ -174,7 +174,7 @@ Run add_capture(CLI::App& sub) {
       "  feltgate host /dev/ttyUSB0 capture angle tau_ref --span 0.5 --csv push.csv --picture "
       "push.png --xy angle,tau_ref\n"
       "  feltgate host /dev/ttyUSB0 capture --trigger fault --wait 3600 --csv fault.csv\n"
-      "  feltgate host /dev/ttyUSB0 capture position velocity --vector hand.vec\n"
+      "  feltgate host /dev/ttyUSB0 capture position velocity --vector moved.vec\n"
       "Triggers: 'velocity>5' rises to the value or above, 'angle<-10deg' falls below; 'fault',\n"
       "'fault:speed,stop', 'limit:current', 'armed'; 'now'. The memory is the board's: 1024 rows "
       "of\n"

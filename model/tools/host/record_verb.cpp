@@ -90,11 +90,11 @@ Run add_record(CLI::App& sub) {
   auto a = std::make_shared<RecordArguments>();
   a->names = {"position", "angle", "velocity", "tau_ref", "status", "faults"};
   sub.footer(
-      "  feltgate host /dev/ttyUSB0 record --for 10 --csv hand.csv\n"
-      "  feltgate host /dev/ttyUSB0 record position --for 10 --vector hand.vec\n"
-      "  feltgate replay hand.vec                              the same motion through every "
+      "  feltgate host /dev/ttyUSB0 record --for 10 --csv moved.csv\n"
+      "  feltgate host /dev/ttyUSB0 record position --for 10 --vector moved.vec\n"
+      "  feltgate replay moved.vec                              the same motion through every "
       "engine\n"
-      "  feltgate replay hand.csv --count-column position\n"
+      "  feltgate replay moved.csv --count-column position\n"
       "The wire carries no pins and not every tick. The trace of --vector has edges spread evenly\n"
       "between recorded positions, no index, no glitches and no illegal steps; for every tick "
       "exactly\n"

@@ -31,7 +31,7 @@ import block_results
 import building
 import interrupts
 import outputs
-from mutating import netlist, rtl
+from mutating import netlist, rtl, rtl_table
 from seeding.patches import DefectError
 
 SCHEMA = "feltgate-mutate/1"
@@ -136,8 +136,8 @@ def update(root, rows):
 
 def report(options, root, rows):
     """Prints and writes the rows; the exit code."""
-    rtl.print_survivors(rows, options.survivors)
-    print(rtl.table(rows))
+    rtl_table.print_survivors(rows, options.survivors)
+    print(rtl_table.table(rows))
     bad = [row.test.name for row in rows if row.share() < options.require]
     tried = sum(len(row.fates) for row in rows)
     killed, relevant = sum(row.count(*rtl.DEAD) for row in rows), sum(

@@ -15,7 +15,6 @@ from pathlib import Path
 
 import interrupts
 from crew import Crew
-from reporting.columns import aligned
 from reporting.progress import Steps
 
 from . import equivalence
@@ -318,57 +317,6 @@ def prove(rows, crew, work, jobs, limit_s):
 
         crew.each(join, rows, jobs, lambda _, found: todo.extend(found))
         crew.each(verdict, todo, jobs, note)
-
-
-HEAD = (
-    "test",
-    "database",
-    "mutants",
-    "killed",
-    "proven same",
-    "argued same",
-    "gaps",
-    "not listed",
-    "killed of rest",
-    "s of CPU",
-)
-
-
-def table(rows):
-    """The rows, for a terminal."""
-    lines = [HEAD]
-    for row in rows:
-        lines.append(
-            (
-                row.test.name,
-                row.test.database,
-                len(row.fates),
-                row.count(*DEAD),
-                row.equivalent(),
-                row.of(ARGUED),
-                row.of(GAP),
-                row.of(""),
-                f"{100 * row.share():.1f} %",
-                f"{row.seconds:.0f}",
-            )
-        )
-    return aligned(lines)
-
-
-def print_survivors(rows, known):
-    """Those that are not listed, or all (`known`), with the lines of their source."""
-    for row in rows:
-        for mutant in row.survivors():
-            kind, why = row.listed.entry(mutant)
-            if kind and not known:
-                continue
-            verdict, said = row.proofs.get(mutant["number"], ("not tried", ""))
-            print(
-                f"{row.test.name} {mutant['number']}: {says(mutant)}; {verdict}, {said}"
-                f"{f'; {kind}: {why}' if kind else ''}"
-            )
-            for line in where(row.listed.root, mutant):
-                print(f"    {line}")
 
 
 def show(test, number, root, proof_seconds):

@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 import mutate  # noqa: E402
 from crew import Crew  # noqa: E402
-from mutating import equivalence, netlist, rtl  # noqa: E402
+from mutating import equivalence, netlist, rtl, rtl_table  # noqa: E402
 
 # dead_q stays 0, so that what it adds is no matter; spare is what a mutant of the word must change.
 COUNTER = """module counter (
@@ -177,11 +177,11 @@ class Reasons(unittest.TestCase):
         row.listed = self.listed('[[survivor]]\nline = "w = a"\nkind = "equivalent"\nwhy = "seen"\n')
         self.assertEqual((row.relevant(), row.of(rtl.ARGUED), row.share()), (3, 1, 1.0))
         row.listed = self.listed('[[survivor]]\nline = "w = a"\nkind = "gap"\nwhy = "seen"\n')
-        self.assertIn("75.0 %", rtl.table([row]))
+        self.assertIn("75.0 %", rtl_table.table([row]))
         said = row.as_json()
         self.assertEqual((said["killed"], said["hangs"], len(said["survivors"])), (3, 1, 1))
         with contextlib.redirect_stdout(io.StringIO()) as output:
-            rtl.print_survivors([row], False)
+            rtl_table.print_survivors([row], False)
         self.assertEqual(output.getvalue(), "")
 
     def test_an_unproven_survivor_counts_against_the_test(self):

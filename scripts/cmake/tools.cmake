@@ -64,7 +64,7 @@ file(GLOB host_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/tools"
   "${FELTGATE_ROOT}/model/tools/host/*.cpp")
 feltgate_program(feltgate_host
   "host_main.cpp;checks.cpp;commands.cpp;command_line.cpp;${host_sources}"
-  feltgate_files feltgate_engines feltgate_hostlink feltgate_traces nlohmann_json::nlohmann_json CLI11::CLI11)
+  feltgate_files feltgate_engines feltgate_hostlink feltgate_identify feltgate_traces nlohmann_json::nlohmann_json CLI11::CLI11)
 
 # The benchmark links SystemC, which nothing else of the product needs: only built when asked for.
 feltgate_library(feltgate_bench_parts bench feltgate_rtl feltgate_loop systemc)

@@ -131,6 +131,21 @@ TEST_CASE("open loop: a slip of the pen is pointed at", "[open]") {
   CHECK(open.warnings[0].find("look at it again") != std::string::npos);
 }
 
+TEST_CASE("open loop: a gauge that rounds is no slip of the pen", "[open]") {
+  // Four of them lie on one line to the last digit, the fifth a digit beside it.
+  std::vector<Reading> readings{{1.5, 0.037, {}, 0},
+                                {2.5, 0.109, {}, 0},
+                                {3.5, 0.182, {}, 0},
+                                {4.5, 0.253, {}, 0},
+                                {5.5, 0.325, {}, 0}};
+  CHECK(rounding_nm(readings) == Approx(1e-3 / std::sqrt(12)));
+  CHECK(fit_open_loop(readings, 0.0302, 0.95).warnings.empty());
+  readings[2].torque_nm = 0.19;
+  CHECK_FALSE(fit_open_loop(readings, 0.0302, 0.95).warnings.empty());
+  readings[2].torque_nm = 1.0 / 7;
+  CHECK(rounding_nm(readings) == 0);
+}
+
 TEST_CASE("open loop: the observer's slope and the paper's ratio", "[open]") {
   auto readings = straight({1.5, 2.5, 3.5, 4.5, 5.5}, 0.072, 0.6);
   for (Reading& r : readings) r.tau_hat_nm = 0.0605 * r.command;

@@ -38,6 +38,7 @@ RULES = (
     Rule(r"feltgate bench", "MORE", "--quick"),
     Rule(r"feltgate explore (?:plan|page vectors/spaces/trade\.csv)", "WHOLE"),
     Rule(r"feltgate (?:explore|synth|prove|product|mutate|faults|coverage|demo|figures)", "PARSED"),
+    Rule(r"feltgate host .*\b(?:calibrate|identify)", "BY", "calibrate.verbs"),
     Rule(r"feltgate host:?", "BY", "host.verbs"),
     Rule(r"feltgate test", "LAUNCHER"),
     Rule(r"ctest .*-N", "WHOLE"),

@@ -186,13 +186,14 @@ class OpenLoopFit {
 
   void note_residuals(const Regression& fit, OpenLoop* result) const {
     const std::size_t first = both_ ? 0 : dead_;
+    const double rounding = rounding_nm(readings_);
     for (std::size_t k = 0; k < readings_.size(); ++k) {
       const Reading& r = readings_[k];
       Residual e{r.command, r.torque_nm, 0, 0, k < dead_};
       if (k >= first) {
         const auto row = static_cast<Index>(k - first);
         e.fitted_nm = r.torque_nm - fit.residuals()[row];
-        e.studentised = fit.studentised(row);
+        e.studentised = fit.studentised(row, rounding);
       }
       result->residuals.push_back(e);
     }
@@ -316,6 +317,18 @@ std::vector<Reading> open_loop_readings(const ColumnTable& table, double arm_m) 
 std::vector<Reading> closed_loop_readings(const ColumnTable& table, double arm_m) {
   return readings_of(table, {"tau_ref_nm", "tau_ref", "setpoint_nm", "setpoint_torque"},
                      "the torque that was asked for", arm_m);
+}
+
+double rounding_nm(const std::vector<Reading>& readings) {
+  double place = 1;
+  for (int places = 0; places < 7; ++places, place /= 10) {
+    const bool all = std::all_of(readings.begin(), readings.end(), [place](const Reading& r) {
+      const double steps = r.torque_nm / place;
+      return std::abs(steps - std::round(steps)) < 1e-6;
+    });
+    if (all) return place / std::sqrt(12.0);
+  }
+  return 0;
 }
 
 OpenLoop fit_open_loop(std::vector<Reading> readings, double torque_constant_nm_a,

@@ -27,6 +27,9 @@ struct Reading {
 std::vector<Reading> open_loop_readings(const ColumnTable& table, double arm_m);
 std::vector<Reading> closed_loop_readings(const ColumnTable& table, double arm_m);
 
+/// Standard deviation of the rounding of these readings: of the last decimal place that they use.
+double rounding_nm(const std::vector<Reading>& readings);
+
 /// A reading beside what was fitted.
 struct Residual {
   double command = 0, measured_nm = 0, fitted_nm = 0, studentised = 0;

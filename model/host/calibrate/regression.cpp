@@ -102,12 +102,12 @@ std::optional<Interval> Regression::quotient(const Combination& top,
   return Interval{p / q, (b - root) / a, (b + root) / a};
 }
 
-double Regression::studentised(Eigen::Index row) const {
+double Regression::studentised(Eigen::Index row, double least) const {
   const double free = 1 - leverage_[row];
   const double r = residuals_[row];
   if (freedom_ < 2 || free < 1e-9) return 0;
   const double without = (residuals_.squaredNorm() - r * r / free) / (freedom_ - 1);
-  const double deviation = std::sqrt(std::max(0.0, without * free));
+  const double deviation = std::sqrt(std::max(without, least * least) * free);
   if (deviation > 0) return r / deviation;
   return r == 0 ? 0 : std::copysign(std::numeric_limits<double>::infinity(), r);
 }

@@ -50,8 +50,9 @@ class Regression {
   const Eigen::MatrixXd& covariance() const { return covariance_; }
 
   const Eigen::VectorXd& residuals() const { return residuals_; }
-  /// Residual over its own standard deviation, estimated without that row (externally studentised).
-  double studentised(Eigen::Index row) const;
+  /// Residual over its own standard deviation, estimated without that row (externally studentised),
+  /// of noise that is at least `least`.
+  double studentised(Eigen::Index row, double least = 0) const;
   double sum_of_squares() const { return residuals_.squaredNorm(); }
   /// Standard deviation of the noise.
   double sigma() const { return sigma_; }

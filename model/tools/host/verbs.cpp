@@ -22,6 +22,8 @@ const std::vector<Verb>& verbs() {
       {"watch", "values as they change: sparklines, lines, or for Teleplot", add_watch},
       {"capture", "1024 ticks around a trigger, every tick: CSV, plot, encoder trace", add_capture},
       {"record", "the stream into a file: CSV, encoder trace for replay", add_record},
+      {"calibrate", "constants from a gauge and a blocked shaft, or from a file", add_calibrate},
+      {"identify", "constants from voltage and position, or from files", add_identify},
   };
   return all;
 }

@@ -25,5 +25,7 @@ Run add_zero(CLI::App& sub);
 Run add_watch(CLI::App& sub);
 Run add_capture(CLI::App& sub);
 Run add_record(CLI::App& sub);
+Run add_calibrate(CLI::App& sub);
+Run add_identify(CLI::App& sub);
 
 }  // namespace feltgate::host

@@ -74,7 +74,7 @@ module pulses_proof (
   // Ticks of a pulse so far, of both together, of the wait; how the lever moved in the tick.
   logic [1:0] now_q, before_q, step;
   assign step = now_q - before_q;
-  logic [15:0] length_now_q, still_q, still_then_q;  // and of rest, in the wait
+  logic [15:0] length_now_q, length_then_q, still_q, still_then_q;  // and of rest, in the wait
   logic [18:0] waited_q;
   logic down_seen_q, turned_q, turns_ok_q, tested_q, after_q;
   logic signed [2:0] law_q, law;  // counts since the pulses began, up to the answer
@@ -139,6 +139,7 @@ module pulses_proof (
       armed_then_q  <= armed_i;
       step_then_q   <= step;
       still_then_q  <= still_q;
+      length_then_q <= length_now_q;
       direct_then_q <= direct_i;
       law_then_q    <= law_q;
       law_after_q   <= law;
@@ -179,6 +180,7 @@ module pulses_proof (
         begins_at_rest: assert (!(up && waits_then_q) || (step_then_q == 2'd0 &&
                                 {1'b0, still_then_q} + 17'd127 >= 17'(quiet_q) << UnitBit));
         once_per_arming: assert (!(tested_q && waits));
+        second_is_whole: assert (!rests || !armed_then_q || length_then_q + 16'd1 == 16'(length_q) << UnitBit);
       end
       inside_right_way: assert (!trip || rests_then_q || waits_then_q || down_was_q || step_then_q == 2'd3);
       trips_by_its_law: assert (!wave[feltgate_map_pkg::T_SELF_TEST] || !turned_q || trip == (armed_then_q &&
@@ -197,6 +199,7 @@ module pulses_proof (
           (length_now_q <= (16'(units) << UnitBit) + 16'(part) &&
               length_now_q + 16'd127 >= (16'(units) << UnitBit) + 16'(part) &&
            (units < length_q || (units == length_q && part == '0))));
+      inside_second: assert (!(armed_i && down) || length_now_q + 16'd1 == (16'(units) << UnitBit) + 16'(part));
       inside_length: assert (!waits || length_q != '0 || (!armed_i &&
           phase_q > 9'(feltgate_map_pkg::T_SELF_TEST_OVER) &&
                                                         phase_q <= 9'(feltgate_map_pkg::T_SELF_TEST_TURN)));

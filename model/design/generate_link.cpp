@@ -19,8 +19,7 @@ std::string link_package(const RegisterMap& map) {
     << "/* verilator lint_off UNUSEDPARAM */  // a block uses the constants that concern it\n"
     << "package feltgate_link_pkg;\n";
   for (const Cause& c : map.link_constants) {
-    s << fmt::format("  localparam logic [31:0] {} = 32'h{:x};  // {}\n", upper(c.name), c.number,
-                     c.doc);
+    s << fmt::format("  localparam int {} = 'h{:x};  // {}\n", upper(c.name), c.number, c.doc);
   }
   s << "\n  // Addresses of the words; bits (B) and widths (W) of their fields.\n";
   for (const LinkWord& w : map.link_words) {

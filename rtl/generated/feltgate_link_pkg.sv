@@ -8,25 +8,25 @@
 
 /* verilator lint_off UNUSEDPARAM */  // a block uses the constants that concern it
 package feltgate_link_pkg;
-  localparam logic [31:0] IDENTITY = 32'h46454c54;  // what the word identity says
-  localparam logic [31:0] VERSION = 32'h10000;  // what the word version says
-  localparam logic [31:0] BAUD = 32'hf4240;  // bits per second where nothing else is said
-  localparam logic [31:0] FRAME_END = 32'hc0;  // byte before and after a frame
-  localparam logic [31:0] FRAME_ESCAPE = 32'hdb;  // byte that changes the next one's meaning
-  localparam logic [31:0] ESCAPED_END = 32'hdc;  // after the escape: frame_end
-  localparam logic [31:0] ESCAPED_ESCAPE = 32'hdd;  // after the escape: frame_escape
-  localparam logic [31:0] KIND_READ = 32'h1;  // first byte of a request to read
-  localparam logic [31:0] KIND_WRITE = 32'h2;  // first byte of a request to write
-  localparam logic [31:0] KIND_STREAM = 32'h40;  // first byte of a frame that nobody asked for
-  localparam logic [31:0] KIND_REPLY = 32'h80;  // set in the first byte of a reply
-  localparam logic [31:0] REQUEST_BYTES = 32'hc;  // bytes of every request, its CRC among them
-  localparam logic [31:0] READ_WORDS = 32'h40;  // most words of one read
-  localparam logic [31:0] MAP_BITS = 32'he;  // bits of an address; a request beyond is bad
-  localparam logic [31:0] NO_SEQUENCE = 32'h100;  // last_write_sequence before the first write
-  localparam logic [31:0] WORDS = 32'h1000;  // first address of the link's words; below are the core's
-  localparam logic [31:0] MEMORY = 32'h2000;  // first address of the capture memory: 8 words of a row, then the next row
-  localparam logic [31:0] ROWS_LOG2 = 32'ha;  // log2 of the rows of the capture memory
-  localparam logic [31:0] COLUMNS = 32'h8;  // words of a row
+  localparam int IDENTITY = 'h46454c54;  // what the word identity says
+  localparam int VERSION = 'h10000;  // what the word version says
+  localparam int BAUD = 'hf4240;  // bits per second where nothing else is said
+  localparam int FRAME_END = 'hc0;  // byte before and after a frame
+  localparam int FRAME_ESCAPE = 'hdb;  // byte that changes the next one's meaning
+  localparam int ESCAPED_END = 'hdc;  // after the escape: frame_end
+  localparam int ESCAPED_ESCAPE = 'hdd;  // after the escape: frame_escape
+  localparam int KIND_READ = 'h1;  // first byte of a request to read
+  localparam int KIND_WRITE = 'h2;  // first byte of a request to write
+  localparam int KIND_STREAM = 'h40;  // first byte of a frame that nobody asked for
+  localparam int KIND_REPLY = 'h80;  // set in the first byte of a reply
+  localparam int REQUEST_BYTES = 'hc;  // bytes of every request, its CRC among them
+  localparam int READ_WORDS = 'h40;  // most words of one read
+  localparam int MAP_BITS = 'he;  // bits of an address; a request beyond is bad
+  localparam int NO_SEQUENCE = 'h100;  // last_write_sequence before the first write
+  localparam int WORDS = 'h1000;  // first address of the link's words; below are the core's
+  localparam int MEMORY = 'h2000;  // first address of the capture memory: 8 words of a row, then the next row
+  localparam int ROWS_LOG2 = 'ha;  // log2 of the rows of the capture memory
+  localparam int COLUMNS = 'h8;  // words of a row
 
   // Addresses of the words; bits (B) and widths (W) of their fields.
   localparam logic [15:0] A_IDENTITY = 16'h1000;

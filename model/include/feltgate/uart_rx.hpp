@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Twin of rtl/link/uart_rx.sv, clock by clock or from event to event.
+// Documentation: docs/blocks/uart_rx.md
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace feltgate {
+
+/// What a phase accumulator adds per clock; 2^20 are a bit.
+constexpr std::uint32_t uart_step(std::int64_t clock_hz, std::int64_t baud) {
+  return static_cast<std::uint32_t>(((baud << 20) + clock_hz / 2) / clock_hz);
+}
+
+class UartRx {
+ public:
+  struct In {
+    bool rx = true;
+  };
+  struct Out {
+    std::uint8_t byte = 0;
+    bool valid = false;  ///< one clock
+    bool error = false;  ///< one clock
+  };
+
+  explicit UartRx(std::uint32_t step) : step_(step) {}
+  void reset() { *this = UartRx(step_); }
+
+  void clock(const In& in) {
+    const bool level = line();
+    seen_ = (seen_ << 1 | (in.rx ? 1U : 0U)) & 15U;
+    const std::uint32_t next = phase_ + step_;
+    const bool sample = busy_ && next >= kBit;
+    phase_ = busy_ ? next & (kBit - 1) : (kBit / 2 + step_) & (kBit - 1);
+    out_.valid = sample && bit_ == 9 && level;
+    out_.error = sample && bit_ == 9 && !level;
+    if (!busy_) {
+      busy_ = ready_ && !level;
+      ready_ = level;
+      bit_ = 0;
+    } else if (sample) {
+      ready_ = level;
+      if (bit_ != 0 && bit_ != 9) {
+        out_.byte = static_cast<std::uint8_t>(out_.byte >> 1 | (level ? 0x80U : 0U));
+      }
+      if (bit_ == 9 || (bit_ == 0 && level)) busy_ = false;
+      ++bit_;
+    }
+  }
+
+  const Out& out() const { return out_; }
+
+  /// So many clocks with the line held change no more than what skip() knows.
+  std::int64_t quiet(bool rx) const {
+    if (out_.valid || out_.error || seen_ != (rx ? 15U : 0U)) return 0;
+    if (busy_) return (kBit - 1 - phase_) / step_;
+    return ready_ == rx && phase_ == ((kBit / 2 + step_) & (kBit - 1)) && bit_ == 0 ? kForever : 0;
+  }
+  /// As so many calls of clock() with the line held, at most quiet().
+  void skip(std::int64_t clocks) {
+    if (busy_) phase_ += static_cast<std::uint32_t>(clocks) * step_;
+  }
+  static constexpr std::int64_t kForever = std::numeric_limits<std::int64_t>::max() / 2;
+
+ private:
+  static constexpr std::uint32_t kBit = 1U << 20;
+  /// Two of the three oldest levels.
+  bool line() const {
+    const unsigned a = seen_ >> 1 & 1U, b = seen_ >> 2 & 1U, c = seen_ >> 3 & 1U;
+    return a + b + c >= 2;
+  }
+
+  std::uint32_t step_;
+  unsigned seen_ = 15;  ///< bit 0 is the newest level
+  std::uint32_t phase_ = 0;
+  bool busy_ = false, ready_ = false;
+  int bit_ = 0;
+  Out out_;
+};
+
+}  // namespace feltgate

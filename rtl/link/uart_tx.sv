@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Transmitter of a UART, 8N1. Bits begin where the phase accumulator overflows, bytes follow each other
+// without a gap. Documentation: docs/blocks/uart_tx.md
+`default_nettype none
+
+module uart_tx #(
+    parameter int ClockHz = feltgate_pkg::CLOCK_HZ,
+    parameter int Baud = feltgate_link_pkg::BAUD
+) (
+    input  logic       clk_i,
+    input  logic       rst_ni,
+    input  logic [7:0] byte_i,
+    input  logic       valid_i,  // held, with the byte, until it is taken
+    output logic       ready_o,  // it is taken in this clock
+    output logic       tx_o
+);
+  // What is added per clock: 2^20 are a bit.
+  localparam int PhaseW = 20;
+  localparam logic [63:0] CLOCK_64 = 64'(ClockHz);
+  localparam logic [63:0] STEP_64 = (64'(Baud) * 64'd1048576 + CLOCK_64 / 64'd2) / CLOCK_64;
+  localparam logic [PhaseW-1:0] STEP = STEP_64[PhaseW-1:0];
+
+  generate
+  if (!(Baud > 0 && ClockHz / 8 >= Baud)) begin : g_check_baud
+    a_bit_must_last_eight_clocks missing ();
+  end
+  if (!(STEP_64 >= 64'd100)) begin : g_check_step  // half a step in 100: 0.5 % of the baud rate
+    the_baud_rate_is_too_low_for_the_phase missing ();
+  end
+  endgenerate
+
+  logic [       8:0] bits_q;  // the one on the wire is bit 0; ones follow
+  logic [       3:0] left_q;  // bits after that one
+  logic              busy_q;
+  logic [PhaseW-1:0] phase_q;
+  logic [  PhaseW:0] next;
+  logic              ends, over;
+  assign next    = {1'b0, phase_q} + {1'b0, STEP};
+  assign ends    = busy_q && next[PhaseW];
+  assign over    = ends && left_q == 4'd0;
+  assign ready_o = !busy_q || over;
+  assign tx_o    = bits_q[0];
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      bits_q  <= '1;
+      left_q  <= 4'd0;
+      busy_q  <= 1'b0;
+      phase_q <= '0;
+    end else begin
+      phase_q <= busy_q ? next[PhaseW-1:0] : '0;
+      if (ready_o) begin
+        busy_q <= valid_i;
+        left_q <= 4'd9;
+        bits_q <= valid_i ? {byte_i, 1'b0} : '1;
+      end else if (ends) begin
+        left_q <= left_q - 4'd1;
+        bits_q <= {1'b1, bits_q[8:1]};
+      end
+    end
+  end
+endmodule
+
+`default_nettype wire

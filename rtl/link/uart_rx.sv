@@ -17,13 +17,13 @@ module uart_rx #(
     output logic       valid_o,  // one clock
     output logic       error_o   // one clock: the stop bit was low
 );
-  // What is added per clock: 2^20 are a bit.
-  localparam int PhaseW = 20;
+  // What is added per clock: 2^16 are a bit.
+  localparam int PhaseW = 16;
   localparam logic [63:0] CLOCK_64 = 64'(ClockHz);
-  localparam logic [63:0] STEP_64 = (64'(Baud) * 64'd1048576 + CLOCK_64 / 64'd2) / CLOCK_64;
+  localparam logic [63:0] STEP_64 = (64'(Baud) * 64'd65536 + CLOCK_64 / 64'd2) / CLOCK_64;
   localparam logic [PhaseW-1:0] STEP = STEP_64[PhaseW-1:0];
   // The first overflow half a bit after the edge; a step ahead, so that the error is even to both sides.
-  localparam logic [PhaseW-1:0] BEGIN = 20'h80000 + STEP;
+  localparam logic [PhaseW-1:0] BEGIN = 16'h8000 + STEP;
 
   generate
   if (!(Baud > 0 && ClockHz / 8 >= Baud)) begin : g_check_baud

@@ -16,10 +16,10 @@ module uart_tx #(
     output logic       ready_o,  // it is taken in this clock
     output logic       tx_o
 );
-  // What is added per clock: 2^20 are a bit.
-  localparam int PhaseW = 20;
+  // What is added per clock: 2^16 are a bit.
+  localparam int PhaseW = 16;
   localparam logic [63:0] CLOCK_64 = 64'(ClockHz);
-  localparam logic [63:0] STEP_64 = (64'(Baud) * 64'd1048576 + CLOCK_64 / 64'd2) / CLOCK_64;
+  localparam logic [63:0] STEP_64 = (64'(Baud) * 64'd65536 + CLOCK_64 / 64'd2) / CLOCK_64;
   localparam logic [PhaseW-1:0] STEP = STEP_64[PhaseW-1:0];
 
   generate

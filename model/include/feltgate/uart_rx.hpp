@@ -10,9 +10,9 @@
 
 namespace feltgate {
 
-/// What a phase accumulator adds per clock; 2^20 are a bit.
+/// What a phase accumulator adds per clock; 2^16 are a bit.
 constexpr std::uint32_t uart_step(std::int64_t clock_hz, std::int64_t baud) {
-  return static_cast<std::uint32_t>(((baud << 20) + clock_hz / 2) / clock_hz);
+  return static_cast<std::uint32_t>(((baud << 16) + clock_hz / 2) / clock_hz);
 }
 
 class UartRx {
@@ -66,7 +66,7 @@ class UartRx {
   static constexpr std::int64_t kForever = std::numeric_limits<std::int64_t>::max() / 2;
 
  private:
-  static constexpr std::uint32_t kBit = 1U << 20;
+  static constexpr std::uint32_t kBit = 1U << 16;
   /// Two of the three oldest levels.
   bool line() const {
     const unsigned a = seen_ >> 1 & 1U, b = seen_ >> 2 & 1U, c = seen_ >> 3 & 1U;

@@ -55,7 +55,7 @@ class UartTx {
   }
 
  private:
-  static constexpr std::uint32_t kBit = 1U << 20;
+  static constexpr std::uint32_t kBit = 1U << 16;
 
   std::uint32_t step_;
   std::uint32_t phase_ = 0;

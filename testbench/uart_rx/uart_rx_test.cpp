@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// uart_rx: RTL against twin on every clock on rough lines; which bytes arrive at which baud rates;
+// the twin from event to event. Documentation: docs/blocks/uart_rx.md
+#include "feltgate/uart_rx.hpp"
+
+#include <Vuart_rx.h>
+
+#include <cmath>
+
+#include "catch.hpp"
+#include "lock_step.hpp"
+#include "rough_line.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+constexpr double kBitClocks = static_cast<double>(CLOCK_HZ) / BAUD;
+
+struct Twin : UartRx {
+  Twin() : UartRx(uart_step(CLOCK_HZ, BAUD)) {}
+};
+
+struct Adapter {
+  static void drive(Vuart_rx& rtl, const Twin::In& in) { rtl.rx_i = in.rx; }
+  template <class Check>
+  static void compare(Check& check, const Vuart_rx& rtl, const Twin::Out& out) {
+    check("byte", rtl.byte_o, out.byte);
+    check("valid", rtl.valid_o, out.valid);
+    check("error", rtl.error_o, out.error);
+  }
+};
+using Bench = LockStep<Vuart_rx, Twin, Adapter>;
+
+/// Bytes that arrive wrong or not at all of those that a host sends whose clock is off by `error`.
+int wrong_bytes(double error, RoughLine::Faults faults, std::int64_t clocks, std::uint64_t seed) {
+  RoughLine line(seed, kBitClocks / (1.0 + error), faults);
+  Twin twin;
+  int wrong = 0;
+  std::int64_t arrived = 0, errors = 0;
+  for (std::int64_t k = 0; k < clocks; ++k) {
+    twin.clock({line.next()});
+    errors += twin.out().error;
+    if (!twin.out().valid) continue;
+    ++arrived;
+    if (line.sent.empty()) {
+      ++wrong;
+      continue;
+    }
+    wrong += twin.out().byte != line.sent.front();
+    line.sent.pop_front();
+  }
+  CHECK(arrived > clocks / static_cast<std::int64_t>(40 * kBitClocks));
+  const auto rest = static_cast<int>(line.sent.size());
+  const auto unseen = static_cast<int>(std::abs(line.wrong - errors));
+  return wrong + (rest > 2 ? rest : 0) + (unseen > 1 ? unseen : 0);
+}
+
+}  // namespace
+
+TEST_CASE("uart_rx: rough lines, RTL against twin") {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Random random(seed);
+    const double error = 0.001 * static_cast<double>(random.between(-80, 80));
+    RoughLine line(seed, kBitClocks / (1 + error), {seed % 2 == 0, seed % 3 != 0});
+    Bench bench("uart_rx", seed);
+    bench.run([line](std::int64_t) mutable { return Twin::In{line.next()}; },
+              scaled_clocks(static_cast<std::int64_t>(2500 * kBitClocks)), {20'000});
+  }
+}
+
+TEST_CASE("uart_rx: levels at random") {
+  Random random(5);
+  int left = 0;
+  bool level = true;
+  Bench bench("uart_rx", 77);
+  bench.run(
+      [=](std::int64_t) mutable {
+        if (left-- == 0) {
+          level = !level;
+          left = static_cast<int>(
+              random.below(random.one_in(3) ? 3 : 4 * static_cast<unsigned>(kBitClocks)));
+        }
+        return Twin::In{level};
+      },
+      scaled_clocks(200'000));
+}
+
+TEST_CASE("uart_rx: every byte arrives from a host that is off by 2 %, beside pulses of a clock") {
+  const auto clocks = static_cast<std::int64_t>(30'000 * kBitClocks);
+  for (const double error : {-0.02, -0.01, 0.0, 0.01, 0.02}) {
+    INFO("off by " << error);
+    CHECK(wrong_bytes(error, {false, false}, clocks, 1) == 0);
+    CHECK(wrong_bytes(error, {true, false}, clocks, 2) == 0);
+    CHECK(wrong_bytes(error, {false, true}, clocks, 3) == 0);
+  }
+}
+
+TEST_CASE("uart_rx: the bound of the sampling point") {
+  // At most a clock and what the step is rounded by, so that in the middle of the stop bit the two
+  // baud rates may differ by (1/2 - 1 / bit) / 9.5; half of a clock goes to the filter.
+  const double step = static_cast<double>(uart_step(CLOCK_HZ, BAUD)) / 65536.0 * kBitClocks;
+  const double bearable = (0.5 - 2.0 / kBitClocks) / 9.5 - std::abs(step - 1.0);
+  const auto clocks = static_cast<std::int64_t>(60'000 * kBitClocks);
+  CHECK(bearable > 0.025);
+  CHECK(wrong_bytes(bearable * 0.99, {false, false}, clocks, 4) == 0);
+  CHECK(wrong_bytes(-bearable * 0.99, {false, false}, clocks, 5) == 0);
+  CHECK(wrong_bytes(0.07, {false, false}, clocks, 6) > 0);
+  CHECK(wrong_bytes(-0.07, {false, false}, clocks, 7) > 0);
+}
+
+TEST_CASE(
+    "uart_rx: a low start of less than half a bit is none; a line that is held low is one error") {
+  Twin twin;
+  int errors = 0, bytes = 0;
+  const auto hold = [&](bool level, double bits) {
+    for (int k = 0; k < static_cast<int>(bits * kBitClocks); ++k) {
+      twin.clock({level});
+      errors += twin.out().error;
+      bytes += twin.out().valid;
+    }
+  };
+  hold(true, 3);
+  for (int k = 0; k < 5; ++k) {
+    hold(false, 0.35);
+    hold(true, 12);
+  }
+  CHECK(errors + bytes == 0);
+  hold(false, 100);
+  CHECK(errors == 1);
+  hold(true, 0.5);
+  CHECK(bytes == 0);
+}
+
+TEST_CASE("uart_rx: from event to event") {
+  RoughLine line(9, kBitClocks, {false, true});
+  Twin fast, slow;
+  bool level = true;
+  std::int64_t held = 0, skipped = 0;
+  for (int k = 0; k < 200'000; ++k) {
+    const bool next = line.next();
+    if (next != level) held = 0;
+    level = next;
+    slow.clock({level});
+    if (held == 0) {
+      held = fast.quiet(level);
+      if (held > 0) ++skipped;
+    } else {
+      ++skipped;
+    }
+    if (held > 0) {
+      fast.skip(1);
+      --held;
+    } else {
+      fast.clock({level});
+    }
+    REQUIRE(fast.out().valid == slow.out().valid);
+    REQUIRE(fast.out().error == slow.out().error);
+    REQUIRE(fast.out().byte == slow.out().byte);
+  }
+  CHECK(skipped > 100'000);
+}

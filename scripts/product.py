@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The core of a design as one file of Verilog-2005, for tools that take no SystemVerilog.
+"""The core of a design as one file of Verilog-2005, or a board's Quartus project of a design.
 
-Documentation: docs/product.md
+Documentation: docs/product.md, docs/boards/de0_nano.md
 """
 
 import argparse
@@ -16,6 +16,7 @@ from pathlib import Path
 import design_package
 import interrupts
 import outputs
+import product_board
 import rtl_sources
 import synth_measure
 from synth_tools import ToolError, Tools, version
@@ -24,6 +25,7 @@ EPILOG = """examples:
   feltgate product verilog                                feltgate.v: design lever, with read-back
   feltgate product verilog --design paper -o paper.v
   feltgate product verilog --design my.toml --no-read-back -o my.v
+  feltgate product board --design my.toml                 folder de0_nano_my: the DE0-Nano's project
 
 Exit code: 0 written, 2 a design, tool or option cannot be used."""
 NOTICE = """// SPDX-License-Identifier: Apache-2.0
@@ -47,7 +49,7 @@ def arguments_of(argv):
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("kind", choices=("verilog",), help="what to write")
+    parser.add_argument("kind", choices=("verilog", "board"), help="what to write")
     parser.add_argument(
         "--design", default="lever", help="a name in rtl/designs, or a file; default lever"
     )
@@ -61,10 +63,14 @@ def arguments_of(argv):
         "--output",
         type=Path,
         metavar="FILE",
-        default=Path("feltgate.v"),
-        help="default feltgate.v",
+        help="default feltgate.v; of a board a folder, default de0_nano_DESIGN",
     )
     options = parser.parse_args(argv)
+    if options.kind == "board":
+        if options.no_read_back:
+            parser.error("--no-read-back is of verilog; what a board leaves out is in its top level")
+        return options
+    options.output = options.output or Path("feltgate.v")
     outputs.check(parser, [options.design], output=options.output)
     return options
 
@@ -135,6 +141,10 @@ def main(argv=None):
     interrupts.end_on_signals()
     try:
         with tempfile.TemporaryDirectory(prefix="feltgate-product-") as folder:
+            if options.kind == "board":
+                made = product_board.write(root, options.design, options.output, Path(folder))
+                print(f"wrote {made}: cd {made}; quartus_sh -t build.tcl", file=sys.stderr)
+                return 0
             text = verilog(root, options, Path(folder))
         outputs.write_whole(options.output, text)
     except interrupts.Interrupted as error:

@@ -130,8 +130,8 @@ class Committed(unittest.TestCase):
         texts = committed()
         ports = read_ports(texts["sv"])
         self.assertEqual(len(read_pins(texts["pins"])), 87)
-        self.assertEqual(len(ports), 24)
-        self.assertEqual(sum(d == "output" for d in ports.values()), 12)
+        self.assertEqual(len(ports), 26)
+        self.assertEqual(sum(d == "output" for d in ports.values()), 13)
         self.assertEqual(len(read_qsf(texts["qsf"])[0]), texts["qsf"].count("PIN_"))
 
 

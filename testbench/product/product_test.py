@@ -91,6 +91,63 @@ class Product(unittest.TestCase):
         (self.folder / "own.toml").write_text(own)
         self.assertIn("design own", self.written("--design", "own.toml"))
 
+    def board(self, *words):
+        done = self.product("board", *words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def test_board_of_a_design_of_ones_own(self):
+        own = (ROOT / "rtl/designs/lever.toml").read_text()
+        (self.folder / "own.toml").write_text(own.replace("torque_limit_nm = 0.5", "torque_limit_nm = 0.25"))
+        self.board("--design", "own.toml")
+        made = self.folder / "de0_nano_own"
+        settings = (made / "de0_nano.qsf").read_text()
+        named = re.findall(r"SYSTEMVERILOG_FILE (\S+)", settings)
+        self.assertGreater(len(named), 30)
+        self.assertTrue(all((made / name).is_file() for name in named), named)
+        self.assertNotIn("..", "".join(named))
+        # All that Quartus is told to read is in the folder, and it elaborates.
+        command = ["iverilog", "-g2012", "-t", "null", "-s", "de0_nano", *(made / n for n in named)]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        for name in ("de0_nano.qpf", "de0_nano.sdc", "build.tcl"):
+            self.assertTrue((made / name).is_file())
+        # Package and file of parameters are of one design, and not of lever.
+        package = (made / "rtl/feltgate_pkg.sv").read_text()
+        values = (made / "rtl/parameters.mem").read_text()
+        words = dict(re.findall(r"9'd(\d+): parameter_reset = 32'd(\d+);", package))
+        self.assertGreater(len(words), 40)
+        listed = re.findall(r"^[0-9a-f]{9}$", values, re.M)
+        self.assertEqual(len(listed), 512)
+        for address, word in words.items():
+            self.assertEqual(int(listed[int(address)], 16) & 0xFFFFFFFF, int(word), address)
+        lever = (ROOT / "rtl/generated/lever/parameters.mem").read_text()
+        self.assertNotEqual(values, lever)
+        self.assertIn("design own", (made / "design.txt").read_text())
+        # Written again over itself with another design: nothing of the first is left.
+        (made / "rtl/stale.sv").write_text("")
+        self.board("--design", "lever", "-o", "de0_nano_own")
+        self.assertEqual((made / "rtl/parameters.mem").read_text(), lever)
+        self.assertFalse((made / "rtl/stale.sv").exists())
+
+    def test_board_refused(self):
+        own = (ROOT / "rtl/designs/lever.toml").read_text()
+        (self.folder / "fast.toml").write_text(own.replace("clock_hz = 50_000_000", "clock_hz = 100_000_000"))
+        (self.folder / "mine").mkdir()
+        (self.folder / "mine/thesis.txt").write_text("x")
+        for words, said in (
+            (("--design", "fast.toml"), "the board's clock is 50 MHz, the design wants 100"),
+            (("-o", "mine"), "not from here"),
+            (("-o", "mine/thesis.txt"), "is a file"),
+            (("--no-read-back",), "is of verilog"),
+            (("--design", "levr"), "levr is neither"),
+        ):
+            with self.subTest(said):
+                done = self.product("board", *words)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(said, done.stderr)
+        self.assertEqual((self.folder / "mine/thesis.txt").read_text(), "x")
+
     def test_refused(self):
         for words, said in (
             (("verilog", "--design", "levr"), "levr is neither a design (balanced, exact"),

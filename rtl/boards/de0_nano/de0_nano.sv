@@ -24,6 +24,11 @@ module de0_nano #(
   input  logic       ENC_Z,
   input  logic       ENC_LOOP,   // low while the encoder's connector is in: a wire to GND in it
   input  logic       ESTOP,      // high stops, without a clock: a normally closed switch to GND, pulled up
+  // No host yet.
+  /* verilator lint_off UNUSEDSIGNAL */
+  input  logic       UART_RX,    // from the host
+  /* verilator lint_on UNUSEDSIGNAL */
+  output logic       UART_TX,    // to it
   output logic       GATE_A_HI,
   output logic       GATE_A_LO,
   output logic       GATE_B_HI,
@@ -47,6 +52,8 @@ module de0_nano #(
   logic signed [31:0] position;
   logic [7:0] inputs;
   /* verilator lint_on UNUSEDSIGNAL */
+
+  assign UART_TX = 1'b1;
 
   panel_reset #(.HoldBits(DebounceBits)) u_reset (
     .clk_i(CLOCK_50),

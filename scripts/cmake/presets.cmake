@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# feltgate_fast, feltgate_balanced, feltgate_exact: the program feltgate with one preset more. An
+# feltgate_fast, feltgate_balanced, feltgate_exact, feltgate_first_power: the program feltgate with one preset more. An
 # engine costs a minute to build, so these are built when somebody asks for them, and nobody else
 # builds or loads a preset. docs/designs.md
 include_guard(GLOBAL)
@@ -12,10 +12,7 @@ foreach(design IN LISTS FELTGATE_PRESETS)
   if(NOT EXISTS "${package}")
     continue()
   endif()
-  string(SUBSTRING ${design} 0 1 first)
-  string(SUBSTRING ${design} 1 -1 rest)
-  string(TOUPPER ${first} first)
-  set(type ${first}${rest})
+  feltgate_type_of(${design} type)
   feltgate_verilate(core_${design} feltgate_core "${package};${FELTGATE_CORE_SOURCES}"
     CLASS Vcore_${design} -O3)
   target_compile_options(core_${design} PRIVATE ${FELTGATE_FASTEST_RTL})

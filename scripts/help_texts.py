@@ -50,6 +50,7 @@ def commands(build):
         "prove": [PYTHON, "-B", ROOT / "scripts/prove.py"],
         "mutate": [PYTHON, "-B", ROOT / "scripts/mutate.py"],
         "coverage": [PYTHON, "-B", ROOT / "scripts/coverage.py"],
+        "page": [PYTHON, "-B", ROOT / "scripts/page.py"],
         "product": [PYTHON, "-B", ROOT / "scripts/product.py"],
         "generate": [build / "feltgate_generate", ROOT],
         "bench": [build / "feltgate_bench"],

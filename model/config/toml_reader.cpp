@@ -48,19 +48,22 @@ toml::table parse_toml_file(const std::string& path) {
     throw ConfigError(path + ":0: is a folder; give the path of one TOML file");
   }
   std::ifstream in(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (!in) {
+    throw ConfigError(path + ":0: cannot be read; give the path of a readable TOML file");
+  }
+  return parse_toml_text({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()},
+                         path);
+}
+
+toml::table parse_toml_text(const std::string& text, const std::string& path) {
   if (const int line = stray_line(text)) {
     throw ConfigError(fmt::format(
         "{}:{}: not TOML (a letter beyond ASCII outside quotation marks); correct this line", path,
         line));
   }
   try {
-    return toml::parse_file(path);
+    return toml::parse(text, path);
   } catch (const toml::parse_error& error) {
-    const auto line = error.source().begin.line;
-    if (line == 0) {
-      throw ConfigError(path + ":0: cannot be read; give the path of a readable TOML file");
-    }
     throw ConfigError(fmt::format("{}not TOML ({}); correct the syntax of this line",
                                   place(path, error.source()), error.description()));
   }

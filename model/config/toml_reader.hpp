@@ -34,6 +34,8 @@ inline constexpr Range kNotNegative{0.0, 1e300};
 
 /// Parses a whole file. Errors: ConfigError when it cannot be opened or is not TOML.
 toml::table parse_toml_file(const std::string& path);
+/// The same of a text; errors call it `path`.
+toml::table parse_toml_text(const std::string& text, const std::string& path);
 
 /// One table of a file. It keeps a reference: the parsed file must outlive it.
 class TomlReader {

@@ -196,7 +196,7 @@ Design read_design(const std::string& path) {
 }
 
 Design design_from_text(const std::string& text, const std::string& path) {
-  return design_of(toml::parse(text), path);
+  return design_of(config::parse_toml_text(text, path), path);
 }
 
 namespace {

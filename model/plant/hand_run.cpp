@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace feltgate::plant {
@@ -19,11 +20,27 @@ double Hand::initial_rad() const {
 }
 
 HandRun::HandRun(Hand hand, double radius_m, double clock_hz, bool dynamics)
-    : hand_(std::move(hand)), radius_m_(radius_m), clock_hz_(clock_hz), clock_s_(1.0 / clock_hz) {
+    : hand_(std::move(hand)),
+      radius_m_(radius_m),
+      clock_hz_(clock_hz),
+      clock_s_(1.0 / clock_hz),
+      has_dynamics_(dynamics) {
   if (hand_.phases.empty()) hand_.phases.emplace_back();
-  for (HandPhase& phase : hand_.phases) {
-    if (phase.kind == Kind::kImpedance && !dynamics) phase.kind = Kind::kPrescribed;
-  }
+  for (HandPhase& phase : hand_.phases) phase.kind = kind_of(phase);
+}
+
+Kind HandRun::kind_of(const HandPhase& phase) const {
+  return phase.kind == Kind::kImpedance && !has_dynamics_ ? Kind::kPrescribed : phase.kind;
+}
+
+void HandRun::take(HandPhase phase) {
+  phase.kind = kind_of(phase);
+  phase.duration_s = std::numeric_limits<double>::infinity();
+  const bool begun = started_;
+  hand_.phases = {hand_.phases[index_], std::move(phase)};
+  index_ = begun ? 0 : 1;
+  last_ = false;
+  taken_ = true;
 }
 
 Clock HandRun::end_of(std::size_t index) const {
@@ -33,6 +50,7 @@ Clock HandRun::end_of(std::size_t index) const {
 
 void HandRun::begin_phase(const Shaft& lever) {
   corner_ = 0;
+  steered_ = false;
   const HandPhase& phase = hand_.phases[index_];
   const bool goes_on = started_ && kind_ == Kind::kImpedance && phase.kind == Kind::kImpedance;
   kind_ = phase.kind;
@@ -79,6 +97,8 @@ void HandRun::find_corner(Clock now) {
 }
 
 void HandRun::begin_step(Clock now, double dt_s, const Shaft& lever) {
+  if (taken_ && started_) phase_end_ = now;
+  taken_ = false;
   if (!started_) begin_phase(lever);
   while (!last_ && now >= phase_end_) {
     phase_begin_ = phase_end_;
@@ -93,6 +113,10 @@ void HandRun::begin_step(Clock now, double dt_s, const Shaft& lever) {
   } else if (kind_ == Kind::kTrace) {
     const ProfileSample end = trace_.at(begin_s + dt_s);
     target_ = {end.value + shift_rad_, end.rate};
+  } else if (steered_) {
+    const double passed_s = static_cast<double>(now - steered_since_) * clock_s_ + 0.5 * dt_s;
+    dynamics_.equilibrium_rad = steered_from_.theta_rad + steered_from_.omega_rad_s * passed_s;
+    dynamics_.equilibrium_rad_s = steered_from_.omega_rad_s;
   } else {
     const ProfileSample middle = profile_.at(begin_s + 0.5 * dt_s);
     applied_nm_ = middle.value;

@@ -28,6 +28,16 @@ class HandRun {
     return corner_;
   }
 
+  /// The caller takes the hand over: `phase` begins with the next step and lasts for good.
+  void take(HandPhase phase);
+  /// The equilibrium of an impedance hand is here now and moves on at this rate, whatever its
+  /// profile says, until the next call or phase.
+  void steer(const Shaft& equilibrium, Clock now) {
+    steered_ = true;
+    steered_from_ = equilibrium;
+    steered_since_ = now;
+  }
+
   HandPhase::Kind kind() const { return kind_; }
   /// The lever is where the hand puts it: target() at the end of the step.
   bool imposes() const {
@@ -56,6 +66,7 @@ class HandRun {
   const Shaft& mass() const { return mass_; }
 
  private:
+  HandPhase::Kind kind_of(const HandPhase& phase) const;
   void begin_phase(const Shaft& lever);
   void find_corner(Clock now);
   Clock end_of(std::size_t index) const;
@@ -64,6 +75,8 @@ class HandRun {
   double radius_m_;
   double clock_hz_;
   double clock_s_;
+  bool has_dynamics_;
+  bool taken_ = false;  ///< the next step begins the phase of take()
   std::size_t index_ = 0;
   bool started_ = false;
   Clock phase_begin_ = 0;
@@ -77,6 +90,9 @@ class HandRun {
   double anchor_rad_ = 0.0;
   double applied_nm_ = 0.0;
   Shaft target_;
+  bool steered_ = false;
+  Shaft steered_from_;
+  Clock steered_since_ = 0;
   Shaft mass_;
   HandDynamics dynamics_;
 };

@@ -64,6 +64,12 @@ class Plant {
   /// long step is as good as many short ones.
   Clock next_corner() { return hand_.next_corner(now_); }
 
+  /// The caller takes the hand over: from now on `phase`, for good. It moves on where the lever is.
+  void take(const HandPhase& phase) { hand_.take(phase); }
+  /// From now on the equilibrium of an impedance hand is at `theta_rad` and moves at `rad_s`, until
+  /// the next call; after the first step of the phase. Other hands take no notice.
+  void steer(double theta_rad, double rad_s) { hand_.steer({theta_rad, rad_s}, now_); }
+
   /// Time since the start, in clocks. Seconds come from it alone.
   Clock now() const { return now_; }
   /// Pin changes during the last step; valid until the next advance().

@@ -42,6 +42,16 @@ feltgate_library(feltgate_calibrate host/calibrate feltgate_design feltgate_trac
 target_link_libraries(feltgate_calibrate PRIVATE nlohmann_json::nlohmann_json)
 feltgate_library(feltgate_identify host/identify feltgate_calibrate)
 target_link_libraries(feltgate_identify PRIVATE nlohmann_json::nlohmann_json)
+# The page for a browser: what runs natively of it; scripts/page.py compiles it for the browser.
+feltgate_library(feltgate_page page EXCEPT "/page_api" feltgate_loop feltgate_design)
+set(design fast)
+feltgate_type_of(fast type)
+feltgate_for_design(design_twin.cpp.in "${PROJECT_BINARY_DIR}/engines/fast_twin.cpp")
+add_executable(feltgate_page_data EXCLUDE_FROM_ALL
+  "${FELTGATE_ROOT}/model/page/data_main.cpp" "${PROJECT_BINARY_DIR}/engines/fast_twin.cpp")
+target_compile_options(feltgate_page_data PRIVATE ${FELTGATE_WARNINGS})
+target_compile_definitions(feltgate_page_data PRIVATE FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}")
+target_link_libraries(feltgate_page_data PRIVATE feltgate_page nlohmann_json::nlohmann_json fmt::fmt)
 
 feltgate_program(feltgate_generate generate_main.cpp feltgate_design)
 

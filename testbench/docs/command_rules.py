@@ -37,8 +37,11 @@ RULES = (
     Rule(r"feltgate extremes", "MORE", "--list"),
     Rule(r"feltgate bench", "MORE", "--quick"),
     Rule(r"feltgate explore (?:plan|page vectors/spaces/trade\.csv)", "WHOLE"),
-    Rule(r"feltgate (?:explore|synth|prove|product|mutate|faults|coverage|demo|figures)", "PARSED"),
-    Rule(r"feltgate host .*\b(?:calibrate|identify)", "BY", "calibrate.verbs"),
+    Rule(
+        r"feltgate (?:explore|synth|prove|product|page|mutate|faults|coverage|demo|figures)",
+        "PARSED",
+    ),
+    Rule(r"feltgate host .*(?:calibrate|identify)", "BY", "calibrate.verbs"),
     Rule(r"feltgate host:?", "BY", "host.verbs"),
     Rule(r"feltgate test", "LAUNCHER"),
     Rule(r"ctest .*-N", "WHOLE"),
@@ -53,6 +56,7 @@ RULES = (
     Rule(r"cmake -S \. -B build-aarch64", "BY", "aarch64"),
     Rule(r"cmake -S \. -B build-library|cmake --(?:build|install)", "BY", "package"),
     Rule(r"sudo apt-get install", "NAMED"),
+    Rule(r"python3 testbench/page/chromium_test\.py", "NAMED"),
     Rule(r"python3 testbench/python/speed\.py", "BY", "python.speed"),
     Rule(r"(?:python3 -m venv|(?:venv/bin/)?pip install)", "BY", "python.pip"),
 )

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The loop that someone plays with. Documentation: docs/page.md
+#include "page/live_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "loop/scenario.hpp"
+#include "plant/drive.hpp"
+
+namespace feltgate::page {
+
+namespace {
+
+constexpr double low_supply = 0.35;  ///< of the supply that Break::supply_low leaves
+
+/// Assumed: a finger that leans on the lever and leaves its swing alone.
+constexpr plant::Impedance fingertip{0.01, 0.3, 135.0, 3000.0, 10.0};
+
+/// Steps short enough for the plant held by a hand.
+StepPlan plan_for(const plant::Parameters& plant, const DesignInfo& d) {
+  Scenario scenario;
+  scenario.effects = plant.effects;
+  plant::HandPhase held, light;
+  held.kind = light.kind = plant::HandPhase::Kind::kImpedance;
+  light.impedance = fingertip;
+  scenario.hand.phases = {held, light};
+  return {scenario.step_clocks,
+          longest_step_clocks(scenario, plant, static_cast<double>(d.clock_hz)), d.pwm_period};
+}
+
+/// FNV-1a, byte by byte, little end first.
+class Hash {
+ public:
+  void add(std::int64_t value) {
+    auto word = static_cast<std::uint64_t>(value);
+    for (int byte = 0; byte < 8; ++byte, word >>= 8) {
+      value_ = (value_ ^ (word & 0xffu)) * 0x100000001b3u;
+    }
+  }
+  void add(const Snapshot& s) {
+    add(s.tick);
+    add(s.position);
+    add(s.velocity);
+    add(s.tau_hat);
+    add(s.tau_ref);
+    add(s.current_ref);
+    add(s.voltage);
+    add(s.duty);
+    add(s.scene);
+    add(s.limits);
+    add(s.faults);
+    add(s.first_fault);
+    add(s.armed ? 1 : 0);
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325u;
+};
+
+}  // namespace
+
+LiveLoop::LiveLoop(const std::string& design, const plant::Parameters& plant)
+    : parameters_(plant),
+      core_(design, EngineChoice{"twin", {"double"}, false}, 1, EncoderPins{}, Waveform{}),
+      plant_(plant, plant.effects, plant::drive_of(core_.design()), plant::Hand{}),
+      clock_hz_(static_cast<double>(core_.design().clock_hz)),
+      plan_(plan_for(plant, core_.design())),
+      mean_(core_.design().pwm_period, plan_.phase()) {
+  core_.lead().reset(1, plant_.encoder().pins());
+  core_.lead().keep_gate_times(false);
+  pins_ = plant_.encoder().pins();
+  control();
+}
+
+void LiveLoop::control() {
+  // A host's wall is a set-point that is written again and again.
+  const bool by_host = scene_ == "wall" && host_ticks_ > 1;
+  core_.set_control(design().scene_number(by_host ? "setpoint" : scene_), 0, armed_);
+}
+
+void LiveLoop::select(const std::string& scene) {
+  if (design().scene_number(scene) < 0) {
+    throw std::invalid_argument(design().unknown_scene(scene));
+  }
+  scene_ = scene;
+  control();
+}
+
+void LiveLoop::arm(bool wanted) {
+  armed_ = wanted;
+  control();
+}
+
+void LiveLoop::clear_faults() {
+  arm(false);
+  core_.command(1u << design().command.clear_faults);
+}
+
+void LiveLoop::stop(bool pressed) {
+  Panel panel;
+  panel.stop = pressed;
+  core_.set_panel(panel);
+  plan_.stir(core_.lead().now(), 2 * design().clocks_per_tick);
+}
+
+void LiveLoop::host_wall(int ticks, double contact_rad, double stiffness_nm_rad,
+                         double damping_nm_s_rad) {
+  const bool by_host = ticks > 1, was = host_ticks_ > 1;
+  host_ticks_ = std::max(1, ticks);
+  contact_rad_ = contact_rad;
+  stiffness_nm_rad_ = stiffness_nm_rad;
+  damping_nm_s_rad_ = damping_nm_s_rad;
+  if (by_host == was) return;
+  core_.set_parameter("setpoint_torque", 0);
+  control();
+}
+
+void LiveLoop::hold(Grip grip) {
+  if (grip == grip_) return;
+  grip_ = grip;
+  plant::HandPhase phase;
+  phase.kind = held() ? plant::HandPhase::Kind::kImpedance : plant::HandPhase::Kind::kFree;
+  if (grip == Grip::fingertip) phase.impedance = fingertip;
+  plant_.take(phase);
+  hand_rad_ = wanted_rad_ = plant_.observables().theta_rad;
+  plan_.stir(core_.lead().now(), 2 * design().clocks_per_tick);
+}
+
+void LiveLoop::advance(std::int64_t ticks, int every) {
+  samples_.clear();
+  every_ = std::max(1, every);
+  const Clock begin = core_.lead().now();
+  const Clock end = begin + ticks * design().clocks_per_tick;
+  const double span_s = static_cast<double>(end - begin) / clock_hz_;
+  if (!held()) wanted_rad_ = hand_rad_;
+  const double rate = span_s > 0 ? (wanted_rad_ - hand_rad_) / span_s : 0;
+  bool steered = false;
+  while (core_.lead().now() < end) {
+    const Clock now = core_.lead().now();
+    if (core_.writes_wait()) plan_.stir(now, 2 * design().clocks_per_tick);
+    step(plan_.end_of_step(now, end, end) - now);
+    if (!steered && held()) {  // the phase of a hand begins with a step
+      const double passed_s = static_cast<double>(core_.lead().now() - begin) / clock_hz_;
+      plant_.steer(hand_rad_ + rate * passed_s, rate);
+      steered = true;
+    }
+  }
+  hand_rad_ = wanted_rad_;
+}
+
+const std::vector<EncoderEvent>& LiveLoop::through_the_wires(
+    const std::vector<EncoderEvent>& events) {
+  const bool dead = broken_ == Break::channel_dead, swapped = broken_ == Break::encoder_swapped;
+  if (!dead) dead_level_ = pins_.a;
+  if (!dead && !swapped && events.empty()) return events;
+  wired_ = events;
+  for (EncoderEvent& e : wired_) {
+    if (swapped) std::swap(e.pins.a, e.pins.b);
+    if (dead) e.pins.a = dead_level_;
+  }
+  if (!wired_.empty()) pins_ = wired_.back().pins;
+  return wired_;
+}
+
+void LiveLoop::step(Clock clocks) {
+  double duty = static_cast<double>(core_.lead().duty()) / design().pwm_period;
+  if (broken_ == Break::motor_swapped) duty = -duty;
+  if (broken_ == Break::supply_low) duty *= low_supply;
+  plant_.advance(plant::Bridge::averaged(duty, core_.lead().gates_enabled()), clocks);
+  mean_.add(clocks, plant_.observables().motor_torque_mean_nm);
+  const auto& events = through_the_wires(plant_.events());
+  core_.advance(clocks, events.data(), events.data() + events.size(),
+                [this](const Snapshot& s) { tick(s); });
+}
+
+/// What a host does that reads a snapshot, computes the wall and writes its torque.
+void LiveLoop::host(const Snapshot& s) {
+  const double depth_rad = s.position * design().count_rad - contact_rad_;
+  double torque_nm = 0;
+  if (depth_rad > 0) {
+    torque_nm = -stiffness_nm_rad_ * depth_rad - damping_nm_s_rad_ * core_.velocity_rad_s(s);
+  }
+  const ValueRange range = range_of(*design().find("setpoint_torque"));
+  core_.set_parameter("setpoint_torque",
+                      std::clamp(std::min(torque_nm, 0.0), range.low, range.high));
+}
+
+void LiveLoop::tick(const Snapshot& s) {
+  last_ = s;
+  if (s.faults != 0 && armed_) arm(false);  // as a panel does: nothing arms again by itself
+  if (host_ticks_ > 1 && scene_ == "wall" && ticks_ % host_ticks_ == 0) host(s);
+  const double float_nm = core_.rider(0)->out().tau_hat_nm;
+  difference_nm_ = std::max(difference_nm_, std::abs(core_.torque_nm(s.tau_hat) - float_nm));
+  if (ticks_++ % every_ != 0) return;
+  const plant::Observables& o = plant_.observables();
+  samples_.push_back({static_cast<double>(ticks_) / static_cast<double>(design().tick_hz),
+                      o.theta_rad, held() ? hand_rad_ : o.theta_rad, core_.torque_nm(s.tau_ref),
+                      core_.torque_nm(s.tau_hat), mean_.mean(), o.hand_torque_nm,
+                      core_.velocity_rad_s(s), float_nm, s.position * design().count_rad});
+}
+
+double LiveLoop::take_difference() { return std::exchange(difference_nm_, 0.0); }
+
+void follow_script(LiveLoop& loop, int frame) {
+  constexpr int in = 40, out = 70;  // frames: there, and off again
+  const double way = frame < in    ? frame / static_cast<double>(in)
+                     : frame < out ? 1.0
+                                   : 1.0 - (frame - out) / 20.0;
+  loop.lead(0.8 * way);
+  loop.advance(loop.design().tick_hz / 60, 200);
+}
+
+std::uint64_t hash_of(const std::string& design, const RunInputs& inputs) {
+  const auto engine = make_engine(design, "twin");
+  engine->reset(1, inputs.pins);
+  engine->keep_gate_times(false);
+  Hash hash;
+  std::size_t edge = 0, write = 0;
+  const auto note = [&] {
+    for (const Snapshot& s : engine->snapshots()) hash.add(s);
+  };
+  while (engine->now() < inputs.clocks) {
+    const Clock now = engine->now();
+    while (write < inputs.writes.size() && inputs.writes[write].clock <= now) {
+      engine->write(inputs.writes[write].address, inputs.writes[write].data);
+      ++write;
+    }
+    Clock until = std::min(inputs.clocks, now + engine->design().pwm_period);
+    if (write < inputs.writes.size()) until = std::min(until, inputs.writes[write].clock);
+    std::size_t last = edge;
+    while (last < inputs.edges.size() && inputs.edges[last].clock < until) ++last;
+    engine->advance(until - now, inputs.edges.data() + edge, inputs.edges.data() + last);
+    edge = last;
+    note();
+  }
+  return hash.value();
+}
+
+}  // namespace feltgate::page

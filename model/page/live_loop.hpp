@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A closed loop that someone plays with while it runs: the twin, a plant, a hand that the caller
+// moves, a host that may compute the wall instead of the core, and wires that break.
+// Documentation: docs/page.md
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "loop/ensemble.hpp"
+#include "loop/step_plan.hpp"
+#include "plant/period_mean.hpp"
+#include "plant/plant.hpp"
+
+namespace feltgate::page {
+
+/// What breaks between core and plant.
+enum class Break { none, channel_dead, encoder_swapped, motor_swapped, supply_low };
+
+/// How the lever is held: with a hand that has mass and damping, or lightly with a fingertip.
+enum class Grip { none, hand, fingertip };
+
+/// One tick as a reader sees it; times in seconds since the start.
+struct Sample {
+  double time_s = 0;
+  double angle_rad = 0;       ///< of the lever, not of the encoder
+  double hand_rad = 0;        ///< where the hand wants it
+  double tau_ref_nm = 0;      ///< what the scene asks for
+  double tau_hat_nm = 0;      ///< what the observer sees
+  double torque_nm = 0;       ///< what the motor does, averaged over a PWM period
+  double hand_nm = 0;         ///< what the hand does
+  double velocity_rad_s = 0;  ///< estimated
+  double float_nm = 0;        ///< what the observer of the chain in double sees on the same samples
+  double position_rad = 0;    ///< that the core counted
+};
+
+constexpr std::size_t sample_values = 10;  ///< numbers of a Sample
+
+class LiveLoop {
+ public:
+  /// A design that is built in. The lever starts at rest at 0 rad, nobody holds it, disarmed.
+  /// Errors: std::invalid_argument for an unknown design.
+  LiveLoop(const std::string& design, const plant::Parameters& plant);
+
+  const DesignInfo& design() const { return core_.design(); }
+  /// By name. Errors: std::invalid_argument.
+  void select(const std::string& scene);
+  /// A parameter in its unit. Errors: std::invalid_argument.
+  void set(const std::string& parameter, double value) { core_.set_parameter(parameter, value); }
+  void arm(bool wanted);
+  /// Disarms and forgets faults; what is broken stays so.
+  void clear_faults();
+  void stop(bool pressed);
+  /// The wall of the scene `wall` is computed by a host every `ticks` ticks and its torque held in
+  /// between; 1: by the core. Contact in rad, stiffness in Nm/rad, damping in Nm s/rad.
+  void host_wall(int ticks, double contact_rad, double stiffness_nm_rad, double damping_nm_s_rad);
+  void break_it(Break what) { broken_ = what; }
+
+  /// The hand takes the lever where it is, or lets it go.
+  void hold(Grip grip);
+  bool held() const { return grip_ != Grip::none; }
+  /// Where the hand wants to be when the next advance() ends, rad; it moves there evenly.
+  void lead(double theta_rad) { wanted_rad_ = theta_rad; }
+
+  /// Runs for so many ticks and keeps every `every`-th as a sample.
+  /// Errors: plant::MotionError.
+  void advance(std::int64_t ticks, int every);
+  /// Those of the last advance().
+  const std::vector<Sample>& samples() const { return samples_; }
+  /// The last tick's.
+  const Snapshot& snapshot() const { return last_; }
+  const plant::Observables& observables() const { return plant_.observables(); }
+  double time_s() const { return static_cast<double>(core_.lead_const().now()) / clock_hz_; }
+  /// Largest difference of tau_hat between the core's bits and double since the last call, Nm.
+  double take_difference();
+
+ private:
+  void step(Clock clocks);
+  void tick(const Snapshot& s);
+  void control();
+  void host(const Snapshot& s);
+  const std::vector<EncoderEvent>& through_the_wires(const std::vector<EncoderEvent>& events);
+
+  plant::Parameters parameters_;
+  Ensemble core_;
+  plant::Plant plant_;
+  double clock_hz_;
+  StepPlan plan_;
+  plant::PeriodMean mean_;
+  std::string scene_ = "free";
+  bool armed_ = false;
+  Grip grip_ = Grip::none;
+  int host_ticks_ = 1;
+  double contact_rad_ = 0, stiffness_nm_rad_ = 0, damping_nm_s_rad_ = 0;
+  Break broken_ = Break::none;
+  EncoderPins pins_;                 ///< as the core sees them
+  bool dead_level_ = false;          ///< of a channel that is dead
+  std::vector<EncoderEvent> wired_;  ///< events behind the broken wires
+  double hand_rad_ = 0, wanted_rad_ = 0;
+  std::int64_t ticks_ = 0;
+  int every_ = 1;
+  double difference_nm_ = 0;
+  Snapshot last_;
+  std::vector<Sample> samples_;
+};
+
+/// A motion that native program and page both make, to be compared: frames of 1/60 s in which the
+/// hand goes into the wall, stays and comes back. Call hold(Grip::hand) before the first.
+constexpr int script_frames = 90;
+void follow_script(LiveLoop& loop, int frame);
+
+/// Hash over every snapshot of the twin of a design that gets these inputs: FNV-1a of 64 bits, over
+/// the words of the core's snapshot. Equal bits, equal hash, on any machine.
+std::uint64_t hash_of(const std::string& design, const RunInputs& inputs);
+
+}  // namespace feltgate::page

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What the page in the browser calls: the loop, the hash over recorded inputs, the verdict of the
+// eigenvalues, and a user's own design file. Compiled by Emscripten alone.
+// Documentation: docs/page.md
+#include <emscripten/bind.h>
+#include <emscripten/val.h>
+
+#include <exception>
+#include <memory>
+#include <string>
+
+#include "feltgate/reading.hpp"
+#include "page/live_loop.hpp"
+#include "page/own_design.hpp"
+#include "page/recorded_inputs.hpp"
+#include "plant/plant_file.hpp"
+#include "stability/linear_loop.hpp"
+
+namespace {
+
+using emscripten::val;
+namespace page = feltgate::page;
+
+const char* registers = "/rtl/registers.toml";
+std::string plant_path(const std::string& name) { return "/plants/" + name + ".toml"; }
+
+/// What went wrong as a text for the page; empty: nothing.
+template <class Do>
+std::string said(Do&& act) {
+  try {
+    act();
+    return {};
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+class Loop {
+ public:
+  Loop(const std::string& design, const std::string& plant)
+      : loop_(design, feltgate::plant::read_plant_file(plant_path(plant))) {}
+
+  std::string select(const std::string& scene) {
+    return said([&] { loop_.select(scene); });
+  }
+  std::string set(const std::string& name, double value) {
+    return said([&] { loop_.set(name, value); });
+  }
+  void arm(bool wanted) { loop_.arm(wanted); }
+  void clear_faults() { loop_.clear_faults(); }
+  void stop(bool pressed) { loop_.stop(pressed); }
+  void host_wall(int ticks, double contact_rad, double stiffness, double damping) {
+    loop_.host_wall(ticks, contact_rad, stiffness, damping);
+  }
+  void break_it(int what) { loop_.break_it(static_cast<page::Break>(what)); }
+  void hold(int grip) { loop_.hold(static_cast<page::Grip>(grip)); }
+  void lead(double theta_rad) { loop_.lead(theta_rad); }
+  std::string advance(int ticks, int every) {
+    return said([&] { loop_.advance(ticks, every); });
+  }
+  /// The samples of the last advance() as one array of doubles; valid until the next call.
+  val samples() const {
+    static_assert(sizeof(page::Sample) == page::sample_values * sizeof(double), "no gaps");
+    const auto& list = loop_.samples();
+    return val(emscripten::typed_memory_view(list.size() * page::sample_values,
+                                             reinterpret_cast<const double*>(list.data())));
+  }
+  val status() {
+    const feltgate::Snapshot& s = loop_.snapshot();
+    feltgate::Reading names;
+    names.limits = s.limits;
+    names.faults = s.faults;
+    val out = val::object();
+    out.set("time_s", loop_.time_s());
+    out.set("armed", s.armed);
+    out.set("limits", names.limit_names());
+    out.set("faults", names.fault_names());
+    out.set("position", s.position);
+    out.set("theta_rad", loop_.observables().theta_rad);
+    out.set("difference_nm", loop_.take_difference());
+    return out;
+  }
+  val parameters() const {
+    val list = val::array();
+    const feltgate::DesignInfo& d = loop_.design();
+    for (int i = 0; i < d.parameter_count; ++i) {
+      const feltgate::ParameterInfo& p = d.parameters[i];
+      const feltgate::ValueRange range = feltgate::range_of(p);
+      val one = val::object();
+      one.set("name", std::string(p.name));
+      one.set("unit", std::string(p.unit));
+      one.set("value", p.si);
+      one.set("low", range.low);
+      one.set("high", range.high);
+      one.set("step", range.step);
+      list.call<void>("push", one);
+    }
+    return list;
+  }
+  val design() const {
+    const feltgate::DesignInfo& d = loop_.design();
+    val out = val::object();
+    out.set("name", std::string(d.name));
+    out.set("tick_hz", static_cast<double>(d.tick_hz));
+    out.set("count_rad", d.count_rad);
+    val scenes = val::array();
+    for (const std::string& scene : d.scenes) scenes.call<void>("push", scene);
+    out.set("scenes", scenes);
+    return out;
+  }
+
+ private:
+  page::LiveLoop loop_;
+};
+
+val design_names() {
+  val list = val::array();
+  for (const std::string& name : feltgate::design_names()) list.call<void>("push", name);
+  return list;
+}
+
+/// Hash of a design's twin over inputs in the text form of recorded_inputs.hpp; "error: ..." else.
+std::string hash(const std::string& design, const std::string& inputs) {
+  std::string out;
+  const std::string error =
+      said([&] { out = page::hex(page::hash_of(design, page::inputs_from_text(inputs))); });
+  return error.empty() ? out : "error: " + error;
+}
+
+/// The closed loop of follow_script() as it goes here: angle and motor torque after each frame.
+val closed_loop(const std::string& design) {
+  val rows = val::array();
+  page::LiveLoop loop(design, feltgate::plant::read_plant_file(plant_path("p24")));
+  loop.select("wall");
+  loop.arm(true);
+  loop.hold(page::Grip::hand);
+  for (int frame = 0; frame < page::script_frames; ++frame) {
+    page::follow_script(loop, frame);
+    val row = val::array();
+    row.call<void>("push", loop.observables().theta_rad);
+    row.call<void>("push", loop.samples().back().torque_nm);
+    rows.call<void>("push", row);
+  }
+  return rows;
+}
+
+/// Largest stable stiffness of the wall at this damping and rate, by eigenvalues, and the frequency
+/// of the swing there; of a design of this page or the text of a file of one.
+val border(const std::string& design, const std::string& own_text, const std::string& plant,
+           double damping_nm_s_rad, int scene_ticks) {
+  val out = val::object();
+  out.set("error", said([&] {
+            const auto e = page::elaborated(own_text, "/designs/" + design + ".toml", registers);
+            const auto model = feltgate::stability::make_model(
+                e, feltgate::plant::read_plant_file(plant_path(plant)));
+            const auto b = feltgate::stability::border(model, damping_nm_s_rad, scene_ticks);
+            out.set("stiffness_nm_rad", b.stiffness_nm_rad);
+            out.set("rad_s", b.rad_s);
+          }));
+  return out;
+}
+
+/// A user's design file: on which design of this page it runs, and the values of its parameters.
+val own_design(const std::string& text) {
+  val out = val::object();
+  out.set("error", said([&] {
+            const page::OwnDesign own =
+                page::own_design(text, feltgate::design_names(), "/designs/", registers);
+            val values = val::array();
+            for (const auto& [name, value] : own.values) {
+              val one = val::object();
+              one.set("name", name);
+              one.set("value", value);
+              values.call<void>("push", one);
+            }
+            out.set("base", own.base);
+            out.set("values", values);
+          }));
+  return out;
+}
+
+}  // namespace
+
+EMSCRIPTEN_BINDINGS(feltgate) {
+  emscripten::class_<Loop>("Loop")
+      .constructor<std::string, std::string>()
+      .function("select", &Loop::select)
+      .function("set", &Loop::set)
+      .function("arm", &Loop::arm)
+      .function("clearFaults", &Loop::clear_faults)
+      .function("stop", &Loop::stop)
+      .function("hostWall", &Loop::host_wall)
+      .function("breakIt", &Loop::break_it)
+      .function("hold", &Loop::hold)
+      .function("lead", &Loop::lead)
+      .function("advance", &Loop::advance)
+      .function("samples", &Loop::samples)
+      .function("status", &Loop::status)
+      .function("parameters", &Loop::parameters)
+      .function("design", &Loop::design);
+  emscripten::function("designNames", &design_names);
+  emscripten::function("hash", &hash);
+  emscripten::function("closedLoop", &closed_loop);
+  emscripten::function("border", &border);
+  emscripten::function("ownDesign", &own_design);
+}

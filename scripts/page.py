@@ -1,0 +1,201 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Writes one HTML file in which the twin runs: a lever to drag with a mouse, without a network.
+
+Documentation: docs/page.md
+"""
+
+import argparse
+import base64
+import gzip
+import hashlib
+import json
+import os
+import re
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import interrupts
+import outputs
+from paging.compile import CompileError, compile_core
+from reporting.progress import RedrawnLine, clock_text
+
+EPILOG = """examples:
+  feltgate page                          page.html: lever, paper and fast; open it in a browser
+  feltgate page --design mine -o my.html the page with rtl/designs/mine.toml first
+  feltgate page --update                 docs/page.html anew, after a change of twin or page
+  feltgate page --check                  is docs/page.html of this tree?
+
+It compiles for a minute or two. Exit code: 0 written or current, 1 --check found the page stale,
+2 a design or a tool cannot be used."""
+DESIGNS = ("lever", "paper", "fast")
+SCRIPTS = ("core.js", "objects.js", "device.js", "curves.js", "page.js")
+COMMITTED = "docs/page.html"
+STAMP = re.compile(r'<meta name="feltgate-sources" content="(\w+)">')
+
+
+class PageError(Exception):
+    """The page cannot be made; the message is for the user."""
+
+
+def arguments_of(argv):
+    parser = argparse.ArgumentParser(
+        allow_abbrev=False,
+        prog="feltgate page",
+        description=__doc__.splitlines()[0],
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "--design",
+        action="append",
+        metavar="NAME",
+        help="a design of rtl/designs that the page shall have besides, first; may be repeated",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE",
+        default=Path("page.html"),
+        help="default page.html",
+    )
+    parser.add_argument("--update", action="store_true", help=f"write {COMMITTED}")
+    parser.add_argument(
+        "--check", action="store_true", help=f"compare {COMMITTED} with this tree; compiles nothing"
+    )
+    options = parser.parse_args(argv)
+    outputs.check(parser, output=options.output)
+    return options
+
+
+def packed(data):
+    """For a script element: gzip without a time, base64."""
+    return base64.b64encode(gzip.compress(data, 9, mtime=0)).decode()
+
+
+def unpacked(page, name):
+    """What packed() put into the script element `name` of a page."""
+    found = re.search(rf'<script id="{name}"[^>]*>([^<]*)</script>', page)
+    return gzip.decompress(base64.b64decode(found[1])) if found else b""
+
+
+def version_of(root):
+    text = (root / "CMakeLists.txt").read_text(encoding="utf-8")
+    return re.search(r"VERSION (\d+\.\d+\.\d+)", text)[1]
+
+
+def stamp_of(root):
+    """Hash of what the page says and how it calls the core; the core's bits have their own."""
+    digest = hashlib.sha256()
+    paths = sorted((root / "scripts/paging").glob("*.*")) + sorted((root / "model/page").glob("*"))
+    for path in paths:
+        digest.update(path.name.encode() + b"\0" + path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def numbers_of(root, designs):
+    """What the native programs found: recorded inputs with their hashes, and closed loops."""
+    program = os.environ.get("FELTGATE_PAGE_DATA", str(root / "build/feltgate_page_data"))
+    if not Path(program).is_file():
+        raise PageError("the native twin is not built; run this as ./feltgate page")
+    done = interrupts.run([program, *designs], **interrupts.CAPTURED)
+    if done.returncode:
+        raise PageError(done.stderr.strip())
+    return dict(json.loads(done.stdout), version=version_of(root))
+
+
+def assembled(root, numbers, script, wasm):
+    folder = root / "scripts/paging"
+    read = lambda name: (folder / name).read_text(encoding="utf-8")  # noqa: E731
+    parts = {
+        "page.css": read("page.css"),
+        "numbers": packed(json.dumps(numbers).encode()),
+        "engine": packed(script),
+        "wasm": packed(wasm),
+        "scripts": "\n".join(read(name) for name in SCRIPTS),
+    }
+    text = re.sub(r"/\*\{([\w.]+)\}\*/", lambda match: parts[match[1]], read("page.html"))
+    stamp = f'<meta name="feltgate-sources" content="{stamp_of(root)}">'
+    return text.replace("<title>", f"{stamp}\n<title>", 1)
+
+
+def stale(root):
+    """Why docs/page.html is not of this tree; nothing when it is."""
+    path = root / COMMITTED
+    if not path.is_file():
+        return f"{COMMITTED} is not there"
+    page = path.read_text(encoding="utf-8")
+    found = STAMP.search(page)
+    if not found or found[1] != stamp_of(root):
+        return "scripts/paging or model/page has changed since"
+    if json.loads(unpacked(page, "numbers")) != numbers_of(root, DESIGNS):
+        return "the core's bits, or a scene, have changed since"
+    return ""
+
+
+def checked_designs(root, wished):
+    designs = list(dict.fromkeys([*(wished or []), *DESIGNS]))
+    for design in designs:
+        path = root / f"rtl/designs/{design}.toml"
+        if not path.is_file():
+            raise PageError(
+                f'design "{design}" is not in rtl/designs; put your file there, feltgate generate'
+            )
+        if not (root / f"model/include/feltgate/generated/{design}.hpp").is_file():
+            raise PageError(f'design "{design}" has no generated files; run feltgate generate')
+    return designs
+
+
+class CompileLine(RedrawnLine):
+    """On a terminal: how far the compiler is."""
+
+    def __init__(self):
+        super().__init__()
+        self.done, self.total = 0, 0
+
+    def line(self):
+        passed = time.monotonic() - self.began
+        return f"compiling {self.done}/{self.total or '?'}  {clock_text(passed)}"
+
+    def __call__(self, done, total):
+        self.done, self.total = done, total
+
+
+def page_of(root, designs):
+    numbers = numbers_of(root, designs)
+    with tempfile.TemporaryDirectory(prefix="feltgate-page-") as folder, CompileLine() as progress:
+        script, wasm = compile_core(root, designs, Path(folder), progress)
+    return assembled(root, numbers, script, wasm)
+
+
+def main(argv=None):
+    options = arguments_of(argv)
+    root = Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[1]))
+    interrupts.end_on_signals()
+    try:
+        if options.check:
+            why = stale(root)
+            if why:
+                mend = "run feltgate page --update"
+                print(f"page: {COMMITTED} is stale: {why}; {mend}", file=sys.stderr)
+                return 1
+            print(f"{COMMITTED} is of this tree", file=sys.stderr)
+            return 0
+        target = root / COMMITTED if options.update else options.output
+        text = page_of(root, checked_designs(root, options.design))
+        outputs.write_whole(target, text)
+    except interrupts.Interrupted as error:
+        return interrupts.tell("page", error)
+    except (PageError, CompileError, OSError) as error:
+        print(f"page: {error}", file=sys.stderr)
+        return 2
+    print(f"wrote {target}, {len(text) / 1e6:.1f} MB; open it in a browser", file=sys.stderr)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

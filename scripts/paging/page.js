@@ -1,0 +1,228 @@
+// The page: controls, the frames, the verdict, the comparison of the bits.
+"use strict";
+
+const $ = (id) => document.getElementById(id);
+const page = { scene: "wall", values: {}, devices: [], own: null, grip: 1, speed: 0, frames: [], errors: [] };
+window.feltgate = page; // for whoever wants to look inside
+
+const option = (value, text) => Object.assign(document.createElement("option"), { value, textContent: text });
+const devices = (act) => page.devices.forEach(act);
+
+function place_device(n, design) {
+  const old = page.devices[n];
+  if (old) old.remove();
+  page.devices.length = n;
+  if (!design) return;
+  const own = design === "own" ? page.own : null;
+  const device = new Device(page.core, own ? own.base : design, own, $("plant").value, $("stages"));
+  page.devices[n] = device;
+  device.loop.breakIt(Number($("break").value));
+  apply_values(device);
+  device.select(page.scene);
+  device.loop.arm(true);
+}
+
+/** Both anew, so that they start together. */
+function place_devices() {
+  const designs = [$("first").value, $("second").value];
+  place_device(0, "");
+  while (page.devices.length) page.devices.pop();
+  $("stages").textContent = "";
+  designs.filter(Boolean).forEach((design, n) => place_device(n, design));
+}
+
+function apply_values(device) {
+  const rad = device.info.count_rad;
+  for (const slider of SCENES[page.scene].sliders) {
+    const value = page.values[slider.name];
+    if (slider.choices || value === undefined) continue;
+    const word = slider.per_count ? value * rad : slider.per_count2 ? value / rad ** 2 : value;
+    say(device.set(slider.name, Math.min(word, device.ranges[slider.name].high)));
+  }
+  const g = geometry("wall", device.words, rad);
+  device.loop.hostWall(page.values.rate || 1, g.contact, page.values.wall_stiffness || 4, page.values.wall_damping || 0);
+}
+
+function say(text) {
+  if (!text) return;
+  page.errors.push(text);
+  $("verdict").textContent = text;
+}
+
+function select_scene(scene) {
+  page.scene = scene;
+  build_sliders();
+  devices((d) => { apply_values(d); say(d.select(scene)); });
+  ask_verdict();
+}
+
+function build_sliders() {
+  const box = $("sliders");
+  box.replaceChildren(Object.assign(document.createElement("legend"), { textContent: "Object" }));
+  for (const s of SCENES[page.scene].sliders) {
+    const label = document.createElement("label"), shown = document.createElement("output");
+    label.className = "slider";
+    page.values[s.name] ??= s.choices ? 1 : s.value;
+    if (s.choices) {
+      const select = document.createElement("select");
+      s.choices.forEach(([text, ticks]) => select.append(option(ticks, text)));
+      select.value = page.values[s.name];
+      select.oninput = () => turned(s, Number(select.value), shown);
+      label.append(s.label, select);
+    } else {
+      const range = Object.assign(document.createElement("input"), { type: "range", min: 0, max: 1000 });
+      const value_of = (x) => (s.log ? s.low * (s.high / s.low) ** (x / 1000) : s.low + ((s.high - s.low) * x) / 1000);
+      const x_of = (v) => 1000 * (s.log ? Math.log(v / s.low) / Math.log(s.high / s.low) : (v - s.low) / (s.high - s.low));
+      range.value = x_of(page.values[s.name]);
+      range.setAttribute("aria-label", `${s.label} in ${s.unit}`);
+      range.oninput = () => turned(s, value_of(Number(range.value)), shown);
+      shown.textContent = `${fixed(page.values[s.name])} ${s.unit}`;
+      label.append(s.label, range, shown);
+    }
+    box.append(label);
+  }
+}
+
+function turned(slider, value, shown) {
+  page.values[slider.name] = value;
+  if (!slider.choices) shown.textContent = `${fixed(value)} ${slider.unit}`;
+  devices(apply_values);
+  ask_verdict();
+}
+
+/** What `feltgate stability` says of this wall: by eigenvalues, without friction and without a hand. */
+function ask_verdict() {
+  clearTimeout(page.asking);
+  const box = $("verdict");
+  box.className = "";
+  box.textContent = "";
+  if (page.scene !== "wall") return;
+  const stiffness = page.values.wall_stiffness;
+  page.asking = setTimeout(async () => {
+    const lines = [];
+    let shakes = false;
+    for (const d of [...page.devices]) {
+      const b = await page.worker.call("border", d.info.name, d.own ? d.own.text : "", $("plant").value, page.values.wall_damping, page.values.rate);
+      if (b.error) { lines.push(b.error); continue; }
+      const over = stiffness > b.stiffness_nm_rad;
+      shakes = shakes || over;
+      lines.push(`${d.name}: ${over ? "this wall shakes" : "stable"}; the border is ${fixed(b.stiffness_nm_rad, 1)} Nm/rad, it swings there at ${fixed(b.rad_s / 2 / Math.PI, 0)} Hz.`);
+    }
+    box.textContent = lines.join(" ") + " By eigenvalues, without friction and hand, which both steady it.";
+    box.className = shakes ? "shakes" : "";
+  }, 150);
+}
+
+function build_controls() {
+  for (const scene of Object.keys(SCENES)) {
+    const label = document.createElement("label"), radio = document.createElement("input");
+    Object.assign(radio, { type: "radio", name: "scene", value: scene, checked: scene === page.scene });
+    radio.onchange = () => select_scene(scene);
+    label.append(radio, " " + SCENES[scene].title);
+    $("scenes").append(label);
+  }
+  for (const name of page.core.designNames()) {
+    $("first").append(option(name, name));
+    $("second").append(option(name, name));
+  }
+  $("second").prepend(option("", "none"));
+  $("second").value = "";
+  for (const id of ["first", "second", "plant"]) $(id).oninput = () => { place_devices(); ask_verdict(); };
+  $("break").oninput = () => devices((d) => d.loop.breakIt(Number($("break").value)));
+  $("grip").oninput = () => { page.grip = Number($("grip").value); devices((d) => d.held && d.take(true)); };
+  $("arm").onclick = () => devices((d) => d.loop.arm(true));
+  $("clear").onclick = () => devices((d) => d.loop.clearFaults());
+  $("stop").onclick = () => {
+    const pressed = $("stop").getAttribute("aria-pressed") !== "true";
+    $("stop").setAttribute("aria-pressed", pressed);
+    devices((d) => d.loop.stop(pressed));
+  };
+  document.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.altKey || event.metaKey || /INPUT|SELECT/.test(event.target.tagName)) return;
+    const button = { a: "arm", s: "stop", c: "clear" }[event.key.toLowerCase()];
+    if (button) $(button).click();
+  });
+  $("own").onchange = async () => { const file = $("own").files[0]; if (file) drop(file.name, await file.text()); };
+  document.addEventListener("dragover", (event) => event.preventDefault());
+  document.addEventListener("drop", async (event) => {
+    event.preventDefault();
+    const file = event.dataTransfer.files[0];
+    if (file) drop(file.name, await file.text());
+  });
+  const theme = (dark) => {
+    document.documentElement.classList.toggle("dark", dark);
+    $("theme").setAttribute("aria-pressed", dark);
+    $("theme").textContent = dark ? "light" : "dark";
+  };
+  theme(window.matchMedia("(prefers-color-scheme: dark)").matches);
+  $("theme").onclick = () => theme(!document.documentElement.classList.contains("dark"));
+  $("check").onclick = compare_bits;
+}
+
+function drop(name, text) {
+  const own = page.core.ownDesign(text);
+  if (own.error) {
+    $("own-said").textContent = own.error.replace(/^own\.toml/, name);
+    return;
+  }
+  page.own = { name: name.replace(/\.toml$/, ""), text, base: own.base, values: own.values };
+  for (const id of ["first", "second"]) {
+    if (![...$(id).options].some((o) => o.value === "own")) $(id).append(option("own", "own design"));
+  }
+  $("second").value = "own";
+  $("own-said").textContent = `${name}: on the core of ${own.base}, with its own parameters.`;
+  place_devices();
+  ask_verdict();
+}
+
+async function compare_bits() {
+  const table = document.createElement("table");
+  $("hashes").replaceChildren(table);
+  page.compared = [];
+  for (const r of page.numbers.recorded) {
+    const row = table.insertRow(), found = await page.worker.call("hash", r.design, r.inputs);
+    const same = found === r.hash;
+    page.compared.push({ ...r, inputs: undefined, found, same });
+    [r.design, r.scene, found, same ? "same" : `native ${r.hash}`].forEach((text) => (row.insertCell().textContent = text));
+    row.lastChild.className = same ? "same" : "differs";
+  }
+  for (const c of page.numbers.closed) {
+    const rows = await page.worker.call("closedLoop", c.design);
+    const apart = [0, 1].map((n) => Math.max(...rows.map((row, i) => Math.abs(row[n] - c.rows[i][n]))));
+    page.closed = [...(page.closed || []), { design: c.design, rad: apart[0], nm: apart[1] }];
+    const cell = table.insertRow().insertCell();
+    cell.colSpan = 4;
+    cell.textContent = `${c.design}: closed loop into a wall, against the native one: ${apart[0].toExponential(1)} rad, ${apart[1].toExponential(1)} Nm apart (another libm).`;
+  }
+  page.done = true;
+}
+
+function frame(time) {
+  requestAnimationFrame(frame);
+  const passed = Math.min((time - (page.last || time)) / 1000, 0.05);
+  page.last = time;
+  if (passed <= 0) return;
+  page.frames.push(time);
+  if (page.frames.length > 600) page.frames.shift();
+  const begin = performance.now();
+  for (const d of page.devices) {
+    const error = d.advance(Math.round(passed * d.info.tick_hz));
+    if (error) { say(error); d.loop.arm(false); }
+  }
+  const used = (performance.now() - begin) / 1000;
+  if (used > 0) page.speed += 0.05 * (passed / used - page.speed);
+  devices((d) => d.draw(page.values));
+  draw_curves(page.devices);
+  if (page.frames.length % 15 === 0) $("speed").textContent = `${fixed(page.speed, 1)}× real time`;
+}
+
+(async () => {
+  Object.assign(page, await load_core());
+  $("version").textContent = page.numbers.version;
+  build_controls();
+  build_sliders();
+  place_devices();
+  ask_verdict();
+  requestAnimationFrame(frame);
+  page.ready = true;
+})();

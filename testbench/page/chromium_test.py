@@ -1,0 +1,242 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""docs/page.html in Debian's Chromium: the same bits, a lever to drag, keys, faults, no error.
+
+chromium_test.py --speed prints frames a second and the real-time factor, for an idle machine;
+chromium_test.py --pictures FOLDER keeps screenshots.
+Documentation: docs/page.md
+"""
+
+import os
+import shutil
+import sys
+import time
+import unittest
+from pathlib import Path
+
+ROOT = Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[2]))
+PAGE = ROOT / "docs/page.html"
+try:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.options import Options
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+except ImportError:
+    webdriver = None
+DRIVER = shutil.which("chromedriver")
+ARGUMENTS = "--headless=new --no-sandbox --window-size=1400,1300 --hide-scrollbars".split()
+PATIENCE_S = 120  # of whole minutes on a machine that does other things too
+
+
+def browser():
+    options = Options()
+    for word in ARGUMENTS:
+        options.add_argument(word)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    return webdriver.Chrome(service=Service(DRIVER), options=options)
+
+
+@unittest.skipUnless(webdriver and DRIVER or os.environ.get("CI"), "no selenium or chromedriver")
+class Chromium(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.driver = browser()
+        cls.addClassCleanup(cls.driver.quit)
+
+    def setUp(self):
+        self.driver.get(PAGE.as_uri())
+        self.until("return !!(window.feltgate && feltgate.ready && feltgate.frames.length > 3)")
+
+    def tearDown(self):
+        errors = [entry["message"] for entry in self.driver.get_log("browser")]
+        self.assertEqual(errors, [])
+        self.assertEqual(self.js("return feltgate.errors"), [])
+
+    def js(self, script, *words):
+        return self.driver.execute_script(script, *words)
+
+    def until(self, script, *words):
+        end = time.monotonic() + PATIENCE_S
+        while time.monotonic() < end:
+            found = self.js(script, *words)
+            if found:
+                return found
+            time.sleep(0.1)
+        self.fail(f"never true in {PATIENCE_S} s: {script}")
+
+    def stage(self, n=0):
+        return self.driver.find_elements(By.CSS_SELECTOR, "#stages svg")[n]
+
+    def now(self, n=0):
+        return self.js("return feltgate.devices[arguments[0]].now", n)
+
+    def passed(self, seconds):
+        """Waits for so much simulated time."""
+        begin = self.now()["time"]
+        self.until("return feltgate.devices[0].now.time > arguments[0]", begin + seconds)
+
+    def drag(self, *offsets):
+        """Down in the middle of the stage, and by these offsets; still held."""
+        actions = ActionChains(self.driver, duration=50)
+        actions.move_to_element(self.stage()).click_and_hold()
+        for offset in offsets:
+            actions.move_by_offset(*offset)
+        actions.perform()
+
+    def test_same_bits(self):
+        self.driver.find_element(By.ID, "check").click()
+        self.until("return feltgate.done")
+        compared = self.js("return feltgate.compared")
+        self.assertGreaterEqual(len(compared), 13)
+        for one in compared:
+            self.assertTrue(one["same"], one)
+        for one in self.js("return feltgate.closed"):
+            self.assertLess(one["rad"], 1e-6, one)
+            self.assertLess(one["nm"], 1e-5, one)
+        table = self.driver.find_element(By.ID, "hashes").get_attribute("innerHTML")
+        self.assertNotIn("differs", table)
+
+    def test_drag_into_the_wall(self):
+        self.drag((0, -120), (60, 10), (60, 20), (60, 30))
+        self.until("return feltgate.devices[0].lead > 0.55")
+        self.passed(1.5)
+        state = self.now()
+        lead = self.js("return feltgate.devices[0].lead")
+        self.assertLess(state["theta"], lead - 0.03)  # held back
+        self.assertGreater(state["theta"], 0.49)
+        self.assertLess(state["torque"], -0.05)
+        ActionChains(self.driver).release().perform()
+        self.passed(0.5)
+        self.assertLess(self.now()["theta"], 0.52)
+        self.assertFalse(self.js("return feltgate.devices[0].held"))
+
+    def test_keys(self):
+        stage = self.stage()
+        stage.send_keys(Keys.ARROW_RIGHT * 10)
+        self.until("return feltgate.devices[0].held && feltgate.devices[0].lead > 0.15")
+        self.until("return feltgate.devices[0].now.theta > 0.1")
+        self.assertAlmostEqual(float(stage.get_attribute("aria-valuenow")), 0.2, delta=0.1)
+        stage.send_keys(" ")
+        self.until("return !feltgate.devices[0].held")
+        stage.send_keys("s")
+        self.until("return !feltgate.devices[0].status.armed")
+        self.assertIn("stop", self.js("return feltgate.devices[0].status.faults"))
+        stage.send_keys("s")
+        stage.send_keys("c")
+        self.until("return feltgate.devices[0].status.faults === ''")
+        stage.send_keys("a")
+        self.until("return feltgate.devices[0].status.armed")
+
+    def test_every_scene(self):
+        for radio in self.driver.find_elements(By.CSS_SELECTOR, "#scenes input"):
+            radio.click()
+            scene = radio.get_attribute("value")
+            self.until("return feltgate.devices[0].scene === arguments[0]", scene)
+            self.stage().send_keys(Keys.ARROW_UP * 3)
+            self.passed(0.2)
+            equation = self.driver.find_element(By.CSS_SELECTOR, ".equation").text
+            self.assertIn("τ", equation)
+            self.assertNotIn("?", equation, scene)
+            self.assertNotIn("NaN", self.stage().get_attribute("innerHTML"), scene)
+            self.assertEqual(self.js("return feltgate.devices[0].status.faults"), "", scene)
+
+    def test_a_dead_channel_is_a_fault(self):
+        self.js("feltgate.devices[0].take(true)")
+        self.js("const s = document.getElementById('break'); s.value = 1; s.oninput()")
+        for lead in (0.2, 0.4, 0.1, 0.5):
+            self.js("feltgate.devices[0].aim(arguments[0])", lead)
+            self.passed(0.2)
+        self.until("return feltgate.devices[0].status.faults === 'channel'")
+        self.assertIn("fault: channel", self.driver.find_element(By.CSS_SELECTOR, ".state").text)
+
+    def test_verdict(self):
+        self.until("return document.getElementById('verdict').textContent.includes('stable')")
+        self.js(
+            "const s = document.querySelector('#sliders input'); s.value = 1000; s.oninput()"
+        )
+        self.until("return document.getElementById('verdict').className === 'shakes'")
+        said = self.driver.find_element(By.ID, "verdict").text
+        self.assertRegex(said, r"border is 17\.\d Nm/rad")
+
+    def test_side_by_side_and_own_design(self):
+        self.js("const s = document.getElementById('second'); s.value = 'paper'; s.oninput()")
+        self.until("return feltgate.devices.length === 2 && feltgate.devices[1].now.time > 0.1")
+        self.assertEqual(len(self.driver.find_elements(By.CSS_SELECTOR, "#stages svg")), 2)
+        text = (ROOT / "rtl/designs/lever.toml").read_text(encoding="utf-8")
+        softer = text.replace("torque_limit_nm = 0.5", "torque_limit_nm = 0.25")
+        self.js("drop('mine.toml', arguments[0])", softer)
+        self.until("return feltgate.devices[1] && feltgate.devices[1].name === 'mine'")
+        self.assertAlmostEqual(self.js("return feltgate.devices[1].words.torque_limit"), 0.25, 3)
+        self.js("drop('mine.toml', arguments[0])", text.replace("m1 = 767", "m1 = 500"))
+        said = self.driver.find_element(By.ID, "own-said").text
+        self.assertIn("m1 = 500", said)
+        self.js("drop('mine.toml', 'nonsense')")
+        self.assertIn("mine.toml:1", self.driver.find_element(By.ID, "own-said").text)
+
+    def test_labels_and_dark(self):
+        self.assertEqual(self.driver.find_element(By.CSS_SELECTOR, ".badge").text, "simulated")
+        unnamed = self.js(
+            "return [...document.querySelectorAll('input, select, canvas, svg[tabindex], button')]"
+            ".filter(e => !(e.getAttribute('aria-label') || e.textContent.trim()"
+            " || (e.labels && e.labels.length && e.labels[0].textContent.trim())))"
+            ".map(e => e.outerHTML)"
+        )
+        self.assertEqual(unnamed, [])
+        colour = "return getComputedStyle(document.body).backgroundColor"
+        before = self.js(colour)
+        self.driver.find_element(By.ID, "theme").click()
+        self.assertNotEqual(self.js(colour), before)
+
+
+def measure():
+    """Frames a second and real-time factor while a lever is led to and fro in a wall."""
+    driver = browser()
+    driver.get(PAGE.as_uri())
+    while not driver.execute_script("return !!(window.feltgate && feltgate.ready)"):
+        time.sleep(0.1)
+    driver.execute_script("feltgate.devices[0].take(true)")
+    for k in range(60):
+        driver.execute_script("feltgate.devices[0].aim(arguments[0])", 0.7 if k % 2 else 0.3)
+        time.sleep(0.2)
+    frames = driver.execute_script("return feltgate.frames")
+    gaps = sorted(b - a for a, b in zip(frames, frames[1:], strict=False))
+    speed = driver.execute_script("return feltgate.speed")
+    print(f"median {1000 / gaps[len(gaps) // 2]:.0f} frames a second, {speed:.1f} times real time")
+    driver.quit()
+
+
+def pictures(folder):
+    """Screenshots of the wall under a hand, of the membrane, and of two designs in the dark."""
+    driver = browser()
+    driver.get(PAGE.as_uri())
+    while not driver.execute_script("return !!(window.feltgate && feltgate.ready)"):
+        time.sleep(0.1)
+    views = {
+        "wall": "",
+        "membrane": "document.querySelector('input[value=membrane]').click();",
+        "charges": "document.querySelector('input[value=charge_attract]').click();",
+        "spring": "document.querySelector('input[value=spring_tension]').click();",
+        "two": "const s = document.getElementById('second'); s.value = 'paper'; s.oninput();"
+        "document.getElementById('theme').click(); document.getElementById('check').click();",
+    }
+    for name, script in views.items():
+        driver.execute_script(script + "for (const d of feltgate.devices) d.take(true)")
+        for k in range(40):
+            lead = 0.65 * min(1, k / 20)
+            driver.execute_script("for (const d of feltgate.devices) d.aim(arguments[0])", lead)
+            time.sleep(0.05)
+        time.sleep(4)
+        driver.save_screenshot(str(folder / f"{name}.png"))
+    driver.quit()
+
+
+if __name__ == "__main__":
+    if "--speed" in sys.argv:
+        measure()
+    elif "--pictures" in sys.argv:
+        pictures(Path(sys.argv[sys.argv.index("--pictures") + 1]))
+    else:
+        unittest.main()

@@ -1,0 +1,46 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""docs/page.html is of this tree, by its sources and by the bits of the native twin.
+
+Documentation: docs/page.md
+"""
+
+import os
+import sys
+import unittest
+from pathlib import Path
+
+ROOT = Path(os.environ["FELTGATE_ROOT"])
+sys.path.insert(0, str(ROOT / "scripts"))
+os.environ["FELTGATE_PAGE_DATA"] = str(Path(os.environ["FELTGATE_BUILD"]) / "feltgate_page_data")
+
+import page  # noqa: E402
+
+
+class Current(unittest.TestCase):
+    def test_committed(self):
+        self.assertEqual(page.stale(ROOT), "", "run feltgate page --update")
+
+    def test_everything_is_inside(self):
+        text = (ROOT / page.COMMITTED).read_text(encoding="utf-8")
+        for name in ("numbers", "engine", "wasm"):
+            self.assertGreater(len(page.unpacked(text, name)), 10_000, name)
+        self.assertNotRegex(text, r'(?:src|href)="https?:', "needs a network")
+        self.assertNotIn("/*{", text, "a part was not filled in")
+
+    def test_a_change_is_seen(self):
+        numbers = page.numbers_of(ROOT, page.DESIGNS)
+        script, wasm = b"script", b"wasm"
+        whole = page.assembled(ROOT, numbers, script, wasm)
+        self.assertEqual(page.STAMP.search(whole)[1], page.stamp_of(ROOT))
+        self.assertEqual(page.unpacked(whole, "engine"), script)
+        self.assertEqual(page.unpacked(whole, "wasm"), wasm)
+
+    def test_unknown_design(self):
+        with self.assertRaisesRegex(page.PageError, "rtl/designs"):
+            page.checked_designs(ROOT, ["nothing"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The loop behind the page: a hand that is led, a host's wall, broken wires, recorded inputs, and
+// designs of users. Documentation: docs/page.md
+#include "page/live_loop.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "catch.hpp"
+#include "page/own_design.hpp"
+#include "page/recorded_inputs.hpp"
+#include "plant/plant_file.hpp"
+
+namespace feltgate::page {
+namespace {
+
+const std::string root = FELTGATE_ROOT;
+const std::string registers = root + "/rtl/registers.toml";
+
+plant::Parameters plant_named(const std::string& name) {
+  return plant::read_plant_file(root + "/vectors/plants/" + name + ".toml");
+}
+
+/// What an exception of `act` says; "" without one.
+template <class Act>
+std::string refusal(Act&& act) {
+  try {
+    act();
+    return {};
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+void check_says(const std::string& text, const std::string& part) {
+  INFO(text);
+  CHECK(text.find(part) != std::string::npos);
+}
+
+/// A hand leads a lever to an angle within `lead_s` and stays there for `stay_s`.
+void lead_to(LiveLoop& loop, double theta_rad, double lead_s, double stay_s) {
+  const double from = loop.samples().empty() ? 0.0 : loop.samples().back().hand_rad;
+  const int frames = static_cast<int>(std::lround(lead_s * 60));
+  for (int k = 1; k <= frames + static_cast<int>(std::lround(stay_s * 60)); ++k) {
+    loop.lead(from + (theta_rad - from) * std::min(1.0, k / static_cast<double>(frames)));
+    loop.advance(16667, 100);
+  }
+}
+
+LiveLoop armed_wall(const std::string& design = "lever") {
+  LiveLoop loop(design, plant_named("p24"));
+  loop.select("wall");
+  loop.arm(true);
+  loop.hold(Grip::hand);
+  return loop;
+}
+
+TEST_CASE("a wall holds the handle back, and the hand feels what the wall does") {
+  LiveLoop loop = armed_wall();
+  lead_to(loop, 0.8, 0.6, 0.6);
+  const Sample& s = loop.samples().back();
+  // At rest wall and hand balance: 4 Nm/rad from 0.5 rad on against 135 N/m at 0.1 m.
+  const double hand = 135 * 0.1 * 0.1, rest = (hand * 0.8 + 4 * 0.5) / (hand + 4);
+  CHECK(s.angle_rad == Approx(rest).margin(0.005));  // friction holds it a little aside
+  CHECK(s.tau_ref_nm == Approx(-4 * (s.position_rad - 0.5)).margin(0.01));
+  CHECK(s.torque_nm == Approx(s.tau_ref_nm).margin(0.006));
+  CHECK(std::abs(s.hand_nm + s.torque_nm) < 0.008);
+  CHECK(loop.snapshot().faults == 0);
+  CHECK(loop.take_difference() < 1e-4);
+  CHECK(loop.take_difference() == 0);
+
+  loop.hold(Grip::none);  // the wall pushes the lever out
+  loop.advance(100'000, 100);
+  CHECK(loop.observables().theta_rad < 0.45);
+  loop.hold(Grip::hand);  // where it is now
+  CHECK(std::abs(loop.observables().hand_torque_nm) < 1e-9);
+}
+
+TEST_CASE("the hand is led evenly, and a lever without a scene follows") {
+  LiveLoop loop("lever", plant_named("p24"));
+  loop.hold(Grip::hand);
+  lead_to(loop, 0.5, 1.0, 0.5);
+  CHECK(loop.observables().theta_rad == Approx(0.5).margin(0.03));
+  lead_to(loop, -0.5, 1.0, 0.5);
+  CHECK(loop.observables().theta_rad == Approx(-0.5).margin(0.03));
+}
+
+TEST_CASE("a wall computed by a slow host shakes where the core's own does not") {
+  const auto swing = [](int ticks) {
+    LiveLoop loop("lever", plant_named("linear"));
+    loop.select("wall");
+    loop.set("wall_stiffness", 12 * loop.design().count_rad);
+    loop.host_wall(ticks, 0.5, 12, 0.005);
+    loop.arm(true);
+    loop.hold(Grip::fingertip);
+    lead_to(loop, 0.7, 0.5, 1.0);
+    double low = 10, high = -10;
+    loop.advance(200'000, 50);
+    for (const Sample& s : loop.samples()) {
+      low = std::min(low, s.angle_rad);
+      high = std::max(high, s.angle_rad);
+    }
+    return high - low;
+  };
+  CHECK(swing(1) < 0.01);     // the border is at 17 Nm/rad
+  CHECK(swing(2040) > 0.05);  // and at 3.4
+}
+
+void check_break(Break broken) {
+  LiveLoop loop = armed_wall();
+  lead_to(loop, 0.55, 0.5, 0.2);
+  REQUIRE(loop.snapshot().armed);
+  loop.break_it(broken);
+  if (broken == Break::channel_dead) {
+    lead_to(loop, 0.0, 0.1, 0.5);
+  } else {
+    loop.hold(Grip::none);  // the wall now pulls
+    loop.advance(500'000, 100);
+  }
+  CHECK(loop.snapshot().faults != 0);
+  CHECK_FALSE(loop.snapshot().armed);
+  loop.break_it(Break::none);
+  loop.advance(1000, 100);
+  CHECK_FALSE(loop.snapshot().armed);
+  loop.clear_faults();
+  loop.advance(1000, 100);
+  CHECK(loop.snapshot().faults == 0);
+  loop.arm(true);
+  loop.advance(1000, 100);
+  CHECK(loop.snapshot().armed);
+}
+
+TEST_CASE("broken wires are noticed, and nothing arms again by itself") {
+  SECTION("dead") { check_break(Break::channel_dead); }
+  SECTION("encoder swapped") { check_break(Break::encoder_swapped); }
+  SECTION("motor swapped") { check_break(Break::motor_swapped); }
+}
+
+TEST_CASE("a supply at a third gives no more than it can") {
+  LiveLoop loop = armed_wall();
+  loop.break_it(Break::supply_low);
+  lead_to(loop, 0.8, 0.6, 0.6);
+  const Sample& s = loop.samples().back();
+  CHECK(std::abs(s.torque_nm) < 0.6 * std::abs(s.tau_ref_nm));
+}
+
+TEST_CASE("the stop is a fault") {
+  LiveLoop loop = armed_wall();
+  loop.advance(1000, 100);
+  loop.stop(true);
+  loop.advance(1000, 100);
+  CHECK_FALSE(loop.snapshot().armed);
+  CHECK(((loop.snapshot().faults >> static_cast<int>(Fault::stop)) & 1) == 1);
+}
+
+TEST_CASE("unknown names are refused with the nearest") {
+  LiveLoop loop = armed_wall();
+  check_says(refusal([&] { loop.select("wal"); }), "did you mean \"wall\"");
+  check_says(refusal([&] { loop.set("wall_stifness", 1); }), "wall_stiffness");
+}
+
+TEST_CASE("recorded inputs survive as text, and every bit of them counts in the hash") {
+  RunInputs inputs;
+  inputs.clocks = 400'000;
+  inputs.pins = {true, false, false};
+  const ParameterInfo* torque = design_named("lever").find("torque_limit");
+  inputs.writes = {{100, torque->address, 20000, 0}, {5000, 0x200, 3 | 5u << 2, 0}};
+  for (int k = 0; k < 60; ++k) {
+    const int phase = k % 4;
+    inputs.edges.push_back(
+        {20'000 + 5'000 * k, {phase == 2 || phase == 3, phase < 1 || phase > 2, false}});
+  }
+  const std::string text = text_of(inputs);
+  const RunInputs again = inputs_from_text(text);
+  CHECK(text_of(again) == text);
+  const std::uint64_t hash = hash_of("lever", inputs);
+  CHECK(hash == hash_of("lever", again));
+  CHECK(hex(0xabcu) == "0000000000000abc");
+
+  RunInputs other = inputs;
+  ++other.edges[40].clock;
+  CHECK(hash_of("lever", other) == hash);  // a clock within a tick is not seen
+  other.edges[40].clock += 50;
+  CHECK(hash_of("lever", other) != hash);
+  other = inputs;
+  other.writes[0].data ^= 1;
+  CHECK(hash_of("lever", other) == hash);  // a limit that does not act
+  other.writes[1].data = 3 | 6u << 2;
+  CHECK(hash_of("lever", other) != hash);
+  check_says(refusal([] { inputs_from_text("c 5 0\nx"); }), "line 2");
+}
+
+std::string text_of_file(const std::string& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const auto at = text.find(what);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, what.size(), by);
+}
+
+TEST_CASE("a user's design runs on the core that has its formats, with its own values") {
+  const std::string folder = root + "/rtl/designs/";
+  const std::string lever = text_of_file(folder + "lever.toml");
+  const std::vector<std::string> compiled = {"paper", "lever"};
+  const OwnDesign same = own_design(lever, compiled, folder, registers);
+  CHECK(same.base == "lever");
+
+  const std::string softer = replaced(lever, "torque_limit_nm = 0.5", "torque_limit_nm = 0.4");
+  const OwnDesign own = own_design(softer, compiled, folder, registers);
+  CHECK(own.base == "lever");
+  bool found = false;
+  for (const auto& [name, value] : own.values) {
+    if (name != "torque_limit") continue;
+    found = true;
+    CHECK(value == Approx(0.4).margin(1e-4));
+  }
+  CHECK(found);
+
+  const std::string other = replaced(lever, "m1 = 767", "m1 = 511");
+  const std::string refused = refusal([&] { own_design(other, compiled, folder, registers); });
+  check_says(refused, "m1 = 511");
+  check_says(refused, "feltgate page --design");
+  check_says(refusal([&] { own_design("nonsense", compiled, folder, registers); }), "own.toml:1");
+}
+
+}  // namespace
+}  // namespace feltgate::page

@@ -267,6 +267,24 @@ TEST_CASE("de0_nano: a press during a fault does not arm when a host clears it")
   CHECK_FALSE(board.armed());
 }
 
+TEST_CASE("de0_nano: KEY[1] pressed while a host has armed is a stop, and does not arm") {
+  Board board;
+  board.top().ENC_B = board.top().ENC_Z = 1;
+  board.clock(3);
+  REQUIRE(board.armed());
+  board.bouncing_key(true, kSettle);
+  CHECK_FALSE(board.armed());
+  CHECK(board.fault());
+  board.top().ENC_B = board.top().ENC_Z = 0;
+  board.bouncing_key(false, kSettle);
+  CHECK(board.fault());
+  board.hold_key();
+  CHECK_FALSE(board.fault());
+  CHECK_FALSE(board.armed());
+  board.short_press();
+  CHECK(board.armed());
+}
+
 TEST_CASE("de0_nano: all switches on shows the encoder and disarms") {
   Board board;
   board.short_press();

@@ -42,7 +42,7 @@ module de0_nano #(
   endgenerate
 
   logic       rst_n;
-  logic       arm, set_zero, clear_faults, unplugged;
+  logic       arm, set_zero, clear_faults, panel_stop;
   logic       armed, fault, limit;
   logic [3:0] scene;
   logic [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults;
@@ -74,7 +74,7 @@ module de0_nano #(
     .gate_b_hi_o(GATE_B_HI),
     .gate_b_lo_o(GATE_B_LO),
     .arm_i(arm),
-    .stop_i(ESTOP || unplugged),
+    .stop_i(ESTOP || panel_stop),
     .set_zero_i(set_zero),
     .scene_i(scene),
     .reg_addr_i(feltgate_map_pkg::A_COMMAND),
@@ -127,7 +127,7 @@ module de0_nano #(
     .arm_o(arm),
     .set_zero_o(set_zero),
     .clear_faults_o(clear_faults),
-    .unplugged_o(unplugged),
+    .stop_o(panel_stop),
     .scene_o(scene),
     .inputs_o(inputs),
     .lamps_o(LED)

@@ -29,7 +29,7 @@ module panel #(
   output logic       arm_o,
   output logic       set_zero_o,
   output logic       clear_faults_o,
-  output logic       unplugged_o, // the encoder's connector is not in: for the stop
+  output logic       stop_o,      // the encoder's connector is not in, or the key stops a host
   output logic [3:0] scene_o,
   output logic [7:0] inputs_o,    // for a host
   output logic [7:0] lamps_o
@@ -56,11 +56,12 @@ module panel #(
     .level_o(scene_o)
   );
 
+  logic unplugged, key_stop;
   panel_debounce #(.Width(1), .HoldBits(LoopBits), .ResetValue(1)) u_loop (
     .clk_i(clk_i),
     .rst_ni(rst_ni),
     .level_i(sync_q[7]),
-    .level_o(unplugged_o)
+    .level_o(unplugged)
   );
 
   logic look;
@@ -70,12 +71,16 @@ module panel #(
     .clk_i(clk_i),
     .rst_ni(rst_ni),
     .down_i(sync_q[8]),
+    .armed_i(armed_i),
     .fault_i(fault_i),
-    .blocked_i(look || unplugged_o),
+    .blocked_i(look || unplugged),
     .arm_o(arm_o),
+    .stop_o(key_stop),
     .set_zero_o(set_zero_o),
     .clear_faults_o(clear_faults_o)
   );
+
+  assign stop_o = unplugged || key_stop;
 
   // Limits and indices may last for one tick only, so their lamp is stretched. A position moves by one
   // count at a time, so its two lowest bits tell the direction.
@@ -106,11 +111,11 @@ module panel #(
 
   // Lit: a fault. Four times as fast as the heartbeat: the encoder is not plugged in.
   logic fault_lamp;
-  assign fault_lamp = unplugged_o ? heartbeat_q[HeartbeatBits-3] : fault_i;
+  assign fault_lamp = unplugged ? heartbeat_q[HeartbeatBits-3] : fault_i;
 
   assign lamps_o = look ? {angle_i, sync_q[5], sync_q[4], lit_q, fault_lamp, up_q} :
                           {heartbeat_q[HeartbeatBits-1], scene_o, lit_q, fault_lamp, armed_i};
-  assign inputs_o = {scene_o, 2'b00, sync_q[8], !unplugged_o};
+  assign inputs_o = {scene_o, 2'b00, sync_q[8], !unplugged};
 endmodule
 
 `default_nettype wire

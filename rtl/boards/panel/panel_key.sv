@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// One key for four orders. Pressed while armed: stop. Pressed and released within LongPressClocks
+// One key for four orders. Pressed while armed: stop; by a fault where not this key has armed. Pressed and released within LongPressClocks
 // while stopped: arm. Held for LongPressClocks: set zero (one clock), never arm; with a fault, clear the
 // faults (one clock) and leave the zero. What blocks takes the request to arm away, so that arming
 // again needs a new press. Documentation: docs/boards/panel.md
@@ -14,9 +14,11 @@ module panel_key #(
   input  logic clk_i,
   input  logic rst_ni,
   input  logic down_i,    // synchronous to clk_i, bounces
+  input  logic armed_i,
   input  logic fault_i,
   input  logic blocked_i, // nothing may be armed; a fault blocks as well
   output logic arm_o,
+  output logic stop_o,    // a host has armed, and this key is down
   output logic set_zero_o,
   output logic clear_faults_o
 );
@@ -26,7 +28,7 @@ module panel_key #(
 
   logic                 down, down_q;
   logic                 spent_q;  // this press has done its work; its release does nothing
-  logic                 arm_q, set_zero_q, clear_faults_q;
+  logic                 arm_q, stop_q, set_zero_q, clear_faults_q;
   logic [HELD_BITS-1:0] held_q;
 
   // Counts as down after reset: a key held through it must be let go before it means anything.
@@ -42,6 +44,7 @@ module panel_key #(
       down_q         <= 1'b1;
       spent_q        <= 1'b1;
       arm_q          <= 1'b0;
+      stop_q         <= 1'b0;
       set_zero_q     <= 1'b0;
       clear_faults_q <= 1'b0;
       held_q         <= LONG_PRESS;
@@ -50,8 +53,9 @@ module panel_key #(
       set_zero_q     <= 1'b0;
       clear_faults_q <= 1'b0;
       if (down && !down_q) begin
-        spent_q <= arm_q;
+        spent_q <= arm_q || armed_i;
         arm_q   <= 1'b0;
+        stop_q  <= armed_i && !arm_q;
         held_q  <= '0;
       end else if (down && held_q != LONG_PRESS) begin
         held_q <= held_q + 1'b1;
@@ -61,13 +65,15 @@ module panel_key #(
           clear_faults_q <= fault_i;
         end
       end else if (!down && down_q) begin
-        arm_q <= !spent_q;
+        arm_q  <= !spent_q;
+        stop_q <= 1'b0;
       end
       if (fault_i || blocked_i) arm_q <= 1'b0;
     end
   end
 
   assign arm_o = arm_q;
+  assign stop_o = stop_q;
   assign set_zero_o = set_zero_q;
   assign clear_faults_o = clear_faults_q;
 endmodule

@@ -37,7 +37,7 @@ module ulx3s #(
 
   logic       clk, locked;
   logic       rst_n;
-  logic       arm, set_zero, clear_faults, unplugged;
+  logic       arm, set_zero, clear_faults, panel_stop;
   logic       armed, fault, limit;
   logic [3:0] scene;
   logic [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults;
@@ -77,7 +77,7 @@ module ulx3s #(
     .gate_b_hi_o(gate_b_hi),
     .gate_b_lo_o(gate_b_lo),
     .arm_i(arm),
-    .stop_i(estop || unplugged),
+    .stop_i(estop || panel_stop),
     .set_zero_i(set_zero),
     .scene_i(scene),
     .reg_addr_i(feltgate_map_pkg::A_COMMAND),
@@ -130,7 +130,7 @@ module ulx3s #(
     .arm_o(arm),
     .set_zero_o(set_zero),
     .clear_faults_o(clear_faults),
-    .unplugged_o(unplugged),
+    .stop_o(panel_stop),
     .scene_o(scene),
     .inputs_o(inputs),
     .lamps_o(led)

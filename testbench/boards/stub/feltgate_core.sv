@@ -53,13 +53,14 @@ module feltgate_core #(
   logic fault_q;
 
   // A stop while armed is a fault until it is cleared on the register port, or by a host, for which the three
-  // encoder lines at once stand.
-  logic clear;
+  // encoder lines at once stand. B and Z without A stand for a host that has armed.
+  logic clear, host_arm;
   assign clear = (reg_write_i && reg_addr_i == 12'h201 && reg_wdata_i == 32'd2) || (enc_a_i && enc_b_i && enc_z_i);
+  assign host_arm = enc_b_i && enc_z_i && !enc_a_i;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) fault_q <= 1'b0;
-    else fault_q <= (stop_i && arm_i) || (fault_q && !clear);
+    else fault_q <= (stop_i && (arm_i || host_arm)) || (fault_q && !clear);
   end
 
   assign gate_a_hi_o = enc_a_i;
@@ -69,7 +70,7 @@ module feltgate_core #(
   assign reg_busy_o  = ReadBack != 0;
   assign reg_rdata_o = {19'd0, reg_write_i, reg_addr_i} ^ reg_wdata_i;
   assign faults_o    = {10'd0, fault_q, 5'd0};
-  assign armed_o     = arm_i && !fault_q;
+  assign armed_o     = (arm_i || host_arm) && !fault_q;
   assign limits_o    = {4'd0, !armed_o, 3'd0, set_zero_i, 3'd0};
 
   assign position_o  = {20'd0, {3{enc_z_i}}, 7'd0, enc_b_i, enc_a_i ^ enc_b_i};

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <thread>
 
 #include "config/nearest.hpp"
 #include "feltgate/generated/link.hpp"
@@ -140,6 +141,36 @@ void trigger_now(Device& device) {
 
 void abort_capture(Device& device) {
   device.link().write(M::A::capture_control, 1u << M::B::capture_control_abort);
+}
+
+double capture_span_s(const Device& device, const CaptureSetup& setup) {
+  return setup.period * device.board().capture_rows / device.board().tick_hz();
+}
+
+bool wait_for_capture(Device& device, const CaptureSetup& setup, double wait_s,
+                      const std::function<double(int)>& each) {
+  enum { idle = 0, waits = 2, fills_rest = 3, done = 4 };
+  const double span_s = capture_span_s(device, setup);
+  Deadline end = within(wait_s + span_s);
+  bool by_hand = setup.trigger.mode == Trigger::Mode::by_hand, late = false;
+  for (;;) {
+    const int state = capture_state(device);
+    if (state == done) return true;
+    if (state == waits && by_hand) {
+      trigger_now(device);
+      by_hand = false;
+    }
+    if (state == fills_rest && !late) {
+      late = true;  // it has been triggered: now only the rows are missing
+      end = within(span_s + 1);
+    }
+    const double rest_s = each(state);
+    if (rest_s < 0 || state == idle || HostClock::now() > end) {
+      abort_capture(device);
+      return false;
+    }
+    std::this_thread::sleep_for(std::chrono::duration<double>(rest_s));
+  }
 }
 
 Captured read_capture(Device& device, const CaptureSetup& setup,

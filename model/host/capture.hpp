@@ -58,6 +58,14 @@ int capture_state(Device& device);
 /// As Trigger::Mode::by_hand, whatever the mode.
 void trigger_now(Device& device);
 void abort_capture(Device& device);
+/// Time that all rows cover, s.
+double capture_span_s(const Device& device, const CaptureSetup& setup);
+/// Waits until a started capture is done, `wait_s` at most for its trigger; a setup without one is
+/// triggered as soon as the rows before it are full. `each` is called all along with the state,
+/// gives how long to rest, s, and ends the wait with less than 0. Returns false, the capture
+/// aborted, where the trigger did not come.
+bool wait_for_capture(Device& device, const CaptureSetup& setup, double wait_s,
+                      const std::function<double(int)>& each);
 /// Reads the rows of a capture that is done, or as many as there are. `progress` is called with
 /// 0..1.
 Captured read_capture(

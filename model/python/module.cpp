@@ -37,6 +37,7 @@ PYBIND11_MODULE(_core, m) {
   bind_recordings(m);
   bind_bounds(m);
   bind_runs(m);
+  bind_host(m);
 }
 
 }  // namespace feltgate::python

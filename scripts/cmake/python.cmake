@@ -55,7 +55,7 @@ foreach(source IN LISTS extra_sources)
   get_filename_component(folder "${source}" DIRECTORY)
   target_include_directories(feltgate_python PRIVATE "${folder}")
 endforeach()
-target_link_libraries(feltgate_python PRIVATE feltgate_loop fmt::fmt)
+target_link_libraries(feltgate_python PRIVATE feltgate_loop feltgate_hostlink fmt::fmt)
 
 install(TARGETS feltgate_python LIBRARY DESTINATION feltgate COMPONENT python)
 install(DIRECTORY "${FELTGATE_ROOT}/model/python/feltgate" DESTINATION . COMPONENT python

@@ -27,7 +27,7 @@ BANNER = "*** SIMULATED: no board, no motor; these values come from a model ***\
 
 
 class Board:
-    """The software board in a process of its own."""
+    """The software board in a process of its own, with this noise."""
 
     def __init__(self, *noise):
         self.process = subprocess.Popen(

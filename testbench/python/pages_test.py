@@ -12,6 +12,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from board_process import BoardProcess
+
 ROOT = Path(os.environ["FELTGATE_ROOT"])
 BLOCK = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 NOTEBOOK = ROOT / "docs/fixed_against_float.ipynb"
@@ -29,9 +31,9 @@ class Pages(unittest.TestCase):
         os.chdir(self.folder.name)
 
     def run_blocks(self, page):
-        names = {}
         said = io.StringIO()
-        with contextlib.redirect_stdout(said):
+        with BoardProcess() as board, contextlib.redirect_stdout(said):
+            names = {"port": board.port}
             for block in blocks(page):
                 exec(compile(block, page, "exec"), names)  # one after the other, as a reader would
         return said.getvalue()

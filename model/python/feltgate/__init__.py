@@ -16,12 +16,14 @@ Chain     one design in fixed point, float, double or 113 bits: counts in, array
 Twin      the core itself, tick by tick: parameters by name, scenes, arming, faults
 Plant     motor and lever alone, driven by a duty
 Recording encoder edges as arrays
+Device    a board on a serial port, or one that feltgate board simulates
 bounds    the proven worst case of each error
 
 Unusable input raises ValueError, whose message names the mend. Ctrl-C ends a long run.
 """
 
 from feltgate._core import version as __version__
+from feltgate._device import Device, LinkLost, Refused
 from feltgate._files import designs, plants, root, scenes
 from feltgate._hand import Hand
 from feltgate._models import Chain, Plant, Twin, bounds, count_rad, formats, laws, parameters
@@ -30,7 +32,7 @@ from feltgate._results import Acted, ErrorFigure, Expected, Felt, Peak, Result, 
 from feltgate._runs import Scene, replay, run
 
 __all__ = [
-    "Acted", "Chain", "ErrorFigure", "Expected", "Felt", "Hand", "Peak", "Plant", "Recording",
-    "Result", "Scene", "Signals", "Twin", "bounds", "count_rad", "designs", "formats", "laws",
+    "Acted", "Chain", "Device", "ErrorFigure", "Expected", "Felt", "Hand", "LinkLost", "Peak",
+    "Plant", "Recording", "Refused", "Result", "Scene", "Signals", "Twin", "bounds", "count_rad", "designs", "formats", "laws",
     "parameters", "plants", "replay", "root", "run", "scenes",
 ]

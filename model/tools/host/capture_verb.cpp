@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <thread>
 
 #include "files/output_file.hpp"
 #include "host/capture.hpp"
@@ -31,8 +30,6 @@ struct CaptureArguments {
   double before = 0.25, span_s = 0, wait_s = 10;
 };
 
-enum State { idle = 0, fills_before = 1, waits = 2, fills_rest = 3, done = 4 };
-
 CaptureSetup setup_of(Device& device, const CaptureArguments& a) {
   CaptureSetup s;
   s.quantities = a.names;
@@ -51,29 +48,17 @@ CaptureSetup setup_of(Device& device, const CaptureArguments& a) {
 
 /// Waits until the rows are full. Returns false where the trigger did not come.
 bool wait_for_it(Device& device, Hold& hold, const CaptureArguments& a, const CaptureSetup& setup) {
-  const double span_s = setup.period * device.board().capture_rows / device.board().tick_hz();
-  Deadline end = within(a.wait_s + span_s);
-  bool triggered = false, told = false;
-  for (;;) {
+  constexpr int waits = 2;
+  constexpr double rest_s = 0.02;
+  bool told = a.trigger == "now";
+  return wait_for_capture(device, setup, a.wait_s, [&](int state) {
     hold.poll();
-    const int state = capture_state(device);
-    if (state == done) return true;
-    if (state == waits && a.trigger == "now" && !triggered) {
-      trigger_now(device);
-      triggered = true;
-    }
-    if (state == waits && a.trigger != "now" && !told) {
+    if (state == waits && !told) {
       told = true;
       std::fputs(fmt::format("waiting for {}\n", a.trigger).c_str(), stderr);
     }
-    if (state == fills_rest) end = std::max(end, within(span_s + 1));
-    if (Interruptible::interrupted() || HostClock::now() > end || state == idle) {
-      abort_capture(device);
-      return false;
-    }
-    const double rest = std::min({hold.next_in_s(), 0.02, a.wait_s});
-    std::this_thread::sleep_for(std::chrono::duration<double>(rest));
-  }
+    return Interruptible::interrupted() ? -1.0 : std::min(hold.next_in_s(), rest_s);
+  });
 }
 
 std::string csv_text(const Captured& c) {

@@ -96,49 +96,19 @@ Interruptible::~Interruptible() {
 bool Interruptible::interrupted() { return was_interrupted; }
 
 Hold::~Hold() {
-  if (!holds_) return;
   try {
     release();
   } catch (const std::exception& e) {
     std::fputs(fmt::format("feltgate host: the disarm did not reach the board: {}\n"
-                           "  its watchdog disarms {:g} s after the last kick\n",
-                           e.what(), device_.watchdog_s())
+                           "  its watchdog disarms it, watchdog_ticks after the last kick\n",
+                           e.what())
                    .c_str(),
                stderr);
   }
 }
 
 void Hold::arm(const std::string& scene) {
-  holds_ = true;  // from the first write on, so that an error in between disarms
-  device_.arm(scene, true, [] { return !Interruptible::interrupted(); });
-  next_ = HostClock::now();
-  poll();
-}
-
-void Hold::take_over() {
-  if (!device_.host_has_the_say() || !device_.armed(device_.tick())) return;
-  device_.kick();
-  holds_ = true;
-  next_ = within(device_.watchdog_s() / 4);
-}
-
-void Hold::poll() {
-  if (!holds_ || HostClock::now() < next_) return;
-  device_.kick();
-  next_ = within(device_.watchdog_s() / 4);
-}
-
-double Hold::next_in_s() const {
-  constexpr double idle_s = 0.1;
-  if (!holds_) return idle_s;
-  const std::chrono::duration<double> left = next_ - HostClock::now();
-  return std::min(idle_s, std::max(0.0, left.count()));
-}
-
-void Hold::release() {
-  if (!holds_) return;
-  device_.disarm();
-  holds_ = false;
+  keep_.arm(scene, [] { return !Interruptible::interrupted(); });
 }
 
 std::string simulated_banner(const BoardInfo& board) {

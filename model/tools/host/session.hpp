@@ -13,6 +13,7 @@
 #include <string>
 
 #include "host/device.hpp"
+#include "host/keep_alive.hpp"
 
 namespace feltgate::host {
 
@@ -70,31 +71,24 @@ class Interruptible {
   static bool interrupted();
 };
 
-/// Keeps the watchdog of a motor fed that the host has armed; the motor is disarmed at the end.
+/// A KeepAlive that disarms on every way out, and says so where that fails.
 class Hold {
  public:
-  explicit Hold(Device& device) : device_(device) {}
-  /// Disarms what it holds, also on the way out of an error.
+  explicit Hold(Device& device) : keep_(device) {}
   ~Hold();
   Hold(const Hold&) = delete;
   Hold& operator=(const Hold&) = delete;
 
-  /// Arms, with the watchdog awake.
+  /// Arms, with the watchdog awake; Ctrl-C ends the wait for it.
   void arm(const std::string& scene);
-  /// Takes over a motor that the host armed before; not one that the panel has armed.
-  void take_over();
-  bool holds() const { return holds_; }
-  /// To be called more often than every next_in_s() seconds.
-  void poll();
-  /// Until the next kick, s; a tenth of a second where nothing is held.
-  double next_in_s() const;
-  /// Disarms now. Throws where that does not reach the board.
-  void release();
+  void take_over() { keep_.take_over(); }
+  bool holds() const { return keep_.holds(); }
+  void poll() { keep_.poll(); }
+  double next_in_s() const { return keep_.next_in_s(); }
+  void release() { keep_.release(); }
 
  private:
-  Device& device_;
-  bool holds_ = false;
-  Deadline next_{};
+  KeepAlive keep_;
 };
 
 /// What to print first wherever values of a simulated board are shown; nothing for a real one.

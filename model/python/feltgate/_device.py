@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""A board on a serial port, or one that `feltgate board` simulates."""
+
+from types import TracebackType
+from typing import Any, Dict, Optional, Sequence, Type, Union
+
+from feltgate import _core
+from feltgate._files import DESIGNS, PathLike, find, root
+from feltgate._results import Columns
+
+LinkLost = _core.LinkLost
+Refused = _core.Refused
+
+_WORDS = ("angle", "velocity", "tau_ref", "tau_hat", "current_ref", "voltage")
+
+
+class Device:
+    """A core behind its link, values in units: docs/host.md.
+
+        with feltgate.Device("/dev/ttyUSB0") as device:
+            device.set(torque_limit=0.1)
+            device.arm("wall")
+            live = device.stream(["angle", "tau_ref"], seconds=2.0)
+
+    At the end of the block a motor that arm() has armed is disarmed. It also stops by itself when the
+    watchdog is not kicked for watchdog_ticks (0.1 s): stream(), capture() and hold() kick it, and so
+    must a program of yours with kick() in between. Not for several threads at once.
+
+    port        a serial port, or the name that `feltgate board` prints
+    design      name or file of the board's design; "": the one that has the board's CRC
+    baud        bits per second, as the board was built
+    patience_s  so long requests are repeated before LinkLost
+
+    ValueError: no such port, in use by another program, unknown name, out of range. LinkLost, a
+    ConnectionError: the port went away, nothing answers. Refused, a RuntimeError: a fault stands,
+    the motor is armed.
+    """
+
+    def __init__(self, port: PathLike, design: PathLike = "", *, baud: int = 1_000_000,
+                 patience_s: float = 3.0):
+        path = find(design, DESIGNS) if design else ""
+        self._core = _core.Device(str(port), str(root()), path, baud, patience_s)
+
+    def __enter__(self) -> "Device":
+        return self
+
+    def __exit__(self, kind: Optional[Type[BaseException]], error: Optional[BaseException],
+                 trace: Optional[TracebackType]) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Disarms what arm() has armed, and lets go of the port."""
+        self._core.close()
+
+    def info(self) -> Dict[str, Any]:
+        """Board, design, whether it is simulated, armed, scene, faults, limits, all in_words."""
+        return dict(self._core.info())
+
+    def link(self) -> Dict[str, int]:
+        """Requests since the port was opened, those that were repeated, damaged and lost frames."""
+        return dict(self._core.link())
+
+    def names(self) -> Dict[str, Dict[str, Any]]:
+        """Everything that get() knows: unit, meaning, whether it can be set."""
+        return dict(self._core.names())
+
+    def get(self, name: str) -> float:
+        """A value in its unit."""
+        return float(self._core.get(name))
+
+    def tick(self) -> Dict[str, float]:
+        """All words of one tick in their units."""
+        return dict(self._core.tick())
+
+    def set(self, **values: Union[float, str]) -> Dict[str, float]:
+        """Parameters in their units, or with another: set(torque_limit=0.1, wall_contact="0.2rad").
+
+        Returns what they are after rounding to their words.
+        """
+        return {name: float(self._core.set(name, value)) for name, value in values.items()}
+
+    def arm(self, scene: str = "") -> None:
+        """Arms with the watchdog awake; scene "" is the one that is chosen."""
+        self._core.arm(scene)
+
+    def hold(self, seconds: float) -> None:
+        """Keeps the motor armed for so long. Raises Refused when a fault ends it."""
+        self._core.hold(seconds)
+
+    def kick(self) -> None:
+        """Feeds the watchdog."""
+        self._core.kick()
+
+    def disarm(self) -> None:
+        self._core.disarm()
+
+    def stop(self) -> None:
+        """The fault stop: gates off at once, until clear_faults()."""
+        self._core.stop()
+
+    def clear_faults(self) -> None:
+        """Disarms and forgets faults. Raises Refused where a cause still stands."""
+        self._core.clear_faults()
+
+    def set_zero(self) -> None:
+        """The position is 0 here."""
+        self._core.set_zero()
+
+    def select(self, scene: str) -> None:
+        """What is rendered; an armed motor ramps over to it."""
+        self._core.select(scene)
+
+    def stream(self, names: Sequence[str] = _WORDS, *, seconds: float,
+               every_s: float = 0.0) -> Columns:
+        """Words of a tick for so long, every every_s or as fast as the wire: time_s and a column
+        each."""
+        return Columns(self._core.stream(list(names), every_s, seconds))
+
+    def capture(self, names: Sequence[str] = _WORDS, *, trigger: str = "now", before: float = 0.25,
+                span_s: float = 0.0, wait_s: float = 10.0) -> Columns:
+        """1024 rows around a trigger, a tick a row or stretched over span_s; time_s is 0 at the
+        trigger.
+
+        trigger  "velocity>5", "angle<-10deg", "fault", "fault:speed", "limit:current", "armed", "now"
+        before   share of the rows before it
+        """
+        return Columns(self._core.capture(list(names), trigger, before, span_s, wait_s))

@@ -92,8 +92,9 @@ class VerbTest(unittest.TestCase):
 
 
 def patterns_of(text):
-    """Its lines without what differs from run to run; of several alike in a row, one."""
-    patterns = [pattern_of(line) for line in text.splitlines()]
+    """Its lines without what differs from run to run; of several alike in a row, one. A machine that
+    is busy answers late, and then the host asks again, and says so."""
+    patterns = [pattern_of(line) for line in text.splitlines() if not line.startswith("link: ")]
     return [p for n, p in enumerate(patterns) if n == 0 or p != patterns[n - 1]]
 
 
@@ -216,11 +217,11 @@ class Verbs(VerbTest):
 
     def test_watch_on_a_terminal_and_for_teleplot(self):
         with Board() as board:
-            said = self.host(board.port, "watch", "angle", "--teleplot", "--for", 0.35)
+            said = self.host(board.port, "watch", "angle", "--teleplot", "--for", 1)
             self.assertRegex(said, r"(?m)^>angle:\d+\.\d{3}:-?[\d.e-]+§rad$")
             self.assertGreaterEqual(said.count("§rad"), 3)
             master, slave = pty.openpty()
-            words = self.command(board.port, "watch", "angle", "--for", 0.5, "--every", 0.05)
+            words = self.command(board.port, "watch", "angle", "--for", 1, "--every", 0.05)
             with subprocess.Popen(words, env=self.environment(), stdout=slave) as process:
                 process.wait(timeout=20)
             os.close(slave)

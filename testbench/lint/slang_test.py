@@ -61,6 +61,12 @@ class Slang(unittest.TestCase):
             with self.subTest(board):
                 self.assertEqual(lint(board, package("lever"), *core(), *files), "")
 
+    def test_bus_ports(self):
+        shared = RTL / "generated/feltgate_map_pkg.sv"
+        for path in sorted(RTL.glob("bus/*.sv")):
+            with self.subTest(path.stem):
+                self.assertEqual(lint(path.stem, shared, path), "")
+
     def test_cells_of_the_ecp5(self):
         cell = ROOT / "testbench/synth/mult18x18d_model.sv"
         files = [package("lever"), RTL / "mult18_ecp5.sv", cell, *core()]

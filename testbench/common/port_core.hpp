@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The core's register port behind a bus: the twin of registers with ticks, and nothing else of the
+// core. Documentation: docs/blocks/registers.md
+#pragma once
+
+#include "feltgate/generated/lever.hpp"
+#include "feltgate/registers.hpp"
+
+namespace feltgate::test {
+
+class PortCore {
+ public:
+  using Twin = Registers<Lever>;
+
+  /// What the port shows in this clock.
+  std::uint32_t rdata() const { return twin_.out().reg_rdata; }
+  bool busy() const { return twin_.out().reg_busy; }
+  const Twin& twin() const { return twin_; }
+  int clock_of_tick() const { return clock_; }
+
+  /// A clock with these on the port.
+  template <class Out>
+  void clock(const Out& port) {
+    Twin::In in;
+    in.tick = clock_ == Lever::clocks_per_tick - 1;
+    in.reg_addr = port.reg_addr;
+    in.reg_wdata = port.reg_wdata;
+    in.reg_write = port.reg_write;
+    taken_ += port.reg_write && !busy();
+    twin_.clock(in);
+    clock_ = in.tick ? 0 : clock_ + 1;
+  }
+  /// Writes that the port took.
+  int taken() const { return taken_; }
+
+ private:
+  Twin twin_;
+  int clock_ = 0, taken_ = 0;
+};
+
+}  // namespace feltgate::test

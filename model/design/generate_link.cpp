@@ -5,12 +5,26 @@
 // page. Documentation: docs/link.md
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <sstream>
+#include <vector>
 
 #include "design/generate.hpp"
 #include "design/text_case.hpp"
 
 namespace feltgate::design {
+
+namespace {
+
+/// The words of the snapshot in the order in which they come.
+std::vector<Snapshot> by_slot(const RegisterMap& map) {
+  std::vector<Snapshot> words = map.snapshots;
+  std::sort(words.begin(), words.end(),
+            [](const Snapshot& a, const Snapshot& b) { return a.slot < b.slot; });
+  return words;
+}
+
+}  // namespace
 
 std::string link_package(const RegisterMap& map) {
   std::ostringstream s;
@@ -29,6 +43,13 @@ std::string link_package(const RegisterMap& map) {
       s << fmt::format("  localparam int B_{} = {};\n", name, f.bit);
       if (f.width > 1) s << fmt::format("  localparam int W_{} = {};\n", name, f.width);
     }
+  }
+  const std::vector<Snapshot> words = by_slot(map);
+  s << "\n  // The snapshot's words by number, in the order of their slots.\n"
+    << fmt::format("  localparam int SNAPSHOT_WORDS = {};\n", words.size())
+    << fmt::format("  localparam logic [5:0] FIRST_SLOT = 6'd{};\n", words.front().slot);
+  for (std::size_t n = 0; n < words.size(); ++n) {
+    s << fmt::format("  localparam int N_{} = {};\n", upper(words[n].name), n);
   }
   s << "endpackage\n/* verilator lint_on UNUSEDPARAM */\n\n`default_nettype wire\n";
   return s.str();
@@ -58,7 +79,16 @@ std::string link_header(const RegisterMap& map) {
       }
     }
   }
-  s << "  };\n\n  static constexpr LinkWord all[] = {\n";
+  s << "  };\n\n  /// The snapshot's words by number, in the order of their slots.\n  struct N {\n";
+  const std::vector<Snapshot> words = by_slot(map);
+  for (std::size_t n = 0; n < words.size(); ++n) {
+    s << fmt::format("    static constexpr int {} = {};\n", words[n].name, n);
+  }
+  s << "  };\n"
+    << fmt::format("  static constexpr int snapshot_words = {};\n", words.size())
+    << "  static constexpr int slots[] = {";
+  for (std::size_t n = 0; n < words.size(); ++n) s << (n > 0 ? ", " : "") << words[n].slot;
+  s << "};\n\n  static constexpr LinkWord all[] = {\n";
   for (const LinkWord& w : map.link_words) {
     s << fmt::format("      {{\"{}\", A::{}, {}}},\n", w.name, w.name, w.writable);
   }

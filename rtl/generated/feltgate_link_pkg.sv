@@ -63,6 +63,22 @@ package feltgate_link_pkg;
   localparam logic [15:0] A_TRIGGER_LEVEL = 16'h1027;
   localparam logic [15:0] A_CAPTURE_FIRST = 16'h1028;
   localparam logic [15:0] A_CAPTURE_ROWS = 16'h1029;
+
+  // The snapshot's words by number, in the order of their slots.
+  localparam int SNAPSHOT_WORDS = 12;
+  localparam logic [5:0] FIRST_SLOT = 6'd0;
+  localparam int N_STATUS = 0;
+  localparam int N_POSITION = 1;
+  localparam int N_TICK = 2;
+  localparam int N_VELOCITY = 3;
+  localparam int N_INDEX = 4;
+  localparam int N_ENCODER = 5;
+  localparam int N_TAU_HAT = 6;
+  localparam int N_FAULTS = 7;
+  localparam int N_TAU_REF = 8;
+  localparam int N_CURRENT_REF = 9;
+  localparam int N_VOLTAGE = 10;
+  localparam int N_DUTY = 11;
 endpackage
 /* verilator lint_on UNUSEDPARAM */
 

@@ -81,6 +81,24 @@ struct LinkMap {
     static constexpr int capture_control_trigger = 2;
   };
 
+  /// The snapshot's words by number, in the order of their slots.
+  struct N {
+    static constexpr int status = 0;
+    static constexpr int position = 1;
+    static constexpr int tick = 2;
+    static constexpr int velocity = 3;
+    static constexpr int index = 4;
+    static constexpr int encoder = 5;
+    static constexpr int tau_hat = 6;
+    static constexpr int faults = 7;
+    static constexpr int tau_ref = 8;
+    static constexpr int current_ref = 9;
+    static constexpr int voltage = 10;
+    static constexpr int duty = 11;
+  };
+  static constexpr int snapshot_words = 12;
+  static constexpr int slots[] = {0, 1, 6, 9, 11, 14, 23, 26, 28, 34, 40, 46};
+
   static constexpr LinkWord all[] = {
       {"identity", A::identity, false},
       {"version", A::version, false},

@@ -32,5 +32,7 @@ mult.sv
 multipliers.sv
 feltgate_core.sv
 generated/feltgate_link_pkg.sv
+link/link_capture.sv
+link/link_stream.sv
 link/uart_rx.sv
 link/uart_tx.sv

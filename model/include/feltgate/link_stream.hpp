@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Twin of rtl/link/link_stream.sv: chosen words of one tick, every so many ticks, as a frame.
+// Documentation: docs/blocks/link_stream.md
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "feltgate/generated/link.hpp"
+
+namespace feltgate {
+
+class LinkStream {
+ public:
+  struct In {
+    bool word_valid = false;
+    std::uint8_t word_slot = 0;
+    std::uint32_t word_data = 0;
+    std::uint16_t addr = 0;
+    std::uint32_t wdata = 0;
+    bool write = false;
+    bool ready = false;
+  };
+  struct Out {
+    std::uint32_t rdata = 0;
+    bool valid = false;
+    std::uint8_t byte = LinkMap::kind_stream;
+    bool last = false;
+  };
+
+  void reset() { *this = LinkStream(); }
+  const Out& out() const { return out_; }
+
+  void clock(const In& in) {
+    read_back(in.addr);
+    const State before = state_;
+    if (in.word_valid) word(in.word_slot, in.word_data);
+    if (in.write) write(in.addr, in.wdata);
+    if (before == State::head || before == State::body) {
+      if (in.ready) pass_byte();
+    } else if (before == State::seek) {
+      if ((left_ & 1u) != 0) {
+        state_ = State::body;
+      } else {
+        next_word();
+      }
+    }
+    show();
+  }
+
+  /// No frame is kept or sent, and none begins with the next `ticks_to_frame()` ticks.
+  bool idle() const { return state_ == State::idle; }
+  std::uint32_t ticks_to_frame() const { return period_ == 0 ? kNever : ticks_; }
+  static constexpr std::uint32_t kNever = 0xffffffffu;
+  /// So many ticks at once while idle, between two ticks.
+  void pass_ticks(std::uint32_t ticks) { ticks_ = (ticks_ - ticks) & kLongest; }
+
+ private:
+  enum class State : std::uint8_t { idle, take, head, seek, body };
+  static constexpr unsigned kWords = LinkMap::snapshot_words;
+  static constexpr unsigned kAlways = 1u << LinkMap::N::tick;
+  static constexpr std::uint32_t kLongest = (1u << 24) - 1;
+
+  void word(std::uint8_t slot, std::uint32_t data) {
+    const bool first = slot == LinkMap::slots[0];
+    if (first) {
+      number_ = 0;
+      const bool due = period_ != 0 && ticks_ == 0;
+      if (due) {
+        if (state_ == State::idle) {
+          state_ = State::take;
+          left_ = words_ | kAlways;
+          frame_ = count_;
+          at_ = index_ = 0;
+        } else {
+          ++dropped_;
+        }
+        ++count_;
+      }
+      ticks_ = ((due ? period_ : ticks_) - 1) & kLongest;
+    }
+    if (state_ == State::take) {
+      tick_[number_] = data;
+      if (number_ == kWords - 1) state_ = State::head;
+    }
+    number_ = (number_ + 1) % 16;
+  }
+
+  void write(std::uint16_t addr, std::uint32_t data) {
+    if (addr == LinkMap::A::stream_words) words_ = data & ((1u << kWords) - 1);
+    if (addr == LinkMap::A::stream_period) {
+      period_ = data < kLongest ? data : kLongest;
+      ticks_ = 0;
+    }
+  }
+
+  void pass_byte() {
+    const bool last = out_.last;
+    if (++index_ < 4) return;
+    index_ = 0;
+    if (state_ == State::body) next_word();
+    state_ = last ? State::idle : State::seek;
+  }
+  void next_word() {
+    ++at_;
+    left_ >>= 1;
+  }
+
+  void read_back(std::uint16_t addr) {
+    switch (addr_2_) {
+      case LinkMap::A::stream_words:
+        out_.rdata = words_;
+        break;
+      case LinkMap::A::stream_period:
+        out_.rdata = period_;
+        break;
+      case LinkMap::A::stream_dropped:
+        out_.rdata = dropped_;
+        break;
+      default:
+        out_.rdata = 0;
+    }
+    addr_2_ = addr_1_;
+    addr_1_ = addr;
+  }
+
+  void show() {
+    const bool body = state_ == State::body;
+    out_.valid = body || state_ == State::head;
+    out_.last = body && index_ == 3 && left_ >> 1 == 0;
+    const std::uint8_t head[] = {static_cast<std::uint8_t>(LinkMap::kind_stream), frame_,
+                                 static_cast<std::uint8_t>(left_),
+                                 static_cast<std::uint8_t>(left_ >> 8)};
+    out_.byte = body ? static_cast<std::uint8_t>(tick_[at_] >> 8 * index_) : head[index_];
+  }
+
+  State state_ = State::idle;
+  std::array<std::uint32_t, 16> tick_{};
+  unsigned number_ = 0;  ///< of the next word, right since the first one
+  unsigned words_ = 0, left_ = 0, at_ = 0, index_ = 0;
+  std::uint32_t period_ = 0, ticks_ = 0, dropped_ = 0;
+  std::uint8_t count_ = 0, frame_ = 0;
+  std::uint16_t addr_1_ = 0, addr_2_ = 0;
+  Out out_;
+};
+
+}  // namespace feltgate

@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// link_capture: RTL against twin on every clock; what was captured against the ticks that were
+// sent. Documentation: docs/blocks/link_capture.md
+#include "capture_session.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+constexpr auto kDone = static_cast<std::uint32_t>(CaptureTwin::State::done);
+constexpr auto kIdle = static_cast<std::uint32_t>(CaptureTwin::State::idle);
+constexpr std::uint32_t kTick = 1u << N::tick;
+
+/// The word k is `value(tick)`, the others are as they are.
+template <class Value>
+Content with(int word, const Value& value) {
+  return [word, value](std::uint32_t tick, int k) {
+    return k == word ? static_cast<std::uint32_t>(value(tick)) : tick_word(tick, k);
+  };
+}
+/// Below zero before the tick, above from it on.
+Content rises_in(std::uint32_t tick, int word = N::position) {
+  return with(
+      word, [tick](std::uint32_t t) { return (static_cast<std::int32_t>(t - tick) + 1) * 5 - 3; });
+}
+
+struct Plan {
+  std::uint32_t mask = kTick | 1u << N::position, pre = 3, period = 0;
+};
+CaptureSession session(const Plan& plan, std::size_t ticks, const Content& content) {
+  CaptureSession s(ticks, content);
+  s.set(A::capture_words, plan.mask)
+      .set(A::capture_pre, plan.pre)
+      .set(A::capture_period, plan.period);
+  return s;
+}
+
+/// A host that sets, starts, aborts and reads at random; the words seldom leave small numbers.
+struct Stimulus {
+  Random random;
+  TickWords words;
+
+  CaptureTwin::In operator()(std::int64_t) {
+    CaptureTwin::In in;
+    const auto word = words.next([this](std::uint32_t, int) {
+      return random.one_in(20) ? static_cast<std::uint32_t>(random.bits()) : random.below(16) - 8;
+    });
+    in.word_valid = word.valid;
+    in.word_slot = word.slot;
+    in.word_data = word.data;
+    in.addr = static_cast<std::uint16_t>(A::capture_control + random.below(11));
+    if (random.coin())
+      in.addr = static_cast<std::uint16_t>(LinkMap::memory + random.below(kRows * 8));
+    if (random.one_in(40)) in.addr ^= static_cast<std::uint16_t>(1u << random.below(16));
+    if (!random.one_in(busy ? 30 : 800)) return in;
+    in.write = true;
+    in.addr = static_cast<std::uint16_t>(A::capture_control + random.below(10));
+    in.wdata = random.below(16) - (random.one_in(4) ? 8 : 0);
+    if (in.addr == A::capture_words || random.one_in(20))
+      in.wdata = static_cast<std::uint32_t>(random.bits());
+    if (in.addr == A::trigger_word && random.coin()) in.wdata = random.below(12);
+    if (in.addr == A::capture_period)
+      in.wdata = random.one_in(30) ? 0x10000u << random.below(16) : random.below(4);
+    if (in.addr == A::capture_control || random.one_in(4)) {
+      in.addr = A::capture_control;
+      in.wdata = random.coin()      ? kStart
+                 : random.one_in(3) ? kAbort
+                                    : static_cast<std::uint32_t>(random.below(8));
+    }
+    if (random.one_in(100)) busy = !busy;
+    return in;
+  }
+  bool busy = true;
+};
+
+}  // namespace
+
+TEST_CASE("link_capture: random hosts, words and resets") {
+  std::array<std::int64_t, 5> ends{};
+  const auto count = [&ends](const CaptureTwin::In&, const Vlink_capture&, const CaptureTwin& twin,
+                             bool) -> const char* {
+    ++ends[static_cast<std::size_t>(twin.state())];
+    return nullptr;
+  };
+  CaptureBench bench("link_capture", 1);
+  const std::int64_t clocks = scaled_clocks(800'000);
+  bench.run(Stimulus{Random(2), TickWords(3)}, clocks, {60'000}, count);
+  bench.run(Stimulus{Random(4), TickWords(5, false, true)}, clocks / 2, {60'000}, count);
+  for (std::size_t k = 0; k < ends.size() - (kRows > 16); ++k) REQUIRE(ends[k] > clocks / 100);
+}
+
+TEST_CASE("link_capture: a rise to the level, with every number of rows before it") {
+  for (const std::uint32_t pre :
+       {0u, 1u, 7u, std::uint32_t{kRows} / 2, std::uint32_t{kRows} - 2, std::uint32_t{kRows} - 1}) {
+    const std::uint32_t tick = pre + kRows / 2 + 5;
+    auto s = session({kTick | 1u << N::position, pre}, tick + kRows + 3, rises_in(tick));
+    const auto c = s.trigger(N::position, 1, 0).set(A::capture_control, kStart).play();
+    REQUIRE(c.state == kDone);
+    REQUIRE(c.rows == kRows);
+    s.check(c, kTick | 1u << N::position, tick - pre);
+  }
+}
+
+TEST_CASE("link_capture: each word triggers, first and last too") {
+  for (int word = 0; word < LinkMap::snapshot_words; ++word) {
+    if (word == N::tick) continue;
+    const std::uint32_t tick = 9;
+    auto s = session({kTick, 2}, tick + kRows + 3, [&](std::uint32_t t, int k) {
+      return k == word ? (t < tick ? 99u : 100u) : k == N::tick ? t : 0u;
+    });
+    const auto c = s.trigger(word, 1, 100).set(A::capture_control, kStart).play();
+    REQUIRE(c.state == kDone);
+    s.check(c, kTick, tick - 2);
+  }
+}
+
+TEST_CASE("link_capture: levels are signed, reached is enough to rise and not to fall") {
+  struct Case {
+    int mode;
+    std::int32_t level, before, after;
+    bool fires;
+  };
+  constexpr std::int32_t low = INT32_MIN, high = INT32_MAX;
+  for (const Case& t : {Case{1, 0, -1, 0, true},
+                        {1, -5, -6, -5, true},
+                        {1, 0, -2, -1, false},
+                        {1, 0, 0, 1, false},
+                        {1, high, low, high, true},
+                        {1, low, low, high, false},
+                        {2, 0, 0, -1, true},
+                        {2, -5, -5, -6, true},
+                        {2, 0, 1, 0, false},
+                        {2, 0, -1, -2, false},
+                        {2, low, high, low, false},
+                        {2, high, high, low, true},
+                        {0, 0, -1, 1, false},
+                        {3, 6, 0, 8, false},
+                        {3, 6, 0, 2, true},
+                        {3, 6, 2, 4, true},
+                        {3, 6, 6, 2, false},
+                        {3, low, 0, low, true},
+                        {3, 0, 0, -1, false}}) {
+    const std::uint32_t tick = 11;
+    auto s =
+        session({kTick, 4}, tick + kRows + 3,
+                with(N::tau_ref, [&](std::uint32_t k) { return k < tick ? t.before : t.after; }));
+    const auto c = s.trigger(N::tau_ref, t.mode, static_cast<std::uint32_t>(t.level))
+                       .set(A::capture_control, kStart)
+                       .play();
+    INFO("mode " << t.mode << ", level " << t.level << ", " << t.before << " to " << t.after);
+    REQUIRE((c.state == kDone) == t.fires);
+    if (t.fires) s.check(c, kTick, tick - 4);
+  }
+}
+
+TEST_CASE("link_capture: a word that is none never triggers") {
+  for (const std::uint32_t word : {12u, 15u, 16u, 17u, 0xffffffffu}) {
+    auto s = session({kTick, 0}, kRows + 20, [](std::uint32_t t, int) { return t & 1u; });
+    const auto c =
+        s.trigger(0, 1, 1).set(A::trigger_word, word).set(A::capture_control, kStart).play();
+    REQUIRE(c.state == static_cast<std::uint32_t>(CaptureTwin::State::wait));
+  }
+}
+
+TEST_CASE("link_capture: a trigger in the very first tick, and one that stood before is none") {
+  // The start between two ticks and within one: the next tick that begins is the first.
+  for (const int clock : {0, 1, 2, 3, 13, kLastWordClock, kLastWordClock + 1, kTickClocks - 1}) {
+    const std::uint32_t begun = 5 + (clock > 1 ? 1u : 0u);
+    for (const std::uint32_t tick : {4u, begun - 1, begun}) {
+      auto s = session({kTick, 0}, begun + kRows + 3, rises_in(tick));
+      const auto c = s.trigger(N::position, 1, 0).at(5, clock, A::capture_control, kStart).play();
+      INFO("start in clock " << clock << ", rises in tick " << tick);
+      REQUIRE((c.state == kDone) == (tick == begun));
+      if (tick == begun) s.check(c, kTick, begun);
+    }
+  }
+}
+
+TEST_CASE(
+    "link_capture: triggers while the rows before are not there are none, but for that by hand") {
+  for (const bool hand : {false, true}) {
+    auto s = session({kTick, 6}, kRows + 20, rises_in(4));
+    s.trigger(N::position, 1, 0).set(A::capture_control, kStart);
+    if (hand) s.at(4, 7, A::capture_control, kTrigger);
+    const auto c = s.play();
+    REQUIRE((c.state == kDone) == hand);
+    if (hand) s.check(c, kTick, 0);  // the seventh row is the trigger's
+  }
+}
+
+TEST_CASE("link_capture: by hand, in every clock of a tick, and with the start") {
+  for (int clock = 0; clock < kTickClocks; ++clock) {
+    auto s = session({kTick, 2}, kRows + 20, tick_word);
+    const auto c =
+        s.set(A::capture_control, kStart).at(8, clock, A::capture_control, kTrigger).play();
+    REQUIRE(c.state == kDone);
+    s.check(c, kTick, clock > kLastWordClock ? 7 : 6);
+  }
+  auto s = session({kTick, 2}, kRows + 20, tick_word);
+  const auto c = s.set(A::capture_control, kStart | kTrigger).play();
+  REQUIRE(c.state == kDone);
+  s.check(c, kTick, 0);
+  // A trigger before the start is forgotten.
+  auto t = session({kTick, 2}, kRows + 20, tick_word);
+  REQUIRE(t.set(A::capture_control, kTrigger).set(A::capture_control, kStart).play().state !=
+          kDone);
+}
+
+TEST_CASE("link_capture: an abort in any clock leaves whole rows, one after the other") {
+  for (const std::uint32_t tick : {1u, 5u, std::uint32_t{kRows} + 3}) {
+    for (int clock = 0; clock < kTickClocks; ++clock) {
+      auto s = session({0xffu | kTick, 3}, tick + 4, tick_word);
+      const auto c = s.set(A::capture_control, kStart)
+                         .at(tick, clock, A::capture_control, kAbort | kStart)
+                         .play();
+      INFO("tick " << tick << ", clock " << clock);
+      REQUIRE(c.state == kIdle);
+      const std::uint32_t whole =
+          tick + (clock > kLastWordClock ? 1u : 0u);  // rows that came to their end
+      const std::uint32_t left = whole < kRows                           ? whole
+                                 : clock >= 2 && clock <= kLastWordClock ? kRows - 1
+                                                                         : kRows;
+      REQUIRE(c.rows == left);
+      s.check(c, 0xff, whole - left);
+    }
+  }
+  // After the end it changes nothing.
+  auto s = session({kTick, 0}, kRows + 9, tick_word);
+  const auto c = s.set(A::capture_control, kStart | kTrigger)
+                     .at(kRows + 4, 3, A::capture_control, kAbort)
+                     .play();
+  REQUIRE(c.state == kDone);
+  s.check(c, kTick, 0);
+}
+
+TEST_CASE("link_capture: a start while another runs, or is over, begins anew") {
+  for (const std::uint32_t tick : {2u, 6u, 10u, std::uint32_t{kRows} + 20}) {
+    for (const int clock : {0, 2, 14, kLastWordClock, kLastWordClock + 1}) {
+      auto s = session({kTick, 4}, tick + kRows + 20,
+                       with(N::status, [](std::uint32_t t) { return t == 9; }));
+      s.trigger(N::status, 3, 1).set(A::capture_control, kStart);
+      const auto c = s.at(tick, clock, A::capture_control, kStart)
+                         .at(tick + 8, 0, A::capture_control, kTrigger)
+                         .play();
+      REQUIRE(c.state == kDone);
+      const std::uint32_t begun = tick + (clock > 1 ? 1u : 0u);
+      const std::uint32_t fired = 9 >= begun + 4 ? 9 : tick + 8;
+      s.check(c, kTick, fired - 4);
+    }
+  }
+}
+
+TEST_CASE("link_capture: a row every so many ticks, triggers between them") {
+  for (const std::uint32_t period : {2u, 3u, 10u}) {
+    for (std::uint32_t tick = 30; tick < 30 + period; ++tick) {
+      auto s = session({kTick, 2, period}, tick + (kRows + 3) * period, rises_in(tick));
+      const auto c = s.trigger(N::position, 1, 0).set(A::capture_control, kStart).play();
+      REQUIRE(c.state == kDone);
+      const std::uint32_t row =
+          (tick + period - 1) / period * period;  // of the trigger, or the next
+      s.check(c, kTick, row - 2 * period, period);
+    }
+    if (kRows > 16) break;
+  }
+  // The longest period: one row, and no second one.
+  auto s = session({kTick, 0, 0x10000}, 40, tick_word);
+  const auto c =
+      s.set(A::capture_control, kStart | kTrigger).at(39, 27, A::capture_control, kAbort).play();
+  REQUIRE(c.rows == 1);
+}
+
+TEST_CASE("link_capture: no word, one, eight, twelve of which the lowest eight") {
+  for (const std::uint32_t mask : {0u, 1u, 0x800u, 0xffu, 0xff0u, 0xfffu, 0xfffffaaau}) {
+    auto s = session({mask, 5}, kRows + 9, tick_word);
+    const auto c = s.set(A::capture_control, kStart | kTrigger).play();
+    REQUIRE(c.state == kDone);
+    REQUIRE(c.rows == kRows);
+    s.check(c, mask & 0xfffu, 0);
+  }
+}
+
+TEST_CASE("link_capture: what makes up the rows holds still while they are taken") {
+  auto s = session({kTick, 4, 1}, kRows + 20, tick_word);
+  s.set(A::capture_control, kStart);
+  s.at(2, 3, A::capture_words, 0xff).at(3, 3, A::capture_pre, 1).at(9, 3, A::capture_period, 5);
+  s.at(12, 0, A::capture_control, kTrigger).at(14, 0, A::capture_words, 0);
+  const auto c = s.play();
+  REQUIRE(c.state == kDone);
+  s.check(c, kTick, 8);
+  // Set after it, they belong to the next; the memory is as it was.
+  auto t = session({kTick | 1, 0}, kRows + 20, tick_word);
+  t.set(A::capture_control, kStart | kTrigger).at(kRows + 10, 0, A::capture_words, 0);
+  t.check(t.play(), kTick | 1, 0);
+}
+
+TEST_CASE("link_capture: another level, word or mode is no trigger of its own") {
+  const Content high = [](std::uint32_t t, int k) {
+    return k == N::tick ? t : k == N::duty ? 50u : 10u;
+  };
+  for (const int clock : {0, 3, 4, 5, 12, kLastWordClock, kLastWordClock + 1}) {
+    for (const auto& [addr, data] : {std::pair<std::uint16_t, std::uint32_t>{A::trigger_level, 5},
+                                     {A::trigger_word, N::duty},
+                                     {A::trigger_mode, 1}}) {
+      auto s = session({kTick, 0}, 30, high);
+      const int mode = addr == A::trigger_mode ? 2 : 1;
+      const auto c = s.trigger(N::position, mode, 20)
+                         .set(A::capture_control, kStart)
+                         .at(6, clock, addr, data)
+                         .play();
+      REQUIRE(c.state == static_cast<std::uint32_t>(CaptureTwin::State::wait));
+    }
+  }
+}
+
+TEST_CASE("link_capture: what is written is read back, as much of it as there is") {
+  struct Case {
+    std::uint16_t addr;
+    std::uint32_t written, read;
+  };
+  for (const Case& t : {Case{A::capture_words, 0xffffffffu, 0xfff},
+                        {A::capture_pre, kRows - 1, kRows - 1},
+                        {A::capture_pre, kRows, kRows - 1},
+                        {A::capture_pre, 0x80000000u, kRows - 1},
+                        {A::capture_period, 0xffff, 0xffff},
+                        {A::capture_period, 0x10000, 0xffff},
+                        {A::trigger_word, 11, 11},
+                        {A::trigger_word, 0x100, 15},
+                        {A::trigger_mode, 7, 3},
+                        {A::trigger_level, 0x87654321u, 0x87654321u},
+                        {A::capture_state, 3, 0},
+                        {A::capture_control, 0, 0},
+                        {0x1010, 7, 0},
+                        {A::capture_first, 3, 0}}) {
+    std::vector<CaptureTwin::In> list(20);
+    list[5].addr = t.addr;
+    list[5].wdata = t.written;
+    list[5].write = true;
+    for (std::size_t k = 6; k < list.size(); ++k) list[k].addr = t.addr;
+    CaptureBench bench("link_capture", 1);
+    REQUIRE(bench.run_list(list).out().rdata == t.read);
+  }
+}
+
+TEST_CASE("link_capture: the twin's whole ticks at once are its clocks") {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Random random(seed);
+    CaptureTwin by_clock, by_tick;
+    const auto both = [&](std::uint16_t addr, std::uint32_t data) {
+      const CaptureTwin::In in{false, 0, 0, addr, data, true};
+      by_clock.clock(in), by_tick.clock(in);
+    };
+    both(A::capture_words, static_cast<std::uint32_t>(random.bits()));
+    both(A::capture_pre, random.below(kRows));
+    both(A::capture_period, random.below(3));
+    both(A::trigger_word, random.below(12));
+    both(A::trigger_mode, 1 + random.below(3));
+    both(A::trigger_level, 3);
+    both(A::capture_control, kStart);
+    for (int t = 0; t < 4 * kRows; ++t) {
+      std::array<std::uint32_t, LinkMap::snapshot_words> words{};
+      for (int k = 0; k < LinkMap::snapshot_words; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        words[at] = random.below(7);
+        by_clock.clock(
+            {true, static_cast<std::uint8_t>(LinkMap::slots[k]), words[at], 0, 0, false});
+      }
+      by_clock.clock({});
+      by_tick.tick(words);
+      REQUIRE(by_clock.state() == by_tick.state());
+      if (random.one_in(60)) both(A::capture_control, random.coin() ? kStart : kAbort);
+    }
+    both(A::capture_control, kAbort);
+    for (unsigned k = 0; k < kRows * 8 + 24; ++k) {
+      const auto at = k < 24 ? A::capture_control + k : LinkMap::memory + k - 24;
+      const CaptureTwin::In in{false, 0, 0, static_cast<std::uint16_t>(at), 0, false};
+      by_clock.clock(in), by_tick.clock(in);
+      REQUIRE((k < 3 || by_clock.out().rdata == by_tick.out().rdata));
+    }
+  }
+}

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// link_stream: RTL against twin on every clock, and its frames against the ticks that were sent.
+// Documentation: docs/blocks/link_stream.md
+#include <Vlink_stream.h>
+
+#include <vector>
+
+#include "../link/tick_words.hpp"
+#include "catch.hpp"
+#include "feltgate/link_stream.hpp"
+#include "lock_step.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+using Twin = LinkStream;
+using A = LinkMap::A;
+
+struct Adapter {
+  static void drive(Vlink_stream& rtl, const Twin::In& in) {
+    rtl.word_valid_i = in.word_valid;
+    rtl.word_slot_i = in.word_slot;
+    rtl.word_data_i = in.word_data;
+    rtl.addr_i = in.addr;
+    rtl.wdata_i = in.wdata;
+    rtl.write_i = in.write;
+    rtl.ready_i = in.ready;
+  }
+  template <class Check>
+  static void compare(Check& check, const Vlink_stream& rtl, const Twin::Out& out) {
+    check("rdata", rtl.rdata_o, out.rdata);
+    check("valid", rtl.valid_o, out.valid);
+    check("byte", rtl.byte_o, out.byte);
+    check("last", rtl.last_o, out.last);
+  }
+};
+using Bench = LockStep<Vlink_stream, Twin, Adapter>;
+
+/// A host that writes, a transmitter that is ready one clock in `pace`.
+struct Stimulus {
+  Random random;
+  TickWords words;
+  bool writes = true;
+  std::uint32_t mask = 0, period = 0;
+  std::uint32_t pace = 1;
+  int at = 0;
+
+  Twin::In operator()(std::int64_t) {
+    Twin::In in;
+    const auto word = words.next(tick_word);
+    in.word_valid = word.valid;
+    in.word_slot = word.slot;
+    in.word_data = word.data;
+    in.ready = random.one_in(pace);
+    if (at < 2) {  // after the reset that the bench begins with
+      in.addr = at == 0 ? A::stream_words : A::stream_period;
+      in.wdata = at == 0 ? mask : period;
+      in.write = true;
+    } else {
+      in.addr = static_cast<std::uint16_t>(A::stream_words + random.below(4));
+    }
+    if (at < 2 && wait-- <= 0) ++at;
+    if (at == 2 && writes) {
+      if (random.one_in(30)) in.addr ^= static_cast<std::uint16_t>(1u << random.below(16));
+      in.write = random.one_in(400);
+      in.wdata = random.coin() ? random.below(4) : static_cast<std::uint32_t>(random.bits());
+      if (random.one_in(300)) pace = 1 + random.below(random.coin() ? 3 : 40);
+    }
+    return in;
+  }
+  int wait = 8;
+};
+
+/// Frames as they come out of the RTL.
+struct Frames {
+  std::vector<std::vector<std::uint8_t>>* all;
+  std::vector<std::uint8_t> now;
+
+  const char* operator()(const Twin::In& in, const Vlink_stream& rtl, const Twin&, bool reset) {
+    if (reset) now.clear(), shown = false;
+    if (shown && in.ready && !reset) {
+      now.push_back(byte);
+      if (last) all->push_back(now), now.clear();
+    }
+    shown = rtl.valid_o != 0;
+    byte = rtl.byte_o;
+    last = rtl.last_o != 0;
+    return nullptr;
+  }
+  bool shown = false, last = false;
+  std::uint8_t byte = 0;
+};
+
+struct Frame {
+  unsigned kind, count, mask;
+  std::vector<std::uint32_t> words;
+};
+Frame parsed(const std::vector<std::uint8_t>& bytes) {
+  REQUIRE(bytes.size() >= 8);
+  REQUIRE(bytes.size() % 4 == 0);
+  Frame f{bytes[0], bytes[1], static_cast<unsigned>(bytes[2] | bytes[3] << 8), {}};
+  for (std::size_t k = 4; k < bytes.size(); k += 4) {
+    f.words.push_back(static_cast<std::uint32_t>(bytes[k]) | bytes[k + 1] << 8 |
+                      bytes[k + 2] << 16 | static_cast<std::uint32_t>(bytes[k + 3]) << 24);
+  }
+  return f;
+}
+/// All words are those of the tick that the frame names; returns it.
+std::uint32_t check_frame(const Frame& f) {
+  REQUIRE(f.kind == LinkMap::kind_stream);
+  REQUIRE((f.mask >> LinkMap::N::tick & 1u) == 1);
+  std::size_t at = 0;
+  std::uint32_t tick = 0;
+  for (int k = 0; k < LinkMap::N::tick; ++k) at += f.mask >> k & 1u;
+  REQUIRE(at < f.words.size());
+  tick = f.words[at];
+  at = 0;
+  for (int k = 0; k < LinkMap::snapshot_words; ++k) {
+    if ((f.mask >> k & 1u) == 0) continue;
+    REQUIRE(at < f.words.size());
+    REQUIRE(f.words[at++] == tick_word(tick, k));
+  }
+  REQUIRE(at == f.words.size());
+  REQUIRE(f.mask >> LinkMap::snapshot_words == 0);
+  return tick;
+}
+
+std::vector<Frame> play(Stimulus stimulus, std::int64_t clocks, std::uint32_t* dropped = nullptr) {
+  std::vector<std::vector<std::uint8_t>> raw;
+  stimulus.writes = false;
+  Bench bench("link_stream", 1);
+  bench.run(stimulus, clocks, {}, Frames{&raw, {}});
+  std::vector<Frame> frames;
+  for (const auto& bytes : raw) frames.push_back(parsed(bytes));
+  if (dropped != nullptr) {  // what the twin says of the same, read back
+    Twin twin;
+    for (std::int64_t k = 0; k < clocks; ++k) {
+      if (k < Bench::kFirstReset) twin.reset();
+      Twin::In in = stimulus(k);
+      if (k >= clocks - 3) in.addr = A::stream_dropped;
+      if (k >= Bench::kFirstReset) twin.clock(in);
+    }
+    *dropped = twin.out().rdata;
+  }
+  return frames;
+}
+
+}  // namespace
+
+TEST_CASE("link_stream: random ticks, registers, transmitters and resets") {
+  std::vector<std::vector<std::uint8_t>> raw;
+  Bench bench("link_stream", 1);
+  bench.run(Stimulus{Random(2), TickWords(3)}, scaled_clocks(600'000), {40'000}, Frames{&raw, {}});
+  bench.run(Stimulus{Random(14), TickWords(15, false, true)}, scaled_clocks(400'000), {40'000});
+  REQUIRE(raw.size() > 1000);
+  std::vector<int> masks(1u << LinkMap::snapshot_words);
+  for (const auto& bytes : raw) {
+    const Frame f = parsed(bytes);
+    check_frame(f);
+    ++masks[f.mask];
+  }
+}
+
+TEST_CASE("link_stream: each word alone, none and all, in the order of their slots") {
+  for (int k = -1; k <= LinkMap::snapshot_words; ++k) {
+    const unsigned mask = k < 0 ? 0xf000u : k == LinkMap::snapshot_words ? 0xfffffu : 1u << k;
+    const auto frames = play({Random(4), TickWords(5), false, mask, 3}, 6000);
+    REQUIRE(frames.size() > 20);
+    for (const Frame& f : frames) {
+      REQUIRE(f.mask == ((mask & 0xfffu) | 1u << LinkMap::N::tick));
+      check_frame(f);
+    }
+  }
+}
+
+TEST_CASE("link_stream: every period, counted") {
+  for (const std::uint32_t period : {2u, 3u, 7u, 50u}) {
+    const auto frames = play({Random(6), TickWords(7), false, 0, period}, 40'000);
+    REQUIRE(frames.size() > 10);
+    for (std::size_t n = 1; n < frames.size(); ++n) {
+      REQUIRE(check_frame(frames[n]) - check_frame(frames[n - 1]) == period);
+      REQUIRE(frames[n].count == ((frames[0].count + n) & 255u));
+    }
+    REQUIRE(frames[0].count == 0);
+  }
+}
+
+TEST_CASE("link_stream: on a slow wire whole frames are dropped and counted") {
+  std::uint32_t dropped = 0;
+  const auto frames = play({Random(8), TickWords(9), false, 0xfff, 1, 9}, 60'000, &dropped);
+  REQUIRE(frames.size() > 80);
+  std::uint32_t missing = 0;
+  for (std::size_t n = 1; n < frames.size(); ++n) {
+    const std::uint32_t apart = check_frame(frames[n]) - check_frame(frames[n - 1]);
+    REQUIRE(((frames[n].count - frames[n - 1].count) & 255u) == (apart & 255u));
+    missing += apart - 1;
+  }
+  REQUIRE(missing > 500);
+  // Beside those between the frames only those since the last one.
+  REQUIRE(dropped >= missing);
+  REQUIRE(dropped < missing + 50);
+}
+
+TEST_CASE("link_stream: off is off") {
+  REQUIRE(play({Random(10), TickWords(11), false, 0xfff, 0}, 20'000).empty());
+}
+
+TEST_CASE("link_stream: a period beyond its bits is the longest, what is written is read back") {
+  for (const std::uint32_t period : {0u, 1u, 0xffffffu, 0x1000000u, 0xffffffffu}) {
+    Twin twin;
+    std::vector<Twin::In> list(40);
+    list[10].addr = A::stream_period;
+    list[10].wdata = period;
+    list[10].write = true;
+    for (std::size_t k = 11; k < list.size(); ++k) list[k].addr = A::stream_period;
+    Bench bench("link_stream", 1);
+    REQUIRE(bench.run_list(list).out().rdata == (period > 0xffffffu ? 0xffffffu : period));
+  }
+}
+
+TEST_CASE("link_stream: the twin's whole ticks at once are its clocks") {
+  Random random(12);
+  for (int n = 0; n < 50; ++n) {
+    Stimulus stimulus{Random(random.bits()), TickWords(13, true), false, 1, 2 + random.below(30)};
+    Twin by_clock, by_tick;
+    // Up to the end of a tick in which nothing is sent.
+    std::int64_t k = 0;
+    const auto tick = [&] {
+      const std::uint32_t now = stimulus.words.tick();
+      std::vector<Twin::In> list;
+      while (stimulus.words.tick() == now) list.push_back(stimulus(k++));
+      list.push_back(stimulus(k++));  // the clock between two ticks
+      return list;
+    };
+    for (int t = 0; t < 6; ++t) {
+      for (const Twin::In& in : tick()) by_clock.clock(in), by_tick.clock(in);
+    }
+    for (int t = 0; t < 200; ++t) {
+      const bool passes = by_tick.idle() && by_tick.ticks_to_frame() > 0;
+      if (passes) by_tick.pass_ticks(1);
+      for (const Twin::In& in : tick()) {
+        by_clock.clock(in);
+        if (!passes) {
+          by_tick.clock(in);
+          REQUIRE(by_clock.out().valid == by_tick.out().valid);
+          REQUIRE(by_clock.out().byte == by_tick.out().byte);
+        } else {
+          REQUIRE_FALSE(by_clock.out().valid);
+        }
+      }
+    }
+  }
+}

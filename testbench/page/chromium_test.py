@@ -135,13 +135,14 @@ class Chromium(unittest.TestCase):
             radio.click()
             scene = radio.get_attribute("value")
             self.until("return feltgate.devices[0].scene === arguments[0]", scene)
-            self.stage().send_keys(Keys.ARROW_UP * 3)
+            self.js("feltgate.devices[0].take(true); feltgate.devices[0].aim(0.3)")
             self.passed(0.2)
             equation = self.driver.find_element(By.CSS_SELECTOR, ".equation").text
             self.assertIn("τ", equation)
             self.assertNotIn("?", equation, scene)
             self.assertNotIn("NaN", self.stage().get_attribute("innerHTML"), scene)
             self.assertEqual(self.js("return feltgate.devices[0].status.faults"), "", scene)
+            self.js("feltgate.devices[0].take(false)")  # held on, it would get too hot
 
     def test_a_dead_channel_is_a_fault(self):
         self.js("feltgate.devices[0].take(true)")

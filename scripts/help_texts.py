@@ -4,7 +4,7 @@
 """docs/commands: what --help prints, so that ./feltgate can print it before anything is built.
 
   ninja -C build feltgate feltgate_generate feltgate_bench feltgate_extremes \\
-    feltgate_host && scripts/help_texts.py --write
+    feltgate_host feltgate_board && scripts/help_texts.py --write
 """
 
 import argparse
@@ -56,6 +56,7 @@ def commands(build):
         "bench": [build / "feltgate_bench"],
         "extremes": [build / "feltgate_extremes"],
         "host": [build / "feltgate_host"],
+        "board": [build / "feltgate_board"],
     }
     found = {name: own.get(name, [build / "feltgate", name]) for name in subcommands()}
     found["mutate--twin"] = [*own["mutate"], "--twin"]

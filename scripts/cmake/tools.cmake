@@ -83,6 +83,7 @@ feltgate_program(feltgate_bench "bench_main.cpp;checks.cpp;commands.cpp;command_
   feltgate_files feltgate_bench_parts nlohmann_json::nlohmann_json CLI11::CLI11)
 include(extremes)
 include(faults)
+include(board)
 if(NOT FELTGATE_TESTS)
   set_target_properties(feltgate_bench feltgate_bench_parts feltgate_extremes
     feltgate_extreme_cases extremes_wide_core ${extremes_blocks} PROPERTIES EXCLUDE_FROM_ALL ON)

@@ -100,7 +100,9 @@ std::vector<Change> changes_of(const Constants& c, const design::Elaborated& e, 
                               const std::optional<Interval>& i) {
     if (!i) return;
     changes.push_back({section, key, i->value,
-                       fmt::format("measured, {:g} % {}", 100 * confidence, text_of(*i))});
+                       i->half() > 0
+                           ? fmt::format("measured, {:g} % {}", 100 * confidence, text_of(*i))
+                           : "given"});
   };
   add_change("motor", "resistance_ohm", c.resistance_ohm);
   add_change("motor", "emf_constant_v_s_rad", c.emf_v_s_rad);

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A board without hardware: core and link, bridge, motor, lever and hand in closed loop; bytes in,
+// bytes out. Documentation: docs/board.md
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "board/core.hpp"
+#include "board/recording.hpp"
+#include "feltgate/random.hpp"
+#include "loop/step_plan.hpp"
+#include "plant/plant.hpp"
+
+namespace feltgate::board {
+
+/// A line that spoils bytes: each with a probability, one of lost, a bit turned, doubled.
+class BadLine {
+ public:
+  BadLine(double share, std::uint64_t seed) : share_(share), random_(seed) {}
+  std::vector<std::uint8_t> through(const std::vector<std::uint8_t>& bytes);
+
+ private:
+  double share_;
+  SplitMix64 random_;
+};
+
+/// What holds the lever: "free", "locked", "hold" (a hand that holds it where it is), "swing" (a
+/// hand that swings it, 0.5 rad at 1 Hz), or the [hand] of a scene file by name or path. Throws
+/// std::invalid_argument or config::ConfigError.
+plant::Hand hand_named(const std::string& name, const std::string& scenes_folder);
+
+class Board {
+ public:
+  /// Switched on at clock 0. Throws like check_step() where the plant is too stiff.
+  Board(std::unique_ptr<Core> core, const plant::Parameters& plant, const plant::Hand& hand,
+        const Setup& setup);
+
+  /// Bytes for the rx pin from this clock on.
+  void receive(const std::vector<std::uint8_t>& bytes);
+  /// Runs up to this clock or a little beyond, where a step of the plant ends.
+  void run_to(Clock clock);
+  Clock now() const { return now_; }
+  /// What the tx pin has sent since the last call.
+  std::vector<std::uint8_t> take_sent();
+
+  const Core& core() const { return *core_; }
+  const plant::Observables& plant() const { return plant_.observables(); }
+  Outcome outcome() const;
+
+ private:
+  static StepPlan plan(const plant::Parameters& plant, const plant::Hand& hand,
+                       const DesignInfo& design);
+  void step(Clock clocks);
+
+  std::unique_ptr<Core> core_;
+  plant::Plant plant_;
+  StepPlan plan_;
+  BoardIn in_;
+  BadLine to_board_, from_board_;
+  Clock now_ = 0, arm_at_ = 0;
+  bool arm_ = false;
+  int duty_clocks_ = 0;
+  double duty_ = 0;
+  std::int64_t bytes_ = 0;
+  std::uint64_t byte_sum_ = 0xcbf29ce484222325U;
+};
+
+}  // namespace feltgate::board

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What sits on the simulated board: core and link of one design, as the twin or as Verilated RTL.
+// Documentation: docs/board.md
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "feltgate/core_ports.hpp"
+#include "feltgate/design_info.hpp"
+
+namespace feltgate::board {
+
+/// Pins of the board that hold for some clocks.
+struct BoardIn {
+  EncoderPins encoder;
+  bool arm = false, stop = false, set_zero = false;
+  std::uint8_t scene = 0;
+};
+
+struct BoardOptions {
+  std::int64_t baud = 1'000'000;
+  bool simulated = true;
+  int board = 0;             ///< which one it says it is
+  std::uint32_t inputs = 1;  ///< the encoder's connector is in
+};
+
+/// A running sum over all that a tick shows: two runs with the same sum had the same ticks.
+class TickHash {
+ public:
+  void add(const CoreOut& o) {
+    mix(o.tick_count | static_cast<std::uint64_t>(static_cast<std::uint32_t>(o.position)) << 32);
+    mix(static_cast<std::uint64_t>(o.velocity));
+    mix(pair(o.tau_hat, o.tau_ref));
+    mix(pair(o.current_ref, o.voltage));
+    mix(pair(o.duty, o.duty_active));
+    mix(o.scene | std::uint64_t{o.first_fault} << 8 | std::uint64_t{o.limits} << 16 |
+        std::uint64_t{o.faults} << 32 | std::uint64_t{o.armed} << 48 |
+        std::uint64_t{o.gates_enable} << 49);
+    ++ticks_;
+  }
+  std::uint64_t value() const { return sum_; }
+  std::int64_t ticks() const { return ticks_; }
+
+ private:
+  static std::uint64_t pair(std::int32_t low, std::int32_t high) {
+    return static_cast<std::uint32_t>(low) |
+           static_cast<std::uint64_t>(static_cast<std::uint32_t>(high)) << 32;
+  }
+  // One round of FNV over a whole word, with the high half folded in.
+  void mix(std::uint64_t word) {
+    sum_ = (sum_ ^ word) * 0x9e3779b97f4a7c15U;
+    sum_ ^= sum_ >> 32;
+  }
+  std::uint64_t sum_ = 0xcbf29ce484222325U;
+  std::int64_t ticks_ = 0;
+};
+
+class Core {
+ public:
+  virtual ~Core() = default;
+  virtual const DesignInfo& design() const = 0;
+  /// "twin" or "rtl".
+  virtual const char* kind() const = 0;
+  /// So many clocks with these pins held.
+  virtual void run(const BoardIn& in, Clock clocks) = 0;
+  /// A byte for the board's rx pin, after those before it.
+  virtual void send(std::uint8_t byte) = 0;
+  virtual std::size_t unsent() const = 0;
+  /// Bytes whose stop bit has come from the tx pin.
+  virtual std::vector<std::uint8_t> take_received() = 0;
+  /// Duty in force in clocks of the PWM period, and whether the gates are open to it.
+  virtual int duty() const = 0;
+  virtual bool gates_enabled() const = 0;
+  virtual const TickHash& ticks() const = 0;
+};
+
+/// `kind` is "twin", or "rtl" where that is linked. Throws std::invalid_argument with what there
+/// is.
+std::unique_ptr<Core> make_core(const std::string& design, const std::string& kind,
+                                const BoardOptions& options);
+
+/// How "rtl" is made where its library is linked.
+using RtlCoreMaker = std::unique_ptr<Core> (*)(const std::string& design, const BoardOptions&);
+void provide_rtl_cores(RtlCoreMaker maker);
+
+}  // namespace feltgate::board

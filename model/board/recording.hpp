@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// All that decides what a simulated board does: how it was started, and each byte that came, with
+// its clock. Documentation: docs/board.md
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "feltgate/encoder_source.hpp"
+
+namespace feltgate::board {
+
+/// How a board was started.
+struct Setup {
+  std::string design = "lever", plant = "p24", hand = "free", scene = "free";
+  bool arm = false;  ///< the panel's switch
+  std::int64_t baud = 1'000'000;
+  double bad_line = 0;     ///< share of bytes that the line spoils, each way
+  std::uint64_t seed = 1;  ///< of that
+};
+
+/// Bytes that came together.
+struct Arrival {
+  Clock clock = 0;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// What came out: two runs with the same sums had the same ticks and sent the same bytes.
+struct Outcome {
+  Clock clocks = 0;
+  std::int64_t ticks = 0;
+  std::uint64_t tick_sum = 0;
+  std::int64_t bytes = 0;
+  std::uint64_t byte_sum = 0;
+  bool operator==(const Outcome& o) const {
+    return clocks == o.clocks && ticks == o.ticks && tick_sum == o.tick_sum && bytes == o.bytes &&
+           byte_sum == o.byte_sum;
+  }
+};
+
+struct Recording {
+  Setup setup;
+  std::vector<Arrival> arrivals;
+  Outcome outcome;
+};
+
+/// Writes as it goes; without finish() the file has no outcome and is not accepted.
+class RecordingWriter {
+ public:
+  RecordingWriter(std::FILE* to, const Setup& setup);
+  void add(const Arrival& arrival);
+  void finish(const Outcome& outcome);
+
+ private:
+  std::FILE* to_;
+};
+
+/// Throws std::invalid_argument "file:line: what; mend".
+Recording read_recording(const std::string& path);
+
+}  // namespace feltgate::board

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+#
+# feltgate_board: a board without hardware, with the twin; feltgate_board_rtl with the Verilated core
+# too. docs/board.md
+include_guard(GLOBAL)
+
+feltgate_library(feltgate_board_parts board EXCEPT "/rtl_cores" feltgate_loop)
+set(rtl_sources "${FELTGATE_ROOT}/model/board/rtl_cores.cpp")
+set(rtl_libraries "")
+foreach(design IN LISTS FELTGATE_DESIGNS)
+  set(type ${FELTGATE_TYPE_${design}})
+  set(generated "${PROJECT_BINARY_DIR}/engines/${design}_board")
+  feltgate_for_design(design_board.cpp.in "${generated}.cpp")
+  feltgate_for_design(design_board_rtl.cpp.in "${generated}_rtl.cpp")
+  target_sources(feltgate_board_parts PRIVATE "${generated}.cpp")
+  list(APPEND rtl_sources "${generated}_rtl.cpp")
+  list(APPEND rtl_libraries core_${design})
+endforeach()
+target_include_directories(feltgate_board_parts PRIVATE "${PROJECT_BINARY_DIR}/engines")
+target_compile_options(feltgate_board_parts PRIVATE ${FELTGATE_ENGINE_OPTIONS})
+
+set(board_program board_main.cpp checks.cpp commands.cpp command_line.cpp)
+set(board_libraries feltgate_board_parts feltgate_files feltgate_design CLI11::CLI11)
+feltgate_program(feltgate_board "${board_program}" ${board_libraries})
+feltgate_program(feltgate_board_rtl "${board_program}" ${board_libraries} ${rtl_libraries})
+target_sources(feltgate_board_rtl PRIVATE ${rtl_sources})
+target_include_directories(feltgate_board_rtl PRIVATE "${PROJECT_BINARY_DIR}/engines")
+set_source_files_properties(${rtl_sources} PROPERTIES COMPILE_OPTIONS "-O3;-fno-tree-slp-vectorize")

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Twin of rtl/link/link_receiver.sv: bytes of the wire to requests.
+// Documentation: docs/blocks/link_receiver.md
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "feltgate/crc32.hpp"
+#include "feltgate/generated/link.hpp"
+
+namespace feltgate {
+
+/// A frame that fulfilled all that a request must.
+struct LinkRequest {
+  bool valid = false;  ///< it stands
+  bool write = false;
+  std::uint8_t sequence = 0;
+  std::uint16_t address = 0;
+  std::uint32_t data = 0;  ///< or the number of words
+};
+
+class LinkReceiver {
+ public:
+  struct In {
+    std::uint8_t byte = 0;
+    bool valid = false, error = false;
+    bool taken = false;
+  };
+  struct Out {
+    LinkRequest request;
+    bool good = false, bad = false;  ///< one clock
+  };
+
+  void reset() { *this = LinkReceiver(); }
+  const Out& out() const { return out_; }
+  /// Without a byte, clock() changes nothing.
+  bool idle() const { return bits_ == 0 && !out_.good && !out_.bad; }
+
+  void clock(const In& in) {
+    out_.good = out_.bad = false;
+    if (in.taken) out_.request.valid = false;
+    if (bits_ > 0) shift();
+    if (in.valid && in.byte == LinkMap::frame_end) {
+      end();
+    } else if (in.valid && in.byte == LinkMap::frame_escape) {
+      spoiled_ = spoiled_ || escaped_;
+      escaped_ = true;
+    } else if (in.valid) {
+      take(in.byte);
+    }
+    if (in.error) spoiled_ = true;
+  }
+
+ private:
+  /// A bit of the byte through CRC and frame; the frame's first eight bytes stay.
+  void shift() {
+    const std::uint32_t bit = byte_ & 1U;
+    const bool feedback = ((crc_ ^ bit) & 1U) != 0;
+    crc_ = crc_ >> 1 ^ (feedback ? 0xedb88320U : 0U);
+    if (count_ <= 8) frame_ = frame_ >> 1 | std::uint64_t{bit} << 63;
+    byte_ = static_cast<std::uint8_t>(byte_ >> 1);
+    --bits_;
+    show();
+  }
+
+  void end() {
+    if (count_ != 0 || escaped_ || spoiled_) {
+      out_.good = sound();
+      out_.bad = !out_.good;
+      if (out_.good) out_.request.valid = true;
+    }
+    count_ = 0;
+    escaped_ = spoiled_ = false;
+    crc_ = crc32_start;
+  }
+
+  void take(std::uint8_t byte) {
+    byte_ = byte;
+    if (escaped_) {
+      if (byte == LinkMap::escaped_end) {
+        byte_ = LinkMap::frame_end;
+      } else if (byte == LinkMap::escaped_escape) {
+        byte_ = LinkMap::frame_escape;
+      } else {
+        spoiled_ = true;
+      }
+    }
+    escaped_ = false;
+    bits_ = 8;
+    out_.request.valid = false;
+    if (count_ <= static_cast<int>(LinkMap::request_bytes)) ++count_;
+  }
+
+  bool sound() const {
+    const LinkRequest& r = out_.request;
+    if (count_ != static_cast<int>(LinkMap::request_bytes) || escaped_ || spoiled_) return false;
+    if (crc_ != crc32_good || frame_ >> 30 & 3U) return false;
+    const auto kind = static_cast<std::uint8_t>(frame_);
+    if (kind == LinkMap::kind_write) return true;
+    return kind == LinkMap::kind_read && r.data >= 1 && r.data <= LinkMap::read_words &&
+           r.address + r.data <= 1U << LinkMap::map_bits;
+  }
+
+  void show() {
+    LinkRequest& r = out_.request;
+    r.write = (frame_ >> 1 & 1U) != 0;
+    r.sequence = static_cast<std::uint8_t>(frame_ >> 8);
+    r.address = static_cast<std::uint16_t>(frame_ >> 16 & 0x3fffU);
+    r.data = static_cast<std::uint32_t>(frame_ >> 32);
+  }
+
+  int count_ = 0, bits_ = 0;
+  bool escaped_ = false, spoiled_ = false;
+  std::uint8_t byte_ = 0;
+  std::uint32_t crc_ = crc32_start;
+  std::uint64_t frame_ = 0;
+  Out out_;
+};
+
+}  // namespace feltgate

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The core with its host's link: encoder and UART in, gates and UART out. A board's top instantiates it instead of
+// feltgate_core. Documentation: docs/blocks/feltgate_linked.md, docs/link.md
+`default_nettype none
+
+module feltgate_linked #(
+    parameter int ClockHz = feltgate_pkg::CLOCK_HZ,
+    parameter int Baud = feltgate_link_pkg::BAUD,
+    parameter int Simulated = 0,
+    parameter int Board = 0,       // its number: docs/registers.md
+    parameter ParameterFile = ""   // as of feltgate_core
+) (
+    input  logic clk_i,
+    input  logic rst_ni,
+
+    // Encoder, motor
+    input  logic enc_a_i,
+    input  logic enc_b_i,
+    input  logic enc_z_i,
+    output logic gate_a_hi_o,
+    output logic gate_a_lo_o,
+    output logic gate_b_hi_o,
+    output logic gate_b_lo_o,
+
+    // Panel
+    input  logic       arm_i,
+    input  logic       stop_i,
+    input  logic       set_zero_i,      // one clock
+    input  logic       clear_faults_i,  // one clock
+    input  logic [3:0] scene_i,
+
+    // Host
+    input  logic       uart_rx_i,
+    output logic       uart_tx_o,
+    input  logic [7:0] inputs_i,  // what the board tells the host; synchronous
+
+    // Lamps
+    output logic signed [31:0]                                  position_o,
+    output logic        [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_o,
+    output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0]   faults_o,
+    output logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0]  first_fault_o,
+    output logic        [ 3:0]                                  scene_o,
+    output logic                                                armed_o,
+    output logic                                                gates_enable_o,
+    output logic                                                snapshot_valid_o
+);
+  logic [11:0] reg_addr;
+  logic [31:0] reg_wdata, reg_rdata;
+  logic        reg_write, reg_busy;
+
+  /* verilator lint_off PINCONNECTEMPTY */  // the host reads these as words
+  feltgate_core #(.ReadBack(1), .ParameterFile(ParameterFile)) u_core (
+      .clk_i(clk_i), .rst_ni(rst_ni),
+      .enc_a_i(enc_a_i), .enc_b_i(enc_b_i), .enc_z_i(enc_z_i),
+      .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o),
+      .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
+      .arm_i(arm_i), .stop_i(stop_i), .set_zero_i(set_zero_i), .scene_i(scene_i),
+      .reg_addr_i(reg_addr), .reg_wdata_i(reg_wdata), .reg_write_i(reg_write),
+      .reg_busy_o(reg_busy), .reg_rdata_o(reg_rdata),
+      .snapshot_valid_o(snapshot_valid_o),
+      .tick_count_o(), .velocity_o(), .tau_hat_o(), .tau_ref_o(),
+      .current_ref_o(), .voltage_o(), .duty_o(), .duty_active_o(),
+      .word_valid_o(), .word_slot_o(), .word_data_o(),
+      .position_o(position_o), .scene_o(scene_o), .limits_o(limits_o),
+      .faults_o(faults_o), .first_fault_o(first_fault_o),
+      .armed_o(armed_o), .gates_enable_o(gates_enable_o)
+  );
+  /* verilator lint_on PINCONNECTEMPTY */
+
+  logic [7:0] rx_byte;
+  logic       rx_valid, rx_error;
+  uart_rx #(.ClockHz(ClockHz), .Baud(Baud)) u_uart_rx (
+      .clk_i(clk_i), .rst_ni(rst_ni), .rx_i(uart_rx_i),
+      .byte_o(rx_byte), .valid_o(rx_valid), .error_o(rx_error)
+  );
+
+  logic        request_valid, request_write, request_taken, good, bad;
+  logic [ 7:0] request_sequence;
+  logic [13:0] request_address;
+  logic [31:0] request_data;
+  link_receiver u_link_receiver (
+      .clk_i(clk_i), .rst_ni(rst_ni),
+      .byte_i(rx_byte), .valid_i(rx_valid), .error_i(rx_error),
+      .taken_i(request_taken),
+      .valid_o(request_valid), .write_o(request_write), .sequence_o(request_sequence),
+      .address_o(request_address), .data_o(request_data),
+      .good_o(good), .bad_o(bad)
+  );
+
+  logic [15:0] link_addr;
+  logic [31:0] link_wdata, link_rdata;
+  logic        link_write;
+  logic [ 7:0] reply_byte;
+  logic        reply_valid, reply_last, reply_ready;
+  link_port #(.Simulated(Simulated), .Board(Board), .Features(0)) u_link_port (
+      .clk_i(clk_i), .rst_ni(rst_ni),
+      .valid_i(request_valid), .write_i(request_write), .sequence_i(request_sequence),
+      .address_i(request_address), .data_i(request_data), .good_i(good), .bad_i(bad),
+      .taken_o(request_taken),
+      .clear_faults_i(clear_faults_i), .inputs_i(inputs_i), .tick_i(snapshot_valid_o),
+      .reg_addr_o(reg_addr), .reg_wdata_o(reg_wdata), .reg_write_o(reg_write),
+      .reg_busy_i(reg_busy), .reg_rdata_i(reg_rdata),
+      .addr_o(link_addr), .wdata_o(link_wdata), .write_o(link_write), .rdata_i(link_rdata),
+      .valid_o(reply_valid), .byte_o(reply_byte), .last_o(reply_last), .ready_i(reply_ready)
+  );
+  logic [7:0] stream_byte;
+  logic       stream_valid, stream_last, stream_ready, unused;
+  assign link_rdata   = 32'd0;
+  assign stream_valid = 1'b0;
+  assign stream_byte  = 8'd0;
+  assign stream_last  = 1'b0;
+  assign unused       = ^{link_addr, link_wdata, link_write, stream_ready};
+
+  logic [7:0] tx_byte;
+  logic       tx_valid, tx_ready;
+  link_transmitter u_link_transmitter (
+      .clk_i(clk_i), .rst_ni(rst_ni),
+      .reply_valid_i(reply_valid), .reply_byte_i(reply_byte), .reply_last_i(reply_last),
+      .reply_ready_o(reply_ready),
+      .stream_valid_i(stream_valid), .stream_byte_i(stream_byte), .stream_last_i(stream_last),
+      .stream_ready_o(stream_ready),
+      .valid_o(tx_valid), .byte_o(tx_byte), .ready_i(tx_ready)
+  );
+  uart_tx #(.ClockHz(ClockHz), .Baud(Baud)) u_uart_tx (
+      .clk_i(clk_i), .rst_ni(rst_ni),
+      .byte_i(tx_byte), .valid_i(tx_valid), .ready_o(tx_ready), .tx_o(uart_tx_o)
+  );
+endmodule
+
+`default_nettype wire

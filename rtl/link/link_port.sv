@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Does what a request asks: writes at once, once per sequence; reads as the words of the reply go out. Words
+// are the core's, the link's own, or those of stream and capture. Documentation: docs/blocks/link_port.md
+`default_nettype none
+
+module link_port #(
+    parameter int Simulated = 0,
+    parameter int Board = 0,
+    parameter int Features = 0  // further bits of the word features
+) (
+    input  logic        clk_i,
+    input  logic        rst_ni,
+
+    // Request of link_receiver
+    input  logic        valid_i,
+    input  logic        write_i,
+    input  logic [ 7:0] sequence_i,
+    input  logic [13:0] address_i,
+    input  logic [31:0] data_i,
+    input  logic        good_i,
+    input  logic        bad_i,
+    output logic        taken_o,
+
+    input  logic        clear_faults_i,  // the panel's, one clock
+    input  logic [ 7:0] inputs_i,        // the board's
+    input  logic        tick_i,          // once a tick, in any one clock of it
+
+    // The core's register port
+    output logic [11:0] reg_addr_o,
+    output logic [31:0] reg_wdata_o,
+    output logic        reg_write_o,
+    input  logic        reg_busy_i,
+    input  logic [31:0] reg_rdata_i,     // follows the address by 3 clocks
+
+    // Stream and capture: 0 where the address is not theirs
+    output logic [15:0] addr_o,
+    output logic [31:0] wdata_o,
+    output logic        write_o,
+    input  logic [31:0] rdata_i,         // likewise
+
+    // Reply
+    output logic        valid_o,
+    output logic [ 7:0] byte_o,
+    output logic        last_o,
+    input  logic        ready_i
+);
+  localparam logic [13:0] STATUS =
+      14'(feltgate_map_pkg::A_SNAPSHOT) + 14'(feltgate_map_pkg::R_STATUS);
+
+  // Writes. One is done once: not again until a request with another sequence was.
+  logic [8:0] sequence_q;  // of the last, 0x100 none
+  logic       done_q;      // the request that stands is done, or was before
+  logic       clear_q;
+  logic       fresh, to_core, repeats, writes;
+  assign fresh   = valid_i && write_i && !done_q;
+  assign to_core = address_i[13:12] == 2'd0;
+  assign repeats = sequence_q == {1'b0, sequence_i};
+  assign writes  = fresh && !repeats;
+
+  logic host_write, panel_write;
+  assign host_write  = writes && to_core;
+  assign panel_write = clear_q && !host_write;
+  assign write_o     = writes && !to_core;
+  assign reg_write_o = host_write || panel_write;
+  assign wdata_o     = data_i;
+  assign reg_wdata_o = {data_i[31:feltgate_map_pkg::W_COMMAND],
+      host_write ? data_i[feltgate_map_pkg::W_COMMAND-1:0]
+                 : feltgate_map_pkg::W_COMMAND'(1) << feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS};
+
+  // Reply: head and words go through one register, four bytes each.
+  localparam logic [1:0] IDLE = 2'd0;
+  localparam logic [1:0] WAIT = 2'd1;   // for a status that knows the write
+  localparam logic [1:0] READ = 2'd2;   // for a word
+  localparam logic [1:0] BYTES = 2'd3;  // sends four
+  logic [ 1:0] state_q, ticks_q, clocks_q, byte_q;
+  logic        status_q;  // the reply is one to a write
+  logic [13:0] address_q;
+  logic [ 6:0] left_q;    // words to be read
+  logic [31:0] word_q;
+
+  logic [13:0] read_address;
+  assign read_address = status_q ? STATUS : address_q;
+  assign addr_o       = {2'd0, write_o ? address_i : read_address};
+  assign reg_addr_o   = host_write ? address_i[11:0]
+                      : panel_write ? feltgate_map_pkg::A_COMMAND : read_address[11:0];
+
+  // The link's own words.
+  logic [15:0] good_q, bad_q;
+  logic [31:0] own, word;
+  always_comb begin
+    case ({2'd0, read_address})
+      feltgate_link_pkg::A_IDENTITY:        own = 32'(feltgate_link_pkg::IDENTITY);
+      feltgate_link_pkg::A_VERSION:         own = 32'(feltgate_link_pkg::VERSION);
+      feltgate_link_pkg::A_DESIGN_CRC:      own = feltgate_pkg::DESIGN_CRC;
+      feltgate_link_pkg::A_CLOCK_HZ:        own = 32'(feltgate_pkg::CLOCK_HZ);
+      feltgate_link_pkg::A_CLOCKS_PER_TICK: own = 32'(feltgate_pkg::CLOCKS_PER_TICK);
+      feltgate_link_pkg::A_FEATURES:
+          own = 32'(Features) | (32'(Simulated) << feltgate_link_pkg::B_FEATURES_SIMULATED);
+      feltgate_link_pkg::A_FRAMES_GOOD:     own = {16'd0, good_q};
+      feltgate_link_pkg::A_FRAMES_BAD:      own = {16'd0, bad_q};
+      feltgate_link_pkg::A_LAST_WRITE_SEQUENCE: own = {23'd0, sequence_q};
+      feltgate_link_pkg::A_BOARD:           own = 32'(Board);
+      feltgate_link_pkg::A_INPUTS:          own = {24'd0, inputs_i};
+      default:                              own = 32'd0;
+    endcase
+  end
+  assign word = (read_address[13:12] == 2'd0) ? reg_rdata_i : own | rdata_i;
+
+  assign taken_o = state_q == IDLE && valid_i && (!write_i || done_q);
+  assign valid_o = state_q == BYTES;
+  assign byte_o  = word_q[7:0];
+  assign last_o  = byte_q == 2'd3 && left_q == 7'd0;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      sequence_q <= 9'(feltgate_link_pkg::NO_SEQUENCE);
+      done_q     <= 1'b0;
+      clear_q    <= 1'b0;
+      good_q     <= 16'd0;
+      bad_q      <= 16'd0;
+      state_q    <= IDLE;
+      ticks_q    <= 2'd0;
+      clocks_q   <= 2'd0;
+      byte_q     <= 2'd0;
+      status_q   <= 1'b0;
+      address_q  <= 14'd0;
+      left_q     <= 7'd0;
+      word_q     <= 32'd0;
+    end else begin
+      if (good_i) good_q <= good_q + 16'd1;
+      if (bad_i) bad_q <= bad_q + 16'd1;
+      done_q <= valid_i && !taken_o && (done_q || (fresh && (repeats || !to_core || !reg_busy_i)));
+      if (writes && (!to_core || !reg_busy_i)) sequence_q <= {1'b0, sequence_i};
+      clear_q <= clear_faults_i || (clear_q && (!panel_write || reg_busy_i));
+
+      case (state_q)
+        IDLE: begin
+          status_q  <= write_i;
+          address_q <= address_i;
+          left_q    <= write_i ? 7'd1 : data_i[6:0];
+          word_q    <= {2'd0, address_i, sequence_i, 8'(feltgate_link_pkg::KIND_REPLY) | {6'd0, write_i, !write_i}};
+          ticks_q   <= 2'd3;
+          if (taken_o) state_q <= write_i ? WAIT : BYTES;
+        end
+        WAIT: begin
+          if (tick_i) ticks_q <= ticks_q - 2'd1;
+          if (ticks_q == 2'd0) state_q <= BYTES;
+        end
+        READ: begin
+          clocks_q <= (reg_write_o || write_o) ? 2'd0 : clocks_q + 2'd1;
+          word_q   <= word;
+          if (clocks_q == 2'd3) begin
+            state_q   <= BYTES;
+            clocks_q  <= 2'd0;
+            address_q <= address_q + 14'd1;
+            left_q    <= left_q - 7'd1;
+          end
+        end
+        default: begin
+          if (ready_i) begin
+            byte_q <= byte_q + 2'd1;
+            word_q <= {8'd0, word_q[31:8]};
+            if (byte_q == 2'd3) state_q <= (left_q == 7'd0) ? IDLE : READ;
+          end
+        end
+      endcase
+    end
+  end
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate_linked: RTL against twin on every clock, UART pins included, with requests and what is
+// none at random; requests one by one; random frames by the thousand; the twin from event to event.
+// Documentation: docs/blocks/feltgate_linked.md
+#include <Vfeltgate_linked.h>
+
+#include <deque>
+
+#include "catch.hpp"
+#include "feltgate/generated/lever.hpp"
+#include "feltgate_linked_twin.hpp"
+#include "frames.hpp"
+#include "lock_step.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+using D = Lever;
+
+namespace {
+
+using Twin = FeltgateLinked<D, BAUD>;
+
+struct Adapter {
+  static void drive(Vfeltgate_linked& rtl, const LinkedIn& in) {
+    rtl.enc_a_i = in.encoder.a;
+    rtl.enc_b_i = in.encoder.b;
+    rtl.enc_z_i = in.encoder.z;
+    rtl.arm_i = in.arm;
+    rtl.stop_i = in.stop;
+    rtl.set_zero_i = in.set_zero;
+    rtl.clear_faults_i = in.clear_faults;
+    rtl.scene_i = in.scene;
+    rtl.uart_rx_i = in.uart_rx;
+    rtl.inputs_i = in.inputs;
+  }
+  static void at_edge(Vfeltgate_linked& rtl) { rtl.stop_i = 0; }
+  template <class Check>
+  static void compare(Check& check, const Vfeltgate_linked& rtl, const LinkedOut& out) {
+    check("uart_tx", rtl.uart_tx_o, out.uart_tx);
+    check("gate_a_hi", rtl.gate_a_hi_o, out.core.gates & 1u);
+    check("gate_a_lo", rtl.gate_a_lo_o, (out.core.gates >> 1) & 1u);
+    check("gate_b_hi", rtl.gate_b_hi_o, (out.core.gates >> 2) & 1u);
+    check("gate_b_lo", rtl.gate_b_lo_o, (out.core.gates >> 3) & 1u);
+    check("position", static_cast<std::int32_t>(rtl.position_o), out.core.position);
+    check("limits", rtl.limits_o, out.core.limits);
+    check("faults", rtl.faults_o, out.core.faults);
+    check("first_fault", rtl.first_fault_o, out.core.first_fault);
+    check("scene", rtl.scene_o, out.core.scene);
+    check("armed", rtl.armed_o, out.core.armed);
+    check("gates_enable", rtl.gates_enable_o, out.core.gates_enable);
+    check("snapshot_valid", rtl.snapshot_valid_o, out.core.snapshot_valid);
+  }
+};
+using Bench = LockStep<Vfeltgate_linked, Twin, Adapter>;
+
+/// A lever, a panel, and whatever comes over the wire.
+struct Stimulus {
+  explicit Stimulus(std::uint64_t seed)
+      : random(seed), frames{Random(seed + 1)}, line(D::clock_hz, BAUD) {}
+
+  LinkedIn operator()(std::int64_t, const LinkedOut& out) {
+    if (line.unsent() == 0 && gap-- <= 0) {
+      for (const std::uint8_t byte : frames.any()) line.send(byte);
+      gap = static_cast<int>(random.below(random.one_in(4) ? 40'000 : 2'000));
+    }
+    in.uart_rx = line.level() != random.one_in(400'000);
+    line.clock(out.uart_tx);
+    if (random.one_in(900)) phase += random.one_in(5) ? 3 : 1;
+    in.encoder = {(phase & 2U) != 0, ((phase >> 1 ^ phase) & 1U) != 0, (phase & 0xfffU) == 0};
+    if (random.one_in(60'000)) in.arm = !in.arm;
+    if (random.one_in(200'000)) in.scene = static_cast<std::uint8_t>(random.below(10));
+    in.stop = random.one_in(400'000);
+    in.set_zero = random.one_in(100'000);
+    in.clear_faults = random.one_in(50'000);
+    if (random.one_in(10'000)) in.inputs = static_cast<std::uint8_t>(random.below(256));
+    return in;
+  }
+
+  Random random;
+  RandomFrames frames;
+  UartLine line;
+  LinkedIn in;
+  int gap = 10;
+  unsigned phase = 0;
+};
+
+/// A host at the twin's pins.
+struct Host {
+  Twin board;
+  LinkedIn in;
+  std::int64_t now = 0;
+  Bytes got;
+
+  void run(std::int64_t clocks) {
+    board.run(in, clocks, [] {});
+    now += clocks;
+    for (const std::uint8_t byte : board.take_received()) got.push_back(byte);
+  }
+  void send(const Bytes& wire) {
+    for (const std::uint8_t byte : wire) board.send(byte);
+  }
+  /// Sends, and takes what comes until the line is silent.
+  Bytes ask(const Bytes& wire) {
+    got.clear();
+    send(wire);
+    while (board.unsent() > 0) run(100);
+    std::size_t before = 0;
+    do {
+      before = got.size();
+      run(1500 * D::clock_hz / 50'000'000 + 40 * D::clock_hz / BAUD);
+    } while (got.size() != before);
+    return got;
+  }
+  /// Words of the reply to a read; it must come.
+  std::vector<std::uint32_t> read(int sequence, std::uint32_t address, std::uint32_t words) {
+    const Bytes wire = ask(request(1, sequence, address, words));
+    return words_of(wire, 0x81, sequence, address, words);
+  }
+  std::uint32_t write(int sequence, std::uint32_t address, std::uint32_t value) {
+    return words_of(ask(request(2, sequence, address, value)), 0x82, sequence, address, 1)[0];
+  }
+  static std::vector<std::uint32_t> words_of(const Bytes& wire, int kind, int sequence,
+                                             std::uint32_t address, std::uint32_t words) {
+    Bytes body;
+    REQUIRE(wire.size() > 9);
+    REQUIRE(wire.front() == 0xc0);
+    REQUIRE(wire.back() == 0xc0);
+    for (std::size_t k = 1; k + 1 < wire.size(); ++k) {
+      const bool escaped = wire[k] == 0xdb;
+      if (escaped) ++k;
+      body.push_back(!escaped ? wire[k] : wire[k] == 0xdc ? 0xc0 : 0xdb);
+    }
+    REQUIRE(body.size() == 8 + 4 * words);
+    REQUIRE(framed(Bytes(body.begin(), body.end() - 4)) == wire);
+    CHECK(body[0] == kind);
+    CHECK(body[1] == sequence);
+    CHECK(body[2] + 256U * body[3] == address);
+    std::vector<std::uint32_t> read;
+    for (std::size_t k = 4; k < 4 + 4 * words; k += 4) {
+      read.push_back(body[k] | static_cast<std::uint32_t>(body[k + 1]) << 8 |
+                     static_cast<std::uint32_t>(body[k + 2]) << 16 |
+                     static_cast<std::uint32_t>(body[k + 3]) << 24);
+    }
+    return read;
+  }
+};
+
+constexpr std::uint32_t bit(int n) { return 1U << n; }
+constexpr std::uint32_t control(bool arm, int scene) {
+  return static_cast<std::uint32_t>(D::control_reset) | bit(D::C::control_host) |
+         (arm ? bit(D::C::control_arm) : 0) |
+         static_cast<std::uint32_t>(scene) << D::C::control_scene;
+}
+
+}  // namespace
+
+TEST_CASE("feltgate_linked: whatever comes over the wire, RTL against twin") {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    Bench bench("feltgate_linked", seed);
+    bench.run(Stimulus(seed), scaled_clocks(1'500'000), {seed == 3 ? 60'000U : 0U});
+  }
+}
+
+TEST_CASE("feltgate_linked: reads and writes") {
+  Host host;
+  host.run(5000);
+  const auto head = host.read(1, LinkMap::A::identity, 11);
+  CHECK(head[0] == 0x46454c54);
+  CHECK(head[1] == LinkMap::version);
+  CHECK(head[2] == D::design_crc);
+  CHECK(head[3] == D::clock_hz);
+  CHECK(head[4] == D::clocks_per_tick);
+  CHECK(head[6] == 1);
+  CHECK(head[7] == 0);
+  CHECK(head[8] == LinkMap::no_sequence);
+  host.in.inputs = 0xa5;
+  CHECK(host.read(2, LinkMap::A::inputs, 1)[0] == 0xa5);
+  host.write(3, D::A::torque_limit, 0xc0dbU);
+  CHECK(host.read(4, D::A::torque_limit, 1)[0] == 0xc0db);
+  CHECK(host.read(5, LinkMap::A::last_write_sequence, 1)[0] == 3);
+  const auto all = host.read(6, 0, 64);
+  for (const auto& p : D::parameters) {
+    if (p.address < 64 && p.address != D::A::torque_limit) {
+      CHECK(all[static_cast<std::size_t>(p.address)] == static_cast<std::uint32_t>(p.raw));
+    }
+  }
+  CHECK(host.read(7, 0x3fc0, 64)[63] == 0);
+}
+
+TEST_CASE("feltgate_linked: a repeated write is done once, its reply has the status of the write") {
+  Host host;
+  host.run(5000);
+  const auto once = host.board.core().writes();
+  host.write(7, D::C::control, control(false, D::S::damper));
+  host.write(7, D::C::control, control(false, D::S::damper));
+  host.write(7, D::C::control, control(false, D::S::wall));
+  CHECK(host.board.core().writes() == once + 1);
+  CHECK(host.board.out().core.scene == D::S::damper);
+  const std::uint32_t armed = host.write(8, D::C::control, control(true, D::S::damper));
+  CHECK((armed >> D::C::status_armed & 1U) == 1);
+  const std::uint32_t refused = host.write(9, D::A::inverse_resistance, 1);
+  CHECK((refused >> D::C::status_refused & 1U) == 1);
+  const std::uint32_t taken = host.write(10, D::A::overspeed, 0x7fffffff);
+  CHECK((taken >> D::C::status_refused & 1U) == 0);
+}
+
+TEST_CASE("feltgate_linked: a disarm amid a long reply acts in the tick in which it is whole") {
+  for (const bool stop : {false, true}) {
+    Host host;
+    host.run(5000);
+    host.write(1, D::C::control, control(true, D::S::damper));
+    REQUIRE(host.board.out().core.armed);
+    host.got.clear();
+    host.send(request(1, 2, 0, 64));
+    host.send(request(2, 3, D::A::ramp_step, 5));  // waits for its reply
+    host.send(stop ? request(2, 4, D::C::command, bit(D::C::command_stop))
+                   : request(2, 4, D::C::control, control(false, D::S::damper)));
+    while (host.board.unsent() > 0) {
+      host.run(1);
+      if (host.board.unsent() > 1) REQUIRE(host.board.out().core.gates_enable);
+    }
+    CHECK(host.got.size() < 40);  // of 264 and more
+    host.run(2 * D::clocks_per_tick);
+    CHECK(!host.board.out().core.gates_enable);
+    CHECK((host.board.out().core.faults != 0) == stop);
+  }
+}
+
+TEST_CASE("feltgate_linked: the panel clears faults, also while the host writes") {
+  Host host;
+  host.run(5000);
+  host.write(1, D::C::control, control(true, D::S::damper));
+  host.write(2, D::C::command, bit(D::C::command_stop));
+  REQUIRE(host.board.out().core.faults != 0);
+  host.write(3, D::C::control, control(false, D::S::damper));
+  host.in.clear_faults = true;
+  host.run(1);
+  host.in.clear_faults = false;
+  host.run(3 * D::clocks_per_tick);
+  CHECK(host.board.out().core.faults == 0);
+}
+
+TEST_CASE("feltgate_linked: random frames: what is no request changes nothing") {
+  Host host;
+  host.run(5000);
+  RandomFrames frames{Random(11)};
+  WireReader reader;
+  std::int64_t bad_frames = 0, replies = 0, done = 0;
+  int last = -1;
+  std::uint32_t words[512] = {};
+  for (const auto& p : D::parameters) words[p.address] = static_cast<std::uint32_t>(p.raw);
+  const std::int64_t wanted = scaled_clocks(FRAMES);
+  while (reader.good + reader.bad < wanted) {
+    Bytes wire = frames.any();
+    if (frames.random.one_in(2)) wire.push_back(0xc0);  // else the next one ends it
+    const std::int64_t writes = host.board.core().writes();
+    host.got.clear();
+    std::int64_t good = 0, expected = 0;
+    for (const std::uint8_t byte : wire) {
+      if (!reader.take(byte)) continue;
+      const WireReader::Frame& f = reader.last;
+      if (!f.good) ++bad_frames;
+      if (!f.good) continue;
+      ++good;
+      if (f.kind != 2 || f.sequence == last) continue;
+      last = f.sequence;
+      if (f.address < 0x200) words[f.address] = f.value;
+      // A disarmed core takes every write; of the addresses at which something is.
+      if (f.address < 0x200 || f.address == D::C::control || f.address == D::C::command) {
+        ++expected;
+      }
+      if (f.address == D::C::control || f.address == D::C::command) ++done;
+    }
+    host.ask(wire);
+    REQUIRE(host.board.core().writes() == writes + expected);
+    if (good == 0) REQUIRE(host.got.empty());
+    if (good > 0) REQUIRE(!host.got.empty());
+    replies += good;
+    // So that the next write is not refused.
+    if (host.board.out().core.armed) {
+      last = (last + 1) & 255;
+      REQUIRE(!host.ask(request(2, last, D::C::control, control(false, 0))).empty());
+      for (const std::uint8_t byte : request(2, last, D::C::control, control(false, 0))) {
+        reader.take(byte);
+      }
+    }
+  }
+  CHECK(bad_frames > wanted / 4);
+  CHECK(replies > wanted / 4);
+  CHECK(done > 0);
+  host.ask({0xc0});
+  const int next = (last + 1) & 255;
+  const auto counts = host.read(next, LinkMap::A::frames_good, 2);
+  CHECK(counts[0] == ((reader.good + 1) & 0xffff));
+  CHECK(std::abs(static_cast<std::int64_t>(counts[1]) - (reader.bad & 0xffff)) <= 1);
+  for (std::uint32_t at = 0; at < 512; at += 64) {
+    const auto read = host.read(next, at, 64);
+    for (std::uint32_t k = 0; k < 64; ++k) CHECK(read[k] == words[at + k]);
+  }
+}
+
+TEST_CASE("feltgate_linked: from event to event as clock by clock") {
+  Twin fast, slow;
+  UartLine line(D::clock_hz, BAUD);
+  RandomFrames frames{Random(5)};
+  Random random(6);
+  LinkedIn in;
+  Bytes from_fast, from_slow;
+  unsigned phase = 0;
+  for (int k = 0; k < 3000; ++k) {
+    if (random.one_in(3)) {
+      for (const std::uint8_t byte : frames.any()) {
+        line.send(byte);
+        fast.send(byte);
+      }
+    }
+    if (random.one_in(3)) phase += 1;
+    in.encoder = {(phase & 2U) != 0, ((phase >> 1 ^ phase) & 1U) != 0, false};
+    in.arm = random.coin();
+    const auto clocks = static_cast<std::int64_t>(1 + random.below(3000));
+    std::int64_t snapshots = 0;
+    fast.run(in, clocks, [&] { ++snapshots; });
+    for (std::int64_t c = 0; c < clocks; ++c) {
+      in.uart_rx = line.level();
+      line.clock(slow.out().uart_tx);
+      slow.clock(in);
+      snapshots -= slow.out().core.snapshot_valid;
+    }
+    REQUIRE(snapshots == 0);
+    REQUIRE(fast.out().uart_tx == slow.out().uart_tx);
+    REQUIRE(fast.out().core == slow.out().core);
+    for (const std::uint8_t byte : fast.take_received()) from_fast.push_back(byte);
+    for (const std::uint8_t byte : line.take_received()) from_slow.push_back(byte);
+    REQUIRE(from_fast == from_slow);
+  }
+  CHECK(from_fast.size() > 1000);
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Twin of rtl/link/feltgate_linked.sv as the lock-step takes it. Documentation:
+// docs/blocks/feltgate_linked.md
+#pragma once
+
+#include "feltgate/linked_core.hpp"
+
+namespace feltgate::test {
+
+template <class D, std::int64_t Baud>
+class FeltgateLinked : public LinkedCore<D> {
+ public:
+  using In = LinkedIn;
+  using Out = LinkedOut;
+  FeltgateLinked() : LinkedCore<D>(LinkedOptions{Baud, false, 0}) {}
+};
+
+}  // namespace feltgate::test

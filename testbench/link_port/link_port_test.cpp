@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// link_port: RTL against twin in every clock, before and after the edge, beside a core's port and a
+// slave. Documentation: docs/blocks/link_port.md
+#include "feltgate/link_port.hpp"
+
+#include <Vlink_port.h>
+
+#include "catch.hpp"
+#include "feltgate/generated/lever.hpp"
+#include "lock_step.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+struct Twin : LinkPort<Lever> {
+  Twin() : LinkPort<Lever>({true, 2, 0x80a06U}) {}
+};
+
+struct Adapter {
+  static void drive(Vlink_port& rtl, const Twin::In& in) {
+    rtl.valid_i = in.request.valid;
+    rtl.write_i = in.request.write;
+    rtl.sequence_i = in.request.sequence;
+    rtl.address_i = in.request.address;
+    rtl.data_i = in.request.data;
+    rtl.good_i = in.good;
+    rtl.bad_i = in.bad;
+    rtl.clear_faults_i = in.clear_faults;
+    rtl.inputs_i = in.inputs;
+    rtl.tick_i = in.tick;
+    rtl.reg_busy_i = in.reg_busy;
+    rtl.reg_rdata_i = in.reg_rdata;
+    rtl.rdata_i = in.rdata;
+    rtl.ready_i = in.ready;
+  }
+  template <class Check>
+  static void compare(Check& check, const Vlink_port& rtl, const Twin::Out& out) {
+    check("taken", rtl.taken_o, out.taken);
+    check("reg_addr", rtl.reg_addr_o, out.reg_addr);
+    check("reg_wdata", rtl.reg_wdata_o, out.reg_wdata);
+    check("reg_write", rtl.reg_write_o, out.reg_write);
+    check("addr", rtl.addr_o, out.addr);
+    check("wdata", rtl.wdata_o, out.wdata);
+    check("write", rtl.write_o, out.write);
+    check("valid", rtl.valid_o, out.reply.valid);
+    check("byte", rtl.byte_o, out.reply.byte);
+    check("last", rtl.last_o, out.reply.last);
+  }
+};
+using Bench = LockStep<Vlink_port, Twin, Adapter>;
+
+/// Requests as link_receiver holds them: until taken, or until the next one.
+struct Stimulus {
+  Random random;
+  Twin::In in{};
+  int tick = 0;
+  std::int64_t gap = 5;
+
+  Twin::In operator()(std::int64_t) {
+    LinkRequest& r = in.request;
+    in.good = false;
+    in.bad = random.one_in(500);
+    if (random.one_in(30)) r.valid = false;
+    if (gap-- <= 0) {
+      r.valid = !r.valid;
+      gap = random.below(r.valid ? 3'000 : 200);
+      if (r.valid) {
+        r.write = random.coin();
+        if (!random.one_in(3)) r.sequence = static_cast<std::uint8_t>(random.below(256));
+        static constexpr std::uint16_t base[] = {0, 0x200, 0x300, 0x1000, 0x1000, 0x1020, 0x3ff0};
+        r.address = static_cast<std::uint16_t>(base[random.below(7)] + random.below(15));
+        r.data = r.write ? static_cast<std::uint32_t>(random.bits() >> 32) : 1 + random.below(12);
+        in.good = true;
+      }
+    }
+    in.clear_faults = random.one_in(700);
+    in.inputs = static_cast<std::uint8_t>(random.below(256));
+    tick = tick == 49 ? 0 : tick + 1;
+    in.tick = tick == 40;
+    in.reg_busy = tick == 0 ? false : in.reg_busy || random.one_in(40);
+    in.reg_rdata = static_cast<std::uint32_t>(random.bits() >> 32);
+    in.rdata = random.coin() ? 0 : static_cast<std::uint32_t>(random.bits() >> 32);
+    in.ready = random.one_in(5);
+    return in;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("link_port: requests at random, RTL against twin") {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    Bench bench("link_port", seed);
+    bench.run(Stimulus{Random(seed)}, scaled_clocks(600'000), {seed > 2 ? 5'000U : 0U});
+  }
+}
+
+TEST_CASE("link_port: a write is on the core's port until it is taken, and never again") {
+  Twin twin;
+  Twin::In in;
+  in.request = {true, true, 9, 0x18, 77};
+  in.reg_busy = true;
+  int offered = 0;
+  for (int k = 0; k < 40; ++k) {
+    in.reg_busy = k < 17;
+    const Twin::Out out = twin.peek(in);
+    offered += out.reg_write;
+    if (out.reg_write) {
+      CHECK(out.reg_addr == 0x18);
+      CHECK(out.reg_wdata == 77);
+    }
+    if (out.taken) in.request.valid = false;
+    twin.clock(in);
+  }
+  CHECK(offered == 18);
+  in.request.valid = true;  // the same sequence
+  for (int k = 0; k < 40; ++k) {
+    CHECK(!twin.peek(in).reg_write);
+    twin.clock(in);
+  }
+}
+
+TEST_CASE("link_port: a read beside a write takes its own word") {
+  // The words of the port follow the address by three clocks, as the core's do.
+  for (int at = 0; at < 12; ++at) {
+    Twin twin;
+    Twin::In in;
+    std::uint16_t addresses[3] = {};
+    in.request = {true, false, 1, 0x20, 2};
+    in.ready = true;
+    std::uint32_t sent[12] = {};
+    std::size_t bytes = 0;
+    for (int k = 0; k < 60; ++k) {
+      in.reg_rdata = 0x1000U + addresses[2];
+      in.clear_faults = k == at;
+      const Twin::Out out = twin.peek(in);
+      if (out.reply.valid && bytes < 12) sent[bytes++] = out.reply.byte;
+      twin.clock(in);
+      if (out.taken) in.request.valid = false;
+      addresses[2] = addresses[1];
+      addresses[1] = addresses[0];
+      addresses[0] = out.reg_addr;
+    }
+    REQUIRE(bytes == 12);
+    CHECK(sent[4] + 256 * sent[5] == 0x1020);
+    CHECK(sent[8] + 256 * sent[9] == 0x1021);
+  }
+}

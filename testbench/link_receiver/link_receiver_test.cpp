@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// link_receiver: RTL against twin on every clock, and both against a reader of the wire that was
+// written from the page. Documentation: docs/blocks/link_receiver.md
+#include "feltgate/link_receiver.hpp"
+
+#include <Vlink_receiver.h>
+
+#include <memory>
+
+#include "../feltgate_linked/frames.hpp"
+#include "catch.hpp"
+#include "lock_step.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+using Twin = LinkReceiver;
+
+struct Adapter {
+  static void drive(Vlink_receiver& rtl, const Twin::In& in) {
+    rtl.byte_i = in.byte;
+    rtl.valid_i = in.valid;
+    rtl.error_i = in.error;
+    rtl.taken_i = in.taken;
+  }
+  template <class Check>
+  static void compare(Check& check, const Vlink_receiver& rtl, const Twin::Out& out) {
+    check("valid", rtl.valid_o, out.request.valid);
+    check("write", rtl.write_o, out.request.write);
+    check("sequence", rtl.sequence_o, out.request.sequence);
+    check("address", rtl.address_o, out.request.address);
+    check("data", rtl.data_o, out.request.data);
+    check("good", rtl.good_o, out.good);
+    check("bad", rtl.bad_o, out.bad);
+  }
+};
+using Bench = LockStep<Vlink_receiver, Twin, Adapter>;
+
+/// A byte every 10 to 30 clocks; requests are taken at any time.
+struct Stimulus {
+  Stimulus(std::uint64_t seed, bool with_errors) : frames{Random(seed)}, errors(with_errors) {}
+
+  RandomFrames frames;
+  bool errors;
+  Bytes wire;
+  std::size_t at = 0;
+  int gap = 0;
+  Twin::In in{};
+
+  Twin::In operator()(std::int64_t, const Twin::Out& out) {
+    in = {};
+    Random& random = frames.random;
+    in.taken = out.request.valid && random.one_in(100);
+    if (gap-- > 0) return in;
+    gap = 9 + static_cast<int>(random.below(20));
+    if (errors && random.one_in(200)) {
+      in.error = true;
+      return in;
+    }
+    while (at == wire.size()) {
+      wire = frames.any();
+      at = 0;
+    }
+    in.byte = wire[at++];
+    in.valid = true;
+    return in;
+  }
+};
+
+/// What the page says of each frame, a clock after its end.
+struct Page {
+  explicit Page(std::shared_ptr<WireReader> r) : reader(std::move(r)) {}
+
+  std::shared_ptr<WireReader> reader;
+  bool spoiled = false, good = false, bad = false;
+
+  const char* operator()(const Twin::In& in, const Vlink_receiver& rtl, const Twin&,
+                         bool in_reset) {
+    if (in_reset) {
+      *reader = {};
+      spoiled = false;
+      return nullptr;
+    }
+    good = bad = false;
+    if (in.error) spoiled = true;
+    if (in.valid) {
+      const bool empty = reader->raw.empty();
+      if (reader->take(in.byte)) {
+        good = reader->last.good && !spoiled;
+        bad = !good;
+        spoiled = false;
+      } else if (in.byte == 0xc0 && empty) {
+        bad = spoiled;
+        spoiled = false;
+      }
+    }
+    if ((rtl.good_o != 0) != good) return "good as the page says";
+    if ((rtl.bad_o != 0) != bad) return "bad as the page says";
+    if (!good) return nullptr;
+    const WireReader::Frame& f = reader->last;
+    if (!rtl.valid_o || (rtl.write_o != 0) != (f.kind == 2)) return "the request stands";
+    if (rtl.sequence_o != f.sequence || rtl.address_o != f.address || rtl.data_o != f.value) {
+      return "the request is the frame's";
+    }
+    return nullptr;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("link_receiver: frames of every kind, RTL against twin and page") {
+  std::int64_t good = 0, bad = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    auto reader = std::make_shared<WireReader>();
+    Bench bench("link_receiver", seed);
+    bench.run(Stimulus(seed, seed % 2 == 0), scaled_clocks(2'000'000), {seed == 4 ? 30'000U : 0U},
+              Page(reader));
+    good += reader->good;
+    bad += reader->bad;
+  }
+  CHECK(good > 3'000);
+  CHECK(bad > 3'000);
+}
+
+TEST_CASE("link_receiver: the borders of what a request may be") {
+  const auto sound = [](const Bytes& wire) {
+    Twin twin;
+    bool good = false;
+    for (const std::uint8_t byte : wire) {
+      twin.clock({byte, true, false, false});
+      good = good || twin.out().good;
+      for (int k = 0; k < 9; ++k) twin.clock({});
+    }
+    return good;
+  };
+  CHECK(sound(request(1, 0, 0x3fc0, 64)));
+  CHECK(!sound(request(1, 0, 0x3fc1, 64)));
+  CHECK(sound(request(1, 0, 0x3fff, 1)));
+  CHECK(!sound(request(1, 0, 0x3fff, 2)));
+  CHECK(!sound(request(1, 0, 0x4000, 1)));
+  CHECK(!sound(request(2, 0, 0x4000, 1)));
+  CHECK(!sound(request(2, 0, 0x8000, 1)));
+  CHECK(sound(request(2, 0, 0x3fff, 0xffffffff)));
+  CHECK(!sound(request(1, 0, 0, 0)));
+  CHECK(sound(request(1, 0, 0, 64)));
+  CHECK(!sound(request(1, 0, 0, 65)));
+  CHECK(!sound(request(1, 0, 0, 128 + 1)));
+  CHECK(!sound(request(1, 0, 0, 0x80000001)));
+  for (int kind = 0; kind < 256; ++kind) {
+    CHECK(sound(request(kind, 0, 0, 1)) == (kind == 1 || kind == 2));
+  }
+  // Every bit of a frame that is not one of its borders.
+  const Bytes wire = request(2, 0x55, 0x123, 0x456789ab);
+  for (std::size_t byte = 1; byte + 1 < wire.size(); ++byte) {
+    for (int bit = 0; bit < 8; ++bit) {
+      Bytes changed = wire;
+      changed[byte] ^= static_cast<std::uint8_t>(1U << bit);
+      CHECK(!sound(changed));
+    }
+  }
+}

@@ -70,6 +70,17 @@ def targets(root):
     return rows
 
 
+def link_sources(root):
+    """Files of the host's link in rtl/, after the core's."""
+    return rtl_sources.folder_files(root, "link")
+
+
+def link_targets(root):
+    """The link's blocks and the core with it: rows that are measured where they are asked for."""
+    names = [Path(path).stem for path in link_sources(root) if "_pkg" not in path]
+    return [Target(name, name, registered=name == "feltgate_linked") for name in names]
+
+
 def scene_target(root):
     """The row that scene sets are compared by: the core as a product without a host."""
     return next(row for row in targets(root) if row.name == SCENE_ROW)
@@ -82,7 +93,7 @@ def copy_sources(root, design, folder):
     """
     is_path = isinstance(design, Path)
     package = design if is_path else root / f"rtl/generated/{design}/feltgate_pkg.sv"
-    names = [f"{CELL_WRAPPER}.sv", *core_sources(root)]
+    names = [f"{CELL_WRAPPER}.sv", *core_sources(root), *link_sources(root)]
     shutil.copy(package, folder / "feltgate_pkg.sv")
     for name in names:
         shutil.copy(root / "rtl" / name, folder)

@@ -19,8 +19,8 @@ BOARDS = ("de0_nano", "ulx3s")
 VENV = Path(sys.argv.pop(1))
 
 
-def core():
-    listed = (RTL / "feltgate_core.f").read_text(encoding="utf-8").splitlines()
+def core(name="feltgate_core"):
+    listed = (RTL / f"{name}.f").read_text(encoding="utf-8").splitlines()
     return [RTL / line for line in listed if line and not line.startswith("//")]
 
 
@@ -45,6 +45,12 @@ class Slang(unittest.TestCase):
         for design in designs:
             with self.subTest(design):
                 self.assertEqual(lint("feltgate_core", package(design), *core()), "")
+
+    def test_the_core_with_its_link(self):
+        for design in ("lever", "paper"):
+            with self.subTest(design):
+                files = [package(design), *core("feltgate_linked")]
+                self.assertEqual(lint("feltgate_linked", *files), "")
 
     def test_a_multiplier_for_each_block(self):
         text = package("lever").read_text(encoding="utf-8")

@@ -55,6 +55,13 @@ struct Adapter {
 };
 using Bench = LockStep<Vfeltgate_linked, Twin, Adapter>;
 
+constexpr std::uint32_t bit(int n) { return 1U << n; }
+constexpr std::uint32_t control(bool arm, int scene) {
+  return static_cast<std::uint32_t>(D::control_reset) | bit(D::C::control_host) |
+         (arm ? bit(D::C::control_arm) : 0) |
+         static_cast<std::uint32_t>(scene) << D::C::control_scene;
+}
+
 /// A lever, a panel, and whatever comes over the wire.
 struct Stimulus {
   explicit Stimulus(std::uint64_t seed)
@@ -62,10 +69,16 @@ struct Stimulus {
 
   LinkedIn operator()(std::int64_t, const LinkedOut& out) {
     if (line.unsent() == 0 && gap-- <= 0) {
-      for (const std::uint8_t byte : frames.any()) line.send(byte);
+      if (random.one_in(5)) {
+        arm_and_disarm();
+      } else {
+        send(frames.any());
+      }
       gap = static_cast<int>(random.below(random.one_in(4) ? 40'000 : 2'000));
     }
-    in.uart_rx = line.level() != random.one_in(400'000);
+    if (random.one_in(60'000)) low = 1 + static_cast<int>(random.below(300));
+    in.uart_rx = line.level() && low == 0;
+    if (low > 0) --low;
     line.clock(out.uart_tx);
     if (random.one_in(900)) phase += random.one_in(5) ? 3 : 1;
     in.encoder = {(phase & 2U) != 0, ((phase >> 1 ^ phase) & 1U) != 0, (phase & 0xfffU) == 0};
@@ -78,11 +91,24 @@ struct Stimulus {
     return in;
   }
 
+  void send(const Bytes& wire) {
+    for (const std::uint8_t byte : wire) line.send(byte);
+  }
+  /// The host arms, and disarms while a long reply is on its way.
+  void arm_and_disarm() {
+    const auto next = [this] { return frames.sequence = (frames.sequence + 1) & 255; };
+    send(request(2, next(), D::C::control, control(false, D::S::damper)));
+    send(request(2, next(), D::C::command, 1U << D::C::command_clear_faults));
+    send(request(2, next(), D::C::control, control(true, D::S::damper)));
+    send(request(1, next(), LinkMap::words, 40));
+    send(request(2, next(), D::C::control, control(false, D::S::damper)));
+  }
+
   Random random;
   RandomFrames frames;
   UartLine line;
   LinkedIn in;
-  int gap = 10;
+  int gap = 10, low = 0;
   unsigned phase = 0;
 };
 
@@ -146,13 +172,6 @@ struct Host {
     return read;
   }
 };
-
-constexpr std::uint32_t bit(int n) { return 1U << n; }
-constexpr std::uint32_t control(bool arm, int scene) {
-  return static_cast<std::uint32_t>(D::control_reset) | bit(D::C::control_host) |
-         (arm ? bit(D::C::control_arm) : 0) |
-         static_cast<std::uint32_t>(scene) << D::C::control_scene;
-}
 
 }  // namespace
 

@@ -129,6 +129,8 @@ std::string c_header(const Elaborated& e) {
        "NAME_VALUE(word) the value\n   of a word, NAME_DEFAULT and NAME_RESET what "
        "configuration leaves there. */\n";
   for (const HostWord& w : words) word(s, w);
+  s << "\n/* What only the host's link has, no bus: docs/link.md. */\n";
+  for (const HostWord& w : link_host_words(e.registers)) word(s, w);
   s << "\n/* X(name, NAME) for each parameter. */\n#define FELTGATE_PARAMETERS(X)";
   for (const HostWord& w : words) {
     if (w.kind == "parameter") s << fmt::format(" \\\n  X({}, {})", w.name, upper(w.name));
@@ -141,6 +143,7 @@ std::string c_header(const Elaborated& e) {
   constants(s, "Numbers in FELTGATE_FAULTS_FIRST; fault n is also bit n of FELTGATE_FAULTS_SEEN.",
             "FAULT_", "{}u", e.registers.faults);
   constants(s, "Numbers that fields and words refer to.", "", "{}", e.registers.constants);
+  constants(s, "Of the link's format.", "LINK_FORMAT_", "{}", e.registers.link_constants);
   s << "\n#endif\n";
   return s.str();
 }

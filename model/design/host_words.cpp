@@ -85,6 +85,22 @@ std::vector<HostWord> host_words(const Elaborated& e) {
   return words;
 }
 
+std::vector<HostWord> link_host_words(const RegisterMap& map) {
+  std::vector<HostWord> words;
+  for (const LinkWord& l : map.link_words) {
+    HostWord w;
+    w.name = "link_" + l.name;
+    w.kind = "link";
+    w.address = l.address;
+    w.reads = true;
+    w.writes = l.writable;
+    w.doc = l.doc;
+    w.fields = l.fields;
+    words.push_back(w);
+  }
+  return words;
+}
+
 std::string csr_csv(const Elaborated& e) {
   std::ostringstream s;
   s << "# SPDX-License-Identifier: Apache-2.0\n"
@@ -95,6 +111,14 @@ std::string csr_csv(const Elaborated& e) {
        "# Addresses in bytes from the base of the port.\n"
        "csr_base,feltgate,0x00000000,,\n";
   for (const HostWord& w : host_words(e)) {
+    s << fmt::format("csr_register,feltgate_{},0x{:08x},1,{}\n", w.name, 4 * w.address, mode(w));
+  }
+  const std::vector<HostWord> link = link_host_words(e.registers);
+  if (!link.empty()) {
+    s << fmt::format("# What only the link has, no bus.\ncsr_base,feltgate_link,0x{:08x},,\n",
+                     4 * link.front().address);
+  }
+  for (const HostWord& w : link) {
     s << fmt::format("csr_register,feltgate_{},0x{:08x},1,{}\n", w.name, 4 * w.address, mode(w));
   }
   s << "constant,config_csr_data_width,32,,\n"

@@ -31,6 +31,9 @@ struct HostWord {
 /// two have one name or a snapshot word names no signal.
 std::vector<HostWord> host_words(const Elaborated& e);
 
+/// Those that only the link has, named link_..., in the order of their addresses.
+std::vector<HostWord> link_host_words(const RegisterMap& map);
+
 /// Text of rtl/generated/NAME/feltgate.h.
 std::string c_header(const Elaborated& e);
 /// Text of rtl/generated/NAME/feltgate.rdl.

@@ -39,10 +39,23 @@ void field(std::ostringstream& s, const HostWord& w, const Field& f, bool number
   }
   // An identifier of ours may be a word of the language.
   s << fmt::format("    }} \\{} [{}:{}]", f.name, f.bit + f.width - 1, f.bit);
-  if (w.writes) {
+  if (w.writes && w.kind != "link") {
     s << fmt::format(" = {}'h{:x}", f.width, bits_of(w.reset >> f.bit, f.width));
   }
   s << ";\n";
+}
+
+void word(std::ostringstream& s, const HostWord& w) {
+  s << "  reg {\n    desc = " << quoted(w.doc) << ";\n";
+  for (const Field& f : w.fields) field(s, w, f, false);
+  if (w.fields.empty()) {
+    Field value;
+    value.name = "value";
+    value.width = w.number ? w.format.width() : 32;
+    value.doc = w.doc;
+    field(s, w, value, w.number);
+  }
+  s << fmt::format("  }} \\{} @ 0x{:x};\n\n", w.name, 4 * w.address);
 }
 
 }  // namespace
@@ -52,21 +65,16 @@ std::string system_rdl(const Elaborated& e) {
   s << generated_banner("rtl/designs/" + e.design.name + ".toml and rtl/registers.toml", "") << "\n"
     << "property feltgate_format { type = string; component = field; };  // [S,I,F]\n"
     << "property feltgate_unit { type = string; component = field; };\n\n"
+    << "addrmap feltgate_link {\n  name = \"feltgate's link\";\n"
+    << "  desc = \"What only the host's link has, no bus. Addresses in bytes, four times the "
+       "link's.\";\n"
+    << "  default regwidth = 32;\n  default accesswidth = 32;\n\n";
+  for (const HostWord& w : link_host_words(e.registers)) word(s, w);
+  s << "};\n\n"
     << "addrmap feltgate {\n  name = " << quoted("feltgate, design " + e.design.name) << ";\n"
     << "  desc = " << quoted(e.design.description + ". Addresses in bytes; each word has 32 bits.")
     << ";\n  default regwidth = 32;\n  default accesswidth = 32;\n\n";
-  for (const HostWord& w : host_words(e)) {
-    s << "  reg {\n    desc = " << quoted(w.doc) << ";\n";
-    for (const Field& f : w.fields) field(s, w, f, false);
-    if (w.fields.empty()) {
-      Field value;
-      value.name = "value";
-      value.width = w.number ? w.format.width() : 32;
-      value.doc = w.doc;
-      field(s, w, value, w.number);
-    }
-    s << fmt::format("  }} \\{} @ 0x{:x};\n\n", w.name, 4 * w.address);
-  }
+  for (const HostWord& w : host_words(e)) word(s, w);
   s << "};\n";
   return s.str();
 }

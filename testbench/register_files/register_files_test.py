@@ -33,7 +33,9 @@ from systemrdl import RDLCompiler
 compiler = RDLCompiler()
 compiler.compile_file(sys.argv[1])
 rows = []
-for r in compiler.elaborate().top.registers():
+tops = [compiler.elaborate().top, compiler.elaborate("feltgate_link").top]
+assert tops[0].inst_name == "feltgate"
+for r in [*tops[0].registers(), *tops[1].registers()]:
     fields = [[f.inst_name, f.low, f.width, f.get_property("reset"),
                f.get_property("feltgate_format", default=None),
                f.get_property("feltgate_unit", default=None)] for f in r.fields()]
@@ -127,6 +129,16 @@ def truth(design):
     return words
 
 
+def link():
+    """The same of what only the link has."""
+    return {
+        f"link_{w['name']}": (
+            w["address"], True, w.get("access") == "write", w.get("fields", []), None, "",
+        )
+        for w in register_map()["link_word"]
+    }
+
+
 def nearest(value, form):
     """The word of a value: halves away from 0, the nearer end beyond the range."""
     sign, width, fraction = form
@@ -136,7 +148,7 @@ def nearest(value, form):
         return 0
     if math.isinf(value):
         return high if value > 0 else low
-    scaled = Fraction(value * 2.0**fraction)
+    scaled = Fraction(value) * Fraction(2) ** fraction
     whole = math.floor(abs(scaled) + Fraction(1, 2))
     return max(low, min(high, whole if scaled >= 0 else -whole))
 
@@ -166,7 +178,7 @@ class RegisterFiles(unittest.TestCase):
                 self.check_c(design, folder)
 
     def check_c(self, design, folder):
-        words, given = truth(design), values(design, folder)
+        words, given = truth(design) | link(), values(design, folder)
         self.assertEqual(
             (GENERATED / design / "feltgate.h").read_text(), Path(folder, "feltgate.h").read_text()
         )
@@ -201,7 +213,8 @@ class RegisterFiles(unittest.TestCase):
                         text = f"{c}_VALUE({bits}u) * {math.ldexp(1.0, form[2]).hex()}"
                         row(f"(uint32_t)(int64_t)({text})", steps)
         for kind, prefix, key in (("scene", "SCENE_", "number"), ("fault", "FAULT_", "number"),
-                                  ("constant", "", "value"), ("limit", "LIMIT_", "bit")):
+                                  ("constant", "", "value"), ("limit", "LIMIT_", "bit"),
+                                  ("link_constant", "LINK_FORMAT_", "value")):
             for c in register_map()[kind]:
                 number = 1 << c[key] if kind == "limit" else c[key]
                 row(f"FELTGATE_{prefix}{c['name'].upper()}", number)
@@ -243,7 +256,8 @@ class RegisterFiles(unittest.TestCase):
 
     def compare(self, design, rows):
         """Differences between the truth and rows {name: (address, reads, writes)}."""
-        words = {n: (4 * w[0], w[1], w[2]) for n, w in truth(design).items()}
+        both = truth(design) | link()
+        words = {n: (4 * w[0], w[1], w[2]) for n, w in both.items()}
         return {n for n in words.keys() | rows.keys() if words.get(n) != rows.get(n)}
 
     def csv_rows(self, path):
@@ -302,7 +316,7 @@ class RegisterFiles(unittest.TestCase):
                 self.assertEqual(self.compare(design, found), set())
                 given = values(design, folder)
                 for name, _, _, fields in rows:
-                    _, _, writes, wanted, form, unit = truth(design)[name]
+                    _, _, writes, wanted, form, unit = (truth(design) | link())[name]
                     if wanted:
                         self.assertEqual(
                             sorted((f[0], f[1], f[2]) for f in fields),
@@ -315,7 +329,7 @@ class RegisterFiles(unittest.TestCase):
                     if form:
                         self.assertEqual(text, f"[{sign},{bits - sign - fraction},{fraction}]")
                         self.assertEqual(its_unit, unit)
-                    if writes:
+                    if writes and name in given:
                         self.assertEqual(reset, given[name][1] & ((1 << bits) - 1), name)
 
 

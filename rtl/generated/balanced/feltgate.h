@@ -488,6 +488,72 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_DUTY 0x32eu  /* duty [clock] [clock] */
 #define FELTGATE_DUTY_VALUE(word) feltgate_value((word), 13, 1, 1.0)
 
+/* What only the host's link has, no bus: docs/link.md. */
+
+#define FELTGATE_LINK_IDENTITY 0x1000u  /* the number 0x46454c54, "FELT" */
+
+#define FELTGATE_LINK_VERSION 0x1001u  /* of the link: major in bits 31 to 16, minor below */
+
+#define FELTGATE_LINK_DESIGN_CRC 0x1002u  /* CRC-32 of the design; equal to that of the host's copy */
+
+#define FELTGATE_LINK_CLOCK_HZ 0x1003u  /* clock of the core [Hz] */
+
+#define FELTGATE_LINK_CLOCKS_PER_TICK 0x1004u  /* clocks of a tick */
+
+#define FELTGATE_LINK_FEATURES 0x1005u  /* what there is */
+#define FELTGATE_LINK_FEATURES_SIMULATED_BIT 0  /* no board: a simulation */
+#define FELTGATE_LINK_FEATURES_SIMULATED_MASK 0x00000001u
+#define FELTGATE_LINK_FEATURES_CAPTURE_BIT 1  /* capture is built */
+#define FELTGATE_LINK_FEATURES_CAPTURE_MASK 0x00000002u
+#define FELTGATE_LINK_FEATURES_STREAM_BIT 2  /* the stream is built */
+#define FELTGATE_LINK_FEATURES_STREAM_MASK 0x00000004u
+#define FELTGATE_LINK_FEATURES_ROWS_LOG2_BIT 8  /* log2 of the rows of the capture memory */
+#define FELTGATE_LINK_FEATURES_ROWS_LOG2_MASK 0x0000ff00u
+#define FELTGATE_LINK_FEATURES_COLUMNS_BIT 16  /* words of a row */
+#define FELTGATE_LINK_FEATURES_COLUMNS_MASK 0x00ff0000u
+
+#define FELTGATE_LINK_FRAMES_GOOD 0x1006u  /* requests that were taken */
+
+#define FELTGATE_LINK_FRAMES_BAD 0x1007u  /* frames that were not */
+
+#define FELTGATE_LINK_LAST_WRITE_SEQUENCE 0x1008u  /* sequence of the last write that was taken; 0x100: none since the reset */
+
+#define FELTGATE_LINK_BOARD 0x1009u  /* 0 other, 1 DE0-Nano, 2 ULX3S */
+
+#define FELTGATE_LINK_INPUTS 0x100au  /* the board's inputs, its page says which */
+
+#define FELTGATE_LINK_STREAM_WORDS 0x1010u  /* mask of the words that are streamed: bit k is the k-th word of the snapshot in the order of its slots */
+
+#define FELTGATE_LINK_STREAM_PERIOD 0x1011u  /* ticks from one frame to the next, 0: off */
+
+#define FELTGATE_LINK_STREAM_DROPPED 0x1012u  /* frames for which the wire was not free */
+
+#define FELTGATE_LINK_CAPTURE_CONTROL 0x1020u  /* what a write asks of the capture */
+#define FELTGATE_LINK_CAPTURE_CONTROL_START_BIT 0  /* begins to fill the rows before the trigger */
+#define FELTGATE_LINK_CAPTURE_CONTROL_START_MASK 0x00000001u
+#define FELTGATE_LINK_CAPTURE_CONTROL_ABORT_BIT 1  /* ends it */
+#define FELTGATE_LINK_CAPTURE_CONTROL_ABORT_MASK 0x00000002u
+#define FELTGATE_LINK_CAPTURE_CONTROL_TRIGGER_BIT 2  /* triggers now */
+#define FELTGATE_LINK_CAPTURE_CONTROL_TRIGGER_MASK 0x00000004u
+
+#define FELTGATE_LINK_CAPTURE_STATE 0x1021u  /* 0 idle, 1 fills the rows before the trigger, 2 waits, 3 fills the rest, 4 done */
+
+#define FELTGATE_LINK_CAPTURE_WORDS 0x1022u  /* mask of the words of a row, at most 8; of more the lowest 8 */
+
+#define FELTGATE_LINK_CAPTURE_PRE 0x1023u  /* rows before the trigger */
+
+#define FELTGATE_LINK_CAPTURE_PERIOD 0x1024u  /* ticks from one row to the next, 1: every tick */
+
+#define FELTGATE_LINK_TRIGGER_WORD 0x1025u  /* which word triggers, as the number of its bit in the mask */
+
+#define FELTGATE_LINK_TRIGGER_MODE 0x1026u  /* 0 only by hand, 1 rises to the level or above, signed, 2 falls below it, 3 a bit of the level becomes 1 */
+
+#define FELTGATE_LINK_TRIGGER_LEVEL 0x1027u  /* the level, or the mask of bits */
+
+#define FELTGATE_LINK_CAPTURE_FIRST 0x1028u  /* row of the oldest tick */
+
+#define FELTGATE_LINK_CAPTURE_ROWS 0x1029u  /* rows that hold a tick */
+
 /* X(name, NAME) for each parameter. */
 #define FELTGATE_PARAMETERS(X) \
   X(velocity_a1, VELOCITY_A1) \
@@ -615,5 +681,26 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_INDEX_WIDTH_BITS 3  /* an index may be less than 2^index_width_bits counts wide */
 #define FELTGATE_HOLD_UNIT_BITS 10  /* bits of the ticks in which hold_time is counted */
 #define FELTGATE_HOLD_BITS 13  /* bits of the longest hold_time */
+
+/* Of the link's format. */
+#define FELTGATE_LINK_FORMAT_IDENTITY 1178946644  /* what the word identity says */
+#define FELTGATE_LINK_FORMAT_VERSION 65536  /* what the word version says */
+#define FELTGATE_LINK_FORMAT_BAUD 1000000  /* bits per second where nothing else is said */
+#define FELTGATE_LINK_FORMAT_FRAME_END 192  /* byte before and after a frame */
+#define FELTGATE_LINK_FORMAT_FRAME_ESCAPE 219  /* byte that changes the next one's meaning */
+#define FELTGATE_LINK_FORMAT_ESCAPED_END 220  /* after the escape: frame_end */
+#define FELTGATE_LINK_FORMAT_ESCAPED_ESCAPE 221  /* after the escape: frame_escape */
+#define FELTGATE_LINK_FORMAT_KIND_READ 1  /* first byte of a request to read */
+#define FELTGATE_LINK_FORMAT_KIND_WRITE 2  /* first byte of a request to write */
+#define FELTGATE_LINK_FORMAT_KIND_STREAM 64  /* first byte of a frame that nobody asked for */
+#define FELTGATE_LINK_FORMAT_KIND_REPLY 128  /* set in the first byte of a reply */
+#define FELTGATE_LINK_FORMAT_REQUEST_BYTES 12  /* bytes of every request, its CRC among them */
+#define FELTGATE_LINK_FORMAT_READ_WORDS 64  /* most words of one read */
+#define FELTGATE_LINK_FORMAT_MAP_BITS 14  /* bits of an address; a request beyond is bad */
+#define FELTGATE_LINK_FORMAT_NO_SEQUENCE 256  /* last_write_sequence before the first write */
+#define FELTGATE_LINK_FORMAT_WORDS 4096  /* first address of the link's words; below are the core's */
+#define FELTGATE_LINK_FORMAT_MEMORY 8192  /* first address of the capture memory: 8 words of a row, then the next row */
+#define FELTGATE_LINK_FORMAT_ROWS_LOG2 10  /* log2 of the rows of the capture memory */
+#define FELTGATE_LINK_FORMAT_COLUMNS 8  /* words of a row */
 
 #endif

@@ -233,13 +233,25 @@ def file_list(head, names):
     return "\n".join([f"// {head}; paths are relative to this folder.", f"// {BEGIN[2:]}", *names, ""])
 
 
-def replace_list(text, lines, indent=""):
+def replace_list(text, lines, indent="", begin=BEGIN):
     """The text with the lines between the two markers replaced; None without markers."""
     pattern = re.compile(
-        rf"^{indent}{re.escape(BEGIN)}\n.*?^{indent}{re.escape(END)}$", re.S | re.M
+        rf"^{indent}{re.escape(begin)}\n.*?^{indent}{re.escape(END)}$", re.S | re.M
     )
-    body = "\n".join([indent + BEGIN, *(indent + line for line in lines), indent + END])
+    body = "\n".join([indent + begin, *(indent + line for line in lines), indent + END])
     return pattern.sub(lambda _: body, text) if pattern.search(text) else None
+
+
+def fusesoc_lists(root, text):
+    """feltgate.core with the files of the core, and of each board beside them."""
+    text = replace_list(text, [f"- {path}" for path in sources(root)], " " * 6)
+    for folder in sorted(root.glob("rtl/boards/*/pins.csv")):
+        name = folder.parent.name
+        board = sorted([*root.glob("rtl/boards/panel/*.sv"), *folder.parent.glob("*.sv")])
+        files = [*linked_sources(root, board), *(p.relative_to(root) for p in board)]
+        begin = BEGIN.replace("sources:", f"sources of {name}:")
+        text = text and replace_list(text, [f"- {path}" for path in files], " " * 6, begin)
+    return text
 
 
 def fresh_lists(root, blocks):
@@ -261,8 +273,7 @@ def fresh_lists(root, blocks):
             yield Path(f"rtl/{name}.f"), file_list(head, [*rtl_sources.core_files(root), *files])
     core = root / "feltgate.core"
     if core.exists():
-        lines = [f"- {path}" for path in sources(root)]
-        yield core.relative_to(root), replace_list(core.read_text(encoding="utf-8"), lines, " " * 6)
+        yield core.relative_to(root), fusesoc_lists(root, core.read_text(encoding="utf-8"))
     for qsf in sorted(root.glob("rtl/boards/*/*.qsf")):
         board = sorted([*root.glob("rtl/boards/panel/*.sv"), *qsf.parent.glob("*.sv")])
         files = [*sources(root), *linked_sources(root, board), *(p.relative_to(root) for p in board)]

@@ -16,7 +16,7 @@ namespace feltgate::host {
 namespace {
 
 /// Clocks of a tick after which the decoder's count is certainly that tick's, and those that an
-/// edge takes from the pin to the position beyond the filter's samples, with one to spare.
+/// edge takes at most from the pin to the tick's position, the filter's samples not counted.
 constexpr Clock taken_after = 4, decoder_clocks = 5;
 
 }  // namespace

@@ -127,6 +127,10 @@ int capture(Session& session, const CaptureArguments& a) {
     start_capture(device, setup);
     if (!a.arm.empty()) hold.arm(a.arm);
     if (!wait_for_it(device, hold, a, setup)) {
+      if (Interruptible::interrupted()) {
+        std::fputs("feltgate host: interrupted; nothing is written\n", stderr);
+        return exit_signal + 2;
+      }
       throw Refused(fmt::format("the trigger {} did not come within {:g} s; nothing is written",
                                 a.trigger, a.wait_s));
     }

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The core behind its Wishbone slave: what a SoC instantiates. Documentation: docs/neighbours.md
+`default_nettype none
+
+module wishbone_core #(
+  parameter int Pipelined = 0
+) (
+  input  logic        clk_i,
+  input  logic        rst_ni,
+
+  input  logic        enc_a_i,
+  input  logic        enc_b_i,
+  input  logic        enc_z_i,
+  input  logic        stop_i,
+  output logic [ 3:0] gates_o,  // of legs B and A: b_lo, b_hi, a_lo, a_hi
+  output logic        armed_o,
+
+  input  logic        cyc_i,
+  input  logic        stb_i,
+  input  logic        we_i,
+  input  logic [11:0] adr_i,
+  input  logic [ 3:0] sel_i,
+  input  logic [31:0] dat_i,
+  output logic [31:0] dat_o,
+  output logic        ack_o,
+  output logic        err_o,
+  output logic        stall_o
+);
+
+  logic [11:0] reg_addr;
+  logic [31:0] reg_wdata, reg_rdata;
+  logic reg_write, reg_busy;
+
+  wishbone_port #(.Pipelined(Pipelined)) u_port (
+    .clk_i(clk_i), .rst_ni(rst_ni),
+    .cyc_i(cyc_i), .stb_i(stb_i), .we_i(we_i), .adr_i(adr_i), .sel_i(sel_i), .dat_i(dat_i),
+    .dat_o(dat_o), .ack_o(ack_o), .err_o(err_o), .stall_o(stall_o),
+    .reg_addr_o(reg_addr), .reg_wdata_o(reg_wdata), .reg_write_o(reg_write),
+    .reg_rdata_i(reg_rdata), .reg_busy_i(reg_busy)
+  );
+
+  // The host alone arms and chooses: the panel's inputs are at rest.
+  /* verilator lint_off PINCONNECTEMPTY */
+  feltgate_core u_core (
+    .clk_i(clk_i), .rst_ni(rst_ni),
+    .enc_a_i(enc_a_i), .enc_b_i(enc_b_i), .enc_z_i(enc_z_i),
+    .gate_a_hi_o(gates_o[0]), .gate_a_lo_o(gates_o[1]), .gate_b_hi_o(gates_o[2]), .gate_b_lo_o(gates_o[3]),
+    .arm_i(1'b0), .stop_i(stop_i), .set_zero_i(1'b0), .scene_i(4'd0),
+    .reg_addr_i(reg_addr), .reg_wdata_i(reg_wdata), .reg_write_i(reg_write),
+    .reg_busy_o(reg_busy), .reg_rdata_o(reg_rdata),
+    .snapshot_valid_o(), .tick_count_o(), .position_o(), .velocity_o(), .tau_hat_o(), .tau_ref_o(),
+    .current_ref_o(), .voltage_o(), .duty_o(), .scene_o(), .limits_o(), .faults_o(), .first_fault_o(),
+    .armed_o(armed_o), .duty_active_o(), .gates_enable_o(),
+    .word_valid_o(), .word_slot_o(), .word_data_o()
+  );
+  /* verilator lint_on PINCONNECTEMPTY */
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The ring of rows: which are written, which can be read, what a row holds; for any words and writes.
+`default_nettype none
+
+module ring_proof (
+    input logic        clk_i,
+    input logic        rst_ni,
+    input logic        word_valid_i,
+    input logic [ 5:0] word_slot_i,
+    input logic [31:0] word_data_i,
+    input logic [15:0] addr_i,
+    input logic [31:0] wdata_i,
+    input logic        write_i
+);
+  localparam int RowBits = 10;
+  localparam int Rows = 1 << RowBits;
+  localparam int Words = feltgate_link_pkg::SNAPSHOT_WORDS;
+
+  logic past_ok_q;
+  initial past_ok_q = 1'b0;
+  always_ff @(posedge clk_i) past_ok_q <= 1'b1;
+  always_comb if (!past_ok_q) assume (!rst_ni);
+
+  logic [31:0] rdata;
+  link_capture u_dut (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .word_valid_i(word_valid_i),
+      .word_slot_i(word_slot_i),
+      .word_data_i(word_data_i),
+      .addr_i(addr_i),
+      .wdata_i(wdata_i),
+      .write_i(write_i),
+      .rdata_o(rdata)
+  );
+  (* hierconn *) wire [2:0] \u_dut.state_q ;
+  (* hierconn *) wire \u_dut.stores ;
+  (* hierconn *) wire \u_dut.whole ;
+  (* hierconn *) wire \u_dut.fires ;
+  (* hierconn *) wire \u_dut.starts ;
+  (* hierconn *) wire \u_dut.taking_q ;
+  (* hierconn *) wire \u_dut.ends_q ;
+  (* hierconn *) wire \u_dut.hit_q ;
+  (* hierconn *) wire \u_dut.hand_q ;
+  (* hierconn *) wire \u_dut.seen_q ;
+  (* hierconn *) wire \u_dut.holds_q ;
+  (* hierconn *) wire [3:0] \u_dut.number_q ;
+  (* hierconn *) wire [3:0] \u_dut.column ;
+  (* hierconn *) wire [3:0] \u_dut.column_q ;
+  (* hierconn *) wire [11:0] \u_dut.words_q ;
+  (* hierconn *) wire [RowBits-1:0] \u_dut.row_q ;
+  (* hierconn *) wire [RowBits-1:0] \u_dut.pre_q ;
+  (* hierconn *) wire [RowBits-1:0] \u_dut.first_row ;
+  (* hierconn *) wire [RowBits:0] \u_dut.rows_q ;
+  (* hierconn *) wire [RowBits:0] \u_dut.left_q ;
+  wire [2:0] state = \u_dut.state_q ;
+  wire stores = \u_dut.stores ;
+  wire whole = \u_dut.whole ;
+  wire fires = \u_dut.fires ;
+  wire starts = \u_dut.starts ;
+  wire taking = \u_dut.taking_q ;
+  wire [3:0] number_q = \u_dut.number_q ;
+  wire [3:0] column_q = \u_dut.column_q ;
+  wire [11:0] words = \u_dut.words_q ;
+  wire [RowBits-1:0] row = \u_dut.row_q ;
+  wire [RowBits-1:0] pre = \u_dut.pre_q ;
+  wire [RowBits-1:0] first_row = \u_dut.first_row ;
+  wire [RowBits:0] rows = \u_dut.rows_q ;
+  wire [RowBits:0] left = \u_dut.left_q ;
+  wire first = word_valid_i && word_slot_i == feltgate_link_pkg::FIRST_SLOT;
+  wire runs = state == 3'd1 || state == 3'd2 || state == 3'd3;
+  // A tick is over a clock before the next begins.
+  always_comb assume (!(\u_dut.ends_q && first));
+
+  // The rows before the last trigger.
+  logic [RowBits-1:0] low_q, before_q;
+  always_ff @(posedge clk_i) begin
+    if (fires) begin
+      low_q    <= row - pre;
+      before_q <= pre;
+    end
+  end
+  logic [RowBits-1:0] since;
+  assign since = row - low_q;
+
+  // A row, whichever it is: written to since it was whole.
+  logic [RowBits-1:0] any_q, from_first;
+  logic torn_q;
+  initial torn_q = 1'b0;
+  always_ff @(posedge clk_i) begin
+    any_q <= any_q;
+    if (stores && row == any_q) torn_q <= 1'b1;
+    else if (whole && row == any_q) torn_q <= 1'b0;
+  end
+  assign from_first = any_q - first_row;
+
+  // Words of the tick that came, and columns of its row that were written.
+  logic [3:0] came_q;
+  logic [7:0] written_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      came_q    <= '1;
+      written_q <= '0;
+    end else if (word_valid_i) begin
+      came_q    <= first ? 4'd1 : (came_q == '1) ? came_q : came_q + 4'd1;
+      written_q <= (first ? 8'd0 : written_q) | (8'(stores) << \u_dut.column [2:0]);
+    end
+  end
+  // Words of the mask among the first n, at most eight; and as many columns.
+  function automatic logic [3:0] among(input logic [11:0] mask, input logic [3:0] n);
+    among = '0;
+    for (int k = 0; k < Words; k++) if (4'(k) < n && mask[k] && !among[3]) among = among + 4'd1;
+  endfunction
+  logic [8:0] columns;
+  assign columns = (9'd1 << among(words, came_q)) - 9'd1;
+
+  logic [2:0] state_then_q;
+  logic fired_q, started_q, after_q, runs_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) after_q <= 1'b0;
+    else after_q <= 1'b1;
+  end
+  always_ff @(posedge clk_i) begin
+    state_then_q <= state;
+    fired_q      <= fires;
+    started_q    <= starts;
+    runs_q       <= runs;
+  end
+
+  always_comb begin
+    if (rst_ni && past_ok_q) begin
+      rows_before_stay: assert (!stores || state != 3'd3 || since >= before_q);
+      done_is_full: assert (state != 3'd4 || (rows == (RowBits + 1)'(Rows) && first_row == low_q));
+      row_is_one_tick: assert (!whole || (came_q == 4'(Words) && {1'b0, written_q} == columns));
+      torn_is_no_row: assert (!torn_q || {1'b0, from_first} >= rows);
+      counts_in_range: assert (rows <= (RowBits + 1)'(Rows) && (!taking || !runs || rows < (RowBits + 1)'(Rows)) &&
+                               (state != 3'd1 || (left != '0 && left <= {1'b0, pre} && rows + left == {1'b0, pre})) &&
+                               (state != 3'd3 || left != '0));
+      rest_by_a_trigger: assert (!after_q || state != 3'd3 || state_then_q == 3'd3 || (state_then_q == 3'd2 && fired_q));
+      trigger_in_wait: assert (!fires || (state == 3'd2 && rows + (RowBits + 1)'(taking) >= {1'b0, pre} &&
+                                          \u_dut.seen_q && (\u_dut.hit_q || \u_dut.hand_q )));
+      no_row_while_it_runs: assert (!after_q || !\u_dut.holds_q || !runs_q);
+      stores_in_a_run: assert (!stores || runs);
+      inside_state: assert (state <= 3'd4);
+      inside_rest: assert (state != 3'd3 || ({1'b0, since} + left == (RowBits + 1)'(Rows) && since >= before_q &&
+                                             rows >= {1'b0, since}));
+      inside_wait: assert (state != 3'd2 || rows >= {1'b0, pre});
+      inside_number: assert (number_q == came_q);
+      inside_ends: assert (!\u_dut.ends_q || came_q == 4'(Words));
+      inside_column: assert (!taking || !runs || (column_q == among(words, came_q) && came_q != '0 &&
+                                                  {1'b0, written_q} == columns));
+      triggers: cover (fires && taking);
+      fills: cover (state == 3'd1 && rows != '0);
+    end
+  end
+endmodule
+
+`default_nettype wire

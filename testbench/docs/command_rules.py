@@ -57,7 +57,7 @@ RULES = (
     Rule(r"cmake -S \. -B build-aarch64", "BY", "aarch64"),
     Rule(r"cmake -S \. -B build-library|cmake --(?:build|install)", "BY", "package"),
     Rule(r"sudo apt-get install", "NAMED"),
-    Rule(r"fusesoc .*--target (?:lint|sim) ", "BY", "neighbours.fusesoc"),
+    Rule(r"fusesoc .*--target (?:lint|sim)", "BY", "neighbours.fusesoc"),
     Rule(r"python docs/examples/litex_soc\.py", "BY", "neighbours.litex"),
     Rule(r"python docs/examples/cocotb/test_axi\.py", "BY", "neighbours.cocotb"),
     Rule(r"python3 testbench/page/chromium_test\.py", "NAMED"),

@@ -258,6 +258,18 @@ class Verbs(VerbTest):
                 "--picture", "xy.png", "--xy", "angle,tau_ref",
             )  # fmt: skip
             self.assertEqual(self.path("xy.png").read_bytes()[1:4], b"PNG")
+            running = self.start(
+                board.port, "capture", "angle", "--arm", "wall", "--trigger", "fault:speed",
+                "--csv", "f.csv",
+            )  # fmt: skip
+            while "waiting" not in running.stderr.readline():
+                pass
+            board.order("fault 2")
+            _, err = running.communicate(timeout=20)
+            self.assertEqual(running.returncode, 1)
+            self.assertIn("the motor went off meanwhile\n  fault speed (the first)", err)
+            self.assertTrue(self.path("f.csv").exists())
+            self.host(board.port, "clear")
             said = self.host(
                 board.port, "capture", "--trigger", "velocity>900", "--wait", 0.3, "--csv", "n.csv",
                 status=1,

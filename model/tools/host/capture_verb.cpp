@@ -100,6 +100,17 @@ void write_trace(Device& device, const Captured& c, const CaptureSetup& setup,
                        encoder);
 }
 
+/// Why a motor that is held is off; nothing while it is on. What was captured may be just that.
+std::string why_off(Device& device, const Hold& hold) {
+  const Tick tick = hold.holds() ? device.tick() : Tick{};
+  if (!hold.holds() || device.armed(tick)) return "";
+  std::string text = "the motor went off meanwhile";
+  for (const std::string& words : device.in_words(tick)) {
+    if (words.rfind("fault", 0) == 0) text += "\n  " + words;
+  }
+  return text;
+}
+
 int draw(const CaptureArguments& a, const std::string& csv, bool simulated) {
   std::vector<std::string> words{csv, a.picture};
   if (!a.xy.empty()) words.insert(words.end(), {"--xy", a.xy});
@@ -120,6 +131,7 @@ int capture(Session& session, const CaptureArguments& a) {
   files::OutputFile* csv = outputs.open("--csv", a.csv);
   files::OutputFile* vector = outputs.open("--vector", a.vector);
   Captured c;
+  std::string off;
   {
     const Interruptible interruptible;
     Hold hold(device);
@@ -139,6 +151,7 @@ int capture(Session& session, const CaptureArguments& a) {
       hold.poll();
       progress.update(share);
     });
+    off = why_off(device, hold);
     hold.release();
   }
   if (c.rows.empty()) throw Refused("the board says that it captured nothing");
@@ -150,7 +163,9 @@ int capture(Session& session, const CaptureArguments& a) {
                       c.trigger_row * c.row_s, 1e6 * c.row_s);
   outputs.say(text + table(c) + link_troubles(session.link().counts()));
   outputs.commit();
-  return a.picture.empty() ? int{exit_ok} : draw(a, a.csv, c.simulated);
+  if (!off.empty()) std::fputs(("feltgate host: " + off + "\n").c_str(), stderr);
+  const int drawn = a.picture.empty() ? int{exit_ok} : draw(a, a.csv, c.simulated);
+  return off.empty() ? drawn : int{exit_failed};
 }
 
 }  // namespace
@@ -170,7 +185,8 @@ Run add_capture(CLI::App& sub) {
       "8 words, one row a tick unless --span asks for longer. The CSV has its time in seconds from "
       "the\n"
       "trigger on, for PlotJuggler and spreadsheets.\n"
-      "Exit code: 0 captured, 1 the trigger did not come, 2 unusable input or port, 3 the link "
+      "Exit code: 0 captured, 1 the trigger did not come or the motor went off, 2 unusable input "
+      "or port, 3 the link "
       "broke down.");
   sub.add_option("names", a->names, "words of a tick, at most 8 different ones")
       ->type_name("NAME")

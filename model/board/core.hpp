@@ -64,7 +64,7 @@ class Core {
  public:
   virtual ~Core() = default;
   virtual const DesignInfo& design() const = 0;
-  /// "twin" or "rtl".
+  /// For people.
   virtual const char* kind() const = 0;
   /// So many clocks with these pins held.
   virtual void run(const BoardIn& in, Clock clocks) = 0;
@@ -79,7 +79,8 @@ class Core {
   virtual const TickHash& ticks() const = 0;
 };
 
-/// `kind` is "twin", or "rtl" where that is linked. Throws std::invalid_argument with what there
+/// `kind` is "twin"; "pins", the twin with the link's own clocks and pins; or "rtl" where that is
+/// linked. Throws std::invalid_argument with what there
 /// is.
 std::unique_ptr<Core> make_core(const std::string& design, const std::string& kind,
                                 const BoardOptions& options);

@@ -101,6 +101,18 @@ class Verbs(BoardTest):
             self.assertEqual(board.end()[0], 0)
             self.assertFalse(port.is_symlink())
 
+    def test_the_link_to_its_pins(self):
+        with Board(self.folder, "--pins", "--hand", "swing", "--record", "p.board") as board:
+            self.assertIn("SIMULATED", self.host(board.port, "info"))
+            self.host(board.port, "set", "torque_limit=0.1Nm")
+            self.assertAlmostEqual(self.value(board.port, "torque_limit"), 0.1, places=4)
+            self.host(board.port, "arm", "spring_tension")
+            self.assertEqual(self.value(board.port, "status.armed"), 1)
+            self.host(board.port, "disarm")
+            self.assertEqual(board.end()[0], 0)
+        said = self.run_program("feltgate_board", "--replay", "p.board")
+        self.assertIn("identical to the recording", said)
+
     def test_calibrate_finds_dead_zone_and_slope(self):
         noise = random.Random(5)
         volts = (1.5, 2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5)
@@ -264,6 +276,7 @@ class Recordings(BoardTest):
             (("--scene", "walls"), "wall"),
             (("--design", "levr"), "did you mean"),
             (("--twin", "--rtl"), "give one of them"),
+            (("--pins", "--rtl"), "is not in this program"),
             (("--rtl", "--for", "1"), "this program has the twin alone"),
             (("--replay", "none.board"), "cannot be read"),
             (("--replay", "x", "--link", "y"), "leave --record and --link out"),

@@ -158,6 +158,26 @@ TEST_CASE("board: answers as docs/link.md says", "[board]") {
   CHECK(word_of(many, 4 + 7 * 4) == 0);  // frames_bad
 }
 
+TEST_CASE("board: the link's twin to the pins gives the same answers and ticks", "[pins]") {
+  Setup pins;
+  pins.pins = true;
+  Bench bytes("swing"), exact("swing", pins);
+  for (Bench* b : {&bytes, &exact}) {
+    CHECK(b->read(M::A::identity) == M::identity);
+    b->write(0x018, 0x1234);
+    b->write(0x200, 1 | 7 << 2);
+  }
+  CHECK(bytes.ask(1, 0, 64) == exact.ask(1, 0, 64));
+  CHECK(bytes.read(M::A::frames_good) == exact.read(M::A::frames_good));
+  CHECK((exact.read(M::A::features) & 1) == 1);  // simulated
+  // Writes act in the same tick, so that all ticks are the same.
+  bytes.run(0.1);
+  exact.board().run_to(bytes.board().now());
+  CHECK(bytes.board().now() == exact.board().now());
+  CHECK(bytes.board().outcome().ticks == exact.board().outcome().ticks);
+  CHECK(bytes.board().outcome().tick_sum == exact.board().outcome().tick_sum);
+}
+
 TEST_CASE("board: a repeated write is done once", "[board]") {
   Bench b;
   const Bytes write = request(2, 9, 0x018, 6);

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import design_package
 import outputs
+import rtl_sources
 import synth_measure
 import synth_path
 from synth_tools import ToolError, Tools, version
@@ -34,7 +35,9 @@ EP4CE22_BITS = EP4CE22["m9k"] * 9216
 def sources(root, board, design, folder):
     """Copies all files of the board into the folder; their names in reading order."""
     names = synth_measure.copy_sources(root, design, folder)
-    for path in [*sorted(root.glob("rtl/boards/panel/*.sv")), *sorted(root.glob(f"rtl/boards/{board}/*.*"))]:
+    beside = [root / "rtl" / name for name in rtl_sources.folder_files(root, "link")]
+    beside += sorted(root.glob("rtl/boards/panel/*.sv"))
+    for path in [*beside, *sorted(root.glob(f"rtl/boards/{board}/*.*"))]:
         shutil.copy(path, folder)
         if path.suffix == ".sv":
             names.append(path.name)

@@ -2,8 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Top level for the Terasic DE0-Nano (Cyclone IV E, 50 MHz): pins and panel around
-// feltgate_core. There is no host, so the register port only clears faults. Ports bear the names printed
-// on the board. Never compiled with Quartus. Documentation: docs/boards/de0_nano.md
+// feltgate_linked. Ports bear the names printed on the board, or those of the wiring table. Never compiled with Quartus. Documentation: docs/boards/de0_nano.md
 `default_nettype none
 
 module de0_nano #(
@@ -13,6 +12,7 @@ module de0_nano #(
   parameter int LampBits        = 22,        // the limit lamp stays lit 2^22 clocks: 84 ms
   parameter int HeartbeatBits   = 26,        // LED[7]: 0.75 Hz
   parameter int EncoderLoop     = 1,         // 0: ENC_LOOP is not wired
+  parameter int Baud            = feltgate_link_pkg::BAUD,  // of the host's line
   parameter     ParameterFile   = ""         // parameters.mem of this very design; "": the package has the values
 ) (
   input  logic       CLOCK_50,
@@ -24,10 +24,7 @@ module de0_nano #(
   input  logic       ENC_Z,
   input  logic       ENC_LOOP,   // low while the encoder's connector is in: a wire to GND in it
   input  logic       ESTOP,      // high stops, without a clock: a normally closed switch to GND, pulled up
-  // No host yet.
-  /* verilator lint_off UNUSEDSIGNAL */
   input  logic       UART_RX,    // from the host
-  /* verilator lint_on UNUSEDSIGNAL */
   output logic       UART_TX,    // to it
   output logic       GATE_A_HI,
   output logic       GATE_A_LO,
@@ -45,15 +42,13 @@ module de0_nano #(
   logic       arm, set_zero, clear_faults, panel_stop;
   logic       armed, fault, limit;
   logic [3:0] scene;
+  logic [7:0] inputs;
   logic [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults;
   // Of these not all bits are looked at here.
   /* verilator lint_off UNUSEDSIGNAL */
   logic [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits;
   logic signed [31:0] position;
-  logic [7:0] inputs;
   /* verilator lint_on UNUSEDSIGNAL */
-
-  assign UART_TX = 1'b1;
 
   panel_reset #(.HoldBits(DebounceBits)) u_reset (
     .clk_i(CLOCK_50),
@@ -61,9 +56,9 @@ module de0_nano #(
     .rst_no(rst_n)
   );
 
-  // Empty pins: nobody is here to read them.
+  // Empty pins: nobody is here to look at them.
   /* verilator lint_off PINCONNECTEMPTY */
-  feltgate_core #(.ReadBack(0), .ParameterFile(ParameterFile)) u_core (
+  feltgate_linked #(.Baud(Baud), .Board(1), .ParameterFile(ParameterFile)) u_linked (
     .clk_i(CLOCK_50),
     .rst_ni(rst_n),
     .enc_a_i(ENC_A),
@@ -76,31 +71,19 @@ module de0_nano #(
     .arm_i(arm),
     .stop_i(ESTOP || panel_stop),
     .set_zero_i(set_zero),
+    .clear_faults_i(clear_faults),
     .scene_i(scene),
-    .reg_addr_i(feltgate_map_pkg::A_COMMAND),
-    .reg_wdata_i(32'd1 << feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS),
-    .reg_write_i(clear_faults),
-    .reg_busy_o(),
-    .reg_rdata_o(),
-    .snapshot_valid_o(),
-    .tick_count_o(),
+    .uart_rx_i(UART_RX),
+    .uart_tx_o(UART_TX),
+    .inputs_i(inputs),
     .position_o(position),
-    .velocity_o(),
-    .tau_hat_o(),
-    .tau_ref_o(),
-    .current_ref_o(),
-    .voltage_o(),
-    .duty_o(),
-    .duty_active_o(),
-    .gates_enable_o(),
-    .scene_o(),
     .limits_o(limits),
     .faults_o(faults),
     .first_fault_o(),
+    .scene_o(),
     .armed_o(armed),
-    .word_valid_o(),
-    .word_slot_o(),
-    .word_data_o()
+    .gates_enable_o(),
+    .snapshot_valid_o()
   );
   /* verilator lint_on PINCONNECTEMPTY */
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Top level for the ULX3S (ECP5 LFE5U-85F): pins, panel and clock around feltgate_core. There is no
-// host, so the register port only clears faults. Never ran on a board. Documentation: docs/boards/ulx3s.md
+// Top level for the ULX3S (ECP5 LFE5U-85F): pins, panel and clock around feltgate_linked. Never
+// ran on a board. Documentation: docs/boards/ulx3s.md
 `default_nettype none
 
 module ulx3s #(
@@ -12,6 +12,7 @@ module ulx3s #(
   parameter int LampBits        = 22,        // the limit lamp stays lit 2^22 clocks
   parameter int HeartbeatBits   = 26,        // led[7]
   parameter int EncoderLoop     = 1,         // 0: enc_loop is not wired
+  parameter int Baud            = feltgate_link_pkg::BAUD,  // of the host's line
   parameter     ParameterFile   = ""         // parameters.mem of this very design; "": the package has the values
 ) (
   input  logic       clk_25mhz,
@@ -19,10 +20,7 @@ module ulx3s #(
   input  logic [3:0] sw,
   output logic [7:0] led,
   output logic       ftdi_rxd,   // to the USB serial port
-  // No host yet.
-  /* verilator lint_off UNUSEDSIGNAL */
   input  logic       ftdi_txd,   // from it
-  /* verilator lint_on UNUSEDSIGNAL */
   output logic       wifi_gpio0, // high: the ESP32 leaves the FPGA alone
   input  logic       enc_a,      // asynchronous, as all inputs below; synchronised inside
   input  logic       enc_b,
@@ -40,12 +38,12 @@ module ulx3s #(
   logic       arm, set_zero, clear_faults, panel_stop;
   logic       armed, fault, limit;
   logic [3:0] scene;
+  logic [7:0] inputs;
   logic [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults;
   // Of these not all bits are looked at here.
   /* verilator lint_off UNUSEDSIGNAL */
   logic [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits;
   logic signed [31:0] position;
-  logic [7:0] inputs;
   /* verilator lint_on UNUSEDSIGNAL */
 
   ulx3s_clock u_clock (
@@ -62,11 +60,10 @@ module ulx3s #(
   );
 
   assign wifi_gpio0 = 1'b1;
-  assign ftdi_rxd = 1'b1;
 
-  // Empty pins: nobody is here to read them.
+  // Empty pins: nobody is here to look at them.
   /* verilator lint_off PINCONNECTEMPTY */
-  feltgate_core #(.ReadBack(0), .ParameterFile(ParameterFile)) u_core (
+  feltgate_linked #(.Baud(Baud), .Board(2), .ParameterFile(ParameterFile)) u_linked (
     .clk_i(clk),
     .rst_ni(rst_n),
     .enc_a_i(enc_a),
@@ -79,31 +76,19 @@ module ulx3s #(
     .arm_i(arm),
     .stop_i(estop || panel_stop),
     .set_zero_i(set_zero),
+    .clear_faults_i(clear_faults),
     .scene_i(scene),
-    .reg_addr_i(feltgate_map_pkg::A_COMMAND),
-    .reg_wdata_i(32'd1 << feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS),
-    .reg_write_i(clear_faults),
-    .reg_busy_o(),
-    .reg_rdata_o(),
-    .snapshot_valid_o(),
-    .tick_count_o(),
+    .uart_rx_i(ftdi_txd),
+    .uart_tx_o(ftdi_rxd),
+    .inputs_i(inputs),
     .position_o(position),
-    .velocity_o(),
-    .tau_hat_o(),
-    .tau_ref_o(),
-    .current_ref_o(),
-    .voltage_o(),
-    .duty_o(),
-    .duty_active_o(),
-    .gates_enable_o(),
-    .scene_o(),
     .limits_o(limits),
     .faults_o(faults),
     .first_fault_o(),
+    .scene_o(),
     .armed_o(armed),
-    .word_valid_o(),
-    .word_slot_o(),
-    .word_data_o()
+    .gates_enable_o(),
+    .snapshot_valid_o()
   );
   /* verilator lint_on PINCONNECTEMPTY */
 

@@ -16,7 +16,6 @@ from pathlib import Path
 
 import design_package
 import outputs
-import rtl_sources
 import synth_measure
 import synth_path
 from synth_tools import ToolError, Tools, version
@@ -35,8 +34,7 @@ EP4CE22_BITS = EP4CE22["m9k"] * 9216
 def sources(root, board, design, folder):
     """Copies all files of the board into the folder; their names in reading order."""
     names = synth_measure.copy_sources(root, design, folder)
-    beside = [root / "rtl" / name for name in rtl_sources.folder_files(root, "link")]
-    beside += sorted(root.glob("rtl/boards/panel/*.sv"))
+    beside = sorted(root.glob("rtl/boards/panel/*.sv"))
     for path in [*beside, *sorted(root.glob(f"rtl/boards/{board}/*.*"))]:
         shutil.copy(path, folder)
         if path.suffix == ".sv":

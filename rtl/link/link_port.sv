@@ -108,6 +108,9 @@ module link_port #(
   end
   assign word = (read_address[13:12] == 2'd0) ? reg_rdata_i : own | rdata_i;
 
+  // By itself: in a concatenation Yosys (0.23, 0.70) took it for 32 bits.
+  logic [7:0] kind;
+  assign kind = 8'(feltgate_link_pkg::KIND_REPLY) | {6'd0, write_i, !write_i};
   assign taken_o = state_q == IDLE && valid_i && (!write_i || done_q);
   assign valid_o = state_q == BYTES;
   assign byte_o  = word_q[7:0];
@@ -140,7 +143,7 @@ module link_port #(
           status_q  <= write_i;
           address_q <= address_i;
           left_q    <= write_i ? 7'd1 : data_i[6:0];
-          word_q    <= {2'd0, address_i, sequence_i, 8'(feltgate_link_pkg::KIND_REPLY) | {6'd0, write_i, !write_i}};
+          word_q    <= {2'd0, address_i, sequence_i, kind};
           ticks_q   <= 2'd3;
           if (taken_o) state_q <= write_i ? WAIT : BYTES;
         end

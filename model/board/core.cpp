@@ -34,9 +34,9 @@ std::unique_ptr<Core> make_core(const std::string& design, const std::string& ki
     }
     return rtl_maker(design, options);
   }
-#define FELTGATE_DESIGN(name)                                                          \
-  if (design == #name) {                                                               \
-    return kind == "pins" ? make_##name##_pins(options) : make_##name##_twin(options); \
+#define FELTGATE_DESIGN(name)                                                        \
+  if (design == #name) {                                                             \
+    return options.pins ? make_##name##_pins(options) : make_##name##_twin(options); \
   }
 #include "designs.inc"
 #undef FELTGATE_DESIGN

@@ -27,6 +27,7 @@ struct BoardOptions {
   bool simulated = true;
   int board = 0;             ///< which one it says it is
   std::uint32_t inputs = 1;  ///< the encoder's connector is in
+  bool pins = false;         ///< the link too clock by clock, to the UART's pins
 };
 
 /// A running sum over all that a tick shows: two runs with the same sum had the same ticks.
@@ -79,8 +80,7 @@ class Core {
   virtual const TickHash& ticks() const = 0;
 };
 
-/// `kind` is "twin"; "pins", the twin with the link's own clocks and pins; or "rtl" where that is
-/// linked. Throws std::invalid_argument with what there
+/// `kind` is "twin", or "rtl" where that is linked. Throws std::invalid_argument with what there
 /// is.
 std::unique_ptr<Core> make_core(const std::string& design, const std::string& kind,
                                 const BoardOptions& options);

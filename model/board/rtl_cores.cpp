@@ -15,9 +15,17 @@ namespace feltgate::board {
 #include "designs.inc"
 #undef FELTGATE_DESIGN
 
+/// Of one design alone: each costs a minute to compile.
+std::unique_ptr<Core> make_lever_pin_rtl(const BoardOptions&);
+
 namespace {
 
 std::unique_ptr<Core> make(const std::string& design, const BoardOptions& options) {
+  if (options.pins) {
+    if (design == "lever") return make_lever_pin_rtl(options);
+    throw std::invalid_argument(
+        "--rtl --pins: in this program of the design lever alone; take the twin for others");
+  }
 #define FELTGATE_DESIGN(name) \
   if (design == #name) return make_##name##_rtl(options);
 #include "designs.inc"

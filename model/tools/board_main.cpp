@@ -37,11 +37,8 @@ struct Arguments {
 std::unique_ptr<Board> make_board(const Setup& setup, const std::string& kind) {
   BoardOptions options;
   options.baud = setup.baud;
-  if (setup.pins && kind == "rtl") {
-    throw std::invalid_argument(
-        "--pins: the RTL's link is not in this program; take the twin, or leave --pins out");
-  }
-  auto core = make_core(setup.design, setup.pins ? "pins" : kind, options);
+  options.pins = setup.pins;
+  auto core = make_core(setup.design, kind, options);
   return std::make_unique<Board>(std::move(core),
                                  plant::read_plant_file(find_file(setup.plant, "vectors/plants")),
                                  hand_named(setup.hand, repository() + "/vectors/scenes"), setup);
@@ -154,9 +151,7 @@ int main(int argc, char** argv) {
   Arguments a;
   app.add_flag("--twin", a.twin, "the bit-exact twin; the default");
   app.add_flag("--rtl", a.rtl, "the core's RTL, compiled by Verilator");
-  app.add_flag(
-      "--pins", a.setup.pins,
-      "the link too clock by clock, to the UART's pins; so far without stream and capture");
+  app.add_flag("--pins", a.setup.pins, "the link too clock by clock, to the UART's pins");
   app.add_option("--design", a.setup.design, "design that was built in, by its name in rtl/designs")
       ->capture_default_str()
       ->type_name("DESIGN");

@@ -17,6 +17,19 @@ foreach(design IN LISTS FELTGATE_DESIGNS)
   list(APPEND rtl_sources "${generated}_rtl.cpp")
   list(APPEND rtl_libraries core_${design})
 endforeach()
+# The link's RTL too, of one design: each costs a minute to compile.
+set(design lever)
+set(type ${FELTGATE_TYPE_lever})
+file(STRINGS "${FELTGATE_ROOT}/rtl/feltgate_linked.f" linked_sources REGEX "^[^/]")
+list(TRANSFORM linked_sources PREPEND "${FELTGATE_ROOT}/rtl/")
+feltgate_verilate(board_lever board_pins
+  "${FELTGATE_ROOT}/rtl/generated/lever/feltgate_pkg.sv;${linked_sources};${FELTGATE_ROOT}/model/board/board_pins.sv"
+  CLASS Vboard_lever -O3)
+target_compile_options(board_lever PRIVATE ${FELTGATE_FASTEST_RTL})
+feltgate_for_design(design_board_pins.cpp.in "${PROJECT_BINARY_DIR}/engines/lever_board_pins.cpp")
+list(APPEND rtl_sources "${PROJECT_BINARY_DIR}/engines/lever_board_pins.cpp")
+list(APPEND rtl_libraries board_lever)
+
 target_include_directories(feltgate_board_parts PRIVATE "${PROJECT_BINARY_DIR}/engines")
 target_compile_options(feltgate_board_parts PRIVATE ${FELTGATE_ENGINE_OPTIONS})
 

@@ -258,6 +258,10 @@ class Recordings(BoardTest):
         self.record("--hand", "swing", "--rtl", program="feltgate_board_rtl", path="rtl.board")
         again = self.run_program("feltgate_board", "--replay", "rtl.board")
         self.assertIn("identical to the recording", again)
+        # And the link's RTL, to its pins.
+        self.record("--pins", "--rtl", program="feltgate_board_rtl", path="pins.board")
+        again = self.run_program("feltgate_board", "--replay", "pins.board")
+        self.assertIn("identical to the recording", again)
 
     def test_other_bytes_are_other_ticks(self):
         self.record()
@@ -276,7 +280,6 @@ class Recordings(BoardTest):
             (("--scene", "walls"), "wall"),
             (("--design", "levr"), "did you mean"),
             (("--twin", "--rtl"), "give one of them"),
-            (("--pins", "--rtl"), "is not in this program"),
             (("--rtl", "--for", "1"), "this program has the twin alone"),
             (("--replay", "none.board"), "cannot be read"),
             (("--replay", "x", "--link", "y"), "leave --record and --link out"),

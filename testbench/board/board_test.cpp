@@ -78,6 +78,8 @@ class Bench {
  public:
   explicit Bench(const std::string& hand = "free", Setup setup = {}) {
     setup.hand = hand;
+    BoardOptions options;
+    options.pins = setup.pins;
     board_ =
         std::make_unique<Board>(make_core(setup.design, "twin", {}),
                                 plant::read_plant_file(FELTGATE_ROOT "/vectors/plants/p24.toml"),

@@ -24,6 +24,10 @@ constexpr std::size_t most_streamed = 100'000;  ///< frames that wait for someon
 /// Longest wait for an answer before it is asked for again, and the shortest: a USB adapter holds
 /// bytes back for up to 16 ms.
 constexpr double longest_wait_s = 1.0, shortest_wait_s = 0.02;
+constexpr double growth_of_wait = 8;  ///< at most, within one request
+/// On a bad line short frames get through: the fewest words of a read, and reads without a
+/// repetition after which longer ones are tried again.
+constexpr int fewest_words = 8, undamaged_reads = 32;
 constexpr double quiet_s = 0.02;  ///< garbage that has arrived is read until so long nothing came
 
 int bits_of(unsigned mask) {
@@ -119,6 +123,7 @@ Bytes Link::ask(const Bytes& asked, std::size_t words) {
   const Bytes wire = framed(asked);
   const Deadline give_up = within(options_.patience_s);
   double wait_s = std::clamp(mean_s_ + 4 * deviation_s_, shortest_wait_s, longest_wait_s);
+  const double most_s = std::min(growth_of_wait * wait_s, longest_wait_s);
   for (bool again = false;; again = true) {
     if (again) ++counts_.retries;
     const Deadline sent = HostClock::now();
@@ -134,18 +139,26 @@ Bytes Link::ask(const Bytes& asked, std::size_t words) {
           "does --baud fit? {} bytes came, {} good frames",
           transport_.name(), options_.patience_s, reader_.counts().bytes, reader_.counts().good));
     }
-    wait_s = std::min(2 * wait_s, longest_wait_s);
+    wait_s = std::min(2 * wait_s, most_s);
   }
 }
 
 std::vector<std::uint32_t> Link::read(int address, int count) {
   std::vector<std::uint32_t> all;
   while (count > 0) {
-    const int words = std::min(count, static_cast<int>(M::read_words));
+    const int words = std::min(count, most_words_);
+    const std::uint64_t repeated = counts_.retries;
     const auto size = static_cast<std::size_t>(words);
     const Bytes frame = ask(
         request(M::kind_read, ++read_sequence_, address, static_cast<std::uint32_t>(words)), size);
     for (std::size_t n = 0; n < size; ++n) all.push_back(get_le(frame, head_bytes + 4 * n, 4));
+    if (counts_.retries > repeated) {
+      most_words_ = std::max(most_words_ / 2, fewest_words);
+      undamaged_ = 0;
+    } else if (++undamaged_ >= undamaged_reads) {
+      most_words_ = std::min(2 * most_words_, static_cast<int>(M::read_words));
+      undamaged_ = 0;
+    }
     address += words;
     count -= words;
   }

@@ -49,7 +49,8 @@ class Link {
   /// board does not answer; the text says what to look at.
   void begin();
 
-  /// `count` words (1 or more; more than 64 are several requests) from the word address on.
+  /// `count` words (1 or more; more than 64, or fewer on a bad line, are several requests) from the
+  /// word address on.
   /// Throws LinkLost after patience_s without an answer.
   std::vector<std::uint32_t> read(int address, int count);
   std::uint32_t read(int address) { return read(address, 1).front(); }
@@ -78,6 +79,8 @@ class Link {
   std::optional<std::uint8_t> stream_counter_;
   std::uint8_t read_sequence_ = 0, write_sequence_ = 0;
   double mean_s_ = 0.05, deviation_s_ = 0.05;  ///< of the time that an answer takes
+  int most_words_ = 64;                        ///< of a request: fewer while long frames are lost
+  int undamaged_ = 0;                          ///< reads since the last repetition
   bool in_step_ = false;
 };
 

@@ -46,9 +46,17 @@ module feltgate_linked #(
     output logic                                                gates_enable_o,
     output logic                                                snapshot_valid_o
 );
+  localparam int FEATURES = (1 << feltgate_link_pkg::B_FEATURES_CAPTURE) |
+                            (1 << feltgate_link_pkg::B_FEATURES_STREAM) |
+                            (feltgate_link_pkg::ROWS_LOG2 << feltgate_link_pkg::B_FEATURES_ROWS_LOG2) |
+                            (feltgate_link_pkg::COLUMNS << feltgate_link_pkg::B_FEATURES_COLUMNS);
+
   logic [11:0] reg_addr;
   logic [31:0] reg_wdata, reg_rdata;
   logic        reg_write, reg_busy;
+  logic        word_valid;
+  logic [ 5:0] word_slot;
+  logic [31:0] word_data;
 
   /* verilator lint_off PINCONNECTEMPTY */  // the host reads these as words
   feltgate_core #(.ReadBack(1), .ParameterFile(ParameterFile)) u_core (
@@ -62,7 +70,7 @@ module feltgate_linked #(
       .snapshot_valid_o(snapshot_valid_o),
       .tick_count_o(), .velocity_o(), .tau_hat_o(), .tau_ref_o(),
       .current_ref_o(), .voltage_o(), .duty_o(), .duty_active_o(),
-      .word_valid_o(), .word_slot_o(), .word_data_o(),
+      .word_valid_o(word_valid), .word_slot_o(word_slot), .word_data_o(word_data),
       .position_o(position_o), .scene_o(scene_o), .limits_o(limits_o),
       .faults_o(faults_o), .first_fault_o(first_fault_o),
       .armed_o(armed_o), .gates_enable_o(gates_enable_o)
@@ -94,7 +102,7 @@ module feltgate_linked #(
   logic        link_write;
   logic [ 7:0] reply_byte;
   logic        reply_valid, reply_last, reply_ready;
-  link_port #(.Simulated(Simulated), .Board(Board), .Features(0)) u_link_port (
+  link_port #(.Simulated(Simulated), .Board(Board), .Features(FEATURES)) u_link_port (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .valid_i(request_valid), .write_i(request_write), .sequence_i(request_sequence),
       .address_i(request_address), .data_i(request_data), .good_i(good), .bad_i(bad),
@@ -105,13 +113,21 @@ module feltgate_linked #(
       .addr_o(link_addr), .wdata_o(link_wdata), .write_o(link_write), .rdata_i(link_rdata),
       .valid_o(reply_valid), .byte_o(reply_byte), .last_o(reply_last), .ready_i(reply_ready)
   );
+  logic [31:0] stream_rdata, capture_rdata;
+  assign link_rdata = stream_rdata | capture_rdata;
   logic [7:0] stream_byte;
-  logic       stream_valid, stream_last, stream_ready, unused;
-  assign link_rdata   = 32'd0;
-  assign stream_valid = 1'b0;
-  assign stream_byte  = 8'd0;
-  assign stream_last  = 1'b0;
-  assign unused       = ^{link_addr, link_wdata, link_write, stream_ready};
+  logic       stream_valid, stream_last, stream_ready;
+  link_stream u_link_stream (
+      .clk_i(clk_i), .rst_ni(rst_ni),
+      .word_valid_i(word_valid), .word_slot_i(word_slot), .word_data_i(word_data),
+      .addr_i(link_addr), .wdata_i(link_wdata), .write_i(link_write), .rdata_o(stream_rdata),
+      .valid_o(stream_valid), .byte_o(stream_byte), .last_o(stream_last), .ready_i(stream_ready)
+  );
+  link_capture u_link_capture (
+      .clk_i(clk_i), .rst_ni(rst_ni),
+      .word_valid_i(word_valid), .word_slot_i(word_slot), .word_data_i(word_data),
+      .addr_i(link_addr), .wdata_i(link_wdata), .write_i(link_write), .rdata_o(capture_rdata)
+  );
 
   logic [7:0] tx_byte;
   logic       tx_valid, tx_ready;

@@ -65,7 +65,7 @@ constexpr std::uint32_t control(bool arm, int scene) {
 /// A lever, a panel, and whatever comes over the wire.
 struct Stimulus {
   explicit Stimulus(std::uint64_t seed)
-      : random(seed), frames{Random(seed + 1)}, line(D::clock_hz, BAUD) {}
+      : random(seed), frames(Random(seed + 1)), line(D::clock_hz, BAUD) {}
 
   LinkedIn operator()(std::int64_t, const LinkedOut& out) {
     if (line.unsent() == 0 && gap-- <= 0) {
@@ -100,6 +100,11 @@ struct Stimulus {
     send(request(2, next(), D::C::control, control(false, D::S::damper)));
     send(request(2, next(), D::C::command, 1U << D::C::command_clear_faults));
     send(request(2, next(), D::C::control, control(true, D::S::damper)));
+    if (random.coin()) send(request(2, next(), LinkMap::A::stream_period, random.below(2000)));
+    if (random.coin()) send(request(2, next(), LinkMap::A::stream_words, random.below(4096)));
+    if (random.coin()) send(request(2, next(), LinkMap::A::capture_words, random.below(4096)));
+    if (random.coin()) send(request(2, next(), LinkMap::A::capture_control, random.below(8)));
+    if (random.coin()) send(request(1, next(), LinkMap::memory + random.below(200), 20));
     send(request(1, next(), LinkMap::words, 40));
     send(request(2, next(), D::C::control, control(false, D::S::damper)));
   }
@@ -264,7 +269,7 @@ TEST_CASE("feltgate_linked: the panel clears faults, also while the host writes"
 TEST_CASE("feltgate_linked: random frames: what is no request changes nothing") {
   Host host;
   host.run(5000);
-  RandomFrames frames{Random(11)};
+  RandomFrames frames(Random(11), false);
   WireReader reader;
   std::int64_t bad_frames = 0, replies = 0, done = 0;
   int last = -1;
@@ -323,17 +328,27 @@ TEST_CASE("feltgate_linked: random frames: what is no request changes nothing") 
 TEST_CASE("feltgate_linked: from event to event as clock by clock") {
   Twin fast, slow;
   UartLine line(D::clock_hz, BAUD);
-  RandomFrames frames{Random(5)};
+  RandomFrames frames(Random(5));
   Random random(6);
   LinkedIn in;
   Bytes from_fast, from_slow;
   unsigned phase = 0;
   for (int k = 0; k < 3000; ++k) {
-    if (random.one_in(3)) {
-      for (const std::uint8_t byte : frames.any()) {
+    const auto send = [&](const Bytes& wire) {
+      for (const std::uint8_t byte : wire) {
         line.send(byte);
         fast.send(byte);
       }
+    };
+    if (random.one_in(3)) send(frames.any());
+    if (k % 500 == 100) {  // a capture, then a stream, then none
+      send(request(2, k & 255, LinkMap::A::capture_words, 0x0d7));
+      send(request(2, (k + 1) & 255, LinkMap::A::capture_control, 1 + 4));
+    }
+    if (k % 500 == 300) send(request(2, k & 255, LinkMap::A::stream_period, 700));
+    if (k % 500 == 400) {
+      send(request(1, k & 255, LinkMap::memory, 64));
+      send(request(2, k & 255, LinkMap::A::stream_period, 0));
     }
     if (random.one_in(3)) phase += 1;
     in.encoder = {(phase & 2U) != 0, ((phase >> 1 ^ phase) & 1U) != 0, false};

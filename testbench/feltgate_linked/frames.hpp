@@ -91,10 +91,18 @@ struct WireReader {
 
 /// Requests and what is none, at random.
 struct RandomFrames {
+  explicit RandomFrames(Random r, bool may_stream = true) : random(r), streams(may_stream) {}
+
   Random random;
   int sequence = 0;
 
+  bool streams = true;  ///< they may begin a stream
+
   std::uint32_t address() {
+    const std::uint32_t any = any_address();
+    return any == 0x1011 && !streams ? any + 1 : any;
+  }
+  std::uint32_t any_address() {
     static constexpr std::uint32_t at[] = {0x1000, 0x1006, 0x1010, 0x1028, 0x2000,
                                            0x3fff, 0x300,  0x0,    0x200,  0xffe};
     if (random.one_in(3)) return at[random.below(10)] + random.below(3);

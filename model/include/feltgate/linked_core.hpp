@@ -6,12 +6,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "feltgate/feltgate_core.hpp"
+#include "feltgate/link_capture.hpp"
 #include "feltgate/link_port.hpp"
 #include "feltgate/link_receiver.hpp"
+#include "feltgate/link_stream.hpp"
 #include "feltgate/link_transmitter.hpp"
 #include "feltgate/uart_line.hpp"
 #include "feltgate/uart_rx.hpp"
@@ -42,7 +46,7 @@ class LinkedCore {
  public:
   explicit LinkedCore(LinkedOptions o = {})
       : rx_(uart_step(D::clock_hz, o.baud)),
-        port_({o.simulated, o.board, 0}),
+        port_({o.simulated, o.board, kFeatures}),
         tx_(uart_step(D::clock_hz, o.baud)),
         line_(D::clock_hz, o.baud) {
     show();
@@ -54,6 +58,8 @@ class LinkedCore {
     receiver_.reset();
     port_.reset();
     transmitter_.reset();
+    stream_.reset();
+    capture_.reset();
     tx_.reset();
     show();
   }
@@ -67,7 +73,13 @@ class LinkedCore {
     rx_.clock({in.uart_rx});
     receiver_.clock({byte.byte, byte.valid, byte.error, does.taken});
     port_.clock(port);
-    transmitter_.clock({does.reply, {}, tx_.out().ready});
+    const LinkStream::Out& frame = stream_.out();
+    transmitter_.clock({does.reply, {frame.valid, frame.byte, frame.last}, tx_.out().ready});
+    const CoreOut& core = core_.out();
+    stream_.clock({core.word_valid, core.word_slot, core.word_data, does.addr, does.wdata,
+                   does.write, sent.stream_ready});
+    capture_.clock(
+        {core.word_valid, core.word_slot, core.word_data, does.addr, does.wdata, does.write});
     tx_.clock({sent.byte, sent.valid});
     core_.clock(core_in(in, does));
     show();
@@ -89,7 +101,7 @@ class LinkedCore {
   void run(LinkedIn in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
     while (clocks > 0) {
       in.uart_rx = line_.level();
-      const std::int64_t quiet = std::min(quiet_clocks(in), clocks);
+      const std::int64_t quiet = whole_ticks(std::min(quiet_clocks(in), clocks));
       if (quiet <= 1) {
         line_.clock(out_.uart_tx);
         clock(in);
@@ -98,10 +110,14 @@ class LinkedCore {
         --clocks;
         continue;
       }
+      const bool captures = this->captures();
+      core_.keep_words(captures);
       core_.run(core_in(in, port_.peek(port_in(in))), quiet, [&] {
         show();
+        if (captures) capture_.tick(words());
         on_snapshot();
       });
+      if (streams()) stream_.pass_ticks(static_cast<std::uint32_t>(quiet / D::clocks_per_tick));
       line_.skip(quiet);
       rx_.skip(quiet);
       tx_.skip(quiet);
@@ -121,6 +137,7 @@ class LinkedCore {
     p.tick = core_.out().snapshot_valid;
     p.reg_busy = core_.out().reg_busy;
     p.reg_rdata = core_.out().reg_rdata;
+    p.rdata = stream_.out().rdata | capture_.out().rdata;
     p.ready = transmitter_.out().reply_ready;
     return p;
   }
@@ -143,7 +160,28 @@ class LinkedCore {
     if (!port_.waits(port_in(in))) return 0;
     const bool offers = transmitter_.out().valid;
     if (transmitter_.idle() ? port_.reply().valid : offers && tx_.out().ready) return 0;
+    if (!stream_.idle()) return 0;
     return std::min({rx_.quiet(in.uart_rx), tx_.quiet(), line_.quiet(out_.uart_tx)});
+  }
+
+  bool captures() const {
+    using State = LinkCapture<>::State;
+    return capture_.state() != State::idle && capture_.state() != State::done;
+  }
+  bool streams() const { return stream_.ticks_to_frame() != LinkStream::kNever; }
+  /// So many of the quiet clocks at most as can be taken at once: where words are looked at, whole
+  /// ticks from the clock on in which the last word of the tick before is done with.
+  std::int64_t whole_ticks(std::int64_t quiet) const {
+    if (!captures() && !streams()) return quiet;
+    if (core_.clock_of_tick() != 1) return 0;
+    std::int64_t ticks = quiet / D::clocks_per_tick;
+    if (streams()) ticks = std::min<std::int64_t>(ticks, stream_.ticks_to_frame());
+    return ticks * D::clocks_per_tick;
+  }
+  std::array<std::uint32_t, LinkMap::snapshot_words> words() const {
+    std::array<std::uint32_t, LinkMap::snapshot_words> all{};
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] = core_.word(LinkMap::slots[k]);
+    return all;
   }
 
   void show() {
@@ -151,11 +189,18 @@ class LinkedCore {
     out_.uart_tx = tx_.out().tx;
   }
 
+  static constexpr std::uint32_t kFeatures = 1U << LinkMap::B::features_capture |
+                                             1U << LinkMap::B::features_stream |
+                                             LinkMap::rows_log2 << LinkMap::B::features_rows_log2 |
+                                             LinkMap::columns << LinkMap::B::features_columns;
+
   FeltgateCore<D> core_;
   UartRx rx_;
   LinkReceiver receiver_;
   LinkPort<D> port_;
   LinkTransmitter transmitter_;
+  LinkStream stream_;
+  LinkCapture<> capture_;
   UartTx tx_;
   UartLine line_;
   LinkedOut out_;

@@ -52,7 +52,7 @@ def arguments_of(argv):
     parser.add_argument(
         "--design",
         action="append",
-        metavar="NAME",
+        metavar="DESIGN",
         help="a design of rtl/designs that the page shall have besides, first; may be repeated",
     )
     parser.add_argument(

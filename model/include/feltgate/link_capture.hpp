@@ -40,6 +40,9 @@ class LinkCapture {
   }
   const Out& out() const { return out_; }
   State state() const { return state_; }
+  bool runs() const {
+    return state_ == State::fill || state_ == State::wait || state_ == State::rest;
+  }
 
   void clock(const In& in) {
     read_back(in.addr);
@@ -69,9 +72,6 @@ class LinkCapture {
   static constexpr std::uint32_t kLongest = 0xffff;
   static_assert(Rows >= 4 && Rows <= 1024 && (Rows & (Rows - 1)) == 0, "see link_capture.sv");
 
-  bool runs() const {
-    return state_ == State::fill || state_ == State::wait || state_ == State::rest;
-  }
   static std::uint32_t at_most(std::uint32_t word, std::uint32_t limit) {
     return word < limit ? word : limit;
   }

@@ -51,6 +51,14 @@ class LinkStream {
     show();
   }
 
+  /// Words of coming ticks may matter.
+  bool on() const { return period_ != 0 || state_ != State::idle; }
+  /// Where no byte is taken clock() changes nothing but by a word or a write.
+  bool waits() const { return state_ != State::seek; }
+  /// The last word of this tick, or of the one that begins next, makes a frame.
+  bool keeps() const {
+    return state_ == State::take || (state_ == State::idle && ticks_to_frame() == 0);
+  }
   /// No frame is kept or sent, and none begins with the next `ticks_to_frame()` ticks.
   bool idle() const { return state_ == State::idle; }
   std::uint32_t ticks_to_frame() const { return period_ == 0 ? kNever : ticks_; }

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -57,9 +56,9 @@ class LinkedCore {
     rx_.reset();
     receiver_.reset();
     port_.reset();
-    transmitter_.reset();
     stream_.reset();
     capture_.reset();
+    transmitter_.reset();
     tx_.reset();
     show();
   }
@@ -70,16 +69,16 @@ class LinkedCore {
     const typename LinkPort<D>::Out does = port_.peek(port);
     const UartRx::Out byte = rx_.out();
     const LinkTransmitter::Out sent = transmitter_.out();
+    const FrameByte offered = offer();
+    const CoreOut& tap = core_.out();
+    stream_.clock({tap.word_valid, tap.word_slot, tap.word_data, does.addr, does.wdata, does.write,
+                   sent.stream_ready});
+    capture_.clock(
+        {tap.word_valid, tap.word_slot, tap.word_data, does.addr, does.wdata, does.write});
     rx_.clock({in.uart_rx});
     receiver_.clock({byte.byte, byte.valid, byte.error, does.taken});
     port_.clock(port);
-    const LinkStream::Out& frame = stream_.out();
-    transmitter_.clock({does.reply, {frame.valid, frame.byte, frame.last}, tx_.out().ready});
-    const CoreOut& core = core_.out();
-    stream_.clock({core.word_valid, core.word_slot, core.word_data, does.addr, does.wdata,
-                   does.write, sent.stream_ready});
-    capture_.clock(
-        {core.word_valid, core.word_slot, core.word_data, does.addr, does.wdata, does.write});
+    transmitter_.clock({does.reply, offered, tx_.out().ready});
     tx_.clock({sent.byte, sent.valid});
     core_.clock(core_in(in, does));
     show();
@@ -101,7 +100,7 @@ class LinkedCore {
   void run(LinkedIn in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
     while (clocks > 0) {
       in.uart_rx = line_.level();
-      const std::int64_t quiet = whole_ticks(std::min(quiet_clocks(in), clocks));
+      const std::int64_t quiet = stretch(std::min(quiet_clocks(in), clocks));
       if (quiet <= 1) {
         line_.clock(out_.uart_tx);
         clock(in);
@@ -110,14 +109,7 @@ class LinkedCore {
         --clocks;
         continue;
       }
-      const bool captures = this->captures();
-      core_.keep_words(captures);
-      core_.run(core_in(in, port_.peek(port_in(in))), quiet, [&] {
-        show();
-        if (captures) capture_.tick(words());
-        on_snapshot();
-      });
-      if (streams()) stream_.pass_ticks(static_cast<std::uint32_t>(quiet / D::clocks_per_tick));
+      pass(in, port_.peek(port_in(in)), quiet, on_snapshot);
       line_.skip(quiet);
       rx_.skip(quiet);
       tx_.skip(quiet);
@@ -127,6 +119,11 @@ class LinkedCore {
   }
 
  private:
+  static constexpr std::uint32_t kFeatures = 1U << LinkMap::B::features_capture |
+                                             1U << LinkMap::B::features_stream |
+                                             LinkMap::rows_log2 << LinkMap::B::features_rows_log2 |
+                                             LinkMap::columns << LinkMap::B::features_columns;
+
   typename LinkPort<D>::In port_in(const LinkedIn& in) const {
     typename LinkPort<D>::In p;
     p.request = receiver_.out().request;
@@ -157,31 +154,77 @@ class LinkedCore {
   /// Clocks in which the link does nothing but count the phases of its bits.
   std::int64_t quiet_clocks(const LinkedIn& in) const {
     if (in.set_zero || in.clear_faults || !receiver_.idle() || !transmitter_.waits()) return 0;
-    if (!port_.waits(port_in(in))) return 0;
+    if (!port_.waits(port_in(in)) || !stream_.waits()) return 0;
     const bool offers = transmitter_.out().valid;
-    if (transmitter_.idle() ? port_.reply().valid : offers && tx_.out().ready) return 0;
-    if (!stream_.idle()) return 0;
+    if (transmitter_.idle() ? port_.reply().valid || stream_.out().valid
+                            : offers && tx_.out().ready)
+      return 0;
     return std::min({rx_.quiet(in.uart_rx), tx_.quiet(), line_.quiet(out_.uart_tx)});
   }
 
-  bool captures() const {
-    using State = LinkCapture<>::State;
-    return capture_.state() != State::idle && capture_.state() != State::done;
+  FrameByte offer() const { return {stream_.out().valid, stream_.out().byte, stream_.out().last}; }
+
+  /// Clock of the tick in which stream and capture see a word of the snapshot.
+  static constexpr int seen_at(int k) { return LinkMap::slots[k] + Map::first_wave_clock + 1; }
+  static constexpr int kTick = D::clocks_per_tick;
+  static constexpr int kLastWord = seen_at(LinkMap::snapshot_words - 1);
+  static_assert(kLastWord < kTick, "the words of a tick come within it");
+
+  /// So many of `quiet` clocks that the words of one tick are enough for stream and capture: within
+  /// a tick, or whole ticks of which they need the last one alone. Not past a frame's last word.
+  std::int64_t stretch(std::int64_t quiet) const {
+    const int at = core_.clock_of_tick();
+    if (at == 0 && quiet >= kTick && !stream_.on() && !capture_.runs()) {
+      return quiet / kTick * kTick;
+    }
+    if (stream_.keeps() && at <= kLastWord) quiet = std::min<std::int64_t>(quiet, kLastWord - at);
+    return std::min<std::int64_t>(quiet, kTick - at);
   }
-  bool streams() const { return stream_.ticks_to_frame() != LinkStream::kNever; }
-  /// So many of the quiet clocks at most as can be taken at once: where words are looked at, whole
-  /// ticks from the clock on in which the last word of the tick before is done with.
-  std::int64_t whole_ticks(std::int64_t quiet) const {
-    if (!captures() && !streams()) return quiet;
-    if (core_.clock_of_tick() != 1) return 0;
-    std::int64_t ticks = quiet / D::clocks_per_tick;
-    if (streams()) ticks = std::min<std::int64_t>(ticks, stream_.ticks_to_frame());
-    return ticks * D::clocks_per_tick;
+
+  /// A stretch of quiet clocks.
+  template <class OnSnapshot>
+  void pass(const LinkedIn& in, const typename LinkPort<D>::Out& port, std::int64_t clocks,
+            OnSnapshot&& on_snapshot) {
+    const int from = core_.clock_of_tick();
+    const int to = static_cast<int>(from + std::min<std::int64_t>(clocks, kTick));
+    const CoreOut before = core_.out();
+    std::int64_t ticks = clocks / kTick;  // to come before the one whose words count
+    std::array<std::uint32_t, LinkMap::snapshot_words> words{};
+    const auto take = [&] {
+      for (std::size_t k = 0; k < words.size(); ++k) words[k] = core_.word(LinkMap::slots[k]);
+    };
+    bool all = false;
+    core_.run(core_in(in, port), clocks, [&] {
+      if (--ticks <= 0) take(), all = true;
+      show();
+      on_snapshot();
+    });
+    if (!all && to < kTick) take();
+    feed(from, to, words, before, port.addr);
   }
-  std::array<std::uint32_t, LinkMap::snapshot_words> words() const {
-    std::array<std::uint32_t, LinkMap::snapshot_words> all{};
-    for (std::size_t k = 0; k < all.size(); ++k) all[k] = core_.word(LinkMap::slots[k]);
-    return all;
+
+  /// The words that stream and capture see in the clocks [from, to) of a tick.
+  void feed(int from, int to, const std::array<std::uint32_t, LinkMap::snapshot_words>& words,
+            const CoreOut& before, std::uint16_t addr) {
+    const auto idle = [&](int clocks) {
+      for (int k = 0; k < std::min(clocks, 3); ++k) {
+        stream_.clock({false, 0, 0, addr, 0, false, false});
+        capture_.clock({false, 0, 0, addr, 0, false});
+      }
+    };
+    int at = from;
+    for (int k = 0; k < LinkMap::snapshot_words; ++k) {
+      const int seen = seen_at(k);
+      if (seen < from || seen >= to) continue;
+      const auto slot = static_cast<std::uint8_t>(LinkMap::slots[k]);
+      const std::uint32_t word =
+          seen == from ? before.word_data : words[static_cast<std::size_t>(k)];
+      idle(seen - at);
+      stream_.clock({true, slot, word, addr, 0, false, false});
+      capture_.clock({true, slot, word, addr, 0, false});
+      at = seen + 1;
+    }
+    idle(to - at);
   }
 
   void show() {
@@ -189,18 +232,13 @@ class LinkedCore {
     out_.uart_tx = tx_.out().tx;
   }
 
-  static constexpr std::uint32_t kFeatures = 1U << LinkMap::B::features_capture |
-                                             1U << LinkMap::B::features_stream |
-                                             LinkMap::rows_log2 << LinkMap::B::features_rows_log2 |
-                                             LinkMap::columns << LinkMap::B::features_columns;
-
   FeltgateCore<D> core_;
   UartRx rx_;
   LinkReceiver receiver_;
   LinkPort<D> port_;
-  LinkTransmitter transmitter_;
   LinkStream stream_;
   LinkCapture<> capture_;
+  LinkTransmitter transmitter_;
   UartTx tx_;
   UartLine line_;
   LinkedOut out_;

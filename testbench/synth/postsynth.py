@@ -39,7 +39,9 @@ def pair(block, ports, parameters):
                 start += width
         instances.append(f"  {module} u_{kind} ({', '.join(pins)});")
     n_in, n_out = sum(p[2] for p in ins), sum(p[2] for p in outs)
-    clocks = ", ".join(name for name, _, _ in ports if name in CLOCKS)
+    of_board = any(name == CLOCKS[-1] for name, _, _ in ports)
+    # A block without a reset has the pin all the same: the test drives it.
+    clocks = CLOCKS[-1] if of_board else ", ".join(CLOCKS[:-1])
     head = (
         f"module pair (input logic {clocks}, input logic [{n_in - 1}:0] in_i, "
         f"output logic [{n_out - 1}:0] rtl_o, netlist_o);"

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""SystemVerilog that Quartus Standard and Lite refuse, or are known to build wrongly; run by a
-Python that has pyslang.
+"""SystemVerilog that Quartus Standard and Lite refuse, or that they or Yosys are known to build
+wrongly; run by a Python that has pyslang.
 
   quartus_subset.py FILE...      FILE:LINE: what stands there, and what to write; status 1 when
                                  anything does
@@ -38,6 +38,15 @@ BANNED = {
     Kind.TypeParameterDeclaration: "a parameter that is a type; write a width",
     Kind.RealType: "a real number; write a whole one",
 }
+# Beside these Yosys takes the width of what is cast, where both stand in a concatenation.
+WIDENED = (
+    Kind.BinaryOrExpression,
+    Kind.BinaryAndExpression,
+    Kind.BinaryXorExpression,
+    Kind.AddExpression,
+    Kind.LogicalShiftLeftExpression,
+    Kind.LogicalShiftRightExpression,
+)
 GENERATES = (Kind.IfGenerate, Kind.LoopGenerate, Kind.CaseGenerate)
 FUNCTIONS = ("$clog2", "$signed", "$unsigned", "$bits", "$readmemh", "$readmemb")
 
@@ -93,6 +102,9 @@ def complaints(node, functions):
         yield "unique or priority before if; it is taken before case only"
     elif kind == Kind.SystemName and text_of(node) not in FUNCTIONS:
         yield f"{text_of(node)}; keep it under `ifndef SYNTHESIS"
+    elif kind == Kind.CastExpression:
+        if node.parent.kind in WIDENED and is_in(node, Kind.ConcatenationExpression):
+            yield "a cast beside an operator in a concatenation; give the result a name of its own"
     elif kind == Kind.InvocationExpression:
         called = text_of(node.left).rpartition("::")[2]
         if called in functions and is_in(node, Kind.FunctionDeclaration):

@@ -65,9 +65,11 @@ module link_port #(
   assign write_o     = writes && !to_core;
   assign reg_write_o = host_write || panel_write;
   assign wdata_o     = data_i;
-  assign reg_wdata_o = {data_i[31:feltgate_map_pkg::W_COMMAND],
-      host_write ? data_i[feltgate_map_pkg::W_COMMAND-1:0]
-                 : feltgate_map_pkg::W_COMMAND'(1) << feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS};
+  // A name of its own: within the concatenation Yosys (0.23, 0.70) took it for 32 bits.
+  logic [feltgate_map_pkg::W_COMMAND-1:0] clear_faults;
+  assign clear_faults = feltgate_map_pkg::W_COMMAND'(1) << feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS;
+  assign reg_wdata_o  = {data_i[31:feltgate_map_pkg::W_COMMAND],
+      host_write ? data_i[feltgate_map_pkg::W_COMMAND-1:0] : clear_faults};
 
   // Reply: head and words go through one register, four bytes each.
   localparam logic [1:0] IDLE = 2'd0;

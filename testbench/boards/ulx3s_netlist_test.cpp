@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The ULX3S' ECP5 netlist beside its RTL, every pin in both halves of every clock: keys, switches, a lever that
-// is turned, stops, an encoder that is pulled out, and a host. The PLL is a wire in both. Panel times are short ones:
-// testbench/boards/CMakeLists.txt. Documentation: docs/boards/ulx3s.md
+// The ULX3S' ECP5 netlist beside its RTL, every pin in both halves of every clock: keys, switches,
+// a lever that is turned, stops, an encoder that is pulled out, and a host. The PLL is a wire in
+// both. Panel times are short ones: testbench/boards/CMakeLists.txt. Documentation:
+// docs/boards/ulx3s.md
 #include <Vpair.h>
 
 #include <cstdint>
@@ -57,11 +58,12 @@ class Board {
 
   std::uint64_t pin(const char* name) const {
     const Field& f = named(kFields, name);
-    return (static_cast<std::uint64_t>(pair_->rtl_o) >> f.first) & ((std::uint64_t{1} << f.width) - 1);
+    return (static_cast<std::uint64_t>(pair_->rtl_o) >> f.first) &
+           ((std::uint64_t{1} << f.width) - 1);
   }
 
-  /// Half a clock; the name of the first pin that differs, or "". A bit of flipped is one of the netlist's pins
-  /// that is taken for the other level.
+  /// Half a clock; the name of the first pin that differs, or "". A bit of flipped is one of the
+  /// netlist's pins that is taken for the other level.
   std::string half(bool clock, std::uint64_t flipped = 0) {
     pair_->clk_25mhz = clock;
     pair_->in_i = static_cast<std::decay_t<decltype(pair_->in_i)>>(pins_);
@@ -97,19 +99,28 @@ class Board {
   }
 
  private:
-  /// A host at kBaud: reads of the link and the core, commands, now and then a frame with a wrong byte.
+  /// A host at kBaud: reads of the link and the core, words written whole, commands, now and then a
+  /// frame with a wrong byte.
   void talk(std::int64_t clock) {
     if (bits_.empty() && clock >= talk_due_) {
       const auto byte = [&] { return static_cast<std::uint8_t>(random_.below(256)); };
       std::vector<std::uint8_t> body;
       const auto sequence = byte();
       if (random_.below(3) != 0) {
-        const unsigned address = std::vector<unsigned>{0x1000, 0x1006, 0x1008, 0x300, 0x010}[random_.below(5)];
+        const unsigned address = std::vector<unsigned>{
+            0x1000, 0x1006, 0x1008, 0x300, 0x010, 0x061, 0x061, 0x1027}[random_.below(8)];
         const auto high = static_cast<std::uint8_t>(address >> 8);
         body = {1, sequence, static_cast<std::uint8_t>(address), high, 2, 0, 0, 0};
+      } else if (random_.below(2) != 0) {
+        // A whole word, which is read above: a face of the membrane, or the level of the trigger.
+        const bool face = random_.below(2) != 0;
+        const auto low = static_cast<std::uint8_t>(face ? 0x61 : 0x27);
+        const auto high = static_cast<std::uint8_t>(face ? 0x00 : 0x10);
+        body = {2, sequence, low, high, byte(), byte(), byte(), byte()};
       } else {
         // A command: set_zero, clear_faults or kick.
-        body = {2, sequence, 0x01, 0x02, static_cast<std::uint8_t>(1u << random_.below(3)), 0, 0, 0};
+        body = {2, sequence, 0x01, 0x02, static_cast<std::uint8_t>(1u << random_.below(3)),
+                0, 0,        0};
       }
       const std::uint32_t crc = feltgate::crc32(body.data(), body.size());
       for (int k = 0; k < 32; k += 8) body.push_back(static_cast<std::uint8_t>(crc >> k));
@@ -182,9 +193,10 @@ TEST_CASE("ulx3s: the netlist does at every pin what the RTL does") {
       line = board.pin("ftdi_rxd");
     }
   }
-  std::cout << "the netlist of the ULX3S on 2 x " << clocks << " clocks, 0 mismatches; led[0] lit in " << armed
-            << ", an upper gate on in " << driving << ", " << lamps.size() << " pictures of lamps, "
-            << answered << " edges of answers\n";
+  std::cout << "the netlist of the ULX3S on 2 x " << clocks
+            << " clocks, 0 mismatches; led[0] lit in " << armed << ", an upper gate on in "
+            << driving << ", " << lamps.size() << " pictures of lamps, " << answered
+            << " edges of answers\n";
   REQUIRE(armed > clocks / 5);
   REQUIRE(driving > clocks / 200);
   REQUIRE(lamps.size() > 30);

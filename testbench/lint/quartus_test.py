@@ -45,6 +45,7 @@ IN_A_MODULE = (
     ("initial do ; while (0);", 1, "do;"),
     ("initial wait (0);", 1, "wait"),
     ("real a;", 1, "real"),
+    ("wire [11:0] a;\nwire [15:0] b = {8'd0, 8'(a) | 8'd1};", 2, "cast beside an operator"),
     ("typedef union packed {logic a; logic b;} u;", 1, "union"),
 )  # fmt: skip
 ELSEWHERE = (
@@ -67,6 +68,7 @@ GOOD = """module m #(parameter int W = 2) (input logic [W-1:0] a_i, output logic
     end
   end
   endgenerate
+  wire [3:0] c = {2'd0, 2'(a_i)} | 4'(a_i + 2'd1);
   always_comb begin
     unique case (a_i)
       2'd0: b_o = 1'b0;

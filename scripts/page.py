@@ -24,10 +24,10 @@ from paging.compile import CompileError, compile_core
 from reporting.progress import RedrawnLine, clock_text
 
 EPILOG = """examples:
-  feltgate page                          page.html: lever, paper and fast; open it in a browser
-  feltgate page --design mine -o my.html the page with rtl/designs/mine.toml first
-  feltgate page --update                 docs/page.html anew, after a change of twin or page
-  feltgate page --check                  is docs/page.html of this tree?
+  feltgate page                           page.html: lever, paper and fast; open it in a browser
+  feltgate page --design mine -o my.html  the page with rtl/designs/mine.toml first
+  feltgate page --update                  docs/page.html anew, after a change of twin or page
+  feltgate page --check                   is docs/page.html of this tree?
 
 It compiles for a minute or two. Exit code: 0 written or current, 1 --check found the page stale,
 2 a design or a tool cannot be used."""

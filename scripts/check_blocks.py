@@ -155,8 +155,10 @@ def check_lengths(root):
         for file in files:
             path = Path(folder, file)
             if path.suffix in SOURCE_SUFFIXES or file in ("CMakeLists.txt", "feltgate"):
-                lines = path.read_bytes().count(b"\n")
-                if lines > MAX_LINES:
+                data = path.read_bytes()
+                lines = data.count(b"\n")
+                # A user may have had the generator write into any folder.
+                if lines > MAX_LINES and b"do not edit" not in data[:500]:
                     relative = path.relative_to(root)
                     yield f"{relative}: {lines} lines, more than {MAX_LINES}; split it"
 

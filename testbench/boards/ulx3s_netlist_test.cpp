@@ -198,7 +198,7 @@ TEST_CASE("ulx3s: the netlist does at every pin what the RTL does") {
             << driving << ", " << lamps.size() << " pictures of lamps, " << answered
             << " edges of answers\n";
   REQUIRE(armed > clocks / 5);
-  REQUIRE(driving > clocks / 200);
+  REQUIRE(driving > clocks / 400);
   REQUIRE(lamps.size() > 30);
   REQUIRE(answered > 300);
 }

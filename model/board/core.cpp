@@ -10,9 +10,7 @@
 
 namespace feltgate::board {
 
-#define FELTGATE_DESIGN(name)                                    \
-  std::unique_ptr<Core> make_##name##_twin(const BoardOptions&); \
-  std::unique_ptr<Core> make_##name##_pins(const BoardOptions&);
+#define FELTGATE_DESIGN(name) std::unique_ptr<Core> make_##name##_twin(const BoardOptions&);
 #include "designs.inc"
 #undef FELTGATE_DESIGN
 
@@ -34,10 +32,8 @@ std::unique_ptr<Core> make_core(const std::string& design, const std::string& ki
     }
     return rtl_maker(design, options);
   }
-#define FELTGATE_DESIGN(name)                                                        \
-  if (design == #name) {                                                             \
-    return options.pins ? make_##name##_pins(options) : make_##name##_twin(options); \
-  }
+#define FELTGATE_DESIGN(name) \
+  if (design == #name) return make_##name##_twin(options);
 #include "designs.inc"
 #undef FELTGATE_DESIGN
   throw std::invalid_argument(fmt::format("design \"{}\" is not in this program", design));

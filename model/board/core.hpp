@@ -27,7 +27,6 @@ struct BoardOptions {
   bool simulated = true;
   int board = 0;             ///< which one it says it is
   std::uint32_t inputs = 1;  ///< the encoder's connector is in
-  bool pins = false;         ///< the link too clock by clock, to the UART's pins
 };
 
 /// A running sum over all that a tick shows: two runs with the same sum had the same ticks.

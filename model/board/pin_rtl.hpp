@@ -25,7 +25,8 @@ class PinRtl : public Core {
         line_(D::clock_hz, o.baud),
         inputs_(static_cast<std::uint8_t>(o.inputs)) {
     if (o.baud != LinkMap::baud) {
-      throw std::invalid_argument("--baud: the RTL's link was built for 1000000; leave it out");
+      throw std::invalid_argument(
+          "--rtl: its link was built for 1000000 baud; leave --baud out, or take the twin");
     }
     drive({});
     rtl_->uart_rx_i = 1;
@@ -33,7 +34,7 @@ class PinRtl : public Core {
   }
 
   const DesignInfo& design() const override { return info_; }
-  const char* kind() const override { return "rtl, UART pins"; }
+  const char* kind() const override { return "rtl"; }
   void run(const BoardIn& in, Clock clocks) override {
     drive(in);
     for (; clocks > 0; --clocks) {

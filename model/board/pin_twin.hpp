@@ -19,7 +19,7 @@ class PinTwin : public Core {
         inputs_(static_cast<std::uint8_t>(o.inputs)) {}
 
   const DesignInfo& design() const override { return info_; }
-  const char* kind() const override { return "twin, UART pins"; }
+  const char* kind() const override { return "twin"; }
   void run(const BoardIn& in, Clock clocks) override {
     LinkedIn pins;
     pins.encoder = in.encoder;

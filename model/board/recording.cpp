@@ -48,10 +48,9 @@ std::vector<std::uint8_t> bytes_of(const std::string& hex) {
 RecordingWriter::RecordingWriter(std::FILE* to, const Setup& s) : to_(to) {
   fmt::print(to_,
              "{}\n# written by feltgate board --record; lines of a clock and the bytes that came\n"
-             "design {}\nplant {}\nhand {}\nscene {}\narm {:d}\npins {:d}\nbaud {}\nbad_line "
+             "design {}\nplant {}\nhand {}\nscene {}\narm {:d}\nbaud {}\nbad_line "
              "{}\nseed {}\n",
-             kFirstLine, s.design, s.plant, s.hand, s.scene, s.arm, s.pins, s.baud, s.bad_line,
-             s.seed);
+             kFirstLine, s.design, s.plant, s.hand, s.scene, s.arm, s.baud, s.bad_line, s.seed);
 }
 
 void RecordingWriter::add(const Arrival& a) {
@@ -80,7 +79,6 @@ Recording read_recording(const std::string& path) {
       {"hand", [&] { r.setup.hand = value; }},
       {"scene", [&] { r.setup.scene = value; }},
       {"arm", [&] { r.setup.arm = number<std::int64_t>(value) != 0; }},
-      {"pins", [&] { r.setup.pins = number<std::int64_t>(value) != 0; }},
       {"baud", [&] { r.setup.baud = number<std::int64_t>(value); }},
       {"bad_line", [&] { r.setup.bad_line = number<double>(value); }},
       {"seed", [&] { r.setup.seed = number<std::uint64_t>(value); }},

@@ -17,8 +17,7 @@ namespace feltgate::board {
 /// How a board was started.
 struct Setup {
   std::string design = "lever", plant = "p24", hand = "free", scene = "free";
-  bool arm = false;   ///< the panel's switch
-  bool pins = false;  ///< the link clock by clock, to the UART's pins
+  bool arm = false;  ///< the panel's switch
   std::int64_t baud = 1'000'000;
   double bad_line = 0;     ///< share of bytes that the line spoils, each way
   std::uint64_t seed = 1;  ///< of that

@@ -37,7 +37,6 @@ struct Arguments {
 std::unique_ptr<Board> make_board(const Setup& setup, const std::string& kind) {
   BoardOptions options;
   options.baud = setup.baud;
-  options.pins = setup.pins;
   auto core = make_core(setup.design, kind, options);
   return std::make_unique<Board>(std::move(core),
                                  plant::read_plant_file(find_file(setup.plant, "vectors/plants")),
@@ -135,10 +134,9 @@ int main(int argc, char** argv) {
   CLI::App app{"feltgate board: a board without hardware, behind a pseudo-terminal"};
   app.name("feltgate board");
   app.footer(
-      "Prints the name of a terminal; behind it are core, link, bridge, motor, lever and hand. A\n"
-      "host cannot tell it from a board, except by the bit `simulated` of its features. The link "
-      "is a\n"
-      "model at the level of bytes; the core is the twin or the RTL.\n"
+      "Prints the name of a terminal; behind it are the UART's pins, link, core, bridge, motor,\n"
+      "lever and hand. A host cannot tell it from a board, except by the bit `simulated` of its\n"
+      "features.\n"
       "  feltgate board                              then, in another window,\n"
       "  feltgate host /dev/pts/7 info               with the name that was printed\n"
       "  feltgate board --link /tmp/lever --hand swing --scene wall --arm\n"
@@ -150,8 +148,8 @@ int main(int argc, char** argv) {
       "docs/board.md teaches.");
   Arguments a;
   app.add_flag("--twin", a.twin, "the bit-exact twin; the default");
-  app.add_flag("--rtl", a.rtl, "the core's RTL, compiled by Verilator");
-  app.add_flag("--pins", a.setup.pins, "the link too clock by clock, to the UART's pins");
+  app.add_flag("--rtl", a.rtl,
+               "the RTL of core and link, compiled by Verilator; of the design lever, at 1 Mbaud");
   app.add_option("--design", a.setup.design, "design that was built in, by its name in rtl/designs")
       ->capture_default_str()
       ->type_name("DESIGN");

@@ -1,23 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# feltgate_board: a board without hardware, with the twin; feltgate_board_rtl with the Verilated core
+# feltgate_board: a board without hardware, with the twin; feltgate_board_rtl with the Verilated RTL
 # too. docs/board.md
 include_guard(GLOBAL)
 
 feltgate_library(feltgate_board_parts board EXCEPT "/rtl_cores" feltgate_loop)
-set(rtl_sources "${FELTGATE_ROOT}/model/board/rtl_cores.cpp")
-set(rtl_libraries "")
 foreach(design IN LISTS FELTGATE_DESIGNS)
   set(type ${FELTGATE_TYPE_${design}})
   set(generated "${PROJECT_BINARY_DIR}/engines/${design}_board")
   feltgate_for_design(design_board.cpp.in "${generated}.cpp")
-  feltgate_for_design(design_board_rtl.cpp.in "${generated}_rtl.cpp")
   target_sources(feltgate_board_parts PRIVATE "${generated}.cpp")
-  list(APPEND rtl_sources "${generated}_rtl.cpp")
-  list(APPEND rtl_libraries core_${design})
 endforeach()
-# The link's RTL too, of one design: each costs a minute to compile.
+# The RTL of one design: each costs a minute to compile.
 set(design lever)
 set(type ${FELTGATE_TYPE_lever})
 file(STRINGS "${FELTGATE_ROOT}/rtl/feltgate_linked.f" linked_sources REGEX "^[^/]")
@@ -26,9 +21,9 @@ feltgate_verilate(board_lever board_pins
   "${FELTGATE_ROOT}/rtl/generated/lever/feltgate_pkg.sv;${linked_sources};${FELTGATE_ROOT}/model/board/board_pins.sv"
   CLASS Vboard_lever -O3)
 target_compile_options(board_lever PRIVATE ${FELTGATE_FASTEST_RTL})
-feltgate_for_design(design_board_pins.cpp.in "${PROJECT_BINARY_DIR}/engines/lever_board_pins.cpp")
-list(APPEND rtl_sources "${PROJECT_BINARY_DIR}/engines/lever_board_pins.cpp")
-list(APPEND rtl_libraries board_lever)
+set(rtl_sources "${FELTGATE_ROOT}/model/board/rtl_cores.cpp"
+  "${PROJECT_BINARY_DIR}/engines/lever_board_rtl.cpp")
+feltgate_for_design(design_board_rtl.cpp.in "${PROJECT_BINARY_DIR}/engines/lever_board_rtl.cpp")
 
 target_include_directories(feltgate_board_parts PRIVATE "${PROJECT_BINARY_DIR}/engines")
 target_compile_options(feltgate_board_parts PRIVATE ${FELTGATE_ENGINE_OPTIONS})
@@ -36,7 +31,7 @@ target_compile_options(feltgate_board_parts PRIVATE ${FELTGATE_ENGINE_OPTIONS})
 set(board_program board_main.cpp checks.cpp commands.cpp command_line.cpp)
 set(board_libraries feltgate_board_parts feltgate_files feltgate_design CLI11::CLI11)
 feltgate_program(feltgate_board "${board_program}" ${board_libraries})
-feltgate_program(feltgate_board_rtl "${board_program}" ${board_libraries} ${rtl_libraries})
+feltgate_program(feltgate_board_rtl "${board_program}" ${board_libraries} board_lever)
 target_sources(feltgate_board_rtl PRIVATE ${rtl_sources})
 target_include_directories(feltgate_board_rtl PRIVATE "${PROJECT_BINARY_DIR}/engines")
 set_source_files_properties(${rtl_sources} PROPERTIES COMPILE_OPTIONS "-O3;-fno-tree-slp-vectorize")

@@ -101,18 +101,6 @@ class Verbs(BoardTest):
             self.assertEqual(board.end()[0], 0)
             self.assertFalse(port.is_symlink())
 
-    def test_the_link_to_its_pins(self):
-        with Board(self.folder, "--pins", "--hand", "swing", "--record", "p.board") as board:
-            self.assertIn("SIMULATED", self.host(board.port, "info"))
-            self.host(board.port, "set", "torque_limit=0.1Nm")
-            self.assertAlmostEqual(self.value(board.port, "torque_limit"), 0.1, places=4)
-            self.host(board.port, "arm", "spring_tension")
-            self.assertEqual(self.value(board.port, "status.armed"), 1)
-            self.host(board.port, "disarm")
-            self.assertEqual(board.end()[0], 0)
-        said = self.run_program("feltgate_board", "--replay", "p.board")
-        self.assertIn("identical to the recording", said)
-
     def test_calibrate_finds_dead_zone_and_slope(self):
         noise = random.Random(5)
         volts = (1.5, 2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5)
@@ -258,10 +246,6 @@ class Recordings(BoardTest):
         self.record("--hand", "swing", "--rtl", program="feltgate_board_rtl", path="rtl.board")
         again = self.run_program("feltgate_board", "--replay", "rtl.board")
         self.assertIn("identical to the recording", again)
-        # And the link's RTL, to its pins.
-        self.record("--pins", "--rtl", program="feltgate_board_rtl", path="pins.board")
-        again = self.run_program("feltgate_board", "--replay", "pins.board")
-        self.assertIn("identical to the recording", again)
 
     def test_other_bytes_are_other_ticks(self):
         self.record()
@@ -287,6 +271,14 @@ class Recordings(BoardTest):
         ):
             with self.subTest(words):
                 self.assertIn(needle, self.run_program("feltgate_board", *words, status=2))
+        for words, needle in (
+            (("--design", "paper"), "leave --rtl out"),
+            (("--baud", "115200"), "leave --baud out, or take the twin"),
+        ):
+            with self.subTest(words):
+                words = ("--rtl", "--for", "1", *words)
+                said = self.run_program("feltgate_board_rtl", *words, status=2)
+                self.assertIn(needle, said)
         (self.folder / "there").write_text("mine")
         said = self.run_program("feltgate_board", "--link", "there", status=2)
         self.assertIn("is there and no symbolic link", said)

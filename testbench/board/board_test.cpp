@@ -10,9 +10,9 @@
 #include <memory>
 
 #include "board/board.hpp"
-#include "board/byte_link.hpp"
 #include "catch.hpp"
 #include "feltgate/crc32.hpp"
+#include "feltgate/generated/link.hpp"
 #include "plant/plant_file.hpp"
 
 using namespace feltgate;
@@ -78,8 +78,6 @@ class Bench {
  public:
   explicit Bench(const std::string& hand = "free", Setup setup = {}) {
     setup.hand = hand;
-    BoardOptions options;
-    options.pins = setup.pins;
     board_ =
         std::make_unique<Board>(make_core(setup.design, "twin", {}),
                                 plant::read_plant_file(FELTGATE_ROOT "/vectors/plants/p24.toml"),
@@ -160,26 +158,6 @@ TEST_CASE("board: answers as docs/link.md says", "[board]") {
   CHECK(word_of(many, 4 + 7 * 4) == 0);  // frames_bad
 }
 
-TEST_CASE("board: the link's twin to the pins gives the same answers and ticks", "[pins]") {
-  Setup pins;
-  pins.pins = true;
-  Bench bytes("swing"), exact("swing", pins);
-  for (Bench* b : {&bytes, &exact}) {
-    CHECK(b->read(M::A::identity) == M::identity);
-    b->write(0x018, 0x1234);
-    b->write(0x200, 1 | 7 << 2);
-  }
-  CHECK(bytes.ask(1, 0, 64) == exact.ask(1, 0, 64));
-  CHECK(bytes.read(M::A::frames_good) == exact.read(M::A::frames_good));
-  CHECK((exact.read(M::A::features) & 1) == 1);  // simulated
-  // Writes act in the same tick, so that all ticks are the same.
-  bytes.run(0.1);
-  exact.board().run_to(bytes.board().now());
-  CHECK(bytes.board().now() == exact.board().now());
-  CHECK(bytes.board().outcome().ticks == exact.board().outcome().ticks);
-  CHECK(bytes.board().outcome().tick_sum == exact.board().outcome().tick_sum);
-}
-
 TEST_CASE("board: a repeated write is done once", "[board]") {
   Bench b;
   const Bytes write = request(2, 9, 0x018, 6);
@@ -222,26 +200,6 @@ TEST_CASE("board: garbage changes no word, and is counted", "[board]") {
   CHECK(words() == before);
   CHECK(b.read(M::A::frames_bad) >= 3000);
   CHECK(b.read(M::A::last_write_sequence) == M::no_sequence);
-}
-
-TEST_CASE("board: the parser alone, a million random frames", "[board]") {
-  ByteLink link({});
-  SplitMix64 random(8);
-  std::uint32_t good = 0;
-  for (int k = 0; k < 1'000'000; ++k) {
-    const std::int64_t size = 8 + random.below(9);
-    for (std::int64_t n = 0; n < size; ++n) {
-      good += link.receive(static_cast<std::uint8_t>(random.bits())) ? 1 : 0;
-    }
-    good += link.receive(0xc0) ? 1 : 0;
-  }
-  CHECK(good == 0);
-  CHECK(link.read(M::A::frames_good) == 0);
-  CHECK(link.read(M::A::frames_bad) >= 1'000'000);
-  CHECK(link.read(M::A::last_write_sequence) == M::no_sequence);
-  bool taken = false;
-  for (const std::uint8_t byte : request(1, 1, 0x300, 64)) taken = link.receive(byte) || taken;
-  CHECK(taken);
 }
 
 TEST_CASE("board: ticks do not depend on who listens, or when one looks", "[board]") {

@@ -6,6 +6,7 @@
 // Documentation: docs/blocks/feltgate_linked.md
 #include <Vfeltgate_linked.h>
 
+#include <cstdio>
 #include <deque>
 
 #include "catch.hpp"
@@ -311,6 +312,8 @@ TEST_CASE("feltgate_linked: random frames: what is no request changes nothing") 
       }
     }
   }
+  std::printf("frames: %lld accepted, %lld refused\n", static_cast<long long>(reader.good),
+              static_cast<long long>(reader.bad));
   CHECK(bad_frames > wanted / 4);
   CHECK(replies > wanted / 4);
   CHECK(done > 0);

@@ -7,6 +7,7 @@
 
 #include <Vlink_receiver.h>
 
+#include <cstdio>
 #include <memory>
 
 #include "../feltgate_linked/frames.hpp"
@@ -124,6 +125,38 @@ TEST_CASE("link_receiver: frames of every kind, RTL against twin and page") {
   }
   CHECK(good > 3'000);
   CHECK(bad > 3'000);
+}
+
+TEST_CASE("link_receiver: frames of random bytes are no requests, and each is counted") {
+  Twin twin;
+  WireReader reader;
+  Random random(8);
+  std::int64_t accepted = 0, refused = 0;
+  const auto send = [&](std::uint8_t byte) {
+    reader.take(byte);
+    twin.clock({byte, true, false, false});
+    for (int k = 0; k < 9; ++k) {
+      accepted += twin.out().good;
+      refused += twin.out().bad;
+      twin.clock({});
+    }
+  };
+  const std::int64_t frames = scaled_clocks(20'000);  // a million with FELTGATE_LONG=50
+  for (std::int64_t k = 0; k < frames; ++k) {
+    const std::uint32_t size = 8 + random.below(9);
+    send(static_cast<std::uint8_t>(random.below(192)));  // so that none is empty
+    for (std::uint32_t n = 1; n < size; ++n) send(static_cast<std::uint8_t>(random.below(256)));
+    send(0xc0);
+  }
+  std::printf("random frames: %lld accepted, %lld refused\n", static_cast<long long>(accepted),
+              static_cast<long long>(refused));
+  CHECK(accepted == 0);
+  CHECK(refused == reader.bad);
+  CHECK(refused >= frames);
+  CHECK(!twin.out().request.valid);
+  // It still takes a request.
+  for (const std::uint8_t byte : request(2, 1, 0x18, 6)) send(byte);
+  CHECK(accepted == 1);
 }
 
 TEST_CASE("link_receiver: the borders of what a request may be") {

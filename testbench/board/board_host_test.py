@@ -74,6 +74,10 @@ class BoardTest(unittest.TestCase):
         words = ("--patience", 20, port, *words)
         return self.run_program("feltgate_host", *words, status=status, typed=typed)
 
+    def patient(self, port):
+        """A watchdog of 1 s: what is no test of it must not fail on a busy machine."""
+        self.host(port, "set", "watchdog_ticks=1000000")
+
     def value(self, port, name):
         self.host(port, "get", name, "--json", "v.json")
         text = (self.folder / "v.json").read_text(encoding="utf-8")
@@ -88,6 +92,7 @@ class Verbs(BoardTest):
             self.assertIn("SIMULATED", self.host(port, "info"))
             self.host(port, "set", "torque_limit=0.1Nm")
             self.assertAlmostEqual(self.value(port, "torque_limit"), 0.1, places=4)
+            self.patient(port)
             self.host(port, "arm", "spring_tension")
             self.assertEqual(self.value(port, "status.armed"), 1)
             self.host(port, "capture", "--trigger", "velocity>1", "--csv", "c.csv")
@@ -106,6 +111,7 @@ class Verbs(BoardTest):
         volts = (1.5, 2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5)
         typed = "".join(f"{SLOPE * (v - DEAD) + noise.gauss(0, 0.002):.4f}\n" for v in volts)
         with Board(self.folder, "--hand", "locked") as board:
+            self.patient(board.port)
             said = self.host(
                 board.port, "calibrate", "--points", ",".join(map(str, volts)), "--json", "c.json",
                 "--save", "c.csv", "--confidence", 0.99, "--write", "mine.toml", typed=typed,
@@ -133,6 +139,7 @@ class Verbs(BoardTest):
         with Board(self.folder) as board:
             said = self.host(board.port, "identify", status=2)
             self.assertIn("say so with --free", said)
+            self.patient(board.port)
             self.host(
                 board.port, "identify", "--free", "--resistance", 0.42, "--electrical-time",
                 196e-6, "--step", 0.2, "--spin", 0.15, "--json", "i.json", "--save", "lever",
@@ -214,6 +221,7 @@ class Lines(BoardTest):
 
     def test_two_hosts_at_once(self):
         with Board(self.folder) as board:
+            self.patient(board.port)
             words = [BUILD / "feltgate_host", board.port, "arm", "free", "--hold"]
             first = subprocess.Popen(words, stdout=subprocess.PIPE,
                                      env=os.environ | {"FELTGATE_ROOT": str(ROOT)})  # fmt: skip
@@ -231,6 +239,7 @@ class Recordings(BoardTest):
         with Board(self.folder, "--record", path, *words, program=program) as board:
             self.host(board.port, "set", "torque_limit=0.1")
             if "--rtl" not in words:  # which takes its time
+                self.patient(board.port)
                 self.host(board.port, "arm", "wall")
                 self.host(board.port, "record", "position", "--for", "0.02", "--csv", "r.csv")
             status, said = board.end()

@@ -27,7 +27,7 @@ try:
 except ImportError:
     webdriver = None
 DRIVER = shutil.which("chromedriver")
-ARGUMENTS = "--headless=new --no-sandbox --window-size=1400,1300 --hide-scrollbars".split()
+ARGUMENTS = "--headless=new --no-sandbox --disable-dev-shm-usage --window-size=1400,1300".split()
 PATIENCE_S = 120  # of whole minutes on a machine that does other things too
 
 

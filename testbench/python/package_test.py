@@ -172,7 +172,8 @@ class Installed(unittest.TestCase):
             if path.stem == "narrow":  # made by the build
                 continue
             self.assertTrue(filecmp.cmp(path, ROOT / path.relative_to(data), shallow=False), path)
-        in_tree = [path.stem for path in (ROOT / "rtl/designs").glob("*.toml")]
+        in_tree = {path.stem for path in (ROOT / "rtl/designs").glob("*.toml")}
+        in_tree.remove("first_power")  # a board's for an hour: scripts/cmake/engines.cmake
         self.assertEqual(names[2], sorted([*in_tree, "narrow"]))
 
     def test_version(self):

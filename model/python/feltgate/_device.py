@@ -93,6 +93,7 @@ class Device:
         self._core.kick()
 
     def disarm(self) -> None:
+        """Takes the request for torque away; the gates are off within a tick."""
         self._core.disarm()
 
     def stop(self) -> None:

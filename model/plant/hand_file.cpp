@@ -7,6 +7,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
 #include <utility>
 
 #include "plant/plant_table.hpp"
@@ -80,6 +83,13 @@ Trace read_trace(config::TomlReader& table) {
   Trace trace;
   if (table.has("file")) {
     const std::string file = beside(table.file(), table.text("file"));
+    std::error_code ignored;
+    // What is wrong within the file is told with its own lines.
+    if (!std::filesystem::is_regular_file(file, ignored) ||
+        std::ifstream(file).peek() == std::ifstream::traits_type::eof()) {
+      table.fail("file", fmt::format("{}: cannot be opened, or is empty", file),
+                 "check the path and the rights");
+    }
     trace = read_trace_file(file);
     trace.file = file;
     check_trace(table, "file", trace);

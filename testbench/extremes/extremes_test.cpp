@@ -88,6 +88,7 @@ EXTREME(border_015)
 EXTREME(lever_monotone)
 EXTREME(wall_edge)
 EXTREME(clock_of_the_simulator)
+EXTREME(two_minutes)
 
 TEST_CASE("every short case is tested, and the page has no other", "[list]") {
   std::set<std::string> names;

@@ -70,6 +70,7 @@ PLACEHOLDERS = {
     "design NAME": "lever",
     "design DESIGN": "lever",
     "design FILE": "my_design.toml",
+    "design mine.toml": "my_design.toml",
     "--design NAME": "lever",
     "--design D": "lever",
     "--design FILE.toml": "my_design.toml",

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A force law as a graph: what the reader of a law file makes, and what evaluation, proofs and the
+// compiler work on. Values are real numbers in SI units; angles are in rad. Documentation:
+// docs/laws.md
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace feltgate::law {
+
+/// A place in the file, counted from 1.
+struct Place {
+  int line = 1;
+  int column = 1;
+};
+
+/// Exponents of m, kg, s and A. An angle is a number.
+struct Unit {
+  std::array<int, 4> exponents{};
+  bool operator==(const Unit& other) const { return exponents == other.exponents; }
+};
+
+/// Closed; lower <= upper.
+struct Range {
+  double lower = 0;
+  double upper = 0;
+};
+
+/// A node's number in Law::nodes. Arguments come before their users.
+using NodeId = int;
+
+enum class Op : std::uint8_t {
+  constant,     ///< Node::value
+  parameter,    ///< Law::parameters[index]: a parameter or a mailbox word, fixed during a run
+  input,        ///< Law::inputs[index]
+  state,        ///< Law::states[index], as the run before left it
+  add,          ///< a + b
+  subtract,     ///< a - b
+  multiply,     ///< a * b
+  negate,       ///< -a
+  absolute,     ///< |a|
+  minimum,      ///< of a, b
+  maximum,      ///< of a, b
+  less,         ///< a < b, a truth value; `a > b` is written `b < a`
+  both,         ///< truth values: a and b
+  either,       ///< a or b
+  opposite,     ///< not a
+  select,       ///< a ? b : c, a is a truth value
+  sine,         ///< of an angle, of any size
+  cosine,       ///<
+  root,         ///< square root, argument >= 0
+  reciprocal,   ///< 1/a, argument away from 0
+  exponential,  ///< e^a
+  lookup,       ///< Law::tables[index] at a: linear between its samples, clamped to its ends
+  element,    ///< Law::arrays[index], element a (a whole number, rounded down), clamped to its ends
+  line_read,  ///< Law::lines[index]: what was written b runs ago, b in 1 .. length; argument a is b
+};
+
+struct Node {
+  Op op = Op::constant;
+  std::vector<NodeId> arguments;
+  int index = -1;    ///< where `op` says so
+  double value = 0;  ///< of a constant
+  bool truth = false;
+  Unit unit;
+  Place place;
+};
+
+/// A word that the host can write at run time, within its range.
+struct Parameter {
+  std::string name;
+  std::string unit_text;  ///< as written, e.g. "Nm/rad"
+  Unit unit;
+  double to_si = 1;    ///< SI value of 1 in the unit as written
+  double initial = 0;  ///< in SI, as all that follows
+  Range range;
+  bool whole = false;    ///< an integer
+  bool mailbox = false;  ///< fed all the time by the host
+  double max_age_s = 0;  ///< of a mailbox: older, and the outputs go to 0
+  NodeId derived = -1;   ///< >= 0: computed by the host from other parameters by this node
+  std::string comment;
+  Place place;
+};
+
+enum class Source : std::uint8_t { position, velocity, tau_hat };
+
+struct Input {
+  Source source = Source::position;
+  int axis = 0;
+  std::string name;
+};
+
+struct State {
+  std::string name;
+  std::string unit_text;
+  Unit unit;
+  double initial = 0;
+  Range range;         ///< declared; shown inductive by the compiler
+  bool phase = false;  ///< wraps at the ends of its range
+  bool whole = false;
+  NodeId next = -1;
+  Place place;
+};
+
+/// A function of one variable, sampled by the compiler.
+struct Table {
+  std::string name;
+  Range domain;
+  NodeId argument = -1;  ///< an Op::input with index -1, that stands for the variable in `body`
+  NodeId body = -1;
+  int segments = 0;  ///< 0: the compiler chooses
+  Place place;
+};
+
+/// Numbers in table memory.
+struct Array {
+  std::string name;
+  Unit unit;
+  std::vector<double> values;
+  Place place;
+};
+
+/// A delay line: one word written per run.
+struct Line {
+  std::string name;
+  int length = 0;
+  Range range;
+  NodeId written = -1;
+  Place place;
+};
+
+struct Output {
+  std::string name;  ///< torque
+  int axis = 0;
+  NodeId value = -1;  ///< Nm
+  Place place;
+};
+
+struct Event {
+  std::string name;
+  int number = 0;  ///< from 1 in the order of the file
+  NodeId value = -1;
+  NodeId condition = -1;
+  Place place;
+};
+
+/// Parsed, its units checked, its loops unrolled, equal nodes merged, constants folded.
+struct Law {
+  std::string name;
+  std::string summary;  ///< the first comment of the file
+  double rate_hz = 0;   ///< 0: as fast as it gets
+  std::vector<Parameter> parameters;
+  std::vector<Input> inputs;
+  std::vector<State> states;
+  std::vector<Table> tables;
+  std::vector<Array> arrays;
+  std::vector<Line> lines;
+  std::vector<Output> outputs;
+  std::vector<Event> events;
+  std::vector<Node> nodes;
+};
+
+}  // namespace feltgate::law

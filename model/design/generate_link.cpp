@@ -11,6 +11,7 @@
 
 #include "design/generate.hpp"
 #include "design/text_case.hpp"
+#include "feltgate/crc32.hpp"
 
 namespace feltgate::design {
 
@@ -35,6 +36,11 @@ std::string link_package(const RegisterMap& map) {
   for (const Cause& c : map.link_constants) {
     s << fmt::format("  localparam int {} = 'h{:x};  // {}\n", upper(c.name), c.number, c.doc);
   }
+  s << fmt::format(
+      "\n  // The CRC-32 of a frame: reflected polynomial, register after a whole frame.\n"
+      "  localparam logic [31:0] CRC_POLYNOMIAL = 32'h{:08x};\n"
+      "  localparam logic [31:0] CRC_GOOD = 32'h{:08x};\n",
+      crc32_polynomial, crc32_good);
   s << "\n  // Addresses of the words; bits (B) and widths (W) of their fields.\n";
   for (const LinkWord& w : map.link_words) {
     s << fmt::format("  localparam logic [15:0] A_{} = 16'h{:04x};\n", upper(w.name), w.address);

@@ -46,16 +46,11 @@ json recorded(const std::string& design, const std::string& scene) {
           {"hash", page::hex(page::hash_of(design, page::inputs_from_text(text)))}};
 }
 
-/// The hand of the page leads the lever into a wall, stays, and lets go.
 json closed_loop(const std::string& design) {
-  page::LiveLoop loop(design, feltgate::plant::read_plant_file(vectors + "plants/p24.toml"));
-  loop.select("wall");
-  loop.arm(true);
-  loop.hold(page::Grip::hand);
   json rows = json::array();
-  for (int frame = 0; frame < page::script_frames; ++frame) {
-    page::follow_script(loop, frame);
-    rows.push_back({loop.observables().theta_rad, loop.samples().back().torque_nm});
+  for (const page::ScriptRow& row :
+       page::follow_script(design, feltgate::plant::read_plant_file(vectors + "plants/p24.toml"))) {
+    rows.push_back({row.theta_rad, row.torque_nm});
   }
   return {{"design", design}, {"scene", "wall"}, {"rows", rows}};
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engines/fnv1a.hpp"
 #include "loop/scenario.hpp"
 #include "plant/drive.hpp"
 
@@ -32,48 +33,27 @@ StepPlan plan_for(const plant::Parameters& plant, const DesignInfo& d) {
           longest_step_clocks(scenario, plant, static_cast<double>(d.clock_hz)), d.pwm_period};
 }
 
-/// FNV-1a, byte by byte, little end first.
-class Hash {
- public:
-  void add(std::int64_t value) {
-    auto word = static_cast<std::uint64_t>(value);
-    for (int byte = 0; byte < 8; ++byte, word >>= 8) {
-      value_ = (value_ ^ (word & 0xffu)) * 0x100000001b3u;
-    }
+/// Every word of a snapshot, in the order of the struct.
+void add(Fnv1a& hash, const Snapshot& s) {
+  for (const std::int64_t word :
+       {std::int64_t{s.tick}, std::int64_t{s.position}, s.velocity, s.tau_hat, s.tau_ref,
+        s.current_ref, s.voltage, s.duty, std::int64_t{s.scene}, std::int64_t{s.limits},
+        std::int64_t{s.faults}, std::int64_t{s.first_fault}, std::int64_t{s.armed ? 1 : 0}}) {
+    hash.add(word);
   }
-  void add(const Snapshot& s) {
-    add(s.tick);
-    add(s.position);
-    add(s.velocity);
-    add(s.tau_hat);
-    add(s.tau_ref);
-    add(s.current_ref);
-    add(s.voltage);
-    add(s.duty);
-    add(s.scene);
-    add(s.limits);
-    add(s.faults);
-    add(s.first_fault);
-    add(s.armed ? 1 : 0);
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325u;
-};
+}
 
 }  // namespace
 
 LiveLoop::LiveLoop(const std::string& design, const plant::Parameters& plant)
-    : parameters_(plant),
-      core_(design, EngineChoice{"twin", {"double"}, false}, 1, EncoderPins{}, Waveform{}),
-      plant_(plant, plant.effects, plant::drive_of(core_.design()), plant::Hand{}),
+    : plant_(plant, plant.effects, plant::drive_of(design_named(design)), plant::Hand{}),
+      core_(design, EngineChoice{"twin", {"double"}, false}, 1, plant_.encoder().pins(),
+            Waveform{}),
       clock_hz_(static_cast<double>(core_.design().clock_hz)),
       plan_(plan_for(plant, core_.design())),
-      mean_(core_.design().pwm_period, plan_.phase()) {
-  core_.lead().reset(1, plant_.encoder().pins());
+      mean_(core_.design().pwm_period, plan_.phase()),
+      pins_(plant_.encoder().pins()) {
   core_.lead().keep_gate_times(false);
-  pins_ = plant_.encoder().pins();
   control();
 }
 
@@ -206,23 +186,32 @@ void LiveLoop::tick(const Snapshot& s) {
 
 double LiveLoop::take_difference() { return std::exchange(difference_nm_, 0.0); }
 
-void follow_script(LiveLoop& loop, int frame) {
-  constexpr int in = 40, out = 70;  // frames: there, and off again
-  const double way = frame < in    ? frame / static_cast<double>(in)
-                     : frame < out ? 1.0
-                                   : 1.0 - (frame - out) / 20.0;
-  loop.lead(0.8 * way);
-  loop.advance(loop.design().tick_hz / 60, 200);
+std::vector<ScriptRow> follow_script(const std::string& design, const plant::Parameters& plant) {
+  constexpr int frames = 90, in = 40, out = 70;  // of 1/60 s; there, and off again
+  LiveLoop loop(design, plant);
+  loop.select("wall");
+  loop.arm(true);
+  loop.hold(Grip::hand);
+  std::vector<ScriptRow> rows;
+  for (int frame = 0; frame < frames; ++frame) {
+    const double way = frame < in    ? frame / static_cast<double>(in)
+                       : frame < out ? 1.0
+                                     : 1.0 - (frame - out) / 20.0;
+    loop.lead(0.8 * way);
+    loop.advance(loop.design().tick_hz / 60, 200);
+    rows.push_back({loop.observables().theta_rad, loop.samples().back().torque_nm});
+  }
+  return rows;
 }
 
 std::uint64_t hash_of(const std::string& design, const RunInputs& inputs) {
   const auto engine = make_engine(design, "twin");
   engine->reset(1, inputs.pins);
   engine->keep_gate_times(false);
-  Hash hash;
+  Fnv1a hash;
   std::size_t edge = 0, write = 0;
   const auto note = [&] {
-    for (const Snapshot& s : engine->snapshots()) hash.add(s);
+    for (const Snapshot& s : engine->snapshots()) add(hash, s);
   };
   while (engine->now() < inputs.clocks) {
     const Clock now = engine->now();

@@ -84,9 +84,8 @@ class LiveLoop {
   void host(const Snapshot& s);
   const std::vector<EncoderEvent>& through_the_wires(const std::vector<EncoderEvent>& events);
 
-  plant::Parameters parameters_;
-  Ensemble core_;
   plant::Plant plant_;
+  Ensemble core_;
   double clock_hz_;
   StepPlan plan_;
   plant::PeriodMean mean_;
@@ -107,10 +106,14 @@ class LiveLoop {
   std::vector<Sample> samples_;
 };
 
-/// A motion that native program and page both make, to be compared: frames of 1/60 s in which the
-/// hand goes into the wall, stays and comes back. Call hold(Grip::hand) before the first.
-constexpr int script_frames = 90;
-void follow_script(LiveLoop& loop, int frame);
+/// Where the lever was after a frame, and what the motor did.
+struct ScriptRow {
+  double theta_rad = 0, torque_nm = 0;
+};
+
+/// A motion that native program and page both make, to be compared: a hand goes into the wall,
+/// stays and comes back, frame by frame.
+std::vector<ScriptRow> follow_script(const std::string& design, const plant::Parameters& plant);
 
 /// Hash over every snapshot of the twin of a design that gets these inputs: FNV-1a of 64 bits, over
 /// the words of the core's snapshot. Equal bits, equal hash, on any machine.

@@ -129,18 +129,14 @@ std::string hash(const std::string& design, const std::string& inputs) {
   return error.empty() ? out : "error: " + error;
 }
 
-/// The closed loop of follow_script() as it goes here: angle and motor torque after each frame.
+/// The closed loop of follow_script() as it goes here.
 val closed_loop(const std::string& design) {
   val rows = val::array();
-  page::LiveLoop loop(design, feltgate::plant::read_plant_file(plant_path("p24")));
-  loop.select("wall");
-  loop.arm(true);
-  loop.hold(page::Grip::hand);
-  for (int frame = 0; frame < page::script_frames; ++frame) {
-    page::follow_script(loop, frame);
+  for (const page::ScriptRow& script :
+       page::follow_script(design, feltgate::plant::read_plant_file(plant_path("p24")))) {
     val row = val::array();
-    row.call<void>("push", loop.observables().theta_rad);
-    row.call<void>("push", loop.samples().back().torque_nm);
+    row.call<void>("push", script.theta_rad);
+    row.call<void>("push", script.torque_nm);
     rows.call<void>("push", row);
   }
   return rows;

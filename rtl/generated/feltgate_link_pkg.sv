@@ -28,6 +28,10 @@ package feltgate_link_pkg;
   localparam int ROWS_LOG2 = 'ha;  // log2 of the rows of the capture memory
   localparam int COLUMNS = 'h8;  // words of a row
 
+  // The CRC-32 of a frame: reflected polynomial, register after a whole frame.
+  localparam logic [31:0] CRC_POLYNOMIAL = 32'hedb88320;
+  localparam logic [31:0] CRC_GOOD = 32'hdebb20e3;
+
   // Addresses of the words; bits (B) and widths (W) of their fields.
   localparam logic [15:0] A_IDENTITY = 16'h1000;
   localparam logic [15:0] A_VERSION = 16'h1001;

@@ -112,7 +112,8 @@ module link_port #(
 
   // By itself: in a concatenation Yosys (0.23, 0.70) took it for 32 bits.
   logic [7:0] kind;
-  assign kind = 8'(feltgate_link_pkg::KIND_REPLY) | {6'd0, write_i, !write_i};
+  assign kind = 8'(feltgate_link_pkg::KIND_REPLY) |
+                8'(write_i ? feltgate_link_pkg::KIND_WRITE : feltgate_link_pkg::KIND_READ);
   assign taken_o = state_q == IDLE && valid_i && (!write_i || done_q);
   assign valid_o = state_q == BYTES;
   assign byte_o  = word_q[7:0];

@@ -26,8 +26,6 @@ module link_receiver (
   localparam logic [7:0] ESCAPED_END = 8'(feltgate_link_pkg::ESCAPED_END);
   localparam logic [7:0] ESCAPED_ESCAPE = 8'(feltgate_link_pkg::ESCAPED_ESCAPE);
   localparam logic [3:0] BYTES = 4'(feltgate_link_pkg::REQUEST_BYTES);
-  localparam logic [31:0] POLYNOMIAL = 32'hedb88320;
-  localparam logic [31:0] GOOD = 32'hdebb20e3;  // the register after a frame with its own CRC
 
   logic [ 3:0] count_q;     // bytes of the frame, no more than one too many
   logic        escaped_q;   // the last byte changes the meaning of the next
@@ -53,10 +51,10 @@ module link_receiver (
   assign over     = {1'b0, frame_q[21:16]} + frame_q[38:32];
   assign beyond   = frame_q[29:22] == '1 && over > 7'd64;
   assign in_map   = frame_q[31:30] == '0;
-  assign whole    = count_q == BYTES && !escaped_q && !spoiled_q && crc_q == GOOD;
+  assign whole    = count_q == BYTES && !escaped_q && !spoiled_q && crc_q == feltgate_link_pkg::CRC_GOOD;
   assign sound    = whole && in_map && (writes || (reads && words_ok && !beyond));
 
-  assign write_o    = frame_q[1];
+  assign write_o    = writes;
   assign sequence_o = frame_q[15:8];
   assign address_o  = frame_q[29:16];
   assign data_o     = frame_q[63:32];
@@ -84,7 +82,7 @@ module link_receiver (
       if (shifting) begin
         bits_q <= bits_q - 4'd1;
         byte_q <= {1'b0, byte_q[7:1]};
-        crc_q  <= {1'b0, crc_q[31:1]} ^ (feedback ? POLYNOMIAL : 32'd0);
+        crc_q  <= {1'b0, crc_q[31:1]} ^ (feedback ? feltgate_link_pkg::CRC_POLYNOMIAL : 32'd0);
         if (count_q <= 4'd8) frame_q <= {byte_q[0], frame_q[63:1]};
       end
       if (ends) begin

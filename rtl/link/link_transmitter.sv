@@ -24,7 +24,6 @@ module link_transmitter (
   localparam logic [7:0] ESCAPE = 8'(feltgate_link_pkg::FRAME_ESCAPE);
   localparam logic [7:0] ESCAPED_END = 8'(feltgate_link_pkg::ESCAPED_END);
   localparam logic [7:0] ESCAPED_ESCAPE = 8'(feltgate_link_pkg::ESCAPED_ESCAPE);
-  localparam logic [31:0] POLYNOMIAL = 32'hedb88320;
 
   localparam logic [2:0] IDLE = 3'd0;    // waits for a frame
   localparam logic [2:0] OPEN = 3'd1;    // sends the first END
@@ -81,7 +80,7 @@ module link_transmitter (
         SHIFT: begin
           bit_q  <= bit_q + 3'd1;
           byte_q <= {tail_q ? !crc_q[0] : byte_q[0], byte_q[7:1]};
-          crc_q  <= {1'b0, crc_q[31:1]} ^ (feedback ? POLYNOMIAL : 32'd0);
+          crc_q  <= {1'b0, crc_q[31:1]} ^ (feedback ? feltgate_link_pkg::CRC_POLYNOMIAL : 32'd0);
           if (bit_q == 3'd7) state_q <= SEND;
         end
         SEND: if (ready_i && special) state_q <= SECOND;

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "catch.hpp"
+#include "engines/fnv1a.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "mismatch.hpp"
 #include "random.hpp"
@@ -28,14 +29,9 @@ inline bool same(const CoreIn& a, const CoreIn& b) {
          a.reg_write == b.reg_write;
 }
 
-/// FNV-1a over what a tick shows.
-struct Hash {
-  std::uint64_t value = 0xcbf29ce484222325u;
-  void add(std::int64_t v) {
-    for (int k = 0; k < 8; ++k) {
-      value = (value ^ (static_cast<std::uint64_t>(v) >> (8 * k) & 0xffu)) * 0x100000001b3u;
-    }
-  }
+/// Over what a tick shows.
+struct Hash : Fnv1a {
+  using Fnv1a::add;
   /// The words of a tick, where all of them are kept.
   template <class Core>
   void add_words(const Core& core) {
@@ -174,10 +170,10 @@ void compare_by_event(Stimulus stimulus, std::uint64_t seed, std::int64_t clocks
       INFO("seed " << seed << ", before clock " << done);
       FAIL("calm() is true, and within " << quiet << " clocks something changes");
     }
-    if (!(by_clock.out() == by_event.out()) || clock_hash.value != event_hash.value ||
+    if (!(by_clock.out() == by_event.out()) || clock_hash.value() != event_hash.value() ||
         by_clock.gate_clocks() != by_event.gate_clocks()) {
       INFO("seed " << seed << ", after clock " << done << ", stretch of " << s.clocks);
-      CHECK(clock_hash.value == event_hash.value);
+      CHECK(clock_hash.value() == event_hash.value());
       CHECK(by_clock.gate_clocks() == by_event.gate_clocks());
       CHECK(by_clock.out().tick_count == by_event.out().tick_count);
       CHECK(by_clock.out().velocity == by_event.out().velocity);

@@ -55,7 +55,7 @@ void write_amid(const FeltgateCore<D>& start, const CoreIn& held, int halt, int 
   by_event.run(in, 2 * D::clocks_per_tick, note);
   REQUIRE(by_clock.out() == by_event.out());
   REQUIRE(by_clock.gate_clocks() == by_event.gate_clocks());
-  REQUIRE(clocks.value == events.value);
+  REQUIRE(clocks.value() == events.value());
   if (c % 5 == 0 && halt == 0) {
     REQUIRE(test::heat_of<FeltgateCore<D>, D>(by_clock) ==
             test::heat_of<FeltgateCore<D>, D>(by_event));

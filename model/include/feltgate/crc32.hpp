@@ -10,12 +10,17 @@
 
 namespace feltgate {
 
+/// Reflected.
+inline constexpr std::uint32_t crc32_polynomial = 0xedb88320U;
+
+/// The register after a bit.
+constexpr std::uint32_t crc32_shift(std::uint32_t state, bool bit) {
+  return state >> 1 ^ (((state & 1U) != 0) != bit ? crc32_polynomial : 0U);
+}
+
 /// The register after a byte; it begins with all ones.
 constexpr std::uint32_t crc32_step(std::uint32_t state, std::uint8_t byte) {
-  state ^= byte;
-  for (int bit = 0; bit < 8; ++bit) {
-    state = (state & 1U) != 0 ? state >> 1 ^ 0xedb88320U : state >> 1;
-  }
+  for (int bit = 0; bit < 8; ++bit) state = crc32_shift(state, (byte >> bit & 1) != 0);
   return state;
 }
 

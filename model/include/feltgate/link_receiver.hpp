@@ -58,8 +58,7 @@ class LinkReceiver {
   /// A bit of the byte through CRC and frame; the frame's first eight bytes stay.
   void shift() {
     const std::uint32_t bit = byte_ & 1U;
-    const bool feedback = ((crc_ ^ bit) & 1U) != 0;
-    crc_ = crc_ >> 1 ^ (feedback ? 0xedb88320U : 0U);
+    crc_ = crc32_shift(crc_, bit != 0);
     if (count_ <= 8) frame_ = frame_ >> 1 | std::uint64_t{bit} << 63;
     byte_ = static_cast<std::uint8_t>(byte_ >> 1);
     --bits_;
@@ -94,19 +93,20 @@ class LinkReceiver {
     if (count_ <= static_cast<int>(LinkMap::request_bytes)) ++count_;
   }
 
+  std::uint8_t kind() const { return static_cast<std::uint8_t>(frame_); }
+
   bool sound() const {
     const LinkRequest& r = out_.request;
     if (count_ != static_cast<int>(LinkMap::request_bytes) || escaped_ || spoiled_) return false;
     if (crc_ != crc32_good || frame_ >> 30 & 3U) return false;
-    const auto kind = static_cast<std::uint8_t>(frame_);
-    if (kind == LinkMap::kind_write) return true;
-    return kind == LinkMap::kind_read && r.data >= 1 && r.data <= LinkMap::read_words &&
+    if (r.write) return true;
+    return kind() == LinkMap::kind_read && r.data >= 1 && r.data <= LinkMap::read_words &&
            r.address + r.data <= 1U << LinkMap::map_bits;
   }
 
   void show() {
     LinkRequest& r = out_.request;
-    r.write = (frame_ >> 1 & 1U) != 0;
+    r.write = kind() == LinkMap::kind_write;
     r.sequence = static_cast<std::uint8_t>(frame_ >> 8);
     r.address = static_cast<std::uint16_t>(frame_ >> 16 & 0x3fffU);
     r.data = static_cast<std::uint32_t>(frame_ >> 32);

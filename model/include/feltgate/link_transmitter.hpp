@@ -80,7 +80,7 @@ class LinkTransmitter {
   void shift() {
     const bool low = (crc_ & 1U) != 0, bit = (byte_ & 1U) != 0;
     byte_ = static_cast<std::uint8_t>(byte_ >> 1 | ((tail_ ? !low : bit) ? 0x80U : 0U));
-    crc_ = crc_ >> 1 ^ (!tail_ && low != bit ? 0xedb88320U : 0U);
+    crc_ = tail_ ? crc_ >> 1 : crc32_shift(crc_, bit);
     if (++bit_ < 8) return;
     bit_ = 0;
     state_ = State::send;

@@ -345,6 +345,8 @@ TEST_CASE("link_capture: what is written is read back, as much of it as there is
 }
 
 TEST_CASE("link_capture: the twin's whole ticks at once are its clocks") {
+  std::array<std::int64_t, 5> ticks{};
+  std::int64_t words_read = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Random random(seed);
     CaptureTwin by_clock, by_tick;
@@ -370,6 +372,7 @@ TEST_CASE("link_capture: the twin's whole ticks at once are its clocks") {
       by_clock.clock({});
       by_tick.tick(words);
       REQUIRE(by_clock.state() == by_tick.state());
+      ++ticks[static_cast<std::size_t>(by_tick.state())];
       if (random.one_in(60)) both(A::capture_control, random.coin() ? kStart : kAbort);
     }
     both(A::capture_control, kAbort);
@@ -378,6 +381,9 @@ TEST_CASE("link_capture: the twin's whole ticks at once are its clocks") {
       const CaptureTwin::In in{false, 0, 0, static_cast<std::uint16_t>(at), 0, false};
       by_clock.clock(in), by_tick.clock(in);
       REQUIRE((k < 3 || by_clock.out().rdata == by_tick.out().rdata));
+      words_read += k >= 24 && by_clock.out().rdata != 0;
     }
   }
+  for (const std::int64_t n : ticks) REQUIRE(n > kRows / 2);
+  REQUIRE(words_read > 100);
 }

@@ -19,9 +19,7 @@ module channels_proof (
     input logic [31:0] reg_rdata_i,
     input logic        reg_busy_i
 );
-  logic past_ok_q;
-  initial past_ok_q = 1'b0;
-  always_ff @(posedge clk_i) past_ok_q <= 1'b1;
+  `include "reset.svh"
 
   logic awready, wready, bvalid, arready, rvalid, reg_write;
   logic [1:0] bresp, rresp;
@@ -145,7 +143,6 @@ module channels_proof (
   end
 
   always_comb begin
-    if (!past_ok_q) assume (!rst_ni);
     if (past_ok_q && !rst_ni) begin
       reset_is_silent: assert (!bvalid && !rvalid && !reg_write);
     end

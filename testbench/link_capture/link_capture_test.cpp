@@ -373,7 +373,7 @@ TEST_CASE("link_capture: the twin's whole ticks at once are its clocks") {
       by_tick.tick(words);
       REQUIRE(by_clock.state() == by_tick.state());
       ++ticks[static_cast<std::size_t>(by_tick.state())];
-      if (random.one_in(60)) both(A::capture_control, random.coin() ? kStart : kAbort);
+      if (random.one_in(std::max(60, 2 * kRows))) both(A::capture_control, random.coin() ? kStart : kAbort);
     }
     both(A::capture_control, kAbort);
     for (unsigned k = 0; k < kRows * 8 + 24; ++k) {

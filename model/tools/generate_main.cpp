@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "config/toml_reader.hpp"
+#include "design/engine_map.hpp"
 #include "design/generate.hpp"
 #include "design/host_words.hpp"
 #include "design/schedule.hpp"
@@ -134,6 +135,11 @@ bool generate_all(const Options& o, const feltgate::design::RegisterMap& registe
   stale |=
       update(o.root / "rtl/generated/feltgate_link_pkg.sv", link_package(registers), o.check_only);
   stale |= update(headers / "link.hpp", link_header(registers), o.check_only);
+  const auto engine = feltgate::design::read_engine((o.root / "rtl/engine/engine.toml").string());
+  stale |=
+      update(o.root / "rtl/generated/feltgate_engine_pkg.sv", engine_package(engine), o.check_only);
+  stale |= update(headers / "engine.hpp", engine_header(engine), o.check_only);
+  stale |= update(o.root / "docs/engine-isa.md", engine_page(engine), o.check_only);
   stale |= update(headers / "causes.hpp", causes_header(registers), o.check_only);
   stale |= update(o.root / "docs/schedule.md", schedule_page(registers, schedule), o.check_only);
   stale |=

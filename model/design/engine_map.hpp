@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The engine's numbers, instructions and memories as read from rtl/engine/engine.toml, and what is
+// generated from them. Documentation: docs/engine-isa.md (generated)
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "design/registers.hpp"
+
+namespace feltgate::design {
+
+/// A stretch of words of a memory or of the host's addresses.
+struct EngineWords {
+  std::string name;
+  int first = 0;
+  int words = 1;
+  bool writable = false;
+  std::string doc;
+  std::vector<Field> fields;
+};
+
+struct EngineDescription {
+  std::vector<Cause> constants;
+  std::array<int, 4> shifts{};  ///< of a product, by the field mode
+  std::vector<Field> fields;    ///< of a program word, which they fill
+  std::vector<Cause> ops;       ///< by number
+  std::vector<EngineWords> regions;
+  std::vector<EngineWords> host;
+};
+
+/// Reads the description. Throws config::ConfigError with file and line on a malformed entry,
+/// fields that overlap or leave a bit out, or words that share an address.
+EngineDescription read_engine(const std::string& path);
+
+/// Texts of rtl/generated/feltgate_engine_pkg.sv, model/include/feltgate/generated/engine.hpp and
+/// docs/engine-isa.md.
+std::string engine_package(const EngineDescription& engine);
+std::string engine_header(const EngineDescription& engine);
+std::string engine_page(const EngineDescription& engine);
+
+}  // namespace feltgate::design

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Interpreter of the engine's program words: one whole run of one thread at a time, bit for bit
+// what the hardware computes. Documentation: docs/engine-isa.md
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "feltgate/engine_memory.hpp"
+#include "feltgate/engine_ops.hpp"
+
+namespace feltgate::law {
+
+/// An event of a run: number 0 to 511.
+struct MachineEvent {
+  int number = 0;
+  std::int32_t value = 0;
+};
+
+/// Words 48 to 63 of the thread: the inputs as the hardware writes them before a run.
+/// Position of axis n at 3n in counts, velocity at 3n + 1 and tau_hat at 3n + 2 in the design's
+/// formats, the tick's number at 9, the rest 0.
+using MachineInputs = std::array<std::int32_t, 16>;
+
+/// What a run leaves.
+struct MachineRun {
+  /// Outputs 0 to 3 as written by the last instruction that wrote them, in this run or an earlier.
+  std::array<std::int32_t, 4> outputs{};
+  unsigned written = 0;              ///< bit n: this run wrote output n
+  std::vector<MachineEvent> events;  ///< of this run, in order
+  int instructions = 0;
+  bool ended = false;  ///< false: stopped by the limit of instructions
+};
+
+/// Four threads over one set of memories. Runs are whole: where threads exchange words while both
+/// run, the hardware's order may be another.
+class Machine {
+ public:
+  explicit Machine(const EngineMemory& memory = {}) : memory_(memory) {}
+
+  /// The next run of each thread starts with flag 1: after load, arming, entry into the scene.
+  void enter() { first_ = {true, true, true, true}; }
+
+  /// Parameter `word` (0 to 31) of the bank that is not in force; commit() makes it that in force.
+  void set_parameter(int word, std::int32_t value) {
+    memory_.set_data(engine_read_address(EngineMap::D::parameter + word, 0, 1 - bank_), value);
+  }
+  void commit() { bank_ = 1 - bank_; }
+  int bank() const { return bank_; }
+
+  EngineMemory& memory() { return memory_; }
+  const EngineMemory& memory() const { return memory_; }
+
+  /// One run of `thread` (0 to 3) from its start. A run of more than `limit` instructions is given
+  /// up: MachineRun::ended is false then. The reference holds until the next run.
+  const MachineRun& run(int thread, const MachineInputs& inputs, int limit = 100000) {
+    const auto t = static_cast<std::size_t>(thread);
+    for (int n = 0; n < 16; ++n) {
+      memory_.set_data(thread * EngineMap::private_words + EngineMap::input_first + n,
+                       inputs[static_cast<std::size_t>(n)]);
+    }
+    run_.written = 0;
+    run_.events.clear();
+    run_.instructions = 0;
+    run_.ended = false;
+    EngineState state{0, first_[t]};
+    first_[t] = false;
+    int pc = thread * EngineMap::thread_words;
+    while (!run_.ended && run_.instructions < limit) {
+      const EngineInstruction i = engine_decode(memory_.program_at(pc));
+      const bool branch = engine_branches(i.op, i.mode, state.flag);
+      state = step(i, thread, state);
+      ++run_.instructions;
+      run_.ended = i.last;
+      pc = branch ? i.b : (pc + 1) % EngineMap::program_words;
+    }
+    return run_;
+  }
+
+ private:
+  EngineState step(const EngineInstruction& i, int thread, EngineState state) {
+    const std::int32_t x = memory_.data_at(engine_read_address(i.a, thread, bank_));
+    const std::int32_t y = memory_.data_at(engine_read_address(i.b, thread, bank_));
+    const int word = engine_table_address(x, i.b);
+    state = engine_step(i.op, i.mode, state, x, y, memory_.table_at(word));
+    if (i.op == EngineOp::tst && word >= memory_.line_base) {
+      memory_.set_table(word, static_cast<std::uint32_t>(state.acc));
+    }
+    switch (static_cast<EngineTarget>(i.dst)) {
+      case EngineTarget::none:
+        break;
+      case EngineTarget::data:
+        if (const int to = engine_write_address(i.d, thread); to >= 0) {
+          memory_.set_data(to, state.acc);
+        }
+        break;
+      case EngineTarget::output:
+        run_.outputs[static_cast<std::size_t>(i.d & 3)] = state.acc;
+        run_.written |= 1U << (i.d & 3);
+        break;
+      case EngineTarget::event:
+        run_.events.push_back({i.d, state.acc});
+        break;
+    }
+    return state;
+  }
+
+  EngineMemory memory_;
+  MachineRun run_;
+  std::array<bool, 4> first_{true, true, true, true};
+  int bank_ = 0;
+};
+
+}  // namespace feltgate::law

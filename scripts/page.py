@@ -15,13 +15,12 @@ import os
 import re
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 import interrupts
 import outputs
 from paging.compile import CompileError, compile_core
-from reporting.progress import RedrawnLine, clock_text
+from reporting.progress import Steps
 
 EPILOG = """examples:
   feltgate page                           page.html: lever, paper and fast; open it in a browser
@@ -150,24 +149,16 @@ def checked_designs(root, wished):
     return designs
 
 
-class CompileLine(RedrawnLine):
-    """On a terminal: how far the compiler is."""
-
-    def __init__(self):
-        super().__init__()
-        self.done, self.total = 0, 0
-
-    def line(self):
-        passed = time.monotonic() - self.began
-        return f"compiling {self.done}/{self.total or '?'}  {clock_text(passed)}"
-
-    def __call__(self, done, total):
-        self.done, self.total = done, total
-
-
 def page_of(root, designs):
     numbers = numbers_of(root, designs)
-    with tempfile.TemporaryDirectory(prefix="feltgate-page-") as folder, CompileLine() as progress:
+    with tempfile.TemporaryDirectory(prefix="feltgate-page-") as folder, Steps(
+        "compiling", None
+    ) as steps:
+
+        def progress(done, total):
+            steps.total = total
+            steps.step("the core", done)
+
         script, wasm = compile_core(root, designs, Path(folder), progress)
     return assembled(root, numbers, script, wasm)
 

@@ -151,12 +151,12 @@ void Board::step(Clock clocks) {
 std::vector<std::uint8_t> Board::take_sent() {
   auto bytes = core_->take_received();
   bytes_ += static_cast<std::int64_t>(bytes.size());
-  for (const std::uint8_t b : bytes) byte_sum_ = (byte_sum_ ^ b) * 0x100000001b3U;
+  for (const std::uint8_t b : bytes) byte_sum_.add_at_once(b);
   return from_board_.through(bytes);
 }
 
 Outcome Board::outcome() const {
-  return {now_, core_->ticks().ticks(), core_->ticks().value(), bytes_, byte_sum_};
+  return {now_, core_->ticks().ticks(), core_->ticks().value(), bytes_, byte_sum_.value()};
 }
 
 }  // namespace feltgate::board

@@ -10,6 +10,7 @@
 
 #include "board/core.hpp"
 #include "board/recording.hpp"
+#include "engines/fnv1a.hpp"
 #include "feltgate/random.hpp"
 #include "loop/step_plan.hpp"
 #include "plant/plant.hpp"
@@ -65,7 +66,7 @@ class Board {
   int duty_clocks_ = 0;
   double duty_ = 0;
   std::int64_t bytes_ = 0;
-  std::uint64_t byte_sum_ = 0xcbf29ce484222325U;
+  Fnv1a byte_sum_;
 };
 
 }  // namespace feltgate::board

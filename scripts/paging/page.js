@@ -9,10 +9,6 @@ const option = (value, text) => Object.assign(document.createElement("option"), 
 const devices = (act) => page.devices.forEach(act);
 
 function place_device(n, design) {
-  const old = page.devices[n];
-  if (old) old.remove();
-  page.devices.length = n;
-  if (!design) return;
   const own = design === "own" ? page.own : null;
   const device = new Device(page.core, own ? own.base : design, own, $("plant").value, $("stages"));
   page.devices[n] = device;
@@ -24,11 +20,10 @@ function place_device(n, design) {
 
 /** Both anew, so that they start together. */
 function place_devices() {
-  const designs = [$("first").value, $("second").value];
-  place_device(0, "");
-  while (page.devices.length) page.devices.pop();
+  page.devices.forEach((device) => device.remove());
+  page.devices.length = 0;
   $("stages").textContent = "";
-  designs.filter(Boolean).forEach((design, n) => place_device(n, design));
+  [$("first").value, $("second").value].filter(Boolean).forEach((design, n) => place_device(n, design));
 }
 
 function apply_values(device) {

@@ -35,11 +35,8 @@ struct Hash : Fnv1a {
   /// The words of a tick, where all of them are kept.
   template <class Core>
   void add_words(const Core& core) {
-    using R = Map::R;
     std::uint64_t words = 0;
-    for (const int slot :
-         {R::status, R::position, R::tick, R::velocity, R::index, R::encoder, R::tau_hat, R::faults,
-          R::tau_ref, R::current_ref, R::voltage, R::duty}) {
+    for (const int slot : LinkMap::slots) {
       words = (words << 7 | words >> 57) ^ core.word(slot);
     }
     add(static_cast<std::int64_t>(words));

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "feltgate/generated/link.hpp"
 #include "feltgate/generated/map.hpp"
 
 namespace feltgate::core_steps {
@@ -93,9 +94,7 @@ constexpr Table make_table() {
 inline constexpr Table table = make_table();
 /// Whether a word goes into the snapshot in this clock of a tick.
 constexpr bool stores_word(int clock) {
-  using R = Map::R;
-  for (const int slot : {R::status, R::position, R::tick, R::velocity, R::index, R::encoder,
-                         R::tau_hat, R::faults, R::tau_ref, R::current_ref, R::voltage, R::duty}) {
+  for (const int slot : LinkMap::slots) {
     if (clock == clock_of(slot)) return true;
   }
   return false;

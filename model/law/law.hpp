@@ -78,7 +78,7 @@ struct Parameter {
   std::string unit_text;  ///< as written, e.g. "Nm/rad"
   Unit unit;
   double to_si = 1;    ///< SI value of 1 in the unit as written
-  double initial = 0;  ///< in SI, as all that follows
+  double initial = 0;  ///< in SI, as all numbers that follow
   Range range;
   bool whole = false;    ///< an integer
   bool mailbox = false;  ///< fed all the time by the host
@@ -101,9 +101,11 @@ struct State {
   std::string unit_text;
   Unit unit;
   double initial = 0;
-  Range range;         ///< declared; shown inductive by the compiler
-  bool phase = false;  ///< wraps at the ends of its range
-  bool whole = false;
+  Range range;          ///< declared; shown inductive by the compiler
+  bool phase = false;   ///< wraps at the ends of its range
+  bool whole = false;   ///< next is rounded down to a whole number
+  NodeId follows = -1;  ///< >= 0: a filter of this node, with no range of its own: it never leaves
+                        ///< that node's range, with 0 added to it
   NodeId next = -1;
   Place place;
 };
@@ -112,7 +114,8 @@ struct State {
 struct Table {
   std::string name;
   Range domain;
-  NodeId argument = -1;  ///< an Op::input with index -1, that stands for the variable in `body`
+  NodeId argument = -1;  ///< an Op::input with index -1, and the table's number as
+                         ///< value, that stands for the variable in `body`
   NodeId body = -1;
   int segments = 0;  ///< 0: the compiler chooses
   Place place;
@@ -129,6 +132,8 @@ struct Array {
 /// A delay line: one word written per run.
 struct Line {
   std::string name;
+  std::string unit_text;
+  Unit unit;
   int length = 0;
   Range range;
   NodeId written = -1;

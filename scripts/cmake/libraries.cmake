@@ -81,6 +81,9 @@ feltgate_library(feltgate_hostlink host feltgate_design Boost::headers Threads::
 
 feltgate_sim_library(bounds bounds feltgate_design Boost::headers)
 
+# Laws as files: reader, evaluation, compiler. The grammar is Boost.Spirit X3, in one source.
+feltgate_library(feltgate_law law Boost::headers)
+
 # The plant itself reads no file; plant_files reads plants and hands.
 feltgate_sim_library(plant plant EXCEPT "_file\\.cpp$")
 feltgate_sim_library(plant_files plant ONLY "_file\\.cpp$"

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Lowering of what lies in the engine's table: tables, arrays, lines.
+#include "law/lowering.hpp"
+
+namespace feltgate::law {
+
+namespace {
+
+constexpr int kMostLine = 512;
+constexpr std::size_t kMostElements = 512;
+constexpr int kMostSegments = 512;
+
+std::string quoted(const std::string& name) { return "\"" + name + "\""; }
+
+}  // namespace
+
+void Lowering::refuse_changing(NodeId body, const Statement& s) {
+  std::vector<bool> needed(static_cast<std::size_t>(body) + 1);
+  needed.back() = true;
+  for (NodeId id = body; id >= 0; --id) {
+    if (!needed[static_cast<std::size_t>(id)]) continue;
+    const Node& n = graph_.node(id);
+    for (const NodeId a : n.arguments) needed[static_cast<std::size_t>(a)] = true;
+    std::string name;
+    if (n.op == Op::parameter) name = law_.parameters[static_cast<std::size_t>(n.index)].name;
+    if (n.op == Op::state) name = law_.states[static_cast<std::size_t>(n.index)].name;
+    if (n.op == Op::input && n.index >= 0) {
+      name = law_.inputs[static_cast<std::size_t>(n.index)].name;
+    }
+    if (n.op == Op::line_read) name = law_.lines[static_cast<std::size_t>(n.index)].name;
+    if (name.empty()) continue;
+    report(s.name_offset,
+           "the table " + quoted(s.name) + " uses " + quoted(name) + ", which changes at run time",
+           "a table holds a function of its variable and of constants; multiply outside of it");
+    return;
+  }
+}
+
+void Lowering::table(const Statement& s) {
+  double lower = 0, upper = 0;
+  Unit lower_unit, upper_unit;
+  Table t;
+  Symbol symbol;
+  t.name = s.name;
+  t.place = at(s.name_offset);
+  if (s.segments) t.segments = whole_of(s.segments, "the number of segments", 1, kMostSegments);
+  bool good = constant_of(s.lower, "the table's lower end", lower, lower_unit);
+  good = constant_of(s.upper, "the table's upper end", upper, upper_unit) && good;
+  if (good && lower == 0 && lower_unit == kNumber) lower_unit = upper_unit;
+  if (good && upper == 0 && upper_unit == kNumber) upper_unit = lower_unit;
+  if (good && !(lower_unit == upper_unit)) {
+    report(s.lower->offset,
+           "the table's ends are in " + text_of(lower_unit) + " and in " + text_of(upper_unit),
+           "both need the same unit");
+    good = false;
+  }
+  if (good && !(lower < upper)) {
+    report(s.lower->offset, "the range of the table " + quoted(s.name) + " is upside down",
+           "write on [LOWER, UPPER]");
+    good = false;
+  }
+  if (scope_.find(s.variable) != nullptr || unit_symbol(s.variable) || is_function(s.variable) ||
+      is_given_value(s.variable) || s.variable == s.name) {
+    report(s.name_offset, "the table's variable " + quoted(s.variable) + " has a meaning already",
+           "choose another name");
+    good = false;
+  }
+  if (good) {
+    const auto index = static_cast<int>(law_.tables.size());
+    t.domain = {lower, upper};
+    t.argument = graph_.table_argument(index, upper_unit, t.place);
+    scope_.open();
+    Symbol variable;
+    variable.node = t.argument;
+    scope_.define(s.variable, variable);
+    defining_ = s.name;
+    t.body = number_of(s.value);
+    defining_.clear();
+    scope_.close();
+    if (t.body != kNone) {
+      refuse_changing(t.body, s);
+      law_.tables.push_back(t);
+      symbol.index = index;
+    }
+  }
+  define(s, symbol);
+}
+
+void Lowering::array(const Statement& s) {
+  Array a;
+  a.name = s.name;
+  a.place = at(s.name_offset);
+  a.unit = s.unit.unit;
+  Symbol symbol;
+  symbol.unit_text = s.unit_text;
+  bool good = s.elements.size() <= kMostElements;
+  if (!good) report(s.name_offset, "an array of more than 512 numbers", "the table has 512 words");
+  for (std::size_t i = 0; good && i < s.elements.size(); ++i) {
+    double value = 0;
+    Unit unit;
+    good = constant_of(s.elements[i], "an array's element", value, unit);
+    if (!good) break;
+    if (!s.unit_text.empty() && !(unit == kNumber)) {
+      report(s.elements[i]->offset, "a unit in front of the array's own",
+             "write the unit once, behind the bracket");
+      good = false;
+    } else if (s.unit_text.empty() && i > 0 && !(unit == a.unit)) {
+      report(s.elements[i]->offset, "elements in " + text_of(a.unit) + " and in " + text_of(unit),
+             "write the unit once, behind the bracket");
+      good = false;
+    } else if (s.unit_text.empty()) {
+      a.unit = unit;
+    }
+    a.values.push_back(value * s.unit.to_si);
+  }
+  if (good) {
+    symbol.index = static_cast<int>(law_.arrays.size());
+    law_.arrays.push_back(a);
+  }
+  define(s, symbol);
+}
+
+void Lowering::line(const Statement& s) {
+  Line l;
+  Symbol symbol;
+  l.name = s.name;
+  l.place = at(s.name_offset);
+  const std::size_t before = diagnostics_.size();
+  l.length = whole_of(s.index, "the length of a line", 1, kMostLine);
+  Statement as_state = s;  // a line begins with zeros
+  Expression zero;
+  zero.offset = s.lower->offset;
+  as_state.value = std::make_shared<const Expression>(zero);
+  const Quantity q = quantity(as_state);
+  if (q.good && diagnostics_.size() == before) {
+    l.unit = q.unit;
+    l.unit_text = q.unit_text;
+    l.range = q.range;
+    symbol.index = static_cast<int>(law_.lines.size());
+    symbol.unit_text = q.unit_text;
+    law_.lines.push_back(l);
+  }
+  define(s, symbol);
+}
+
+}  // namespace feltgate::law

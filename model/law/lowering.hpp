@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// From statements to nodes: names get meaning, units are checked, loops are unrolled.
+// Documentation: docs/laws.md
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "law/scope.hpp"
+
+namespace feltgate::law {
+
+/// Thrown where going on would take too long; it is reported already.
+struct TooLong {};
+
+class Lowering {
+ public:
+  /// `rate_hz` > 0 overrides what the file says. All must outlive this.
+  Lowering(std::string_view text, double rate_hz, Law& law, Diagnostics& diagnostics);
+
+  void run(const std::vector<Statement>& statements);
+  const Graph& graph() const { return graph_; }
+
+ private:
+  // statements.cpp
+  void statement(const Statement& s);
+  void define(const Statement& s, Symbol symbol);
+  void parameter(const Statement& s);
+  void state(const Statement& s);
+  void let(const Statement& s);
+  void set(const Statement& s);
+  void next(const Statement& s);
+  void table(const Statement& s);
+  void array(const Statement& s);
+  void line(const Statement& s);
+  void loop(const Statement& s);
+  void out(const Statement& s);
+  void event(const Statement& s);
+  void rate(const Statement& s);
+  void refuse_changing(NodeId body, const Statement& s);
+  void note_unused(const std::map<std::string, Symbol>& symbols);
+  void check_ends(const Statement* last);
+
+  // quantities.cpp
+  struct Quantity {
+    Unit unit;
+    std::string unit_text;
+    double to_si = 1, value = 0;
+    Range range;
+    bool good = false;
+  };
+  Quantity quantity(const Statement& s);
+  bool constant_of(const ExpressionPtr& e, const char* what, double& value, Unit& unit);
+  /// A whole constant from `least` to `most`; `least` where it is none, which is reported.
+  int whole_of(const ExpressionPtr& e, const char* what, int least, int most);
+  std::pair<int, int> loop_range(const ExpressionPtr& from, const ExpressionPtr& to);
+
+  // expressions.cpp
+  NodeId value_of(const ExpressionPtr& e);   ///< number or truth value
+  NodeId number_of(const ExpressionPtr& e);  ///< a number, or reported
+  NodeId truth_of(const ExpressionPtr& e);
+  /// A number with `unit`, or reported: `what` is in that unit.
+  NodeId number_in(const ExpressionPtr& e, const Unit& unit, const std::string& what);
+  NodeId named(const Expression& e);
+  NodeId given_value(const Expression& e, const std::string& name, int axis);
+  NodeId indexed(const Expression& e);
+  NodeId unary(const Expression& e);
+  NodeId binary(const Expression& e);
+  NodeId compare(const Expression& e);
+  NodeId power(const Expression& e);
+  NodeId choice(const Expression& e);
+  NodeId reduce(const Expression& e);
+  NodeId unknown(const Expression& e, const char* what, bool functions);
+  /// Makes 0 fit any unit; reports two that do not fit. `joint`: how the text joins them.
+  bool fit(NodeId& a, NodeId& b, const Expression& ea, const Expression& eb, std::size_t offset,
+           const std::string& joint);
+  std::string unit_words(const Expression& e, NodeId node);
+
+  // calls.cpp
+  NodeId call(const Expression& e);
+  NodeId call_table(const Expression& e, Symbol& table);
+  NodeId call_extreme(const Expression& e);
+  NodeId clamp(const Expression& e);
+  NodeId sign(const Expression& e);
+  NodeId trigonometric(const Expression& e, Op op);
+  NodeId root(const Expression& e);
+  NodeId lowpass(const Expression& e);
+  bool takes(const Expression& e, std::size_t count, const char* form);
+
+  NodeId step_time(Place place);
+  Place at(std::size_t offset) const { return places_.of(offset); }
+  void report(std::size_t offset, std::string what, std::string mend) {
+    diagnostics_.add(at(offset), std::move(what), std::move(mend));
+  }
+  void count_step(std::size_t offset);
+
+  Places places_;
+  double rate_hz_;
+  Law& law_;
+  Diagnostics& diagnostics_;
+  Graph graph_;
+  Scope scope_;
+  std::string defining_;                  ///< the name whose definition is being read
+  std::map<std::string, Place> defined_;  ///< every name of the file, for "before its definition"
+  std::map<std::pair<NodeId, NodeId>, NodeId> filters_;
+  std::set<std::string> has_next_;
+  std::vector<std::pair<std::string, Place>> unused_;
+  int loops_ = 0;
+  long steps_ = 0;
+};
+
+}  // namespace feltgate::law

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+#include "law/read_law.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "law/evaluate.hpp"
+#include "law/finish.hpp"
+#include "law/lowering.hpp"
+
+namespace feltgate::law {
+
+namespace {
+
+/// A comment without its # and the blanks around it.
+std::string bare(std::string_view comment) {
+  const std::size_t begin = comment.find_first_not_of("# \t");
+  if (begin == std::string_view::npos) return {};
+  const std::size_t end = comment.find_last_not_of(" \t\r");
+  return std::string(comment.substr(begin, end - begin + 1));
+}
+
+std::string_view line_of(std::string_view text, std::size_t begin) {
+  return text.substr(begin, text.find('\n', begin) - begin);
+}
+
+/// The comment that the file begins with: its lines joined.
+std::string summary_of(std::string_view text) {
+  std::string summary;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::string_view line = line_of(text, at);
+    at += line.size() + 1;
+    const std::size_t begin = line.find_first_not_of(" \t\r");
+    if (begin != std::string_view::npos && line[begin] != '#') break;
+    const std::string words = begin == std::string_view::npos ? "" : bare(line.substr(begin));
+    if (words.empty() && !summary.empty()) break;
+    if (!words.empty()) summary += (summary.empty() ? "" : " ") + words;
+  }
+  return summary;
+}
+
+/// The comment behind each parameter, on its line.
+void take_comments(std::string_view text, Law& law) {
+  std::size_t begin = 0;
+  for (int number = 1; begin <= text.size(); ++number) {
+    const std::string_view line = line_of(text, begin);
+    const std::size_t hash = line.find('#');
+    for (Parameter& p : law.parameters) {
+      if (p.place.line == number && hash != std::string_view::npos) {
+        p.comment = bare(line.substr(hash));
+      }
+    }
+    begin += line.size() + 1;
+  }
+}
+
+}  // namespace
+
+Law read_law_text(std::string_view text, const std::string& path, double rate_hz) {
+  Law law;
+  law.name = std::filesystem::path(path).stem().string();
+  law.summary = summary_of(text);
+  Diagnostics diagnostics;
+  const std::vector<Statement> statements = parse_statements(text, diagnostics);
+  if (diagnostics.empty()) {
+    Lowering lowering(text, rate_hz, law, diagnostics);
+    try {
+      lowering.run(statements);
+    } catch (const TooLong&) {
+    }
+    if (diagnostics.empty()) {
+      take_comments(text, law);
+      finish(law, lowering.graph(), diagnostics);
+    }
+  }
+  if (!diagnostics.empty()) throw LawError(path, diagnostics.sorted());
+  const Evaluation<double> first(law);
+  for (std::size_t i = 0; i < law.parameters.size(); ++i) {
+    law.parameters[i].initial = first.parameter(i);
+  }
+  return law;
+}
+
+Law read_law(const std::string& path, double rate_hz) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in.is_open() || std::filesystem::is_directory(path)) {
+    throw LawError(path, {{{}, "cannot be read", "give the path of a .law file"}});
+  }
+  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  return read_law_text(text, path, rate_hz);
+}
+
+}  // namespace feltgate::law

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What the grammar does not understand, as a message, and where reading goes on.
+#include "law/recovery.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "feltgate/nearest.hpp"
+
+namespace feltgate::law {
+
+namespace {
+
+constexpr int kMostDepth = 500;    ///< of an expression's tree
+constexpr int kMostBrackets = 60;  ///< open at once: each is a dozen calls of the grammar
+constexpr int kMostChoices = 60;   ///< ifs in one statement, which may stand in each other
+constexpr std::size_t kMostText = 1U << 16U;
+
+/// Words that begin a statement, and the statement's form.
+constexpr std::pair<const char*, const char*> kForms[] = {
+    {"param", "param NAME = VALUE UNIT in LOWER .. UPPER UNIT"},
+    {"mailbox", "mailbox NAME = VALUE UNIT in LOWER .. UPPER UNIT max_age 5 ms"},
+    {"let", "let NAME = EXPRESSION"},
+    {"var", "var NAME = EXPRESSION"},
+    {"set", "set NAME = EXPRESSION"},
+    {"state", "state NAME = VALUE UNIT in LOWER .. UPPER UNIT"},
+    {"phase", "phase NAME = VALUE in LOWER .. UPPER"},
+    {"next", "next NAME = EXPRESSION"},
+    {"table", "table NAME(x) on [LOWER, UPPER] = EXPRESSION with 256 segments"},
+    {"array", "array NAME = [1, 2, 3] UNIT"},
+    {"line", "line NAME[LENGTH] in LOWER .. UPPER UNIT"},
+    {"for", "for NAME in FIRST .. LAST { STATEMENTS }"},
+    {"out", "out torque = EXPRESSION"},
+    {"event", "event NAME(VALUE) when CONDITION"},
+    {"rate", "rate = 40 kHz"},
+};
+
+constexpr const char* kOther[] = {"in", "then", "else",    "if",    "when",     "on",  "and",
+                                  "or", "not",  "max_age", "whole", "segments", "with"};
+
+bool is_name(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c >= '0' && c <= '9');
+}
+
+std::string_view word_at(std::string_view text, std::size_t at) {
+  std::size_t end = at;
+  while (end < text.size() && is_name(text[end])) ++end;
+  return text.substr(at, end - at);
+}
+
+const char* form_of(std::string_view word) {
+  for (const auto& [name, form] : kForms) {
+    if (word == name) return form;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> statement_words() {
+  std::vector<std::string> words;
+  for (const auto& [name, form] : kForms) words.emplace_back(name);
+  return words;
+}
+
+/// What stands at `at`, for a message.
+std::string found(std::string_view text, std::size_t at) {
+  if (at >= text.size()) return "the end of the file";
+  const std::string_view word = word_at(text, at);
+  return "\"" + std::string(word.empty() ? text.substr(at, 1) : word.substr(0, 40)) + "\"";
+}
+
+/// Skips blanks and comments.
+std::size_t skip(std::string_view text, std::size_t at) {
+  while (at < text.size()) {
+    if (text[at] == '#') {
+      at = std::min(text.find('\n', at), text.size());
+    } else if (std::string_view(" \t\r\n").find(text[at]) != std::string_view::npos) {
+      ++at;
+    } else {
+      break;
+    }
+  }
+  return at;
+}
+
+/// The next line after `at` that begins with a statement or ends a loop.
+std::size_t next_statement(std::string_view text, std::size_t at) {
+  while (true) {
+    const std::size_t end = text.find('\n', at);
+    if (end == std::string_view::npos) return text.size();
+    at = end + 1;
+    std::size_t begin = at;
+    while (begin < text.size() && (text[begin] == ' ' || text[begin] == '\t')) ++begin;
+    if (form_of(word_at(text, begin)) != nullptr) return begin;
+  }
+}
+
+/// Brackets and ifs that are open at once; the grammar would call itself for each of them.
+void check_nesting(std::string_view text, const Places& places, Diagnostics& diagnostics) {
+  int open = 0, choices = 0;
+  for (std::size_t at = skip(text, 0); at < text.size(); at = skip(text, at)) {
+    const std::string_view word = word_at(text, at);
+    if (form_of(word) != nullptr && word != "for") choices = 0;
+    if (word == "if") ++choices;
+    const char c = text[at];
+    if (c == '(' || c == '[' || c == '{') ++open;
+    if ((c == ')' || c == ']' || c == '}') && open > 0) --open;
+    if (open > kMostBrackets || choices > kMostChoices) {
+      diagnostics.add(places.of(at), "expressions inside expressions, too many to follow",
+                      "give parts of it names with let");
+      return;
+    }
+    at += word.empty() ? 1 : word.size();
+  }
+}
+
+Diagnostic explained(std::string_view text, std::size_t begin, const SyntaxError& error,
+                     const Places& places) {
+  const std::size_t at = skip(text, static_cast<std::size_t>(error.at - text.data()));
+  if (!error.mend.empty()) return {places.of(at), error.what, error.mend};
+  const std::string_view word = word_at(text, at);
+  if (error.what == "expected a name" && is_keyword(word)) {
+    return {places.of(at), found(text, at) + " is a word of the language and no name",
+            "choose another name"};
+  }
+  const char* const form = form_of(word_at(text, begin));
+  return {places.of(at), error.what + ", found " + found(text, at),
+          std::string("the form is: ") + (form == nullptr ? "" : form)};
+}
+
+Diagnostic no_statement(std::string_view text, std::size_t at, const Places& places) {
+  const std::string_view word = word_at(text, at);
+  const std::string guess = config::did_you_mean(word, statement_words());
+  if (text[at] == '=' && text.substr(at, 2) != "==") {
+    return {places.of(at), "\"=\" where an expression has ended",
+            "a definition begins with its word: let NAME = EXPRESSION"};
+  }
+  return {places.of(at), found(text, at) + " where a statement begins or an expression goes on",
+          guess + "statements begin with param, let, state, next, out, ..."};
+}
+
+}  // namespace
+
+bool is_keyword(std::string_view word) {
+  return form_of(word) != nullptr ||
+         std::any_of(std::begin(kOther), std::end(kOther), [&](auto k) { return word == k; });
+}
+
+void refuse_word(std::string_view rest) {
+  const std::string_view word = word_at(rest, 0);
+  if (word.empty() || is_keyword(word)) return;
+  const std::string guess = config::did_you_mean(word, unit_symbols());
+  throw SyntaxError{rest.data(), "unknown unit \"" + std::string(word.substr(0, 40)) + "\"",
+                    guess +
+                        "units are products of Nm, N, m, rad, deg, turn, s, Hz, kg, ... with "
+                        "prefixes; between a number and a name stands *"};
+}
+
+void check_depth(int depth, const char* at) {
+  if (depth <= kMostDepth) return;
+  throw SyntaxError{at, "an expression of more than 500 operations",
+                    "give parts of it names with let"};
+}
+
+std::vector<Statement> parse_statements(std::string_view text, Diagnostics& diagnostics) {
+  const Places places(text);
+  std::vector<Statement> statements;
+  if (text.size() > kMostText) {
+    diagnostics.add({}, "a file of more than 64 KiB", "a law is a page of text");
+    return statements;
+  }
+  check_nesting(text, places, diagnostics);
+  if (!diagnostics.empty()) return statements;
+  std::size_t at = skip(text, 0);
+  while (at < text.size()) {
+    Statement statement;
+    try {
+      const char* const end = parse_statement(text, text.data() + at, statement);
+      if (end != nullptr) {
+        statements.push_back(std::move(statement));
+        at = static_cast<std::size_t>(end - text.data());
+        continue;
+      }
+      // After an error a loop's end may be left over.
+      if (text[at] != '}' || diagnostics.empty()) {
+        const Diagnostic d = no_statement(text, at, places);
+        diagnostics.add(d.place, d.what, d.mend);
+      }
+      at = next_statement(text, at);
+    } catch (const SyntaxError& error) {
+      const Diagnostic d = explained(text, at, error, places);
+      diagnostics.add(d.place, d.what, d.mend);
+      at = next_statement(text, std::max(at, static_cast<std::size_t>(error.at - text.data())));
+    }
+  }
+  return statements;
+}
+
+}  // namespace feltgate::law

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Lowering of statements, in the order of the file.
+#include <algorithm>
+
+#include "feltgate/nearest.hpp"
+#include "law/lowering.hpp"
+
+namespace feltgate::law {
+
+namespace {
+
+using Kind = Statement::Kind;
+
+constexpr int kMostAxes = 3;
+
+bool is_definition(Kind kind) {
+  return kind != Kind::set && kind != Kind::next && kind != Kind::loop && kind != Kind::out &&
+         kind != Kind::event && kind != Kind::rate;
+}
+
+std::string quoted(const std::string& name) { return "\"" + name + "\""; }
+
+}  // namespace
+
+Lowering::Lowering(std::string_view text, double rate_hz, Law& law, Diagnostics& diagnostics)
+    : places_(text),
+      rate_hz_(rate_hz),
+      law_(law),
+      diagnostics_(diagnostics),
+      graph_(law, diagnostics) {
+  law_.rate_hz = rate_hz;
+}
+
+void Lowering::run(const std::vector<Statement>& statements) {
+  for (const Statement& s : statements) {
+    if (is_definition(s.kind)) defined_.emplace(s.name, at(s.name_offset));
+  }
+  for (const Statement& s : statements) statement(s);
+  check_ends(statements.empty() ? nullptr : &statements.back());
+  note_unused(scope_.close());
+  if (!diagnostics_.empty()) return;  // what is wrong may be why a name is not used
+  for (const auto& [name, place] : unused_) {
+    diagnostics_.add(place, quoted(name) + " is never used", "use it, or take the line out");
+  }
+}
+
+void Lowering::statement(const Statement& s) {
+  if (loops_ > 0 && s.kind != Kind::let && s.kind != Kind::var && s.kind != Kind::set &&
+      s.kind != Kind::loop) {
+    report(s.offset, "a loop holds let, var, set and for, and nothing else",
+           "write this outside of the loop");
+    return;
+  }
+  switch (s.kind) {
+    case Kind::param:
+    case Kind::mailbox:
+      return parameter(s);
+    case Kind::state:
+    case Kind::phase:
+      return state(s);
+    case Kind::let:
+    case Kind::var:
+      return let(s);
+    case Kind::set:
+      return set(s);
+    case Kind::next:
+      return next(s);
+    case Kind::table:
+      return table(s);
+    case Kind::array:
+      return array(s);
+    case Kind::line:
+      return line(s);
+    case Kind::loop:
+      return loop(s);
+    case Kind::out:
+      return out(s);
+    case Kind::event:
+      return event(s);
+    case Kind::rate:
+      return rate(s);
+  }
+}
+
+void Lowering::define(const Statement& s, Symbol symbol) {
+  symbol.kind = s.kind;
+  symbol.place = at(s.name_offset);
+  const Symbol* const first = scope_.find(s.name);
+  if (first != nullptr) {
+    report(s.name_offset,
+           quoted(s.name) + " is defined twice; first in line " + std::to_string(first->place.line),
+           "choose another name");
+    return;
+  }
+  if (is_function(s.name) || is_given_value(s.name)) {
+    report(s.name_offset, quoted(s.name) + " is a name that the language brings along",
+           "choose another name");
+    return;
+  }
+  if (unit_symbol(s.name)) {
+    report(s.name_offset, quoted(s.name) + " is a unit and no name", "choose another name");
+    return;
+  }
+  scope_.define(s.name, symbol);
+}
+
+void Lowering::parameter(const Statement& s) {
+  const Quantity q = quantity(s);
+  Parameter p;
+  Symbol symbol;
+  if (s.kind == Kind::mailbox) {
+    Unit unit;
+    p.mailbox = true;
+    if (constant_of(s.age, "max_age", p.max_age_s, unit) &&
+        (!(unit == kSecond) || p.max_age_s <= 0)) {
+      report(s.age->offset, "max_age is no time above 0", "write max_age 5 ms");
+    }
+  }
+  if (q.good) {
+    p.name = s.name;
+    p.unit_text = q.unit_text;
+    p.unit = q.unit;
+    p.to_si = q.to_si;
+    p.initial = q.value;
+    p.range = q.range;
+    p.whole = s.whole;
+    p.place = at(s.name_offset);
+    const auto index = static_cast<int>(law_.parameters.size());
+    law_.parameters.push_back(p);
+    symbol.node = graph_.leaf(Op::parameter, index, q.unit, p.place);
+    symbol.unit_text = q.unit_text;
+  }
+  define(s, symbol);
+}
+
+void Lowering::state(const Statement& s) {
+  const Quantity q = quantity(s);
+  Symbol symbol;
+  if (q.good) {
+    State state;
+    state.name = s.name;
+    state.unit_text = q.unit_text;
+    state.unit = q.unit;
+    state.initial = q.value;
+    state.range = q.range;
+    state.phase = s.kind == Kind::phase;
+    state.whole = s.whole;
+    state.place = at(s.name_offset);
+    symbol.index = static_cast<int>(law_.states.size());
+    law_.states.push_back(state);
+    symbol.node = graph_.leaf(Op::state, symbol.index, q.unit, state.place);
+    symbol.unit_text = q.unit_text;
+  }
+  define(s, symbol);
+}
+
+void Lowering::let(const Statement& s) {
+  defining_ = s.name;
+  Symbol symbol;
+  symbol.node = value_of(s.value);
+  defining_.clear();
+  define(s, symbol);
+}
+
+void Lowering::set(const Statement& s) {
+  const NodeId value = value_of(s.value);
+  Symbol* const symbol = scope_.find(s.name);
+  if (symbol == nullptr || symbol->kind != Kind::var) {
+    report(s.name_offset, quoted(s.name) + " is no var", "write above: var " + s.name + " = ...");
+    return;
+  }
+  if (value == kNone || symbol->node == kNone) {
+    symbol->node = kNone;
+    return;
+  }
+  if (graph_.node(value).truth != graph_.node(symbol->node).truth) {
+    report(s.value->offset, "a condition and a number in one var", "use two vars");
+    return;
+  }
+  const Unit unit = graph_.node(symbol->node).unit;
+  symbol->node = graph_.node(value).truth ? value : number_in(s.value, unit, quoted(s.name));
+}
+
+void Lowering::next(const Statement& s) {
+  const NodeId value = number_of(s.value);
+  Symbol* const symbol = scope_.find(s.name);
+  const bool is_state =
+      symbol != nullptr && (symbol->kind == Kind::state || symbol->kind == Kind::phase);
+  if (!is_state && (symbol == nullptr || symbol->kind != Kind::line)) {
+    std::vector<std::string> names;
+    for (const State& state : law_.states) names.push_back(state.name);
+    for (const Line& line : law_.lines) names.push_back(line.name);
+    report(s.name_offset, quoted(s.name) + " is no state, phase or line",
+           config::did_you_mean(s.name, names) + "write above: state " + s.name + " = ...");
+    return;
+  }
+  if (!has_next_.insert(s.name).second) {
+    report(s.name_offset, "a second next of " + quoted(s.name), "write one: next NAME = if ...");
+    return;
+  }
+  if (symbol->index < 0 || value == kNone) return;
+  const auto index = static_cast<std::size_t>(symbol->index);
+  const Unit unit = is_state ? law_.states[index].unit : law_.lines[index].unit;
+  const NodeId written = number_in(s.value, unit, quoted(s.name));
+  (is_state ? law_.states[index].next : law_.lines[index].written) = written;
+}
+
+void Lowering::loop(const Statement& s) {
+  const auto [from, to] = loop_range(s.lower, s.upper);
+  if (scope_.find(s.variable) != nullptr || unit_symbol(s.variable)) {
+    report(s.offset, quoted(s.variable) + " has a meaning already", "choose another name");
+    return;
+  }
+  ++loops_;
+  for (int i = from; i <= to; ++i) {
+    count_step(s.offset);
+    scope_.open();
+    Symbol counter;
+    counter.node = graph_.constant(i, kNumber, at(s.offset));
+    counter.used = true;
+    scope_.define(s.variable, counter);
+    for (const Statement& inner : s.body) statement(inner);
+    note_unused(scope_.close());
+  }
+  --loops_;
+}
+
+void Lowering::out(const Statement& s) {
+  if (s.name != "torque") {
+    report(s.name_offset, "unknown output " + quoted(s.name), "write out torque = ...");
+    return;
+  }
+  Output o;
+  o.name = s.name;
+  o.axis = s.index ? whole_of(s.index, "an axis", 0, kMostAxes - 1) : 0;
+  o.place = at(s.name_offset);
+  const bool known = std::any_of(law_.outputs.begin(), law_.outputs.end(),
+                                 [&](const Output& other) { return other.axis == o.axis; });
+  if (known) {
+    report(s.name_offset, "a second torque of axis " + std::to_string(o.axis),
+           "add both in one expression, or write torque[1] for another axis");
+    return;
+  }
+  o.value = number_in(s.value, kNewtonMetre, "torque");
+  law_.outputs.push_back(o);
+}
+
+void Lowering::event(const Statement& s) {
+  Event e;
+  e.name = s.name;
+  e.place = at(s.name_offset);
+  e.number = static_cast<int>(law_.events.size()) + 1;
+  for (const Event& other : law_.events) {
+    if (other.name != s.name) continue;
+    report(s.name_offset,
+           "the event " + quoted(s.name) + " is defined twice; first in line " +
+               std::to_string(other.place.line),
+           "choose another name, or join the conditions with or");
+  }
+  e.value = s.value ? number_of(s.value) : graph_.constant(0, kNumber, e.place);
+  e.condition = truth_of(s.condition);
+  if (graph_.is_constant(e.condition == kNone ? 0 : e.condition) && e.condition != kNone) {
+    report(s.condition->offset, "a condition that never changes", "compare an input or a state");
+  }
+  law_.events.push_back(e);
+}
+
+void Lowering::rate(const Statement& s) {
+  double hz = 0;
+  Unit unit;
+  if (!constant_of(s.value, "the rate", hz, unit)) return;
+  if (!(unit == kPerSecond) || !(hz > 0)) {
+    report(s.value->offset, "the rate is no frequency above 0", "write rate = 40 kHz");
+    return;
+  }
+  if (law_.rate_hz > 0 && !(rate_hz_ > 0)) {
+    report(s.offset, "a second rate", "write one");
+    return;
+  }
+  if (!(rate_hz_ > 0)) law_.rate_hz = hz;
+}
+
+void Lowering::note_unused(const std::map<std::string, Symbol>& symbols) {
+  for (const auto& [name, symbol] : symbols) {
+    if (!symbol.used) unused_.emplace_back(name, symbol.place);
+  }
+}
+
+void Lowering::check_ends(const Statement* last) {
+  for (const State& s : law_.states) {
+    if (s.follows != kNone || has_next_.count(s.name) != 0) continue;
+    diagnostics_.add(s.place, "the state " + quoted(s.name) + " has no next",
+                     "write below: next " + s.name + " = ...");
+  }
+  for (const Line& l : law_.lines) {
+    if (has_next_.count(l.name) != 0) continue;
+    diagnostics_.add(l.place, "nothing is written into the line " + quoted(l.name),
+                     "write below: next " + l.name + " = ...");
+  }
+  if (!law_.outputs.empty()) return;
+  diagnostics_.add(last == nullptr ? Place{} : at(last->offset), "the law has no output",
+                   "write out torque = ...");
+}
+
+}  // namespace feltgate::law

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Units as written in a law file: products and quotients of symbols with powers and SI prefixes.
+// An angle is a number: rad is 1, deg pi/180, turn 2 pi. Documentation: docs/laws.md
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "law/law.hpp"
+
+namespace feltgate::law {
+
+/// What a unit's text means.
+struct UnitValue {
+  Unit unit;
+  double to_si = 1;
+};
+
+/// A unit's text that cannot be understood: where in the text, what, mend.
+struct UnitError {
+  std::size_t offset;
+  std::string what, mend;
+};
+
+/// One symbol, perhaps with a prefix n, u, m, k or M: "Nm", "kHz", "um".
+std::optional<UnitValue> unit_symbol(std::string_view symbol);
+/// The symbols without their prefixed forms, for suggestions.
+const std::vector<std::string>& unit_symbols();
+
+/// Length of the unit that `text` begins with, 0 where it begins with none; its meaning in
+/// `value`. Errors: UnitError, for a quotient that can be read in two ways or a power beyond 8.
+std::size_t scan_unit(std::string_view text, UnitValue& value);
+
+Unit operator+(const Unit& a, const Unit& b);  ///< of a product
+Unit operator-(const Unit& a, const Unit& b);  ///< of a quotient
+Unit operator*(const Unit& a, int power);
+/// The unit in words: "Nm", "kg m^2", "1/s"; "a number" without one.
+std::string text_of(const Unit& unit);
+
+inline constexpr Unit kNumber{};
+inline constexpr Unit kNewtonMetre{{2, 1, -2, 0}};
+inline constexpr Unit kSecond{{0, 0, 1, 0}};
+inline constexpr Unit kPerSecond{{0, 0, -1, 0}};
+
+}  // namespace feltgate::law

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Short ways to a law and its numbers, for tests. Documentation: docs/laws.md
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "law/evaluate.hpp"
+#include "law/read_law.hpp"
+
+namespace feltgate::law {
+
+inline Law shipped(const std::string& name) {
+  return read_law(std::string(FELTGATE_ROOT) + "/rtl/laws/" + name + ".law");
+}
+
+/// A law that runs, with inputs and parameters by name. Unnamed inputs are 0.
+template <class N = double>
+class Running {
+ public:
+  explicit Running(Law law, Tables tables = Tables::exact)
+      : law_(std::move(law)), evaluation_(law_, tables) {}
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+  void set(const std::string& parameter, N si) { evaluation_.set_parameter(index(parameter), si); }
+
+  /// The torque of axis 0 after a run.
+  N torque(const std::map<std::string, N>& inputs, int axis = 0) {
+    std::vector<N> values;
+    for (const Input& input : law_.inputs) {
+      const auto found = inputs.find(input.name);
+      values.push_back(found == inputs.end() ? N{0} : found->second);
+    }
+    evaluation_.run(values);
+    return torque(axis);
+  }
+  N torque(int axis) const {
+    for (std::size_t i = 0; i < law_.outputs.size(); ++i) {
+      if (law_.outputs[i].axis == axis) return evaluation_.outputs()[i];
+    }
+    throw std::runtime_error("no such axis");
+  }
+
+  std::size_t index(const std::string& parameter) const {
+    for (std::size_t i = 0; i < law_.parameters.size(); ++i) {
+      if (law_.parameters[i].name == parameter) return i;
+    }
+    throw std::runtime_error("no parameter " + parameter);
+  }
+
+  const Law& law() const { return law_; }
+  Evaluation<N>& evaluation() { return evaluation_; }
+
+ private:
+  Law law_;
+  Evaluation<N> evaluation_;
+};
+
+}  // namespace feltgate::law

@@ -61,8 +61,8 @@ void Lowering::table(const Statement& s) {
            "write on [LOWER, UPPER]");
     good = false;
   }
-  if (scope_.find(s.variable) != nullptr || unit_symbol(s.variable) || is_function(s.variable) ||
-      is_given_value(s.variable) || s.variable == s.name) {
+  if (unit_symbol(s.variable) || is_function(s.variable) || is_given_value(s.variable) ||
+      s.variable == s.name) {
     report(s.name_offset, "the table's variable " + quoted(s.variable) + " has a meaning already",
            "choose another name");
     good = false;

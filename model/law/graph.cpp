@@ -114,12 +114,29 @@ NodeId Graph::multiply(NodeId a, NodeId b, Place place) {
   if (is_constant(b)) std::swap(a, b);
   if (node(a).unit == kNumber && is_value(a, 1)) return b;
   if (node(a).unit == kNumber && is_value(a, -1)) return negate(b, place);
-  if (is_fixed(b)) return make(Op::multiply, {a, b}, unit, place);
+  if (is_fixed(b)) return fixed_product(a, b, place);
   // Here b changes during a run.
   if (is_fixed(a)) return scale(a, b, place);
   if (node(a).op == Op::negate) return negate(multiply(argument(a, 0), b, place), place);
   if (node(b).op == Op::negate) return negate(multiply(a, argument(b, 0), place), place);
   return make(Op::multiply, {a, b}, unit, place);
+}
+
+NodeId Graph::fixed_product(NodeId a, NodeId b, Place place) {
+  const auto has_number = [&](NodeId id) {
+    return node(id).op == Op::multiply && is_constant(argument(id, 0));
+  };
+  if (node(b).op == Op::negate) return negate(multiply(a, argument(b, 0), place), place);
+  if (node(a).op == Op::negate) return negate(multiply(argument(a, 0), b, place), place);
+  if (has_number(b)) {
+    const NodeId number = argument(b, 0), rest = argument(b, 1);
+    return is_constant(a) ? multiply(multiply(a, number, place), rest, place)
+                          : multiply(number, multiply(a, rest, place), place);
+  }
+  if (has_number(a)) {
+    return multiply(argument(a, 0), multiply(argument(a, 1), b, place), place);
+  }
+  return make(Op::multiply, {a, b}, node(a).unit + node(b).unit, place);
 }
 
 NodeId Graph::scale(NodeId factor, NodeId a, Place place) {
@@ -132,6 +149,11 @@ NodeId Graph::scale(NodeId factor, NodeId a, Place place) {
   if (n.op == Op::multiply) {
     const NodeId first = n.arguments[0], second = n.arguments[1];
     if (is_scaled(a)) return multiply(multiply(factor, first, place), second, place);
+    if (is_scaled(first) && is_scaled(second)) {
+      const NodeId factors = multiply(argument(first, 0), argument(second, 0), place);
+      return multiply(multiply(factor, factors, place),
+                      multiply(argument(first, 1), argument(second, 1), place), place);
+    }
     if (is_scaled(first)) return multiply(scale(factor, first, place), second, place);
     if (is_scaled(second)) return multiply(first, scale(factor, second, place), place);
   }
@@ -158,7 +180,10 @@ NodeId Graph::negate(NodeId a, Place place) {
   if (n.op == Op::constant) return constant(-n.value, n.unit, place);
   if (n.op == Op::negate) return n.arguments[0];
   if (n.op == Op::subtract) return subtract(n.arguments[1], n.arguments[0], place);
-  if (is_scaled(a)) return multiply(negate(n.arguments[0], place), n.arguments[1], place);
+  const bool numbered = n.op == Op::multiply && is_constant(n.arguments[0]);
+  if (is_scaled(a) || numbered) {
+    return multiply(negate(n.arguments[0], place), n.arguments[1], place);
+  }
   return make(Op::negate, {a}, n.unit, place);
 }
 
@@ -195,6 +220,9 @@ NodeId Graph::both(NodeId a, NodeId b, Place place) {
   if (is_constant(a)) return node(a).value != 0 ? b : a;
   if (is_constant(b)) return node(b).value != 0 ? a : b;
   if (a == b) return a;
+  if (node(a).op == Op::opposite && node(b).op == Op::opposite) {
+    return opposite(either(argument(a, 0), argument(b, 0), place), place);
+  }
   return make(Op::both, {std::min(a, b), std::max(a, b)}, kNumber, place, -1, 0, true);
 }
 
@@ -203,6 +231,9 @@ NodeId Graph::either(NodeId a, NodeId b, Place place) {
   if (is_constant(a)) return node(a).value != 0 ? a : b;
   if (is_constant(b)) return node(b).value != 0 ? b : a;
   if (a == b) return a;
+  if (node(a).op == Op::opposite && node(b).op == Op::opposite) {
+    return opposite(both(argument(a, 0), argument(b, 0), place), place);
+  }
   return make(Op::either, {std::min(a, b), std::max(a, b)}, kNumber, place, -1, 0, true);
 }
 

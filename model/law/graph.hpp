@@ -60,6 +60,8 @@ class Graph {
 
   NodeId make(Op op, std::vector<NodeId> arguments, const Unit& unit, Place place, int index = -1,
               double value = 0, bool truth = false);
+  /// A product of what the host knows: at most one number, in front, and no sign inside.
+  NodeId fixed_product(NodeId a, NodeId b, Place place);
   /// `a`, which changes during a run, times a fixed factor, which joins a factor of `a` if it can.
   NodeId scale(NodeId factor, NodeId a, Place place);
   NodeId extreme(Op op, NodeId a, NodeId b, Place place);

@@ -18,7 +18,9 @@ Range wider(double lower, double upper) {
     throw NoRange{"a formula of parameters that gets too large",
                   "make the parameters' ranges smaller"};
   }
-  return {std::nextafter(lower, -kInfinity), std::nextafter(upper, kInfinity)};
+  // An end that is 0 comes from a factor 0 or from a difference without rounding.
+  return {lower == 0 ? 0 : std::nextafter(lower, -kInfinity),
+          upper == 0 ? 0 : std::nextafter(upper, kInfinity)};
 }
 
 Range product(const Range& a, const Range& b) {

@@ -164,7 +164,8 @@ const std::vector<std::string>& unit_symbols() {
   static const std::vector<std::string> all = [] {
     std::vector<std::string> names;
     for (const Symbol& s : kSymbols) names.emplace_back(s.name);
-    for (const char* often : {"mm", "um", "ms", "us", "kHz", "kg", "mNm"}) names.emplace_back(often);
+    for (const char* often : {"mm", "um", "ms", "us", "kHz", "kg", "mNm"})
+      names.emplace_back(often);
     return names;
   }();
   return all;

@@ -29,16 +29,17 @@ class Running {
   void set(const std::string& parameter, N si) { evaluation_.set_parameter(index(parameter), si); }
 
   /// The torque of axis 0 after a run.
-  N torque(const std::map<std::string, N>& inputs, int axis = 0) {
+  N torque(const std::map<std::string, N>& inputs) {
     std::vector<N> values;
     for (const Input& input : law_.inputs) {
       const auto found = inputs.find(input.name);
       values.push_back(found == inputs.end() ? N{0} : found->second);
     }
     evaluation_.run(values);
-    return torque(axis);
+    return output(0);
   }
-  N torque(int axis) const {
+  /// The torque of an axis in the last run.
+  N output(int axis) const {
     for (std::size_t i = 0; i < law_.outputs.size(); ++i) {
       if (law_.outputs[i].axis == axis) return evaluation_.outputs()[i];
     }

@@ -2,16 +2,40 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Every shipped law against its formula, written here by hand. Documentation: docs/laws.md
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 
 #include "catch.hpp"
 #include "law_case.hpp"
 
 using namespace feltgate::law;
 
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kDegree = kPi / 180;
+
+}  // namespace
+
+TEST_CASE("every shipped law has a summary and a torque, and is tested here") {
+  const std::vector<std::string> tested{"ceiling", "charge",     "damper",     "detent", "membrane",
+                                        "spring",  "quaternion", "pantograph", "wall"};
+  for (const auto& entry : std::filesystem::directory_iterator(FELTGATE_ROOT "/rtl/laws")) {
+    if (entry.path().extension() != ".law") continue;
+    const std::string name = entry.path().stem().string();
+    INFO(name);
+    CHECK(std::find(tested.begin(), tested.end(), name) != tested.end());
+    const Law law = shipped(name);
+    CHECK(law.name == name);
+    CHECK(law.summary.size() > 10);
+    CHECK(!law.outputs.empty());
+  }
+}
+
 TEST_CASE("detent: the sine of a click") {
   Running<> law(shipped("detent"));
-  CHECK(law.law().name == "detent");
   CHECK(law.law().summary == "a knob with soft clicks");
   CHECK(law.law().parameters[1].comment == "per turn");
   for (double x = -7; x < 7; x += 0.01) {
@@ -20,4 +44,182 @@ TEST_CASE("detent: the sine of a click") {
   law.set("amplitude", 0.3);
   law.set("clicks", 100);
   CHECK(law.torque({{"position", 0.4}}) == Approx(-0.3 * std::sin(40)));
+}
+
+TEST_CASE("wall: free before its face, never a pull behind it") {
+  Running<> law(shipped("wall"));
+  for (double x = 0; x < 1; x += 0.01) {
+    for (const double v : {-100.0, -3.0, 0.0, 2.0, 50.0}) {
+      const double push = 4 * (0.5 - x) - 0.005 * v;
+      const double torque = x > 0.5 ? std::min(push, 0.0) : 0;
+      CHECK(law.torque({{"position", x}, {"velocity", v}}) == Approx(torque).margin(1e-15));
+    }
+  }
+}
+
+TEST_CASE("spring and damper are linear") {
+  Running<> spring(shipped("spring")), damper(shipped("damper"));
+  spring.set("rest", 0.25);
+  for (double x = -3; x < 3; x += 0.1) {
+    CHECK(spring.torque({{"position", x}}) == Approx(0.5 * (0.25 - x)).margin(1e-15));
+    CHECK(damper.torque({{"velocity", x}}) == Approx(-0.03 * x).margin(1e-15));
+  }
+}
+
+TEST_CASE("membrane: back to the side last seen outside") {
+  Running<> law(shipped("membrane"));
+  const auto at = [&](double x) { return law.torque({{"position", x}}); };
+  CHECK(at(0.6) == 0);  // has been outside of nothing yet
+  CHECK(at(0.4) == 0);
+  CHECK(at(0.5) == -0.5);
+  CHECK(at(0.7) == -0.5);
+  CHECK(at(0.6) == -0.5);
+  CHECK(at(0.8) == 0);
+  CHECK(at(0.7) == 0.5);
+  CHECK(at(0.5) == 0.5);
+  law.evaluation().reset();
+  CHECK(at(0.6) == 0);
+}
+
+TEST_CASE("ceiling: 10 mm deep are 0.07 Nm") {
+  Running<> law(shipped("ceiling"));
+  CHECK(law.torque({{"position", 0.4}}) == 0);
+  CHECK(law.torque({{"position", 0.5 + 0.01 / 0.3}}) == Approx(-0.07));
+  law.set("length", 0.2);
+  CHECK(law.torque({{"position", 0.5 + 0.01 / 0.2}}) == Approx(-0.07));
+  CHECK(law.torque({{"position", 5}}) == Approx(-700 * 0.06 * 0.06));
+}
+
+TEST_CASE("charge: the inverse square outside of a linear core") {
+  Running<> law(shipped("charge"));
+  // As in the page of scene_charge: strength = peak core^2, slope = strength / core^3.
+  constexpr double strength = 0.02, core = 0.2;
+  const auto block = [&](double x) {
+    const double outside = std::copysign(strength, x) / (x * x);
+    return -(std::abs(x) > core ? outside : strength / (core * core * core) * x);
+  };
+  for (double x = -12; x < 12; x += 0.013) {
+    CHECK(law.torque({{"position", x}}) == Approx(block(x)).margin(1e-14));
+  }
+  CHECK(std::abs(law.torque({{"position", 100}}) - block(100)) < 0.2e-3);
+  law.set("peak", -0.5);
+  CHECK(law.torque({{"position", 0.4}}) == Approx(-block(0.4)));
+}
+
+TEST_CASE("charge: its tables as sampled stay within 0.2 mNm") {
+  Running<> exact(shipped("charge")), sampled(shipped("charge"), Tables::sampled);
+  double most = 0;
+  for (double x = -15; x < 15; x += 0.0007) {
+    const double off = exact.torque({{"position", x}}) - sampled.torque({{"position", x}});
+    most = std::max(most, std::abs(off));
+  }
+  CHECK(most < 0.11e-3);
+  CHECK(most > 0.05e-3);  // that of the shape's bend: it has been looked at
+}
+
+namespace {
+
+using Quaternion = std::array<double, 4>;
+
+Quaternion turn(int axis, double angle) {
+  Quaternion q{std::cos(angle / 2), 0, 0, 0};
+  q[static_cast<std::size_t>(axis) + 1] = std::sin(angle / 2);
+  return q;
+}
+
+std::array<double, 3> coupled(Running<>& law, const Quaternion& d, const Quaternion& o) {
+  const char* const names[2][4] = {{"dw", "dx", "dy", "dz"}, {"ow", "ox", "oy", "oz"}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    law.set(names[0][i], d[i]);
+    law.set(names[1][i], o[i]);
+  }
+  law.torque({});
+  return {law.output(0), law.output(1), law.output(2)};
+}
+
+}  // namespace
+
+TEST_CASE("quaternion: Rz90 against Rx90, small turns, and the shorter way") {
+  Running<> law(shipped("quaternion"));
+  law.set("stiffness", 0.25);  // 2 k = 0.5 Nm
+  const auto value = [&](const std::string& name) {
+    // w is only seen by its sign; the torque is 2 k sgn(w) (x, y, z).
+    return coupled(law, turn(2, kPi / 2),
+                   turn(0, kPi / 2))[static_cast<std::size_t>(name[0] - 'x')];
+  };
+  CHECK(value("x") == Approx(0.5 * -0.5));
+  CHECK(value("y") == Approx(0.5 * -0.5));
+  CHECK(value("z") == Approx(0.5 * 0.5));
+
+  CHECK(coupled(law, turn(1, 0.001), turn(1, 0))[1] == Approx(0.25e-3).epsilon(1e-6));
+  for (int degrees = 1; degrees < 360; ++degrees) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto torque = coupled(law, turn(axis, degrees * kDegree), turn(axis, 0));
+      const double shorter = degrees <= 180 ? degrees : degrees - 360;
+      const double expected = 0.5 * std::sin(shorter * kDegree / 2);
+      if (degrees == 180) continue;  // both ways are as long
+      INFO(degrees);
+      CHECK(torque[static_cast<std::size_t>(axis)] == Approx(expected));
+    }
+  }
+}
+
+TEST_CASE("pantograph: kinematics, its transpose, floor and drag") {
+  Running<> law(shipped("pantograph"));
+  const auto run = [&](double one, double five, double w1, double w5) {
+    law.torque({{"position", one * kDegree},
+                {"position[1]", five * kDegree},
+                {"velocity", w1},
+                {"velocity[1]", w5}});
+    return std::array<double, 2>{law.output(0), law.output(1)};
+  };
+  // Both at 10 rad/s move the tip with (-1, 0) m/s: 1 N s/m of drag is the force (1, 0) N.
+  const auto drag = run(30, 150, 10, 10);
+  CHECK(drag[0] == Approx(-0.05));
+  CHECK(drag[1] == Approx(-0.05));
+  // Against each other (0, sqrt(3)) m/s: (0, -sqrt(3)) N.
+  const auto up = run(30, 150, 10, -10);
+  CHECK(up[0] == Approx(-std::sqrt(3) * 0.0866025403784));
+  CHECK(up[1] == Approx(std::sqrt(3) * 0.0866025403784));
+
+  const auto still = run(30, 150, 0, 0);  // the tip is at (0, 0.1), above the floor
+  CHECK(still[0] == Approx(0).margin(1e-12));
+  CHECK(still[1] == Approx(0).margin(1e-12));
+  law.set("floor", 0.102);  // 2 mm deep: (0, 1) N
+  const auto pushed = run(30, 150, 0, 0);
+  CHECK(pushed[0] == Approx(0.0866025403784));
+  CHECK(pushed[1] == Approx(-0.0866025403784));
+}
+
+TEST_CASE("pantograph: against formulas, over its range") {
+  Running<> law(shipped("pantograph"));
+  for (double a = 0; a < 1.5; a += 0.11) {
+    for (double b = 1.6; b < 3.1; b += 0.13) {
+      for (const double w : {-20.0, 3.0, 15.0}) {
+        const double u = 7 - w, L = 0.1;
+        law.torque({{"position", a}, {"position[1]", b}, {"velocity", w}, {"velocity[1]", u}});
+        const double J[2][2] = {{-L * std::sin(a), -L * std::sin(b)},
+                                {L * std::cos(a), L * std::cos(b)}};
+        const double y = L * (std::sin(a) + std::sin(b));
+        const double fx = -(J[0][0] * w + J[0][1] * u);
+        const double fy = 500 * std::max(0.08 - y, 0.0) - (J[1][0] * w + J[1][1] * u);
+        CHECK(law.output(0) == Approx(J[0][0] * fx + J[1][0] * fy).margin(1e-14));
+        CHECK(law.output(1) == Approx(J[0][1] * fx + J[1][1] * fy).margin(1e-14));
+      }
+    }
+  }
+}
+
+TEMPLATE_TEST_CASE("every number type computes the same law", "", long double, feltgate::Quad) {
+  for (const char* const name : {"detent", "charge", "pantograph", "wall"}) {
+    Running<> plain(shipped(name));
+    Running<TestType> other(shipped(name));
+    for (double x = -3; x < 3; x += 0.37) {
+      const auto in = static_cast<TestType>(x);
+      const double a = plain.torque({{"position", x}, {"position[1]", 2 * x}, {"velocity", -x}});
+      const auto b = other.torque({{"position", in}, {"position[1]", 2 * in}, {"velocity", -in}});
+      INFO(name << " at " << x);
+      CHECK(static_cast<double>(b) == Approx(a).margin(1e-14));
+    }
+  }
 }

@@ -30,6 +30,21 @@ module feltgate_core #(
     input  logic       set_zero_i,  // one clock: position := 0 at the end of the tick
     input  logic [3:0] scene_i,
 
+    // Programmed torque of the scene law, and other axes; 0 without. docs/blocks/feltgate_core.md
+    input  logic signed [feltgate_pkg::TORQUE_W-1:0] law_torque_i,  // sampled in T_LAW_TORQUE
+    input  logic law_late_i,      // there is no fresh one: it counts as 0, and trips
+    input  logic law_restart_i,   // in the last clock of a tick: it may jump with the next
+    input  logic axis_fault_i,    // an axis has a fault
+    input  logic axis_silent_i,   // an axis does not ask to be armed
+    input  logic axis_blocked_i,  // an axis must not be armed
+    input  logic axis_testing_i,  // an axis tests itself: the scene waits
+    input  logic axis_waits_i,    // an axis before this one does: its own test waits
+    output logic asks_o,          // what the others want to know of this one
+    output logic ready_o,
+    output logic testing_o,
+    output logic measured_o,      // one clock: position, velocity and tau_hat are of this tick, for half a tick
+    output logic zeroed_o,        // one clock: the position becomes 0
+
     // Register port
     input  logic [11:0] reg_addr_i,
     input  logic [31:0] reg_wdata_i,
@@ -77,12 +92,12 @@ module feltgate_core #(
   logic [feltgate_map_pkg::W_CONTROL-1:0] control;
   logic [ 3:0] scene_wanted, scene_q;
   logic [ 1:0] mode;
-  logic host, arm_request, set_zero, clear_faults, kick, region_high;
-  logic disarm, host_stop, restart, refused, unkicked, word_error, testing, self_test_trip;
+  logic host, clear_faults, kick, region_high;
+  logic disarm, host_stop, restart, refused, unkicked, word_error, testing, paused, law, self_test_trip;
   logic moved, beyond, frozen, eased, channel_trip, index_trip, flip_trip;
   assign host         = control[feltgate_map_pkg::B_CONTROL_HOST];
   assign mode         = control[feltgate_map_pkg::B_CONTROL_MODE+:feltgate_map_pkg::W_CONTROL_MODE];
-  assign arm_request  = (host ? control[feltgate_map_pkg::B_CONTROL_ARM] : arm_i) && !disarm;
+  assign asks_o       = (host ? control[feltgate_map_pkg::B_CONTROL_ARM] : arm_i) && !disarm;
   assign scene_wanted = host ? control[feltgate_map_pkg::B_CONTROL_SCENE+:feltgate_map_pkg::W_CONTROL_SCENE] : scene_i;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) scene_q <= '0;
@@ -91,33 +106,24 @@ module feltgate_core #(
 
   sequencer u_sequencer (
       .clk_i(clk_i), .rst_ni(rst_ni),
-      .tick_o(tick),
-      .slot_fetch_o(slot_fetch), .scene_slot_fetch_o(scene_slot_fetch),
-      .wave_o(wave),
-      .tick_count_o(tick_count_o)
+      .tick_o(tick), .tick_count_o(tick_count_o), .wave_o(wave),
+      .slot_fetch_o(slot_fetch), .scene_slot_fetch_o(scene_slot_fetch)
   );
 
   registers #(.ReadBack(ReadBack), .ParameterFile(ParameterFile)) u_registers (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .tick_i(tick),
-      .reg_addr_i(reg_addr_i), .reg_wdata_i(reg_wdata_i),
-      .reg_write_i(reg_write_i),
-      .reg_rdata_o(reg_rdata_o),
-      .reg_busy_o(reg_busy_o),
-      .armed_i(armed_o),
-      .set_zero_i(set_zero_i),
-      .slot_fetch_i(slot_fetch),
-      .scene_slot_fetch_i(scene_slot_fetch),
+      .reg_addr_i(reg_addr_i), .reg_wdata_i(reg_wdata_i), .reg_write_i(reg_write_i),
+      .reg_rdata_o(reg_rdata_o), .reg_busy_o(reg_busy_o),
+      .armed_i(armed_o), .set_zero_i(set_zero_i),
+      .slot_fetch_i(slot_fetch), .scene_slot_fetch_i(scene_slot_fetch),
       .scene_i(scene_q),
       .region_high_i(region_high), .eased_i(eased), .testing_i(testing),
       .param_o(param),
       .word_error_o(word_error),
-      .control_o(control),
-      .set_zero_o(set_zero),
-      .clear_faults_o(clear_faults),
-      .kick_o(kick),
-      .disarm_o(disarm),
-      .stop_o(host_stop),
+      .control_o(control), .set_zero_o(zeroed_o),
+      .clear_faults_o(clear_faults), .kick_o(kick),
+      .disarm_o(disarm), .stop_o(host_stop),
       .restart_o(restart),
       .refused_o(refused),
       .snap_slot_i(word_slot_o), .snap_valid_i(word_valid_o), .snap_data_i(word_data_o)
@@ -135,7 +141,7 @@ module feltgate_core #(
       .a_i(enc_a_i), .b_i(enc_b_i), .z_i(enc_z_i),
       .filter_i(control[feltgate_map_pkg::B_CONTROL_FILTER+:feltgate_map_pkg::W_CONTROL_FILTER]),
       .polarity_i(control[feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY]),
-      .set_zero_i(set_zero),
+      .set_zero_i(zeroed_o),
       .clear_error_i(clear_faults),
       .position_o(position), .travel_o(travel),
       .step_o(step), .count_o(count), .zero_o(zero),
@@ -148,7 +154,7 @@ module feltgate_core #(
 
   encoder_monitor u_encoder_monitor (
       .clk_i(clk_i), .rst_ni(rst_ni), .wave_i(wave), .tick_count_i(tick_count_o), .levels_i(levels),
-      .count_i(count), .zero_i(zero), .step_i(step), .set_zero_i(set_zero), .flip_trip_o(flip_trip),
+      .count_i(count), .zero_i(zero), .step_i(step), .set_zero_i(zeroed_o), .flip_trip_o(flip_trip),
       .index_wrong_i(index_wrong), .index_trip_o(index_trip), .moved_o(moved), .chatters_o(frozen), .trip_o(channel_trip)
   );
   hold_timer u_hold_timer (
@@ -203,14 +209,16 @@ module feltgate_core #(
   logic signed [feltgate_pkg::SCENE_DISTANCE_W-1:0] distance;
   logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] scene_ahead;
   logic signed [feltgate_pkg::TORQUE_W-1:0] scene_late;
+  assign paused = testing || axis_testing_i;
   scenes u_scenes (
       .clk_i(clk_i), .rst_ni(rst_ni),
-      .armed_i(armed_o && !testing),
+      .armed_i(armed_o && !paused),
       .scene_i(scene_q),
       .wave_i(wave), .position_i(scene_position_q),
       .param_i(param),
       .product_i(scene_product),
       .beyond_i(beyond),
+      .law_torque_i(law_torque_i), .law_late_i(law_late_i), .law_o(law),
       .distance_o(distance), .square_o(square),
       .ahead_o(scene_ahead), .late_o(scene_late)
   );
@@ -219,7 +227,7 @@ module feltgate_core #(
   logic [feltgate_map_pkg::W_STATUS_SELF_TEST-1:0] test_result;
   self_test u_self_test (
       .clk_i(clk_i), .rst_ni(rst_ni),
-      .armed_i(armed_o), .direct_i(mode == 2'(feltgate_map_pkg::MODE_VOLTAGE)),
+      .armed_i(armed_o), .direct_i(mode == 2'(feltgate_map_pkg::MODE_VOLTAGE)), .waits_i(axis_waits_i),
       .travel_i(travel[1:0]), .tick_count_i(tick_count_o),
       .wave_i(wave), .param_i(param),
       .busy_o(testing), .ahead_o(pulse_ahead),
@@ -244,9 +252,9 @@ module feltgate_core #(
   logic limit_torque, limit_ramp, limit_hold, limit_current, limit_voltage, limit_duty;
   ramp u_ramp (
       .clk_i(clk_i), .rst_ni(rst_ni),
-      .armed_i(armed_o && !testing),
+      .armed_i(armed_o && !paused),
       .scene_i(scene_q),
-      .restart_i(restart),
+      .restart_i(restart || (tick && law && law_restart_i)),
       .wave_i(wave), .param_i(param),
       .limited_i(limited), .beyond_i(beyond),
       .tau_ref_o(tau_ref_o),
@@ -275,27 +283,23 @@ module feltgate_core #(
   logic gates_enable, gates_clear, period_start;
   supervisor u_supervisor (
       .clk_i(clk_i), .rst_ni(rst_ni),
-      .tick_i(tick),
-      .period_start_i(period_start),
-      .arm_i(arm_request),
+      .tick_i(tick), .period_start_i(period_start),
+      .arm_i(asks_o && !axis_silent_i), .axis_blocked_i(axis_blocked_i), .ready_o(ready_o),
       .stop_i(stop_i),
-      .clear_faults_i(clear_faults),
-      .kick_i(kick),
+      .clear_faults_i(clear_faults), .kick_i(kick),
       .encoder_error_i(illegal),
       .velocity_i(velocity_o), .current_ref_i(current_ref_o),
-      .wave_i(wave),
-      .param_i(param),
-      .product_i(supervisor_product),
+      .wave_i(wave), .param_i(param), .product_i(supervisor_product),
       .trips_i((FaultsW'(self_test_trip) << feltgate_map_pkg::FAULT_SELF_TEST) |
                (FaultsW'(host_stop) << feltgate_map_pkg::FAULT_STOP) |
                (FaultsW'(word_error || flip_trip) << feltgate_map_pkg::FAULT_WORD) |
                (FaultsW'(channel_trip) << feltgate_map_pkg::FAULT_CHANNEL) | (FaultsW'(index_trip) << feltgate_map_pkg::FAULT_INDEX) |
+               (FaultsW'(law && law_late_i && gates_enable) << feltgate_map_pkg::FAULT_ENGINE) |
+               (FaultsW'(axis_fault_i && gates_enable) << feltgate_map_pkg::FAULT_AXIS) |
                (FaultsW'(velocity_jumped) << feltgate_map_pkg::FAULT_JUMP)),
       .current_estimate_o(current_estimate),
-      .armed_o(armed_o),
-      .gates_enable_o(gates_enable),
-      .gates_clear_o(gates_clear),
-      .unkicked_o(unkicked),
+      .armed_o(armed_o), .unkicked_o(unkicked),
+      .gates_enable_o(gates_enable), .gates_clear_o(gates_clear),
       .faults_o(faults_o), .first_fault_o(first_fault_o)
   );
 
@@ -325,7 +329,7 @@ module feltgate_core #(
                   (32'(armed_o) << feltgate_map_pkg::B_STATUS_ARMED) |
                   (32'(mode) << feltgate_map_pkg::B_STATUS_MODE) |
                   (32'(test_result) << feltgate_map_pkg::B_STATUS_SELF_TEST) |
-                  (32'(testing) << feltgate_map_pkg::B_STATUS_TESTING) |
+                  (32'(paused) << feltgate_map_pkg::B_STATUS_TESTING) |
                   (32'(encoder_error) << feltgate_map_pkg::B_STATUS_ENCODER_ERROR) |
                   (32'(refused) << feltgate_map_pkg::B_STATUS_REFUSED) | (32'(unkicked) << feltgate_map_pkg::B_STATUS_UNKICKED);
   snapshot #(.ReadBack(ReadBack)) u_snapshot (
@@ -388,6 +392,8 @@ module feltgate_core #(
 
   assign scene_o = scene_q;
   assign gates_enable_o = gates_enable;
+  assign testing_o = testing;
+  assign measured_o = wave[feltgate_map_pkg::T_TAU_HAT+1];
   assign snapshot_valid_o = wave[feltgate_map_pkg::T_SNAPSHOT];
 endmodule
 

@@ -24,6 +24,9 @@ module scenes #(
     input  logic signed [feltgate_pkg::SCENE_POSITION_W-1:0] position_i,
     input  logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     input  logic                                             beyond_i,    // the limiter's
+    input  logic signed [        feltgate_pkg::TORQUE_W-1:0] law_torque_i,  // of a program; counts where law_o
+    input  logic                                             law_late_i,    // it counts as 0
+    output logic                                             law_o,         // the scene of programs is in use
     output logic signed [feltgate_pkg::SCENE_DISTANCE_W-1:0] distance_o,
     output logic                                             square_o,    // distance times itself
     output logic signed [  feltgate_pkg::SCENE_TORQUE_W-1:0] ahead_o,     // to the limiter, a clock before
@@ -56,6 +59,8 @@ module scenes #(
                        scene_i == feltgate_map_pkg::SCENE_CHARGE_REPEL;
   assign wall        = Mask[{1'b0, feltgate_map_pkg::SCENE_WALL}] &&
                        scene_i == feltgate_map_pkg::SCENE_WALL;
+  assign law_o       = Mask[{1'b0, feltgate_map_pkg::SCENE_LAW}] &&
+                       scene_i == feltgate_map_pkg::SCENE_LAW;
   assign square_o    = attract || repel;
 
   // Reference minus position. Only the whole counts are subtracted: a position has no fraction, and
@@ -190,7 +195,7 @@ module scenes #(
       .up_o(up)
   );
   logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] rounded_q;
-  logic signed [                     TorqueW-1:0] word_q;  // a whole torque needs no rounding
+  logic signed [                     TorqueW-1:0] word_q, law_q;  // a whole torque needs no rounding
   logic signed [                        GapW-1:0] width_q;
   always_ff @(posedge clk_i) begin
     if (!wave_i[Rounded] || !armed_i || (wall && !sum_q[PartW])) rounded_q <= '0;
@@ -198,15 +203,17 @@ module scenes #(
                       feltgate_pkg::SCENE_TORQUE_W'({1'b0, up});
     if (!wave_i[Rounded] || !armed_i) word_q <= '0;
     else word_q <= setpoint_plus;
+    if (!wave_i[feltgate_map_pkg::T_LAW_TORQUE] || !armed_i || !law_o || law_late_i) law_q <= '0;
+    else law_q <= law_torque_i;
     if (!wave_i[feltgate_map_pkg::T_CHARGE_WIDTH]) width_q <= '0;
     else width_q <= gap_q;
   end
   assign ahead_o = rounded_q | feltgate_pkg::SCENE_TORQUE_W'(word_q) |
-                   feltgate_pkg::SCENE_TORQUE_W'(width_q);
+                   feltgate_pkg::SCENE_TORQUE_W'(law_q) | feltgate_pkg::SCENE_TORQUE_W'(width_q);
 
   // With fewer scenes.
   logic unused;
-  assign unused = ^{rst_ni, beyond_i, product_i, setpoint, membrane, compression, tension};
+  assign unused = ^{rst_ni, beyond_i, product_i, setpoint, membrane, compression, tension, law_torque_i, law_late_i};
 endmodule
 
 `default_nettype wire

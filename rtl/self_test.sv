@@ -13,6 +13,7 @@ module self_test (
     input  logic                                             rst_ni,
     input  logic                                             armed_i,
     input  logic                                             direct_i,      // no torque to test with
+    input  logic                                             waits_i,       // no pulse yet: another axis is before
     input  logic        [                               1:0] travel_i,      // its low bits
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits
     input  logic        [                              31:0] tick_count_i,
@@ -78,7 +79,7 @@ module self_test (
   logic still, late_q, gives_up, begins;
   assign still    = step == 2'd0;
   assign gives_up = impatient && late_q;
-  assign begins   = quiet_q && still && !gives_up;
+  assign begins   = quiet_q && still && !gives_up && !waits_i;
   assign busy_o   = armed_i && (wait_q || first_q || second_q || rest_q);
 
   // Counts since the pulse began, up to the answer, where they stay. What begins with the second pulse
@@ -93,7 +94,7 @@ module self_test (
   assign trip_o  = wave_i[feltgate_map_pkg::T_SELF_TEST] && fail_q;
 
   logic runs;
-  assign runs = armed_i && ((wait_q && still && !begins && !gives_up) || ((first_q || second_q) && !over_q));
+  assign runs = armed_i && ((wait_q && !waits_i && still && !begins && !gives_up) || ((first_q || second_q) && !over_q));
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {wait_q, first_q, second_q, rest_q} <= '0;
@@ -107,7 +108,7 @@ module self_test (
       first_q  <= armed_i && ((wait_q && begins) || (first_q && !over_q));
       second_q <= armed_i && (over_q ? first_q : second_q);
       rest_q   <= armed_i && over_q && second_q;
-      late_q   <= armed_i && wait_q && (late_q || impatient);
+      late_q   <= armed_i && wait_q && !waits_i && (late_q || impatient);
       fail_q   <= armed_i && (against || (failed && !param_i[feltgate_map_pkg::SELF_TEST_HELD_BIT]) ||
                              (wait_q && gives_up && !param_i[feltgate_map_pkg::SELF_TEST_MOVING_BIT]));
       if (rest_q && armed_i) result_o <= failed ? Held : Right;

@@ -29,6 +29,8 @@ module supervisor (
   output logic               gates_enable_o,   // falls at once on a fault
   output logic               gates_clear_o,    // asynchronous: the stop, from its first edge until it is dealt with
   output logic               unkicked_o,       // arming waits for the first kick
+  input  logic               axis_blocked_i,   // it does against another axis
+  output logic               ready_o,          // nothing speaks against arming
   input  logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,  // causes of other blocks, by bit
   output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults_o,  // bit n: cause n was seen
   output logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault_o  // number of the first, 0 none
@@ -310,7 +312,8 @@ module supervisor (
   // fall before it counts again.
   logic asked_q, may_arm, arms;
 
-  assign may_arm = !asked_q && first_fault_o == NONE && !stop_q[1] && !unkicked_o;
+  assign ready_o = first_fault_o == NONE && !stop_q[1] && !unkicked_o;
+  assign may_arm = !asked_q && ready_o && !axis_blocked_i;
   assign arms    = arm_i && (gates_enable_o || may_arm) && !any_trip;  // or stays armed
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -19,7 +19,13 @@ SCENE_ROW = "core without read-back, registered"
 # reads. Everything that only they need is left out of the core's figures.
 SNAPSHOT_PORTS = (
     "snapshot_valid_o tick_count_o position_o velocity_o tau_hat_o tau_ref_o current_ref_o "
-    "voltage_o duty_o duty_active_o word_valid_o word_slot_o word_data_o"
+    "voltage_o duty_o duty_active_o word_valid_o word_slot_o word_data_o asks_o ready_o testing_o "
+    "measured_o zeroed_o"
+).split()
+# Inputs of a core that is alone and has no engine.
+ALONE = (
+    "law_torque_i law_late_i law_restart_i axis_fault_i axis_silent_i axis_blocked_i "
+    "axis_testing_i axis_waits_i"
 ).split()
 # Parameters that the core sets and a block alone would not have.
 BLOCK_PARAMETERS = {
@@ -37,6 +43,7 @@ class Target:
     parameters: dict = field(default_factory=dict)
     registered: bool = False  # MULT18X18D with its own registers
     open_ports: tuple = ()
+    tied_ports: tuple = ()  # to 0
 
 
 def core_sources(root):
@@ -65,6 +72,7 @@ def targets(root):
                     {"ReadBack": str(read_back)},
                     registered,
                     tuple(SNAPSHOT_PORTS),
+                    tuple(ALONE),
                 )
             )
     return rows
@@ -114,19 +122,21 @@ def instance(target, connections):
 
 def area_top(target, ports):
     """The block as it is counted: its ports, without those that stay open."""
-    kept = [p for p in ports if p[0] not in target.open_ports]
+    kept = [p for p in ports if p[0] not in (*target.open_ports, *target.tied_ports)]
     pins = ", ".join(f"{way} logic [{width - 1}:0] {name}" for name, way, width in kept)
-    connections = [(name, "" if name in target.open_ports else name) for name, _, _ in ports]
+    nets = {**dict.fromkeys(target.open_ports, ""), **dict.fromkeys(target.tied_ports, "'0")}
+    connections = [(name, nets.get(name, name)) for name, _, _ in ports]
     return f"module area_top ({pins});\n  {instance(target, connections)}\nendmodule\n"
 
 
 def speed_top(target, ports):
     """The block between registers that are shifted in and out, so that no pin limits it."""
     clocks = ("clk_i", "rst_ni")
-    ins = [p for p in ports if p[1] == "input" and p[0] not in clocks]
+    ins = [p for p in ports if p[1] == "input" and p[0] not in (*clocks, *target.tied_ports)]
     outs = [p for p in ports if p[1] == "output" and p[0] not in target.open_ports]
     connections = [(name, name) for name, _, _ in ports if name in clocks]
     connections += [(name, "") for name in target.open_ports]
+    connections += [(name, "'0") for name in target.tied_ports]
     for prefix, list_of_ports in (("in_q2", ins), ("out", outs)):
         start = 0
         for name, _, width in list_of_ports:

@@ -58,6 +58,9 @@ struct Design {
   int coefficient_bits = fabric::multiplier_b_bits - 1;  ///< of a mantissa, without its sign
   Round rounding = Round::half_up;                       ///< where the chain rounds
   bool parallel_multipliers = false;  ///< each block its own instead of one for all
+  int axes = 1;                       ///< motors with an encoder each, one tick, one port
+  bool engine = false;                ///< programs give the torque of the scene law
+  double engine_max_age_s = 0;        ///< without a fresh torque for longer: the fault engine
   bool allow_coarse = false;  ///< not of the file: a resolution coarser than promised is let pass
   std::map<std::string, int> lines_of;  ///< where a "section.key" of the file stands, for errors
 
@@ -68,6 +71,8 @@ struct Design {
   /// A time in the units of the self-test, SELF_TEST_UNIT_BITS of ticks.
   double self_test_units(double seconds) const;
   int dead_clocks() const;
+  /// Of engine_max_age_s, at least one; 0 without an engine.
+  int engine_max_age_ticks() const;
   double tick_s() const { return 1.0 / static_cast<double>(tick_hz); }
   /// One count in radians.
   double count_rad() const;

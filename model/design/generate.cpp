@@ -134,9 +134,24 @@ std::vector<std::pair<std::string, Format>> named_formats(const Formats& f) {
           {"charge", f.charge}};
 }
 
+namespace {
+
+/// What most designs have not. They keep their constants, and so their CRC.
+std::vector<Constant> further(const Design& d) {
+  return {
+      {"axes", d.axes, "motors with an encoder each"},
+      {"engine", d.engine ? 1 : 0, "1: programs give the torque of the scene law"},
+      {"engine_max_age", d.engine_max_age_ticks(), "ticks without a fresh torque that are borne"}};
+}
+
+}  // namespace
+
 std::uint32_t design_crc(const Elaborated& e) {
   std::string text = fmt::format("clock_hz {}\ntick_hz {}\n", e.design.clock_hz, e.design.tick_hz);
   for (const Constant& c : constants(e)) text += fmt::format("{} {}\n", c.name, c.value);
+  if (e.design.axes != 1 || e.design.engine) {
+    for (const Constant& c : further(e.design)) text += fmt::format("{} {}\n", c.name, c.value);
+  }
   for (const auto& [name, f] : named_formats(e.formats)) {
     text += fmt::format("{} {} {} {}\n", name, f.sign, f.integer, f.fraction);
   }
@@ -154,6 +169,9 @@ std::string systemverilog_package(const Elaborated& e) {
     << "package feltgate_pkg;\n"
     << "  localparam int CLOCK_HZ = " << e.design.clock_hz << ";\n";
   for (const Constant& c : constants(e)) {
+    s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
+  }
+  for (const Constant& c : further(e.design)) {
     s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
   }
   s << "  localparam int ROUNDING = " << rounding(e.design.rounding).number
@@ -206,6 +224,9 @@ std::string cpp_header(const Elaborated& e) {
     << exact(d.exact_gain ? d.velocity_gain_rad_s() : 0.0) << ";\n"
     << "  static constexpr double supply_v = " << exact(d.supply_v) << ";\n";
   for (const Constant& c : constants(e)) {
+    s << "  static constexpr int " << c.name << " = " << c.value << ";  // " << c.doc << "\n";
+  }
+  for (const Constant& c : further(d)) {
     s << "  static constexpr int " << c.name << " = " << c.value << ";  // " << c.doc << "\n";
   }
   s << "  static constexpr Round rounding = Round::" << rounding(d.rounding).name

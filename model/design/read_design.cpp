@@ -10,6 +10,7 @@
 
 #include "config/toml_reader.hpp"
 #include "design/design.hpp"
+#include "feltgate/generated/engine.hpp"
 #include "feltgate/generated/map.hpp"
 
 namespace feltgate::design {
@@ -168,7 +169,29 @@ void read_self_test(config::TomlReader& r, Design& d) {
   }
 }
 
+/// Programs, whose torque the scene law takes.
+void read_engine(config::TomlReader& r, Design& d) {
+  d.engine = true;
+  d.engine_max_age_s = 1e-3 * (r.has("max_age_ms") ? r.number("max_age_ms", {1e-3, 1e5}) : 1.0);
+  constexpr int most = (1 << EngineMap::age_bits) - 1;
+  if (d.engine_max_age_ticks() > most) {
+    r.fail("max_age_ms",
+           fmt::format("\"max_age_ms\" is {} ticks, more than {}", d.engine_max_age_ticks(), most),
+           fmt::format("choose up to {:g} ms", 1e3 * most * d.tick_s()));
+  }
+  if (std::find(d.scenes.begin(), d.scenes.end(), "law") == d.scenes.end()) {
+    d.fail("scenes.include", "no scene takes the torque of the engine",
+           "add \"law\", or leave [engine] out");
+  }
+}
+
 }  // namespace
+
+int Design::engine_max_age_ticks() const {
+  if (!engine) return 0;
+  return std::max(1,
+                  static_cast<int>(std::lround(engine_max_age_s * static_cast<double>(tick_hz))));
+}
 
 double Design::self_test_units(double seconds) const {
   return seconds * static_cast<double>(tick_hz) / (1 << Map::self_test_unit_bits);
@@ -292,6 +315,13 @@ Design design_of(const toml::table& root, const std::string& path) {
     section("fabric", [&](config::TomlReader& r) {
       d.parallel_multipliers = r.choice("multipliers", {"shared", "parallel"}) == 1;
     });
+  }
+  if (top.has("engine")) {
+    section("engine", [&](config::TomlReader& r) { read_engine(r, d); });
+  }
+  if (top.has("axes")) {
+    section("axes",
+            [&](config::TomlReader& r) { d.axes = static_cast<int>(r.integer("count", 1, 3)); });
   }
   top.finish();
   return d;

@@ -44,7 +44,7 @@ class RtlCore {
   }
   /// The inputs of the coming clocks.
   void drive(const CoreIn& in) {
-    drive_inputs(**rtl_, in);
+    drive_inputs<D>(**rtl_, in);
     stop_ = in.stop;
   }
   /// One clock with the inputs that were driven.

@@ -25,9 +25,9 @@ inline std::int32_t narrow_word(std::uint32_t word, int width) {
 
 }  // namespace detail
 
-/// Sets every input but clock and reset. The stop is to be lowered with the edge: it was seen since
-/// the last one, and is not in the next.
-template <class Rtl>
+/// Sets every input but clock and reset, for design D. The stop is to be lowered with the edge: it
+/// was seen since the last one, and is not in the next.
+template <class D, class Rtl>
 void drive_inputs(Rtl& rtl, const CoreIn& in) {
   rtl.enc_a_i = in.encoder.a;
   rtl.enc_b_i = in.encoder.b;
@@ -39,6 +39,14 @@ void drive_inputs(Rtl& rtl, const CoreIn& in) {
   rtl.reg_addr_i = in.reg_addr;
   rtl.reg_wdata_i = in.reg_wdata;
   rtl.reg_write_i = in.reg_write;
+  rtl.law_torque_i = static_cast<std::uint32_t>(in.law_torque) & ((1u << D::f.torque.width()) - 1);
+  rtl.law_late_i = in.law_late;
+  rtl.law_restart_i = in.law_restart;
+  rtl.axis_fault_i = in.axis_fault;
+  rtl.axis_silent_i = in.axis_silent;
+  rtl.axis_blocked_i = in.axis_blocked;
+  rtl.axis_testing_i = in.axis_testing;
+  rtl.axis_waits_i = in.axis_waits;
 }
 
 /// Every output after an edge, for design D.

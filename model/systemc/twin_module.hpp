@@ -58,6 +58,14 @@ class TwinModule : public sc_core::sc_module {
     in.reg_addr = static_cast<std::uint16_t>(reg_addr_i.read());
     in.reg_wdata = reg_wdata_i.read();
     in.reg_write = reg_write_i.read();
+    in.law_torque = torque(law_torque_i.read());
+    in.law_late = law_late_i.read();
+    in.law_restart = law_restart_i.read();
+    in.axis_fault = axis_fault_i.read();
+    in.axis_silent = axis_silent_i.read();
+    in.axis_blocked = axis_blocked_i.read();
+    in.axis_testing = axis_testing_i.read();
+    in.axis_waits = axis_waits_i.read();
     return in;
   }
 
@@ -67,7 +75,17 @@ class TwinModule : public sc_core::sc_module {
                                       ((std::uint64_t{1} << f.width()) - 1));
   }
 
+  static std::int32_t torque(std::uint32_t word) {
+    const std::uint32_t sign = 1u << (D::f.torque.width() - 1);
+    return static_cast<std::int32_t>(((word & (2 * sign - 1)) ^ sign) - sign);
+  }
+
   void show(const CoreOut& o) {
+    asks_o.write(core_.asks(inputs()));
+    ready_o.write(core_.ready());
+    testing_o.write(core_.testing());
+    measured_o.write(core_.measured());
+    zeroed_o.write(core_.zeroed());
     gate_a_hi_o.write((o.gates & 1u) != 0);
     gate_a_lo_o.write((o.gates & 2u) != 0);
     gate_b_hi_o.write((o.gates & 4u) != 0);

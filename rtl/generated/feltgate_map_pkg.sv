@@ -168,6 +168,7 @@ package feltgate_map_pkg;
   localparam int T_CHARGE_CHOSEN = 8;
   localparam int T_SCENE_SUM = 15;
   localparam int T_SCENE_ROUNDED = 22;
+  localparam int T_LAW_TORQUE = 22;
   localparam int T_SCENE_AHEAD = 23;
   localparam int T_SCENE_TORQUE = 23;
   localparam int T_TORQUE_LIMITED = 24;
@@ -262,6 +263,7 @@ package feltgate_map_pkg;
   localparam logic [3:0] SCENE_CHARGE_ATTRACT = 4'd7;
   localparam logic [3:0] SCENE_CHARGE_REPEL = 4'd8;
   localparam logic [3:0] SCENE_WALL = 4'd9;
+  localparam logic [3:0] SCENE_LAW = 4'd10;
 
   // Addresses of the control words and of the snapshot's first; bits (B) and widths (W) of the
   // words' fields.
@@ -331,8 +333,8 @@ package feltgate_map_pkg;
   localparam int FAULT_INDEX = 10;  // the count at the index does not fit a revolution
   localparam int FAULT_WORD = 11;  // a parameter or a held control bit has changed by itself
   localparam int FAULT_JUMP = 12;  // the velocity moved by more than its filter can
-  localparam int FAULT_ENGINE = 13;  // reserved for programmed forces
-  localparam int FAULT_AXIS = 14;  // reserved for further axes
+  localparam int FAULT_ENGINE = 13;  // the engine is late: no fresh torque within its time, in the scene law
+  localparam int FAULT_AXIS = 14;  // another axis has a fault
   localparam int FAULT_LINK = 15;  // reserved for the host's link
 endpackage
 /* verilator lint_on UNUSEDPARAM */

@@ -8,10 +8,10 @@ include_guard(GLOBAL)
 file(GLOB designs CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/designs/*.toml")
 # A new design gets its engines once its files are generated: then this list changes.
 file(GLOB generated CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/generated/*/feltgate_pkg.sv")
-# Presets are in programs of their own: presets.cmake. The Python package has them all but first_power.
-set(FELTGATE_PRESETS fast balanced exact first_power)
+# Presets are in programs of their own: presets.cmake. The Python package has the first three.
+set(FELTGATE_PRESETS fast balanced exact first_power lever_law)
 foreach(preset IN LISTS FELTGATE_PRESETS)
-  if(NOT FELTGATE_PYTHON OR preset STREQUAL first_power)
+  if(NOT FELTGATE_PYTHON OR preset MATCHES "^(first_power|lever_law)$")
     list(REMOVE_ITEM designs "${FELTGATE_ROOT}/rtl/designs/${preset}.toml")
   endif()
 endforeach()

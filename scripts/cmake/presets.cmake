@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# feltgate_fast, feltgate_balanced, feltgate_exact, feltgate_first_power: the program feltgate with one preset more. An
+# feltgate_fast, feltgate_lever_law, ...: the program feltgate with one preset more. An
 # engine costs a minute to build, so these are built when somebody asks for them, and nobody else
 # builds or loads a preset. docs/designs.md
 include_guard(GLOBAL)

@@ -176,7 +176,8 @@ def build_program(generated, folder):
 
 def core_target():
     open_ports = tuple(synth_measure.SNAPSHOT_PORTS)
-    return synth_measure.Target("core", synth_measure.CORE, {"ReadBack": "0"}, True, open_ports)
+    tied = tuple(synth_measure.ALONE)
+    return synth_measure.Target("core", synth_measure.CORE, {"ReadBack": "0"}, True, open_ports, tied)
 
 
 def tools_in(folder):

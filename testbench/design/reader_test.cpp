@@ -146,6 +146,32 @@ TEST_CASE("values that do not belong together", "[reader]") {
         "\"torque\" is not an integer of its range; it must be from -64 to 64"}});
 }
 
+TEST_CASE("an engine and several axes", "[reader]") {
+  const std::string good = file_text(design_path("lever_law"));
+  CHECK(design_error(good) == "no error");
+  CHECK(design_error(good + "[axes]\ncount = 3\n") == "no error");
+  CHECK(design_error(replaced(good, "max_age_ms = 1.0", "")) == "no error");
+  check_cases(
+      good,
+      {{"\"setpoint\", \"law\"]", "\"setpoint\"]", "include = ",
+        "no scene takes the torque of the engine; add \"law\", or leave [engine] out"},
+       {"max_age_ms = 1.0", "max_age_ms = 65.536",
+        "max_age_ms = ", "\"max_age_ms\" is 65536 ticks, more than 65535; choose up to 65.535 ms"},
+       {"max_age_ms = 1.0", "max_age_ms = 0",
+        "max_age_ms = ", "\"max_age_ms\" = 0 is out of range; it must be from 0.001 to 100000"},
+       {"max_age_ms = 1.0", "age_ms = 1.0", "age_ms = ", "key \"age_ms\" is unknown in [engine]; "},
+       {"[engine]", "[axes]\ncount = 9\n[engine]", "count = 9",
+        "\"count\" is not an integer of its range; it must be from 1 to 3"},
+       {"[engine]", "[axes]\n[engine]", "[axes]", "key \"count\" is missing in [axes]; add it"}});
+  // Designs without keep the number by which a host knows them.
+  const auto crc = [](const std::string& text) {
+    return design_crc(elaborate(design_from_text(text, "own.toml"), shipped_registers()));
+  };
+  const std::string lever = file_text(design_path("lever"));
+  CHECK(crc(lever) == crc(lever + "[axes]\ncount = 1\n"));
+  CHECK(crc(lever) != crc(lever + "[axes]\ncount = 2\n"));
+}
+
 TEST_CASE("the register map is read as strictly", "[reader]") {
   const auto place = [](const std::string& error) {
     const std::string path = std::string(FELTGATE_TEST_FOLDER) + "/registers.toml:";

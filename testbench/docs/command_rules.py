@@ -91,7 +91,7 @@ PLACEHOLDERS = {
 }
 # Engines that the launcher builds when a line names them; here they are not there.
 BUILT_ON_DEMAND = {"stability mine": "lever"}
-BUILT_ON_DEMAND |= {f"--design {name}": "lever" for name in ("fast", "balanced", "exact", "first_power", "mine")}
+BUILT_ON_DEMAND |= {f"--design {name}": "lever" for name in ("fast", "balanced", "exact", "first_power", "lever_law", "mine")}
 
 
 def rule_of(words):

@@ -81,7 +81,7 @@ class RtlState {
 
   void drive(const CoreIn& in) {
     in_ = in;
-    drive_inputs(*rtl_, in);
+    drive_inputs<D>(*rtl_, in);
   }
   /// One clock with the inputs that were driven.
   void clock() {

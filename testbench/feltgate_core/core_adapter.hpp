@@ -28,7 +28,7 @@ using Design = FELTGATE_DESIGN;
 using CoreTwin = FeltgateCore<Design>;
 
 struct CoreAdapter {
-  static void drive(Vfeltgate_core& rtl, const CoreIn& in) { drive_inputs(rtl, in); }
+  static void drive(Vfeltgate_core& rtl, const CoreIn& in) { drive_inputs<Design>(rtl, in); }
   static void at_edge(Vfeltgate_core& rtl) { rtl.stop_i = 0; }
   template <class Check>
   static void compare(Check& check, const Vfeltgate_core& rtl, const CoreOut& out) {

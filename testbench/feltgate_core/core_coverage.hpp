@@ -75,20 +75,23 @@ class Coverage {
   double tau_ref_pinned_share() const { return share(limits_[Map::L::torque]); }
   double eased_share() const { return share(eased_); }
   double frozen_share() const { return share(frozen_); }
-  /// Scenes that ran armed, the reserved number 1 and those not built left out.
-  int scenes_seen() const {
+  /// Scenes below this number that ran armed, the reserved number 1 and those not built left out.
+  int scenes_seen(std::size_t numbers) const {
     int n = 0;
-    for (std::size_t s = 0; s < 10; ++s) n += s != 1 && scenes_[s] > 0 ? 1 : 0;
+    for (std::size_t s = 0; s < numbers; ++s) n += s != 1 && scenes_[s] > 0 ? 1 : 0;
     return n;
   }
   /// What was reached less than `times` times: a word per gap, nothing where all was.
-  std::string gaps(std::int64_t times) const {
+  /// `outside`: programs and other axes are played.
+  std::string gaps(std::int64_t times, bool outside = false) const {
     std::string text;
     const auto ask = [&](std::int64_t n, const std::string& what) {
       if (n < times) text += what + ' ' + std::to_string(n) + ", ";
     };
     for (std::size_t n = 1; n < fault_names.size(); ++n) {
-      if (!broken_hardware_alone(static_cast<Fault>(n)))
+      const auto cause = static_cast<Fault>(n);
+      const bool of_others = cause == Fault::engine || cause == Fault::axis;
+      if (of_others ? outside : !broken_hardware_alone(cause))
         ask(faults_[n], std::string("fault ") + fault_names[n]);
     }
     for (std::size_t b = 0; b < limits_.size(); ++b)
@@ -110,14 +113,14 @@ class Coverage {
            std::to_string(duty_pinned_share()) + ", tau_ref pinned " +
            std::to_string(tau_ref_pinned_share()) + ", eased " + std::to_string(eased_share()) +
            ", frozen " + std::to_string(frozen_share()) + ", scenes " +
-           std::to_string(scenes_seen()) + ", faults" + faults;
+           std::to_string(scenes_seen(11)) + ", faults" + faults;
   }
 
  private:
   /// Causes that no input of a whole core brings about: ticks_stand_test, word_flip_test; reserved.
   static bool broken_hardware_alone(Fault cause) {
     return cause == Fault::tick || cause == Fault::word || cause == Fault::jump ||
-           cause == Fault::engine || cause == Fault::axis || cause == Fault::link;
+           cause == Fault::link;
   }
   double share(std::int64_t n) const {
     return clocks_ == 0 ? 0.0 : static_cast<double>(n) / static_cast<double>(clocks_);

@@ -20,13 +20,25 @@ template <class D>
 class CoreStimulus {
  public:
   /// Draws of neighbouring seeds are the same row, a place further on; these are not.
-  explicit CoreStimulus(std::uint64_t seed) : random_(Random(seed).bits()) {}
+  explicit CoreStimulus(std::uint64_t seed)
+      : random_(Random(seed).bits()), outside_(Random(~seed).bits()) {}
 
   CoreIn operator()(std::int64_t) {
     move();
     host();
     panel();
+    if (kOutside) outside();
     return in_;
+  }
+  /// With the outputs of the clock before: another axis's test begins and ends with a tick.
+  CoreIn operator()(std::int64_t clock, const CoreOut& out) {
+    const bool last = out.snapshot_valid;
+    if (kOutside && first_) {
+      if (outside_.one_in(in_.axis_testing ? 100 : 2'000)) in_.axis_testing = !in_.axis_testing;
+      if (outside_.one_in(400)) in_.axis_waits = !in_.axis_waits;
+    }
+    first_ = last;
+    return (*this)(clock);
   }
 
  private:
@@ -155,8 +167,7 @@ class CoreStimulus {
     const auto arm = [&] {
       then(D::C::control, host);
       then(D::C::command, 1u << D::C::command_clear_faults | 1u << D::C::command_thaw);
-      then(D::C::control,
-           host | 1u << D::C::control_arm | random_.below(10) << D::C::control_scene);
+      then(D::C::control, host | 1u << D::C::control_arm | any_scene() << D::C::control_scene);
     };
     switch (random_.below(14)) {
       case 0:  // a motor that gets too hot, from cold
@@ -269,7 +280,7 @@ class CoreStimulus {
 
   void write_control() {
     in_.reg_addr = static_cast<std::uint16_t>(D::C::control);
-    const std::uint32_t scene = random_.below(10);
+    const std::uint32_t scene = any_scene();
     std::uint32_t word = static_cast<std::uint32_t>(D::control_reset) | scene
                                                                             << D::C::control_scene;
     if (!random_.one_in(8)) word |= 1u << D::C::control_host;
@@ -280,6 +291,23 @@ class CoreStimulus {
     if (random_.one_in(6)) word ^= 1u << D::C::control_pwm_mode;
     if (random_.one_in(4)) word |= random_.below(16) << D::C::control_filter;
     in_.reg_wdata = word;
+  }
+
+  /// Programs and other axes, where the design has them.
+  void outside() {
+    Random& r = outside_;
+    if (r.one_in(40)) {
+      in_.law_torque = static_cast<std::int32_t>(r.bits()) >> (32 - D::f.torque.width());
+      in_.law_torque >>= r.below(8);
+    }
+    const auto toggle = [&r](bool& x, std::uint32_t on, std::uint32_t off) {
+      if (r.one_in(x ? off : on)) x = !x;
+    };
+    toggle(in_.law_late, 80'000, 300);
+    toggle(in_.law_restart, 5'000, 200);
+    toggle(in_.axis_fault, 400'000, 100);
+    toggle(in_.axis_silent, 200'000, 2'000);
+    toggle(in_.axis_blocked, 50'000, 5'000);
   }
 
   void panel() {
@@ -295,8 +323,12 @@ class CoreStimulus {
     }
   }
 
-  Random random_;
+  static constexpr bool kOutside = scene_built<D>(Map::S::law);
+  std::uint32_t any_scene() { return random_.below(kOutside ? 11 : 10); }
+
+  Random random_, outside_;
   CoreIn in_;
+  bool first_ = false;  ///< the clock to come is a tick's first
   std::int64_t left_ = 0;
   std::int64_t spacing_ = 0, wait_ = 0;
   bool up_ = true, bad_cable_ = false, ramp_written_ = false;

@@ -99,7 +99,7 @@ class Bridge {
   void drive() {
     const bool stop = rtl_->stop_i != 0;
     driven_ = in_;
-    feltgate::drive_inputs(*rtl_, driven_);
+    feltgate::drive_inputs<D>(*rtl_, driven_);
     rtl_->stop_i = stop;
   }
   void rise() {

@@ -33,13 +33,13 @@ constexpr int kPeriods = (kTick + D::pwm_period - 1) / D::pwm_period;
 class Core {
  public:
   Core() : rtl_(5) {
-    feltgate::drive_inputs(*rtl_, in_);
+    feltgate::drive_inputs<D>(*rtl_, in_);
     rtl_.reset(4);
   }
   CoreOut out() const { return feltgate::read_outputs<D>(*rtl_); }
   void clocks(int n) {
     for (int k = 0; k < n; ++k) {
-      feltgate::drive_inputs(*rtl_, in_);
+      feltgate::drive_inputs<D>(*rtl_, in_);
       rtl_.clock();
     }
   }

@@ -39,7 +39,7 @@ class Pair {
 
   void clocks(std::int64_t n) {
     for (; n > 0; --n) {
-      feltgate::drive_inputs(*rtl_, in);
+      feltgate::drive_inputs<D>(*rtl_, in);
       edge();
       twin_.clock(in);
       if (!(feltgate::read_outputs<D>(*rtl_) == twin_.out())) ++mismatches_;

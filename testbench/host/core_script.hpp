@@ -21,7 +21,7 @@ namespace feltgate::test {
 
 template <class D>
 struct CoreAdapter {
-  static void drive(Vfeltgate_core& rtl, const CoreIn& in) { drive_inputs(rtl, in); }
+  static void drive(Vfeltgate_core& rtl, const CoreIn& in) { drive_inputs<D>(rtl, in); }
   template <class Check>
   static void compare(Check& check, const Vfeltgate_core& rtl, const CoreOut& twin) {
     const CoreOut out = read_outputs<D>(rtl);

@@ -11,6 +11,7 @@ all+=CLOCKS moves every word and square that is not named. The caller puts desig
 """
 
 import re
+import shutil
 import sys
 from pathlib import Path
 
@@ -53,6 +54,7 @@ def main():
         else:
             registers = moved(registers, "parameter", word, "slot", slot)
     (folder / "rtl/designs").mkdir(parents=True, exist_ok=True)
+    shutil.copytree(root / "rtl/engine", folder / "rtl/engine")
     (folder / "rtl/registers.toml").write_text(registers, encoding="utf-8")
     (folder / "rtl/schedule.toml").write_text(schedule, encoding="utf-8")
 

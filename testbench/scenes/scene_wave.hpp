@@ -74,6 +74,8 @@ struct Wave {
   std::int64_t velocity = 0;             ///< raw
   int length = kShortest;                ///< clocks
   int disarmed_from = Map::wave_length;  ///< the clock in which a fault takes the arming away
+  std::int64_t law_torque = 0;           ///< of a program, raw
+  bool law_late = false;
 
   static constexpr int kShortest = Map::T::torque_limited + 2;
 };
@@ -94,6 +96,8 @@ struct Bus {
   std::int64_t face_gap = 0;  ///< whole counts of what is on the parameter bus, less the position
   std::int64_t gap = 0;       ///< the same of the reference, held
   bool beyond = false;        ///< from the limiter
+  std::int64_t law_torque = 0;
+  bool law_late = false;
 };
 
 /// reference - position, in 1/256 count; a charge's centre has no fraction that counts.
@@ -141,6 +145,12 @@ class Waves {
     bus.product = product(p);
     bus.face_gap = (decode_word(Design::f.scene_offset, bus.param) >> 8) - w.position;
     bus.gap = gap_;
+    bus.law_torque = w.law_torque;
+    bus.law_late = w.law_late;
+    if (p.t != Map::T::law_torque) {  // nobody looks
+      bus.law_torque = decode_word(kTorque, static_cast<std::uint32_t>(bus.product));
+      bus.law_late = (bus.product & 1) != 0;
+    }
     if (p.t == Map::T::scene_distance) gap_ = bus.face_gap;
     bus.beyond = p.t == Map::T::charge_core ? beyond_ : random_.coin();
     if (p.t == Map::T::charge_width_limited) {

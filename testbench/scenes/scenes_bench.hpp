@@ -25,7 +25,8 @@ using Built = Design;
 
 struct Block : BlockOf<Vscenes, Scenes<Built>> {
   static Twin::In in(const Wave& wave, const Bus& bus) {
-    return {bus.armed, wave.scene, bus.wave, bus.param, wave.position, bus.product, bus.beyond};
+    return {bus.armed,   wave.scene, bus.wave,       bus.param,   wave.position,
+            bus.product, bus.beyond, bus.law_torque, bus.law_late};
   }
   static void drive(Rtl& rtl, const Twin::In& in) {
     rtl.armed_i = in.armed;
@@ -35,6 +36,8 @@ struct Block : BlockOf<Vscenes, Scenes<Built>> {
     rtl.position_i = port_bits<18>(in.position);
     rtl.product_i = port_bits<53, std::uint64_t>(in.product);
     rtl.beyond_i = in.beyond;
+    rtl.law_torque_i = port_bits<kTorque.width()>(in.law_torque);
+    rtl.law_late_i = in.law_late;
   }
   template <class Check>
   static void compare(Check& check, const Rtl& rtl, const Twin::Out& out) {
@@ -42,6 +45,7 @@ struct Block : BlockOf<Vscenes, Scenes<Built>> {
     check("square", rtl.square_o, out.square);
     check("ahead", sign_extend<Design::f.scene_torque.width()>(rtl.ahead_o), out.ahead);
     check("late", sign_extend<kTorque.width()>(rtl.late_o), out.late);
+    check("law", rtl.law_o, out.law);
   }
 };
 
@@ -84,7 +88,8 @@ struct LawBeside {
     const Wave& w = p.wave;
     const std::int64_t tau = seen + late;
     const auto velocity = Law::Velocity::from_raw(w.velocity);
-    const auto law = Law::torque(p.memory.words(), w.scene, w.position, velocity, &side).raw();
+    auto law = Law::torque(p.memory.words(), w.scene, w.position, velocity, &side).raw();
+    if (w.scene == S::law && scene_built<Built>(w.scene) && !w.law_late) law = w.law_torque;
     const auto scene = static_cast<std::size_t>(w.scene);
     ++tally->waves;
     tally->up[scene] += tau > 0;

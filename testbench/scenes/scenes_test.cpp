@@ -18,12 +18,14 @@ struct Next {
   Random random;
   Wave wave{};
   Wave operator()(Memory& memory, std::int64_t) {
-    if (random.one_in(25)) wave.scene = static_cast<int>(random.below(10));
+    if (random.one_in(25)) wave.scene = static_cast<int>(random.below(11));
     if (random.one_in(50)) wave.scene = static_cast<int>(random.below(16));
     if (random.one_in(20)) wave.armed = !random.one_in(4);
     wave.disarmed_from =
         random.one_in(20) ? static_cast<int>(random.below(kRendered + 1)) : Map::wave_length;
     if (random.one_in(40)) write(memory);
+    wave.law_torque = decode_word(kTorque, static_cast<std::uint32_t>(any_word(random)));
+    wave.law_late = random.one_in(wave.law_late ? 4 : 30);
     if (random.one_in(3)) {
       wave.position = any_position(random, memory, wave.scene);
     } else {

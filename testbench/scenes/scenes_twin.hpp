@@ -32,13 +32,16 @@ class Scenes {
     std::uint32_t param = 0;
     std::int64_t position = 0;
     std::int64_t product = 0;
-    bool beyond = false;  ///< from the limiter
+    bool beyond = false;          ///< from the limiter
+    std::int64_t law_torque = 0;  ///< of a program, raw
+    bool law_late = false;
   };
   struct Out {
     std::int64_t distance = 0;
     bool square = false;  ///< follows the scene within the clock
     std::int64_t ahead = 0;
     std::int64_t late = 0;
+    bool law = false;  ///< follows the scene within the clock
   };
 
   void reset() {
@@ -50,13 +53,17 @@ class Scenes {
     const auto at = [&in](int t) { return ((in.wave >> t) & 1u) != 0; };
     const bool repel = built(in, S::charge_repel), attract = built(in, S::charge_attract);
     const std::int64_t width = at(Map::T::charge_width) ? gap_ : 0;
-    out_.ahead = (at(Map::T::scene_rounded) && in.armed ? rounded(in, repel) : 0) | width;
+    const bool law = built(in, S::law);
+    const bool programmed = law && at(Map::T::law_torque) && in.armed && !in.law_late;
+    out_.ahead = (at(Map::T::scene_rounded) && in.armed ? rounded(in, repel) : 0) | width |
+                 (programmed ? in.law_torque : 0);
     if (at(Map::T::scene_sum)) add();
     const std::int64_t gap =
         (decode_word(D::f.scene_offset, in.param) >> D::f.scene_offset.fraction) - in.position;
     clock_scenes(in, attract, repel, gap);
     out_.late = charge_.out().outside;
     out_.square = attract || repel;
+    out_.law = law;
     const bool reference = at(Map::T::scene_distance);
     if (reference) {
       gap_ = gap;

@@ -27,6 +27,7 @@ struct Adapter {
   static void drive(Vself_test& rtl, const Twin::In& in) {
     rtl.armed_i = in.armed;
     rtl.direct_i = in.direct;
+    rtl.waits_i = in.waits;
     rtl.travel_i = static_cast<std::uint8_t>(in.travel & 3);
     rtl.tick_count_i = in.tick_count;
     rtl.wave_i = in.wave;
@@ -48,6 +49,7 @@ struct Wave {
   int step = 0;                       ///< counts since the wave before
   std::uint32_t ticks = 1;            ///< by which the counter has moved
   SelfTestLaw::Words words{2, 3, 3};  ///< quiet, pulse, arms
+  bool waits = false;                 ///< another axis is before
 };
 
 /// What a wave showed.
@@ -78,6 +80,7 @@ struct Waves {
       now = {};
       in.armed = wave.armed;
       in.direct = wave.direct;
+      in.waits = wave.waits;
       in.travel = static_cast<std::uint16_t>(in.travel + wave.step);
       in.tick_count += wave.ticks;
     }
@@ -163,6 +166,7 @@ TEST_CASE("self_test: random levers, words, times and resets") {
         if (random.one_in(w.armed ? 60 : 4)) w.armed = !w.armed;
         if (before.trip) w.armed = false;
         w.direct = random.one_in(w.direct ? 5 : 200);
+        if (random.one_in(w.waits ? 8 : 80)) w.waits = !w.waits;
         w.ticks = random.one_in(10) ? 3 * kUnit : random.below(2 * kUnit);
         if (random.one_in(30)) w.ticks = 1 << Map::self_test_patience_bits;
         if (random.one_in(400)) w.ticks = static_cast<std::uint32_t>(random.bits());
@@ -295,6 +299,27 @@ TEST_CASE("self_test: a lever that never rests gets no pulse, and patience ends"
     CHECK(busy > turn);
     CHECK(busy <= 2 * turn);
   }
+}
+
+TEST_CASE("self_test: no pulse and no patience while another axis is before, and quiet after it") {
+  constexpr std::int64_t kWait = 3LL << (Map::self_test_patience_bits - Map::self_test_unit_bits);
+  const auto seen = play(
+      [](std::int64_t k, const Seen&) {
+        Wave w;
+        w.armed = k >= 2;
+        w.words = {2, 3, 1};
+        w.ticks = kUnit;
+        w.waits = k < kWait;
+        return w;
+      },
+      kWait + 40);
+  CHECK(trips(seen) == 0);
+  std::int64_t k = 2;
+  while (seen[static_cast<std::size_t>(k)].busy && seen[static_cast<std::size_t>(k)].pulse == 0)
+    ++k;
+  CHECK(k >= kWait + 2);
+  CHECK(k <= kWait + 6);
+  CHECK(seen.back().result == static_cast<unsigned>(SelfTestResult::held));
 }
 
 TEST_CASE("self_test: no pulse, no test; in voltage mode neither") {

@@ -21,6 +21,7 @@ class SelfTest {
     std::uint32_t tick_count = 0;
     std::uint64_t wave = 0;
     std::uint32_t param = 0;
+    bool waits = false;
   };
   struct Out {
     bool busy = false;
@@ -43,7 +44,7 @@ class SelfTest {
     if (at(T::self_test_over)) words_.pulse = in.param;
     if (at(T::self_test_turn)) {
       words_.arms = in.param;
-      fails_ = law_.turn(in.armed, in.direct, in.tick_count, words_);
+      fails_ = law_.turn(in.armed, in.direct, in.tick_count, words_, in.waits);
     }
   }
 

@@ -32,6 +32,7 @@ struct SupervisorAdapter {
     rtl.current_ref_i = port_bits<kCurrentBits>(in.current_ref);
     rtl.wave_i = in.wave;
     rtl.trips_i = in.trips;
+    rtl.axis_blocked_i = in.axis_blocked;
     rtl.param_i = in.param;
     rtl.product_i = port_bits<kProductBits, std::uint64_t>(in.product);
   }

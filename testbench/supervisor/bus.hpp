@@ -37,6 +37,7 @@ struct Scenario {
   bool kick = false;
   bool encoder_error = false;
   bool period_start = false;
+  bool axis_blocked = false;
   bool ticks_stand = false;      ///< neither ticks nor waves
   bool tick_stuck = false;       ///< high
   std::uint16_t trips = 0;       ///< of other blocks
@@ -83,6 +84,7 @@ class Bus {
     in.kick = s.kick && now.tick;
     in.encoder_error = s.encoder_error;
     in.trips = s.trips;
+    in.axis_blocked = s.axis_blocked;
     in.wave = s.ticks_stand ? 0 : now.wave;
     in.product = static_cast<std::int64_t>(noise_.bits()) >> 10;
     in.param = static_cast<std::uint32_t>(noise_.bits());

@@ -14,7 +14,7 @@ namespace feltgate::test {
 /// limits.
 class RandomScenario {
  public:
-  explicit RandomScenario(std::uint64_t seed) : random_(seed) {
+  explicit RandomScenario(std::uint64_t seed) : random_(seed), axes_(~seed) {
     s_.words.nominal_current_squared = (1U << 31) - 1;  // until the first limits: cold
   }
 
@@ -23,6 +23,7 @@ class RandomScenario {
     s_.clear_faults = random_.one_in(12);
     s_.kick = random_.one_in(15);
     if (random_.one_in(s_.arm ? 40 : 3)) s_.arm = !s_.arm;
+    if (axes_.one_in(s_.axis_blocked ? 2 : 60)) s_.axis_blocked = !s_.axis_blocked;
     if (random_.one_in(60)) limits();
     if (random_.one_in(30)) signals();
     if (s_.arm && random_.one_in(200))
@@ -77,7 +78,7 @@ class RandomScenario {
     if (!random_.one_in(4)) s_.current_ref = (i < 0) == (drift_ < 0) ? -(i + 1) : i;
   }
 
-  Random random_;
+  Random random_, axes_;
   Scenario s_;
   std::int32_t drift_ = 0;  ///< of the velocity in a tick
 };

@@ -5,6 +5,7 @@
 // back and gate times, on long random runs. Documentation: docs/blocks/feltgate_core.md
 #include "../feltgate_core/core_stimulus.hpp"
 #include "feltgate/generated/lever.hpp"
+#include "feltgate/generated/lever_law.hpp"
 #include "feltgate/generated/paper.hpp"
 #include "skip_compare.hpp"
 
@@ -23,6 +24,7 @@ TEST_CASE("skipping from event to event changes nothing") {
   for (const std::uint64_t seed : {21u, 22u, 23u}) {
     compare<Lever>(seed, test::scaled_clocks(8'000'000));
     compare<Paper>(seed + 100, test::scaled_clocks(8'000'000));
+    compare<LeverLaw>(seed + 200, test::scaled_clocks(4'000'000));
   }
 }
 
@@ -30,6 +32,7 @@ TEST_CASE("nor does stopping anywhere in a tick") {
   for (const std::uint32_t longest : {7u, 40u, 120u}) {
     compare<Lever>(longest, test::scaled_clocks(3'000'000), longest);
     compare<Paper>(longest + 1, test::scaled_clocks(3'000'000), longest);
+    compare<LeverLaw>(longest + 2, test::scaled_clocks(1'000'000), longest);
   }
 }
 

@@ -89,7 +89,7 @@ TEST_CASE("membrane only: RTL and twin on a random life") {
   }
   INFO(seen.text());
   CHECK(seen.armed_share() > 0.3);
-  CHECK(seen.scenes_seen() >= 7);
+  CHECK(seen.scenes_seen(10) >= 7);
 }
 
 TEST_CASE("membrane only: what is not built renders nothing") {

@@ -79,6 +79,8 @@ class ChainTick {
               TestPulse pulse = TestPulse::none) {
     scenes_.tick(words_, armed, scene, scene_position<D, N>(position), velocity(), relief, pulse);
   }
+  /// What a program asks for [Nm], before render().
+  void program(Torque torque) { scenes_.program(torque); }
   /// Current, voltage and duty.
   void drive(bool armed, Mode mode) {
     control_.tick(words_, armed, mode, tau_ref(), tau_hat(), velocity());

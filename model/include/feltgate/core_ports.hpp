@@ -25,6 +25,16 @@ struct CoreIn {
   std::uint16_t reg_addr = 0;
   std::uint32_t reg_wdata = 0;
   bool reg_write = false;
+  // Of the scene law: what a program asks for.
+  std::int32_t law_torque = 0;  ///< raw, in the format of the torque; sampled at Step::law_torque
+  bool law_late = false;        ///< there is no fresh one: it counts as 0, and trips
+  bool law_restart = false;     ///< in the last clock of a tick: it may jump with the next
+  // Of several axes: what the others say.
+  bool axis_fault = false;    ///< one has a fault
+  bool axis_silent = false;   ///< one does not ask to be armed
+  bool axis_blocked = false;  ///< one must not be armed
+  bool axis_testing = false;  ///< one tests itself: the scene waits
+  bool axis_waits = false;    ///< one before this one does: its own test waits
 };
 
 /// Every output of the core after one clock.

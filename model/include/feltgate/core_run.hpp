@@ -59,7 +59,16 @@ bool FeltgateCore<D, ReadBack>::can_pass(const In& in) const {
   return out_.tick_count != 0 && !registers_.flipped() && !registers_.out().stop &&
          supervisor_.steady(in.stop) &&
          !(supervisor_.stopped(in.stop) && supervisor_.out().gates_enable) &&
-         !decoder_.out().illegal && !(amid_supervisor() && passed_to_ != clock_);
+         !decoder_.out().illegal && !outside_trips(in) &&
+         !(amid_supervisor() && passed_to_ != clock_);
+}
+
+/// A late engine or another axis closes the gates, now or as soon as they are open.
+template <class D, bool ReadBack>
+bool FeltgateCore<D, ReadBack>::outside_trips(const In& in) const {
+  const bool late = kLaw && in.law_late && (renders_law() || wanted_scene(in) == Map::S::law);
+  if (!in.axis_fault && !late) return false;
+  return supervisor_.out().gates_enable || (asks(in) && supervisor_.ready());
 }
 
 /// As long as the inputs hold, `clocks` clocks from now change neither the duty in force nor the
@@ -99,7 +108,8 @@ int FeltgateCore<D, ReadBack>::next_look_at_decoder(int from) {
 template <class D, bool ReadBack>
 template <bool Read, class OnSnapshot>
 [[gnu::always_inline]] inline void FeltgateCore<D, ReadBack>::take_in(
-    Stretch& s, Step step, const QuadDecoder::Out& decoded, OnSnapshot&& on_snapshot) {
+    Stretch& s, Step step, const In& in, const QuadDecoder::Out& decoded,
+    OnSnapshot&& on_snapshot) {
   const auto& words = supervisor_words_;
   const auto velocity = static_cast<std::int32_t>(out_.velocity);
   switch (step) {
@@ -118,7 +128,7 @@ template <bool Read, class OnSnapshot>
       if (supervisor_.at_polarity(words, velocity, out_.current_ref)) s.close(after(T::polarity));
       return;
     case Step::self_test:
-      take<Read>(step, decoded);
+      take<Read>(step, in, decoded);
       if (self_test_.failed() && supervisor_.trip(Fault::self_test)) {
         s.close(after(T::self_test));
       }
@@ -139,7 +149,7 @@ template <bool Read, class OnSnapshot>
     default:
       break;
   }
-  take<Read>(step, decoded);
+  take<Read>(step, in, decoded);
 }
 
 /// A whole tick but for the registers, the decoder at rest. `Read`: the host may see its words.
@@ -148,7 +158,7 @@ template <bool Read, class OnSnapshot>
 void FeltgateCore<D, ReadBack>::pass_tick(const In& in, OnSnapshot&& on_snapshot) {
   Stretch s = stretch(0, D::clocks_per_tick);
   core_steps::for_each_step(0, D::clocks_per_tick, [&](Step step) {
-    take_in<Read>(s, step, decoder_.out(), on_snapshot);
+    take_in<Read>(s, step, in, decoder_.out(), on_snapshot);
   });
   finish(in, s);
   out_.armed = supervisor_.out().armed;
@@ -158,11 +168,9 @@ void FeltgateCore<D, ReadBack>::pass_tick(const In& in, OnSnapshot&& on_snapshot
 /// Arming and scene in the last clock of a tick.
 template <class D, bool ReadBack>
 void FeltgateCore<D, ReadBack>::end_of_tick(const In& in) {
-  const std::uint32_t control = registers_.out().control;
-  const bool host = bit(control, D::C::control_host);
-  supervisor_.at_end(supervisor_words_, host ? bit(control, D::C::control_arm) : in.arm);
-  out_.scene = static_cast<std::uint8_t>(
-      host ? field<D::C::control_scene, D::C::control_scene_width>(control) : in.scene);
+  supervisor_.at_end(supervisor_words_, asks(in) && !in.axis_silent, false, false, in.axis_blocked);
+  if (renders_law() && in.law_restart) wave_.restart();
+  out_.scene = wanted_scene(in);
 }
 
 /// Clocks [from, to) of a tick, from < to. Returns the clock that was reached: it is before `to`
@@ -173,8 +181,8 @@ int FeltgateCore<D, ReadBack>::pass(const In& in, int from, int to, OnSnapshot&&
   const QuadDecoder::Out decoded = decoder_.out();
   to = advance_decoder(in, from, to);
   Stretch s = stretch(from, to);
-  core_steps::for_each_step(from, to,
-                            [&](Step step) { take_in<ReadBack>(s, step, decoded, on_snapshot); });
+  core_steps::for_each_step(
+      from, to, [&](Step step) { take_in<ReadBack>(s, step, in, decoded, on_snapshot); });
   registers_.skip(in.reg_addr, to - from);
   finish(in, s);
   if (to == D::clocks_per_tick) registers_.skip_end_of_tick();

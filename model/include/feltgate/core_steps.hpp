@@ -47,6 +47,7 @@ constexpr bool shows(Step step) {
     case Step::heat:
     case Step::polarity:
     case Step::tau_hat:
+    case Step::law_torque:
     case Step::ramp_excess:
     case Step::tau_ref:
     case Step::current_limited:

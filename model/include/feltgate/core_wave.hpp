@@ -36,6 +36,9 @@ class CoreWave {
 
   void set_word(int address, std::uint32_t word) { chain_.words().set_raw(address, word); }
 
+  /// The raw torque of a program.
+  void program(std::int32_t torque) { chain_.program(Fixed::from_raw<D::f.torque.key()>(torque)); }
+
   /// Between two waves: the torque may jump with the next.
   void restart() { chain_.restart(); }
 

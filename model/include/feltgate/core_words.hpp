@@ -12,14 +12,14 @@
 namespace feltgate {
 
 template <class D, bool ReadBack>
-std::uint32_t FeltgateCore<D, ReadBack>::status(bool encoder_error) const {
+std::uint32_t FeltgateCore<D, ReadBack>::status(const In& in, bool encoder_error) const {
   using C = typename D::C;
   const auto& s = supervisor_.out();
   const auto field = [](auto value, int at) { return static_cast<std::uint32_t>(value) << at; };
   return field(wave_.limits(s.gates_enable), C::status_limits) |
          field(out_.scene, C::status_scene) | field(s.armed, C::status_armed) |
          field(mode(), C::status_mode) | field(self_test_.result(), C::status_self_test) |
-         field(self_test_.busy(out_.armed), C::status_testing) |
+         field(self_test_.busy(out_.armed) || in.axis_testing, C::status_testing) |
          field(encoder_error, C::status_encoder_error) |
          field(registers_.out().refused, C::status_refused) | field(s.unkicked, C::status_unkicked);
 }

@@ -57,15 +57,19 @@ class FeltgateCore {
   void clock(const In& in) {
     catch_up();
     const bool tick = clock_ == D::clocks_per_tick - 1;
-    const std::uint32_t control = registers_.out().control;
-    const bool host = bit(control, D::C::control_host);
+    const std::uint8_t scene = wanted_scene(in);
     const bool zero = tick && registers_.sets_zero();
     const bool clear = tick && registers_.commands(D::C::command_clear_faults);
 
     // Each sees the others' registers before the edge.
     typename Supervisor<D>::In sup = supervisor_inputs(clock_);
     sup.tick = tick;
-    sup.arm = (host ? bit(control, D::C::control_arm) : in.arm) && !registers_.out().disarm;
+    sup.arm = asks(in) && !in.axis_silent;
+    sup.axis_blocked = in.axis_blocked;
+    if (renders_law() && in.law_late && supervisor_.out().gates_enable) {
+      sup.trips |= fault_bit(Fault::engine);
+    }
+    if (in.axis_fault && supervisor_.out().gates_enable) sup.trips |= fault_bit(Fault::axis);
     if (registers_.out().stop) sup.trips |= fault_bit(Fault::stop);
     sup.stop = in.stop;
     sup.clear_faults = clear;
@@ -80,7 +84,7 @@ class FeltgateCore {
     pwm.clear = supervisor_.stopped(in.stop);
     out_.snapshot_valid = false;
     out_.word_valid = ReadBack && core_steps::stores_word(clock_);
-    core_steps::for_each_step_of(clock_, [this](Step step) { take<true>(step, decoder_.out()); });
+    core_steps::for_each_step_of(clock_, [&](Step step) { take<true>(step, in, decoder_.out()); });
     if (self_test_.failed()) sup.trips |= fault_bit(Fault::self_test);
     supervisor_.clock(sup);
     const QuadDecoder::In d = decoder_inputs(in, zero, clear);
@@ -88,12 +92,12 @@ class FeltgateCore {
 
     const bool committed = tick && registers_.out().reg_busy;
     const int written = registers_.parameter_waiting(out_.armed);
-    if (tick && registers_.restarts(out_.scene)) wave_.restart();
+    if (tick && (registers_.restarts(out_.scene) || (renders_law() && in.law_restart))) {
+      wave_.restart();
+    }
     registers_.clock(register_inputs(in, tick));
     if (tick) {
-      const unsigned wanted =
-          host ? field<D::C::control_scene, D::C::control_scene_width>(control) : in.scene;
-      out_.scene = static_cast<std::uint8_t>(wanted);
+      out_.scene = scene;
       if (committed) {
         ++writes_;
         if (written >= 0) take_word(written);
@@ -133,6 +137,14 @@ class FeltgateCore {
   /// What the status word shows of the self-test.
   SelfTestResult self_test_result() const { return self_test_.result(); }
   bool testing() const { return self_test_.busy(out_.armed); }
+  /// What the other axes want to know: whether this one asks to be armed in the clock to come, and
+  /// nothing speaks against it.
+  bool asks(const In& in) const;
+  /// In the clock to come position, velocity and tau_hat have become those of the tick.
+  bool measured() const { return clock_ == after(T::tau_hat); }
+  /// In the clock to come the position becomes 0.
+  bool zeroed() const { return clock_ == D::clocks_per_tick - 1 && registers_.sets_zero(); }
+  bool ready() const { return supervisor_.ready(); }
   /// Register writes carried out so far.
   std::int64_t writes() const { return writes_; }
   /// The clock of the tick that comes next, 0 .. clocks_per_tick - 1.
@@ -199,29 +211,12 @@ class FeltgateCore {
     return sup;
   }
 
-  typename Registers<D, ReadBack>::In register_inputs(const In& in, bool tick) const {
-    typename Registers<D, ReadBack>::In reg;
-    reg.tick = tick;
-    reg.reg_addr = in.reg_addr;
-    reg.reg_wdata = in.reg_wdata;
-    reg.reg_write = in.reg_write;
-    reg.armed = out_.armed;
-    reg.set_zero = in.set_zero;
-    reg.scene = out_.scene;
-    if (registers_.flipped()) {  // the parameter bus is not kept up otherwise
-      const int slot = clock_ < 63 ? clock_ : 63;
-      reg.slot_fetch = static_cast<std::uint8_t>(slot);
-      reg.scene_slot_fetch = ((Map::scene_slots >> slot) & 1u) != 0;
-      reg.region_high = wave_.region_high();
-      reg.testing = self_test_.busy(out_.armed);
-      reg.eased = hold_.eased();
-    }
-    return reg;
-  }
+  static constexpr bool kLaw = scene_built<D>(Map::S::law);
+  bool renders_law() const { return kLaw && out_.scene == Map::S::law; }
 
   /// A step, but for the supervisor's. Read: the host may see the snapshot's words.
   template <bool Read>
-  [[gnu::always_inline]] void take(Step step, const QuadDecoder::Out& decoded) {
+  [[gnu::always_inline]] void take(Step step, const In& in, const QuadDecoder::Out& decoded) {
     using R = Map::R;
     const auto keep = [this](int slot, auto word) {
       if (!Read || !ReadBack) return;
@@ -235,7 +230,7 @@ class FeltgateCore {
       case Step::read_position:
         return keep(R::position, out_.position);
       case Step::read_status:
-        return keep(R::status, status(decoded.error));
+        return keep(R::status, status(in, decoded.error));
       case Step::read_faults:
         return keep(R::faults, faults());
       case Step::read_velocity:
@@ -273,43 +268,27 @@ class FeltgateCore {
         wave_.set_eased(hold_.eased());
         return;
       case Step::self_test:
-        self_test_.turn(out_.armed, mode() == Mode::voltage, out_.tick_count, self_test_words_);
+        self_test_.turn(out_.armed, mode() == Mode::voltage, out_.tick_count, self_test_words_,
+                        in.axis_waits);
+        return;
+      case Step::law_torque:
+        if (kLaw) wave_.program(in.law_late ? 0 : in.law_torque);
         return;
       case Step::sample:
         self_test_.sample(decoded.travel);
         [[fallthrough]];
       default:
-        wave_.take(step, decoded.position, decoded.travel, mode(), self_test_.pulse(out_.armed),
-                   out_);
+        wave_.take(step, decoded.position, decoded.travel, mode(), pulse(in), out_);
     }
   }
 
-  std::uint32_t status(bool encoder_error) const;
+  typename Registers<D, ReadBack>::In register_inputs(const In& in, bool tick) const;
+  QuadDecoder::In decoder_inputs(const In& in, bool zero, bool clear) const;
+  Pwm::In pwm_inputs(bool enable, std::int16_t duty) const;
+  std::uint8_t wanted_scene(const In& in) const;
+  TestPulse pulse(const In& in) const;
+  std::uint32_t status(const In& in, bool encoder_error) const;
   std::uint32_t faults() const;
-
-  QuadDecoder::In decoder_inputs(const In& in, bool zero, bool clear) const {
-    const std::uint32_t control = registers_.out().control;
-    QuadDecoder::In d;
-    d.a = in.encoder.a;
-    d.b = in.encoder.b;
-    d.z = in.encoder.z;
-    d.filter =
-        static_cast<std::uint8_t>(field<D::C::control_filter, D::C::control_filter_width>(control));
-    d.polarity = bit(control, D::C::control_encoder_polarity);
-    d.set_zero = zero;
-    d.clear_error = clear;
-    return d;
-  }
-
-  Pwm::In pwm_inputs(bool enable, std::int16_t duty) const {
-    const std::uint32_t control = registers_.out().control;
-    Pwm::In p;
-    p.enable = enable;
-    p.mode = bit(control, D::C::control_pwm_mode);
-    p.polarity = bit(control, D::C::control_motor_polarity);
-    p.duty = duty;
-    return p;
-  }
 
   /// Clocks of a tick that are taken at once.
   struct Stretch {
@@ -332,13 +311,15 @@ class FeltgateCore {
     return clock_ > core_steps::clock_of(T::estimate_part) && clock_ < after(T::polarity);
   }
   bool can_pass(const In& in) const;
+  bool outside_trips(const In& in) const;
   static int next_look_at_decoder(int from);
   template <bool Read, class OnSnapshot>
   void pass_tick(const In& in, OnSnapshot&& on_snapshot);
   template <class OnSnapshot>
   int pass(const In& in, int from, int to, OnSnapshot&& on_snapshot);
   template <bool Read, class OnSnapshot>
-  void take_in(Stretch& s, Step step, const QuadDecoder::Out& decoded, OnSnapshot&& on_snapshot);
+  void take_in(Stretch& s, Step step, const In& in, const QuadDecoder::Out& decoded,
+               OnSnapshot&& on_snapshot);
   void end_of_tick(const In& in);
   int advance_decoder(const In& in, int from, int to);
   void gates_to(Stretch& s, int to);
@@ -388,5 +369,6 @@ class FeltgateCore {
 
 }  // namespace feltgate
 
-#include "feltgate/core_run.hpp"    // IWYU pragma: export
-#include "feltgate/core_words.hpp"  // IWYU pragma: export
+#include "feltgate/core_inputs.hpp"  // IWYU pragma: export
+#include "feltgate/core_run.hpp"     // IWYU pragma: export
+#include "feltgate/core_words.hpp"   // IWYU pragma: export

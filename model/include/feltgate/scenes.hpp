@@ -43,7 +43,10 @@ class ScenesLaw {
   void tick(const W& w, bool armed, int scene, std::int32_t position, Velocity velocity,
             Relief relief = {}, TestPulse pulse = TestPulse::none) {
     constexpr int limit_key = RampLaw<D, N>::kLimitKey;
-    const Rendered rendered = torque(w, scene, position, velocity, &side_);
+    Rendered rendered = torque(w, scene, position, velocity, &side_);
+    if constexpr (scene_built<D>(S::law)) {
+      if (scene == S::law) rendered = ScenePartLaw<D, N>::whole(programmed_);
+    }
     ramp_.begin(armed && pulse == TestPulse::none, scene, relief);
     if (pulse == TestPulse::none) {
       const int limit = relief.eased ? D::A::hold_limit : D::A::torque_limit;
@@ -55,6 +58,9 @@ class ScenesLaw {
     ramp_.move(w.ramp_step());
   }
 
+  /// What a program asks for [Nm], for the scene law; until the next.
+  void program(Torque torque) { programmed_ = torque; }
+
   /// Torque reference [Nm], positive toward counting up.
   Torque tau_ref() const { return ramp_.tau_ref(); }
   bool limit_torque() const { return ramp_.limit_torque(); }
@@ -65,7 +71,7 @@ class ScenesLaw {
   MembraneSide side() const { return side_; }
   void set_side(MembraneSide side) { side_ = side; }
 
-  /// The torque of one scene before limit and ramp; moves `side` on.
+  /// The torque of one scene before limit and ramp, of the scene law 0; moves `side` on.
   template <class W>
   static Rendered torque(const W& w, int scene, std::int32_t position, Velocity velocity,
                          MembraneSide* side) {
@@ -96,6 +102,7 @@ class ScenesLaw {
  private:
   RampLaw<D, N> ramp_;
   MembraneSide side_ = MembraneSide::unknown;
+  Torque programmed_{};
 };
 
 }  // namespace feltgate

@@ -32,8 +32,9 @@ class SelfTestLaw {
   }
   /// The rest of the tick: what the next one does. Returns whether the lever went the wrong way, or
   /// must not be armed as it is. `direct`: in voltage mode, where there is no torque to test with.
-  bool turn(bool armed, bool direct, std::uint32_t tick_count, const Words& w) {
-    return failed_ = next(armed, direct, tick_count, w);
+  /// `waits`: another axis is before, no pulse yet.
+  bool turn(bool armed, bool direct, std::uint32_t tick_count, const Words& w, bool waits = false) {
+    return failed_ = next(armed, direct, tick_count, w, waits);
   }
   /// The same of the last turn(), once.
   bool failed() {
@@ -55,7 +56,7 @@ class SelfTestLaw {
  private:
   enum class State : std::uint8_t { wait, first, second, rest, done };
 
-  bool next(bool armed, bool direct, std::uint32_t tick_count, const Words& w) {
+  bool next(bool armed, bool direct, std::uint32_t tick_count, const Words& w, bool waits) {
     const unsigned step = static_cast<unsigned>(now_ - before_) & 3u;
     const bool unit = changed(tick_count, Map::self_test_unit_bits, &unit_);
     const bool impatient = changed(tick_count, Map::self_test_patience_bits, &patience_);
@@ -76,7 +77,7 @@ class SelfTestLaw {
     if (unit) count_ = static_cast<std::uint8_t>(count_ + 1);
     switch (state_) {
       case State::wait:
-        return wait(step, impatient, quiet, w.arms);
+        return wait(step, impatient, quiet, waits, w.arms);
       case State::first:
         add(step);
         if (over) {
@@ -116,19 +117,19 @@ class SelfTestLaw {
     if ((step & 1u) == 0 || net_ == end || net_ == -end) return;
     net_ += step == 1 ? 1 : -1;
   }
-  bool wait(unsigned step, bool impatient, bool quiet, std::uint32_t word) {
+  bool wait(unsigned step, bool impatient, bool quiet, bool waits, std::uint32_t word) {
     const bool gives_up = impatient && late_;
     result_ = SelfTestResult::none;
     net_ = 0;
-    late_ = late_ || impatient;
-    if (step != 0) count_ = 0;
+    late_ = !waits && (late_ || impatient);
+    if (step != 0 || waits) count_ = 0;
     if (gives_up) {
       result_ = SelfTestResult::moving;
       state_ = State::done;
       count_ = 0;
       return !arms(word, Map::self_test_moving_bit);
     }
-    if (quiet && step == 0) {
+    if (quiet && step == 0 && !waits) {
       count_ = 0;
       state_ = State::first;
     }

@@ -72,7 +72,8 @@ class Supervisor {
     std::uint64_t wave = 0;
     std::uint32_t param = 0;
     std::int64_t product = 0;
-    std::uint16_t trips = 0;  ///< causes of other blocks, by bit
+    std::uint16_t trips = 0;    ///< causes of other blocks, by bit
+    bool axis_blocked = false;  ///< another axis is not ready
   };
   struct Out {
     std::int32_t current_estimate = 0;  ///< raw, A
@@ -112,6 +113,8 @@ class Supervisor {
     sum_ = heat;
   }
   const Out& out() const { return out_; }
+  /// Nothing speaks against arming.
+  bool ready() const { return out_.first_fault == 0 && !stop_2_ && !out_.unkicked; }
 
   void clock(const In& in) {
     const bool live = out_.gates_enable;
@@ -125,7 +128,7 @@ class Supervisor {
     if (in.encoder_error) errors_ = errors_ == kBorne ? 0 : errors_ + 1;
     if (in.tick) {
       forgive(!in.encoder_error);
-      end_tick(in.arm, in.clear_faults, in.kick, trip);
+      end_tick(in.arm, in.clear_faults, in.kick, trip, in.axis_blocked);
     } else if (trip != 0) {
       latch(trip);
       out_.gates_enable = false;
@@ -191,10 +194,12 @@ class Supervisor {
     return !kWatchdogLast && silent(words) && trip(Fault::watchdog);
   }
   /// The last clock; returns whether the watchdog closed the gates in it.
-  bool at_end(const Words& words, bool arm, bool clear_faults = false, bool kick = false) {
+  bool at_end(const Words& words, bool arm, bool clear_faults = false, bool kick = false,
+              bool axis_blocked = false) {
     const bool trips = kWatchdogLast && silent(words);
     forgive(true);
-    end_tick(arm, clear_faults, kick, trips ? fault_bit(Fault::watchdog) : std::uint16_t{0});
+    end_tick(arm, clear_faults, kick, trips ? fault_bit(Fault::watchdog) : std::uint16_t{0},
+             axis_blocked);
     return trips;
   }
 
@@ -322,8 +327,8 @@ class Supervisor {
     out_.faults |= trip;
   }
   /// Commands, arming and disarming; `trip` are the faults of the same clock.
-  void end_tick(bool arm, bool clear_faults, bool kick, std::uint16_t trip) {
-    const bool arms = arm && !asked_ && out_.first_fault == 0 && !stop_2_ && !out_.unkicked;
+  void end_tick(bool arm, bool clear_faults, bool kick, std::uint16_t trip, bool axis_blocked) {
+    const bool arms = arm && !asked_ && ready() && !axis_blocked;
     const bool armed = (arms || (arm && out_.gates_enable)) && trip == 0;
     kickless_ticks_ = kick || !out_.gates_enable ? 0 : (kickless_ticks_ + 1) & kKicklessMask;
     if (clear_faults && !arm) out_.faults = 0, out_.first_fault = 0;

@@ -624,6 +624,7 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_SCENE_CHARGE_ATTRACT 7u
 #define FELTGATE_SCENE_CHARGE_REPEL 8u
 #define FELTGATE_SCENE_WALL 9u
+#define FELTGATE_SCENE_LAW 10u
 
 /* Bits of FELTGATE_STATUS_LIMITS. */
 #define FELTGATE_LIMIT_TORQUE (1u << 0)  /* torque reference at its limit */
@@ -650,8 +651,8 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_FAULT_INDEX 10u  /* the count at the index does not fit a revolution */
 #define FELTGATE_FAULT_WORD 11u  /* a parameter or a held control bit has changed by itself */
 #define FELTGATE_FAULT_JUMP 12u  /* the velocity moved by more than its filter can */
-#define FELTGATE_FAULT_ENGINE 13u  /* reserved for programmed forces */
-#define FELTGATE_FAULT_AXIS 14u  /* reserved for further axes */
+#define FELTGATE_FAULT_ENGINE 13u  /* the engine is late: no fresh torque within its time, in the scene law */
+#define FELTGATE_FAULT_AXIS 14u  /* another axis has a fault */
 #define FELTGATE_FAULT_LINK 15u  /* reserved for the host's link */
 
 /* Numbers that fields and words refer to. */

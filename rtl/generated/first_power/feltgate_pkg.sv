@@ -29,6 +29,9 @@ package feltgate_pkg;
   localparam int REQUIRE_WATCHDOG = 0;  // 1: arming waits for the first kick
   localparam int EMF_IN_LAW = 1;  // 1: the voltage law gives back the back-EMF
   localparam int I2T_START = 24000000;  // I2t sum after power-up: half the budget, for nobody knows how hot the motor is
+  localparam int AXES = 1;  // motors with an encoder each
+  localparam int ENGINE = 0;  // 1: programs give the torque of the scene law
+  localparam int ENGINE_MAX_AGE = 0;  // ticks without a fresh torque that are borne
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
   localparam logic [31:0] DESIGN_CRC = 32'h201a2cd3;  // by which a host knows the design
 

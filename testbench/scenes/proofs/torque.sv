@@ -13,7 +13,9 @@ module torque_proof (
     input logic        [                              31:0] param_i,
     input logic signed [feltgate_pkg::SCENE_POSITION_W-1:0] position_i,
     input logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] product_i,
-    input logic signed [  feltgate_pkg::SCENE_TORQUE_W-1:0] pulse_i   // of the self-test
+    input logic signed [  feltgate_pkg::SCENE_TORQUE_W-1:0] pulse_i,  // of the self-test
+    input logic signed [        feltgate_pkg::TORQUE_W-1:0] law_torque_i,
+    input logic                                             law_late_i
 );
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int PartW = feltgate_pkg::SCENE_PART_W;
@@ -43,7 +45,7 @@ module torque_proof (
   logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] ahead;
   logic signed [TorqueW-1:0] late;
   logic signed [LimiterW-1:0] limited;
-  logic square, beyond;
+  logic square, beyond, law_o;
   scenes u_dut (
       .*,
       .wave_i(wave),
@@ -76,8 +78,8 @@ module torque_proof (
   // Whether the scene is one that is built.
   logic built, charge, terms, whole_q;
   assign built  = feltgate_pkg::SCENE_MASK[{1'b0, scene_i}] && scene_i >= feltgate_map_pkg::SCENE_SETPOINT &&
-                  scene_i <= feltgate_map_pkg::SCENE_WALL;
-  assign terms  = built && scene_i != feltgate_map_pkg::SCENE_SETPOINT;  // that are rounded
+                  scene_i <= feltgate_map_pkg::SCENE_LAW;
+  assign terms  = built && scene_i != feltgate_map_pkg::SCENE_SETPOINT && scene_i != feltgate_map_pkg::SCENE_LAW;  // that are rounded
   assign charge = scene_i == feltgate_map_pkg::SCENE_CHARGE_ATTRACT || scene_i == feltgate_map_pkg::SCENE_CHARGE_REPEL;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) whole_q <= 1'b0;
@@ -88,7 +90,7 @@ module torque_proof (
   logic signed [Wide-1:0] ahead_q, x;
   logic signed [PartW+1:0] terms_q;
   logic [LimiterW-1:0] limit_q;
-  logic signed [TorqueW-1:0] word_q;
+  logic signed [TorqueW-1:0] word_q, program_q;
   logic signed [GapW-1:0] whole;
   logic signed [OffsetW:0] gap, gap_q;
   logic new_q, now;
@@ -101,6 +103,7 @@ module torque_proof (
     new_q   <= now;
     if (wave[feltgate_map_pkg::T_SCENE_SUM]) terms_q <= (PartW + 2)'(\u_dut.plus ) - (PartW + 2)'(\u_dut.minus );
     if (wave[feltgate_map_pkg::S_SETPOINT_TORQUE]) word_q <= param_i[TorqueW-1:0];
+    if (wave[feltgate_map_pkg::T_LAW_TORQUE]) program_q <= law_late_i ? '0 : law_torque_i;
     if (wave[Limit]) limit_q <= ((param_i[LimiterW-1:0] >> (TorqueW - 1)) != '0) ? '0 : param_i[LimiterW-1:0];
     if (wave[feltgate_map_pkg::T_SCENE_DISTANCE])
       gap_q <= charge ? {gap[OffsetW:OffsetF], {OffsetF{1'b0}}} : gap;
@@ -118,12 +121,15 @@ module torque_proof (
         disarmed_is_0: assert (armed_i || x == '0);
         wall_never_pulls: assert (scene_i != feltgate_map_pkg::SCENE_WALL || x <= 0);
         setpoint_is_its_word: assert (scene_i != feltgate_map_pkg::SCENE_SETPOINT || !armed_i || x == Wide'(word_q));
+        law_is_its_torque: assert (scene_i != feltgate_map_pkg::SCENE_LAW || !built || !armed_i || x == Wide'(program_q));
         rounded_to_half_a_bit: assert (!armed_i || !built || charge || scene_i == feltgate_map_pkg::SCENE_SETPOINT ||
+                                       scene_i == feltgate_map_pkg::SCENE_LAW ||
                                        scene_i == feltgate_map_pkg::SCENE_WALL || (error <= Half && error >= -Half));
         renders: cover (x < 0 && scene_i == feltgate_map_pkg::SCENE_WALL);
       end
       within_limit: assert (!new_q || (limited <= $signed({1'b0, limit_q}) && limited >= -$signed({1'b0, limit_q})));
       distance_is_exact: assert (distance == (of_distance ? DistanceW'(gap_q) : '0));
+      law_is_told: assert (law_o == (built && scene_i == feltgate_map_pkg::SCENE_LAW));
       square_of_a_charge: assert (square == (charge && built));
       limits: cover (new_q && beyond && limited > 0);
       inside_word: assert (phase_q <= 9'(feltgate_map_pkg::S_SETPOINT_TORQUE) || phase_q > 9'(Limit) ||

@@ -11,6 +11,7 @@ module pulses_proof (
     input logic [31:0] first_i,  // and in which tick
     input logic        armed_i,
     input logic        direct_i,
+    input logic        waits_i,
     input logic [ 1:0] travel_i,
     input logic [31:0] param_i
 );
@@ -105,7 +106,7 @@ module pulses_proof (
       end
     end
   end
-  logic up_then_q, down_then_q, rests_then_q, waits_then_q, down_was_q, armed_then_q, direct_then_q, held_word_q,
+  logic up_then_q, down_then_q, rests_then_q, waits_then_q, other_then_q, down_was_q, armed_then_q, direct_then_q, held_word_q,
       moving_word_q;
   logic [1:0] step_then_q;
   logic signed [2:0] law_then_q, law_after_q;
@@ -125,7 +126,7 @@ module pulses_proof (
         turns_ok_q   <= 1'b1;
         length_now_q <= ((up || down) && armed_i && !\u_dut.over_q ) ? length_now_q + 16'd1 : 16'd0;
         still_q      <= !(waits && armed_i && step == 2'd0) ? 16'd0 : (&still_q) ? still_q : still_q + 16'd1;
-        waited_q     <= (waits && armed_i) ? waited_q + 19'd1 : 19'd0;
+        waited_q     <= (waits && armed_i && !waits_i) ? waited_q + 19'd1 : 19'd0;
       end
     end
   end
@@ -136,6 +137,7 @@ module pulses_proof (
       down_then_q   <= down;
       rests_then_q  <= rests;
       waits_then_q  <= waits;
+      other_then_q  <= waits_i;
       armed_then_q  <= armed_i;
       step_then_q   <= step;
       still_then_q  <= still_q;
@@ -177,7 +179,7 @@ module pulses_proof (
       if (turned_q) begin
         in_order: assert ((!up || waits_then_q || up_then_q) && (!down || up_then_q || down_then_q) && (!rests ||
             down_then_q));
-        begins_at_rest: assert (!(up && waits_then_q) || (step_then_q == 2'd0 &&
+        begins_at_rest: assert (!(up && waits_then_q) || (step_then_q == 2'd0 && !other_then_q &&
                                 {1'b0, still_then_q} + 17'd127 >= 17'(quiet_q) << UnitBit));
         once_per_arming: assert (!(tested_q && waits));
         second_is_whole: assert (!rests || !armed_then_q || length_then_q + 16'd1 == 16'(length_q) << UnitBit);

@@ -20,7 +20,8 @@ module latch_proof (
     input logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input logic        [                             31:0] param_i,
     input logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] product_i,
-    input logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i
+    input logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,
+    input logic                                           axis_blocked_i
 );
   `include "reset.svh"
 
@@ -35,7 +36,7 @@ module latch_proof (
   (* hierconn *) wire [1:0] \u_dut.stop_q ;
   wire [1:0] stop = \u_dut.stop_q ;
 
-  logic after_q, gates_q, armed_q, tick_q, arm_q, clear_q, stop_seen_q, unkicked_q, kicked_q;
+  logic after_q, gates_q, armed_q, tick_q, arm_q, clear_q, stop_seen_q, unkicked_q, kicked_q, blocked_q;
   logic [2:0] cleared_q;  // gates_clear_o one, two, three clocks ago
   logic asked_then_q;  // the request at the end of the tick before; high after a reset
   logic asked_last_q;
@@ -53,6 +54,7 @@ module latch_proof (
     trips_q  <= trips_i;
     stop_seen_q  <= stop[1];
     unkicked_q   <= unkicked;
+    blocked_q    <= axis_blocked_i;
     asked_last_q <= asked_then_q;
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -92,7 +94,8 @@ module latch_proof (
                                          (FaultsW'(1) << first) == lowest_bit);
       no_gates_beside_a_fault: assert (!gates || faults == '0);
       no_arming_by_itself: assert (!(gates && !gates_q) || (tick_q && arm_q && !asked_last_q &&
-                                   faults_q == '0 && trip_q == '0 && !stop_seen_q && !unkicked_q));
+                                   faults_q == '0 && trip_q == '0 && !stop_seen_q && !unkicked_q && !blocked_q));
+      inside_ready: assert (ready_o == (faults == '0 && !stop[1] && !unkicked));
       disarms_with_the_request: assert (!(tick_q && !arm_q) || (!gates && !armed));
       armed_in_ticks_only: assert (tick_q || armed == armed_q);
       estimate_in_its_clock: assert (estimate_due_q || estimate == estimate_q);

@@ -20,6 +20,7 @@ module limits_proof (
     input logic        [                             31:0] param_i,
     input logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     input logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,
+    input logic                                           axis_blocked_i,
     input logic                                           watch_i    // from here on errors are counted
 );
   `include "wave.svh"

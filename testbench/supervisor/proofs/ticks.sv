@@ -19,7 +19,8 @@ module ticks_proof (
     input logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input logic        [                             31:0] param_i,
     input logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] product_i,
-    input logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i
+    input logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,
+    input logic                                           axis_blocked_i
 );
   `include "reset.svh"
   localparam int Period = feltgate_pkg::PWM_PERIOD;

@@ -52,8 +52,8 @@ enum class Fault : std::uint8_t {
   index = 10,  ///< the count at the index does not fit a revolution
   word = 11,  ///< a parameter or a held control bit has changed by itself
   jump = 12,  ///< the velocity moved by more than its filter can
-  engine = 13,  ///< reserved for programmed forces
-  axis = 14,  ///< reserved for further axes
+  engine = 13,  ///< the engine is late: no fresh torque within its time, in the scene law
+  axis = 14,  ///< another axis has a fault
   link = 15,  ///< reserved for the host's link
 };
 /// Its bit of faults.

@@ -43,6 +43,9 @@ struct Lever {
   static constexpr int require_watchdog = 0;  // 1: arming waits for the first kick
   static constexpr int emf_in_law = 1;  // 1: the voltage law gives back the back-EMF
   static constexpr int i2t_start = 1460000000;  // I2t sum after power-up: half the budget, for nobody knows how hot the motor is
+  static constexpr int axes = 1;  // motors with an encoder each
+  static constexpr int engine = 0;  // 1: programs give the torque of the scene law
+  static constexpr int engine_max_age = 0;  // ticks without a fresh torque that are borne
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
   static constexpr std::uint32_t design_crc = 0x70786e80;  // by which a host knows the design
 

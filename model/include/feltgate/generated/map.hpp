@@ -179,6 +179,7 @@ struct Map {
     static constexpr int charge_chosen = 8;
     static constexpr int scene_sum = 15;
     static constexpr int scene_rounded = 22;
+    static constexpr int law_torque = 22;
     static constexpr int scene_ahead = 23;
     static constexpr int scene_torque = 23;
     static constexpr int torque_limited = 24;
@@ -342,6 +343,7 @@ struct Map {
     operand_emf_constant,
     tau_hat,
     scene_rounded,
+    law_torque,
     polarity,
     read_tau_hat,
     operand_observer_gain,
@@ -481,6 +483,7 @@ struct Map {
       {Step::operand_emf_constant, 22},
       {Step::tau_hat, 22},
       {Step::scene_rounded, 22},
+      {Step::law_torque, 22},
       {Step::polarity, 22},
       {Step::read_tau_hat, 23},
       {Step::operand_observer_gain, 23},
@@ -613,6 +616,7 @@ struct Map {
     static constexpr int charge_attract = 7;
     static constexpr int charge_repel = 8;
     static constexpr int wall = 9;
+    static constexpr int law = 10;
   };
   /// Number of a scene by name, -1 when there is none.
   static constexpr int scene_number(std::string_view scene) {
@@ -625,6 +629,7 @@ struct Map {
     if (scene == "charge_attract") return 7;
     if (scene == "charge_repel") return 8;
     if (scene == "wall") return 9;
+    if (scene == "law") return 10;
     return -1;
   }
   /// All of them, built or not, in the order of their numbers.
@@ -637,7 +642,8 @@ struct Map {
       "damper",
       "charge_attract",
       "charge_repel",
-      "wall"};
+      "wall",
+      "law"};
 
   /// Addresses of control and snapshot words, and bits of the words' fields.
   struct C {

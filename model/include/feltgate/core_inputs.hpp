@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The core's twin: what its blocks are given by pins and control word. Included by
+// feltgate_core.hpp. Documentation: docs/blocks/feltgate_core.md
+#pragma once
+
+#include <cstdint>
+
+#include "feltgate/feltgate_core.hpp"
+
+namespace feltgate {
+
+template <class D, bool ReadBack>
+bool FeltgateCore<D, ReadBack>::asks(const In& in) const {
+  const std::uint32_t control = registers_.out().control;
+  return (bit(control, D::C::control_host) ? bit(control, D::C::control_arm) : in.arm) &&
+         !registers_.out().disarm;
+}
+
+/// The scene that control word or panel ask for.
+template <class D, bool ReadBack>
+std::uint8_t FeltgateCore<D, ReadBack>::wanted_scene(const In& in) const {
+  const std::uint32_t control = registers_.out().control;
+  return static_cast<std::uint8_t>(
+      bit(control, D::C::control_host)
+          ? field<D::C::control_scene, D::C::control_scene_width>(control)
+          : in.scene);
+}
+
+/// What stands instead of the scene's torque; while another axis tests itself, 0.
+template <class D, bool ReadBack>
+TestPulse FeltgateCore<D, ReadBack>::pulse(const In& in) const {
+  const TestPulse own = self_test_.pulse(out_.armed);
+  return own == TestPulse::none && in.axis_testing && out_.armed ? TestPulse::rest : own;
+}
+
+template <class D, bool ReadBack>
+typename Registers<D, ReadBack>::In FeltgateCore<D, ReadBack>::register_inputs(const In& in,
+                                                                               bool tick) const {
+  typename Registers<D, ReadBack>::In reg;
+  reg.tick = tick;
+  reg.reg_addr = in.reg_addr;
+  reg.reg_wdata = in.reg_wdata;
+  reg.reg_write = in.reg_write;
+  reg.armed = out_.armed;
+  reg.set_zero = in.set_zero;
+  reg.scene = out_.scene;
+  if (registers_.flipped()) {  // the parameter bus is not kept up otherwise
+    const int slot = clock_ < 63 ? clock_ : 63;
+    reg.slot_fetch = static_cast<std::uint8_t>(slot);
+    reg.scene_slot_fetch = ((Map::scene_slots >> slot) & 1u) != 0;
+    reg.region_high = wave_.region_high();
+    reg.testing = self_test_.busy(out_.armed);
+    reg.eased = hold_.eased();
+  }
+  return reg;
+}
+
+template <class D, bool ReadBack>
+QuadDecoder::In FeltgateCore<D, ReadBack>::decoder_inputs(const In& in, bool zero,
+                                                          bool clear) const {
+  const std::uint32_t control = registers_.out().control;
+  QuadDecoder::In d;
+  d.a = in.encoder.a;
+  d.b = in.encoder.b;
+  d.z = in.encoder.z;
+  d.filter =
+      static_cast<std::uint8_t>(field<D::C::control_filter, D::C::control_filter_width>(control));
+  d.polarity = bit(control, D::C::control_encoder_polarity);
+  d.set_zero = zero;
+  d.clear_error = clear;
+  return d;
+}
+
+template <class D, bool ReadBack>
+Pwm::In FeltgateCore<D, ReadBack>::pwm_inputs(bool enable, std::int16_t duty) const {
+  const std::uint32_t control = registers_.out().control;
+  Pwm::In p;
+  p.enable = enable;
+  p.mode = bit(control, D::C::control_pwm_mode);
+  p.polarity = bit(control, D::C::control_motor_polarity);
+  p.duty = duty;
+  return p;
+}
+
+}  // namespace feltgate

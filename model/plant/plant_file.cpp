@@ -18,6 +18,43 @@ namespace {
 constexpr config::Range kEdgeOffset{-0.25, 0.25};
 constexpr config::Range kLineJitter{0.0, 0.05};
 
+LeverParameters read_lever(config::TomlReader table) {
+  LeverParameters lever;
+  lever.inertia_kg_m2 = table.number("inertia_kg_m2", config::kPositive);
+  lever.viscous_nm_s_rad = table.number("viscous_nm_s_rad", config::kNotNegative);
+  lever.radius_m = table.number("radius_m", config::kPositive);
+  table.finish();
+  return lever;
+}
+
+EndStops read_end_stops(config::TomlReader table) {
+  EndStops stops;
+  stops.low_rad = table.number("low_rad", {-1e3, 1e3});
+  stops.high_rad = table.number("high_rad", {-1e3, 1e3});
+  stops.stiffness_nm_rad = table.number("stiffness_nm_rad", config::kPositive);
+  stops.restitution = table.number("restitution", {0.0, 1.0});
+  if (stops.high_rad <= stops.low_rad) {
+    table.fail("high_rad", "\"high_rad\" is not above \"low_rad\"",
+               "leave the lever a way: raise it");
+  }
+  table.finish();
+  return stops;
+}
+
+// Without a base every flag is required.
+Effects read_flags(config::TomlReader table, const Effects* base) {
+  Effects effects = base != nullptr ? *base : Effects{};
+  for (const EffectName& e : effect_names) {
+    // The dynamics of a hand belong to scenes; a plant file need not name them.
+    const bool optional = base != nullptr || e.flag == &Effects::hand_dynamics;
+    effects.*e.flag = optional ? table.flag_or(e.name, effects.*e.flag) : table.flag(e.name);
+  }
+  table.finish();
+  return effects;
+}
+
+}  // namespace
+
 MotorParameters read_motor(config::TomlReader table) {
   MotorParameters motor;
   motor.torque_constant_nm_a = table.number("torque_constant_nm_a", config::kPositive);
@@ -27,15 +64,6 @@ MotorParameters read_motor(config::TomlReader table) {
   motor.dead_voltage_v = table.number("dead_voltage_v", config::kNotNegative);
   table.finish();
   return motor;
-}
-
-LeverParameters read_lever(config::TomlReader table) {
-  LeverParameters lever;
-  lever.inertia_kg_m2 = table.number("inertia_kg_m2", config::kPositive);
-  lever.viscous_nm_s_rad = table.number("viscous_nm_s_rad", config::kNotNegative);
-  lever.radius_m = table.number("radius_m", config::kPositive);
-  table.finish();
-  return lever;
 }
 
 LugreParameters read_lugre(config::TomlReader table) {
@@ -80,33 +108,7 @@ EncoderParameters read_encoder(config::TomlReader table) {
   return encoder;
 }
 
-EndStops read_end_stops(config::TomlReader table) {
-  EndStops stops;
-  stops.low_rad = table.number("low_rad", {-1e3, 1e3});
-  stops.high_rad = table.number("high_rad", {-1e3, 1e3});
-  stops.stiffness_nm_rad = table.number("stiffness_nm_rad", config::kPositive);
-  stops.restitution = table.number("restitution", {0.0, 1.0});
-  if (stops.high_rad <= stops.low_rad) {
-    table.fail("high_rad", "\"high_rad\" is not above \"low_rad\"",
-               "leave the lever a way: raise it");
-  }
-  table.finish();
-  return stops;
-}
-
-// Without a base every flag is required.
-Effects read_flags(config::TomlReader table, const Effects* base) {
-  Effects effects = base != nullptr ? *base : Effects{};
-  for (const EffectName& e : effect_names) {
-    // The dynamics of a hand belong to scenes; a plant file need not name them.
-    const bool optional = base != nullptr || e.flag == &Effects::hand_dynamics;
-    effects.*e.flag = optional ? table.flag_or(e.name, effects.*e.flag) : table.flag(e.name);
-  }
-  table.finish();
-  return effects;
-}
-
-}  // namespace
+Effects read_all_effects(config::TomlReader table) { return read_flags(std::move(table), nullptr); }
 
 Effects read_effects(config::TomlReader table, const Effects& base) {
   return read_flags(std::move(table), &base);
@@ -124,7 +126,7 @@ Parameters read_plant(const toml::table& root, const std::string& file) {
   parameters.supply = read_supply(reader.section("supply"));
   parameters.encoder = read_encoder(reader.section("encoder"));
   if (reader.has("end_stops")) parameters.end_stops = read_end_stops(reader.section("end_stops"));
-  parameters.effects = read_flags(reader.section("effects"), nullptr);
+  parameters.effects = read_all_effects(reader.section("effects"));
   reader.finish();
   return parameters;
 }

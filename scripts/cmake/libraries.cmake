@@ -88,6 +88,10 @@ feltgate_library(feltgate_law law Boost::headers)
 feltgate_sim_library(plant plant EXCEPT "_file\\.cpp$")
 feltgate_sim_library(plant_files plant ONLY "_file\\.cpp$"
   feltgate_plant feltgate_traces feltgate_config)
+# Linkages with two motors, as the plant: docs/pantograph.md
+feltgate_sim_library(linkage plant/pantograph EXCEPT "_file\\.cpp$" feltgate_plant)
+feltgate_sim_library(linkage_files plant/pantograph ONLY "_file\\.cpp$"
+  feltgate_linkage feltgate_plant_files)
 
 if(FELTGATE_SIGROK)
   find_package(LibArchive REQUIRED)
@@ -102,12 +106,12 @@ include(engines)
 feltgate_sim_library(loop loop
   feltgate_engines feltgate_plant_files feltgate_traces feltgate_bounds)
 # A closed loop hands scalars from step to step; packed in pairs they would wait for the store.
-foreach(target feltgate_plant feltgate_loop)
+foreach(target feltgate_plant feltgate_linkage feltgate_loop)
   target_compile_options(${target} PRIVATE -fno-tree-slp-vectorize)
 endforeach()
 
 add_library(feltgate_sim INTERFACE)
-target_link_libraries(feltgate_sim INTERFACE feltgate_loop)
+target_link_libraries(feltgate_sim INTERFACE feltgate_loop feltgate_linkage_files)
 feltgate_export(sim)
 
 # sc_modules of twin and motor: headers. SystemC itself is looked for by who links them.

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Stops of a linkage on the angle between its cranks. Energy and passivity: docs/pantograph.md
+#pragma once
+
+#include <algorithm>
+
+namespace feltgate::plant {
+
+/// A spring at each end that gives back restitution^2 of the energy that it took.
+struct LinkageStops {
+  double least_rad = 0.0, most_rad = 0.0;  ///< of theta5 - theta1
+  double stiffness_nm_rad = 0.0;
+  double restitution = 1.0;  ///< 0.1 to 1
+};
+
+/// Both stops and how far each is pressed. The spring gets deeper with its stiffness and comes back
+/// with stiffness/restitution^2, from the same torque to none before its whole way is back; pressed
+/// again it goes along that line to its deepest point. So its torque is continuous and comes from a
+/// potential that only falls when a contact gets deeper: however it is pressed, it gives no energy.
+/// (Walton and Braun, J. Rheol. 30, 1986: loading and unloading of a sphere.)
+class LinkageContact {
+ public:
+  static constexpr double kNear_rad = 1e-14;  ///< this near a border is on it
+
+  explicit LinkageContact(const LinkageStops& stops)
+      : s_(stops),
+        kept_(stops.restitution * stops.restitution),
+        back_nm_rad_(stops.stiffness_nm_rad / kept_) {}
+
+  /// 0: deeper than ever at the low end, 1: on the way back from there, 2: free, 3 and 4: the high
+  /// end. On a border the speed decides.
+  int zone(double between_rad, double rad_s) const {
+    int zone = 0;
+    while (zone < 4) {
+      const double beyond = between_rad - upper(zone);
+      if (beyond <= (rad_s > 0.0 ? -kNear_rad : kNear_rad)) break;
+      ++zone;
+    }
+    return zone;
+  }
+  bool within(int zone, double between_rad) const {
+    return (zone == 0 || between_rad >= lower(zone)) && (zone == 4 || between_rad <= upper(zone));
+  }
+  /// Ends of a zone, rad; zone 4 has no upper, zone 0 no lower one.
+  double upper(int zone) const {
+    const double ends[] = {s_.least_rad - low_rad_, s_.least_rad - dent(low_rad_),
+                           s_.most_rad + dent(high_rad_), s_.most_rad + high_rad_};
+    return ends[zone];
+  }
+  double lower(int zone) const { return upper(zone - 1); }
+
+  /// Torque on theta5, against theta1, Nm.
+  double torque_nm(int zone, double between_rad) const {
+    if (zone == 2) return 0.0;
+    if (zone == 1 || zone == 3) return back_nm_rad_ * (upper(zone == 1 ? 1 : 2) - between_rad);
+    return s_.stiffness_nm_rad * ((zone == 0 ? s_.least_rad : s_.most_rad) - between_rad);
+  }
+  /// What the springs would give back, J.
+  double stored_j(double between_rad) const {
+    return stored_j(s_.least_rad - between_rad, low_rad_) +
+           stored_j(between_rad - s_.most_rad, high_rad_);
+  }
+  /// The linkage is there now: deepest points, and what was lost, J.
+  double settle(double between_rad) {
+    const double before_j = stored_j(between_rad);
+    low_rad_ = settled(s_.least_rad - between_rad, low_rad_);
+    high_rad_ = settled(between_rad - s_.most_rad, high_rad_);
+    return before_j - stored_j(between_rad);
+  }
+
+ private:
+  /// Where the torque is gone on the way back from the deepest point.
+  double dent(double deepest_rad) const { return (1.0 - kept_) * deepest_rad; }
+  double stored_j(double depth_rad, double deepest_rad) const {
+    const double back_rad = std::min(depth_rad, deepest_rad) - dent(deepest_rad);
+    if (depth_rad <= 0.0 || back_rad < 0.0) return 0.0;
+    const double stored = 0.5 * back_nm_rad_ * back_rad * back_rad;
+    if (depth_rad <= deepest_rad) return stored;
+    return stored + 0.5 * s_.stiffness_nm_rad * (depth_rad * depth_rad - deepest_rad * deepest_rad);
+  }
+  static double settled(double depth_rad, double deepest_rad) {
+    return depth_rad <= 0.0 ? 0.0 : std::max(depth_rad, deepest_rad);
+  }
+
+  LinkageStops s_;
+  double kept_;                            ///< of the energy
+  double back_nm_rad_;                     ///< stiffness on the way back
+  double low_rad_ = 0.0, high_rad_ = 0.0;  ///< deepest points of the contacts that last
+};
+
+}  // namespace feltgate::plant

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Two motors, a five-bar linkage, stops, encoders and a hand at the pen: closes the loop of a
+// design with two axes in simulation. Equations, step and convergence: docs/pantograph.md
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "pantograph_parameters.hpp"
+#include "pen_hand.hpp"
+#include "plant/axis_drive.hpp"
+#include "plant/encoder.hpp"
+#include "plant/plant.hpp"
+#include "plant/supply.hpp"
+
+namespace feltgate::plant {
+
+/// What can be seen, at the end of the last step unless it says mean. Pairs: joint 1, joint 5.
+struct PantographSeen {
+  Joints theta_rad = {}, omega_rad_s = {};
+  Vec2 pen_m, pen_m_s;
+  Joints current_a = {};    ///< of the motors
+  Joints motor_nm = {};     ///< at the cranks, before friction; mean of the last step
+  Joints friction_nm = {};  ///< dry and viscous, at the cranks; mean of the last step
+  Vec2 hand_n;              ///< of the hand on the pen
+  Vec2 hand_m;              ///< of a hand with a mass
+  double bus_v = 0.0;
+  double supply_a = 0.0;  ///< mean of the last step
+  bool shoot_through = false;
+  /// Since the start, J: what came in by pen and motors and what was lost. stored_j is what moves
+  /// and what the stops hold; it equals what it was plus in less lost.
+  double hand_work_j = 0.0, motor_work_j = 0.0;
+  double dry_j = 0.0, viscous_j = 0.0, stop_j = 0.0;
+};
+
+class Pantograph {
+ public:
+  /// The pen starts at rest where the hand says, or the parameters.
+  /// Errors: std::invalid_argument for a start that cannot be, or a drive that cannot.
+  Pantograph(const PantographParameters& parameters, const Effects& effects, const Drive& drive,
+             const PenHand& hand = {});
+
+  /// Advances by `clocks` >= 1 FPGA clocks with both bridges as given (gates, duty or off), 25 to
+  /// 250 clocks (5 us) between two events. Errors: MotionError.
+  void advance(const std::array<Bridge, 2>& bridges, Clock clocks);
+  /// The same with ideal motors: these torques at the cranks, Nm, before friction.
+  void advance(const Joints& torque_nm, Clock clocks);
+
+  /// The first clock after now() at which the hand begins something else.
+  Clock next_corner() const { return hand_.next_corner(now_); }
+  void take(const PenPhase& phase) { hand_.take(phase); }
+  void steer(Vec2 target_m, Vec2 rate_m_s) { hand_.steer(target_m, rate_m_s, now_); }
+
+  /// Time since the start, in clocks. Seconds come from it alone.
+  Clock now() const { return now_; }
+  double seconds() const { return static_cast<double>(now_) / clock_hz_; }
+  double clock_hz() const { return clock_hz_; }
+  /// Pin changes of an axis (0 or 1) during the last step.
+  const std::vector<EncoderEvent>& events(std::size_t axis) const { return events_[axis]; }
+  const Encoder& encoder(std::size_t axis) const { return encoders_[axis]; }
+  const PantographSeen& seen() const { return seen_; }
+  const PantographParameters& parameters() const { return p_; }
+  const Linkage& linkage() const { return mechanics_.linkage(); }
+  const LinkageDynamics& dynamics() const { return mechanics_.dynamics(); }
+  /// Kinetic energy, what the stops hold and what the bristles hold is not in it, J.
+  double stored_j() const { return mechanics_.stored_j(state_); }
+
+ private:
+  void begin(Clock clocks);
+  void finish(const Joints& motor_nm, const Joints& dry_nm, Clock clocks);
+  [[noreturn]] void refuse(const char* what, const Joints& before) const;
+
+  PantographParameters p_;
+  Effects on_;
+  double clock_hz_;
+  double ratio_;          ///< motor per crank
+  double encoder_ratio_;  ///< encoder per crank
+  std::array<AxisDrive, 2> drives_;
+  Supply supply_;
+  LinkageMechanics mechanics_;
+  PenHandRun hand_;
+  LinkageState state_;
+  std::array<Encoder, 2> encoders_;
+
+  Clock now_ = 0;
+  Clock step_clocks_ = -1;
+  double dt_s_ = 0.0;
+  Joints middle_rad_s_ = {};         ///< speeds predicted for the middle of the step
+  Joints acceleration_rad_s2_ = {};  ///< mean of the last step
+  std::array<std::vector<EncoderEvent>, 2> events_;
+  PantographSeen seen_;
+};
+
+}  // namespace feltgate::plant

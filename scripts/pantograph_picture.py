@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Draws docs/images/pantograph.svg: where the pen of the default pantograph can be and what its motors
+can push there, and a drop of its cranks against a stop, from the table that the test prints.
+
+  build/testbench/pantograph/linkage_test "[.drop]" > drop.csv
+  scripts/pantograph_picture.py drop.csv
+"""
+
+import csv
+import math
+import sys
+import tomllib
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("svg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+ROOT = Path(__file__).resolve().parents[1]
+BLUE, RED, GREY = "#1f6fb4", "#c0392b", "#888888"
+
+
+def drop_of(path):
+    """Times, angles between the cranks by restitution; lines of the test program are skipped."""
+    with open(path, newline="", encoding="utf-8") as file:
+        lines = [line for line in file if line.startswith("time_s") or line[0].isdigit()]
+    by = {}
+    for row in csv.DictReader(lines):
+        times, angles = by.setdefault(float(row["restitution"]), ([], []))
+        times.append(1e3 * float(row["time_s"]))
+        angles.append(float(row["between_deg"]))
+    return by
+
+
+def workspace(axes, plant, torque):
+    """Rings of equal angle between the cranks, three poses, and what the motors can push there."""
+    length = plant["linkage"]["crank_1_m"]
+    least, most = (math.radians(plant["stops"][k]) for k in ("least_deg", "most_deg"))
+    for angle in (least, math.radians(60), math.radians(120), most):
+        radius = 2e3 * length * math.cos(angle / 2)
+        style = "-" if angle in (least, most) else ":"
+        axes.add_patch(plt.Circle((0, 0), radius, fill=False, color=GREY, ls=style))
+        axes.text(radius * math.cos(-0.6), radius * math.sin(-0.6), f"{math.degrees(angle):.0f}°",
+                  color=GREY, fontsize=8, ha="center", va="center",
+                  bbox={"fc": "w", "ec": "none", "pad": 0.5})
+    for first, last, alpha in ((30, 150, 1.0), (-20, 60, 0.45), (110, 235, 0.45)):
+        ends = [(1e3 * length * math.cos(math.radians(a)), 1e3 * length * math.sin(math.radians(a)))
+                for a in (first, last)]
+        pen = (ends[0][0] + ends[1][0], ends[0][1] + ends[1][1])
+        for end, color in zip(ends, (BLUE, RED)):
+            axes.plot([0, end[0]], [0, end[1]], color=color, lw=3, alpha=alpha)
+            axes.plot([end[0], pen[0]], [end[1], pen[1]], color="k", lw=1.5, alpha=alpha)
+        axes.plot(*pen, "o", color="k", ms=4, alpha=alpha)
+        # Forces that both motors can make there: a parallelogram around the pen, 40 mm per N.
+        a, b = (math.radians(x) for x in (first, last))
+        across = length * math.sin(b - a)
+        corners = []
+        for one, five in ((1, 1), (-1, 1), (-1, -1), (1, -1)):
+            force = (torque * (one * math.cos(b) - five * math.cos(a)) / across,
+                     torque * (one * math.sin(b) - five * math.sin(a)) / across)
+            corners.append((pen[0] + 40 * force[0], pen[1] + 40 * force[1]))
+        axes.add_patch(plt.Polygon(corners, fc=BLUE, ec=BLUE, alpha=0.15 * alpha))
+    axes.set(xlim=(-215, 215), ylim=(-130, 215), aspect="equal", xlabel="x, mm", ylabel="y, mm",
+             title=f"pen between the stops; forces of 1 A, 40 mm per N")
+
+
+def drop(axes, plant, table):
+    for (restitution, (times, angles)), color in zip(table.items(), (GREY, BLUE, RED)):
+        axes.plot(times, angles, color=color, lw=1.2, label=f"restitution {restitution:g}")
+    for key in ("least_deg", "most_deg"):
+        axes.axhline(plant["stops"][key], color="k", lw=0.8, ls="--")
+    axes.set(xlabel="time, ms", ylabel="angle between the cranks, degrees",
+             title="pulled outward by 1 N, without friction")
+    axes.legend(fontsize=8, frameon=False, loc=(0.55, 0.72))
+    axes.grid(alpha=0.3)
+
+
+def main():
+    if len(sys.argv) != 2 or sys.argv[1] in ("-h", "--help"):
+        print(__doc__.strip())
+        return 0 if sys.argv[1:] in (["-h"], ["--help"]) else 2
+    plant = tomllib.loads((ROOT / "vectors/linkages/pantograph.toml").read_text(encoding="utf-8"))
+    ratio = plant["joint"]["drum_radius_m"] / plant["joint"]["pulley_radius_m"]
+    # 1 A in each motor.
+    torque = ratio * plant["motor"]["torque_constant_nm_a"]
+    plt.rcParams.update({"svg.hashsalt": "feltgate", "svg.fonttype": "none", "font.size": 9})
+    figure, axes = plt.subplots(1, 2, figsize=(9.2, 4.2), layout="constrained")
+    workspace(axes[0], plant, torque)
+    drop(axes[1], plant, drop_of(sys.argv[1]))
+    figure.savefig(ROOT / "docs/images/pantograph.svg", metadata={"Date": None, "Creator": None})
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Geometry of the linkage: places, Jacobian, inverse. docs/pantograph.md
+#include "catch.hpp"
+#include "pantograph_fixture.hpp"
+
+using namespace feltgate;
+using namespace feltgate::plant;
+
+namespace {
+
+/// Calls `check(theta)` all over the way of the cranks.
+template <class Check>
+void everywhere(Check&& check) {
+  for (double first = -60.0; first <= 150.0; first += 15.0) {
+    for (double between = 20.0; between <= 160.0; between += 10.0) {
+      check(Joints{first * kDegree, (first + between) * kDegree});
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("the rhombus at 30 and 150 degrees: place and torques", "[linkage]") {
+  const Linkage linkage(pantograph().linkage);
+  const LinkagePose p = linkage.pose({30 * kDegree, 150 * kDegree});
+  CHECK(p.pen.x == Approx(0.0).margin(1e-16));
+  CHECK(p.pen.y == Approx(0.1).epsilon(1e-14));
+  const Joints right = p.torque({1.0, 0.0}), up = p.torque({0.0, 1.0});
+  CHECK(right[0] == Approx(-0.05).epsilon(1e-13));
+  CHECK(right[1] == Approx(-0.05).epsilon(1e-13));
+  CHECK(up[0] == Approx(0.1 * std::cos(30 * kDegree)).epsilon(1e-13));
+  CHECK(up[1] == Approx(-0.1 * std::cos(30 * kDegree)).epsilon(1e-13));
+}
+
+TEST_CASE("a rhombus adds its cranks", "[linkage]") {
+  const Linkage linkage(pantograph().linkage);
+  everywhere([&](const Joints& t) {
+    const LinkagePose p = linkage.pose(t);
+    CHECK(p.pen.x == Approx(0.1 * (std::cos(t[0]) + std::cos(t[1]))).margin(1e-15));
+    CHECK(p.pen.y == Approx(0.1 * (std::sin(t[0]) + std::sin(t[1]))).margin(1e-15));
+    // Opposite links stay parallel.
+    CHECK(p.rod_1_by[0] == Approx(0.0).margin(1e-12));
+    CHECK(p.rod_1_by[1] == Approx(1.0).epsilon(1e-12));
+    CHECK(p.rod_5_by[0] == Approx(1.0).epsilon(1e-12));
+    CHECK(p.rods_cross_m2 == Approx(-0.01 * std::sin(t[1] - t[0])).epsilon(1e-12));
+  });
+}
+
+TEST_CASE("all links keep their lengths, the pen stays beyond the elbows", "[linkage]") {
+  for (const LinkageGeometry& g : {pantograph().linkage, uneven()}) {
+    const Linkage linkage(g);
+    everywhere([&](const Joints& t) {
+      const LinkagePose p = linkage.pose(t);
+      CHECK(length(p.elbow_1) == Approx(g.crank_1_m).epsilon(1e-14));
+      CHECK(length(p.elbow_5 - Vec2{-g.base_m, 0.0}) == Approx(g.crank_5_m).epsilon(1e-14));
+      CHECK(length(p.pen - p.elbow_1) == Approx(g.rod_1_m).epsilon(1e-13));
+      CHECK(length(p.pen - p.elbow_5) == Approx(g.rod_5_m).epsilon(1e-13));
+      CHECK(cross(p.pen - p.elbow_1, p.elbow_5 - p.elbow_1) > 0.0);
+    });
+  }
+}
+
+TEST_CASE("Jacobian and turns of the rods against differences", "[linkage]") {
+  constexpr double h = 1e-5;
+  for (const LinkageGeometry& g : {pantograph().linkage, uneven()}) {
+    const Linkage linkage(g);
+    everywhere([&](const Joints& t) {
+      const LinkagePose p = linkage.pose(t);
+      const auto slope = [&](std::size_t joint, auto&& of) {
+        Joints a = t, b = t;
+        a[joint] -= h;
+        b[joint] += h;
+        return (of(linkage.pose(b)) - of(linkage.pose(a))) * (0.5 / h);
+      };
+      for (std::size_t j = 0; j < 2; ++j) {
+        const Vec2 by = j == 0 ? p.pen_by_1 : p.pen_by_5;
+        const double near = 1e-6 * (1.0 + length(by));
+        CHECK(by.x == Approx(slope(j, [](const LinkagePose& q) { return q.pen.x; })).margin(near));
+        CHECK(by.y == Approx(slope(j, [](const LinkagePose& q) { return q.pen.y; })).margin(near));
+        const auto turn = [](Vec2 from, Vec2 v) {
+          return std::atan2(cross(from, v), dot(from, v));
+        };
+        CHECK(p.rod_1_by[j] == Approx(slope(j, [&](const LinkagePose& q) {
+                                 return turn(p.rod_1, q.rod_1);
+                               })).margin(1e-6));
+        CHECK(p.rod_5_by[j] == Approx(slope(j, [&](const LinkagePose& q) {
+                                 return turn(p.rod_5, q.rod_5);
+                               })).margin(1e-6));
+      }
+    });
+  }
+}
+
+TEST_CASE("accelerations at constant speeds against second differences", "[linkage]") {
+  constexpr double h = 1e-4;
+  const Joints omega{1.3, -0.8};
+  for (const LinkageGeometry& g : {pantograph().linkage, uneven()}) {
+    const Linkage linkage(g);
+    everywhere([&](const Joints& t) {
+      const LinkagePose p = linkage.pose(t);
+      const LinkageSwing s = linkage.swing(p, omega);
+      const auto at = [&](double k) {
+        return linkage.pose({t[0] + k * omega[0], t[1] + k * omega[1]});
+      };
+      const LinkagePose before = at(-h), after = at(h);
+      const Vec2 pen = 1.0 / (h * h) * (after.pen - 2.0 * p.pen + before.pen);
+      CHECK(s.pen.x == Approx(pen.x).margin(2e-5).epsilon(1e-4));
+      CHECK(s.pen.y == Approx(pen.y).margin(2e-5).epsilon(1e-4));
+      const auto speed = [&](const LinkagePose& q) { return dot(q.rod_1_by, omega); };
+      CHECK(s.rod_1 == Approx((speed(after) - speed(before)) / (2 * h)).margin(1e-5).epsilon(1e-4));
+      const auto speed_5 = [&](const LinkagePose& q) { return dot(q.rod_5_by, omega); };
+      CHECK(s.rod_5 ==
+            Approx((speed_5(after) - speed_5(before)) / (2 * h)).margin(1e-5).epsilon(1e-4));
+    });
+  }
+}
+
+TEST_CASE("force, speeds and torques are inverse to each other", "[linkage]") {
+  const Linkage linkage(uneven());
+  everywhere([&](const Joints& t) {
+    const LinkagePose p = linkage.pose(t);
+    const Vec2 force{0.3, -1.1}, speed{0.2, 0.5};
+    const Vec2 again = p.force(p.torque(force));
+    CHECK(again.x == Approx(force.x).epsilon(1e-9));
+    CHECK(again.y == Approx(force.y).epsilon(1e-9));
+    const Vec2 moved = p.pen_speed(p.omega(speed));
+    CHECK(moved.x == Approx(speed.x).epsilon(1e-9));
+    CHECK(moved.y == Approx(speed.y).epsilon(1e-9));
+    // Power at the pen is power at the joints.
+    CHECK(dot(p.torque(force), p.omega(speed)) == Approx(dot(force, speed)).epsilon(1e-9));
+  });
+}
+
+TEST_CASE("inverse kinematics finds the angles, turns of them too", "[linkage]") {
+  const Linkage linkage(pantograph().linkage);
+  for (const double turns : {0.0, 1.0, -2.0}) {
+    everywhere([&](Joints t) {
+      for (double& a : t) a += turns * 360 * kDegree;
+      const auto back = linkage.inverse(linkage.pose(t).pen, t[0] + 0.5);
+      REQUIRE(back);
+      CHECK((*back)[0] == Approx(t[0]).margin(1e-12));
+      CHECK((*back)[1] == Approx(t[1]).margin(1e-12));
+    });
+  }
+  const Linkage other(uneven());
+  for (const Vec2 pen : {Vec2{0.0, 0.12}, Vec2{0.05, 0.1}, Vec2{-0.08, 0.09}}) {
+    const auto theta = other.inverse(pen);
+    REQUIRE(theta);
+    const Vec2 back = other.pose(*theta).pen;
+    CHECK(back.x == Approx(pen.x).margin(1e-14));
+    CHECK(back.y == Approx(pen.y).margin(1e-14));
+  }
+  CHECK_FALSE(linkage.inverse({0.15, 0.15}));
+  CHECK_FALSE(linkage.inverse({0.0, 0.0}));
+  CHECK_FALSE(other.inverse({0.0, 0.001}));
+}
+
+TEST_CASE("rods that do not reach each other show as NaN", "[linkage]") {
+  LinkageGeometry g = pantograph().linkage;
+  g.rod_1_m = g.rod_5_m = 0.05;
+  CHECK(std::isnan(Linkage(g).pose({0.0, 120 * kDegree}).pen.x));
+  CHECK_FALSE(std::isnan(Linkage(g).pose({0.0, 50 * kDegree}).pen.x));
+}

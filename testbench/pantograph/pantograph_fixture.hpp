@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Shared by the tests of the pantograph. docs/pantograph.md
+#pragma once
+
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "../plant/plant_fixture.hpp"
+#include "plant/pantograph/pantograph.hpp"
+#include "plant/pantograph/pantograph_file.hpp"
+
+namespace feltgate::plant {
+
+inline constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+inline std::string linkage_file(const std::string& name) {
+  return std::string(FELTGATE_SOURCE_DIR) + "/vectors/linkages/" + name + ".toml";
+}
+inline PantographParameters pantograph() {
+  return read_pantograph_file(linkage_file("pantograph"));
+}
+
+/// Four different links, motors apart: nothing cancels.
+inline LinkageGeometry uneven() { return {0.03, 0.09, 0.12, 0.11, 0.08}; }
+inline LinkageBodies uneven_bodies() {
+  return {{0.02, 0.04, 1.1e-5},
+          {0.015, 0.07, 2.3e-5},
+          {0.03, 0.05, 1.7e-5},
+          {0.01, 0.03, 0.6e-5},
+          0.025,
+          {3e-5, 5e-5}};
+}
+inline constexpr LinkageStops kFarStops{-100.0, 100.0, 1.0, 1.0};
+
+/// Without friction, motors' inertia and stops' losses.
+inline LinkageMechanics frictionless(const LinkageStops& stops) {
+  const PantographParameters p = pantograph();
+  return {p.linkage, p.bodies, stops};
+}
+
+}  // namespace feltgate::plant

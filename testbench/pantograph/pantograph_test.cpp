@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Motors, encoders and step of the whole plant. docs/pantograph.md
+#include <chrono>
+#include <cstdio>
+
+#include "catch.hpp"
+#include "pantograph_fixture.hpp"
+
+using namespace feltgate;
+using namespace feltgate::plant;
+
+namespace {
+
+// Without dead time, whose loss is that of the current at the beginning of a step.
+Vec2 pushed(const PantographParameters& p, double n_x, double n_y, Clock step, double seconds) {
+  Effects on = p.effects;
+  on.dead_time = false;
+  Pantograph plant(p, on, Drive{});
+  const Joints torque = plant.linkage().pose(plant.seen().theta_rad).torque({n_x, n_y});
+  const double per_a = p.joint.ratio() * p.motor.torque_constant_nm_a;
+  std::array<Bridge, 2> bridges;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double volts = p.motor.resistance_ohm * torque[i] / per_a +
+                         std::copysign(p.motor.dead_voltage_v, torque[i]);
+    bridges[i] = Bridge::averaged(volts / p.supply.voltage_v);
+  }
+  while (plant.now() < clocks_of(seconds)) plant.advance(bridges, step);
+  return plant.seen().pen_m;
+}
+
+}  // namespace
+
+TEST_CASE("gates move the pen: up by both motors, to the side by one way", "[pantograph]") {
+  const PantographParameters p = pantograph();
+  // Up asks (+, -): joint 1 turns positive, joint 5 negative. 2 of 10 us on.
+  for (const bool up : {true, false}) {
+    Pantograph plant(p, p.effects, Drive{});
+    for (Clock clock = 0; clock < 300000; ++clock) {
+      const bool on = clock % 500 < 100;
+      const Bridge forth = on ? Bridge::gates(1, 0, 0, 1) : Bridge::gates(0, 1, 0, 1);
+      const Bridge back = on ? Bridge::gates(0, 1, 1, 0) : Bridge::gates(0, 1, 0, 1);
+      plant.advance({forth, up ? back : forth}, 1);
+    }
+    const PantographSeen& s = plant.seen();
+    CHECK(s.current_a[0] > 1.0);
+    if (up) {
+      CHECK(s.pen_m.y > 0.1005);
+      CHECK(s.pen_m.x == Approx(0.0).margin(1e-9));
+      CHECK(s.current_a[1] == Approx(-s.current_a[0]).epsilon(1e-9));
+    } else {
+      CHECK(s.pen_m.x < -0.0005);  // both positive: the pen turns about the motors
+      // The pen flies outward meanwhile.
+      CHECK(s.omega_rad_s[0] == Approx(s.omega_rad_s[1]).epsilon(0.1));
+    }
+    CHECK_FALSE(s.shoot_through);
+  }
+  Pantograph plant(p, p.effects, Drive{});
+  plant.advance({Bridge::gates(1, 1, 0, 0), Bridge::off()}, 1);
+  CHECK(plant.seen().shoot_through);
+}
+
+TEST_CASE("switched gates and the averaged bridge move it alike", "[pantograph]") {
+  const PantographParameters p = pantograph();
+  Effects on = p.effects;
+  on.dead_time = false;  // the gates here have none
+  Drive drive;
+  drive.pwm_hz = 50e3;
+  Pantograph switched(p, on, drive), averaged(p, on, drive);
+  for (Clock clock = 0; clock < 500000; clock += 5) {
+    const Clock at = clock % 1000;
+    const auto gates = [&](Clock width, bool forth) {
+      const bool high = at < width;
+      if (forth) return high ? Bridge::gates(1, 0, 0, 1) : Bridge::gates(0, 1, 0, 1);
+      return high ? Bridge::gates(0, 1, 1, 0) : Bridge::gates(0, 1, 0, 1);
+    };
+    switched.advance({gates(150, true), gates(100, false)}, 5);
+  }
+  while (averaged.now() < 500000) {
+    averaged.advance({Bridge::averaged(0.15), Bridge::averaged(-0.1)}, 250);
+  }
+  CHECK(averaged.seen().pen_m.y - 0.1 == Approx(switched.seen().pen_m.y - 0.1).epsilon(0.02));
+  CHECK(averaged.seen().pen_m.x == Approx(switched.seen().pen_m.x).epsilon(0.02));
+  CHECK(averaged.seen().pen_m.y > 0.102);
+}
+
+TEST_CASE("stall: current, torque and force are the closed form's", "[pantograph]") {
+  const PantographParameters p = pantograph();
+  Effects on = p.effects;
+  on.dead_time = false;
+  PenHand hold;
+  PenPhase still;
+  still.kind = PenPhase::Kind::kPrescribed;
+  still.x = {segment(Segment::Kind::kHold, 1.0)};
+  still.y = {segment(Segment::Kind::kHold, 1.0)};
+  hold.phases = {still};
+  Pantograph plant(p, on, Drive{}, hold);
+  const Joints duty{0.2, -0.2};
+  while (plant.now() < clocks_of(0.01)) {
+    plant.advance({Bridge::averaged(duty[0]), Bridge::averaged(duty[1])}, 250);
+  }
+  const double amps = (0.2 * 24.0 - 0.34) / 0.42, nm = 3.0 * 0.0302 * amps;
+  CHECK(plant.seen().current_a[0] == Approx(amps).epsilon(1e-6));
+  CHECK(plant.seen().motor_nm[1] == Approx(-nm).epsilon(1e-6));
+  // (nm, -nm) is a force in y at this pose.
+  CHECK(plant.seen().hand_n.x == Approx(0.0).margin(1e-9));
+  CHECK(plant.seen().hand_n.y == Approx(-nm / (0.1 * std::cos(30 * kDegree))).epsilon(1e-6));
+  CHECK(plant.seen().supply_a == Approx(2 * 0.2 * amps).epsilon(1e-6));
+
+  // Dead time takes the same share of both: 0.5 us of 50 us.
+  Pantograph late(p, p.effects, Drive{}, hold);
+  while (late.now() < clocks_of(0.01)) {
+    late.advance({Bridge::averaged(duty[0]), Bridge::averaged(duty[1])}, 250);
+  }
+  CHECK(late.seen().current_a[0] < 0.95 * amps);
+  CHECK(late.seen().supply_a == Approx(2 * 0.19 * late.seen().current_a[0]).epsilon(1e-6));
+}
+
+TEST_CASE("the supply limit is one for both motors", "[pantograph]") {
+  const PantographParameters p = pantograph();
+  Effects on = p.effects;
+  on.supply_limit = true;
+  Pantograph plant(p, on, Drive{});
+  const Bridge full = Bridge::averaged(1.0);
+  while (plant.now() < clocks_of(2e-3)) plant.advance({full, full}, 25);
+  CHECK(plant.seen().supply_a <= 7.0 + 1e-9);
+  CHECK(plant.seen().bus_v < 12.0);
+}
+
+TEST_CASE("edges of both encoders count the angles", "[pantograph]") {
+  PantographParameters p = pantograph();
+  for (const bool on_motor : {false, true}) {
+    p.joint.encoder_on_motor = on_motor;
+    Pantograph plant(p, p.effects, Drive{});
+    const double per = on_motor ? p.joint.ratio() : 1.0;
+    std::array<std::size_t, 2> edges{};
+    std::array<Clock, 2> last{-1, -1};
+    const std::array<std::int64_t, 2> begin{plant.encoder(0).count(), plant.encoder(1).count()};
+    while (plant.now() < clocks_of(0.04)) {
+      plant.advance({Bridge::averaged(0.2), Bridge::averaged(-0.15)}, 250);
+      for (std::size_t i = 0; i < 2; ++i) {
+        for (const EncoderEvent& e : plant.events(i)) {
+          REQUIRE(e.clock > last[i]);
+          REQUIRE(e.clock <= plant.now());
+          last[i] = e.clock;
+          ++edges[i];
+        }
+      }
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double counts = per * plant.seen().theta_rad[i] / plant.encoder(i).count_rad();
+      CHECK(plant.encoder(i).count() == static_cast<std::int64_t>(std::floor(counts)));
+      const auto way = static_cast<std::size_t>(std::abs(plant.encoder(i).count() - begin[i]));
+      CHECK(way > 30);
+      CHECK(edges[i] == way);
+    }
+  }
+  // One count of the crank is 153 um of the pen.
+  CHECK(0.1 * 2 * 3.14159265 / 4096 == Approx(153e-6).epsilon(3e-3));
+}
+
+TEST_CASE("the plant's step is of second order, and 5 us are enough", "[pantograph]") {
+  const PantographParameters p = pantograph();
+  const Vec2 exact = pushed(p, 0.5, 2.0, 5, 0.03);
+  const double coarse = length(pushed(p, 0.5, 2.0, 250, 0.03) - exact);
+  const double fine = length(pushed(p, 0.5, 2.0, 125, 0.03) - exact);
+  CHECK(length(exact - Vec2{0.0, 0.1}) > 5e-3);
+  CHECK(coarse < 1e-7);
+  CHECK(fine < 0.4 * coarse);
+}
+
+TEST_CASE("dry friction of the capstan holds small forces and lets larger ones go",
+          "[pantograph]") {
+  const PantographParameters p = pantograph();
+  // Breaking away takes 3*4.5 mNm at a crank: 0.156 N along y at this pose.
+  const double break_n = 3 * p.lugre.static_nm / (0.1 * std::cos(30 * kDegree));
+  for (const double share : {0.8, 1.3}) {
+    PenPhase push;
+    push.kind = PenPhase::Kind::kForce;
+    push.y = {segment(Segment::Kind::kRamp, 0.2, share * break_n)};
+    push.x = {segment(Segment::Kind::kHold, 0.2)};
+    Pantograph plant(p, p.effects, Drive{}, PenHand{{}, {push}});
+    while (plant.now() < clocks_of(0.5)) plant.advance(Joints{}, 250);
+    const double way = std::abs(plant.seen().pen_m.y - 0.1);
+    if (share < 1.0) CHECK(way < 1e-4);
+    if (share > 1.0) CHECK(way > 1e-3);
+  }
+}
+
+TEST_CASE("a motion that pins cannot show ends the run", "[pantograph]") {
+  PantographParameters p = pantograph();
+  p.encoder.lines = 1 << 20;
+  Pantograph plant(p, p.effects, Drive{});
+  CHECK_THROWS_WITH(
+      [&] {
+        while (plant.now() < clocks_of(0.1)) {
+          plant.advance({Bridge::averaged(1.0), Bridge::averaged(1.0)}, 250);
+        }
+      }(),
+      Catch::Matchers::Contains("a crank turns by more than one state of its encoder in a clock"));
+  CHECK_THROWS_AS(plant.advance(Joints{}, 0), std::invalid_argument);
+}
+
+TEST_CASE("steps and speed, as tables", "[.table]") {
+  const PantographParameters p = pantograph();
+  const Vec2 exact = pushed(p, 0.5, 2.0, 5, 0.03);
+  for (const Clock step : {25, 50, 100, 250, 500}) {
+    const double error = length(pushed(p, 0.5, 2.0, step, 0.03) - exact);
+    std::printf("| %.1f | %.1e |\n", 1e6 * static_cast<double>(step) / kClockHz, error);
+  }
+  for (const bool held : {false, true}) {
+    PenPhase hold;
+    hold.kind = held ? PenPhase::Kind::kImpedance : PenPhase::Kind::kFree;
+    Pantograph plant(p, p.effects, Drive{}, PenHand{{}, {hold}});
+    const auto begin = std::chrono::steady_clock::now();
+    for (int i = 0; i < 100000; ++i) {
+      plant.advance({Bridge::averaged(0.02), Bridge::averaged(-0.02)}, 250);
+    }
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    std::printf("| %s | %.0f | %.1f |\n", held ? "held by a hand" : "free", 1e4 * took.count(),
+                0.5 / took.count());
+    CHECK(plant.now() == 25000000);
+  }
+}

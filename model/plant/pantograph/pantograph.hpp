@@ -8,12 +8,12 @@
 #include <array>
 #include <vector>
 
+#include "../axis_drive.hpp"
+#include "../encoder.hpp"
+#include "../plant.hpp"
+#include "../supply.hpp"
 #include "pantograph_parameters.hpp"
 #include "pen_hand.hpp"
-#include "plant/axis_drive.hpp"
-#include "plant/encoder.hpp"
-#include "plant/plant.hpp"
-#include "plant/supply.hpp"
 
 namespace feltgate::plant {
 

@@ -7,8 +7,8 @@
 
 #include <string>
 
+#include "../parameters.hpp"
 #include "linkage_mechanics.hpp"
-#include "plant/parameters.hpp"
 
 namespace feltgate::plant {
 

@@ -9,9 +9,9 @@
 #include <optional>
 #include <vector>
 
+#include "../hand.hpp"
 #include "feltgate/encoder_source.hpp"
 #include "linkage_mechanics.hpp"
-#include "plant/hand.hpp"
 
 namespace feltgate::plant {
 

@@ -4,6 +4,8 @@
 // A force law in floating point, sampled and late, as the device of a loop. docs/pantograph.md
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <deque>
 #include <functional>
 #include <utility>

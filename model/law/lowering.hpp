@@ -111,6 +111,7 @@ class Lowering {
   std::map<std::pair<NodeId, NodeId>, NodeId> filters_;
   std::set<std::string> has_next_;
   std::vector<std::pair<std::string, Place>> unused_;
+  bool any_out_ = false;
   int loops_ = 0;
   long steps_ = 0;
 };

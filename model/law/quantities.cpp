@@ -140,6 +140,11 @@ Lowering::Quantity Lowering::quantity(const Statement& s) {
                          : "a value that never changes is a let");
     return q;
   }
+  if (s.kind == Statement::Kind::line && (value < lower || value > upper)) {
+    report(s.lower->offset, "a range without 0, of a line that begins with zeros",
+           "let the range hold 0");
+    return q;
+  }
   if (value < lower || value > upper) {
     report(s.value->offset,
            fmt::format("{} of \"{}\" lies outside of its range {} .. {}", say(value), s.name,

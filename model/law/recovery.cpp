@@ -67,6 +67,7 @@ std::vector<std::string> statement_words() {
 /// What stands at `at`, for a message.
 std::string found(std::string_view text, std::size_t at) {
   if (at >= text.size()) return "the end of the file";
+  if (text.substr(at, 2) == "==") return "\"==\"";
   const std::string_view word = word_at(text, at);
   return "\"" + std::string(word.empty() ? text.substr(at, 1) : word.substr(0, 40)) + "\"";
 }
@@ -116,18 +117,38 @@ void check_nesting(std::string_view text, const Places& places, Diagnostics& dia
   }
 }
 
+/// What stands before an error.
+struct Before {
+  std::string form;     ///< of the last statement that begins
+  std::size_t end = 0;  ///< of the last word or sign
+};
+
+Before before(std::string_view text, std::size_t begin, std::size_t end) {
+  Before found{"", begin};
+  for (std::size_t at = skip(text, begin); at < end; at = skip(text, at)) {
+    const std::string_view word = word_at(text, at);
+    if (form_of(word) != nullptr) found.form = form_of(word);
+    at += word.empty() ? 1 : word.size();
+    found.end = at;
+  }
+  return found;
+}
+
 Diagnostic explained(std::string_view text, std::size_t begin, const SyntaxError& error,
                      const Places& places) {
   const std::size_t at = skip(text, static_cast<std::size_t>(error.at - text.data()));
   if (!error.mend.empty()) return {places.of(at), error.what, error.mend};
-  const std::string_view word = word_at(text, at);
-  if (error.what == "expected a name" && is_keyword(word)) {
+  if (error.what == "expected a name" && is_keyword(word_at(text, at))) {
     return {places.of(at), found(text, at) + " is a word of the language and no name",
             "choose another name"};
   }
-  const char* const form = form_of(word_at(text, begin));
-  return {places.of(at), error.what + ", found " + found(text, at),
-          std::string("the form is: ") + (form == nullptr ? "" : form)};
+  const Before last = before(text, begin, at);
+  const std::string mend = "the form is: " + last.form;
+  if (places.of(at).line != places.of(last.end).line) {
+    return {places.of(last.end), error.what + " before the end of the line", mend};
+  }
+  return {places.of(at < text.size() ? at : last.end), error.what + ", found " + found(text, at),
+          mend};
 }
 
 Diagnostic no_statement(std::string_view text, std::size_t at, const Places& places) {

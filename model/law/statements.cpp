@@ -94,14 +94,12 @@ void Lowering::define(const Statement& s, Symbol symbol) {
            "choose another name");
     return;
   }
+  // Defined even so: one message is enough.
   if (is_function(s.name) || is_given_value(s.name)) {
     report(s.name_offset, quoted(s.name) + " is a name that the language brings along",
            "choose another name");
-    return;
-  }
-  if (unit_symbol(s.name)) {
+  } else if (unit_symbol(s.name)) {
     report(s.name_offset, quoted(s.name) + " is a unit and no name", "choose another name");
-    return;
   }
   scope_.define(s.name, symbol);
 }
@@ -228,6 +226,7 @@ void Lowering::loop(const Statement& s) {
 }
 
 void Lowering::out(const Statement& s) {
+  any_out_ = true;
   if (s.name != "torque") {
     report(s.name_offset, "unknown output " + quoted(s.name), "write out torque = ...");
     return;
@@ -299,7 +298,7 @@ void Lowering::check_ends(const Statement* last) {
     diagnostics_.add(l.place, "nothing is written into the line " + quoted(l.name),
                      "write below: next " + l.name + " = ...");
   }
-  if (!law_.outputs.empty()) return;
+  if (any_out_) return;
   diagnostics_.add(last == nullptr ? Place{} : at(last->offset), "the law has no output",
                    "write out torque = ...");
 }

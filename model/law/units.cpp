@@ -69,10 +69,6 @@ class Scanner {
         if (!group(value) && !factor(value, -1)) return end;
         divided = true;
       } else if (end > 0) {
-        if (c == '*') {
-          ++at_;
-          skip_blanks();
-        }
         UnitValue more = value;
         if (!factor(more, 1)) return end;
         if (divided) {
@@ -200,7 +196,7 @@ std::string text_of(const Unit& unit) {
   static constexpr Known known[] = {
       {kNumber, "a number"},    {kNewtonMetre, "Nm"},       {{{1, 1, -2, 0}}, "N"},
       {{{0, 1, -2, 0}}, "N/m"}, {{{0, 1, -1, 0}}, "N s/m"}, {{{2, 1, -1, 0}}, "Nm s/rad"},
-      {{{1, 0, -1, 0}}, "m/s"}, {{{1, 0, -2, 0}}, "m/s^2"}, {{{2, 1, -3, 0}}, "W"},
+      {{{1, 0, -1, 0}}, "m/s"}, {{{1, 0, -2, 0}}, "m/s^2"}, {{{2, 1, -3, 0}}, "Nm/s"},
       {{{2, 1, -3, -1}}, "V"},  {{{2, 1, -3, -2}}, "ohm"},
   };
   for (const Known& k : known) {

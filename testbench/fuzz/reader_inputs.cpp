@@ -15,6 +15,9 @@
 #include "design/host_words.hpp"
 #include "design/schedule.hpp"
 #include "faulty_reader.hpp"
+#include "law/evaluate.hpp"
+#include "law/finish.hpp"
+#include "law/read_law.hpp"
 #include "loop/scenario_check.hpp"
 #include "plant/hand_file.hpp"
 #include "plant/plant_file.hpp"
@@ -166,6 +169,23 @@ Ending use_motion(const fs::path& file) {
   return ending;
 }
 
+/// What can be read is also run, with tables as they are sampled.
+Ending use_law(const fs::path& file) {
+  Ending ending;
+  try {
+    const law::Law read = law::read_law(file.string());
+    law::Evaluation<double> run(read, law::Tables::sampled);
+    std::vector<double> inputs(read.inputs.size(), 0.3);
+    for (int i = 0; i < 3; ++i) run.run(inputs);
+    for (const law::Output& o : read.outputs) (void)law::formula(read, o.value);
+    ending.read = true;
+  } catch (const law::LawError& error) {
+    ending.error = law::message(file.string(), error.diagnostics().front());
+    if (!names_line(ending.error)) ending.trouble = "the message has no line";
+  }
+  return ending;
+}
+
 /// The options of a recording come from its bytes: the same input, the same options.
 traces::Options options_of(const fs::path& file, traces::FileFormat format) {
   traces::Options o;
@@ -241,6 +261,7 @@ const std::vector<Reader>& readers() {
       {"saleae", "input.csv", as_it_is, use_trace<F::saleae>},
       {"levels", "input.csv", as_it_is, use_trace<F::levels>},
       {"columns", "input.csv", as_it_is, use_trace<F::columns>},
+      {"law", "input.law", as_it_is, use_law},
       {"vector", "input.vec", as_it_is, use_trace<F::vector>},
       {"faulty", "input.txt", as_it_is, use_faulty},
   };

@@ -17,6 +17,18 @@ inline Law shipped(const std::string& name) {
   return read_law(std::string(FELTGATE_ROOT) + "/rtl/laws/" + name + ".law");
 }
 
+/// What is wrong with a text, without the file's name, a line each; "read" where nothing is.
+inline std::string messages_of(const std::string& text) {
+  try {
+    (void)read_law_text(text, "x.law");
+  } catch (const LawError& error) {
+    std::string all;
+    for (const Diagnostic& d : error.diagnostics()) all += message("", d).substr(1) + "\n";
+    return all.substr(0, all.size() - 1);
+  }
+  return "read";
+}
+
 /// A law that runs, with inputs and parameters by name. Unnamed inputs are 0.
 template <class N = double>
 class Running {

@@ -12,7 +12,7 @@ PACKAGES=(
   "build|pkg-config|finds the libraries below"
   "build|python3|runs the build's small scripts"
   "build|verilator|turns the SystemVerilog core into a C++ simulation"
-  "build|libboost-dev|intervals for the proven bounds, 128-bit floats (headers)"
+  "build|libboost-dev|intervals for the proven bounds, 128-bit floats, the grammar of laws (headers)"
   "build|libeigen3-dev|poles of loops: feltgate stability and design (headers)"
   "build|libtomlplusplus-dev|reads designs, plants and scenes (TOML)"
   "build|libarchive-dev|reads sigrok recordings (zip)"

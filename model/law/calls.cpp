@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Lowering of functions: those of the language, and tables.
+#include <fmt/format.h>
+
 #include <string>
 
 #include "law/lowering.hpp"
@@ -16,7 +18,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 bool Lowering::takes(const Expression& e, std::size_t count, const char* form) {
   if (e.arguments.size() == count) return true;
-  report(e.offset, e.name + " with " + std::to_string(e.arguments.size()) + " arguments",
+  report(e.offset, e.name + " with " + fmt::format("{}", e.arguments.size()) + " arguments",
          std::string("write ") + form);
   return false;
 }
@@ -145,7 +147,7 @@ NodeId Lowering::lowpass(const Expression& e) {
   const auto known = filters_.find({x, share});
   if (known != filters_.end()) return known->second;
   State s;
-  s.name = "lowpass_" + std::to_string(filters_.size() + 1);
+  s.name = "lowpass_" + fmt::format("{}", filters_.size() + 1);
   s.unit = graph_.node(x).unit;
   s.unit_text = s.unit == kNumber ? "" : text_of(s.unit);
   s.follows = x;

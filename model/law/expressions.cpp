@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Lowering of expressions: values, operators, conditions.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "feltgate/nearest.hpp"
@@ -115,7 +117,7 @@ NodeId Lowering::unknown(const Expression& e, const char* what, bool functions) 
   } else if (later != defined_.end()) {
     report(e.offset,
            "\"" + e.name + "\" is used before its definition in line " +
-               std::to_string(later->second.line),
+               fmt::format("{}", later->second.line),
            "move the definition up");
   } else if (unit_symbol(e.name)) {
     report(e.offset, "the unit \"" + e.name + "\" without a number",
@@ -152,7 +154,7 @@ NodeId Lowering::given_value(const Expression& e, const std::string& name, int a
     ++index;
   }
   if (index == law_.inputs.size()) {
-    const std::string as = axis == 0 ? name : name + "[" + std::to_string(axis) + "]";
+    const std::string as = axis == 0 ? name : name + "[" + fmt::format("{}", axis) + "]";
     law_.inputs.push_back({source, axis, as});
   }
   const Unit unit = source == Source::position   ? kNumber

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Lowering of statements, in the order of the file.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "feltgate/nearest.hpp"
@@ -89,9 +91,10 @@ void Lowering::define(const Statement& s, Symbol symbol) {
   symbol.place = at(s.name_offset);
   const Symbol* const first = scope_.find(s.name);
   if (first != nullptr) {
-    report(s.name_offset,
-           quoted(s.name) + " is defined twice; first in line " + std::to_string(first->place.line),
-           "choose another name");
+    report(
+        s.name_offset,
+        quoted(s.name) + " is defined twice; first in line " + fmt::format("{}", first->place.line),
+        "choose another name");
     return;
   }
   // Defined even so: one message is enough.
@@ -238,7 +241,7 @@ void Lowering::out(const Statement& s) {
   const bool known = std::any_of(law_.outputs.begin(), law_.outputs.end(),
                                  [&](const Output& other) { return other.axis == o.axis; });
   if (known) {
-    report(s.name_offset, "a second torque of axis " + std::to_string(o.axis),
+    report(s.name_offset, "a second torque of axis " + fmt::format("{}", o.axis),
            "add both in one expression, or write torque[1] for another axis");
     return;
   }
@@ -255,7 +258,7 @@ void Lowering::event(const Statement& s) {
     if (other.name != s.name) continue;
     report(s.name_offset,
            "the event " + quoted(s.name) + " is defined twice; first in line " +
-               std::to_string(other.place.line),
+               fmt::format("{}", other.place.line),
            "choose another name, or join the conditions with or");
   }
   e.value = s.value ? number_of(s.value) : graph_.constant(0, kNumber, e.place);

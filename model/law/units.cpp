@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 #include "law/units.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdlib>
 
@@ -212,7 +214,7 @@ std::string text_of(const Unit& unit) {
     std::string& part = e > 0 ? above : below;
     factors_below += e < 0 ? 1 : 0;
     part += (part.empty() ? "" : " ") + std::string(base[i]);
-    if (std::abs(e) > 1) part += "^" + std::to_string(std::abs(e));
+    if (std::abs(e) > 1) part += "^" + fmt::format("{}", std::abs(e));
   }
   if (below.empty()) return above;
   if (above.empty()) above = "1";

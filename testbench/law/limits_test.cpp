@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Errors as a whole: all of them, in order, and soon. Documentation: docs/laws.md
+#include <fstream>
+
 #include "catch.hpp"
 #include "law_case.hpp"
 
@@ -57,4 +59,25 @@ TEST_CASE("at most twenty messages, in the order of the file") {
       CHECK(error.diagnostics()[static_cast<std::size_t>(i)].place.line == i + 1);
     }
   }
+}
+
+TEST_CASE("every law on the page can be read") {
+  std::ifstream page(FELTGATE_ROOT "/docs/laws.md");
+  std::string line, text;
+  bool inside = false;
+  int laws = 0;
+  while (std::getline(page, line)) {
+    if (line == "```law") {
+      inside = true;
+      text.clear();
+    } else if (inside && line == "```") {
+      inside = false;
+      ++laws;
+      INFO(text);
+      CHECK(messages_of(text) == "read");
+    } else if (inside) {
+      text += line + "\n";
+    }
+  }
+  CHECK(laws == 6);
 }

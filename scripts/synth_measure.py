@@ -13,6 +13,7 @@ import rtl_sources
 import synth_path
 
 CORE = rtl_sources.CORE
+AXES = "feltgate_axes"
 CELL_WRAPPER = rtl_sources.CELL_WRAPPERS[0]
 SCENE_ROW = "core without read-back, registered"
 # On a board nobody looks at these: they are there for simulation, or repeat what the register port
@@ -89,6 +90,22 @@ def link_targets(root):
     return [Target(name, name, registered=name == "feltgate_linked") for name in names]
 
 
+def axes_targets():
+    """One to three axes, beside a core with read-back: measured where they are asked for."""
+    return [
+        Target(
+            f"{count} {'axis' if count == 1 else 'axes'}, {which}",
+            AXES,
+            {"AxisCount": str(count)},
+            registered,
+            tuple(set(SNAPSHOT_PORTS) - {"asks_o", "ready_o", "testing_o"}),
+            ("law_torque_i", "law_late_i", "law_restart_i"),
+        )
+        for count in (1, 2, 3)
+        for registered, which in ((True, "registered"), (False, "inferred"))
+    ]
+
+
 def scene_target(root):
     """The row that scene sets are compared by: the core as a product without a host."""
     return next(row for row in targets(root) if row.name == SCENE_ROW)
@@ -101,7 +118,8 @@ def copy_sources(root, design, folder):
     """
     is_path = isinstance(design, Path)
     package = design if is_path else root / f"rtl/generated/{design}/feltgate_pkg.sv"
-    names = [f"{CELL_WRAPPER}.sv", *core_sources(root), *link_sources(root)]
+    axes = rtl_sources.folder_files(root, "axes")
+    names = [f"{CELL_WRAPPER}.sv", *core_sources(root), *link_sources(root), *axes]
     shutil.copy(package, folder / "feltgate_pkg.sv")
     for name in names:
         shutil.copy(root / "rtl" / name, folder)

@@ -78,7 +78,7 @@ function(feltgate_block_test block)
     list(APPEND sources "${source}")
   endforeach()
   # Beside the core: rtl/link with its package, rtl/bus.
-  foreach(folder "" link/ bus/)
+  foreach(folder "" link/ bus/ axes/)
     if(EXISTS "${FELTGATE_ROOT}/rtl/${folder}${block}.sv")
       list(APPEND sources "${FELTGATE_ROOT}/rtl/${folder}${block}.sv")
       if(folder STREQUAL link/)

@@ -18,7 +18,8 @@ endif()
 # with the class V<block> of a netlist; the environment variable FELTGATE_MUTANT is the number of one. The CTest
 # mutate.<test> tries a share of them.
 function(feltgate_mutants test block sources libraries)
-  if(NOT FELTGATE_MUTANT_YOSYS)
+  # Axes are cores, whose mutants are the core's.
+  if(NOT FELTGATE_MUTANT_YOSYS OR block STREQUAL feltgate_axes)
     return()
   endif()
   set(target ${test}_mutants)

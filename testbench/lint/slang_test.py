@@ -52,6 +52,12 @@ class Slang(unittest.TestCase):
                 files = [package(design), *core("feltgate_linked")]
                 self.assertEqual(lint("feltgate_linked", *files), "")
 
+    def test_axes(self):
+        for design in ("lever", "lever_law"):
+            with self.subTest(design=design):
+                files = [package(design), *core("feltgate_axes")]
+                self.assertEqual(lint("feltgate_axes", *files), "")
+
     def test_a_multiplier_for_each_block(self):
         text = package("lever").read_text(encoding="utf-8")
         self.assertIn("PARALLEL_MULTIPLIERS = 0;", text)

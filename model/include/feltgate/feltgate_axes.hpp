@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Twin of rtl/axes/feltgate_axes.sv: one to three cores as axes of one device, every output of each
+// on every clock. Documentation: docs/blocks/feltgate_axes.md
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "feltgate/feltgate_core.hpp"
+
+namespace feltgate {
+
+/// Inputs of N axes in one clock.
+template <int N>
+struct AxesIn {
+  struct Axis {
+    EncoderPins encoder;
+    bool set_zero = false;
+    std::uint8_t scene = 0;
+    std::int32_t law_torque = 0;  ///< raw, in the format of the torque
+  };
+  std::array<Axis, N> axis;
+  bool arm = false;
+  bool stop = false;  ///< the stop was seen since the last clock, however shortly
+  bool law_late = false, law_restart = false;  ///< as of a core
+  std::uint16_t reg_addr = 0;                  ///< axis n at n * axes_stride
+  std::uint32_t reg_wdata = 0;
+  bool reg_write = false;
+};
+
+/// Addresses from one axis to the next.
+constexpr int axes_stride = 0x400;
+
+/// Outputs of N axes after one clock.
+template <int N>
+struct AxesOut {
+  std::array<CoreOut, N> axis;  ///< reg_rdata and reg_busy of each are its own
+  std::uint32_t reg_rdata = 0;
+  bool reg_busy = false;  ///< of the axis that is addressed
+};
+
+/// N axes of design D. Each is a core: the device adds what they say to each other, and the port.
+template <class D, int N, bool ReadBack = true>
+class FeltgateAxes {
+ public:
+  static_assert(N >= 1 && N <= 3, "one to three axes");
+  using Core = FeltgateCore<D, ReadBack>;
+  using In = AxesIn<N>;
+  using Out = AxesOut<N>;
+
+  FeltgateAxes() { show({}); }
+
+  /// The parameter RAMs keep their words, as in the RTL.
+  void reset() {
+    for (Core& core : cores_) core.reset();
+    show(last_);
+  }
+
+  void clock(const In& in) {
+    const std::array<CoreIn, N> each = inputs(in);
+    for (std::size_t n = 0; n < N; ++n) cores_[n].clock(each[n]);
+    show(in);
+  }
+
+  const Out& out() const { return out_; }
+  const Core& core(int n) const { return cores_[static_cast<std::size_t>(n)]; }
+  Core& core(int n) { return cores_[static_cast<std::size_t>(n)]; }
+  /// The clock of the tick that comes next, of all axes.
+  int clock_of_tick() const { return cores_[0].clock_of_tick(); }
+  /// In the clock to come position, velocity and tau_hat of all axes have become those of the tick.
+  bool measured() const { return cores_[0].measured(); }
+
+ private:
+  /// What each core is given in the clock to come: pins, port, and what the others say.
+  std::array<CoreIn, N> inputs(const In& in) const {
+    std::array<CoreIn, N> each;
+    for (std::size_t n = 0; n < N; ++n) {
+      CoreIn& c = each[n];
+      c.encoder = in.axis[n].encoder;
+      c.arm = in.arm;
+      c.stop = in.stop;
+      c.set_zero = in.axis[n].set_zero;
+      c.scene = in.axis[n].scene;
+      c.law_torque = in.axis[n].law_torque;
+      c.law_late = in.law_late;
+      c.law_restart = in.law_restart;
+      c.reg_addr = address_at(n, in.reg_addr);
+      c.reg_wdata = in.reg_wdata;
+      c.reg_write = in.reg_write;
+    }
+    for (std::size_t n = 0; n < N; ++n) {
+      for (std::size_t other = 0; other < N; ++other) {
+        if (other == n) continue;
+        const Core& core = cores_[other];
+        each[n].axis_fault |= core.out().first_fault != 0;
+        each[n].axis_silent |= !core.asks(each[other]);
+        each[n].axis_blocked |= !core.ready();
+        each[n].axis_testing |= core.testing();
+        each[n].axis_waits |= other < n && core.testing();
+      }
+    }
+    return each;
+  }
+
+  static bool addressed(std::size_t n, std::uint16_t address) { return address / axes_stride == n; }
+  /// As axis n sees an address of the port: where it is not meant, one at which nothing is.
+  static std::uint16_t address_at(std::size_t n, std::uint16_t address) {
+    const unsigned nowhere = addressed(n, address) ? 0u : 3u * axes_stride;
+    return static_cast<std::uint16_t>(nowhere | address % axes_stride);
+  }
+
+  void show(const In& in) {
+    last_ = in;
+    out_.reg_rdata = 0;
+    out_.reg_busy = false;
+    for (std::size_t n = 0; n < N; ++n) {
+      out_.axis[n] = cores_[n].out();
+      out_.reg_rdata |= out_.axis[n].reg_rdata;
+      out_.reg_busy |= addressed(n, in.reg_addr) && out_.axis[n].reg_busy;
+    }
+  }
+
+  std::array<Core, N> cores_;
+  In last_;
+  Out out_;
+};
+
+}  // namespace feltgate

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// One to three cores as axes of one device: one tick, one register port, armed together, and a fault of any
+// opens the gates of all. Axis n is bit n, or the n-th part from below, of each vector.
+// docs/blocks/feltgate_axes.md
+
+`default_nettype none
+
+module feltgate_axes #(
+    parameter int AxisCount = feltgate_pkg::AXES,
+    parameter int ReadBack = 1,    // as of feltgate_core
+    parameter ParameterFile = ""   // as of feltgate_core, for all axes
+) (
+    input  logic clk_i,
+    input  logic rst_ni,
+
+    // Encoders, motors
+    input  logic [AxisCount-1:0] enc_a_i,
+    input  logic [AxisCount-1:0] enc_b_i,
+    input  logic [AxisCount-1:0] enc_z_i,
+    output logic [AxisCount-1:0] gate_a_hi_o,
+    output logic [AxisCount-1:0] gate_a_lo_o,
+    output logic [AxisCount-1:0] gate_b_hi_o,
+    output logic [AxisCount-1:0] gate_b_lo_o,
+
+    // Panel
+    input  logic                   arm_i,
+    input  logic                   stop_i,
+    input  logic [  AxisCount-1:0] set_zero_i,
+    input  logic [4*AxisCount-1:0] scene_i,
+
+    // Programmed torque, as of feltgate_core
+    input  logic [AxisCount*feltgate_pkg::TORQUE_W-1:0] law_torque_i,
+    input  logic                                        law_late_i,
+    input  logic                                        law_restart_i,
+    output logic                                        measured_o,
+
+    // Register port: axis n at n * 0x400
+    input  logic [15:0] reg_addr_i,
+    input  logic [31:0] reg_wdata_i,
+    input  logic        reg_write_i,
+    output logic        reg_busy_o,  // of the axis that is addressed
+    output logic [31:0] reg_rdata_o,
+
+    // Snapshots: all of one tick in the clock in which snapshot_valid_o is high
+    output logic                                          snapshot_valid_o,
+    output logic [                                  31:0] tick_count_o,
+    output logic [                      AxisCount*32-1:0] position_o,
+    output logic [AxisCount*feltgate_pkg::VELOCITY_W-1:0] velocity_o,
+    output logic [  AxisCount*feltgate_pkg::TORQUE_W-1:0] tau_hat_o,
+    output logic [  AxisCount*feltgate_pkg::TORQUE_W-1:0] tau_ref_o,
+    output logic [ AxisCount*feltgate_pkg::CURRENT_W-1:0] current_ref_o,
+    output logic [ AxisCount*feltgate_pkg::VOLTAGE_W-1:0] voltage_o,
+    output logic [    AxisCount*feltgate_pkg::DUTY_W-1:0] duty_o,
+    output logic [                       AxisCount*4-1:0] scene_o,
+    output logic [AxisCount*feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_o,
+    output logic [  AxisCount*feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults_o,
+    output logic [ AxisCount*feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault_o,
+    output logic [                         AxisCount-1:0] armed_o,
+    output logic [    AxisCount*feltgate_pkg::DUTY_W-1:0] duty_active_o,
+    output logic [                         AxisCount-1:0] gates_enable_o,
+    output logic [                         AxisCount-1:0] zeroed_o,
+
+    // The snapshot's words one by one
+    output logic                    word_valid_o,
+    output logic [             5:0] word_slot_o,
+    output logic [AxisCount*32-1:0] word_data_o
+);
+  localparam int FirstW = feltgate_map_pkg::W_FAULTS_FIRST;
+  generate
+  if (AxisCount < 1 || AxisCount > 3) begin : g_check_axes
+    AXES_must_be_1_to_3 missing ();
+  end
+  endgenerate
+
+  // What the axes say of themselves. All of it but asks comes from registers.
+  logic [AxisCount-1:0] asks, ready, testing, faulty;
+
+  // The port. An axis that is not addressed is asked for a word that is not there, which reads 0.
+  logic [AxisCount-1:0] busy, addressed;
+  logic [31:0] rdata[AxisCount];
+  assign reg_busy_o = |(busy & addressed);
+  always_comb begin
+    reg_rdata_o = '0;
+    for (int k = 0; k < AxisCount; k++) reg_rdata_o = reg_rdata_o | rdata[k];
+  end
+
+  // All axes are in step: what is common is that of the first.
+  logic [AxisCount-1:0] snapshot_valid, word_valid, measured;
+  logic [5:0] word_slot[AxisCount];
+  logic [31:0] tick_count[AxisCount];
+  assign snapshot_valid_o = snapshot_valid[0];
+  assign word_valid_o     = word_valid[0];
+  assign measured_o       = measured[0];
+  assign word_slot_o      = word_slot[0];
+  assign tick_count_o     = tick_count[0];
+
+  generate
+  genvar n;
+  for (n = 0; n < AxisCount; n = n + 1) begin : g_axis
+    localparam logic [AxisCount-1:0] Own = AxisCount'(1) << n;
+    localparam logic [AxisCount-1:0] Before = Own - AxisCount'(1);
+    assign addressed[n] = reg_addr_i[15:10] == 6'(n);
+    assign faulty[n]    = first_fault_o[n*FirstW+:FirstW] != '0;
+
+    feltgate_core #(.ReadBack(ReadBack), .ParameterFile(ParameterFile)) u_core (
+        .clk_i(clk_i), .rst_ni(rst_ni),
+        .enc_a_i(enc_a_i[n]), .enc_b_i(enc_b_i[n]), .enc_z_i(enc_z_i[n]),
+        .gate_a_hi_o(gate_a_hi_o[n]), .gate_a_lo_o(gate_a_lo_o[n]),
+        .gate_b_hi_o(gate_b_hi_o[n]), .gate_b_lo_o(gate_b_lo_o[n]),
+        .arm_i(arm_i), .stop_i(stop_i), .set_zero_i(set_zero_i[n]), .scene_i(scene_i[4*n+:4]),
+        .law_torque_i(law_torque_i[n*feltgate_pkg::TORQUE_W+:feltgate_pkg::TORQUE_W]),
+        .law_late_i(law_late_i), .law_restart_i(law_restart_i),
+        .axis_fault_i(|(faulty & ~Own)),
+        .axis_silent_i(!(&(asks | Own))),
+        .axis_blocked_i(!(&(ready | Own))),
+        .axis_testing_i(|(testing & ~Own)),
+        .axis_waits_i(|(testing & Before)),
+        .asks_o(asks[n]), .ready_o(ready[n]), .testing_o(testing[n]),
+        .measured_o(measured[n]), .zeroed_o(zeroed_o[n]),
+        .reg_addr_i({{2{!addressed[n]}}, reg_addr_i[9:0]}),
+        .reg_wdata_i(reg_wdata_i), .reg_write_i(reg_write_i),
+        .reg_busy_o(busy[n]), .reg_rdata_o(rdata[n]),
+        .snapshot_valid_o(snapshot_valid[n]),
+        .tick_count_o(tick_count[n]),
+        .position_o(position_o[32*n+:32]),
+        .velocity_o(velocity_o[n*feltgate_pkg::VELOCITY_W+:feltgate_pkg::VELOCITY_W]),
+        .tau_hat_o(tau_hat_o[n*feltgate_pkg::TORQUE_W+:feltgate_pkg::TORQUE_W]),
+        .tau_ref_o(tau_ref_o[n*feltgate_pkg::TORQUE_W+:feltgate_pkg::TORQUE_W]),
+        .current_ref_o(current_ref_o[n*feltgate_pkg::CURRENT_W+:feltgate_pkg::CURRENT_W]),
+        .voltage_o(voltage_o[n*feltgate_pkg::VOLTAGE_W+:feltgate_pkg::VOLTAGE_W]),
+        .duty_o(duty_o[n*feltgate_pkg::DUTY_W+:feltgate_pkg::DUTY_W]),
+        .scene_o(scene_o[4*n+:4]),
+        .limits_o(limits_o[n*feltgate_map_pkg::W_STATUS_LIMITS+:feltgate_map_pkg::W_STATUS_LIMITS]),
+        .faults_o(faults_o[n*feltgate_map_pkg::W_FAULTS_SEEN+:feltgate_map_pkg::W_FAULTS_SEEN]),
+        .first_fault_o(first_fault_o[n*FirstW+:FirstW]),
+        .armed_o(armed_o[n]),
+        .duty_active_o(duty_active_o[n*feltgate_pkg::DUTY_W+:feltgate_pkg::DUTY_W]),
+        .gates_enable_o(gates_enable_o[n]),
+        .word_valid_o(word_valid[n]), .word_slot_o(word_slot[n]), .word_data_o(word_data_o[32*n+:32])
+    );
+  end
+  endgenerate
+
+  logic unused;
+  always_comb begin
+    unused = ^{snapshot_valid, word_valid, measured};
+    for (int k = 0; k < AxisCount; k++) unused = unused ^ (^{word_slot[k], tick_count[k]});
+  end
+endmodule
+
+`default_nettype wire

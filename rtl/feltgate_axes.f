@@ -1,0 +1,34 @@
+// The core with the blocks of axes/; a design's feltgate_pkg.sv comes first; paths are relative to this folder.
+// sources: written by scripts/check_blocks.py --write
+generated/feltgate_map_pkg.sv
+feltgate_checks.sv
+sequencer.sv
+registers.sv
+quad_decoder.sv
+encoder_monitor.sv
+hold_timer.sv
+lowpass.sv
+velocity_n.sv
+velocity_jump.sv
+dob.sv
+scene_setpoint.sv
+scene_membrane.sv
+scene_part.sv
+scene_spring.sv
+scene_damper.sv
+scene_charge.sv
+scene_wall.sv
+rounding.sv
+scenes.sv
+self_test.sv
+limiter.sv
+ramp.sv
+torque_control.sv
+supervisor.sv
+pwm.sv
+snapshot.sv
+operand_bus.sv
+mult.sv
+multipliers.sv
+feltgate_core.sv
+axes/feltgate_axes.sv

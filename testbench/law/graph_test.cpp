@@ -16,12 +16,11 @@ namespace {
 
 /// The torque's formula of `out torque = 1 Nm * e` beside parameters a, b, c in 1 .. 2.
 std::string shown(const std::string& e) {
-  const Law law = read_law_text(
+  const Law law = law_of(
       "param a = 1 in 1 .. 2\nparam b = 1 in 1 .. 2\nparam c = 1 in 1 .. 2\n"
       "let x = position\nlet y = position[1]\n"
       "out torque[2] = 0 Nm * (a + b + c) * x * y\nout torque = 1 Nm * (" +
-          e + ")",
-      "a.law");
+      e + ")");
   std::string all = formula(law, law.outputs[1].value);
   for (std::size_t i = 3; i < law.parameters.size(); ++i) {
     if (law.parameters[i].derived >= 0) all += "; " + law.parameters[i].name;
@@ -86,10 +85,9 @@ TEST_CASE("every law is in order: arguments first, nothing dead, nothing twice")
 }
 
 TEST_CASE("what only depends on parameters is a word of its own") {
-  const Law law = read_law_text(
+  const Law law = law_of(
       "param a = 2 Nm in 1 .. 3 Nm\nparam b = 4 in 2 .. 5\n"
-      "out torque = (a / b - a) * position * exp(-b) + a * position[1]",
-      "a.law");
+      "out torque = (a / b - a) * position * exp(-b) + a * position[1]");
   REQUIRE(law.parameters.size() == 3);
   const Parameter& p = law.parameters[2];
   CHECK(p.initial == Approx((0.5 - 2) * std::exp(-4)));
@@ -105,10 +103,9 @@ TEST_CASE("what only depends on parameters is a word of its own") {
 }
 
 TEST_CASE("a parameter alone is no derived word, and mailboxes are never in one") {
-  const Law law = read_law_text(
+  const Law law = law_of(
       "param a = 2 Nm in 1 .. 3 Nm\nmailbox b = 4 in 2 .. 5 max_age 1 s\n"
-      "out torque = a\nout torque[1] = a * b\nout torque[2] = if a < 2 Nm then a * b else tau_hat",
-      "a.law");
+      "out torque = a\nout torque[1] = a * b\nout torque[2] = if a < 2 Nm then a * b else tau_hat");
   CHECK(law.parameters.size() == 2);
   CHECK(count(law, Op::parameter) == 2);
   CHECK(count(law, Op::less) == 1);
@@ -118,11 +115,10 @@ TEST_CASE("derived ranges hold every value of the formula") {
   const std::string e =
       "(a^2 + b) / c - min(a, b) * max(b, c) + abs(a - c) * sqrt(b) + sin(a * b) - "
       "(if a < b then c else a * b) + exp(a - c)";
-  Law law = read_law_text(
+  Law law = law_of(
       "param a = 1 in -1 .. 2\nparam b = 1 in 0 .. 3\nparam c = 1 in 0.5 .. 2\n"
       "out torque = 1 Nm * position * (" +
-          e + ")",
-      "a.law");
+      e + ")");
   const Parameter p = law.parameters[3];
   Running<> run(law);
   for (double a = -1; a <= 2; a += 0.25) {

@@ -8,14 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "catch.hpp"
 #include "law/evaluate.hpp"
 #include "law/read_law.hpp"
 
 namespace feltgate::law {
-
-inline Law shipped(const std::string& name) {
-  return read_law(std::string(FELTGATE_ROOT) + "/rtl/laws/" + name + ".law");
-}
 
 /// What is wrong with a text, without the file's name, a line each; "read" where nothing is.
 inline std::string messages_of(const std::string& text) {
@@ -27,6 +24,25 @@ inline std::string messages_of(const std::string& text) {
     return all.substr(0, all.size() - 1);
   }
   return "read";
+}
+
+/// The law of a text in which nothing is wrong.
+inline Law law_of(const std::string& text, double rate_hz = 0) {
+  try {
+    return read_law_text(text, "a.law", rate_hz);
+  } catch (const LawError& error) {
+    FAIL(error.what());
+    throw;
+  }
+}
+
+inline Law shipped(const std::string& name) {
+  try {
+    return read_law(FELTGATE_ROOT "/rtl/laws/" + name + ".law");
+  } catch (const LawError& error) {
+    FAIL(error.what());
+    throw;
+  }
 }
 
 /// A law that runs, with inputs and parameters by name. Unnamed inputs are 0.

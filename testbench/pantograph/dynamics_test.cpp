@@ -133,9 +133,9 @@ TEST_CASE("without friction the energy is constant over 10 s", "[dynamics]") {
     LinkageState state;
     double turns;
   };
-  LinkageStops elastic = pantograph().stops;
+  AngleStops elastic = pantograph().stops;
   elastic.restitution = 1.0;
-  LinkageStops near{60 * kDegree, 120 * kDegree, 100.0, 1.0};
+  AngleStops near{60 * kDegree, 120 * kDegree, 100.0, 1.0};
   for (Case c :
        {Case{frictionless(elastic), moving_at(30, 150, 6.0, -4.0), 1},
         Case{LinkageMechanics(uneven(), uneven_bodies(), near), moving_at(60, 160, 1.0, 2.0), 0}}) {
@@ -151,7 +151,7 @@ TEST_CASE("without friction the energy is constant over 10 s", "[dynamics]") {
       least = std::min(least, now);
       most = std::max(most, now);
       const double between = c.state.theta_rad[1] - c.state.theta_rad[0];
-      const LinkageStops& s = c.turns > 0 ? elastic : near;
+      const AngleStops& s = c.turns > 0 ? elastic : near;
       const bool touches = between < s.least_rad || between > s.most_rad;
       contacts += touches && !touched ? 1 : 0;
       touched = touches;

@@ -7,7 +7,7 @@
 #include "law/evaluate.hpp"
 #include "law/read_law.hpp"
 #include "pantograph_fixture.hpp"
-#include "plant/pantograph/sampled_law.hpp"
+#include "plant/pantograph/two_axis_loop.hpp"
 
 using namespace feltgate;
 using namespace feltgate::plant;
@@ -27,7 +27,7 @@ class LawFile {
     }
     FAIL("the law has no parameter " << name);
   }
-  Joints torque(const AxesMotion& m) {
+  Joints torque(const AxesMotion<2>& m) {
     std::vector<double> inputs;
     for (const law::Input& input : law_.inputs) {
       const auto axis = static_cast<std::size_t>(input.axis);
@@ -42,8 +42,8 @@ class LawFile {
     }
     return torque;
   }
-  AxesLaw axes() {
-    return [this](const AxesMotion& m) { return torque(m); };
+  AxesLaw<2> axes() {
+    return [this](const AxesMotion<2>& m) { return torque(m); };
   }
 
  private:
@@ -69,7 +69,7 @@ TEST_CASE("the law file asks what J of the linkage says, everywhere", "[law]") {
   int inside = 0;
   for (double first = -60; first <= 150; first += 7) {
     for (double between = 20; between <= 160; between += 7) {
-      const AxesMotion m{{first * kDegree, (first + between) * kDegree}, {1.1, -2.3}};
+      const AxesMotion<2> m{{first * kDegree, (first + between) * kDegree}, {1.1, -2.3}};
       const LinkagePose p = linkage.pose(m.theta_rad);
       Vec2 force = -kDrag * p.pen_speed(m.omega_rad_s);
       if (p.pen.y < kFloor) force.y += kStiffness * (kFloor - p.pen.y);
@@ -97,7 +97,7 @@ TEST_CASE("the law file in closed loop: a floor and drag, passive", "[law]") {
   sampling.rate_hz = 20e3;
   sampling.delay_s = 10e-6;
   sampling.voltage = true;
-  SampledLaw device(file.axes(), sampling);
+  TwoAxisLaw device(file.axes(), sampling);
   TwoAxisLoop loop(plant, device);
   double least_j = 0.0, deepest_m = 0.0, held_n = 0.0, held_m = 0.0;
   loop.run(clocks_of(1.2), [&](const Pantograph& now) {

@@ -33,10 +33,10 @@ inline LinkageBodies uneven_bodies() {
           0.025,
           {3e-5, 5e-5}};
 }
-inline constexpr LinkageStops kFarStops{-100.0, 100.0, 1.0, 1.0};
+inline constexpr AngleStops kFarStops{-100.0, 100.0, 1.0, 1.0};
 
 /// Without friction, motors' inertia and stops' losses.
-inline LinkageMechanics frictionless(const LinkageStops& stops) {
+inline LinkageMechanics frictionless(const AngleStops& stops) {
   const PantographParameters p = pantograph();
   return {p.linkage, p.bodies, stops};
 }

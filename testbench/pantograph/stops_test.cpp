@@ -14,7 +14,7 @@ namespace {
 
 double between(const LinkageState& s) { return s.theta_rad[1] - s.theta_rad[0]; }
 
-LinkageState closing(const LinkageStops& stops, bool low, double rad_s) {
+LinkageState closing(const AngleStops& stops, bool low, double rad_s) {
   LinkageState s;
   const double gap = low ? stops.least_rad + 0.02 : stops.most_rad - 0.02;
   // Symmetric about the vertical, so that all of the energy goes into the stop.
@@ -29,7 +29,7 @@ LinkageState closing(const LinkageStops& stops, bool low, double rad_s) {
 TEST_CASE("a stop gives back restitution squared of the energy, at both ends", "[stops]") {
   for (const double restitution : {0.1, 0.3, 0.7, 1.0}) {
     for (const bool low : {true, false}) {
-      LinkageStops stops = pantograph().stops;
+      AngleStops stops = pantograph().stops;
       stops.restitution = restitution;
       LinkageMechanics mechanics = frictionless(stops);
       LinkageState s = closing(stops, low, 5.0);
@@ -51,7 +51,7 @@ TEST_CASE("a stop gives back restitution squared of the energy, at both ends", "
 }
 
 TEST_CASE("steps that end anywhere in a contact keep the energy of an elastic stop", "[stops]") {
-  LinkageStops stops = pantograph().stops;
+  AngleStops stops = pantograph().stops;
   stops.restitution = 1.0;
   for (double dt = 2e-6; dt < 60e-6; dt *= 1.37) {
     LinkageMechanics mechanics = frictionless(stops);
@@ -65,7 +65,7 @@ TEST_CASE("steps that end anywhere in a contact keep the energy of an elastic st
 TEST_CASE("no contact ever adds energy, whatever the step", "[stops]") {
   for (const double restitution : {0.1, 0.4, 0.95}) {
     for (const double dt : {1e-6, 5e-6, 20e-6}) {
-      LinkageStops stops = pantograph().stops;
+      AngleStops stops = pantograph().stops;
       stops.restitution = restitution;
       LinkageMechanics mechanics = frictionless(stops);
       LinkageState s = closing(stops, false, 20.0);
@@ -87,7 +87,7 @@ TEST_CASE("no contact ever adds energy, whatever the step", "[stops]") {
 
 TEST_CASE("a hand that leans on a stop and trembles gets no energy from it", "[stops]") {
   for (const double restitution : {0.2, 0.7, 1.0}) {
-    LinkageStops stops = pantograph().stops;
+    AngleStops stops = pantograph().stops;
     stops.restitution = restitution;
     LinkageMechanics mechanics = frictionless(stops);
     LinkageState s = closing(stops, true, 0.0);
@@ -113,7 +113,7 @@ TEST_CASE("a hand that leans on a stop and trembles gets no energy from it", "[s
 }
 
 TEST_CASE("a resting stop holds a force at its static depth", "[stops]") {
-  LinkageStops stops = pantograph().stops;
+  AngleStops stops = pantograph().stops;
   LinkageMechanics mechanics = frictionless(stops);
   LinkageState s = closing(stops, true, 0.0);
   LinkageLoad load;
@@ -132,7 +132,7 @@ TEST_CASE("a drop against the stop, as a table", "[.drop]") {
   const PantographParameters p = pantograph();
   std::puts("time_s,restitution,between_deg,moving_mj,lost_mj");
   for (const double restitution : {1.0, 0.7, 0.4}) {
-    LinkageStops stops = p.stops;
+    AngleStops stops = p.stops;
     stops.restitution = restitution;
     LinkageMechanics mechanics = frictionless(stops);
     LinkageState s;

@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A law around the pantograph, sampled and late: a wall and drag felt by a hand. docs/pantograph.md
+#include "plant/pantograph/two_axis_loop.hpp"
 #include "catch.hpp"
 #include "pantograph_fixture.hpp"
-#include "plant/pantograph/sampled_law.hpp"
 
 using namespace feltgate;
 using namespace feltgate::plant;
@@ -31,8 +31,8 @@ struct Felt {
   double held_n = 0.0, held_m = 0.0;  ///< force and depth after the slide
 };
 
-Felt feel(Pantograph& plant, const AxesLaw& law, const Sampling& sampling, double seconds) {
-  SampledLaw device(law, sampling);
+Felt feel(Pantograph& plant, const AxesLaw<2>& law, const Sampling& sampling, double seconds) {
+  TwoAxisLaw device(law, sampling);
   TwoAxisLoop loop(plant, device);
   Felt felt;
   loop.run(clocks_of(seconds), [&](const Pantograph& p) {
@@ -96,7 +96,7 @@ TEST_CASE("drag: the force against the motion is drag times speed", "[loop]") {
   Pantograph plant(p, on, Drive{}, hand);
   Sampling sampling;
   sampling.encoder = false;
-  SampledLaw device(WallAndDrag{0.0, 0.0, 0.0, 20.0}.law(plant.linkage()), sampling);
+  TwoAxisLaw device(WallAndDrag{0.0, 0.0, 0.0, 20.0}.law(plant.linkage()), sampling);
   TwoAxisLoop loop(plant, device);
   double worst = 0.0;
   loop.run(clocks_of(0.9), [&](const Pantograph& now) {
@@ -166,8 +166,8 @@ TEST_CASE("samples and delays lie on their clocks", "[loop]") {
   sampling.rate_hz = 3e3;
   sampling.delay_s = 100e-6;
   double last = 0.0;
-  SampledLaw device(
-      [&](const AxesMotion&) {
+  TwoAxisLaw device(
+      [&](const AxesMotion<2>&) {
         asked.push_back(plant.now());
         return Joints{1e-4 * static_cast<double>(asked.size()), 0.0};
       },
@@ -193,10 +193,10 @@ TEST_CASE("samples and delays lie on their clocks", "[loop]") {
 
 TEST_CASE("a device sees every edge between two calls once", "[loop]") {
   // Stands where the twin of a core will: it counts pins, and is asked every 7000 clocks.
-  struct Counter : AxesDevice {
+  struct Counter : TwoAxisDevice {
     std::array<std::size_t, 2> edges{};
     Clock asked = -1;
-    AxesCommand act(const AxesSense& sense) override {
+    AxesCommand<2> act(const AxesSense<Pantograph>& sense) override {
       for (std::size_t axis = 0; axis < 2; ++axis) {
         for (const EncoderEvent& e : sense.events[axis]) {
           CHECK(e.clock > asked);
@@ -205,7 +205,7 @@ TEST_CASE("a device sees every edge between two calls once", "[loop]") {
         }
       }
       asked = sense.now;
-      AxesCommand c;
+      AxesCommand<2> c;
       c.bridges = {Bridge::averaged(0.15), Bridge::averaged(-0.12)};
       return c;
     }

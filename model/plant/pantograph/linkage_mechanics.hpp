@@ -5,11 +5,10 @@
 // with the work of the hand as one of its states. Documentation: docs/pantograph.md
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 
+#include "../contact_step.hpp"
 #include "linkage_dynamics.hpp"
-#include "linkage_stops.hpp"
 
 namespace feltgate::plant {
 
@@ -19,6 +18,18 @@ struct LinkageState {
   double hand_work_j = 0.0;  ///< done by the hand on the pen
   double viscous_j = 0.0;    ///< lost to viscous friction
 };
+
+/// s + k*r, part by part.
+inline void add(LinkageState& s, double k, const LinkageState& r) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    s.theta_rad[i] += k * r.theta_rad[i];
+    s.omega_rad_s[i] += k * r.omega_rad_s[i];
+  }
+  s.hand_m = s.hand_m + k * r.hand_m;
+  s.hand_m_s = s.hand_m_s + k * r.hand_m_s;
+  s.hand_work_j += k * r.hand_work_j;
+  s.viscous_j += k * r.viscous_j;
+}
 
 /// What acts over one step, besides the stops.
 struct LinkageLoad {
@@ -43,7 +54,7 @@ struct LinkageLoad {
 class LinkageMechanics {
  public:
   LinkageMechanics(const LinkageGeometry& geometry, const LinkageBodies& bodies,
-                   const LinkageStops& stops)
+                   const AngleStops& stops /* on theta5 - theta1 */)
       : dynamics_(geometry, bodies), contact_(stops) {}
 
   const LinkageDynamics& dynamics() const { return dynamics_; }
@@ -58,22 +69,12 @@ class LinkageMechanics {
 
   /// Advances by dt_s. A linkage that no longer closes shows as NaN.
   void step(LinkageState& s, const LinkageLoad& load, double dt_s) {
-    int zone = contact_.zone(between(s), s.omega_rad_s[1] - s.omega_rad_s[0]);
-    double left_s = dt_s;
-    LinkageState next = flow(s, load, zone, left_s);
-    for (int cuts = 0; cuts < kMostCuts && !contact_.within(zone, between(next)); ++cuts) {
-      const bool up = zone == 0 || (zone < 4 && between(next) > contact_.upper(zone));
-      if (std::isnan(between(next))) break;
-      const double end = up ? contact_.upper(zone) : contact_.lower(zone);
-      const double cut_s = cross_at(s, load, zone, end, left_s, between(next) - end);
-      s = flow(s, load, zone, cut_s);
-      left_s -= cut_s;
-      do zone += up ? 1 : -1;
-      while (zone > 0 && zone < 4 && contact_.upper(zone) <= contact_.lower(zone));
-      next = flow(s, load, zone, left_s);
-    }
-    s = next;
-    stop_loss_j_ += contact_.settle(between(s));
+    stop_loss_j_ += contact_step(
+        contact_, s, dt_s, s.omega_rad_s[1] - s.omega_rad_s[0],
+        [&](const LinkageState& from, int zone, double t) {
+          return runge_kutta(from, t, [&](const LinkageState& at) { return rate(at, load, zone); });
+        },
+        between);
   }
 
   /// The hand puts the joints there: the force at the pen that it takes over dt_s, N, beside a load
@@ -100,8 +101,6 @@ class LinkageMechanics {
   }
 
  private:
-  static constexpr int kMostCuts = 4;  // of one step; a linkage that trembles goes on uncut
-
   static double between(const LinkageState& s) { return s.theta_rad[1] - s.theta_rad[0]; }
 
   // How fast everything changes, in the places of what changes.
@@ -132,67 +131,8 @@ class LinkageMechanics {
     return r;
   }
 
-  static void add(LinkageState& s, double k, const LinkageState& r) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      s.theta_rad[i] += k * r.theta_rad[i];
-      s.omega_rad_s[i] += k * r.omega_rad_s[i];
-    }
-    s.hand_m = s.hand_m + k * r.hand_m;
-    s.hand_m_s = s.hand_m_s + k * r.hand_m_s;
-    s.hand_work_j += k * r.hand_work_j;
-    s.viscous_j += k * r.viscous_j;
-  }
-
-  // The classic Runge-Kutta step.
-  LinkageState flow(const LinkageState& s, const LinkageLoad& load, int zone, double dt_s) const {
-    const LinkageState k1 = rate(s, load, zone);
-    LinkageState at = s;
-    add(at, 0.5 * dt_s, k1);
-    const LinkageState k2 = rate(at, load, zone);
-    at = s;
-    add(at, 0.5 * dt_s, k2);
-    const LinkageState k3 = rate(at, load, zone);
-    at = s;
-    add(at, dt_s, k3);
-    const LinkageState k4 = rate(at, load, zone);
-    at = s;
-    add(at, dt_s / 6.0, k1);
-    add(at, dt_s / 3.0, k2);
-    add(at, dt_s / 3.0, k3);
-    add(at, dt_s / 6.0, k4);
-    return at;
-  }
-
-  // After what time the angle between the cranks passes `end`: regula falsi, Illinois' way.
-  double cross_at(const LinkageState& s, const LinkageLoad& load, int zone, double end,
-                  double most_s, double beyond) const {
-    double a = 0.0, b = most_s, at_a = between(s) - end, at_b = beyond, cut = 0.0;
-    // It begins on the border and comes back to it: from somewhere between.
-    for (int half = 0; half < 12 && std::abs(at_a) < LinkageContact::kNear_rad; ++half) {
-      a = 0.5 * (half == 0 ? b : a);
-      at_a = between(flow(s, load, zone, a)) - end;
-      if (at_a * at_b < 0.0) break;
-      at_a = 0.0;
-    }
-    for (int turn = 0; turn < 24; ++turn) {
-      if (at_a * at_b >= 0.0) break;
-      cut = (a * at_b - b * at_a) / (at_b - at_a);
-      const double at_cut = between(flow(s, load, zone, cut)) - end;
-      if (std::abs(at_cut) < 1e-16) break;
-      if (at_cut * at_b < 0.0) {
-        a = b;
-        at_a = at_b;
-      } else {
-        at_a *= 0.5;
-      }
-      b = cut;
-      at_b = at_cut;
-    }
-    return cut;
-  }
-
   LinkageDynamics dynamics_;
-  LinkageContact contact_;
+  AngleContact contact_;
   double stop_loss_j_ = 0.0;
 };
 

@@ -27,11 +27,6 @@ Joints start_of(const PantographParameters& p, const PenHand& hand) {
   return *theta;
 }
 
-EncoderParameters next_seed(EncoderParameters e) {
-  ++e.seed;
-  return e;
-}
-
 }  // namespace
 
 Pantograph::Pantograph(const PantographParameters& parameters, const Effects& effects,
@@ -39,31 +34,19 @@ Pantograph::Pantograph(const PantographParameters& parameters, const Effects& ef
     : p_(parameters),
       on_(effects),
       clock_hz_(drive.clock_hz),
-      ratio_(parameters.joint.ratio()),
-      encoder_ratio_(parameters.joint.encoder_on_motor ? ratio_ : 1.0),
-      drives_{AxisDrive(p_.motor, p_.lugre, p_.supply, drive, on_),
-              AxisDrive(p_.motor, p_.lugre, p_.supply, drive, on_)},
-      supply_(p_.supply),
       mechanics_(p_.linkage, p_.bodies, p_.stops),
       hand_(placed(hand, p_), drive.clock_hz, on_.hand_dynamics),
       state_{start_of(p_, hand), {}, {}, {}, 0.0, 0.0},
-      encoders_{Encoder(p_.encoder, on_.encoder_imperfect, encoder_ratio_ * state_.theta_rad[0]),
-                Encoder(next_seed(p_.encoder), on_.encoder_imperfect,
-                        encoder_ratio_ * state_.theta_rad[1])} {
-  for (auto& events : events_) events.reserve(16);
+      axes_(p_, on_, drive, state_.theta_rad) {
   seen_.theta_rad = state_.theta_rad;
   seen_.pen_m = hand.start_m.value_or(p_.start_m);
-  seen_.bus_v = supply_.bus_v();
+  seen_.bus_v = axes_.bus_v();
 }
 
 void Pantograph::begin(Clock clocks) {
   if (clocks < 1) throw std::invalid_argument("pantograph: a step is at least one clock");
-  if (clocks != step_clocks_) {
-    step_clocks_ = clocks;
-    dt_s_ = static_cast<double>(clocks) / clock_hz_;
-    for (AxisDrive& drive : drives_) drive.set_step(dt_s_);
-  }
-  for (auto& events : events_) events.clear();
+  dt_s_ = static_cast<double>(clocks) / clock_hz_;
+  axes_.begin(dt_s_);
   hand_.begin_step(now_, dt_s_, seen_.pen_m, seen_.pen_m_s, state_);
   for (std::size_t i = 0; i < 2; ++i) {
     middle_rad_s_[i] = state_.omega_rad_s[i] + 0.5 * dt_s_ * acceleration_rad_s2_[i];
@@ -72,28 +55,16 @@ void Pantograph::begin(Clock clocks) {
 
 void Pantograph::advance(const std::array<Bridge, 2>& bridges, Clock clocks) {
   begin(clocks);
-  Joints motor_nm, dry_nm;
-  double drawn_a = 0.0;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const AxisStep s = drives_[i].advance(bridges[i], supply_.bus_v(), ratio_ * middle_rad_s_[i]);
-    motor_nm[i] = ratio_ * s.motor_nm;
-    dry_nm[i] = ratio_ * s.friction_nm;
-    drawn_a += s.bridge_a;
-  }
-  seen_.supply_a = on_.supply_limit ? supply_.advance(drawn_a, dt_s_) : drawn_a;
-  finish(motor_nm, dry_nm, clocks);
+  finish(axes_.drive(bridges, middle_rad_s_), clocks);
 }
 
 void Pantograph::advance(const Joints& torque_nm, Clock clocks) {
   begin(clocks);
-  Joints dry_nm;
-  for (std::size_t i = 0; i < 2; ++i) {
-    dry_nm[i] = ratio_ * drives_[i].friction_nm(ratio_ * middle_rad_s_[i]);
-  }
-  finish(torque_nm, dry_nm, clocks);
+  finish(axes_.drive(torque_nm, middle_rad_s_), clocks);
 }
 
-void Pantograph::finish(const Joints& motor_nm, const Joints& dry_nm, Clock clocks) {
+void Pantograph::finish(const AxisSet<axes>::Torques& torques, Clock clocks) {
+  const auto& [motor_nm, dry_nm] = torques;
   const Joints before = state_.theta_rad, before_rad_s = state_.omega_rad_s;
   LinkageLoad load;
   load.viscous_nm_s_rad = p_.smooth_nm_s_rad(on_);
@@ -115,27 +86,26 @@ void Pantograph::finish(const Joints& motor_nm, const Joints& dry_nm, Clock cloc
   if (!std::isfinite(dot(seen_.pen_m_s, seen_.pen_m_s) + dot(seen_.hand_n, seen_.hand_n))) {
     refuse("the linkage does not close any more, or its state is not finite", before);
   }
+  if (!axes_.turn(before, state_.theta_rad, now_, clocks)) {
+    refuse("a crank turns by more than one state of its encoder in a clock", before);
+  }
   for (std::size_t i = 0; i < 2; ++i) {
     const double way = state_.theta_rad[i] - before[i];
     acceleration_rad_s2_[i] =
         hand_.imposes() ? 0.0 : (state_.omega_rad_s[i] - before_rad_s[i]) / dt_s_;
-    if (!(std::abs(encoder_ratio_ * way) <=
-          encoders_[i].count_rad() * static_cast<double>(clocks))) {
-      refuse("a crank turns by more than one state of its encoder in a clock", before);
-    }
-    encoders_[i].advance(encoder_ratio_ * state_.theta_rad[i], now_, clocks, events_[i]);
     seen_.motor_work_j += motor_nm[i] * way;
     seen_.dry_j += dry_nm[i] * way;
-    seen_.current_a[i] = drives_[i].current_a();
     seen_.friction_nm[i] = dry_nm[i] + load.viscous_nm_s_rad * middle_rad_s_[i];
-    seen_.shoot_through = seen_.shoot_through || drives_[i].shoot_through();
   }
   now_ += clocks;
   seen_.theta_rad = state_.theta_rad;
   seen_.omega_rad_s = state_.omega_rad_s;
   seen_.motor_nm = motor_nm;
   seen_.hand_m = state_.hand_m;
-  seen_.bus_v = supply_.bus_v();
+  seen_.current_a = axes_.current_a();
+  seen_.bus_v = axes_.bus_v();
+  seen_.supply_a = axes_.supply_a();
+  seen_.shoot_through = axes_.shoot_through();
   seen_.hand_work_j = state_.hand_work_j;
   seen_.viscous_j = state_.viscous_j;
   seen_.stop_j = mechanics_.stop_loss_j();

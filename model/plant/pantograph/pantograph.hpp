@@ -8,10 +8,8 @@
 #include <array>
 #include <vector>
 
-#include "../axis_drive.hpp"
-#include "../encoder.hpp"
+#include "../axis_set.hpp"
 #include "../plant.hpp"
-#include "../supply.hpp"
 #include "pantograph_parameters.hpp"
 #include "pen_hand.hpp"
 
@@ -37,6 +35,8 @@ struct PantographSeen {
 
 class Pantograph {
  public:
+  static constexpr std::size_t axes = 2;
+
   /// The pen starts at rest where the hand says, or the parameters.
   /// Errors: std::invalid_argument for a start that cannot be, or a drive that cannot.
   Pantograph(const PantographParameters& parameters, const Effects& effects, const Drive& drive,
@@ -58,8 +58,8 @@ class Pantograph {
   double seconds() const { return static_cast<double>(now_) / clock_hz_; }
   double clock_hz() const { return clock_hz_; }
   /// Pin changes of an axis (0 or 1) during the last step.
-  const std::vector<EncoderEvent>& events(std::size_t axis) const { return events_[axis]; }
-  const Encoder& encoder(std::size_t axis) const { return encoders_[axis]; }
+  const std::vector<EncoderEvent>& events(std::size_t axis) const { return axes_.events(axis); }
+  const Encoder& encoder(std::size_t axis) const { return axes_.encoder(axis); }
   const PantographSeen& seen() const { return seen_; }
   const PantographParameters& parameters() const { return p_; }
   const Linkage& linkage() const { return mechanics_.linkage(); }
@@ -69,27 +69,21 @@ class Pantograph {
 
  private:
   void begin(Clock clocks);
-  void finish(const Joints& motor_nm, const Joints& dry_nm, Clock clocks);
+  void finish(const AxisSet<axes>::Torques& torques, Clock clocks);
   [[noreturn]] void refuse(const char* what, const Joints& before) const;
 
   PantographParameters p_;
   Effects on_;
   double clock_hz_;
-  double ratio_;          ///< motor per crank
-  double encoder_ratio_;  ///< encoder per crank
-  std::array<AxisDrive, 2> drives_;
-  Supply supply_;
   LinkageMechanics mechanics_;
   PenHandRun hand_;
   LinkageState state_;
-  std::array<Encoder, 2> encoders_;
+  AxisSet<axes> axes_;
 
   Clock now_ = 0;
-  Clock step_clocks_ = -1;
   double dt_s_ = 0.0;
   Joints middle_rad_s_ = {};         ///< speeds predicted for the middle of the step
   Joints acceleration_rad_s2_ = {};  ///< mean of the last step
-  std::array<std::vector<EncoderEvent>, 2> events_;
   PantographSeen seen_;
 };
 

@@ -56,8 +56,8 @@ bool closes(const LinkageGeometry& g, double between_rad) {
   return apart < g.rod_1_m + g.rod_5_m && apart > std::abs(g.rod_1_m - g.rod_5_m);
 }
 
-LinkageStops read_stops(config::TomlReader table, const LinkageGeometry& geometry) {
-  LinkageStops s;
+AngleStops read_stops(config::TomlReader table, const LinkageGeometry& geometry) {
+  AngleStops s;
   s.least_rad = kRadPerDegree * table.number("least_deg", {0.0, 180.0});
   s.most_rad = kRadPerDegree * table.number("most_deg", {0.0, 180.0});
   s.stiffness_nm_rad = table.number("stiffness_nm_rad", config::kPositive);

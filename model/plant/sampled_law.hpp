@@ -10,16 +10,19 @@
 #include <functional>
 #include <utility>
 
-#include "two_axis_loop.hpp"
+#include "axes_loop.hpp"
+#include "axes_parameters.hpp"
 
 namespace feltgate::plant {
 
-/// What a law is given: angles and speeds of both cranks.
+/// What a law is given: angles and speeds of all joints.
+template <std::size_t N>
 struct AxesMotion {
-  Joints theta_rad = {}, omega_rad_s = {};
+  std::array<double, N> theta_rad = {}, omega_rad_s = {};
 };
-/// Torques at the cranks, Nm.
-using AxesLaw = std::function<Joints(const AxesMotion&)>;
+/// Torques at the joints, Nm.
+template <std::size_t N>
+using AxesLaw = std::function<std::array<double, N>(const AxesMotion<N>&)>;
 
 struct Sampling {
   double rate_hz = 10e3;
@@ -32,14 +35,20 @@ struct Sampling {
   double limit_nm = 1e9;  ///< of each torque
 };
 
-class SampledLaw : public AxesDevice {
+template <class Plant>
+class SampledLaw : public AxesDevice<Plant> {
  public:
-  SampledLaw(AxesLaw law, const Sampling& sampling) : law_(std::move(law)), s_(sampling) {}
+  static constexpr std::size_t axes = Plant::axes;
+  using Axes = std::array<double, axes>;
+  using Command = AxesCommand<axes>;
 
-  AxesCommand act(const AxesSense& sense) override {
+  SampledLaw(AxesLaw<axes> law, const Sampling& sampling)
+      : law_(std::move(law)), s_(sampling), command_{true, {}, {}} {}
+
+  Command act(const AxesSense<Plant>& sense) override {
     if (sense.now >= clock_of(sample_, sense.plant)) {
-      const AxesMotion motion = motion_of(sense.plant);
-      Joints torque = law_(motion);
+      const AxesMotion<axes> motion = motion_of(sense.plant);
+      Axes torque = law_(motion);
       for (double& t : torque) t = std::clamp(t, -s_.limit_nm, s_.limit_nm);
       late_.push_back({sense.now + std::llround(s_.delay_s * sense.plant.clock_hz()),
                        command(torque, motion, sense.plant.parameters())});
@@ -56,18 +65,17 @@ class SampledLaw : public AxesDevice {
   Clock next(Clock) const override { return next_; }
 
  private:
-  Clock clock_of(Clock sample, const Pantograph& plant) const {
+  Clock clock_of(Clock sample, const Plant& plant) const {
     return std::llround(static_cast<double>(sample) * plant.clock_hz() / s_.rate_hz);
   }
 
-  AxesMotion motion_of(const Pantograph& plant) {
-    AxesMotion m{plant.seen().theta_rad, plant.seen().omega_rad_s};
+  AxesMotion<axes> motion_of(const Plant& plant) {
+    AxesMotion<axes> m{plant.seen().theta_rad, plant.seen().omega_rad_s};
     if (!s_.encoder) return m;
-    const JointParameters& joint = plant.parameters().joint;
+    const double per = 1.0 / plant.parameters().joint.encoder_ratio();
     const double keep = std::exp(-6.283185307179586476925286766559 * s_.velocity_hz / s_.rate_hz);
-    for (std::size_t i = 0; i < 2; ++i) {
-      const Encoder& encoder = plant.encoder(i);
-      const double per = joint.encoder_on_motor ? 1.0 / joint.ratio() : 1.0;
+    for (std::size_t i = 0; i < axes; ++i) {
+      const auto& encoder = plant.encoder(i);
       m.theta_rad[i] = per * (static_cast<double>(encoder.count()) + 0.5) * encoder.count_rad();
       const double raw = sample_ == 0 ? 0.0 : (m.theta_rad[i] - last_rad_[i]) * s_.rate_hz;
       speed_rad_s_[i] = keep * speed_rad_s_[i] + (1.0 - keep) * raw;
@@ -77,14 +85,14 @@ class SampledLaw : public AxesDevice {
     return m;
   }
 
-  AxesCommand command(const Joints& torque, const AxesMotion& motion,
-                      const PantographParameters& p) const {
-    AxesCommand c;
+  Command command(const Axes& torque, const AxesMotion<axes>& motion,
+                  const AxesParameters& p) const {
+    Command c;
     c.ideal = !s_.voltage;
     c.torque_nm = torque;
     if (c.ideal) return c;
     const double ratio = p.joint.ratio();
-    for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < axes; ++i) {
       const double amps = torque[i] / (ratio * p.motor.torque_constant_nm_a);
       const double dead_v = amps == 0.0 ? 0.0 : std::copysign(p.motor.dead_voltage_v, amps);
       const double volts = p.motor.resistance_ohm * amps + dead_v +
@@ -94,33 +102,12 @@ class SampledLaw : public AxesDevice {
     return c;
   }
 
-  AxesLaw law_;
+  AxesLaw<axes> law_;
   Sampling s_;
   Clock sample_ = 0, next_ = 0;
-  std::deque<std::pair<Clock, AxesCommand>> late_;
-  AxesCommand command_{true, {}, {}};
-  Joints last_rad_ = {}, speed_rad_s_ = {};
-};
-
-/// A wall over y < edge_m and a drag everywhere, felt at the pen: F = k*(edge - y) - b*v.
-struct WallAndDrag {
-  double edge_m = 0.1, stiffness_n_m = 0.0, wall_damping_ns_m = 0.0, drag_ns_m = 0.0;
-
-  /// Force on the pen, N. The wall never pulls.
-  Vec2 force_n(Vec2 pen, Vec2 speed) const {
-    Vec2 f = -drag_ns_m * speed;
-    if (pen.y < edge_m) {
-      f.y += std::max(0.0, stiffness_n_m * (edge_m - pen.y) - wall_damping_ns_m * speed.y);
-    }
-    return f;
-  }
-  /// The same as a law of the cranks, by this linkage's own kinematics.
-  AxesLaw law(const Linkage& linkage) const {
-    return [wall = *this, linkage](const AxesMotion& m) {
-      const LinkagePose p = linkage.pose(m.theta_rad);
-      return p.torque(wall.force_n(p.pen, p.pen_speed(m.omega_rad_s)));
-    };
-  }
+  std::deque<std::pair<Clock, Command>> late_;
+  Command command_;
+  Axes last_rad_ = {}, speed_rad_s_ = {};
 };
 
 }  // namespace feltgate::plant

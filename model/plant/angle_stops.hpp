@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Stops of a linkage on the angle between its cranks. Energy and passivity: docs/pantograph.md
+// Stops of an angle. Energy and passivity: docs/pantograph.md
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 namespace feltgate::plant {
 
 /// A spring at each end that gives back restitution^2 of the energy that it took.
-struct LinkageStops {
-  double least_rad = 0.0, most_rad = 0.0;  ///< of theta5 - theta1
+struct AngleStops {
+  double least_rad = 0.0, most_rad = 0.0;
   double stiffness_nm_rad = 0.0;
   double restitution = 1.0;  ///< 0.1 to 1
 };
@@ -20,28 +20,28 @@ struct LinkageStops {
 /// again it goes along that line to its deepest point. So its torque is continuous and comes from a
 /// potential that only falls when a contact gets deeper: however it is pressed, it gives no energy.
 /// (Walton and Braun, J. Rheol. 30, 1986: loading and unloading of a sphere.)
-class LinkageContact {
+class AngleContact {
  public:
   static constexpr double kNear_rad = 1e-14;  ///< this near a border is on it
 
-  explicit LinkageContact(const LinkageStops& stops)
+  explicit AngleContact(const AngleStops& stops)
       : s_(stops),
         kept_(stops.restitution * stops.restitution),
         back_nm_rad_(stops.stiffness_nm_rad / kept_) {}
 
   /// 0: deeper than ever at the low end, 1: on the way back from there, 2: free, 3 and 4: the high
   /// end. On a border the speed decides.
-  int zone(double between_rad, double rad_s) const {
+  int zone(double angle_rad, double rad_s) const {
     int zone = 0;
     while (zone < 4) {
-      const double beyond = between_rad - upper(zone);
+      const double beyond = angle_rad - upper(zone);
       if (beyond <= (rad_s > 0.0 ? -kNear_rad : kNear_rad)) break;
       ++zone;
     }
     return zone;
   }
-  bool within(int zone, double between_rad) const {
-    return (zone == 0 || between_rad >= lower(zone)) && (zone == 4 || between_rad <= upper(zone));
+  bool within(int zone, double angle_rad) const {
+    return (zone == 0 || angle_rad >= lower(zone)) && (zone == 4 || angle_rad <= upper(zone));
   }
   /// Ends of a zone, rad; zone 4 has no upper, zone 0 no lower one.
   double upper(int zone) const {
@@ -51,23 +51,23 @@ class LinkageContact {
   }
   double lower(int zone) const { return upper(zone - 1); }
 
-  /// Torque on theta5, against theta1, Nm.
-  double torque_nm(int zone, double between_rad) const {
+  /// Torque toward larger angles, Nm.
+  double torque_nm(int zone, double angle_rad) const {
     if (zone == 2) return 0.0;
-    if (zone == 1 || zone == 3) return back_nm_rad_ * (upper(zone == 1 ? 1 : 2) - between_rad);
-    return s_.stiffness_nm_rad * ((zone == 0 ? s_.least_rad : s_.most_rad) - between_rad);
+    if (zone == 1 || zone == 3) return back_nm_rad_ * (upper(zone == 1 ? 1 : 2) - angle_rad);
+    return s_.stiffness_nm_rad * ((zone == 0 ? s_.least_rad : s_.most_rad) - angle_rad);
   }
   /// What the springs would give back, J.
-  double stored_j(double between_rad) const {
-    return stored_j(s_.least_rad - between_rad, low_rad_) +
-           stored_j(between_rad - s_.most_rad, high_rad_);
+  double stored_j(double angle_rad) const {
+    return stored_j(s_.least_rad - angle_rad, low_rad_) +
+           stored_j(angle_rad - s_.most_rad, high_rad_);
   }
-  /// The linkage is there now: deepest points, and what was lost, J.
-  double settle(double between_rad) {
-    const double before_j = stored_j(between_rad);
-    low_rad_ = settled(s_.least_rad - between_rad, low_rad_);
-    high_rad_ = settled(between_rad - s_.most_rad, high_rad_);
-    return before_j - stored_j(between_rad);
+  /// The angle is there now: deepest points, and what was lost, J.
+  double settle(double angle_rad) {
+    const double before_j = stored_j(angle_rad);
+    low_rad_ = settled(s_.least_rad - angle_rad, low_rad_);
+    high_rad_ = settled(angle_rad - s_.most_rad, high_rad_);
+    return before_j - stored_j(angle_rad);
   }
 
  private:
@@ -84,7 +84,7 @@ class LinkageContact {
     return depth_rad <= 0.0 ? 0.0 : std::max(depth_rad, deepest_rad);
   }
 
-  LinkageStops s_;
+  AngleStops s_;
   double kept_;                            ///< of the energy
   double back_nm_rad_;                     ///< stiffness on the way back
   double low_rad_ = 0.0, high_rad_ = 0.0;  ///< deepest points of the contacts that last

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A plant with several axes and what drives its motors, from event to event. A plant has `axes`,
+// advance(bridges or torques, clocks), events(axis), next_corner(), now(). docs/pantograph.md
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "bridge.hpp"
+#include "feltgate/encoder_source.hpp"
+
+namespace feltgate::plant {
+
+/// What the motors get until the device is asked again: bridges, or ideal torques at the joints.
+template <std::size_t N>
+struct AxesCommand {
+  bool ideal = false;
+  std::array<Bridge, N> bridges;
+  std::array<double, N> torque_nm = {};
+};
+
+/// What a device may see. A core sees its pins: `events` are all changes since it was asked last.
+template <class Plant>
+struct AxesSense {
+  Clock now;
+  const std::array<std::vector<EncoderEvent>, Plant::axes>& events;
+  const Plant& plant;  ///< for models that are given ideal sensors
+};
+
+/// The device side of the loop: a law in continuous time, or the twin of a core with several axes.
+template <class Plant>
+class AxesDevice {
+ public:
+  virtual ~AxesDevice() = default;
+  /// Everything up to sense.now; the command holds from there.
+  virtual AxesCommand<Plant::axes> act(const AxesSense<Plant>& sense) = 0;
+  /// The first clock after `now` at which its outputs may change or it wants its inputs.
+  virtual Clock next(Clock now) const = 0;
+};
+
+template <class Plant>
+class AxesLoop {
+ public:
+  /// Steps of the plant have at most `longest` clocks.
+  AxesLoop(Plant& plant, AxesDevice<Plant>& device, Clock longest = 250)
+      : plant_(plant), device_(device), longest_(longest) {}
+
+  /// Runs until clock `end`; `seen(plant)` is called after every step of the plant.
+  template <class Observer>
+  void run(Clock end, Observer&& seen) {
+    while (plant_.now() < end) {
+      if (plant_.now() >= next_) {
+        command_ = device_.act({plant_.now(), events_, plant_});
+        for (auto& events : events_) events.clear();
+        next_ = std::max(device_.next(plant_.now()), plant_.now() + 1);
+      }
+      const Clock corner = std::min({end, next_, plant_.next_corner(), plant_.now() + longest_});
+      const Clock clocks = corner - plant_.now();
+      if (command_.ideal) {
+        plant_.advance(command_.torque_nm, clocks);
+      } else {
+        plant_.advance(command_.bridges, clocks);
+      }
+      for (std::size_t axis = 0; axis < Plant::axes; ++axis) {
+        const auto& fresh = plant_.events(axis);
+        events_[axis].insert(events_[axis].end(), fresh.begin(), fresh.end());
+      }
+      seen(plant_);
+    }
+  }
+  void run(Clock end) {
+    run(end, [](const Plant&) {});
+  }
+
+ private:
+  Plant& plant_;
+  AxesDevice<Plant>& device_;
+  Clock longest_;
+  Clock next_ = 0;
+  AxesCommand<Plant::axes> command_;
+  std::array<std::vector<EncoderEvent>, Plant::axes> events_;
+};
+
+}  // namespace feltgate::plant

@@ -82,7 +82,7 @@ def main():
     if len(sys.argv) != 2 or sys.argv[1] in ("-h", "--help"):
         print(__doc__.strip())
         return 0 if sys.argv[1:] in (["-h"], ["--help"]) else 2
-    plant = tomllib.loads((ROOT / "vectors/linkages/pantograph.toml").read_text(encoding="utf-8"))
+    plant = tomllib.loads((ROOT / "vectors/devices/pantograph.toml").read_text(encoding="utf-8"))
     ratio = plant["joint"]["drum_radius_m"] / plant["joint"]["pulley_radius_m"]
     # 1 A in each motor.
     torque = ratio * plant["motor"]["torque_constant_nm_a"]

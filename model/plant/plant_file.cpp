@@ -53,7 +53,17 @@ Effects read_flags(config::TomlReader table, const Effects* base) {
   return effects;
 }
 
-}  // namespace
+JointParameters read_joint(config::TomlReader table) {
+  JointParameters j;
+  j.rotor_inertia_kg_m2 = table.number("rotor_inertia_kg_m2", config::kPositive);
+  j.drum_inertia_kg_m2 = table.number("drum_inertia_kg_m2", config::kNotNegative);
+  j.pulley_radius_m = table.number("pulley_radius_m", config::kPositive);
+  j.drum_radius_m = table.number("drum_radius_m", config::kPositive);
+  j.viscous_nm_s_rad = table.number("viscous_nm_s_rad", config::kNotNegative);
+  j.encoder_on_motor = table.choice("encoder", {"joint", "motor"}) == 1;
+  table.finish();
+  return j;
+}
 
 MotorParameters read_motor(config::TomlReader table) {
   MotorParameters motor;
@@ -109,6 +119,17 @@ EncoderParameters read_encoder(config::TomlReader table) {
 }
 
 Effects read_all_effects(config::TomlReader table) { return read_flags(std::move(table), nullptr); }
+
+}  // namespace
+
+void read_axes(config::TomlReader& root, AxesParameters& p) {
+  p.joint = read_joint(root.section("joint"));
+  p.motor = read_motor(root.section("motor"));
+  p.lugre = read_lugre(root.section("lugre"));
+  p.supply = read_supply(root.section("supply"));
+  p.encoder = read_encoder(root.section("encoder"));
+  p.effects = read_all_effects(root.section("effects"));
+}
 
 Effects read_effects(config::TomlReader table, const Effects& base) {
   return read_flags(std::move(table), &base);

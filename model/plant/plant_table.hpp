@@ -8,6 +8,7 @@
 #include <string>
 
 #include "config/toml_reader.hpp"
+#include "plant/axes_parameters.hpp"
 #include "plant/hand.hpp"
 #include "plant/parameters.hpp"
 
@@ -16,13 +17,9 @@ namespace feltgate::plant {
 /// A plant from a parsed table, `file` being the name that errors print.
 Parameters read_plant(const toml::table& root, const std::string& file);
 
-/// Tables that every plant with motors has; keys are required, unknown keys are errors.
-MotorParameters read_motor(config::TomlReader table);
-LugreParameters read_lugre(config::TomlReader table);
-SupplyParameters read_supply(config::TomlReader table);
-EncoderParameters read_encoder(config::TomlReader table);
-/// [effects] of a plant's own file: every effect but hand_dynamics.
-Effects read_all_effects(config::TomlReader table);
+/// [joint], [motor], [lugre], [supply], [encoder], [effects] of a device with several axes; keys
+/// are required, unknown keys are errors.
+void read_axes(config::TomlReader& root, AxesParameters& p);
 
 /// Effects of a scene's [effects] table over `base`: a missing key keeps the value of `base`.
 Effects read_effects(config::TomlReader table, const Effects& base);

@@ -88,10 +88,14 @@ feltgate_library(feltgate_law law Boost::headers)
 feltgate_sim_library(plant plant EXCEPT "_file\\.cpp$")
 feltgate_sim_library(plant_files plant ONLY "_file\\.cpp$"
   feltgate_plant feltgate_traces feltgate_config)
-# Linkages with two motors, as the plant: docs/pantograph.md
-feltgate_sim_library(linkage plant/pantograph EXCEPT "_file\\.cpp$" feltgate_plant)
-feltgate_sim_library(linkage_files plant/pantograph ONLY "_file\\.cpp$"
-  feltgate_linkage feltgate_plant_files)
+# Devices with several axes: docs/pantograph.md, docs/gimbal.md
+foreach(device "linkage;pantograph" "gimbal;gimbal")
+  list(GET device 0 name)
+  list(GET device 1 folder)
+  feltgate_sim_library(${name} plant/${folder} EXCEPT "_file\\.cpp$" feltgate_plant)
+  feltgate_sim_library(${name}_files plant/${folder} ONLY "_file\\.cpp$"
+    feltgate_${name} feltgate_plant_files)
+endforeach()
 
 if(FELTGATE_SIGROK)
   find_package(LibArchive REQUIRED)
@@ -106,12 +110,13 @@ include(engines)
 feltgate_sim_library(loop loop
   feltgate_engines feltgate_plant_files feltgate_traces feltgate_bounds)
 # A closed loop hands scalars from step to step; packed in pairs they would wait for the store.
-foreach(target feltgate_plant feltgate_linkage feltgate_loop)
+foreach(target feltgate_plant feltgate_linkage feltgate_gimbal feltgate_loop)
   target_compile_options(${target} PRIVATE -fno-tree-slp-vectorize)
 endforeach()
 
 add_library(feltgate_sim INTERFACE)
-target_link_libraries(feltgate_sim INTERFACE feltgate_loop feltgate_linkage_files)
+target_link_libraries(feltgate_sim INTERFACE
+  feltgate_loop feltgate_linkage_files feltgate_gimbal_files)
 feltgate_export(sim)
 
 # sc_modules of twin and motor: headers. SystemC itself is looked for by who links them.

@@ -39,7 +39,7 @@ if(FELTGATE_SIM)
       PATTERN "lock_step_core.hpp" EXCLUDE
       PATTERN "plant_table.hpp" EXCLUDE PATTERN "rtl_*.hpp" EXCLUDE)
   endforeach()
-  install(DIRECTORY "${FELTGATE_ROOT}/vectors/plants" "${FELTGATE_ROOT}/vectors/linkages"
+  install(DIRECTORY "${FELTGATE_ROOT}/vectors/plants" "${FELTGATE_ROOT}/vectors/devices"
     "${FELTGATE_ROOT}/vectors/scenes"
     "${FELTGATE_ROOT}/vectors/traces"
     DESTINATION "${CMAKE_INSTALL_DATADIR}/feltgate" COMPONENT feltgate_sim)

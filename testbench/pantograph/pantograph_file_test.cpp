@@ -78,8 +78,8 @@ TEST_CASE("errors of a linkage say file, line, what and mend", "[pantograph_file
         "the stops");
   CHECK(error_of("start_m = [0.0, 0.1]", "start_m = [0.1]") ==
         "here: \"start_m\" is not two numbers; write x and y, m");
-  CHECK(error_of("encoder = \"crank\"", "encoder = \"pen\"") ==
-        "here: \"encoder\" = \"pen\" is not known; it must be one of crank, motor");
+  CHECK(error_of("encoder = \"joint\"", "encoder = \"pen\"") ==
+        "here: \"encoder\" = \"pen\" is not known; it must be one of joint, motor");
   CHECK(error_of("restitution = 0.7", "restitution = 0.05").find("out of range") !=
         std::string::npos);
   CHECK(error_of("drum_radius_m", "drum_radius").find("\"drum_radius_m\" is missing") !=

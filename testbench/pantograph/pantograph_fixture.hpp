@@ -17,7 +17,7 @@ namespace feltgate::plant {
 inline constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 inline std::string linkage_file(const std::string& name) {
-  return std::string(FELTGATE_SOURCE_DIR) + "/vectors/linkages/" + name + ".toml";
+  return std::string(FELTGATE_SOURCE_DIR) + "/vectors/devices/" + name + ".toml";
 }
 inline PantographParameters pantograph() {
   return read_pantograph_file(linkage_file("pantograph"));

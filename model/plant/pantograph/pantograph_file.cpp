@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Reads vectors/linkages/NAME.toml. Documentation: docs/pantograph.md
+// Reads vectors/devices/NAME.toml. Documentation: docs/pantograph.md
 #include "plant/pantograph/pantograph_file.hpp"
 
 #include <fmt/format.h>
@@ -33,18 +33,6 @@ LinkBody read_body(config::TomlReader table) {
   b.inertia_kg_m2 = table.number("inertia_kg_m2", config::kNotNegative);
   table.finish();
   return b;
-}
-
-JointParameters read_joint(config::TomlReader table) {
-  JointParameters j;
-  j.rotor_inertia_kg_m2 = table.number("rotor_inertia_kg_m2", config::kPositive);
-  j.drum_inertia_kg_m2 = table.number("drum_inertia_kg_m2", config::kNotNegative);
-  j.pulley_radius_m = table.number("pulley_radius_m", config::kPositive);
-  j.drum_radius_m = table.number("drum_radius_m", config::kPositive);
-  j.viscous_nm_s_rad = table.number("viscous_nm_s_rad", config::kNotNegative);
-  j.encoder_on_motor = table.choice("encoder", {"crank", "motor"}) == 1;
-  table.finish();
-  return j;
 }
 
 // Both motors at one point: the elbows are 2 or a1, a4 and the angle between them apart, and the
@@ -103,18 +91,13 @@ PantographParameters read_table(const toml::table& root, const std::string& file
   p.bodies.rod_1 = read_body(reader.section("rod_1"));
   p.bodies.rod_5 = read_body(reader.section("rod_5"));
   p.bodies.crank_5 = read_body(reader.section("crank_5"));
-  p.joint = read_joint(reader.section("joint"));
-  p.bodies.joint_inertia_kg_m2 = {p.joint.inertia_kg_m2(), p.joint.inertia_kg_m2()};
   p.stops = read_stops(reader.section("stops"), p.linkage);
   config::TomlReader pen = reader.section("pen");
   p.bodies.pen_kg = pen.number("mass_kg", config::kNotNegative);
   p.start_m = read_start(pen, p);
   pen.finish();
-  p.motor = read_motor(reader.section("motor"));
-  p.lugre = read_lugre(reader.section("lugre"));
-  p.supply = read_supply(reader.section("supply"));
-  p.encoder = read_encoder(reader.section("encoder"));
-  p.effects = read_all_effects(reader.section("effects"));
+  read_axes(reader, p);
+  p.bodies.joint_inertia_kg_m2 = {p.joint.inertia_kg_m2(), p.joint.inertia_kg_m2()};
   reader.finish();
   return p;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Reads vectors/linkages/NAME.toml. Documentation: docs/pantograph.md
+// Reads vectors/devices/NAME.toml. Documentation: docs/pantograph.md
 #pragma once
 
 #include <string>

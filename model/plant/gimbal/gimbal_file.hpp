@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Reads vectors/gimbals/NAME.toml. Documentation: docs/gimbal.md
+#pragma once
+
+#include <string>
+
+#include "gimbal.hpp"
+
+namespace feltgate::plant {
+
+/// Reads and checks a gimbal; every key is required, unknown keys are errors.
+/// Errors: config::ConfigError "file:line: what; mend".
+GimbalParameters read_gimbal_file(const std::string& path);
+/// The same of a text; errors call it `path`.
+GimbalParameters read_gimbal_text(const std::string& text, const std::string& path);
+
+}  // namespace feltgate::plant

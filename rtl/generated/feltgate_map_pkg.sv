@@ -327,11 +327,11 @@ package feltgate_map_pkg;
   localparam int FAULT_I2T = 4;  // estimated current above nominal for too long
   localparam int FAULT_WATCHDOG = 5;  // the host is silent
   localparam int FAULT_STOP = 6;  // external stop
-  localparam int FAULT_SELF_TEST = 7;  // the lever answered the pulse of the self-test the wrong way
+  localparam int FAULT_SELF_TEST = 7;  // the lever answered the pulse of the self-test the wrong way, or was held or moved where the design does not arm then
   localparam int FAULT_CHANNEL = 8;  // one channel of the encoder is dead
   localparam int FAULT_TICK = 9;  // the ticks stand still
   localparam int FAULT_INDEX = 10;  // the count at the index does not fit a revolution
-  localparam int FAULT_WORD = 11;  // a parameter or a held control bit has changed by itself
+  localparam int FAULT_WORD = 11;  // a parameter, a held control bit or the position has changed by itself
   localparam int FAULT_JUMP = 12;  // the velocity moved by more than its filter can
   localparam int FAULT_ENGINE = 13;  // the engine is late: no fresh torque within its time, in the scene law
   localparam int FAULT_AXIS = 14;  // another axis has a fault

@@ -645,11 +645,11 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_FAULT_I2T 4u  /* estimated current above nominal for too long */
 #define FELTGATE_FAULT_WATCHDOG 5u  /* the host is silent */
 #define FELTGATE_FAULT_STOP 6u  /* external stop */
-#define FELTGATE_FAULT_SELF_TEST 7u  /* the lever answered the pulse of the self-test the wrong way */
+#define FELTGATE_FAULT_SELF_TEST 7u  /* the lever answered the pulse of the self-test the wrong way, or was held or moved where the design does not arm then */
 #define FELTGATE_FAULT_CHANNEL 8u  /* one channel of the encoder is dead */
 #define FELTGATE_FAULT_TICK 9u  /* the ticks stand still */
 #define FELTGATE_FAULT_INDEX 10u  /* the count at the index does not fit a revolution */
-#define FELTGATE_FAULT_WORD 11u  /* a parameter or a held control bit has changed by itself */
+#define FELTGATE_FAULT_WORD 11u  /* a parameter, a held control bit or the position has changed by itself */
 #define FELTGATE_FAULT_JUMP 12u  /* the velocity moved by more than its filter can */
 #define FELTGATE_FAULT_ENGINE 13u  /* the engine is late: no fresh torque within its time, in the scene law */
 #define FELTGATE_FAULT_AXIS 14u  /* another axis has a fault */

@@ -46,11 +46,11 @@ enum class Fault : std::uint8_t {
   i2t = 4,  ///< estimated current above nominal for too long
   watchdog = 5,  ///< the host is silent
   stop = 6,  ///< external stop
-  self_test = 7,  ///< the lever answered the pulse of the self-test the wrong way
+  self_test = 7,  ///< the lever answered the pulse of the self-test the wrong way, or was held or moved where the design does not arm then
   channel = 8,  ///< one channel of the encoder is dead
   tick = 9,  ///< the ticks stand still
   index = 10,  ///< the count at the index does not fit a revolution
-  word = 11,  ///< a parameter or a held control bit has changed by itself
+  word = 11,  ///< a parameter, a held control bit or the position has changed by itself
   jump = 12,  ///< the velocity moved by more than its filter can
   engine = 13,  ///< the engine is late: no fresh torque within its time, in the scene law
   axis = 14,  ///< another axis has a fault

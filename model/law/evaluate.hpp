@@ -61,6 +61,7 @@ class Evaluation {
   const Law& law_;
   Tables tables_;
   std::vector<N> values_, parameters_, states_, outputs_, event_values_;
+  mutable std::vector<N> body_;  ///< nodes of tables' bodies; no body has another's variable
   std::vector<char> happened_, held_;
   std::vector<std::vector<N>> lines_;  ///< rings, [position_ of the line] is written next
   std::vector<std::size_t> line_at_;
@@ -72,7 +73,7 @@ class Evaluation {
 
 template <class N>
 Evaluation<N>::Evaluation(const Law& law, Tables tables)
-    : law_(law), tables_(tables), values_(law.nodes.size()) {
+    : law_(law), tables_(tables), values_(law.nodes.size()), body_(law.nodes.size()) {
   for (const Parameter& p : law.parameters) parameters_.push_back(number(p.initial));
   outputs_.resize(law.outputs.size());
   event_values_.resize(law.events.size());
@@ -157,11 +158,10 @@ void Evaluation<N>::sample() {
 template <class N>
 N Evaluation<N>::exact(std::size_t table, N x) const {
   const Table& t = law_.tables[table];
-  std::vector<N> values(law_.nodes.size());
   for (const NodeId id : bodies_[table]) {
-    values[at(id)] = id == t.argument ? x : compute(law_.nodes[at(id)], values);
+    body_[at(id)] = id == t.argument ? x : compute(law_.nodes[at(id)], body_);
   }
-  return values[at(t.body)];
+  return body_[at(t.body)];
 }
 
 template <class N>

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <functional>
+#include <map>
 
 #include "law/host_range.hpp"
 #include "law/units.hpp"
@@ -65,14 +65,22 @@ class Finish {
     each_root(law_, [&](NodeId& id) {
       if (id != kNone) id = device_[index(id)];
     });
-    for (std::size_t p = 0; p < law_.parameters.size(); ++p) {
-      Parameter& parameter = law_.parameters[p];
-      if (parameter.derived != kNone) parameter.name = formula(law_, parameter.derived);
-    }
+    name_derived();
   }
 
  private:
   static std::size_t index(NodeId id) { return static_cast<std::size_t>(id); }
+
+  /// After their formulas; long ones may look alike.
+  void name_derived() {
+    std::map<std::string, int> seen;
+    for (Parameter& p : law_.parameters) {
+      if (p.derived == kNone) continue;
+      p.name = formula(law_, p.derived);
+      const int number = ++seen[p.name];
+      if (number > 1) p.name += fmt::format(" ({})", number);
+    }
+  }
 
   /// Whether a run reads it as a word that the host computes.
   bool is_derived(std::size_t i) const {

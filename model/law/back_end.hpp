@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// From a law's graph to steps: formats are chosen or taken as given, operations become
+// instructions. Documentation: docs/law-compiler.md
+#pragma once
+
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "law/law.hpp"
+#include "law/program.hpp"
+#include "law/ranges.hpp"
+#include "law/tables.hpp"
+#include "law/target.hpp"
+
+namespace feltgate::law {
+
+/// What a search may change; lower() notes what it chose where nothing was given.
+struct Choice {
+  std::map<NodeId, int> fraction;  ///< of nodes with a format of their own: scale = unit / 2^it
+  bool states_first = false;       ///< order of the roots
+  int sine_bits = 0;   ///< segments a turn; 9: all of the table memory; 0: as many as fit
+  int table_bits = 0;  ///< segments of every other table; 0: as many as fit
+  std::map<std::string, TableUse> made;  ///< tables by what they are of: each is proven once
+};
+
+/// This choice of formats has no instructions; another may.
+class Unfit : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Steps of the law; `spans` are its nodes' ranges. Throws Unfit, or Refused for what no choice
+/// mends.
+Program lower(const Law& law, const Target& target, const std::vector<Span>& spans, Choice& choice);
+
+/// What a step of a lowering stands for.
+struct Value {
+  Operand operand;
+  double scale = 1;  ///< SI value of 1
+  double size = 0;   ///< largest magnitude, SI
+};
+
+/// A product of a number, parameters (fixed during a run) and other nodes.
+struct Term {
+  double number = 1;
+  std::vector<NodeId> fixed;
+  std::vector<NodeId> factors;
+};
+
+/// a/b is a power of two, within the rounding of doubles.
+bool same_unit(double a, double b);
+bool same_scale(double a, double b);
+
+class BackEnd {
+ public:
+  BackEnd(const Law& law, const Target& target, const std::vector<Span>& spans, Choice& choice);
+  Program run();
+
+ private:
+  // sums.cpp
+  void collect(NodeId id, double number, bool root, std::vector<Term>& terms) const;
+  void gather(NodeId id, bool root, Term& term) const;
+  Value sum(NodeId id, double hint);
+  struct Multiply {
+    Operand x, y;
+    int mode = 0;
+    double y_error = 0;
+  };
+  struct Addend {
+    Operand operand;
+    int sign = 1;
+    double error = 0;
+  };
+  struct Chain {
+    std::vector<Multiply> products;
+    std::vector<Addend> addends;
+  };
+  double sum_scale(NodeId id, const std::vector<Term>& terms, double hint);
+  void add_term(const Term& term, double scale, NodeId id, Chain& chain);
+  Value chain(const Chain& chain, double scale, NodeId id);
+  Value product(const Value& a, const Value& b, NodeId id);
+  Multiply pair(const Value& a, const Value& b, int shift, NodeId id);
+  Multiply by_number(const Value& v, double ratio, NodeId id);
+  Multiply by_word(const Value& v, const Term& term, double scale, NodeId id);
+  Value narrow(const Value& v, NodeId id);
+  Value negated(const Value& v, NodeId id);
+  bool fits_factor(const Value& v) const;
+
+  // lower.cpp
+  Value value(NodeId id, double hint = 0);
+  Value compute(NodeId id, double hint);
+  Value at_scale(NodeId id, double scale, double* error);
+  Value align(const Value& v, double scale, NodeId id);
+  Value selection(NodeId id, double hint);
+  double common_scale(NodeId id, const std::vector<NodeId>& children, double hint, bool chosen);
+  Value absolute(NodeId id, double hint);
+  Value state(NodeId id);
+  Value mailbox(NodeId id);
+  double chosen_scale(NodeId id, double unit, int preferred, double size);
+  int largest_fraction(NodeId id, double unit, double size) const;
+
+  // conditions.cpp
+  void lower_leaves(NodeId condition);
+  void flag(NodeId condition);
+  int raise(NodeId condition, bool opposite);
+  bool simple(NodeId condition, bool opposite) const;
+  void compare(NodeId leaf, int mode);
+
+  // functions.cpp
+  Value function(NodeId id);
+  Value sine(NodeId id);
+  Value element(NodeId id);
+  void count_tables();
+  Operand phase(NodeId id, double turn);
+  int place_table(const std::string& key, const TableUse& table);
+
+  // roots.cpp
+  void outputs();
+  void events();
+  void states();
+  Value next_state(const State& s, double scale);
+  double state_unit(NodeId id, int depth) const;
+  void finish();
+
+  const Node& node(NodeId id) const { return law_.nodes[static_cast<std::size_t>(id)]; }
+  const Span& span(NodeId id) const { return spans_[static_cast<std::size_t>(id)]; }
+  bool is_fixed(NodeId id) const { return fixed_[static_cast<std::size_t>(id)] != 0; }
+  bool once(NodeId id) const { return users_[static_cast<std::size_t>(id)] <= 1; }
+  int word(const std::vector<NodeId>& nodes, double scale);
+  Operand constant(double value);
+  double fixed_size(const std::vector<NodeId>& nodes) const;
+  Step& emit(EngineOp op, int mode, Operand x, Operand y, double scale, NodeId origin);
+  Operand last() const { return {From::step, static_cast<int>(program_.steps.size()) - 1}; }
+
+  const Law& law_;
+  const Target& target_;
+  const std::vector<Span>& spans_;
+  Choice& choice_;
+  Program program_;
+  std::vector<char> fixed_;
+  std::vector<int> users_;
+  std::map<NodeId, Value> values_;
+  std::vector<std::pair<Value, Value>> aligned_;
+  std::map<Operand, Value> negated_;
+  std::map<std::pair<Operand, Operand>, Value> products_;
+  std::map<std::string, int> table_keys_;
+  NodeId flag_ = -1;
+  int sine_tables_ = 0, other_tables_ = 0, table_words_left_ = 512;
+  bool cosines_ = false, sines_ = false;
+};
+
+}  // namespace feltgate::law

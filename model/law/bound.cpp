@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Bounds over cells. Documentation: docs/law-compiler.md
+#include "law/bound.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace feltgate::law {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+double worst(const CellFacts& f) {
+  if (!f.reachable) return 0;
+  double w = 0;
+  for (const double e : f.output_error) w = std::max(w, e);
+  return w + 1e6 * static_cast<double>(f.unproven.size());
+}
+
+struct Leaf {
+  Cell cell;
+  CellFacts facts;
+};
+
+/// The spans of a cell one after the other.
+std::vector<Span*> sides(Cell& c) {
+  std::vector<Span*> all;
+  for (auto* part : {&c.inputs, &c.states, &c.parameters}) {
+    for (Span& s : *part) all.push_back(&s);
+  }
+  return all;
+}
+
+class Bounds {
+ public:
+  Bounds(const Law& law, const Target& target, const Program& program)
+      : law_(law), target_(target), program_(program), errors_(law.states.size(), 0) {}
+
+  Bound run(int splits) {
+    Cell whole = whole_cell(law_, target_);
+    settle(whole);
+    leaves_.push_back({whole, facts(whole)});
+    for (int i = 0; i < splits && split(whole); ++i) {
+    }
+    Bound b;
+    b.states_bounded = bounded_;
+    b.state = errors_;
+    b.output.assign(law_.outputs.size(), 0);
+    b.words.assign(program_.steps.size(), Span{1, 0});
+    b.errors.assign(program_.steps.size(), 0);
+    b.cells = static_cast<int>(leaves_.size());
+    for (const Leaf& l : leaves_) {
+      if (!l.facts.reachable) continue;
+      for (std::size_t o = 0; o < b.output.size(); ++o) {
+        b.output[o] = std::max(b.output[o], l.facts.output_error[o]);
+      }
+      for (std::size_t s = 0; s < b.words.size(); ++s) {
+        b.words[s] = hull(b.words[s], l.facts.steps[s].words);
+        b.errors[s] = std::max(b.errors[s], l.facts.steps[s].error);
+      }
+      if (b.unproven.empty()) b.unproven = l.facts.unproven;
+    }
+    strips(whole, &b);
+    return b;
+  }
+
+ private:
+  CellFacts facts(const Cell& c, int swap = -1) const {
+    return analyse(law_, target_, program_, c, errors_, swap);
+  }
+
+  /// Errors of states that a run does not make larger; none where they grow without end.
+  void settle(const Cell& whole) {
+    if (law_.states.empty()) return;
+    std::vector<double> before = errors_;
+    for (int i = 0; i < 40; ++i) {
+      const CellFacts f = facts(whole);
+      if (!f.reachable) return;
+      bool more = false;
+      std::vector<double> next = errors_;
+      for (std::size_t k = 0; k < errors_.size(); ++k) {
+        const double to = f.state_error[k];
+        if (!(to > errors_[k])) continue;
+        more = true;
+        next[k] = to;
+        // Where errors shrink by a factor from run to run, the sum of all is known.
+        const double step = to - errors_[k], last_step = errors_[k] - before[k];
+        if (i >= 2 && last_step > 0 && step < last_step) {
+          next[k] = errors_[k] + step / (1 - step / last_step) * 1.001;
+        }
+      }
+      if (!more) return;
+      before = errors_;
+      errors_ = next;
+      for (const double e : errors_) {
+        if (!(e < 1e9)) i = 40;
+      }
+    }
+    bounded_ = false;
+    std::fill(errors_.begin(), errors_.end(), 0.0);
+  }
+
+  /// Halves the worst cell along the side where that helps most; false where nothing helps.
+  bool split(Cell& whole) {
+    std::size_t pick = 0;
+    for (std::size_t i = 1; i < leaves_.size(); ++i) {
+      if (worst(leaves_[i].facts) > worst(leaves_[pick].facts)) pick = i;
+    }
+    const double now = worst(leaves_[pick].facts);
+    if (now <= 0 || stalled_ > 24) return false;
+    const std::size_t count = sides(leaves_[pick].cell).size();
+    double best = infinity;
+    Leaf low, high;
+    bool found = false;
+    for (std::size_t s = 0; s < count; ++s) {
+      Leaf a{leaves_[pick].cell, {}}, b{leaves_[pick].cell, {}};
+      Span* first = sides(a.cell)[s];
+      Span* second = sides(b.cell)[s];
+      if (!(first->width() > 0)) continue;
+      const double middle = first->middle();
+      first->hi = middle;
+      second->lo = middle;
+      a.facts = facts(a.cell);
+      b.facts = facts(b.cell);
+      const double share = (middle - first->lo) / sides(whole)[s]->width();
+      const double score = std::max(worst(a.facts), worst(b.facts)) +
+                           1e-3 * std::min(worst(a.facts), worst(b.facts)) - 1e-9 * share;
+      // Where nothing is better yet, the widest in relation to what it was is halved.
+      if (!found || score < best) {
+        best = score;
+        low = std::move(a);
+        high = std::move(b);
+        found = true;
+      }
+    }
+    if (!found) return false;
+    stalled_ = best < now * 0.98 ? 0 : stalled_ + 1;
+    leaves_[pick] = std::move(low);
+    leaves_.push_back(std::move(high));
+    return true;
+  }
+
+  void strips(const Cell& whole, Bound* b) const {
+    const CellFacts base = facts(whole);
+    if (!base.reachable) return;
+    for (std::size_t i = 0; i < program_.steps.size(); ++i) {
+      if (base.margin[i] <= 0) continue;
+      const CellFacts swapped = facts(whole, static_cast<int>(i));
+      Strip s;
+      s.condition = program_.steps[i].condition;
+      s.place = program_.steps[i].place;
+      s.width = base.margin[i] * program_.steps[i].scale;
+      if (s.condition >= 0 && law_.nodes[at(s.condition)].op == Op::less) {
+        s.unit = law_.nodes[at(law_.nodes[at(s.condition)].arguments[0])].unit;
+      }
+      double any = 0;
+      for (std::size_t o = 0; o < base.output_error.size(); ++o) {
+        s.jump.push_back(swapped.output_error[o] - base.output_error[o]);
+        any = std::max(any, s.jump.back());
+      }
+      if (any > 0 || !law_.states.empty()) b->strips.push_back(s);
+    }
+  }
+
+  const Law& law_;
+  const Target& target_;
+  const Program& program_;
+  std::vector<double> errors_;
+  std::vector<Leaf> leaves_;
+  bool bounded_ = true;
+  int stalled_ = 0;
+};
+
+}  // namespace
+
+Bound bound(const Law& law, const Target& target, const Program& program, int splits) {
+  return Bounds(law, target, program).run(splits);
+}
+
+}  // namespace feltgate::law

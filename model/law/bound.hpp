@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What is proven of a program: no instruction saturates, no factor or index leaves its range,
+// states stay in theirs, and how far every result is from the law in real numbers. Documentation:
+// docs/law-compiler.md
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "law/law.hpp"
+#include "law/program.hpp"
+#include "law/ranges.hpp"
+#include "law/target.hpp"
+
+namespace feltgate::law {
+
+/// Of a step's result, in words.
+struct Fact {
+  Span words;
+  double error = 0;  ///< largest distance from the law's value
+};
+
+/// What an instruction may do that it must not.
+struct Unproven {
+  int step = -1;  ///< -1: of a state
+  int state = -1;
+  std::string reason;
+};
+
+/// A program over one cell.
+struct CellFacts {
+  bool reachable = true;
+  std::vector<Fact> steps;
+  std::vector<Unproven> unproven;
+  std::vector<double> output_error;  ///< Nm, as Law::outputs
+  std::vector<double> state_error;   ///< SI, after the run
+  std::vector<double> margin;        ///< of comparisons: words within which both ways are possible
+};
+
+/// `state_error`: how far the states may be from the law's before the run, SI. `swap`: that
+/// comparison may go wrong, so what it selects may be off by all that it chooses from; -1: none.
+CellFacts analyse(const Law& law, const Target& target, const Program& program, const Cell& cell,
+                  const std::vector<double>& state_error, int swap = -1);
+
+/// A comparison beside which outputs may differ by more than the bound.
+struct Strip {
+  NodeId condition = -1;
+  Place place;
+  double width = 0;  ///< either side, in `unit`
+  Unit unit;
+  std::vector<double> jump;  ///< of each output, Nm
+};
+
+struct Bound {
+  std::vector<double> output;  ///< Nm
+  std::vector<double> state;   ///< SI
+  bool states_bounded = true;  ///< false: some state has no finite error; bounds are then of one
+                               ///< run from the states as they stand
+  std::vector<Unproven> unproven;
+  std::vector<Strip> strips;
+  std::vector<Span> words;     ///< of each step, over all cells
+  std::vector<double> errors;  ///< of each step, words
+  int cells = 1;
+};
+
+/// Splits the cell at most `splits` times, where it helps.
+Bound bound(const Law& law, const Target& target, const Program& program, int splits);
+
+}  // namespace feltgate::law

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Documentation: docs/law-compiler.md
+#include "law/compile.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "law/read_law.hpp"
+
+namespace feltgate::law {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Filters have the range of what they follow, and that of their start, 0.
+void complete_states(Law& law, const Target& target) {
+  for (State& s : law.states) {
+    if (s.follows >= 0) s.range = {0, 0};
+  }
+  for (std::size_t round = 0; round <= law.states.size(); ++round) {
+    const std::vector<Span> spans = ranges(law, whole_cell(law, target));
+    for (State& s : law.states) {
+      if (s.follows < 0) continue;
+      const Span r = spans[at(s.follows)];
+      s.range = {std::min({r.lo, 0.0, s.initial}), std::max({r.hi, 0.0, s.initial})};
+    }
+  }
+}
+
+void require_proofs(const Law& law, const Program& program, const Bound& b) {
+  if (b.unproven.empty()) return;
+  const Unproven& u = b.unproven.front();
+  if (u.state >= 0) {
+    const State& s = law.states[at(u.state)];
+    throw Refused(s.place,
+                  fmt::format("state {} can leave its range {:.6g} .. {:.6g}: {}", s.name,
+                              s.range.lower, s.range.upper, u.reason),
+                  fmt::format("end with clamp(..., {:.6g}, {:.6g}), or give it a larger range",
+                              s.range.lower, s.range.upper));
+  }
+  throw Refused(program.steps[at(u.step)].place, "this cannot be proven: " + u.reason,
+                "limit it with clamp, or narrow the ranges of what it is made of");
+}
+
+int divider_for(const Law& law, const Target& target, int instructions) {
+  const std::int64_t clocks = std::int64_t{instructions} * target.round_clocks;
+  const auto least =
+      static_cast<int>((clocks + target.clocks_per_tick - 1) / target.clocks_per_tick);
+  const double tick = static_cast<double>(target.tick_hz);
+  if (law.rate_hz <= 0) return least;
+  const double exact = tick / law.rate_hz;
+  const auto divider = static_cast<int>(std::lround(exact));
+  if (divider < 1 || std::fabs(exact - divider) > 1e-6 * exact) {
+    throw Refused(
+        fmt::format("rate {:.6g} Hz is no whole part of the tick, {:.6g} Hz", law.rate_hz, tick),
+        fmt::format("use {:.6g} Hz", tick / std::max(1.0, std::ceil(exact))));
+  }
+  if (divider < least) {
+    throw Refused(
+        fmt::format("{} instructions of {} clocks do not fit in {} clocks: at most {:.6g} Hz",
+                    instructions, target.round_clocks, divider * target.clocks_per_tick,
+                    tick / least),
+        fmt::format("write rate {:.6g} Hz, or leave the rate away", tick / least));
+  }
+  if (divider > 4095) {
+    throw Refused(fmt::format("a rate of {:.6g} Hz needs a divider of {}, 4095 is the largest",
+                              law.rate_hz, divider),
+                  fmt::format("use a rate from {:.6g} Hz on", std::ceil(tick / 4095)));
+  }
+  return divider;
+}
+
+}  // namespace
+
+Compiled compile(const Law& given, const Target& target) {
+  Compiled c;
+  c.law = given;
+  c.target = target;
+  if (c.law.outputs.empty()) throw Refused("the law has no output", "write: out torque = ...");
+  complete_states(c.law, target);
+  const std::vector<Span> spans = ranges(c.law, whole_cell(c.law, target));
+  c.program = choose_formats(c.law, target, spans, &c.tried);
+  c.bound = bound(c.law, target, c.program, 150);
+  require_proofs(c.law, c.program, c.bound);
+  c.assembled = assemble(c.law, target, c.program);
+  const auto length = static_cast<int>(c.assembled.instructions.size());
+  c.divider = divider_for(c.law, target, length);
+  c.rate_hz = static_cast<double>(target.tick_hz) / c.divider;
+  c.image = make_image(c.law, target, c.program, c.assembled, c.divider);
+  return c;
+}
+
+namespace {
+
+template <class Read>
+Compiled settle(const Read& read, const Target& target) {
+  Law law = read(0.0);
+  if (law.rate_hz > 0) return compile(law, target);
+  double rate = static_cast<double>(target.tick_hz);
+  Compiled c = compile(read(rate), target);
+  for (int i = 0; i < 3 && c.rate_hz != rate; ++i) {
+    rate = c.rate_hz;
+    c = compile(read(rate), target);
+  }
+  return c;
+}
+
+}  // namespace
+
+Compiled compile_file(const std::string& path, const Target& target) {
+  return settle([&](double rate) { return read_law(path, rate); }, target);
+}
+
+Compiled compile_text(const std::string& text, const std::string& name, const Target& target) {
+  return settle([&](double rate) { return read_law_text(text, name, rate); }, target);
+}
+
+}  // namespace feltgate::law

@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Functions from tables. Documentation: docs/law-compiler.md
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "law/back_end.hpp"
+
+namespace feltgate::law {
+
+namespace {
+
+constexpr int most_table_words = EngineMap::table_words;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+JetFunction function_of(const Law& law, const Node& n) {
+  switch (n.op) {
+    case Op::root:
+      return [](const Span& x) { return root(Jet{x, {1, 1}, {0, 0}}); };
+    case Op::reciprocal:
+      return [](const Span& x) { return inverse(Jet{x, {1, 1}, {0, 0}}); };
+    case Op::exponential:
+      return [](const Span& x) { return exponential(Jet{x, {1, 1}, {0, 0}}); };
+    default: {
+      const Table& t = law.tables[at(n.index)];
+      return [&law, &t](const Span& x) { return table_jet(law, t, x); };
+    }
+  }
+}
+
+}  // namespace
+
+void BackEnd::count_tables() {
+  std::map<std::pair<int, NodeId>, int> others;
+  for (const NodeId id : needed(law_)) {
+    const Node& n = node(id);
+    if (is_fixed(id)) continue;
+    sines_ = sines_ || n.op == Op::sine;
+    cosines_ = cosines_ || n.op == Op::cosine;
+    if (n.op == Op::root || n.op == Op::reciprocal || n.op == Op::exponential) {
+      others[{static_cast<int>(n.op), n.arguments[0]}] = 1;
+    }
+    if (n.op == Op::lookup) others[{1000 + n.index, 0}] = 1;
+  }
+  for (const Array& a : law_.arrays) table_words_left_ -= static_cast<int>(a.values.size());
+  for (const Line& l : law_.lines) table_words_left_ -= l.length;
+  if (table_words_left_ < 0) {
+    throw Refused(fmt::format("the arrays and delay lines need {} words of table memory, which has "
+                              "{}",
+                              most_table_words - table_words_left_, most_table_words),
+                  "make them shorter");
+  }
+  other_tables_ = static_cast<int>(others.size());
+  if (!sines_ && !cosines_) return;
+  if (choice_.sine_bits == 0) {
+    choice_.sine_bits = table_words_left_ == most_table_words && other_tables_ == 0 ? 9
+                        : table_words_left_ / (other_tables_ + 1) >= 250            ? 8
+                        : table_words_left_ / (other_tables_ + 1) >= 100            ? 7
+                                                                                    : 6;
+  }
+  const int turn = 1 << choice_.sine_bits;
+  table_words_left_ -= choice_.sine_bits == 9 ? turn : cosines_ ? turn + turn / 4 : turn;
+}
+
+int BackEnd::place_table(const std::string& key, const TableUse& table) {
+  program_.tables.push_back(table);
+  return table_keys_[key] = static_cast<int>(program_.tables.size()) - 1;
+}
+
+Value BackEnd::function(NodeId id) {
+  const Node& n = node(id);
+  const NodeId argument = n.arguments[0];
+  if (is_fixed(argument)) {
+    throw Refused(n.place, "the table's argument only depends on parameters",
+                  "write the function instead of the table; the host computes it");
+  }
+  Span range = span(argument);
+  const bool user = n.op == Op::lookup;
+  const Table* table = user ? &law_.tables[at(n.index)] : nullptr;
+  if (n.op == Op::root && range.lo < 0) {
+    throw Refused(n.place, fmt::format("sqrt of what can be {:.4g}", range.lo),
+                  "limit it, e.g. sqrt(max(x, 0))");
+  }
+  if (n.op == Op::reciprocal && range.lo <= 0 && range.hi >= 0) {
+    throw Refused(n.place,
+                  fmt::format("division by what goes from {:.4g} to {:.4g}", range.lo, range.hi),
+                  "keep the divisor away from 0, e.g. max(x, 0.01)");
+  }
+  Value v = value(argument);
+  if (user) {
+    const Span domain = {table->domain.lower, table->domain.upper};
+    // Beyond the ends by no more than doubles' rounding is no matter.
+    const double slack = 1e-9 * domain.width();
+    if (range.lo < domain.lo - slack) {
+      const double end = domain.lo / v.scale;
+      emit(EngineOp::max, 0, v.operand, constant(std::ceil(end - 1e-9)), v.scale, id).y_error =
+          std::ceil(end - 1e-9) - end;
+      v.operand = last();
+    }
+    if (range.hi > domain.hi + slack) {
+      const double end = domain.hi / v.scale;
+      emit(EngineOp::min, 0, v.operand, constant(std::floor(end + 1e-9)), v.scale, id).y_error =
+          end - std::floor(end + 1e-9);
+      v.operand = last();
+    }
+    range = both_of(range, domain);
+    v.size = range.size();
+  }
+  const int words = table_words_left_ / std::max(1, other_tables_);
+  const int wanted = choice_.table_bits > 0 ? std::min(words, 1 << choice_.table_bits) : words;
+  const auto first = [&](double scale) {
+    return static_cast<int>(std::floor((range.lo / scale - 8) / 4096));
+  };
+  const auto count = [&](double scale) {
+    return static_cast<int>(std::floor((range.hi / scale + 8) / 4096)) - first(scale) + 1;
+  };
+  if (range.width() <= 0 || !(range.width() < infinity)) {
+    throw Refused(n.place, "the range of the table's argument has no end, or is a point",
+                  "limit the argument with clamp");
+  }
+  double scale = v.scale;
+  while (range.width() / scale / 4096 > 2.0 * most_table_words || count(scale) > wanted) scale *= 2;
+  while (count(scale / 2) <= wanted && v.size / (scale / 2) < 1e9) scale /= 2;
+  if (count(v.scale) <= wanted && count(v.scale) > wanted / 4) scale = v.scale;
+  v = align(v, scale, argument);
+  TableRequest r;
+  r.function = function_of(law_, n);
+  r.domain = range;
+  r.argument_scale = scale;
+  r.low = first(scale);
+  r.count = count(scale);
+  r.limit = 524287;
+  // A value has 20 bits and a slope 16.
+  double step = 0, largest = 0, before = 0;
+  for (int i = 0; i <= r.count; ++i) {
+    const double x = std::clamp((r.low + i) * scale * 4096, range.lo, range.hi);
+    const double f = r.function({x, x}).v.middle();
+    if (i > 0) step = std::max(step, std::fabs(f - before));
+    largest = std::max(largest, std::fabs(f));
+    before = f;
+  }
+  const double room = std::min(524200 / std::max(largest, 1e-30), 32700 / std::max(step, 1e-30));
+  const int fraction = std::min(30, static_cast<int>(std::floor(std::log2(room))));
+  r.value_scale = chosen_scale(id, 1, fraction, span(id).size());
+  if (-std::log2(r.value_scale) > fraction + 0.5) throw Unfit("a table's value has 20 bits");
+  const std::string key = fmt::format("{} {} {:.17g} {} {} {:.17g}", static_cast<int>(n.op),
+                                      n.index, scale, r.low, r.count, r.value_scale);
+  auto found = table_keys_.find(key);
+  int index = found == table_keys_.end() ? -1 : found->second;
+  if (index < 0) {
+    const std::string full = key + fmt::format(" {:.17g} {:.17g}", range.lo, range.hi);
+    auto known = choice_.made.find(full);
+    if (known == choice_.made.end()) {
+      TableUse t = make_table(r);
+      t.what = user                     ? table->name
+               : n.op == Op::root       ? "sqrt"
+               : n.op == Op::reciprocal ? "1/x"
+                                        : "exp";
+      known = choice_.made.emplace(full, t).first;
+    }
+    index = place_table(key, known->second);
+  }
+  Step& s = emit(EngineOp::lrp, 0, v.operand, {}, r.value_scale, id);
+  s.table = index;
+  s.node = id;
+  return {last(), r.value_scale, 0};
+}
+
+/// The argument in turns of 1/`turn` words, modulo 2^32 words.
+Operand BackEnd::phase(NodeId id, double turn) {
+  std::vector<Term> terms;
+  collect(id, 1, true, terms);
+  std::vector<Multiply> products;
+  std::vector<Addend> addends;
+  for (const Term& t : terms) {
+    const double number = t.number / (2 * pi) / turn;  // words per unit of the factors
+    if (t.factors.empty()) {
+      if (t.fixed.empty()) {
+        const double words = number - std::nearbyint(number * turn) / turn;
+        if (std::fabs(words) > 2147483647.0) throw Unfit("a phase does not fit");
+        addends.push_back({constant(words), 1, std::fabs(words - std::nearbyint(words))});
+      } else {
+        if (fixed_size(t.fixed) * std::fabs(number) > 2147483000.0) {
+          throw Unfit("a phase parameter does not fit in 32 bits");
+        }
+        addends.push_back({{From::word, word(t.fixed, 1 / number)}, 1, 0});
+      }
+      continue;
+    }
+    Value v = value(t.factors[0]);
+    for (std::size_t i = 1; i < t.factors.size(); ++i) v = product(v, value(t.factors[i]), id);
+    double ratio = number * v.scale;
+    const double size = t.fixed.empty() ? 1 : fixed_size(t.fixed);
+    while (size * std::fabs(ratio) > 131071) {
+      const double by =
+          std::min(65536.0, std::exp2(std::ceil(std::log2(size * std::fabs(ratio) / 131071))));
+      v = align(v, v.scale / by, id);
+      ratio = number * v.scale;
+    }
+    if (t.fixed.empty()) {
+      Multiply m = by_number(v, ratio, id);
+      products.push_back(m);
+      const double left =
+          ratio - std::ldexp(program_.constants[at(m.y.index)], -EngineMap::shifts[m.mode]);
+      if (std::fabs(left) * v.size / v.scale > 0.5 && m.y_error > 0) {
+        // What the first factor left over, with bits of its own.
+        products.back().y_error = 0;
+        Value rest = v;
+        products.push_back(by_number(rest, left, id));
+      }
+    } else {
+      Multiply m;
+      m.x = v.operand;
+      double best = 0;
+      for (int mode = 0; mode < 4; ++mode) {
+        const double s = 1 / (ratio * std::exp2(EngineMap::shifts[mode]));
+        if (size / std::fabs(s) > 131071 || (best != 0 && size / std::fabs(best) > 512)) break;
+        best = s;
+        m.mode = mode;
+      }
+      m.y = {From::word, word(t.fixed, best)};
+      products.push_back(m);
+    }
+  }
+  const auto in_turns = [&](Step& s) { s.turns = true; };
+  if (products.empty() && addends.size() == 1) return addends[0].operand;
+  Operand so_far;
+  for (const Multiply& m : products) {
+    Step& s = emit(EngineOp::mlw, m.mode, m.x, m.y, turn, id);
+    s.y_error = m.y_error;
+    in_turns(s);
+    if (so_far.from != From::none) in_turns(emit(EngineOp::add, 3, so_far, {}, turn, id));
+    so_far = last();
+  }
+  std::size_t used = 0;
+  if (products.empty()) {
+    Step& s = emit(EngineOp::add, 1, addends[0].operand, addends[1].operand, turn, id);
+    s.x_error = addends[0].error;
+    s.y_error = addends[1].error;
+    in_turns(s);
+    used = 2;
+  }
+  for (; used < addends.size(); ++used) {
+    Step& s = emit(EngineOp::add, 3, addends[used].operand, {}, turn, id);
+    s.x_error = addends[used].error;
+    in_turns(s);
+  }
+  return last();
+}
+
+Value BackEnd::sine(NodeId id) {
+  const Node& n = node(id);
+  const bool cosine = n.op == Op::cosine;
+  const int bits = choice_.sine_bits;
+  const double turn = std::ldexp(1.0, bits == 9 ? -21 : -32);
+  Operand x;
+  const std::string phase_key = "phase " + std::to_string(n.arguments[0]);
+  const auto known = table_keys_.find(phase_key);
+  if (known != table_keys_.end()) {
+    x = {From::step, known->second};
+  } else {
+    x = phase(n.arguments[0], turn);
+    if (bits < 9) {
+      // The upper bits of the turn, an index and 12 bits.
+      const int drop = 20 - bits;
+      const int mode = drop == 12 ? 1 : 2;
+      Step& s = emit(EngineOp::mlw, mode, x, constant(std::exp2(EngineMap::shifts[mode] - drop)),
+                     std::ldexp(1.0, -12 - bits), id);
+      s.turns = true;
+      x = last();
+    }
+    if (x.from == From::step) table_keys_[phase_key] = x.index;
+  }
+  const double scale = chosen_scale(id, 1, 18, 1);
+  const int fraction = static_cast<int>(std::lround(-std::log2(scale)));
+  if (fraction > 18) throw Unfit("a table's value has 20 bits");
+  const std::int32_t one = fraction == 17 ? 131071 : 1 << fraction;
+  const std::string table = fmt::format("sine {} {}", bits, fraction);
+  const auto found = table_keys_.find(table);
+  if (found == table_keys_.end() && ++sine_tables_ > 1) throw Unfit("one table of sines");
+  const std::string made_key = table + (cosines_ ? " c" : "");
+  auto ready = choice_.made.find(made_key);
+  if (ready == choice_.made.end()) {
+    ready = choice_.made
+                .emplace(made_key,
+                         bits == 9 ? sine_turn(one, scale) : sine_part(bits, cosines_, one, scale))
+                .first;
+  }
+  const int index = found == table_keys_.end() ? place_table(table, ready->second) : found->second;
+  Step& s = emit(EngineOp::lrp, 0, x, {}, scale, id);
+  s.table = index;
+  s.offset = cosine ? 1 << (bits - 2) : 0;
+  s.node = id;
+  return {last(), scale, 0};
+}
+
+Value BackEnd::element(NodeId id) {
+  const Node& n = node(id);
+  const Array& array = law_.arrays[at(n.index)];
+  const double last_index = static_cast<double>(array.values.size()) - 1;
+  Value v = value(n.arguments[0]);
+  const Span range = span(n.arguments[0]);
+  if (!same_unit(v.scale, 1))
+    throw Refused(n.place, "the index is no whole number", "use a number");
+  if (range.lo < 0) {
+    emit(EngineOp::max, 0, v.operand, constant(0), v.scale, id);
+    v.operand = last();
+  }
+  if (range.hi >= last_index + 1) {
+    emit(EngineOp::min, 0, v.operand, constant(last_index / v.scale), v.scale, id);
+    v.operand = last();
+  }
+  v.size = std::min(v.size, last_index + 1);
+  v = align(v, 1.0 / 4096, n.arguments[0]);
+  const double scale =
+      chosen_scale(id, 1, largest_fraction(id, 1, span(id).size()), span(id).size());
+  const std::string key = fmt::format("array {} {:.17g}", n.index, scale);
+  auto found = table_keys_.find(key);
+  int index = found == table_keys_.end() ? -1 : found->second;
+  if (index < 0) {
+    TableUse t;
+    t.what = array.name;
+    t.proof = "rounded numbers";
+    t.error = 0.5;
+    for (const double a : array.values) {
+      const auto w = static_cast<std::int32_t>(std::lround(a / scale));
+      t.words.push_back(static_cast<std::uint32_t>(w));
+      t.values =
+          t.words.size() == 1 ? Span{double(w), double(w)} : hull(t.values, {double(w), double(w)});
+    }
+    index = place_table(key, t);
+  }
+  Step& s = emit(EngineOp::tab, 0, v.operand, {}, scale, id);
+  s.table = index;
+  s.node = id;
+  return {last(), scale, 0};
+}
+
+}  // namespace feltgate::law

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What the compiler of laws makes and an engine runs: the contents of the engine's memories, and
+// the names by which a host knows them. Documentation: docs/law-compiler.md
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace feltgate::law {
+
+/// A word of parameter memory.
+struct ImageWord {
+  std::string name;  ///< of the parameter in the file
+  std::string unit;  ///< as written in the file
+  int word = 0;      ///< 0 to 31, counted from the first parameter word
+  double scale = 1;  ///< SI value of 1; negative where the program wants the negated value
+  double to_si = 1;  ///< SI value of 1 in `unit`
+  std::int32_t lower = 0, upper = 0, initial = 0;  ///< words; lower <= upper
+  bool whole = false;
+  bool mailbox = false;
+  double max_age_s = 0;  ///< of a mailbox; 0: any
+  /// Empty: the word is the parameter `name` itself, and what the word says is its value.
+  /// Otherwise what the host computes from the values of other words, then rounds: postfix, SI,
+  /// words apart by spaces: numbers, names of parameters, + - * / neg abs min max sqrt exp sin cos.
+  std::string formula;
+};
+
+/// An output: number 0 to 2 is the axis.
+struct ImageOutput {
+  std::string name;
+  int axis = 0;
+};
+
+/// An event: its value is `scale` times the word that the program gives.
+struct ImageEvent {
+  std::string name;
+  int number = 0;
+  double scale = 1;
+};
+
+struct ImageThread {
+  bool used = false;
+  int divider = 1;  ///< ticks from start to start
+  int length = 0;   ///< instructions of the longest run
+};
+
+/// Memories as the hardware has them (docs/engine-isa.md), and names.
+struct Image {
+  std::string name, design;
+  std::array<std::uint64_t, 512> program{};  ///< 36 bits each
+  std::array<std::int32_t, 512> data{};      ///< words from 320 on: parameters, ranges, constants
+  std::array<std::uint64_t, 512> table{};    ///< 36 bits each
+  std::array<ImageThread, 4> threads{};
+  int line_base = 512;         ///< first table word of delay lines; 512: none
+  int max_age_ticks = 0xffff;  ///< a result older than this is late
+  std::vector<ImageWord> words;
+  std::vector<ImageOutput> outputs;
+  std::vector<ImageEvent> events;
+
+  static constexpr int parameter_base = 320, lower_base = 384, upper_base = 416,
+                       constant_base = 448;
+  bool operator==(const Image& other) const;
+};
+
+/// CRC-32 (zlib) of all program words, of the data words from 384 on, and of the table below the
+/// delay lines: program and table words as 5 bytes, data as 4, low byte first.
+std::uint32_t crc(const Image& image);
+
+/// Text: one line per fact, written and read back equal.
+std::string text(const Image& image);
+
+/// Throws std::invalid_argument with line, reason and mend: a wrong word, a CRC that does not hold.
+Image read_image(const std::string& text);
+
+/// Value of a formula of ImageWord; `value_of` gives the SI value of a parameter by name. Throws
+/// std::invalid_argument where the formula is malformed.
+template <class ValueOf>
+double evaluate_formula(const std::string& formula, const ValueOf& value_of);
+
+/// Words of all parameters for values in SI: `values` in the order of the words that are parameters
+/// themselves; formulas are computed from what these words stand for. Clamped into each word's
+/// range.
+std::vector<std::int32_t> parameter_words(const Image& image, const std::vector<double>& values);
+
+}  // namespace feltgate::law
+
+#include "law/formula.hpp"

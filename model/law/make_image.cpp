@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Memories and names of a compiled law. Documentation: docs/law-compiler.md
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "law/compile.hpp"
+
+namespace feltgate::law {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// A node of parameters in postfix, for ImageWord::formula.
+std::string postfix(const Law& law, NodeId id) {
+  const Node& n = law.nodes[at(id)];
+  const auto arg = [&](std::size_t i) { return postfix(law, n.arguments[i]); };
+  const auto two = [&](const char* op) { return arg(0) + " " + arg(1) + " " + op; };
+  switch (n.op) {
+    case Op::constant:
+      return n.value < 0 ? fmt::format("{:.17g} neg", -n.value) : fmt::format("{:.17g}", n.value);
+    case Op::parameter: {
+      const Parameter& p = law.parameters[at(n.index)];
+      return p.derived >= 0 ? postfix(law, p.derived) : p.name;
+    }
+    case Op::add:
+      return two("+");
+    case Op::subtract:
+      return two("-");
+    case Op::multiply:
+      return two("*");
+    case Op::minimum:
+      return two("min");
+    case Op::maximum:
+      return two("max");
+    case Op::negate:
+      return arg(0) + " neg";
+    case Op::absolute:
+      return arg(0) + " abs";
+    case Op::root:
+      return arg(0) + " sqrt";
+    case Op::exponential:
+      return arg(0) + " exp";
+    case Op::sine:
+      return arg(0) + " sin";
+    case Op::cosine:
+      return arg(0) + " cos";
+    case Op::reciprocal:
+      return "1 " + arg(0) + " /";
+    default:
+      throw Refused(n.place, "the host cannot compute this from parameters",
+                    "write it without conditions");
+  }
+}
+
+class ImageMaker {
+ public:
+  ImageMaker(const Law& law, const Target& target, const Program& program,
+             const Assembled& assembled, int divider)
+      : law_(law), target_(target), program_(program), assembled_(assembled) {
+    image_.threads[at(target.thread)] = {true, divider,
+                                         static_cast<int>(assembled.instructions.size())};
+  }
+
+  Image run() {
+    image_.name = law_.name;
+    image_.design = target_.design;
+    for (std::size_t i = 0; i < assembled_.instructions.size(); ++i) {
+      image_.program[at(target_.thread * EngineMap::thread_words) + i] =
+          engine_encode(assembled_.instructions[i]);
+    }
+    if (program_.constants.size() > 64) {
+      throw Refused(fmt::format("the law needs {} constants, 64 fit", program_.constants.size()),
+                    "make some of them tables or elements of an array");
+    }
+    for (std::size_t i = 0; i < program_.constants.size(); ++i) {
+      image_.data[Image::constant_base + i] = program_.constants[i];
+    }
+    for (const TableUse& t : program_.tables) {
+      for (std::size_t i = 0; i < t.words.size(); ++i) image_.table[at(t.base) + i] = t.words[i];
+    }
+    words();
+    for (const Output& o : law_.outputs) image_.outputs.push_back({o.name, o.axis});
+    for (const Event& e : law_.events) {
+      double scale = 1;
+      for (const Step& s : program_.steps) {
+        if (s.event == e.number) scale = s.scale;
+      }
+      image_.events.push_back({e.name, e.number, scale});
+    }
+    // Two starts may be missed.
+    const ImageThread& thread = image_.threads[at(target_.thread)];
+    image_.max_age_ticks = std::min(0xffff, 4 * thread.divider);
+    return image_;
+  }
+
+ private:
+  void words() {
+    const std::vector<Span> spans = ranges(law_, whole_cell(law_, target_));
+    for (std::size_t i = 0; i < program_.words.size(); ++i) {
+      const Word& w = program_.words[i];
+      ImageWord word;
+      word.word = static_cast<int>(i);
+      word.scale = w.scale;
+      Span s{1, 1};
+      for (const NodeId n : w.nodes) s = s * spans[at(n)];
+      const double a = s.lo / w.scale, b = s.hi / w.scale;
+      if (w.primary) {
+        const int index = law_.nodes[at(w.nodes[0])].index;
+        describe(law_.parameters[at(index)], &word);
+        word.lower = static_cast<std::int32_t>(std::ceil(std::min(a, b) - 1e-6));
+        word.upper = static_cast<std::int32_t>(std::floor(std::max(a, b) + 1e-6));
+        if (word.lower > word.upper) {
+          throw Refused(law_.parameters[at(index)].place,
+                        fmt::format("no word of {} lies in its range: one step is {:.3g}",
+                                    word.name, std::fabs(w.scale)),
+                        "make the range wider");
+        }
+      } else {
+        word.lower = static_cast<std::int32_t>(std::floor(std::min(a, b)));
+        word.upper = static_cast<std::int32_t>(std::ceil(std::max(a, b)));
+        word.formula = postfix(law_, w.nodes[0]);
+        for (std::size_t k = 1; k < w.nodes.size(); ++k) {
+          word.formula += " " + postfix(law_, w.nodes[k]) + " *";
+        }
+        word.name = fmt::format("word{}", i);
+      }
+      image_.words.push_back(word);
+    }
+    // A parameter that only others are computed from is a word that no instruction reads.
+    for (std::size_t p = 0; p < law_.parameters.size(); ++p) {
+      const Parameter& parameter = law_.parameters[p];
+      if (parameter.derived >= 0) continue;
+      const bool known = std::any_of(
+          image_.words.begin(), image_.words.end(),
+          [&](const ImageWord& w) { return w.formula.empty() && w.name == parameter.name; });
+      if (known) continue;
+      ImageWord word;
+      word.word = static_cast<int>(image_.words.size());
+      describe(parameter, &word);
+      const double size =
+          std::max({std::fabs(parameter.range.lower), std::fabs(parameter.range.upper), 1e-30});
+      word.scale = std::exp2(std::ceil(std::log2(size)) - 30);
+      word.lower = static_cast<std::int32_t>(std::ceil(parameter.range.lower / word.scale));
+      word.upper = static_cast<std::int32_t>(std::floor(parameter.range.upper / word.scale));
+      image_.words.push_back(word);
+    }
+    if (image_.words.size() > 32) {
+      throw Refused(fmt::format("the law needs {} parameter words, 32 fit", image_.words.size()),
+                    "make some parameters constants");
+    }
+    std::vector<double> initial;
+    for (const ImageWord& w : image_.words) {
+      if (w.formula.empty()) initial.push_back(value_of(w.name));
+    }
+    const std::vector<std::int32_t> values = parameter_words(image_, initial);
+    for (ImageWord& w : image_.words) {
+      w.initial = values[at(w.word)];
+      image_.data[at(Image::parameter_base + w.word)] = w.initial;
+      image_.data[at(Image::parameter_base + 32 + w.word)] = w.initial;
+      image_.data[at(Image::lower_base + w.word)] = w.lower;
+      image_.data[at(Image::upper_base + w.word)] = w.upper;
+    }
+  }
+
+  double value_of(const std::string& name) const {
+    for (const Parameter& p : law_.parameters) {
+      if (p.name == name) return p.initial;
+    }
+    return 0;
+  }
+
+  static void describe(const Parameter& p, ImageWord* w) {
+    w->name = p.name;
+    w->unit = p.unit_text;
+    std::replace(w->unit.begin(), w->unit.end(), ' ', '*');
+    w->to_si = p.to_si;
+    w->whole = p.whole;
+    w->mailbox = p.mailbox;
+    w->max_age_s = p.max_age_s;
+  }
+
+  const Law& law_;
+  const Target& target_;
+  const Program& program_;
+  const Assembled& assembled_;
+  Image image_;
+};
+
+}  // namespace
+
+Image make_image(const Law& law, const Target& target, const Program& program,
+                 const Assembled& assembled, int divider) {
+  return ImageMaker(law, target, program, assembled, divider).run();
+}
+
+}  // namespace feltgate::law

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A law as instructions before it has registers: each step's result has a scale, so that proofs
+// can follow what it stands for. Documentation: docs/law-compiler.md
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "feltgate/engine_ops.hpp"
+#include "law/law.hpp"
+#include "law/spans.hpp"
+
+namespace feltgate::law {
+
+/// Where an operand comes from: a step's result, Law::inputs, ::states as the run before left them,
+/// a parameter word, a constant, a hidden state (Program::held).
+enum class From : std::uint8_t { none, step, input, state, word, constant };
+
+struct Operand {
+  From from = From::none;
+  int index = -1;
+  bool operator==(const Operand& o) const { return from == o.from && index == o.index; }
+  bool operator<(const Operand& o) const {
+    return from != o.from ? from < o.from : index < o.index;
+  }
+};
+
+/// One instruction. Its result stands for result * scale, in SI, or in turns where `turns`.
+struct Step {
+  EngineOp op = EngineOp::nop;
+  int mode = 0;
+  Operand x, y;
+  double x_error = 0, y_error = 0;  ///< of a constant operand against what it stands for, in words
+  int table = -1, offset = 0;       ///< of LRP and TAB: Program::tables, words from its start
+  double scale = 1;
+  NodeId node = -1;    ///< whose value it is: that node's range holds for it too; -1: a part of one
+  int sign = 1;        ///< -1: it is the negated value of `node`
+  bool turns = false;  ///< wraps, so that its range is no matter
+  int output = -1;     ///< goes to this output
+  int event = -1;      ///< goes to the events with this number
+  int skip = 0;        ///< of BRF: steps that it may pass over
+  int condition = -1;  ///< of CMP and SEL: the law's node of the condition
+  Place place;
+};
+
+/// A parameter word: the product of nodes that only depend on parameters, divided by scale.
+struct Word {
+  std::vector<NodeId> nodes;
+  double scale = 1;      ///< negative: the negated value
+  bool primary = false;  ///< the word is the parameter: what it says is the value
+};
+
+/// A table in table memory.
+struct TableUse {
+  std::vector<std::uint64_t> words;
+  int low = 0;         ///< index x >> 12 of the first word
+  bool wraps = false;  ///< all 512 words, any index
+  double error = 0;    ///< largest, in words of the value; proven
+  double slope = 0;     ///< largest change of the value in words per word of the argument
+  double jump = 0;      ///< largest from segment to segment, words
+  Span values;         ///< words
+  std::string what;    ///< for the listing
+  std::string proof;   ///< how its error was proven
+  int base = 0;        ///< address, when placed
+};
+
+struct StateUse {
+  double scale = 1;
+  Operand next;
+  std::int32_t initial = 0, lower = 0, upper = 0;
+};
+
+struct Program {
+  std::vector<Step> steps;
+  std::vector<Word> words;
+  std::vector<std::int32_t> constants;
+  std::vector<TableUse> tables;
+  std::vector<StateUse> states;  ///< as Law::states, then one per event: whether it held
+};
+
+/// Steps of `program` that pass acc from the step before.
+inline bool takes_acc(const Step& s) {
+  return s.op == EngineOp::mac || s.op == EngineOp::tst ||
+         ((s.op == EngineOp::add || s.op == EngineOp::sub) && s.mode >= 2);
+}
+
+}  // namespace feltgate::law

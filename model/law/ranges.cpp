@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Documentation: docs/law-compiler.md
+#include "law/ranges.hpp"
+
+#include <cmath>
+
+namespace feltgate::law {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+Span truth_of_less(const Span& a, const Span& b) {
+  if (a.hi < b.lo) return {1, 1};
+  if (a.lo >= b.hi) return {0, 0};
+  return {0, 1};
+}
+
+/// Nodes of a table's body, by jets; `argument` stands for the variable.
+class Body {
+ public:
+  Body(const Law& law, const Table& table, const Jet& argument)
+      : law_(law), table_(table), argument_(argument) {}
+
+  Jet jet(NodeId id) const {
+    const Node& n = law_.nodes[at(id)];
+    if (id == table_.argument) return argument_;
+    const auto arg = [&](int i) { return jet(n.arguments[at(i)]); };
+    switch (n.op) {
+      case Op::constant:
+        return constant_jet(n.value);
+      case Op::add:
+        return arg(0) + arg(1);
+      case Op::subtract:
+        return arg(0) - arg(1);
+      case Op::multiply: {
+        if (n.arguments[0] == n.arguments[1]) {
+          Jet a = arg(0), r = a * a;
+          r.v = square(a.v);
+          return r;
+        }
+        return arg(0) * arg(1);
+      }
+      case Op::negate:
+        return -arg(0);
+      case Op::absolute:
+        return amount(arg(0));
+      case Op::minimum:
+        return least(arg(0), arg(1));
+      case Op::maximum:
+        return most(arg(0), arg(1));
+      case Op::less:
+        return {truth_of_less(arg(0).v, arg(1).v), {0, 0}, {0, 0}};
+      case Op::both:
+        return {least(arg(0).v, arg(1).v), {0, 0}, {0, 0}};
+      case Op::either:
+        return {most(arg(0).v, arg(1).v), {0, 0}, {0, 0}};
+      case Op::opposite: {
+        const Span a = arg(0).v;
+        return {{1 - a.hi, 1 - a.lo}, {0, 0}, {0, 0}};
+      }
+      case Op::select: {
+        const Span c = arg(0).v;
+        if (c.lo > 0) return arg(1);
+        if (c.hi <= 0) return arg(2);
+        // The two may not meet: no slope either.
+        return {hull(arg(1).v, arg(2).v), whole_line(), whole_line()};
+      }
+      case Op::sine:
+        return sine(arg(0));
+      case Op::cosine:
+        return cosine(arg(0));
+      case Op::root:
+        return root(arg(0));
+      case Op::reciprocal:
+        return inverse(arg(0));
+      case Op::exponential:
+        return exponential(arg(0));
+      case Op::lookup: {
+        const Table& t = law_.tables[at(n.index)];
+        const Jet a =
+            most(least(arg(0), constant_jet(t.domain.upper)), constant_jet(t.domain.lower));
+        const Jet inner = Body(law_, t, {a.v, {1, 1}, {0, 0}}).jet(t.body);
+        return chain(a, inner.v, inner.d1, inner.d2);
+      }
+      default:
+        throw Refused(
+            n.place, "a table is a function of its variable alone",
+            "take parameters, inputs and states out of it, as factors or in its argument");
+    }
+  }
+
+ private:
+  const Law& law_;
+  const Table& table_;
+  Jet argument_;
+};
+
+class Ranges {
+ public:
+  Ranges(const Law& law, const Cell& cell) : law_(law), cell_(cell), spans_(law.nodes.size()) {}
+
+  std::vector<Span> all() {
+    spans_.assign(law_.nodes.size(), Span{1, 0});
+    for (const NodeId id : needed(law_)) spans_[at(id)] = span(id);
+    return spans_;
+  }
+
+ private:
+  const Node& node(NodeId id) const { return law_.nodes[at(id)]; }
+
+  /// y + a * (x - y) with a in 0 .. 1 lies between x and y.
+  bool between(const Node& sum, Span* result) const {
+    for (int i = 0; i < 2; ++i) {
+      const NodeId y = sum.arguments[at(i)];
+      const Node& product = node(sum.arguments[at(1 - i)]);
+      if (product.op != Op::multiply) continue;
+      for (int k = 0; k < 2; ++k) {
+        const Span a = spans_[at(product.arguments[at(k)])];
+        const Node& d = node(product.arguments[at(1 - k)]);
+        if (d.op == Op::subtract && d.arguments[1] == y && a.lo >= 0 && a.hi <= 1) {
+          *result = hull(spans_[at(y)], spans_[at(d.arguments[0])]);
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  Span lookup(const Node& n, const Span& a) const {
+    const Table& t = law_.tables[at(n.index)];
+    const Span x = {std::clamp(a.lo, t.domain.lower, t.domain.upper),
+                    std::clamp(a.hi, t.domain.lower, t.domain.upper)};
+    Span r{1, 0};
+    constexpr int pieces = 64;
+    for (int i = 0; i < pieces; ++i) {
+      const Span part = {down(x.lo + x.width() * i / pieces),
+                         up(x.lo + x.width() * (i + 1) / pieces)};
+      r = hull(r, table_jet(law_, t, both_of(part, {t.domain.lower, t.domain.upper})).v);
+    }
+    return r;
+  }
+
+  Span element(const Node& n, const Span& a) const {
+    const auto& values = law_.arrays[at(n.index)].values;
+    const double last = static_cast<double>(values.size()) - 1;
+    Span r{1, 0};
+    const auto from = static_cast<std::size_t>(std::clamp(std::floor(a.lo), 0.0, last));
+    const auto to = static_cast<std::size_t>(std::clamp(std::floor(a.hi), 0.0, last));
+    for (std::size_t i = from; i <= to; ++i) r = hull(r, {values[i], values[i]});
+    return r;
+  }
+
+  Span span(NodeId id) {
+    const Node& n = node(id);
+    const auto arg = [&](int i) { return spans_[at(n.arguments[at(i)])]; };
+    switch (n.op) {
+      case Op::constant:
+        return {n.value, n.value};
+      case Op::parameter: {
+        const Span own = cell_.parameters[at(n.index)];
+        const NodeId derived = law_.parameters[at(n.index)].derived;
+        return derived < 0 ? own : both_of(own, spans_[at(derived)]);
+      }
+      case Op::input:
+        return cell_.inputs[at(n.index)];
+      case Op::state:
+        return cell_.states[at(n.index)];
+      case Op::add: {
+        Span r;
+        const Span sum = arg(0) + arg(1);
+        return between(n, &r) ? both_of(r, sum) : sum;
+      }
+      case Op::subtract:
+        return n.arguments[0] == n.arguments[1] ? Span{0, 0} : arg(0) - arg(1);
+      case Op::multiply:
+        return n.arguments[0] == n.arguments[1] ? square(arg(0)) : arg(0) * arg(1);
+      case Op::negate:
+        return -arg(0);
+      case Op::absolute:
+        return amount(arg(0));
+      case Op::minimum:
+        return least(arg(0), arg(1));
+      case Op::maximum: {
+        const Span r = most(arg(0), arg(1));
+        const auto negated = [&](int i) {
+          const Node& m = node(n.arguments[at(i)]);
+          return m.op == Op::negate && m.arguments[0] == n.arguments[at(1 - i)];
+        };
+        return negated(0) || negated(1) ? both_of(r, {0, infinity}) : r;
+      }
+      case Op::less:
+        return truth_of_less(arg(0), arg(1));
+      case Op::both:
+        return least(arg(0), arg(1));
+      case Op::either:
+        return most(arg(0), arg(1));
+      case Op::opposite:
+        return {1 - arg(0).hi, 1 - arg(0).lo};
+      case Op::select:
+        return arg(0).lo > 0 ? arg(1) : arg(0).hi <= 0 ? arg(2) : hull(arg(1), arg(2));
+      case Op::sine:
+        return sine(arg(0));
+      case Op::cosine:
+        return cosine(arg(0));
+      case Op::root:
+        return root(arg(0));
+      case Op::reciprocal:
+        return inverse(arg(0));
+      case Op::exponential:
+        return exponential(arg(0));
+      case Op::lookup:
+        return lookup(n, arg(0));
+      case Op::element:
+        return element(n, arg(0));
+      case Op::line_read:
+        return hull({0, 0},
+                    {law_.lines[at(n.index)].range.lower, law_.lines[at(n.index)].range.upper});
+    }
+    return whole_line();
+  }
+
+  const Law& law_;
+  const Cell& cell_;
+  std::vector<Span> spans_;
+};
+
+}  // namespace
+
+Cell whole_cell(const Law& law, const Target& target) {
+  Cell cell;
+  for (const Input& input : law.inputs) {
+    switch (input.source) {
+      case Source::position: {
+        const double end = Target::position_counts * target.count_rad();
+        cell.inputs.push_back({-end, end});
+        break;
+      }
+      case Source::velocity: {
+        const double end = std::ldexp(1.0, target.velocity.integer);
+        cell.inputs.push_back({-end, end});
+        break;
+      }
+      case Source::tau_hat: {
+        const double end = std::ldexp(1.0, target.torque.integer);
+        cell.inputs.push_back({-end, end});
+        break;
+      }
+    }
+  }
+  for (const Parameter& p : law.parameters)
+    cell.parameters.push_back({p.range.lower, p.range.upper});
+  for (const State& s : law.states) cell.states.push_back({s.range.lower, s.range.upper});
+  return cell;
+}
+
+std::vector<Span> ranges(const Law& law, const Cell& cell) { return Ranges(law, cell).all(); }
+
+Jet table_jet(const Law& law, const Table& table, const Span& argument) {
+  return Body(law, table, {argument, {1, 1}, {0, 0}}).jet(table.body);
+}
+
+double table_value(const Law& law, const Table& table, double argument) {
+  const Span v = table_jet(law, table, {argument, argument}).v;
+  return v.middle();
+}
+
+std::vector<NodeId> needed(const Law& law) {
+  std::vector<char> wanted(law.nodes.size(), 0);
+  std::vector<NodeId> stack;
+  const auto want = [&](NodeId id) {
+    if (id >= 0 && wanted[at(id)] == 0) {
+      wanted[at(id)] = 1;
+      stack.push_back(id);
+    }
+  };
+  for (const Output& o : law.outputs) want(o.value);
+  for (const Event& e : law.events) {
+    want(e.value);
+    want(e.condition);
+  }
+  for (const State& s : law.states) want(s.next);
+  for (const Line& l : law.lines) want(l.written);
+  while (!stack.empty()) {
+    const NodeId id = stack.back();
+    stack.pop_back();
+    const Node& n = law.nodes[at(id)];
+    for (const NodeId a : n.arguments) want(a);
+    if (n.op == Op::parameter) want(law.parameters[at(n.index)].derived);
+  }
+  std::vector<NodeId> list;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (wanted[i] != 0) list.push_back(static_cast<NodeId>(i));
+  }
+  return list;
+}
+
+std::vector<char> fixed_nodes(const Law& law) {
+  std::vector<char> fixed(law.nodes.size(), 0);
+  for (std::size_t i = 0; i < law.nodes.size(); ++i) {
+    const Node& n = law.nodes[i];
+    switch (n.op) {
+      case Op::constant:
+        fixed[i] = 1;
+        break;
+      case Op::parameter:
+        fixed[i] = law.parameters[at(n.index)].mailbox ? 0 : 1;
+        break;
+      case Op::input:
+      case Op::state:
+      case Op::lookup:
+      case Op::element:
+      case Op::line_read:
+      case Op::less:
+      case Op::both:
+      case Op::either:
+      case Op::opposite:
+      case Op::select:
+        break;
+      default:
+        fixed[i] = 1;
+        for (const NodeId a : n.arguments) fixed[i] = static_cast<char>(fixed[i] & fixed[at(a)]);
+    }
+  }
+  return fixed;
+}
+
+}  // namespace feltgate::law

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Outputs, events and states: what a run leaves. Documentation: docs/law-compiler.md
+#include <cmath>
+
+#include "law/back_end.hpp"
+
+namespace feltgate::law {
+
+namespace {
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+}  // namespace
+
+/// Unit of what a state will be fed with, so that it needs no conversion.
+double BackEnd::state_unit(NodeId id, int depth) const {
+  if (depth == 0 || id < 0 || is_fixed(id)) return 0;
+  const Node& n = node(id);
+  switch (n.op) {
+    case Op::input:
+      return law_.inputs[at(n.index)].source == Source::position ? target_.count_rad() : 1;
+    case Op::state:
+      return 0;
+    case Op::add:
+    case Op::subtract:
+    case Op::minimum:
+    case Op::maximum:
+    case Op::negate:
+    case Op::absolute:
+    case Op::select:
+      for (std::size_t i = n.op == Op::select ? 1 : 0; i < n.arguments.size(); ++i) {
+        const double unit = state_unit(n.arguments[i], depth - 1);
+        if (unit != 0) return unit;
+      }
+      return 0;
+    case Op::multiply: {
+      double unit = 1;
+      for (const NodeId a : n.arguments) {
+        if (node(a).op == Op::constant) {
+          unit *= std::fabs(node(a).value);
+        } else if (!is_fixed(a)) {
+          const double u = state_unit(a, depth - 1);
+          if (u == 0) return 0;
+          unit *= u;
+        } else {
+          return 0;
+        }
+      }
+      return unit;
+    }
+    default:
+      return 1;
+  }
+}
+
+void BackEnd::outputs() {
+  const double scale = std::ldexp(1.0, -target_.torque.fraction);
+  for (const Output& o : law_.outputs) {
+    double error = 0;
+    const Value v = at_scale(o.value, scale, &error);
+    Step& s = emit(EngineOp::add, 0, v.operand, constant(0), scale, o.value);
+    s.x_error = error;
+    s.node = o.value;
+    s.output = o.axis;
+    s.place = o.place;
+  }
+}
+
+void BackEnd::events() {
+  for (std::size_t i = 0; i < law_.events.size(); ++i) {
+    const Event& e = law_.events[i];
+    const int held = static_cast<int>(law_.states.size() + i);
+    Value v;
+    double error = 0;
+    const double size = span(e.value).size();
+    if (is_fixed(e.value)) {
+      v = at_scale(e.value, std::ldexp(1.0, -std::min(24, largest_fraction(e.value, 1, size))),
+                   &error);
+    } else {
+      v = value(e.value);
+    }
+    lower_leaves(e.condition);
+    flag_ = -1;
+    const Operand now = {From::step, raise(e.condition, false)};
+    // It happens where the condition holds and did not in the run before.
+    emit(EngineOp::cmp, 0, {From::state, held}, now, 1, e.condition).condition = e.condition;
+    flag_ = -1;
+    Step& branch = emit(EngineOp::brf, 1, {}, {}, 1, e.condition);
+    branch.skip = 1;
+    Step& s = emit(EngineOp::add, 0, v.operand, constant(0), v.scale, e.value);
+    s.x_error = error;
+    s.event = e.number;
+    s.place = e.place;
+    StateUse& use = program_.states[at(held)];
+    use.next = now;
+    use.upper = 1;
+  }
+}
+
+Value BackEnd::next_state(const State& s, double scale) {
+  double error = 0;
+  if (s.whole) {
+    // Rounded down, as the file's language does.
+    if (is_fixed(s.next)) return at_scale(s.next, scale, &error);
+    const Value v = value(s.next);
+    if (same_scale(v.scale, 1)) return align(v, scale, s.next);
+    const Value fine = align(v, 1.0 / 4096, s.next);
+    emit(EngineOp::mlw, 1, fine.operand, constant(1), 1, s.next);
+    return align({last(), 1, v.size}, scale, s.next);
+  }
+  Value v = at_scale(s.next, scale, &error);
+  if (!s.phase) return v;
+  const double width = s.range.upper - s.range.lower;
+  const Span n = span(s.next);
+  if (n.lo < s.range.lower - width || n.hi > s.range.upper + width) {
+    throw Refused(s.place, "the phase can step by more than a whole turn in a run",
+                  "limit its rate with clamp, or run the law faster");
+  }
+  const Operand turn = constant(width / scale);
+  if (n.hi >= s.range.upper) {
+    const Operand end = constant(s.range.upper / scale);
+    emit(EngineOp::sub, 0, v.operand, turn, scale, s.next);
+    const Operand less = last();
+    emit(EngineOp::cmp, 0, v.operand, end, scale, s.next).condition = s.next;
+    emit(EngineOp::sel, 0, v.operand, less, scale, s.next).condition = s.next;
+    v.operand = last();
+  }
+  if (n.lo < s.range.lower) {
+    const Operand end = constant(s.range.lower / scale);
+    emit(EngineOp::add, 0, v.operand, turn, scale, s.next);
+    const Operand more = last();
+    emit(EngineOp::cmp, 0, v.operand, end, scale, s.next).condition = s.next;
+    emit(EngineOp::sel, 0, more, v.operand, scale, s.next).condition = s.next;
+    v.operand = last();
+  }
+  flag_ = -1;
+  return v;
+}
+
+void BackEnd::states() {
+  for (std::size_t i = 0; i < law_.states.size(); ++i) {
+    const State& s = law_.states[i];
+    // Its format is chosen where it is first read, or here.
+    NodeId own = -1;
+    for (const NodeId id : needed(law_)) {
+      if (node(id).op == Op::state && node(id).index == static_cast<int>(i)) own = id;
+    }
+    if (own < 0) continue;
+    const double scale = value(own).scale;
+    const Value v = next_state(s, scale);
+    StateUse& use = program_.states[i];
+    use.next = v.operand;
+    use.scale = scale;
+    use.initial = static_cast<std::int32_t>(std::lround(s.initial / scale));
+    use.lower = static_cast<std::int32_t>(std::lround(s.range.lower / scale));
+    use.upper = static_cast<std::int32_t>(std::lround(s.range.upper / scale)) - (s.phase ? 1 : 0);
+  }
+}
+
+/// Steps that nothing needs go; a copy to an output goes into the step that computes it.
+void BackEnd::finish() {
+  std::vector<Step>& steps = program_.steps;
+  const auto register_uses = [&](int i) {
+    int uses = 0;
+    for (const Step& s : steps) {
+      uses += (s.x == Operand{From::step, i} ? 1 : 0) + (s.y == Operand{From::step, i} ? 1 : 0);
+    }
+    for (const StateUse& s : program_.states) uses += s.next == Operand{From::step, i} ? 1 : 0;
+    return uses;
+  };
+  std::vector<char> copied(steps.size(), 0);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    Step& s = steps[i];
+    if (s.output < 0 || s.x.from != From::step) continue;
+    Step& from = steps[at(s.x.index)];
+    if (from.output >= 0 || from.event >= 0 || from.op == EngineOp::cmp) continue;
+    if (register_uses(s.x.index) != 1) continue;
+    from.output = s.output;
+    from.place = s.place;
+    copied[i] = 1;
+    s.output = -1;
+    s.x = {};
+  }
+  std::vector<char> kept(steps.size(), 0);
+  // The flag joins comparisons: each needs those before it that it goes on from.
+  for (std::size_t i = steps.size(); i-- > 0;) {
+    const Step& s = steps[i];
+    if (s.output >= 0 || s.event >= 0 || s.op == EngineOp::brf) kept[i] = 1;
+    for (const StateUse& u : program_.states) {
+      if (u.next == Operand{From::step, static_cast<int>(i)}) kept[i] = 1;
+    }
+    if (kept[i] == 0 || copied[i] != 0) {
+      kept[i] = 0;
+      continue;
+    }
+    for (const Operand& o : {s.x, s.y}) {
+      if (o.from == From::step) kept[at(o.index)] = 1;
+    }
+    if (takes_acc(s)) kept[i - 1] = 1;
+    const bool flagged = s.op == EngineOp::sel || s.op == EngineOp::brf ||
+                         (s.op == EngineOp::cmp && (s.mode == 1 || s.mode == 2));
+    for (std::size_t k = i; flagged && k-- > 0;) {
+      if (steps[k].op == EngineOp::cmp) {
+        kept[k] = 1;
+        break;
+      }
+    }
+  }
+  std::vector<int> to(steps.size(), -1);
+  std::vector<Step> left;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (kept[i] == 0) continue;
+    to[i] = static_cast<int>(left.size());
+    left.push_back(steps[i]);
+    for (Operand* o : {&left.back().x, &left.back().y}) {
+      if (o->from == From::step) o->index = to[at(o->index)];
+    }
+  }
+  for (StateUse& u : program_.states) {
+    if (u.next.from == From::step) u.next.index = to[at(u.next.index)];
+  }
+  steps = std::move(left);
+}
+
+Program BackEnd::run() {
+  program_.states.resize(law_.states.size() + law_.events.size());
+  count_tables();
+  if (choice_.states_first) states();
+  events();
+  outputs();
+  if (!choice_.states_first) states();
+  finish();
+  return std::move(program_);
+}
+
+}  // namespace feltgate::law

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Intervals of double whose ends are moved outward after every operation, as model/bounds has them,
+// with the functions that laws use and derivatives up to the second. Documentation:
+// docs/law-compiler.md
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace feltgate::law {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double pi = 3.14159265358979323846;
+
+inline double down(double x) { return std::nextafter(x, -infinity); }
+inline double up(double x) { return std::nextafter(x, infinity); }
+
+/// All numbers from lo to hi; none where hi < lo.
+struct Span {
+  double lo = 0, hi = 0;
+  bool empty() const { return !(lo <= hi); }
+  bool within(const Span& o) const { return empty() || (o.lo <= lo && hi <= o.hi); }
+  double size() const { return std::max(std::fabs(lo), std::fabs(hi)); }
+  double width() const { return hi - lo; }
+  double middle() const { return lo + (hi - lo) / 2; }
+};
+
+inline Span whole_line() { return {-infinity, infinity}; }
+inline Span hull(const Span& a, const Span& b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
+}
+inline Span both_of(const Span& a, const Span& b) {
+  return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
+}
+inline Span wider(const Span& a, double by) { return {down(a.lo - by), up(a.hi + by)}; }
+
+inline Span operator+(const Span& a, const Span& b) { return {down(a.lo + b.lo), up(a.hi + b.hi)}; }
+inline Span operator-(const Span& a, const Span& b) { return {down(a.lo - b.hi), up(a.hi - b.lo)}; }
+inline Span operator-(const Span& a) { return {-a.hi, -a.lo}; }
+inline double bounded_product(double a, double b) { return a == 0 || b == 0 ? 0 : a * b; }
+inline Span operator*(const Span& a, const Span& b) {
+  const double p = bounded_product(a.lo, b.lo), q = bounded_product(a.lo, b.hi),
+               r = bounded_product(a.hi, b.lo), s = bounded_product(a.hi, b.hi);
+  return {down(std::min({p, q, r, s})), up(std::max({p, q, r, s}))};
+}
+inline Span operator*(const Span& a, double b) { return a * Span{b, b}; }
+inline Span square(const Span& a) {
+  const double p = a.lo * a.lo, q = a.hi * a.hi;
+  const bool zero = a.lo <= 0 && a.hi >= 0;
+  return {zero ? 0 : down(std::min(p, q)), up(std::max(p, q))};
+}
+inline Span least(const Span& a, const Span& b) {
+  return {std::min(a.lo, b.lo), std::min(a.hi, b.hi)};
+}
+inline Span most(const Span& a, const Span& b) {
+  return {std::max(a.lo, b.lo), std::max(a.hi, b.hi)};
+}
+inline Span amount(const Span& a) {
+  if (a.lo >= 0) return a;
+  if (a.hi <= 0) return -a;
+  return {0, std::max(-a.lo, a.hi)};
+}
+/// The whole line where 0 is in it.
+inline Span inverse(const Span& a) {
+  if (a.lo <= 0 && a.hi >= 0) return whole_line();
+  return {down(1 / a.hi), up(1 / a.lo)};
+}
+/// Of what of it is not negative.
+inline Span root(const Span& a) {
+  return {std::max(0.0, down(std::sqrt(std::max(a.lo, 0.0)))), up(std::sqrt(std::max(a.hi, 0.0)))};
+}
+/// The C library's exp, sin, cos err by less than a step; four are added.
+inline Span exponential(const Span& a) {
+  const auto out = [](double x, double way) {
+    for (int i = 0; i < 4; ++i) x = std::nextafter(x, way);
+    return x;
+  };
+  return {std::max(0.0, out(std::exp(a.lo), -infinity)), out(std::exp(a.hi), infinity)};
+}
+inline Span cosine(const Span& a) {
+  if (!(a.width() < 6.28)) return {-1, 1};
+  constexpr double slack = 1e-15;
+  const double size = a.size() * 1e-15;  // of the argument's own reduction
+  Span r = hull({std::cos(a.lo), std::cos(a.lo)}, {std::cos(a.hi), std::cos(a.hi)});
+  const double first = std::ceil((a.lo - size) / pi - 1e-12);
+  for (double k = first; k * pi <= a.hi + size + 1e-12; ++k) {
+    r = hull(r, std::fmod(k, 2) == 0 ? Span{1, 1} : Span{-1, -1});
+  }
+  return both_of(wider(r, slack + size), {-1, 1});
+}
+inline Span sine(const Span& a) { return cosine(a - Span{down(pi / 2), up(pi / 2)}); }
+
+/// A function's value, slope and curvature over a span of its argument.
+struct Jet {
+  Span v, d1, d2;
+};
+inline Jet constant_jet(double c) { return {{c, c}, {0, 0}, {0, 0}}; }
+inline Jet operator+(const Jet& a, const Jet& b) { return {a.v + b.v, a.d1 + b.d1, a.d2 + b.d2}; }
+inline Jet operator-(const Jet& a, const Jet& b) { return {a.v - b.v, a.d1 - b.d1, a.d2 - b.d2}; }
+inline Jet operator-(const Jet& a) { return {-a.v, -a.d1, -a.d2}; }
+inline Jet operator*(const Jet& a, const Jet& b) {
+  return {a.v * b.v, a.d1 * b.v + a.v * b.d1, a.d2 * b.v + a.d1 * b.d1 * 2.0 + a.v * b.d2};
+}
+/// f(a) from f, f', f'' over a.v.
+inline Jet chain(const Jet& a, const Span& f, const Span& f1, const Span& f2) {
+  return {f, f1 * a.d1, f2 * square(a.d1) + f1 * a.d2};
+}
+inline Jet inverse(const Jet& a) {
+  const Span i = inverse(a.v);
+  return chain(a, i, -(i * i), i * i * i * 2.0);
+}
+inline Jet root(const Jet& a) {
+  const Span r = root(a.v);
+  if (r.lo <= 0) return {r, whole_line(), whole_line()};
+  const Span i = inverse(r);
+  return chain(a, r, i * 0.5, -(i * i * i) * 0.25);
+}
+inline Jet exponential(const Jet& a) {
+  const Span e = exponential(a.v);
+  return chain(a, e, e, e);
+}
+inline Jet sine(const Jet& a) { return chain(a, sine(a.v), cosine(a.v), -sine(a.v)); }
+inline Jet cosine(const Jet& a) { return chain(a, cosine(a.v), -sine(a.v), -cosine(a.v)); }
+/// One of two, it is not known which: a kink, so no curvature.
+inline Jet either_of(const Jet& a, const Jet& b, const Span& v) {
+  return {v, hull(a.d1, b.d1), whole_line()};
+}
+inline Jet least(const Jet& a, const Jet& b) {
+  if (a.v.hi <= b.v.lo) return a;
+  if (b.v.hi <= a.v.lo) return b;
+  return either_of(a, b, least(a.v, b.v));
+}
+inline Jet most(const Jet& a, const Jet& b) {
+  if (a.v.hi <= b.v.lo) return b;
+  if (b.v.hi <= a.v.lo) return a;
+  return either_of(a, b, most(a.v, b.v));
+}
+inline Jet amount(const Jet& a) {
+  if (a.v.lo >= 0) return a;
+  if (a.v.hi <= 0) return -a;
+  return either_of(a, -a, amount(a.v));
+}
+
+}  // namespace feltgate::law

@@ -19,14 +19,14 @@ double power(int mode) { return std::exp2(EngineMap::shifts[mode]); }
 class Analysis {
  public:
   Analysis(const Law& law, const Target& target, const Program& program, const Cell& cell,
-           const std::vector<double>& state_error, int swap)
+           const std::vector<double>& state_error, int swap, const std::vector<Span>* spans)
       : law_(law),
         target_(target),
         program_(program),
         cell_(cell),
         state_error_(state_error),
         swap_(swap),
-        spans_(ranges(law, cell)) {}
+        spans_(spans != nullptr ? *spans : ranges(law, cell)) {}
 
   CellFacts run() {
     facts_.steps.resize(program_.steps.size());
@@ -86,9 +86,11 @@ class Analysis {
         Span s{1, 1};
         for (const NodeId n : word.nodes) s = s * spans_[at(n)];
         const double a = s.lo / word.scale, b = s.hi / word.scale;
-        if (word.primary) {
-          const double lo = std::ceil(std::min(a, b) - 1e-6),
-                       hi = std::floor(std::max(a, b) + 1e-6);
+        if (word.exact != 0) {
+          // The primary's words within the range, times the multiple.
+          const double r = std::fabs(word.exact);
+          const double lo = r * std::ceil(std::min(a, b) / r - 1e-6),
+                       hi = r * std::floor(std::max(a, b) / r + 1e-6);
           if (lo > hi) return {{std::floor(std::min(a, b)), std::ceil(std::max(a, b))}, 0.5};
           return {{lo, hi}, 0};
         }
@@ -212,6 +214,21 @@ class Analysis {
     return f;
   }
 
+  /// y with the sign turned where x is below 0.
+  Fact flipped(const Fact& x, const Fact& y) {
+    Fact f = y;
+    if (x.words.hi < 0) {
+      f.words = -y.words;
+    } else if (x.words.lo < 0) {
+      f.words = hull(y.words, -y.words);
+    }
+    if (x.error > 0 && x.words.lo <= x.error && x.words.hi >= -x.error) {
+      facts_.margin[at(step_)] = x.error;
+      if (swap_ == step_) f.error += 2 * y.words.size();
+    }
+    return f;
+  }
+
   Fact compared(const Step& s, const Fact& x, const Fact& y) {
     const Span c = x.words.hi < y.words.lo    ? Span{1, 1}
                    : x.words.lo >= y.words.hi ? Span{0, 0}
@@ -285,7 +302,8 @@ class Analysis {
       case EngineOp::tab:
         return table_result(s, x);
       case EngineOp::abs:
-        return checked({amount(x.words), x.error});
+        if (s.x == s.y) return checked({amount(x.words), x.error});
+        return checked(flipped(x, y));
       default:
         return takes_acc(s) ? acc : Fact{};
     }
@@ -339,8 +357,9 @@ class Analysis {
 }  // namespace
 
 CellFacts analyse(const Law& law, const Target& target, const Program& program, const Cell& cell,
-                  const std::vector<double>& state_error, int swap) {
-  return Analysis(law, target, program, cell, state_error, swap).run();
+                  const std::vector<double>& state_error, int swap,
+                  const std::vector<Span>* spans) {
+  return Analysis(law, target, program, cell, state_error, swap, spans).run();
 }
 
 }  // namespace feltgate::law

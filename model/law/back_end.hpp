@@ -21,6 +21,7 @@ namespace feltgate::law {
 /// What a search may change; lower() notes what it chose where nothing was given.
 struct Choice {
   std::map<NodeId, int> fraction;  ///< of nodes with a format of their own: scale = unit / 2^it
+  int uniform = 0;                 ///< > 0: fraction bits to begin with of what is selected or kept
   bool states_first = false;       ///< order of the roots
   int sine_bits = 0;   ///< segments a turn; 9: all of the table memory; 0: as many as fit
   int table_bits = 0;  ///< segments of every other table; 0: as many as fit
@@ -95,6 +96,7 @@ class BackEnd {
   Value compute(NodeId id, double hint);
   Value at_scale(NodeId id, double scale, double* error);
   Value align(const Value& v, double scale, NodeId id);
+  bool flips(NodeId id) const;
   Value selection(NodeId id, double hint);
   double common_scale(NodeId id, const std::vector<NodeId>& children, double hint, bool chosen);
   Value absolute(NodeId id, double hint);

@@ -36,13 +36,18 @@ std::vector<Span*> sides(Cell& c) {
 
 class Bounds {
  public:
-  Bounds(const Law& law, const Target& target, const Program& program)
-      : law_(law), target_(target), program_(program), errors_(law.states.size(), 0) {}
+  Bounds(const Law& law, const Target& target, const Program& program,
+         const std::vector<Span>* whole)
+      : law_(law),
+        target_(target),
+        program_(program),
+        errors_(law.states.size(), 0),
+        whole_(whole != nullptr ? *whole : ranges(law, whole_cell(law, target))) {}
 
   Bound run(int splits) {
     Cell whole = whole_cell(law_, target_);
     settle(whole);
-    leaves_.push_back({whole, facts(whole)});
+    leaves_.push_back({whole, whole_facts(whole)});
     for (int i = 0; i < splits && split(whole); ++i) {
     }
     Bound b;
@@ -63,7 +68,7 @@ class Bounds {
       }
       if (b.unproven.empty()) b.unproven = l.facts.unproven;
     }
-    strips(whole, &b);
+    if (splits > 0) strips(whole, &b);
     return b;
   }
 
@@ -72,12 +77,16 @@ class Bounds {
     return analyse(law_, target_, program_, c, errors_, swap);
   }
 
+  CellFacts whole_facts(const Cell& c, int swap = -1) const {
+    return analyse(law_, target_, program_, c, errors_, swap, &whole_);
+  }
+
   /// Errors of states that a run does not make larger; none where they grow without end.
   void settle(const Cell& whole) {
     if (law_.states.empty()) return;
     std::vector<double> before = errors_;
     for (int i = 0; i < 40; ++i) {
-      const CellFacts f = facts(whole);
+      const CellFacts f = whole_facts(whole);
       if (!f.reachable) return;
       bool more = false;
       std::vector<double> next = errors_;
@@ -110,7 +119,7 @@ class Bounds {
       if (worst(leaves_[i].facts) > worst(leaves_[pick].facts)) pick = i;
     }
     const double now = worst(leaves_[pick].facts);
-    if (now <= 0 || stalled_ > 24) return false;
+    if (now <= 0 || stalled_ > 60) return false;
     const std::size_t count = sides(leaves_[pick].cell).size();
     double best = infinity;
     Leaf low, high;
@@ -144,15 +153,16 @@ class Bounds {
   }
 
   void strips(const Cell& whole, Bound* b) const {
-    const CellFacts base = facts(whole);
+    const CellFacts base = whole_facts(whole);
     if (!base.reachable) return;
     for (std::size_t i = 0; i < program_.steps.size(); ++i) {
       if (base.margin[i] <= 0) continue;
-      const CellFacts swapped = facts(whole, static_cast<int>(i));
+      const CellFacts swapped = whole_facts(whole, static_cast<int>(i));
       Strip s;
       s.condition = program_.steps[i].condition;
       s.place = program_.steps[i].place;
-      s.width = base.margin[i] * program_.steps[i].scale;
+      const double own = program_.steps[i].margin_scale;
+      s.width = base.margin[i] * (own != 0 ? own : program_.steps[i].scale);
       if (s.condition >= 0 && law_.nodes[at(s.condition)].op == Op::less) {
         s.unit = law_.nodes[at(law_.nodes[at(s.condition)].arguments[0])].unit;
       }
@@ -169,6 +179,7 @@ class Bounds {
   const Target& target_;
   const Program& program_;
   std::vector<double> errors_;
+  std::vector<Span> whole_;
   std::vector<Leaf> leaves_;
   bool bounded_ = true;
   int stalled_ = 0;
@@ -176,8 +187,9 @@ class Bounds {
 
 }  // namespace
 
-Bound bound(const Law& law, const Target& target, const Program& program, int splits) {
-  return Bounds(law, target, program).run(splits);
+Bound bound(const Law& law, const Target& target, const Program& program, int splits,
+            const std::vector<Span>* whole) {
+  return Bounds(law, target, program, whole).run(splits);
 }
 
 }  // namespace feltgate::law

@@ -41,8 +41,10 @@ struct CellFacts {
 
 /// `state_error`: how far the states may be from the law's before the run, SI. `swap`: that
 /// comparison may go wrong, so what it selects may be off by all that it chooses from; -1: none.
+/// `spans`: the ranges of the law over the cell where they are known already.
 CellFacts analyse(const Law& law, const Target& target, const Program& program, const Cell& cell,
-                  const std::vector<double>& state_error, int swap = -1);
+                  const std::vector<double>& state_error, int swap = -1,
+                  const std::vector<Span>* spans = nullptr);
 
 /// A comparison beside which outputs may differ by more than the bound.
 struct Strip {
@@ -66,6 +68,7 @@ struct Bound {
 };
 
 /// Splits the cell at most `splits` times, where it helps.
-Bound bound(const Law& law, const Target& target, const Program& program, int splits);
+Bound bound(const Law& law, const Target& target, const Program& program, int splits,
+            const std::vector<Span>* whole = nullptr);
 
 }  // namespace feltgate::law

@@ -58,14 +58,14 @@ int divider_for(const Law& law, const Target& target, int instructions) {
   if (divider < 1 || std::fabs(exact - divider) > 1e-6 * exact) {
     throw Refused(
         fmt::format("rate {:.6g} Hz is no whole part of the tick, {:.6g} Hz", law.rate_hz, tick),
-        fmt::format("use {:.6g} Hz", tick / std::max(1.0, std::ceil(exact))));
+        fmt::format("write rate = {:.6g} Hz", tick / std::max(1.0, std::ceil(exact))));
   }
   if (divider < least) {
     throw Refused(
         fmt::format("{} instructions of {} clocks do not fit in {} clocks: at most {:.6g} Hz",
                     instructions, target.round_clocks, divider * target.clocks_per_tick,
                     tick / least),
-        fmt::format("write rate {:.6g} Hz, or leave the rate away", tick / least));
+        fmt::format("write rate = {:.6g} Hz, or leave the rate away", tick / least));
   }
   if (divider > 4095) {
     throw Refused(fmt::format("a rate of {:.6g} Hz needs a divider of {}, 4095 is the largest",
@@ -98,26 +98,42 @@ Compiled compile(const Law& given, const Target& target) {
 namespace {
 
 template <class Read>
-Compiled settle(const Read& read, const Target& target) {
+Compiled settled(const Read& read, const Target& target) {
   Law law = read(0.0);
   if (law.rate_hz > 0) return compile(law, target);
   double rate = static_cast<double>(target.tick_hz);
-  Compiled c = compile(read(rate), target);
+  // The file has no rate of its own: it is only read as if, for dt and filters.
+  const auto at_rate = [&] {
+    Law free = read(rate);
+    free.rate_hz = 0;
+    return compile(free, target);
+  };
+  Compiled c = at_rate();
   for (int i = 0; i < 3 && c.rate_hz != rate; ++i) {
     rate = c.rate_hz;
-    c = compile(read(rate), target);
+    c = at_rate();
   }
   return c;
+}
+
+/// What the compiler refuses is told as the reader tells it.
+template <class Read>
+Compiled settle(const Read& read, const std::string& path, const Target& target) {
+  try {
+    return settled(read, target);
+  } catch (const Refused& r) {
+    throw LawError(path, {{r.place, r.reason, r.mend}});
+  }
 }
 
 }  // namespace
 
 Compiled compile_file(const std::string& path, const Target& target) {
-  return settle([&](double rate) { return read_law(path, rate); }, target);
+  return settle([&](double rate) { return read_law(path, rate); }, path, target);
 }
 
 Compiled compile_text(const std::string& text, const std::string& name, const Target& target) {
-  return settle([&](double rate) { return read_law_text(text, name, rate); }, target);
+  return settle([&](double rate) { return read_law_text(text, name, rate); }, name, target);
 }
 
 }  // namespace feltgate::law

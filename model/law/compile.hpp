@@ -37,7 +37,8 @@ Compiled compile_text(const std::string& text, const std::string& name, const Ta
 
 /// What lower() and bound() cost: the search makes it small. A bit of error is worth an
 /// instruction.
-double cost(const Law& law, const Target& target, const Program& program, const Bound& bound);
+double cost(const Law& law, const Target& target, const Program& program, const Bound& bound,
+            const std::vector<Span>& spans);
 
 /// Chooses formats: the program with the least cost that was found, its words' primaries marked.
 Program choose_formats(const Law& law, const Target& target, const std::vector<Span>& spans,

@@ -56,9 +56,11 @@ int BackEnd::raise(NodeId condition, bool opposite) {
   }
   const bool all = (n.op == Op::both) != opposite;
   NodeId first = n.arguments[0], second = n.arguments[1];
-  if (!simple(second, opposite)) std::swap(first, second);
+  // What the flag is already need not be compared again.
+  if (!opposite && flag_ == second) std::swap(first, second);
+  if (!simple(second, opposite) && (opposite || flag_ != first)) std::swap(first, second);
   if (simple(second, opposite)) {
-    raise(first, opposite);
+    if (opposite || flag_ != first) raise(first, opposite);
     NodeId leaf = second;
     while (node(leaf).op == Op::opposite) leaf = node(leaf).arguments[0];
     compare(leaf, all ? 2 : 1);

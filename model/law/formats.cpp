@@ -32,6 +32,16 @@ class Search {
     Choice other;
     other.states_first = true;
     if (!law_.states.empty()) keep(best, evaluate(other));
+    for (const int uniform : {target_.torque.fraction, 20, 24}) {
+      for (const bool first : {false, true}) {
+        if (first && law_.states.empty()) continue;
+        Choice c;
+        c.uniform = uniform;
+        c.states_first = first;
+        keep(best, evaluate(c));
+      }
+    }
+    best.choice.uniform = 0;
     for (int round = 0; round < 4; ++round) {
       const double before = best.cost;
       singles(best);
@@ -50,8 +60,8 @@ class Search {
     try {
       c.program = lower(law_, target_, spans_, c.choice);
       mark_primary(law_, c.program);
-      const Bound b = bound(law_, target_, c.program, 0);
-      c.cost = cost(law_, target_, c.program, b);
+      const Bound b = bound(law_, target_, c.program, 0, &spans_);
+      c.cost = cost(law_, target_, c.program, b, spans_);
       c.unproven = b.unproven;
     } catch (const Unfit& e) {
       c.reason = e.what();
@@ -75,27 +85,66 @@ class Search {
       const auto now = best.choice.fraction.find(id);
       if (now == best.choice.fraction.end()) continue;
       const int from = now->second;
-      for (int by = 1; by <= 20; ++by) {
+      const Op op = law_.nodes[static_cast<std::size_t>(id)].op;
+      const bool table = op == Op::sine || op == Op::cosine || op == Op::root ||
+                         op == Op::reciprocal || op == Op::exponential || op == Op::lookup;
+      for (int by = 1; by <= (table ? 3 : 20); ++by) {
         for (const int to : {from - by, from + by}) {
           if (tried_ >= most_tried) return;
           Choice c = best.choice;
           c.fraction[id] = to;
+          keep(best, evaluate(c));
+          const std::vector<NodeId> members = group(id, best.choice);
+          if (members.size() < 2) continue;
+          c = best.choice;
+          for (const NodeId m : members) c.fraction[m] = to;
           keep(best, evaluate(c));
         }
       }
     }
   }
 
+  /// Values that go into each other as they are: they change together.
+  std::vector<NodeId> group(NodeId of, const Choice& choice) const {
+    std::vector<NodeId> members{of};
+    const auto add = [&](NodeId id) {
+      if (id >= 0 && choice.fraction.count(id) != 0 &&
+          std::find(members.begin(), members.end(), id) == members.end()) {
+        members.push_back(id);
+      }
+    };
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      const NodeId id = members[i];
+      const Node& n = law_.nodes[static_cast<std::size_t>(id)];
+      const bool passes = n.op == Op::select || n.op == Op::minimum || n.op == Op::maximum ||
+                          n.op == Op::absolute || n.op == Op::add || n.op == Op::subtract;
+      if (passes) {
+        for (const NodeId a : n.arguments) add(a);
+      }
+      if (n.op == Op::state) add(law_.states[static_cast<std::size_t>(n.index)].next);
+      for (const State& s : law_.states) {
+        if (s.next != id) continue;
+        for (const auto& [other, f] : choice.fraction) {
+          const Node& o = law_.nodes[static_cast<std::size_t>(other)];
+          if (o.op == Op::state && &law_.states[static_cast<std::size_t>(o.index)] == &s)
+            add(other);
+        }
+      }
+    }
+    return members;
+  }
+
   const Law& law_;
   const Target& target_;
-  const std::vector<Span>& spans_;
+  const std::vector<Span> spans_;
   std::map<std::string, TableUse> made_;
   int tried_ = 0;
 };
 
 }  // namespace
 
-double cost(const Law& law, const Target& target, const Program& program, const Bound& b) {
+double cost(const Law& law, const Target& target, const Program& program, const Bound& b,
+            const std::vector<Span>& spans) {
   const double lsb = std::ldexp(1.0, -target.torque.fraction);
   double error = 0;
   for (const double e : b.output) error = std::max(error, e / lsb);
@@ -106,8 +155,17 @@ double cost(const Law& law, const Target& target, const Program& program, const 
     const double e = b.states_bounded ? b.state[i] : program.states[i].scale;
     error = std::max(error, e / size * 65536);
   }
-  double c = static_cast<double>(program.steps.size()) +
-             0.02 * static_cast<double>(program.words.size()) + std::log2(std::max(error, 0.4));
+  // Instructions, and more so a tick of time; bits of the error; bits that a host cannot set.
+  const auto steps = static_cast<double>(program.steps.size());
+  const double ticks = std::ceil(steps * target.round_clocks / target.clocks_per_tick);
+  double c = (steps > 8 ? 0.4 * steps + 1.6 : 0.6 * steps) + (law.rate_hz > 0 ? 0 : 3 * ticks) +
+             std::log2(std::max(error, 0.4));
+  for (const Word& w : program.words) {
+    double size = 1;
+    for (const NodeId id : w.nodes) size *= spans[static_cast<std::size_t>(id)].size();
+    const double bits = std::log2(std::max(0.5, size / std::fabs(w.scale)));
+    c += 0.02 + 0.08 * std::max(0.0, 14 - bits) + 4 * std::max(0.0, 6 - bits);
+  }
   c += 1e4 * static_cast<double>(b.unproven.size());
   c += b.states_bounded ? 0 : 3;
   return c;
@@ -129,6 +187,16 @@ void mark_primary(const Law& law, Program& program) {
       if (other < mine || (other == mine && k < i)) finest = false;
     }
     w.primary = finest;
+  }
+  for (Word& w : program.words) {
+    w.exact = w.primary ? 1 : 0;
+    for (const Word& p : program.words) {
+      const double ratio = p.scale / w.scale;
+      if (p.primary && p.nodes == w.nodes && std::fabs(ratio - std::nearbyint(ratio)) < 1e-9 &&
+          std::fabs(ratio) > 0.5) {
+        w.exact = std::nearbyint(ratio);
+      }
+    }
   }
 }
 

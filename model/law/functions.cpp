@@ -53,13 +53,26 @@ void BackEnd::count_tables() {
                               most_table_words - table_words_left_, most_table_words),
                   "make them shorter");
   }
-  other_tables_ = static_cast<int>(others.size());
+  // Tables that ask for segments get them and a word; the rest is shared.
+  for (const auto& [key, one] : others) {
+    if (key.first < 1000) continue;
+    const int segments = law_.tables[at(key.first - 1000)].segments;
+    if (segments == 0) continue;
+    others[key] = 0;
+    table_words_left_ -= segments + 1;
+  }
+  other_tables_ = 0;
+  bool asked = false;
+  for (const auto& [key, one] : others) {
+    other_tables_ += one;
+    asked = asked || one == 0;
+  }
   if (!sines_ && !cosines_) return;
   if (choice_.sine_bits == 0) {
-    choice_.sine_bits = table_words_left_ == most_table_words && other_tables_ == 0 ? 9
-                        : table_words_left_ / (other_tables_ + 1) >= 250            ? 8
-                        : table_words_left_ / (other_tables_ + 1) >= 100            ? 7
-                                                                                    : 6;
+    choice_.sine_bits = table_words_left_ == most_table_words && other_tables_ == 0 && !asked ? 9
+                        : table_words_left_ / (other_tables_ + 1) >= 250                      ? 8
+                        : table_words_left_ / (other_tables_ + 1) >= 100                      ? 7
+                                                                                              : 6;
   }
   const int turn = 1 << choice_.sine_bits;
   table_words_left_ -= choice_.sine_bits == 9 ? turn : cosines_ ? turn + turn / 4 : turn;
@@ -125,6 +138,12 @@ Value BackEnd::function(NodeId id) {
   while (range.width() / scale / 4096 > 2.0 * most_table_words || count(scale) > wanted) scale *= 2;
   while (count(scale / 2) <= wanted && v.size / (scale / 2) < 1e9) scale /= 2;
   if (count(v.scale) <= wanted && count(v.scale) > wanted / 4) scale = v.scale;
+  if (user && table->segments > 0) {
+    // As many as the law asks for, where its first sample lies on one.
+    const double own = (table->domain.upper - table->domain.lower) / table->segments / 4096;
+    const double start = table->domain.lower / own / 4096;
+    if (std::fabs(start - std::nearbyint(start)) < 1e-9) scale = own;
+  }
   v = align(v, scale, argument);
   TableRequest r;
   r.function = function_of(law_, n);
@@ -277,7 +296,8 @@ Value BackEnd::sine(NodeId id) {
   const double scale = chosen_scale(id, 1, 18, 1);
   const int fraction = static_cast<int>(std::lround(-std::log2(scale)));
   if (fraction > 18) throw Unfit("a table's value has 20 bits");
-  const std::int32_t one = fraction == 17 ? 131071 : 1 << fraction;
+  // Up to 17 bits it can be a factor, which 1 itself is not.
+  const std::int32_t one = fraction <= 17 ? 131071 : 524287;
   const std::string table = fmt::format("sine {} {}", bits, fraction);
   const auto found = table_keys_.find(table);
   if (found == table_keys_.end() && ++sine_tables_ > 1) throw Unfit("one table of sines");

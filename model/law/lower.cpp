@@ -94,6 +94,10 @@ int BackEnd::largest_fraction(NodeId id, double unit, double size) const {
 double BackEnd::chosen_scale(NodeId id, double unit, int preferred, double size) {
   const auto found = choice_.fraction.find(id);
   const int most = largest_fraction(id, unit, size);
+  const Op op = node(id).op;
+  if (choice_.uniform > 0 && (op == Op::state || op == Op::select || op == Op::parameter)) {
+    preferred = choice_.uniform;
+  }
   int fraction = std::min(preferred, most);
   if (found != choice_.fraction.end()) {
     if (found->second > most) throw Unfit("a value does not fit in 32 bits");
@@ -214,8 +218,36 @@ double BackEnd::common_scale(NodeId id, const std::vector<NodeId>& children, dou
   return chosen_scale(id, unit, preferred, size);
 }
 
+/// x < 0 ? -v : v
+bool BackEnd::flips(NodeId id) const {
+  const Node& n = node(id);
+  if (n.op != Op::select || is_fixed(n.arguments[1]) || is_fixed(n.arguments[2])) return false;
+  const Node& c = node(n.arguments[0]);
+  if (c.op != Op::less || is_fixed(c.arguments[0])) return false;
+  const Node& zero = node(c.arguments[1]);
+  if (zero.op != Op::constant || zero.value != 0) return false;
+  if (node(n.arguments[1]).op == Op::negate &&
+      node(n.arguments[1]).arguments[0] == n.arguments[2]) {
+    return true;
+  }
+  Term a, b;
+  gather(n.arguments[1], true, a);
+  gather(n.arguments[2], true, b);
+  return a.number == -b.number && a.fixed == b.fixed && a.factors == b.factors;
+}
+
 Value BackEnd::selection(NodeId id, double hint) {
   const Node& n = node(id);
+  if (flips(id)) {
+    const NodeId x = node(n.arguments[0]).arguments[0];
+    const Value sign = value(x);
+    const Value v = value(n.arguments[2], hint);
+    Step& s = emit(EngineOp::abs, 0, sign.operand, v.operand, v.scale, id);
+    s.node = id;
+    s.condition = n.arguments[0];
+    s.margin_scale = sign.scale;
+    return {last(), v.scale, 0};
+  }
   const bool choose = n.op == Op::select;
   const NodeId a = n.arguments[choose ? 1 : 0], b = n.arguments[choose ? 2 : 1];
   if (choose && is_fixed(n.arguments[0])) {
@@ -249,6 +281,7 @@ Value BackEnd::state(NodeId id) {
   const State& s = law_.states[static_cast<std::size_t>(index)];
   const double size = std::max(std::fabs(s.range.lower), std::fabs(s.range.upper));
   double unit = s.phase ? s.range.upper - s.range.lower : state_unit(s.next, 8);
+  if (unit == 0) unit = 1;
   unit /= std::exp2(std::floor(std::log2(unit) + 1e-9));
   const int preferred = s.whole ? 0 : std::min(largest_fraction(id, unit, size) - 1, 28);
   const double scale = chosen_scale(id, unit, preferred, size);

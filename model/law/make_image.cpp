@@ -121,8 +121,12 @@ class ImageMaker {
                         "make the range wider");
         }
       } else {
-        word.lower = static_cast<std::int32_t>(std::floor(std::min(a, b)));
-        word.upper = static_cast<std::int32_t>(std::ceil(std::max(a, b)));
+        const double r = std::max(1.0, std::fabs(w.exact));
+        const bool exact = w.exact != 0;
+        word.lower = static_cast<std::int32_t>(exact ? r * std::ceil(std::min(a, b) / r - 1e-6)
+                                                     : std::floor(std::min(a, b)));
+        word.upper = static_cast<std::int32_t>(exact ? r * std::floor(std::max(a, b) / r + 1e-6)
+                                                     : std::ceil(std::max(a, b)));
         word.formula = postfix(law_, w.nodes[0]);
         for (std::size_t k = 1; k < w.nodes.size(); ++k) {
           word.formula += " " + postfix(law_, w.nodes[k]) + " *";

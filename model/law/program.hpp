@@ -44,6 +44,7 @@ struct Step {
   int event = -1;      ///< goes to the events with this number
   int skip = 0;        ///< of BRF: steps that it may pass over
   int condition = -1;  ///< of CMP and SEL: the law's node of the condition
+  double margin_scale = 0;  ///< of what ABS takes the sign from, where not `scale`
   Place place;
 };
 
@@ -51,6 +52,7 @@ struct Step {
 struct Word {
   std::vector<NodeId> nodes;
   double scale = 1;      ///< negative: the negated value
+  double exact = 0;      ///< of a word that is a whole multiple of a primary's: that multiple
   bool primary = false;  ///< the word is the parameter: what it says is the value
 };
 
@@ -60,8 +62,8 @@ struct TableUse {
   int low = 0;         ///< index x >> 12 of the first word
   bool wraps = false;  ///< all 512 words, any index
   double error = 0;    ///< largest, in words of the value; proven
-  double slope = 0;     ///< largest change of the value in words per word of the argument
-  double jump = 0;      ///< largest from segment to segment, words
+  double slope = 0;    ///< largest change of the value in words per word of the argument
+  double jump = 0;     ///< largest from segment to segment, words
   Span values;         ///< words
   std::string what;    ///< for the listing
   std::string proof;   ///< how its error was proven

@@ -134,7 +134,7 @@ class Ranges {
     const Span x = {std::clamp(a.lo, t.domain.lower, t.domain.upper),
                     std::clamp(a.hi, t.domain.lower, t.domain.upper)};
     Span r{1, 0};
-    constexpr int pieces = 64;
+    constexpr int pieces = 24;
     for (int i = 0; i < pieces; ++i) {
       const Span part = {down(x.lo + x.width() * i / pieces),
                          up(x.lo + x.width() * (i + 1) / pieces)};

@@ -19,12 +19,10 @@ namespace feltgate::law {
 class Refused : public std::invalid_argument {
  public:
   Refused(const Place& place, const std::string& reason, const std::string& mend)
-      : std::invalid_argument("line " + std::to_string(place.line) + ", column " +
-                              std::to_string(place.column) + ": " + reason + "; " + mend),
-        place(place) {}
-  explicit Refused(const std::string& reason, const std::string& mend)
-      : std::invalid_argument(reason + "; " + mend) {}
+      : std::invalid_argument(reason + "; " + mend), place(place), reason(reason), mend(mend) {}
+  Refused(const std::string& reason, const std::string& mend) : Refused(Place{}, reason, mend) {}
   Place place;
+  std::string reason, mend;
 };
 
 /// A box of values, in the order of Law::inputs, ::parameters, ::states.

@@ -105,17 +105,14 @@ TableUse make_table(const TableRequest& r) {
       t.error = std::max(t.error, std::fabs(value(x0) - s.value) + std::abs(s.slope));
       continue;
     }
-    double error = by_slope(
-        r, {x0, x1, static_cast<std::int32_t>(s.value + s.slope * (x0 - from) / width), s.slope});
+    double error = 0;
     if (x0 == from && x1 == to) {
       inside.from = from;
       inside.to = to;
-      error = by_slope(r, inside);
-      const double bent = by_curvature(r, inside);
-      if (bent <= error) {
-        error = bent;
-      } else {
+      error = by_curvature(r, inside);
+      if (!(error < infinity)) {
         curvature = false;
+        error = by_slope(r, inside);
       }
     } else {
       // A cut segment: its line over the part, an end each way.
@@ -145,8 +142,8 @@ Jet sine_of_turns(const Span& x) { return sine(Jet{x * (2 * pi), {2 * pi, 2 * pi
 
 }  // namespace
 
-TableUse sine_turn(std::int32_t one, double value_scale) {
-  TableRequest r{sine_of_turns, {-0.5, 0.5}, std::ldexp(1.0, -21), -256, 512, value_scale, one};
+TableUse sine_turn(std::int32_t limit, double value_scale) {
+  TableRequest r{sine_of_turns, {-0.5, 0.5}, std::ldexp(1.0, -21), -256, 512, value_scale, limit};
   TableUse t = make_table(r);
   // Word 0 of the memory is index 0.
   std::rotate(t.words.begin(), t.words.begin() + 256, t.words.end());
@@ -156,15 +153,11 @@ TableUse sine_turn(std::int32_t one, double value_scale) {
   return t;
 }
 
-TableUse sine_part(int bits, bool cosines, std::int32_t one, double value_scale) {
+TableUse sine_part(int bits, bool cosines, std::int32_t limit, double value_scale) {
   const int count = 1 << bits;
-  TableRequest r{sine_of_turns,
-                 {-0.5, cosines ? 0.75 : 0.5},
-                 std::ldexp(1.0, -12 - bits),
-                 -count / 2,
-                 cosines ? count + count / 4 : count,
-                 value_scale,
-                 one};
+  TableRequest r{sine_of_turns, {-0.5, cosines ? 0.75 : 0.5},        std::ldexp(1.0, -12 - bits),
+                 -count / 2,    cosines ? count + count / 4 : count, value_scale,
+                 limit};
   TableUse t = make_table(r);
   t.what = "sine, " + std::to_string(count) + " segments a turn";
   return t;

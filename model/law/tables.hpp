@@ -26,10 +26,10 @@ struct TableRequest {
 /// Segments between samples, each moved so that its largest errors to both sides are equal.
 TableUse make_table(const TableRequest& request);
 
-/// Sine over all turns: argument 2^21 a turn, value `one` words at its peak.
-TableUse sine_turn(std::int32_t one, double value_scale);
+/// Sine over all turns: argument 2^21 a turn, values of at most `limit` words.
+TableUse sine_turn(std::int32_t limit, double value_scale);
 /// Sine over [-1/2, 1/2 + 1/4) turn in segments of 2^-bits turns; more than half a turn for
 /// cosines.
-TableUse sine_part(int bits, bool cosines, std::int32_t one, double value_scale);
+TableUse sine_part(int bits, bool cosines, std::int32_t limit, double value_scale);
 
 }  // namespace feltgate::law

@@ -27,7 +27,7 @@ RULES = (
     Rule(r"feltgate \w+ --help", "WHOLE"),
     # 2: what the page says of this line is that it is refused.
     Rule(r"feltgate run torque_step --set voltage_gain=0\.6", "WHOLE", status=(2,)),
-    Rule(r"feltgate (?:run|replay|import|budget|design)", "WHOLE"),
+    Rule(r"feltgate (?:run|replay|import|budget|design|law)", "WHOLE"),
     Rule(r"feltgate generate", "WHOLE"),
     # 1: of a scene of milliseconds there may be nothing to leave out.
     Rule(r"feltgate trim", "MORE", "--unseen 1 --jobs 1", status=(0, 1)),

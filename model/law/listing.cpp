@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Documentation: docs/law-compiler.md
+#include "law/listing.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "law/units.hpp"
+
+namespace feltgate::law {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+std::string parameters(const Compiled& c) {
+  if (c.image.words.empty()) return {};
+  std::string s = fmt::format("\n{:<14} {:>4} {:>12} {:>12} {:>12} {:>10}  {}\n", "parameter",
+                              "word", "value", "from", "to", "step", "unit");
+  for (const ImageWord& w : c.image.words) {
+    const double step = w.scale / w.to_si;
+    const double a = w.lower * step, b = w.upper * step;
+    if (!w.formula.empty()) {
+      s += fmt::format("{:<14} {:>4} {:>12.6g} {:>12.6g} {:>12.6g} {:>10.3g}  = {}\n",
+                       "  from others", w.word, w.initial * step + 0.0, std::min(a, b) + 0.0,
+                       std::max(a, b) + 0.0, std::fabs(step), w.formula);
+      continue;
+    }
+    s += fmt::format("{:<14} {:>4} {:>12.6g} {:>12.6g} {:>12.6g} {:>10.3g}  {}{}\n", w.name, w.word,
+                     w.initial * step + 0.0, std::min(a, b) + 0.0, std::max(a, b) + 0.0,
+                     std::fabs(step), w.unit, w.mailbox ? " (mailbox)" : "");
+  }
+  return s;
+}
+
+std::string tables(const Compiled& c) {
+  std::string s;
+  std::size_t words = 0;
+  for (const TableUse& t : c.program.tables) {
+    words += t.words.size();
+    s += fmt::format("table {}: {} words, error {:.3g} of the last bit; {}\n", t.what,
+                     t.words.size(), t.error, t.proof);
+  }
+  return words == 0
+             ? s
+             : s + fmt::format("table memory: {} of {} words\n", words, EngineMap::table_words);
+}
+
+std::string strips(const Compiled& c) {
+  std::string s;
+  for (const Strip& strip : c.bound.strips) {
+    double jump = 0;
+    for (const double j : strip.jump) jump = std::max(jump, j);
+    const std::string unit = text_of(strip.unit);
+    s += fmt::format(
+        "strip: line {}, column {}: within {:.3g}{}{} of equal the comparison may go "
+        "either way; outputs may then differ by {:.3g} Nm\n",
+        strip.place.line, strip.place.column, strip.width, unit.empty() ? "" : " ", unit, jump);
+  }
+  return s;
+}
+
+}  // namespace
+
+std::string report(const Compiled& c, const Measured& m) {
+  const auto count = static_cast<int>(c.assembled.instructions.size());
+  std::string s = fmt::format("law {}, design {}: {}\n", c.law.name, c.target.design,
+                              c.law.summary.empty() ? "no description" : c.law.summary);
+  s += parameters(c);
+  s += fmt::format("\n{} instructions of {} clocks: every {} clocks, {:.6g} Hz\n", count,
+                   c.target.round_clocks, c.divider * c.target.clocks_per_tick, c.rate_hz);
+  s += fmt::format("memory: {} private words of {}, {} parameters of 32, {} constants of 64\n",
+                   c.assembled.private_words, EngineMap::input_first, c.image.words.size(),
+                   c.program.constants.size());
+  s += tables(c);
+  s += fmt::format("proven: no instruction saturates, over {} cell{}\n", c.bound.cells,
+                   c.bound.cells == 1 ? "" : "s");
+  const double lsb = std::ldexp(1.0, -c.target.torque.fraction);
+  s += fmt::format("\n{:<14} {:>12} {:>10} {:>14}\n", "output", "bound Nm", "in LSB",
+                   m.all_inputs ? "exact maximum" : "measured Nm");
+  for (std::size_t o = 0; o < c.law.outputs.size(); ++o) {
+    const Output& output = c.law.outputs[o];
+    const std::string name =
+        c.law.outputs.size() == 1 ? output.name : fmt::format("{}[{}]", output.name, output.axis);
+    s += fmt::format("{:<14} {:>12.3g} {:>10.3g} {:>14.3g}\n", name, c.bound.output[o],
+                     c.bound.output[o] / lsb, m.output.empty() ? 0.0 : m.output[o]);
+  }
+  if (!c.bound.states_bounded) {
+    s += "a state's error has no end by itself: bounds are of one run from the states as they "
+         "stand\n";
+  }
+  for (std::size_t i = 0; i < c.law.states.size(); ++i) {
+    const State& state = c.law.states[i];
+    s += fmt::format("state {}: shown to stay in {:.6g} .. {:.6g}, step {:.3g}, error {:.3g}\n",
+                     state.name, state.range.lower, state.range.upper, c.program.states[i].scale,
+                     c.bound.state[i]);
+  }
+  if (!m.output.empty()) {
+    s += m.all_inputs
+             ? fmt::format("all {} positions were run, parameters as they stand\n", m.runs)
+             : fmt::format("{} runs of random inputs and parameters{}\n", m.runs,
+                           m.in_strips > 0
+                               ? fmt::format(", {} of them in a strip and left out", m.in_strips)
+                               : "");
+  }
+  s += strips(c);
+  return s;
+}
+
+std::string name_of(const Compiled& c, const Operand& o) {
+  switch (o.from) {
+    case From::none:
+      return "-";
+    case From::step:
+      return fmt::format("t{}", o.index);
+    case From::input:
+      return c.law.inputs[at(o.index)].name;
+    case From::state:
+      return at(o.index) < c.law.states.size() ? c.law.states[at(o.index)].name : "held";
+    case From::word: {
+      const ImageWord& w = c.image.words[at(o.index)];
+      return w.formula.empty() ? w.name : w.name;
+    }
+    case From::constant:
+      return fmt::format("#{}", c.program.constants[at(o.index)]);
+  }
+  return "-";
+}
+
+std::string listing(const Compiled& c) {
+  std::string s =
+      fmt::format("\n{:>4} {:<4} {:<5} {:<8} {:<12} {:<12} {:>7} {:>12} {:>12} {:>9} {}\n", "",
+                  "op", "mode", "to", "x", "y", "format", "from", "to", "error", "line");
+  for (std::size_t n = 0; n < c.assembled.instructions.size(); ++n) {
+    const EngineInstruction& i = c.assembled.instructions[n];
+    const std::string to = i.dst == 1   ? fmt::format("r{}", i.d)
+                           : i.dst == 2 ? fmt::format("out{}", i.d)
+                           : i.dst == 3 ? fmt::format("event{}", i.d)
+                                        : "-";
+    const int step = c.assembled.step_of[n];
+    const bool shifts = i.op == EngineOp::mul || i.op == EngineOp::mac || i.op == EngineOp::mlw;
+    const std::string mode =
+        shifts ? fmt::format(">>{}", engine_shift(i.mode)) : fmt::format("{}", i.mode);
+    const auto name = EngineMap::op_names[static_cast<std::size_t>(i.op)];
+    if (step < 0) {
+      s += fmt::format("{:>4} {:<4} {:<5} {:<8} {}\n", n, name, mode, to,
+                       i.op == EngineOp::sel ? "first value of a state" : "kept for the next run");
+      continue;
+    }
+    const Step& p = c.program.steps[at(step)];
+    const Span w = c.bound.words[at(step)];
+    s += fmt::format(
+        "{:>4} {:<4} {:<5} {:<8} {:<12} {:<12} {:>7.4g} {:>12.6g} {:>12.6g} {:>9.3g} {}\n", n, name,
+        mode, to, name_of(c, p.x), name_of(c, p.y), -std::log2(p.scale), w.lo * p.scale,
+        w.hi * p.scale, c.bound.errors[at(step)] * p.scale, p.place.line);
+  }
+  return s +
+         "t: result of an earlier line; format: fraction bits; from, to, error: in SI, or turns\n";
+}
+
+}  // namespace feltgate::law

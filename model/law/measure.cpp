@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Documentation: docs/law-compiler.md
+#include "law/measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/machine.hpp"
+#include "feltgate/random.hpp"
+#include "law/evaluate.hpp"
+
+namespace feltgate::law {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+class Meter {
+ public:
+  explicit Meter(const Compiled& c) : c_(c), law_(c.law), machine_(memory(c.image)) {
+    result_.output.assign(c.law.outputs.size(), 0);
+    set([](const ImageWord& w) { return static_cast<double>(w.initial); });
+  }
+
+  /// Word of each parameter by `choose`, in both.
+  template <class Choose>
+  void set(const Choose& choose) {
+    std::vector<double> values;
+    for (const ImageWord& w : c_.image.words) {
+      if (w.formula.empty()) values.push_back(choose(w) * w.scale);
+    }
+    const std::vector<std::int32_t> words = parameter_words(c_.image, values);
+    for (int bank = 0; bank < 2; ++bank) {
+      for (int i = 0; i < 32; ++i) machine_.set_parameter(i, words[at(i)]);
+      machine_.commit();
+    }
+    for (const ImageWord& w : c_.image.words) {
+      for (std::size_t p = 0; w.formula.empty() && p < c_.law.parameters.size(); ++p) {
+        if (c_.law.parameters[p].name == w.name) {
+          law_.set_parameter(p, words[at(w.word)] * w.scale);
+        }
+      }
+    }
+  }
+
+  void restart() {
+    machine_.enter();
+    law_.reset();
+    started_ = false;
+  }
+
+  /// One run of both; `word` gives an input's word.
+  template <class Word>
+  void run(const Word& word, bool free_running) {
+    MachineInputs inputs{};
+    std::vector<double> values;
+    for (const Input& input : c_.law.inputs) {
+      const std::int32_t w = word(input);
+      inputs[at(EngineMap::input_axis_words * input.axis + static_cast<int>(input.source))] = w;
+      values.push_back(w * scale(input));
+    }
+    for (std::size_t k = 0; k < c_.law.states.size() && started_ && !free_running; ++k) {
+      const int address =
+          c_.target.thread * EngineMap::private_words + c_.assembled.state_address[k];
+      law_.set_state(k, machine_.memory().data_at(address) * c_.program.states[k].scale);
+    }
+    started_ = true;
+    law_.run(values);
+    const MachineRun& run = machine_.run(c_.target.thread, inputs);
+    ++result_.runs;
+    if (in_strip()) {
+      ++result_.in_strips;
+      return;
+    }
+    for (std::size_t o = 0; o < result_.output.size(); ++o) {
+      const double torque =
+          run.outputs[at(c_.law.outputs[o].axis)] * std::ldexp(1.0, -c_.target.torque.fraction);
+      result_.output[o] = std::max(result_.output[o], std::fabs(torque - law_.outputs()[o]));
+    }
+  }
+
+  Measured result() const { return result_; }
+
+ private:
+  static EngineMemory memory(const Image& image) {
+    EngineMemory m;
+    m.program = image.program;
+    m.data = image.data;
+    m.table = image.table;
+    m.line_base = image.line_base;
+    return m;
+  }
+
+  double scale(const Input& input) const {
+    return input.source == Source::position   ? c_.target.count_rad()
+           : input.source == Source::velocity ? std::ldexp(1.0, -c_.target.velocity.fraction)
+                                              : std::ldexp(1.0, -c_.target.torque.fraction);
+  }
+
+  bool in_strip() const {
+    for (const Strip& s : c_.bound.strips) {
+      if (s.condition < 0) continue;
+      const Node& n = c_.law.nodes[at(s.condition)];
+      if (n.op != Op::less) continue;
+      const double apart = law_.value(n.arguments[0]) - law_.value(n.arguments[1]);
+      if (std::fabs(apart) <= s.width * (1 + 1e-9)) return true;
+    }
+    return false;
+  }
+
+  const Compiled& c_;
+  Evaluation<double> law_;
+  Machine machine_;
+  Measured result_;
+  bool started_ = false;
+};
+
+std::int64_t low_of(const Input& input, const Target& t) {
+  if (input.source == Source::position) return -static_cast<std::int64_t>(Target::position_counts);
+  const Format f = input.source == Source::velocity ? t.velocity : t.torque;
+  return -(std::int64_t{1} << (f.integer + f.fraction));
+}
+
+}  // namespace
+
+Measured measure(const Compiled& c, std::uint64_t seed, std::int64_t runs, bool free_running) {
+  Meter meter(c);
+  SplitMix64 random(seed);
+  const auto below = [&random](std::int64_t n) { return random.below(n); };
+  for (std::int64_t i = 0; i < runs; ++i) {
+    if (i % 1000 == 0 && free_running) meter.restart();
+    if (i % 50 == 0 && i > 0 && (!free_running || i % 1000 == 0)) {
+      meter.set([&](const ImageWord& w) {
+        const std::int64_t width = std::int64_t{w.upper} - w.lower;
+        const std::int64_t corner = below(4);
+        return static_cast<double>(corner == 0   ? w.lower
+                                   : corner == 1 ? w.upper
+                                                 : w.lower + below(width + 1));
+      });
+    }
+    meter.run(
+        [&](const Input& input) {
+          const std::int64_t low = low_of(input, c.target);
+          const std::int64_t spread = -low >> below(20);
+          const std::int64_t high = input.source == Source::position ? -low : -low - 1;
+          const std::int64_t any = below(2 * spread + 1) - spread;
+          const std::int64_t corner = below(32);
+          return static_cast<std::int32_t>(corner == 0   ? low
+                                           : corner == 1 ? high
+                                                         : std::clamp(any, low, high));
+        },
+        free_running);
+  }
+  return meter.result();
+}
+
+Measured measure_all(const Compiled& c) {
+  const bool one = c.law.inputs.size() == 1 && c.law.inputs[0].source == Source::position;
+  if (!one || !c.program.states.empty() || !c.law.lines.empty()) return {};
+  Meter meter(c);
+  const auto end = static_cast<std::int32_t>(Target::position_counts);
+  for (std::int32_t position = -end; position <= end; ++position) {
+    meter.run([position](const Input&) { return position; }, true);
+  }
+  Measured m = meter.result();
+  m.all_inputs = true;
+  return m;
+}
+
+}  // namespace feltgate::law

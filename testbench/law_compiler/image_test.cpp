@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Images as text, their CRC, words from parameters.
+#include <catch2/catch.hpp>
+
+#include "law/compile.hpp"
+
+namespace feltgate::law {
+namespace {
+
+Compiled detent() {
+  return compile_file(std::string(FELTGATE_ROOT) + "/rtl/laws/detent.law", Target{});
+}
+
+TEST_CASE("an image is read as it was written") {
+  const Image image = detent().image;
+  const std::string written = text(image);
+  CHECK(read_image(written) == image);
+  CHECK(text(read_image(written)) == written);
+}
+
+TEST_CASE("a changed word is found by the CRC, a wrong line by its number") {
+  const std::string written = text(detent().image);
+  std::string changed = written;
+  const auto word = changed.find("\np 0 ") + 5;
+  changed[word] = changed[word] == '4' ? '5' : '4';
+  CHECK_THROWS_WITH(read_image(changed), Catch::Matchers::Contains("CRC-32"));
+  CHECK_THROWS_WITH(read_image("feltgate-law-image 1\nnonsense 3\n"),
+                    Catch::Matchers::Contains("line 2"));
+  CHECK_THROWS(read_image("something else\n"));
+}
+
+TEST_CASE("the CRC is zlib's, over program, ranges, constants and tables") {
+  Image image;
+  const std::uint32_t empty = crc(image);
+  image.data[0] = 5;    // private words are not in it
+  image.data[320] = 5;  // nor are parameters, which have ranges
+  CHECK(crc(image) == empty);
+  image.data[448] = 1;
+  CHECK(crc(image) != empty);
+  image.data[448] = 0;
+  image.table[511] = 1;
+  CHECK(crc(image) != empty);
+  image.line_base = 511;
+  const std::uint32_t shorter = crc(image);
+  image.table[511] = 2;
+  CHECK(crc(image) == shorter);
+}
+
+TEST_CASE("a parameter's word is its value, limited to its range") {
+  const Image image = detent().image;
+  std::vector<double> values;
+  for (const ImageWord& w : image.words) values.push_back(w.name == "clicks" ? 1000 : 0.05);
+  const auto words = parameter_words(image, values);
+  for (const ImageWord& w : image.words) {
+    const double value = words[static_cast<std::size_t>(w.word)] * w.scale;
+    if (w.name == "clicks") CHECK(value == 200);
+    if (w.name == "amplitude") CHECK(std::abs(value - 0.05) <= std::abs(w.scale) / 2);
+  }
+}
+
+TEST_CASE("a formula is postfix") {
+  const auto value = [](const std::string& name) { return name == "a" ? 3.0 : 4.0; };
+  CHECK(evaluate_formula("a b *", value) == 12);
+  CHECK(evaluate_formula("1 a b + /", value) == 1.0 / 7);
+  CHECK(evaluate_formula("a neg b max sqrt", value) == 2);
+  CHECK_THROWS(evaluate_formula("a b", value));
+  CHECK_THROWS(evaluate_formula("a *", value));
+}
+
+}  // namespace
+}  // namespace feltgate::law

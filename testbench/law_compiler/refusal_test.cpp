@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What cannot be proven, fitted or scheduled is refused with line, reason and mend.
+#include <catch2/catch.hpp>
+
+#include "law/compile.hpp"
+#include "law/diagnostics.hpp"
+
+namespace feltgate::law {
+namespace {
+
+using Catch::Matchers::Contains;
+
+std::string refusal(const std::string& text) {
+  try {
+    (void)compile_text(text, "x.law", Target{});
+  } catch (const LawError& e) {
+    return e.what();
+  }
+  return "compiled";
+}
+
+TEST_CASE("a state that can leave its range is refused") {
+  const std::string r = refusal(
+      "state total = 0 Nm in -1 .. 1 Nm\n"
+      "next total = total + 0.001 Nm\n"
+      "out torque = total\n");
+  CHECK_THAT(
+      r, Contains("x.law:1:") && Contains("state total can leave its range") && Contains("clamp"));
+}
+
+TEST_CASE("a rate that the instructions do not fit is refused with the figures") {
+  const std::string r = refusal(
+      "rate = 1 MHz\n"
+      "out torque = 1 Nm * sin(position) * sin(2*position) * sin(3*position) * sin(4*position)\n");
+  CHECK_THAT(r, Contains("do not fit in 50 clocks") && Contains("500000 Hz"));
+}
+
+TEST_CASE("a rate that is no part of the tick is refused") {
+  CHECK_THAT(refusal("rate = 300 kHz\nout torque = 0.1 Nm * sin(position)\n"),
+             Contains("is no whole part of the tick") && Contains("250000 Hz"));
+}
+
+TEST_CASE("a root of what can be negative, a division by what can be zero") {
+  CHECK_THAT(refusal("out torque = 0.1 Nm * sqrt(position)\n"), Contains("x.law:1:"));
+  CHECK_THAT(refusal("out torque = 0.1 Nm / position\n"), Contains("x.law:1:"));
+}
+
+}  // namespace
+}  // namespace feltgate::law

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Every shipped law: proven, small, fast, and what runs is within the bound.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <map>
+
+#include "law/measure.hpp"
+
+namespace feltgate::law {
+namespace {
+
+Compiled shipped(const std::string& name) {
+  return compile_file(std::string(FELTGATE_ROOT) + "/rtl/laws/" + name + ".law", Target{});
+}
+
+void require_within(const Compiled& c, const Measured& m) {
+  for (std::size_t o = 0; o < m.output.size(); ++o) {
+    INFO(c.law.name << " output " << o << ": measured " << m.output[o] << ", bound "
+                    << c.bound.output[o]);
+    // The law itself runs in double.
+    REQUIRE(m.output[o] <= c.bound.output[o] * (1 + 1e-9) + 1e-8);
+  }
+  REQUIRE(m.runs > m.in_strips);
+}
+
+struct Goal {
+  int instructions;
+  double rate_hz;
+};
+
+TEST_CASE("shipped laws are proven, fit their rate and stay within their bounds") {
+  const std::map<std::string, Goal> goals = {
+      {"detent", {4, 1e6}},  {"wall", {6, 1e6}},          {"spring", {6, 1e6}},
+      {"damper", {6, 1e6}},  {"ceiling", {6, 1e6}},       {"membrane", {8, 1e6}},
+      {"charge", {14, 5e5}}, {"quaternion", {27, 2.5e5}}, {"pantograph", {33, 2.5e5}}};
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(FELTGATE_ROOT) + "/rtl/laws")) {
+    if (entry.path().extension() != ".law") continue;
+    const std::string name = entry.path().stem().string();
+    INFO(name);
+    const Compiled c = shipped(name);
+    CHECK(c.bound.unproven.empty());
+    const auto goal = goals.find(name);
+    if (goal != goals.end()) {
+      CHECK(static_cast<int>(c.assembled.instructions.size()) <= goal->second.instructions);
+      CHECK(c.rate_hz >= goal->second.rate_hz);
+    }
+    require_within(c, measure(c, 1, 20000));
+    if (c.bound.states_bounded) require_within(c, measure(c, 2, 20000, true));
+  }
+}
+
+TEST_CASE("a law of one input and no state is run over all of its positions") {
+  const Compiled c = shipped("detent");
+  const Measured m = measure_all(c);
+  CHECK(m.all_inputs);
+  CHECK(m.runs == 262145);
+  require_within(c, m);
+  // One last bit of torque, as the page of laws promises.
+  CHECK(m.output[0] <= std::ldexp(1.0, -16));
+  CHECK_FALSE(measure_all(shipped("damper")).all_inputs);
+}
+
+}  // namespace
+}  // namespace feltgate::law

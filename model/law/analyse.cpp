@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Ranges and errors of steps over a cell. Documentation: docs/law-compiler.md
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -335,8 +337,8 @@ class Analysis {
       if (f.words.lo < use.lower || f.words.hi > use.upper) {
         facts_.unproven.push_back({-1, static_cast<int>(i), ""});
         facts_.unproven.back().reason =
-            "its next value can be " +
-            std::to_string((f.words.lo < use.lower ? f.words.lo : f.words.hi) * use.scale);
+            fmt::format("its next value can be {:.6g}",
+                        (f.words.lo < use.lower ? f.words.lo : f.words.hi) * use.scale);
       }
     }
   }

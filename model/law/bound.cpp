@@ -4,6 +4,8 @@
 // Bounds over cells. Documentation: docs/law-compiler.md
 #include "law/bound.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -68,6 +70,7 @@ class Bounds {
       }
       if (b.unproven.empty()) b.unproven = l.facts.unproven;
     }
+    if (!bounded_) drifting(&b);
     if (splits > 0) strips(whole, &b);
     return b;
   }
@@ -150,6 +153,25 @@ class Bounds {
     leaves_[pick] = std::move(low);
     leaves_.push_back(std::move(high));
     return true;
+  }
+
+  /// Words that stay in a state's range say nothing of the law where the two drift apart: there the
+  /// law itself must stay.
+  void drifting(Bound* b) const {
+    for (std::size_t k = 0; k < law_.states.size(); ++k) {
+      const State& s = law_.states[k];
+      if (s.phase || b->unproven.size() > 0) continue;
+      Span next{1, 0};
+      for (const Leaf& l : leaves_) {
+        if (l.facts.reachable) next = hull(next, ranges(law_, l.cell)[at(s.next)]);
+      }
+      const double slack = 1e-9 * (s.range.upper - s.range.lower);
+      if (next.lo < s.range.lower - slack || next.hi > s.range.upper + slack) {
+        const double end = next.lo < s.range.lower - slack ? next.lo : next.hi;
+        b->unproven.push_back(
+            {-1, static_cast<int>(k), fmt::format("its next value can be {:.6g}", end)});
+      }
+    }
   }
 
   void strips(const Cell& whole, Bound* b) const {

@@ -276,7 +276,7 @@ Value BackEnd::sine(NodeId id) {
   const int bits = choice_.sine_bits;
   const double turn = std::ldexp(1.0, bits == 9 ? -21 : -32);
   Operand x;
-  const std::string phase_key = "phase " + std::to_string(n.arguments[0]);
+  const std::string phase_key = fmt::format("phase {}", n.arguments[0]);
   const auto known = table_keys_.find(phase_key);
   if (known != table_keys_.end()) {
     x = {From::step, known->second};

@@ -4,6 +4,8 @@
 // Documentation: docs/law-compiler.md
 #include "law/tables.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -159,7 +161,7 @@ TableUse sine_part(int bits, bool cosines, std::int32_t limit, double value_scal
                  -count / 2,    cosines ? count + count / 4 : count, value_scale,
                  limit};
   TableUse t = make_table(r);
-  t.what = "sine, " + std::to_string(count) + " segments a turn";
+  t.what = fmt::format("sine, {} segments a turn", count);
   return t;
 }
 

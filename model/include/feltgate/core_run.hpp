@@ -92,6 +92,28 @@ bool FeltgateCore<D, ReadBack>::calm(const In& in, std::int64_t clocks) const {
          slow(wave_.velocity_input(static_cast<std::int16_t>(decoder_.out().travel)));
 }
 
+template <class D, bool ReadBack>
+bool FeltgateCore<D, ReadBack>::may_trip(const In& in) const {
+  if (!can_pass(in) || self_test_.busy(out_.armed) || monitor_.chatters() || monitor_.trips() ||
+      monitor_.index_trips() || decoder_.out().index_wrong != monitor_.index_wrong() ||
+      supervisor_.near_trip(supervisor_words_) || supervisor_.watchdog_due(supervisor_words_)) {
+    return true;
+  }
+  // On their way through the decoder are at most as many counts, or errors.
+  constexpr int under_way = 4;
+  const QuadDecoder::In d = decoder_inputs(in, false, false);
+  const bool moves = !decoder_.settled(d);
+  if (moves && (supervisor_.errors_left() < under_way || !decoder_.index_rests(d))) return true;
+  if (clock_ > core_steps::clock_of(T::speed)) return false;
+  const auto limit = static_cast<std::int32_t>(supervisor_words_.overspeed);
+  const auto fast = [limit](std::int64_t w) { return w > limit || -w > limit; };
+  if (fast(out_.velocity)) return true;
+  const auto next = [this](int counts) {
+    return wave_.velocity_input(static_cast<std::int16_t>(decoder_.out().travel + counts));
+  };
+  return moves ? fast(next(under_way)) || fast(next(-under_way)) : fast(next(0));
+}
+
 /// The next clock after `from` in which the wave looks at the decoder.
 template <class D, bool ReadBack>
 int FeltgateCore<D, ReadBack>::next_look_at_decoder(int from) {

@@ -5,6 +5,7 @@
 // on every clock. Documentation: docs/blocks/feltgate_axes.md
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -65,6 +66,37 @@ class FeltgateAxes {
     show(in);
   }
 
+  /// `clocks` clocks with the inputs held; reg_write and the axes' set_zero must be low. The same
+  /// as so many calls of clock(), from event to event where no axis may tell the others anything.
+  /// `on_snapshot()` is called whenever out() holds a valid snapshot.
+  template <class OnSnapshot>
+  void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
+    while (clocks > 0) {
+      const std::array<CoreIn, N> each = inputs(in);
+      const int left = D::clocks_per_tick - clock_of_tick();
+      std::int64_t step = std::min<std::int64_t>(clocks, left);
+      bool snapshot = false;
+      if (apart(each, step == left)) {
+        for (std::size_t n = 0; n < N; ++n) {
+          cores_[n].run(each[n], step, [&, n] {
+            out_.axis[n] = cores_[n].out();
+            snapshot = true;
+          });
+        }
+      } else {
+        step = 1;
+        for (std::size_t n = 0; n < N; ++n) {
+          cores_[n].clock(each[n]);
+          out_.axis[n] = cores_[n].out();
+        }
+        snapshot = out_.axis[0].snapshot_valid;
+      }
+      if (snapshot) on_snapshot();
+      clocks -= step;
+    }
+    show(in);
+  }
+
   const Out& out() const { return out_; }
   const Core& core(int n) const { return cores_[static_cast<std::size_t>(n)]; }
   Core& core(int n) { return cores_[static_cast<std::size_t>(n)]; }
@@ -103,6 +135,19 @@ class FeltgateAxes {
       }
     }
     return each;
+  }
+
+  /// Whether up to the end of the tick nothing that an axis does concerns the others: no gates
+  /// fall, and where the tick ends none are armed.
+  bool apart(const std::array<CoreIn, N>& each, bool ends) const {
+    if (N == 1) return true;
+    bool enabled = false;
+    for (const Core& core : cores_) enabled |= core.out().gates_enable;
+    if (!enabled) return !ends || each[0].axis_silent || !cores_[0].asks(each[0]);
+    for (std::size_t n = 0; n < N; ++n) {
+      if (cores_[n].may_trip(each[n])) return false;
+    }
+    return true;
   }
 
   static bool addressed(std::size_t n, std::uint16_t address) { return address / axes_stride == n; }

@@ -115,6 +115,9 @@ class FeltgateCore {
   void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot);
 
   bool calm(const In& in, std::int64_t clocks) const;
+  /// Whether something could close the gates before the tick ends, the inputs held; true is always
+  /// right.
+  bool may_trip(const In& in) const;
 
   /// A bit of the parameter RAM that changes by itself, see Registers::flip(), between two ticks.
   void flip(int address, int bit) {

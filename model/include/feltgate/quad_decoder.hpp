@@ -128,6 +128,10 @@ class QuadDecoder {
     return meta_q_ == now && sync_q_ == now && previous_q_ == now && level_q_ == now &&
            wait_q_[0] == wait && wait_q_[1] == wait && wait_q_[2] == wait;
   }
+  /// The index is low and stays low while these inputs hold.
+  bool index_rests(const In& in) const {
+    return ((pins(in) | meta_q_ | sync_q_ | previous_q_ | level_q_) & kZ) == 0 && !index_q_;
+  }
 
  private:
   // Bit c of a word is channel c, as in the RTL.

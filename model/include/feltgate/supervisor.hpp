@@ -208,6 +208,11 @@ class Supervisor {
     return sum_.raw() >= std::int64_t{words.i2t_budget} || runaway_.near(words.polarity_ticks);
   }
 
+  /// The same of the watchdog, in any clock of the tick.
+  bool watchdog_due(const Words& words) const { return silent(words); }
+  /// Encoder errors that are still borne.
+  int errors_left() const { return kBorne - errors_; }
+
   /// All five. Returns the clock of the tick after which the gates fell, or -1.
   int tick(const Words& words, const Tick& in) {
     const auto coefficient = [](std::uint32_t word) {

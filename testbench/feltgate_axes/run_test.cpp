@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The twin of the axes from event to event against its clocks: the same outputs at the end of every
+// stretch, and in every snapshot. Documentation: docs/blocks/feltgate_axes.md
+#include <vector>
+
+#include "axes_stimulus.hpp"
+#include "catch.hpp"
+#include "feltgate/generated/lever_law.hpp"
+#include "mismatch.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+constexpr int kAxes = AXES;
+using D = LeverLaw;
+using In = AxesIn<kAxes>;
+
+bool same(const In& a, const In& b) {
+  bool all = a.arm == b.arm && a.stop == b.stop && a.law_late == b.law_late &&
+             a.law_restart == b.law_restart && a.reg_addr == b.reg_addr &&
+             a.reg_wdata == b.reg_wdata && a.reg_write == b.reg_write;
+  for (std::size_t n = 0; n < kAxes; ++n) {
+    all = all && a.axis[n].encoder == b.axis[n].encoder &&
+          a.axis[n].set_zero == b.axis[n].set_zero && a.axis[n].scene == b.axis[n].scene &&
+          a.axis[n].law_torque == b.axis[n].law_torque;
+  }
+  return all;
+}
+bool strobes(const In& in) {
+  bool any = in.reg_write;
+  for (const auto& axis : in.axis) any = any || axis.set_zero;
+  return any;
+}
+
+}  // namespace
+
+TEST_CASE("axes: from event to event as clock by clock") {
+  for (const std::uint32_t longest : {30u, 4'000u}) {
+    AxesStimulus<D, kAxes> stimulus(longest);
+    Random cut(longest);
+    FeltgateAxes<D, kAxes> by_clock, by_event;
+    const std::int64_t clocks = scaled_clocks(1'500'000);
+    std::int64_t done = 0, snapshots = 0, faults = 0;
+    In in = stimulus(0);
+    while (done < clocks) {
+      const In held = in;
+      const auto limit = static_cast<std::int64_t>(1 + cut.below(longest));
+      std::int64_t length = 0;
+      do {
+        in = stimulus(done + ++length);
+      } while (same(in, held) && !strobes(held) && length < limit);
+      std::vector<AxesOut<kAxes>> of_clocks;
+      for (std::int64_t k = 0; k < length; ++k) {
+        by_clock.clock(held);
+        if (by_clock.out().axis[0].snapshot_valid) of_clocks.push_back(by_clock.out());
+      }
+      std::size_t next = 0;
+      const auto check = [&](const AxesOut<kAxes>& a, const AxesOut<kAxes>& b, bool whole) {
+        for (std::size_t n = 0; n < kAxes; ++n) {
+          CoreOut one = a.axis[n], other = b.axis[n];
+          if (!whole) {  // amid a stretch the words are not shown one by one
+            for (CoreOut* o : {&one, &other}) {
+              o->reg_rdata = o->word_data = o->word_slot = 0;
+              o->reg_busy = o->word_valid = false;
+            }
+          }
+          INFO("axis " << n << ", clock " << done << ", length " << length);
+          if (!(one == other)) FAIL("the axes by events differ from the axes by clocks");
+        }
+        if (whole && (a.reg_rdata != b.reg_rdata || a.reg_busy != b.reg_busy)) FAIL("the port");
+      };
+      if (strobes(held)) {
+        by_event.clock(held);
+        if (by_event.out().axis[0].snapshot_valid) ++next;
+      } else {
+        by_event.run(held, length, [&] {
+          REQUIRE(next < of_clocks.size());
+          check(of_clocks[next++], by_event.out(), false);
+        });
+      }
+      REQUIRE(next == of_clocks.size());
+      check(by_clock.out(), by_event.out(), true);
+      snapshots += static_cast<std::int64_t>(next);
+      faults += by_clock.out().axis[0].first_fault == static_cast<unsigned>(Fault::axis);
+      done += length;
+    }
+    CHECK(snapshots == clocks / D::clocks_per_tick + (done - clocks) / D::clocks_per_tick);
+    CHECK((kAxes == 1 || faults > 0));
+  }
+}

@@ -4,8 +4,7 @@
 // The shipped law of the pantograph, in real numbers, against the linkage's own kinematics (no line
 // is shared) and around it in closed loop. docs/pantograph.md
 #include "catch.hpp"
-#include "law/evaluate.hpp"
-#include "law/read_law.hpp"
+#include "law_axes.hpp"
 #include "pantograph_fixture.hpp"
 #include "plant/pantograph/two_axis_loop.hpp"
 
@@ -14,57 +13,19 @@ using namespace feltgate::plant;
 
 namespace {
 
-/// A law file as a law of the cranks.
-class LawFile {
- public:
-  explicit LawFile(const std::string& name)
-      : law_(law::read_law(std::string(FELTGATE_SOURCE_DIR) + "/rtl/laws/" + name + ".law")),
-        evaluation_(law_) {}
-
-  void set(const std::string& name, double si) {
-    for (std::size_t i = 0; i < law_.parameters.size(); ++i) {
-      if (law_.parameters[i].name == name) return evaluation_.set_parameter(i, si);
-    }
-    FAIL("the law has no parameter " << name);
-  }
-  Joints torque(const AxesMotion<2>& m) {
-    std::vector<double> inputs;
-    for (const law::Input& input : law_.inputs) {
-      const auto axis = static_cast<std::size_t>(input.axis);
-      REQUIRE(input.source != law::Source::tau_hat);
-      inputs.push_back(input.source == law::Source::position ? m.theta_rad[axis]
-                                                             : m.omega_rad_s[axis]);
-    }
-    evaluation_.run(inputs);
-    Joints torque{};
-    for (std::size_t i = 0; i < law_.outputs.size(); ++i) {
-      torque[static_cast<std::size_t>(law_.outputs[i].axis)] = evaluation_.outputs()[i];
-    }
-    return torque;
-  }
-  AxesLaw<2> axes() {
-    return [this](const AxesMotion<2>& m) { return torque(m); };
-  }
-
- private:
-  law::Law law_;
-  law::Evaluation<double> evaluation_;
-};
-
 constexpr double kFloor = 0.11, kStiffness = 300.0, kDrag = 1.5;
 
-LawFile felt_law() {
-  LawFile file("pantograph");
+void give(LawAxes& file) {
   file.set("floor", kFloor);
   file.set("stiffness", kStiffness);
   file.set("drag", kDrag);
-  return file;
 }
 
 }  // namespace
 
 TEST_CASE("the law file asks what J of the linkage says, everywhere", "[law]") {
-  LawFile file = felt_law();
+  LawAxes file("pantograph");
+  give(file);
   const Linkage linkage(pantograph().linkage);
   int inside = 0;
   for (double first = -60; first <= 150; first += 7) {
@@ -84,7 +45,8 @@ TEST_CASE("the law file asks what J of the linkage says, everywhere", "[law]") {
 
 TEST_CASE("the law file in closed loop: a floor and drag, passive", "[law]") {
   const PantographParameters p = pantograph();
-  LawFile file = felt_law();
+  LawAxes file("pantograph");
+  give(file);
   PenPhase press;
   press.kind = PenPhase::Kind::kImpedance;
   press.y = {segment(Segment::Kind::kMinimumJerk, 0.3, 0.08), segment(Segment::Kind::kHold, 0.4),

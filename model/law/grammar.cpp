@@ -152,6 +152,7 @@ const auto make_binary = [](auto& context) {
   adopt(e, x3::_val(context));
   adopt(e, boost::fusion::at_c<1>(x3::_attr(context)));
   check_depth(e.depth, sign.begin());
+  check_fraction(e, sign.begin(), sign.begin() - e.offset);
   x3::_val(context) = std::make_shared<const Expression>(std::move(e));
 };
 

@@ -4,6 +4,8 @@
 // What the grammar does not understand, as a message, and where reading goes on.
 #include "law/recovery.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -183,6 +185,17 @@ void check_depth(int depth, const char* at) {
   if (depth <= kMostDepth) return;
   throw SyntaxError{at, "an expression of more than 500 operations",
                     "give parts of it names with let"};
+}
+
+void check_fraction(const Expression& e, const char* at, const char* begin) {
+  const Expression &a = *e.arguments[0], &b = *e.arguments[1];
+  const auto is_number = [](const Expression& x) { return x.kind == Expression::Kind::number; };
+  if (e.name != "/" || !is_number(a) || !is_number(b)) return;
+  if (!a.unit_text.empty() || b.unit_text.empty()) return;
+  if (std::find(at, begin + b.offset, '(') != begin + b.offset) return;
+  throw SyntaxError{at, "a unit that would belong to the lower number alone",
+                    fmt::format("write {} {} / {}, or brackets around what is below", a.value,
+                                b.unit_text, b.value)};
 }
 
 std::vector<Statement> parse_statements(std::string_view text, Diagnostics& diagnostics) {

@@ -23,6 +23,9 @@ const char* parse_statement(std::string_view text, const char* at, Statement& re
 
 /// SyntaxError where `rest` begins with a word that is neither unit nor keyword.
 void refuse_word(std::string_view rest);
+/// SyntaxError where `e` is "1/32 turn", which would be 1/(32 turn). It stands at `at` in the text
+/// that begins with `begin`.
+void check_fraction(const Expression& e, const char* at, const char* begin);
 /// SyntaxError where an expression is deeper than what follows it can bear.
 void check_depth(int depth, const char* at);
 

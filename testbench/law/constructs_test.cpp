@@ -98,6 +98,8 @@ TEST_CASE("units scale, and 0 has any") {
   CHECK(value("5 g", "kg") == Approx(5e-3));
   CHECK(value("90 deg", "rad") == Approx(kPi / 2));
   CHECK(value("2 turns / 1 turn", "rad") == Approx(2));
+  CHECK(value("1 turn / 32", "rad") == Approx(kPi / 16));
+  CHECK(value("1 / (5 ms)", "Hz") == Approx(200));
   CHECK(value("40 kHz", "Hz") == Approx(40000));
   CHECK(value("60 Nm s/rad * 2 rad/s", "Nm") == Approx(120));
   CHECK(value("5 mN/mm", "N/m") == Approx(5));

@@ -54,6 +54,9 @@ const Bad kGrammar[] = {
     {"let a = 5 N/m s" OUT,
      "1:15: a unit that can be read in two ways; after \"/\" write N/(m s), or put the factor "
      "before it: N s/m"},
+    {"let a = 1/32 turn" OUT,
+     "1:10: a unit that would belong to the lower number alone; write 1 turn / 32, or brackets "
+     "around what is below"},
     {"let a = 5 m^9" OUT,
      "1:12: a unit's power that is no whole number from 1 to 8; write for example m^2 or s^-1"},
     {"let a = 5 m^" OUT,

@@ -20,8 +20,8 @@ constexpr double kDegree = kPi / 180;
 }  // namespace
 
 TEST_CASE("every shipped law has a summary and a torque, and is tested here") {
-  const std::vector<std::string> tested{"ceiling", "charge",     "damper",     "detent", "membrane",
-                                        "spring",  "quaternion", "pantograph", "wall"};
+  const std::vector<std::string> tested{"ceiling",  "charge", "damper",     "detent",     "gimbal",
+                                        "membrane", "spring", "quaternion", "pantograph", "wall"};
   for (const auto& entry : std::filesystem::directory_iterator(FELTGATE_ROOT "/rtl/laws")) {
     if (entry.path().extension() != ".law") continue;
     const std::string name = entry.path().stem().string();
@@ -160,6 +160,73 @@ TEST_CASE("quaternion: Rz90 against Rx90, small turns, and the shorter way") {
       if (degrees == 180) continue;  // both ways are as long
       INFO(degrees);
       CHECK(torque[static_cast<std::size_t>(axis)] == Approx(expected));
+    }
+  }
+}
+
+namespace {
+
+using Matrix = std::array<std::array<double, 3>, 3>;
+
+/// Of a turn about axis 0, 1, 2 = x, y, z.
+Matrix rotation(std::size_t axis, double angle) {
+  const std::size_t i = (axis + 1) % 3, j = (axis + 2) % 3;
+  Matrix m{};
+  m[axis][axis] = 1;
+  m[i][i] = m[j][j] = std::cos(angle);
+  m[j][i] = std::sin(angle);
+  m[i][j] = -std::sin(angle);
+  return m;
+}
+
+Matrix product(const Matrix& a, const Matrix& b) {
+  Matrix m{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      for (std::size_t k = 0; k < 3; ++k) m[i][j] += a[i][k] * b[k][j];
+    }
+  }
+  return m;
+}
+
+/// 2 sin(angle / 2) times the axis of a rotation of less than half a turn.
+std::array<double, 3> half_sines(const Matrix& m) {
+  const double cosine = (m[0][0] + m[1][1] + m[2][2] - 1) / 2;
+  const double half = std::sqrt((1 + cosine) / 2);  // of the half angle, its cosine
+  return {(m[2][1] - m[1][2]) / (2 * half), (m[0][2] - m[2][0]) / (2 * half),
+          (m[1][0] - m[0][1]) / (2 * half)};
+}
+
+}  // namespace
+
+TEST_CASE("gimbal: by matrices, from every side") {
+  Running<> law(shipped("gimbal"));
+  law.set("stiffness", 0.2);
+  for (int goal_axis = 0; goal_axis < 3; ++goal_axis) {
+    const double goal_angle = 1.1;
+    const Quaternion d = turn(goal_axis, goal_angle);
+    const char* const names[] = {"dw", "dx", "dy", "dz"};
+    for (std::size_t i = 0; i < 4; ++i) law.set(names[i], d[i]);
+    for (double a = -3; a <= 3; a += 0.7) {
+      for (double b = -1.2; b <= 1.2; b += 0.4) {
+        for (double c = -3; c <= 3; c += 0.9) {
+          law.torque({{"position", a}, {"position[1]", b}, {"position[2]", c}});
+          const Matrix outer = rotation(2, a), both = product(outer, rotation(1, b));
+          const Matrix is = product(both, rotation(0, c));
+          Matrix back{};
+          for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t j = 0; j < 3; ++j) back[i][j] = is[j][i];
+          }
+          const auto goal = rotation(static_cast<std::size_t>(goal_axis), goal_angle);
+          const auto torque = half_sines(product(goal, back));
+          const auto along = [&](double x, double y, double z) {
+            return 0.2 * (x * torque[0] + y * torque[1] + z * torque[2]);
+          };
+          CHECK(law.output(0) == Approx(along(0, 0, 1)).margin(1e-9));
+          CHECK(law.output(1) == Approx(along(outer[0][1], outer[1][1], outer[2][1])).margin(1e-9));
+          CHECK(law.output(2) == Approx(along(both[0][0], both[1][0], both[2][0])).margin(1e-9));
+        }
+      }
     }
   }
 }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMostLine = 512;
 constexpr std::size_t kMostElements = 512;
-constexpr int kMostSegments = 512;
+constexpr int kMostSegments = 511;  // and a word more
 
 std::string quoted(const std::string& name) { return "\"" + name + "\""; }
 

@@ -238,7 +238,7 @@ const Bad kMeaning[] = {
     {"table f(x) on [0 m, 1 s] = x\nout torque = 1 Nm * f(position)",
      "1:16: the table's ends are in m and in s; both need the same unit"},
     {"table f(x) on [0, 1] = x with 0 segments\nout torque = 1 Nm * f(position)",
-     "1:31: the number of segments is no whole number from 1 to 512; write one of 1 .. 512"},
+     "1:31: the number of segments is no whole number from 1 to 511; write one of 1 .. 511"},
     {"param k = 1 in 0 .. 2\ntable f(x) on [0, 1] = k * x\nout torque = 1 Nm * f(position)",
      "2:7: the table \"f\" uses \"k\", which changes at run time; a table holds a function of its "
      "variable and of constants; multiply outside of it"},

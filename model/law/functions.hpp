@@ -95,7 +95,8 @@ N exponential_of(N x) {
   if constexpr (kInLibrary<N>) {
     return std::exp(x);
   } else {
-    constexpr int halvings = 16;  // then squared back
+    if (x < 0) return 1 / exponential_of(-x);  // near 0 the sum below would lose its digits
+    constexpr int halvings = 16;               // then squared back
     N small = x / static_cast<N>(1 << halvings), term = 1, sum = 0;
     for (int k = 1; k < 12; ++k) {
       term *= small / static_cast<N>(k);

@@ -32,7 +32,8 @@ Segment read_segment(config::TomlReader table, const std::string& unit, bool ste
   segment.kind = static_cast<Segment::Kind>(
       table.choice("kind", {"hold", "step", "ramp", "minimum_jerk", "sine"}));
   if (segment.kind == Segment::Kind::kStep && !steps_allowed) {
-    table.fail("kind", "an imposed angle cannot step", "use ramp or minimum_jerk");
+    table.fail("kind", fmt::format("an imposed {} cannot step", unit == "m" ? "place" : "angle"),
+               "use ramp or minimum_jerk");
   }
   segment.duration_s = table.number("duration_s", config::kPositive);
   if (segment.kind == Segment::Kind::kSine) {
@@ -46,6 +47,8 @@ Segment read_segment(config::TomlReader table, const std::string& unit, bool ste
   return segment;
 }
 
+}  // namespace
+
 Profile read_profile(config::TomlReader& table, const std::string& key, const std::string& unit,
                      bool steps_allowed) {
   Profile profile;
@@ -58,6 +61,20 @@ Profile read_profile(config::TomlReader& table, const std::string& key, const st
   }
   return profile;
 }
+
+Impedance read_impedance(config::TomlReader& table) {
+  Impedance i;
+  i.mass_kg = table.number_or("mass_kg", i.mass_kg, config::kPositive);
+  i.damping_ns_m = table.number_or("damping_ns_m", i.damping_ns_m, config::kNotNegative);
+  i.stiffness_n_m = table.number_or("stiffness_n_m", i.stiffness_n_m, config::kNotNegative);
+  i.grip_stiffness_n_m =
+      table.number_or("grip_stiffness_n_m", i.grip_stiffness_n_m, config::kNotNegative);
+  i.grip_damping_ns_m =
+      table.number_or("grip_damping_ns_m", i.grip_damping_ns_m, config::kNotNegative);
+  return i;
+}
+
+namespace {
 
 std::string beside(const std::string& file, const std::string& name) {
   const auto slash = file.find_last_of('/');
@@ -99,18 +116,6 @@ Trace read_trace(config::TomlReader& table) {
     check_trace(table, "time_s", trace);
   }
   return trace;
-}
-
-Impedance read_impedance(config::TomlReader& table) {
-  Impedance i;
-  i.mass_kg = table.number_or("mass_kg", i.mass_kg, config::kPositive);
-  i.damping_ns_m = table.number_or("damping_ns_m", i.damping_ns_m, config::kNotNegative);
-  i.stiffness_n_m = table.number_or("stiffness_n_m", i.stiffness_n_m, config::kNotNegative);
-  i.grip_stiffness_n_m =
-      table.number_or("grip_stiffness_n_m", i.grip_stiffness_n_m, config::kNotNegative);
-  i.grip_damping_ns_m =
-      table.number_or("grip_damping_ns_m", i.grip_damping_ns_m, config::kNotNegative);
-  return i;
 }
 
 Cord read_cord(config::TomlReader& table) {

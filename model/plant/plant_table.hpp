@@ -10,6 +10,7 @@
 #include "config/toml_reader.hpp"
 #include "plant/axes_parameters.hpp"
 #include "plant/hand.hpp"
+#include "plant/pantograph/pen_hand.hpp"
 #include "plant/parameters.hpp"
 
 namespace feltgate::plant {
@@ -23,6 +24,16 @@ void read_axes(config::TomlReader& root, AxesParameters& p);
 
 /// Effects of a scene's [effects] table over `base`: a missing key keeps the value of `base`.
 Effects read_effects(config::TomlReader table, const Effects& base);
+
+/// A motion under `key`: segments with `to_UNIT`, `amplitude_UNIT`; one at least.
+Profile read_profile(config::TomlReader& table, const std::string& key, const std::string& unit,
+                     bool steps_allowed);
+/// The five keys of an impedance; each may be missing.
+Impedance read_impedance(config::TomlReader& table);
+
+/// Reads [hand] and [[hand.phase]] of a hand that holds a pen in the plane.
+/// Errors: config::ConfigError "file:line: what; mend".
+PenHand read_pen_hand(config::TomlReader table);
 
 /// Reads [hand] and [[hand.phase]]; files of traces are relative to the folder of the scene.
 /// Errors: config::ConfigError "file:line: what; mend".

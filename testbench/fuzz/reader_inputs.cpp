@@ -19,8 +19,11 @@
 #include "law/finish.hpp"
 #include "law/read_law.hpp"
 #include "loop/scenario_check.hpp"
+#include "plant/gimbal/gimbal_file.hpp"
 #include "plant/hand_file.hpp"
+#include "plant/pantograph/pantograph_file.hpp"
 #include "plant/plant_file.hpp"
+#include "plant/plant_table.hpp"
 #include "traces/open.hpp"
 #include "traces/place.hpp"
 
@@ -153,6 +156,23 @@ Ending use_plant(const fs::path& file) {
   });
 }
 
+/// Plants with several axes, and the hand of a pen, told apart by a table that only one of them
+/// has.
+Ending use_device(const fs::path& file) {
+  return config_ending([&] {
+    const toml::table root = config::parse_toml_file(file.string());
+    if (root.contains("hand")) {
+      (void)plant::read_pen_hand(
+          config::TomlReader(root, file.string(), "the file").section("hand"));
+    } else if (root.contains("bodies")) {
+      (void)plant::read_gimbal_file(file.string());
+    } else {
+      const plant::PantographParameters p = plant::read_pantograph_file(file.string());
+      (void)plant::Linkage(p.linkage).pose({0.5, 2.5});
+    }
+  });
+}
+
 Ending use_scene(const fs::path& file) {
   return config_ending([&] {
     Scenario scenario = read_scenario(file.string());
@@ -253,6 +273,7 @@ const std::vector<Reader>& readers() {
       {"registers", "input.toml", as_it_is, use_registers},
       {"schedule", "input.toml", as_it_is, use_schedule},
       {"plant", "input.toml", as_it_is, use_plant},
+      {"device", "input.toml", as_it_is, use_device},
       {"scene", "input.toml", as_it_is, use_scene},
       {"motion", "input.csv", as_it_is, use_motion},
       {"sigrok", "input.sr", as_it_is, use_trace<F::sigrok>},

@@ -5,6 +5,7 @@
 #include "catch.hpp"
 #include "config/toml_reader.hpp"
 #include "pantograph_fixture.hpp"
+#include "plant/plant_table.hpp"
 
 using namespace feltgate;
 using namespace feltgate::plant;
@@ -88,4 +89,57 @@ TEST_CASE("errors of a linkage say file, line, what and mend", "[pantograph_file
   CHECK(error_of("torque_constant_nm_a = 0.0302", "torque_constant_nm_a = 0").find("here:") == 0);
   CHECK(error_of("lugre = true", "lugre = 1").find("here:") == 0);
   CHECK_THROWS_AS(read_pantograph_file("/nonexistent/linkage.toml"), config::ConfigError);
+}
+
+TEST_CASE("the hand of a scene with a pen, and its errors", "[pantograph_file]") {
+  const auto read = [](const std::string& text) {
+    const toml::table table = toml::parse(text);
+    return read_pen_hand(config::TomlReader(table, "s.toml", "the file").section("hand"));
+  };
+  const PenHand hand = read(R"([hand]
+start_m = [0.01, 0.13]
+[[hand.phase]]
+kind = "impedance"
+x = [{kind = "sine", amplitude_m = 0.02, frequency_hz = 2, duration_s = 0.5}]
+y = [{kind = "step", to_m = 0.08, duration_s = 0.2}, {kind = "hold", duration_s = 0.6}]
+stiffness_n_m = 200
+[[hand.phase]]
+kind = "force"
+y = [{kind = "ramp", to_n = -1.5, duration_s = 0.3}]
+[[hand.phase]]
+kind = "prescribed"
+x = [{kind = "minimum_jerk", to_m = 0.03, duration_s = 0.4}]
+duration_s = 1
+[[hand.phase]]
+kind = "free"
+)");
+  REQUIRE(hand.phases.size() == 4);
+  CHECK(hand.start_m->y == 0.13);
+  CHECK(hand.phases[0].duration_s == Approx(0.8));
+  CHECK(hand.phases[0].impedance.stiffness_n_m == 200.0);
+  CHECK(hand.phases[0].impedance.mass_kg == 0.554);
+  CHECK(hand.phases[0].x[0].amplitude == 0.02);
+  CHECK(hand.phases[1].kind == PenPhase::Kind::kForce);
+  CHECK(hand.phases[1].x.empty());
+  CHECK(hand.phases[1].y[0].to == -1.5);
+  CHECK(hand.phases[2].duration_s == 1.0);
+  CHECK(std::isinf(hand.phases[3].duration_s));
+  const auto error = [&read](const std::string& phase) {
+    try {
+      (void)read("[hand]\n[[hand.phase]]\n" + phase);
+    } catch (const config::ConfigError& e) {
+      return std::string(e.what());
+    }
+    return std::string("no error");
+  };
+  CHECK(error("kind = \"cord\"") ==
+        "s.toml:3: \"kind\" = \"cord\" is not known; it must be one of free, prescribed, "
+        "impedance, force");
+  CHECK(error("kind = \"force\"") ==
+        "s.toml:3: neither \"x\" nor \"y\" is there; write the motion of one at least");
+  CHECK(error("kind = \"prescribed\"\nx = [{kind = \"step\", to_m = 1, duration_s = 1}]") ==
+        "s.toml:4: an imposed place cannot step; use ramp or minimum_jerk");
+  CHECK(error("kind = \"force\"\nx = [{kind = \"step\", to_m = 1, duration_s = 1}]")
+            .find("\"to_n\" is missing") != std::string::npos);
+  CHECK(error("kind = \"free\"\nz = 1").find("\"z\" is unknown") != std::string::npos);
 }

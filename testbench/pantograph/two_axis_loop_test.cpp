@@ -49,6 +49,81 @@ Felt feel(Pantograph& plant, const AxesLaw<2>& law, const Sampling& sampling, do
 
 }  // namespace
 
+TEST_CASE("the wall pushes and never pulls, drag is everywhere", "[loop]") {
+  const WallAndDrag wall{kEdge, 300.0, 20.0, 2.0};
+  const Vec2 in = wall.force_n({0.0, kEdge - 0.01}, {0.1, -0.05});
+  CHECK(in.x == Approx(-0.2));
+  CHECK(in.y == Approx(3.0 + 1.0 + 0.1));
+  // Its damping would hold back a pen that leaves this fast.
+  CHECK(wall.force_n({0.0, kEdge - 0.01}, {0.0, 0.5}).y == Approx(-1.0));
+  CHECK(wall.force_n({0.0, kEdge + 0.01}, {0.0, -0.5}).y == Approx(1.0));
+}
+
+TEST_CASE("samples and delays lie on their clocks", "[loop]") {
+  const PantographParameters p = pantograph();
+  Pantograph plant(p, kNoEffects, Drive{});
+  std::vector<Clock> asked, changed;
+  Sampling sampling;
+  sampling.rate_hz = 3e3;
+  sampling.delay_s = 100e-6;
+  double last = 0.0;
+  TwoAxisLaw device(
+      [&](const AxesMotion<2>&) {
+        asked.push_back(plant.now());
+        return Joints{1e-4 * static_cast<double>(asked.size()), 0.0};
+      },
+      sampling);
+  TwoAxisLoop loop(plant, device);
+  loop.run(clocks_of(2e-3), [&](const Pantograph& now) {
+    if (now.seen().motor_nm[0] == last) return;
+    last = now.seen().motor_nm[0];
+    changed.push_back(now.now());
+  });
+  REQUIRE(asked.size() == 6);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    CHECK(asked[i] == std::llround(static_cast<double>(i) * 50e6 / 3e3));
+  }
+  REQUIRE(changed.size() == 6);
+  // Seen at the end of the step that began with it, at most 250 clocks.
+  for (std::size_t i = 0; i < 6; ++i) {
+    CHECK(changed[i] > asked[i] + 5000);
+    CHECK(changed[i] <= asked[i] + 5250);
+  }
+  CHECK(plant.now() == clocks_of(2e-3));
+}
+
+TEST_CASE("a device sees every edge between two calls once", "[loop]") {
+  // Stands where the twin of a core will: it counts pins, and is asked every 7000 clocks.
+  struct Counter : TwoAxisDevice {
+    std::array<std::size_t, 2> edges{};
+    Clock asked = -1;
+    AxesCommand<2> act(const AxesSense<Pantograph>& sense) override {
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        for (const EncoderEvent& e : sense.events[axis]) {
+          CHECK(e.clock > asked);
+          CHECK(e.clock <= sense.now);
+          ++edges[axis];
+        }
+      }
+      asked = sense.now;
+      AxesCommand<2> c;
+      c.bridges = {Bridge::averaged(0.15), Bridge::averaged(-0.12)};
+      return c;
+    }
+    Clock next(Clock now) const override { return now + 7000; }
+  } device;
+  const PantographParameters p = pantograph();
+  Pantograph plant(p, p.effects, Drive{});
+  TwoAxisLoop loop(plant, device);
+  const std::array<std::int64_t, 2> begin{plant.encoder(0).count(), plant.encoder(1).count()};
+  loop.run(7000 * 300 + 1);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(device.edges[i] ==
+          static_cast<std::size_t>(std::abs(plant.encoder(i).count() - begin[i])));
+    CHECK(device.edges[i] > 20);
+  }
+}
+
 TEST_CASE("wall: what the hand feels is stiffness times depth, and it is passive", "[loop]") {
   const PantographParameters p = pantograph();
   Effects on = p.effects;
@@ -71,16 +146,6 @@ TEST_CASE("wall: what the hand feels is stiffness times depth, and it is passive
     CHECK(felt.work_j > 1e-3);
     CHECK(plant.seen().pen_m.y > kEdge);
   }
-}
-
-TEST_CASE("the wall pushes and never pulls, drag is everywhere", "[loop]") {
-  const WallAndDrag wall{kEdge, 300.0, 20.0, 2.0};
-  const Vec2 in = wall.force_n({0.0, kEdge - 0.01}, {0.1, -0.05});
-  CHECK(in.x == Approx(-0.2));
-  CHECK(in.y == Approx(3.0 + 1.0 + 0.1));
-  // Its damping would hold back a pen that leaves this fast.
-  CHECK(wall.force_n({0.0, kEdge - 0.01}, {0.0, 0.5}).y == Approx(-1.0));
-  CHECK(wall.force_n({0.0, kEdge + 0.01}, {0.0, -0.5}).y == Approx(1.0));
 }
 
 TEST_CASE("drag: the force against the motion is drag times speed", "[loop]") {
@@ -156,69 +221,4 @@ TEST_CASE("a wall that is sampled too slowly gives energy, and the count shows i
   const Felt felt =
       feel(plant, WallAndDrag{kEdge, 400.0, 0.0, 0.0}.law(plant.linkage()), sampling, 1.5);
   CHECK(felt.least_work_j > 0.01 * before);
-}
-
-TEST_CASE("samples and delays lie on their clocks", "[loop]") {
-  const PantographParameters p = pantograph();
-  Pantograph plant(p, kNoEffects, Drive{});
-  std::vector<Clock> asked, changed;
-  Sampling sampling;
-  sampling.rate_hz = 3e3;
-  sampling.delay_s = 100e-6;
-  double last = 0.0;
-  TwoAxisLaw device(
-      [&](const AxesMotion<2>&) {
-        asked.push_back(plant.now());
-        return Joints{1e-4 * static_cast<double>(asked.size()), 0.0};
-      },
-      sampling);
-  TwoAxisLoop loop(plant, device);
-  loop.run(clocks_of(2e-3), [&](const Pantograph& now) {
-    if (now.seen().motor_nm[0] == last) return;
-    last = now.seen().motor_nm[0];
-    changed.push_back(now.now());
-  });
-  REQUIRE(asked.size() == 6);
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    CHECK(asked[i] == std::llround(static_cast<double>(i) * 50e6 / 3e3));
-  }
-  REQUIRE(changed.size() == 6);
-  // Seen at the end of the step that began with it, at most 250 clocks.
-  for (std::size_t i = 0; i < 6; ++i) {
-    CHECK(changed[i] > asked[i] + 5000);
-    CHECK(changed[i] <= asked[i] + 5250);
-  }
-  CHECK(plant.now() == clocks_of(2e-3));
-}
-
-TEST_CASE("a device sees every edge between two calls once", "[loop]") {
-  // Stands where the twin of a core will: it counts pins, and is asked every 7000 clocks.
-  struct Counter : TwoAxisDevice {
-    std::array<std::size_t, 2> edges{};
-    Clock asked = -1;
-    AxesCommand<2> act(const AxesSense<Pantograph>& sense) override {
-      for (std::size_t axis = 0; axis < 2; ++axis) {
-        for (const EncoderEvent& e : sense.events[axis]) {
-          CHECK(e.clock > asked);
-          CHECK(e.clock <= sense.now);
-          ++edges[axis];
-        }
-      }
-      asked = sense.now;
-      AxesCommand<2> c;
-      c.bridges = {Bridge::averaged(0.15), Bridge::averaged(-0.12)};
-      return c;
-    }
-    Clock next(Clock now) const override { return now + 7000; }
-  } device;
-  const PantographParameters p = pantograph();
-  Pantograph plant(p, p.effects, Drive{});
-  TwoAxisLoop loop(plant, device);
-  const std::array<std::int64_t, 2> begin{plant.encoder(0).count(), plant.encoder(1).count()};
-  loop.run(7000 * 300 + 1);
-  for (std::size_t i = 0; i < 2; ++i) {
-    CHECK(device.edges[i] ==
-          static_cast<std::size_t>(std::abs(plant.encoder(i).count() - begin[i])));
-    CHECK(device.edges[i] > 20);
-  }
 }

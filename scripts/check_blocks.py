@@ -69,6 +69,8 @@ def find_blocks(root):
     for name, path in rtl_sources.module_files(root).items():
         rtl = root / "rtl" / path
         code = rtl_sources.code_only(rtl.read_text(encoding="utf-8"))
+        if path.startswith("engine/") and name != "engine":
+            continue  # a part: twin, test, page and defects are the engine's
         if name in EXEMPT or not re.search(r"^\s*module\b", code, re.M):
             continue  # a package
         test = Path(f"testbench/{name}/{name}_test.cpp")

@@ -87,6 +87,7 @@ def chosen(root, blocks):
     if not blocks:
         return rows
     rows += synth_measure.link_targets(root) + synth_measure.axes_targets()
+    rows += synth_measure.engine_targets(root)
     wanted = {synth_measure.CORE if block == "core" else block for block in blocks}
     unknown = wanted - {row.module for row in rows}
     if unknown:

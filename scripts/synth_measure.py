@@ -106,6 +106,17 @@ def axes_targets():
     ]
 
 
+def engine_sources(root):
+    """Files of the engine for laws in rtl/."""
+    return rtl_sources.folder_files(root, "engine")
+
+
+def engine_targets(root):
+    """The engine and its parts: rows that are measured where they are asked for."""
+    names = [Path(path).stem for path in engine_sources(root) if "_pkg" not in path]
+    return [Target(name, name) for name in names]
+
+
 def scene_target(root):
     """The row that scene sets are compared by: the core as a product without a host."""
     return next(row for row in targets(root) if row.name == SCENE_ROW)
@@ -118,8 +129,8 @@ def copy_sources(root, design, folder):
     """
     is_path = isinstance(design, Path)
     package = design if is_path else root / f"rtl/generated/{design}/feltgate_pkg.sv"
-    axes = rtl_sources.folder_files(root, "axes")
-    names = [f"{CELL_WRAPPER}.sv", *core_sources(root), *link_sources(root), *axes]
+    beside = [*rtl_sources.folder_files(root, "axes"), *engine_sources(root)]
+    names = [f"{CELL_WRAPPER}.sv", *core_sources(root), *link_sources(root), *beside]
     shutil.copy(package, folder / "feltgate_pkg.sv")
     for name in names:
         shutil.copy(root / "rtl" / name, folder)

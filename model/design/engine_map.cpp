@@ -40,7 +40,8 @@ EngineWords read_words(TomlReader& r, const std::string& first, std::set<int>& u
   w.name = r.identifier("name");
   w.first = integer(r, first, 0, 4095);
   if (r.has("words")) w.words = integer(r, "words", 1, 4096 - w.first);
-  if (r.has("access")) w.writable = r.choice("access", {"read", "write"}) == 1;
+  static const std::vector<std::string> accesses{"read", "write", "write_only"};
+  if (r.has("access")) w.access = accesses[r.choice("access", accesses)];
   w.doc = plain_text(r, "doc");
   std::uint64_t bits = 0;
   for (TomlReader& f : r.sections("fields")) w.fields.push_back(read_field(f, 32, bits));

@@ -18,7 +18,7 @@ struct EngineWords {
   std::string name;
   int first = 0;
   int words = 1;
-  bool writable = false;
+  std::string access = "read";  ///< or write: reads and writes; or write_only
   std::string doc;
   std::vector<Field> fields;
 };

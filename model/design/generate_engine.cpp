@@ -133,7 +133,10 @@ std::string engine_page(const EngineDescription& e) {
   s << "\n## Host\n\n| address | name | bits | host | meaning |\n|---|---|---|---|---|\n";
   for (const EngineWords& w : e.host) {
     s << fmt::format("| {} | `{}` | | {} | {} |\n", range_text(w, "{:#05x}"), w.name,
-                     w.writable ? "reads, writes" : "reads", w.doc);
+                     w.access == "write"  ? "reads, writes"
+                     : w.access == "read" ? "reads"
+                                          : "writes",
+                     w.doc);
     for (const Field& f : w.fields) {
       s << fmt::format("| {} | `{}.{}` | {} | | {} |\n", range_text(w, "{:#05x}"), w.name, f.name,
                        bits_text(f), f.doc);

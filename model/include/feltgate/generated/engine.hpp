@@ -117,7 +117,7 @@ struct EngineMap {
 
   /// Bits of the host's words.
   struct S {
-    static constexpr int status_committing = 0;  ///< a commit is under way
+    static constexpr int status_committing = 0;  ///< a commit is under way, or a run still uses the bank before
     static constexpr int status_committing_width = 1;
     static constexpr int status_refused = 1;  ///< the last commit was refused: a word out of its range
     static constexpr int status_refused_width = 1;

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Runs force laws as programs: four threads over program, data and table memory, started with the tick,
+// and a port for the host. A law asks for torques and can do nothing else. docs/blocks/engine.md
+
+`default_nettype none
+
+module engine #(
+    parameter int         AxisCount      = 1,
+    parameter             ProgramContent = "",  // for $readmemh, as of the others
+    parameter             DataContent    = "",
+    parameter             TableContent   = "",
+    parameter logic [3:0] RunReset       = 4'd0,    // threads that run without a host
+    parameter logic [9:0] LineBaseReset  = 10'd512,
+    parameter logic [15:0] AgeReset      = 16'd0,
+    parameter logic [31:0] CrcReset      = 32'd0
+) (
+    input  logic                    clk_i,
+    input  logic                    rst_ni,
+    input  logic                    armed_i,
+    input  logic                    enter_i,       // one clock: the scene of laws was entered
+    input  logic                    locked_i,      // programs and what belongs to them cannot be written
+    input  logic                    tick_i,        // one clock; the inputs are of this tick, and held
+    input  logic [            31:0] tick_count_i,
+    input  logic [32*AxisCount-1:0] position_i,
+    input  logic [32*AxisCount-1:0] velocity_i,
+    input  logic [32*AxisCount-1:0] tau_hat_i,
+    output logic signed [feltgate_pkg::TORQUE_W*AxisCount-1:0] torque_o,
+    output logic                    fresh_o,
+    output logic                    late_o,
+    input  logic                    crc_start_i,
+    output logic                    crc_done_o,    // one clock
+    output logic                    crc_good_o,
+    output logic                    event_valid_o,
+    output logic [             8:0] event_number_o,
+    output logic [            31:0] event_value_o,
+    // The host.
+    input  logic [            11:0] addr_i,
+    input  logic [            31:0] wdata_i,
+    input  logic                    write_i,       // one clock, while not busy
+    input  logic                    read_i,        // one clock: rdata_o is taken
+    output logic [            31:0] rdata_o,       // of an address held for 32 clocks while not busy
+    output logic                    busy_o
+);
+  // Words of the host that are registers.
+  logic [3:0] high_q, run_q;
+  logic [9:0] line_base_q;
+  logic [15:0] max_age_q;
+  logic [31:0] crc_q;
+  logic overrun_q;
+
+  logic write_register, open_register, write_run, write_divider, commit;
+  assign write_register = write_i && !busy_o && addr_i[11:9] == 3'd5;
+  assign open_register  = write_register && !locked_i;
+  assign write_run      = open_register && addr_i == feltgate_engine_pkg::H_RUN;
+  assign write_divider  = open_register && addr_i >= feltgate_engine_pkg::H_DIVIDER0 &&
+                          addr_i <= feltgate_engine_pkg::H_DIVIDER3;
+  assign commit = write_register && addr_i == feltgate_engine_pkg::H_COMMIT && wdata_i[0];
+
+  logic armed_q, enter, overrun;
+  logic [3:0] first_q, request, running;
+  logic started, ended;
+  logic [1:0] thread5;
+  assign enter = enter_i || (armed_i && !armed_q) || write_run;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      high_q      <= '0;
+      run_q       <= RunReset;
+      line_base_q <= LineBaseReset;
+      max_age_q   <= AgeReset;
+      crc_q       <= CrcReset;
+      overrun_q   <= 1'b0;
+      armed_q     <= 1'b0;
+      first_q     <= '1;
+    end else begin
+      armed_q <= armed_i;
+      if (open_register && addr_i == feltgate_engine_pkg::H_HIGH) high_q <= wdata_i[3:0];
+      if (write_run) run_q <= wdata_i[3:0];
+      if (open_register && addr_i == feltgate_engine_pkg::H_LINE_BASE) line_base_q <= wdata_i[9:0];
+      if (open_register && addr_i == feltgate_engine_pkg::H_MAX_AGE) max_age_q <= wdata_i[15:0];
+      if (open_register && addr_i == feltgate_engine_pkg::H_CRC) crc_q <= wdata_i;
+      overrun_q <= (overrun_q || overrun) && !write_run;
+      if (started) first_q[thread5] <= 1'b0;
+      if (enter) first_q <= '1;
+    end
+  end
+
+  // A word of the host for a memory waits for a turn without an instruction.
+  logic waits_q, waits_program_q, waits_table_q, may_write, parameter_write;
+  logic [8:0] address_q;
+  logic [31:0] data_q;
+  logic free, input_wanted, input_taken, host_taken;
+  logic bank, checking, committing, minus;
+  logic [8:0] commit_address, input_address;
+  logic [31:0] input_word;
+  assign parameter_write = addr_i[11:6] == 6'd5;
+  assign may_write = addr_i[11:9] == 3'd0 ? (parameter_write ? !committing
+                         : !locked_i && (addr_i[8] || addr_i[5:4] != 2'd3))
+                     : !locked_i && addr_i[11:9] <= 3'd2;
+  assign host_taken  = waits_q && free && !input_wanted;
+  assign input_taken = input_wanted && free;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) waits_q <= 1'b0;
+    else if (host_taken) waits_q <= 1'b0;
+    else if (write_i && !busy_o && may_write) waits_q <= 1'b1;
+  end
+  always_ff @(posedge clk_i) begin
+    if (write_i && !busy_o) begin
+      waits_program_q <= addr_i[9];
+      waits_table_q   <= addr_i[10];
+      address_q       <= {addr_i[8:6], parameter_write ? !bank : addr_i[5], addr_i[4:0]};
+      data_q          <= wdata_i;
+    end
+  end
+
+  // What the system writes and reads in the barrel. A program's word takes the way of a written one.
+  localparam logic [8:0] Zero = 9'd63;  // the last of thread 0's inputs: nobody writes it
+  logic write_data_q, write_program_q, write_table_q;
+  logic [8:0] write_address_q, read_data, read_address;
+  logic [31:0] write_word_q;
+  logic [3:0] write_high_q;
+  logic beat, beat2_q, high_turn, read_program, read_table;
+  logic [35:0] program_word;
+  logic [3:0] table_high, high_read_q;
+  logic [31:0] program_q;
+  logic [3:0] program_high_q;
+  logic crc_busy, crc_reads, crc_program, crc_table;
+  logic [8:0] crc_address;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) {write_data_q, write_program_q, write_table_q} <= '0;
+    else begin
+      write_data_q    <= input_taken || (host_taken && !waits_program_q && !waits_table_q);
+      write_program_q <= host_taken && waits_program_q;
+      write_table_q   <= host_taken && waits_table_q;
+    end
+  end
+  always_ff @(posedge clk_i) begin
+    write_high_q    <= host_taken && (waits_program_q || waits_table_q) ? high_q : 4'd0;
+    write_address_q <= input_wanted ? input_address : address_q;
+    if (beat2_q && read_program) write_word_q <= program_q;
+    else if (input_taken) write_word_q <= input_word;
+    else if (host_taken) write_word_q <= data_q;
+    else write_word_q <= '0;
+    beat2_q <= beat;
+    if (beat) {program_high_q, program_q} <= program_word;
+    if (high_turn) high_read_q <= table_high;
+  end
+  assign read_program = !checking && (crc_reads ? crc_program : addr_i[9]);
+  assign read_table   = !checking && (crc_reads ? crc_table : addr_i[11:10] != 2'd0 && !addr_i[9]);
+  assign read_address = crc_reads ? crc_address : addr_i[8:0];
+  assign read_data    = checking ? commit_address : read_program || read_table ? Zero : read_address;
+
+  logic signed [31:0] result;
+  logic output_valid, event_valid, last;
+  logic [1:0] thread7;
+  logic [8:0] number;
+  engine_barrel #(
+      .ProgramContent(ProgramContent),
+      .DataContent(DataContent),
+      .TableContent(TableContent)
+  ) u_barrel (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .run_i(run_q),
+      .request_i(request),
+      .first_i(first_q),
+      .bank_i(bank),
+      .started_o(started),
+      .ended_o(ended),
+      .thread5_o(thread5),
+      .result_o(result),
+      .output_o(output_valid),
+      .event_o(event_valid),
+      .last_o(last),
+      .thread7_o(thread7),
+      .number_o(number),
+      .free_o(free),
+      .write_data_i(write_data_q),
+      .write_program_i(write_program_q),
+      .write_table_i(write_table_q),
+      .write_address_i(write_address_q),
+      .write_word_i(write_word_q),
+      .write_high_i(write_high_q),
+      .read_table_i(read_table),
+      .read_minus_i(minus),
+      .keeps_i(minus),
+      .read_data_i(read_data),
+      .read_address_i(read_address),
+      .read_o(beat),
+      .program_o(program_word),
+      .high_read_o(high_turn),
+      .table_high_o(table_high),
+      .line_base_i(line_base_q)
+  );
+
+  engine_inputs #(.AxisCount(AxisCount)) u_inputs (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .run_i(run_q),
+      .tick_i(tick_i),
+      .tick_count_i(tick_count_i),
+      .position_i(position_i),
+      .velocity_i(velocity_i),
+      .tau_hat_i(tau_hat_i),
+      .divide_i(write_divider),
+      .divided_i(addr_i[1:0] ^ 2'b10),  // from address 2 on
+      .divider_i(wdata_i[11:0]),
+      .started_i(started),
+      .ended_i(ended),
+      .thread_i(thread5),
+      .request_o(request),
+      .running_o(running),
+      .overrun_o(overrun),
+      .wanted_o(input_wanted),
+      .taken_i(input_taken),
+      .address_o(input_address),
+      .word_o(input_word)
+  );
+
+  engine_outputs #(.AxisCount(AxisCount)) u_outputs (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .clear_i(write_run),
+      .watched_i(run_q != 4'd0),
+      .enter_i(enter),
+      .tick_i(tick_i),
+      .max_age_i(max_age_q),
+      .result_i(result),
+      .output_i(output_valid),
+      .last_i(last),
+      .thread_i(thread7),
+      .number_i(number[1:0]),
+      .torque_o(torque_o),
+      .fresh_o(fresh_o),
+      .late_o(late_o)
+  );
+
+  logic refused;
+  logic [4:0] refused_word;
+  engine_commit u_commit (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .commit_i(commit),
+      .wait_i(crc_busy),
+      .beat_i(beat),
+      .negative_i(result[31]),
+      .running_i(running),
+      .bank_o(bank),
+      .checking_o(checking),
+      .committing_o(committing),
+      .refused_o(refused),
+      .refused_word_o(refused_word),
+      .minus_o(minus),
+      .address_o(commit_address)
+  );
+
+  engine_crc u_crc (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .start_i(crc_start_i),
+      .wait_i(checking),
+      .beat_i(beat),
+      .word_i({crc_program ? program_high_q : high_read_q, result}),
+      .line_base_i(line_base_q),
+      .wanted_i(crc_q),
+      .busy_o(crc_busy),
+      .reads_o(crc_reads),
+      .good_o(crc_good_o),
+      .done_o(crc_done_o),
+      .program_o(crc_program),
+      .table_o(crc_table),
+      .address_o(crc_address)
+  );
+
+  logic [4:0] event_count;
+  logic [8:0] event_number;
+  logic [31:0] event_value, event_tick;
+  logic [15:0] events_lost;
+  engine_events u_events (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .event_i(event_valid),
+      .number_i(number),
+      .value_i(result),
+      .tick_i(tick_count_i),
+      .take_i(read_i && addr_i == feltgate_engine_pkg::H_EVENT_TICK),
+      .count_o(event_count),
+      .number_o(event_number),
+      .value_o(event_value),
+      .tick_o(event_tick),
+      .lost_o(events_lost)
+  );
+  assign event_valid_o  = event_valid;
+  assign event_number_o = number;
+  assign event_value_o  = result;
+
+  // What the host reads.
+  logic [31:0] read_q, register;
+  logic [11:0] status;
+  assign status = {running, 1'b0, overrun_q, bank, late_o, crc_good_o, crc_busy, refused, committing};
+  assign busy_o = waits_q || checking || crc_busy;
+  always_ff @(posedge clk_i) begin
+    if (beat) read_q <= addr_i[11] || addr_i[10:9] == 2'd3 ? {28'd0, addr_i[11] ? high_read_q : program_high_q}
+                                                           : result;
+  end
+  always_comb begin
+    case ({7'h50, addr_i[4:0]})
+      feltgate_engine_pkg::H_STATUS:       register = {20'd0, status};
+      feltgate_engine_pkg::H_REFUSED_WORD: register = {27'd0, refused_word};
+      feltgate_engine_pkg::H_EVENT_COUNT:  register = {27'd0, event_count};
+      feltgate_engine_pkg::H_EVENT_NUMBER: register = {23'd0, event_number};
+      feltgate_engine_pkg::H_EVENT_VALUE:  register = event_value;
+      feltgate_engine_pkg::H_EVENT_TICK:   register = event_tick;
+      feltgate_engine_pkg::H_EVENTS_LOST:  register = {16'd0, events_lost};
+      default:                                  register = '0;
+    endcase
+  end
+  assign rdata_o = addr_i[11:9] == 3'd5 ? register : read_q;
+endmodule
+
+`default_nettype wire

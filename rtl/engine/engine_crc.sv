@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// CRC-32, as zlib's, over what no program can write: all program words, ranges and constants, the table
+// below the lines. Words of 36 bits count as five bytes. A bit a clock. docs/blocks/engine.md
+
+`default_nettype none
+
+module engine_crc (
+    input  logic        clk_i,
+    input  logic        rst_ni,
+    input  logic        start_i,
+    input  logic        wait_i,       // another reads
+    input  logic        beat_i,       // a word is read, the one before is there
+    input  logic [35:0] word_i,
+    input  logic [ 9:0] line_base_i,
+    input  logic [31:0] wanted_i,
+    output logic        busy_o,
+    output logic        reads_o,
+    output logic        good_o,
+    output logic        done_o,       // one clock
+    output logic        program_o,    // what is read; none of both: data
+    output logic        table_o,
+    output logic [ 8:0] address_o
+);
+  localparam logic [1:0] Program = 2'd0;
+  localparam logic [1:0] Data = 2'd1;
+  localparam logic [1:0] Table = 2'd2;
+
+  logic [1:0] part_q;
+  logic [8:0] address_q;
+  logic [5:0] left_q;  // bits of the word
+  logic [35:0] word_q;
+  logic [31:0] crc_q;
+  logic waits_q, read_q, ends, feeds;
+  assign ends      = part_q == Table && {1'b0, address_q} == line_base_i;
+  assign program_o = reads_o && part_q == Program;
+  assign table_o   = reads_o && part_q == Table;
+  assign address_o = address_q;
+  assign busy_o    = waits_q || reads_o;
+
+  // The word of an address comes two beats after it: the program's takes a round more than the data's.
+  logic [1:0] beats_q;
+  logic loads;
+  assign loads = reads_o && beat_i && beats_q == 2'd2 && left_q == 6'd0 && !ends && part_q != 2'd3;
+  assign feeds = crc_q[0] ^ word_q[0];
+  always_ff @(posedge clk_i) begin
+    word_q <= loads ? word_i : {1'b0, word_q[35:1]};
+    if (!read_q) crc_q <= '1;
+    else if (left_q != 6'd0) crc_q <= {1'b0, crc_q[31:1]} ^ (feeds ? 32'hedb88320 : 32'd0);
+  end
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      part_q    <= Program;
+      address_q <= '0;
+      left_q    <= '0;
+      beats_q   <= '0;
+      waits_q   <= 1'b0;
+      read_q    <= 1'b0;
+      reads_o   <= 1'b0;
+      good_o    <= 1'b0;
+      done_o    <= 1'b0;
+    end else begin
+      done_o <= 1'b0;
+      if (start_i) waits_q <= 1'b1;
+      read_q <= reads_o;
+      if (!reads_o && !read_q && waits_q && !wait_i) begin
+        waits_q   <= start_i;
+        reads_o   <= 1'b1;
+        good_o    <= 1'b0;
+        part_q    <= Program;
+        address_q <= '0;
+        beats_q   <= '0;
+      end
+      if (left_q != 6'd0) left_q <= left_q - 6'd1;
+      if (reads_o && beat_i && beats_q != 2'd2) beats_q <= beats_q + 2'd1;
+      if (loads) begin
+        left_q    <= part_q == Data ? 6'd32 : 6'd40;
+        beats_q   <= '0;
+        address_q <= address_q + 9'd1;
+        if (address_q == 9'd511) begin
+          part_q <= part_q + 2'd1;
+          if (part_q == Program) address_q <= feltgate_engine_pkg::D_LOWER;
+        end
+      end
+      // A table without lines ends behind its last word.
+      if (reads_o && left_q == 6'd0 && (ends || part_q == 2'd3)) begin
+        reads_o <= 1'b0;
+        done_o  <= 1'b1;
+        good_o  <= ~crc_q == wanted_i;
+      end
+    end
+  end
+endmodule
+
+`default_nettype wire

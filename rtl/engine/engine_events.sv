@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Events that wait for the host, oldest first; one that finds no place is counted.
+// docs/blocks/engine.md
+
+`default_nettype none
+
+module engine_events (
+    input  logic        clk_i,
+    input  logic        rst_ni,
+    input  logic        event_i,
+    input  logic [ 8:0] number_i,
+    input  logic [31:0] value_i,
+    input  logic [31:0] tick_i,
+    input  logic        take_i,    // the oldest goes
+    output logic [ 4:0] count_o,
+    output logic [ 8:0] number_o,  // of the oldest
+    output logic [31:0] value_o,
+    output logic [31:0] tick_o,
+    output logic [15:0] lost_o     // stays at its end
+);
+  logic [72:0] events[0:15];
+  initial begin
+    for (int n = 0; n < 16; n = n + 1) events[n] = '0;
+  end
+  logic [3:0] first_q;
+  logic [4:0] count_q;
+  logic keeps, takes;
+  logic [3:0] place;
+  assign keeps   = event_i && !count_q[4];
+  assign takes   = take_i && count_q != 5'd0;
+  assign place   = first_q + count_q[3:0];
+  assign count_o = count_q;
+  assign {number_o, value_o, tick_o} = events[first_q];
+  always_ff @(posedge clk_i) begin
+    if (keeps) events[place] <= {number_i, value_i, tick_i};
+  end
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      first_q <= '0;
+      count_q <= '0;
+      lost_o  <= '0;
+    end else begin
+      if (takes) first_q <= first_q + 4'd1;
+      if (keeps != takes) count_q <= keeps ? count_q + 5'd1 : count_q - 5'd1;
+      if (event_i && count_q[4] && lost_o != '1) lost_o <= lost_o + 16'd1;
+    end
+  end
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// When the engine's threads start, and what they are given: each every so many ticks, when its run
+// before has ended, with the inputs of the tick written into its private words. docs/blocks/engine.md
+
+`default_nettype none
+
+module engine_inputs #(
+    parameter int AxisCount = 1
+) (
+    input  logic                     clk_i,
+    input  logic                     rst_ni,
+    input  logic [              3:0] run_i,
+    input  logic                     tick_i,        // one clock; the inputs are of this tick, and held
+    input  logic [             31:0] tick_count_i,
+    input  logic [32*AxisCount-1:0] position_i,
+    input  logic [32*AxisCount-1:0] velocity_i,
+    input  logic [32*AxisCount-1:0] tau_hat_i,
+    input  logic                     divide_i,      // a divider is written
+    input  logic [              1:0] divided_i,     // of this thread
+    input  logic [             11:0] divider_i,
+    input  logic                     started_i,     // by the barrel, of thread_i
+    input  logic                     ended_i,
+    input  logic [              1:0] thread_i,
+    output logic [              3:0] request_o,     // a start
+    output logic [              3:0] running_o,     // about to start, or in a run
+    output logic                     overrun_o,     // a start found one that still waits
+    output logic                     wanted_o,      // a word to write
+    input  logic                     taken_i,       // it is, in this clock
+    output logic [              8:0] address_o,
+    output logic [             31:0] word_o
+);
+  // Ticks to the next start, a thread after another: at 1 or 0 it is due.
+  logic [11:0] dividers[0:3];
+  logic [11:0] counts[0:3];
+  initial begin
+    for (int n = 0; n < 4; n = n + 1) begin
+      dividers[n] = '0;
+      counts[n]   = '0;
+    end
+  end
+  logic [11:0] count;
+  logic [1:0] counted_q;
+  logic counting_q, due;
+  assign count = counts[counted_q];
+  assign due   = counting_q && count[11:1] == 11'd0 && run_i[counted_q];
+  always_ff @(posedge clk_i) begin
+    if (divide_i) dividers[divided_i] <= divider_i;
+    if (counting_q) begin
+      if (!run_i[counted_q]) counts[counted_q] <= 12'd0;
+      else counts[counted_q] <= count[11:1] == 11'd0 ? dividers[counted_q] : count - 12'd1;
+    end
+  end
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      counting_q <= 1'b0;
+      counted_q  <= 2'd0;
+    end else begin
+      if (tick_i) counting_q <= 1'b1;
+      else if (counted_q == 2'd3) counting_q <= 1'b0;
+      if (counting_q) counted_q <= counted_q + 2'd1;
+    end
+  end
+
+  // Due threads wait for their run to end, then for their words to be written.
+  localparam logic [3:0] Words = 4'(3 * AxisCount + 1);
+  logic [3:0] due_q, ready;
+  logic [1:0] loaded_q;
+  logic [3:0] word_q;
+  logic loading_q, written_q;
+  assign overrun_o = due && due_q[counted_q];
+  assign ready     = due_q & ~running_o;
+  assign wanted_o  = loading_q && word_q != Words;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      due_q      <= '0;
+      loading_q  <= 1'b0;
+      loaded_q   <= 2'd0;
+      word_q     <= '0;
+      written_q  <= 1'b0;
+      request_o  <= '0;
+      running_o  <= '0;
+    end else begin
+      written_q <= 1'b0;
+      if (tick_i || !loading_q) word_q <= '0;  // of one tick
+      else if (taken_i) word_q <= word_q + 4'd1;
+      if (!loading_q) begin
+        loading_q <= ready != '0;
+        loaded_q  <= ready[0] ? 2'd0 : ready[1] ? 2'd1 : ready[2] ? 2'd2 : 2'd3;
+      end else if (word_q == Words && !tick_i) begin
+        loading_q <= 1'b0;
+        written_q <= 1'b1;
+        due_q[loaded_q]     <= 1'b0;
+        running_o[loaded_q] <= 1'b1;
+      end
+      if (written_q) request_o[loaded_q] <= 1'b1;
+      if (started_i) request_o[thread_i] <= 1'b0;
+      if (ended_i) running_o[thread_i] <= 1'b0;
+      if (due) due_q[counted_q] <= 1'b1;
+      for (int t = 0; t < 4; t = t + 1) begin
+        if (!run_i[t]) begin
+          due_q[t]     <= 1'b0;
+          request_o[t] <= 1'b0;
+          running_o[t] <= 1'b0;
+        end
+      end
+    end
+  end
+
+  // The words of all axes, and the tick's number.
+  logic [32*(3*AxisCount+1)-1:0] words;
+  genvar n;
+  generate
+    for (n = 0; n < AxisCount; n = n + 1) begin : g_axis
+      assign words[96*n+:32]    = position_i[32*n+:32];
+      assign words[96*n+32+:32] = velocity_i[32*n+:32];
+      assign words[96*n+64+:32] = tau_hat_i[32*n+:32];
+    end
+  endgenerate
+  assign words[96*AxisCount+:32] = tick_count_i;
+  assign word_o    = words[32*word_q+:32];
+  assign address_o = {1'b0, loaded_q, 2'b11, word_q == Words - 4'd1 ? 4'd9 : word_q};
+endmodule
+
+`default_nettype wire

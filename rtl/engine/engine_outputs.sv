@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What leaves the engine: the outputs of a run together at its end, limited to the torque's format,
+// and their age. docs/blocks/engine.md
+
+`default_nettype none
+
+module engine_outputs #(
+    parameter int AxisCount = 1
+) (
+    input  logic               clk_i,
+    input  logic               rst_ni,
+    input  logic               clear_i,    // outputs 0
+    input  logic               watched_i,  // some thread should run
+    input  logic               enter_i,
+    input  logic               tick_i,
+    input  logic        [15:0] max_age_i,  // ticks
+    // Of the barrel, in one clock.
+    input  logic signed [31:0] result_i,
+    input  logic               output_i,
+    input  logic               last_i,
+    input  logic        [ 1:0] thread_i,
+    input  logic        [ 1:0] number_i,
+    output logic signed [feltgate_pkg::TORQUE_W*AxisCount-1:0] torque_o,
+    output logic               fresh_o,    // all outputs were renewed since the last time
+    output logic               late_o      // until enter_i: they were not for max_age ticks
+);
+  localparam int W = feltgate_pkg::TORQUE_W;
+
+  logic beyond;
+  logic [W-1:0] limited;
+  assign beyond  = result_i[31:W-1] != {(33 - W) {result_i[31]}};
+  assign limited = beyond ? {result_i[31], {(W - 1) {!result_i[31]}}} : result_i[W-1:0];
+
+  logic ends_q;
+  logic [1:0] thread_q;
+  logic [AxisCount-1:0] appears, renewed_q;
+  always_ff @(posedge clk_i) begin
+    ends_q   <= last_i;
+    thread_q <= thread_i;
+  end
+
+  genvar n;
+  generate
+    for (n = 0; n < AxisCount; n = n + 1) begin : g_axis
+      logic [W-1:0] next_q, torque_q;
+      logic [1:0] by_q;
+      logic waits_q;
+      assign appears[n] = ends_q && waits_q && by_q == thread_q;
+      always_ff @(posedge clk_i) begin
+        if (output_i && number_i == 2'(n)) begin
+          next_q <= limited;
+          by_q   <= thread_i;
+        end
+      end
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) begin
+          torque_q <= '0;
+          waits_q  <= 1'b0;
+        end else begin
+          if (clear_i) torque_q <= '0;
+          else if (appears[n]) torque_q <= next_q;
+          if (clear_i) waits_q <= 1'b0;
+          else if (output_i && number_i == 2'(n)) waits_q <= 1'b1;
+          else if (appears[n]) waits_q <= 1'b0;
+        end
+      end
+      assign torque_o[W*n+:W] = torque_q;
+    end
+  endgenerate
+
+  // Their age; a program has no way to it but by outputs of all axes.
+  logic [15:0] age_q;
+  logic fresh;
+  assign fresh = (renewed_q | appears) == '1;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      renewed_q <= '0;
+      fresh_o   <= 1'b0;
+      age_q     <= '0;
+      late_o    <= 1'b0;
+    end else begin
+      renewed_q <= clear_i || fresh ? '0 : renewed_q | appears;
+      fresh_o   <= fresh && !clear_i;
+      if (fresh || enter_i || !watched_i) age_q <= '0;
+      else if (tick_i) age_q <= age_q + 16'd1;
+      if (enter_i || !watched_i) late_o <= 1'b0;
+      else if (tick_i && !fresh && age_q == max_age_i) late_o <= 1'b1;
+    end
+  end
+endmodule
+
+`default_nettype wire

@@ -122,7 +122,7 @@ module engine #(
   logic [3:0] write_high_q;
   logic beat, beat2_q, high_turn, read_program, read_table;
   logic [35:0] program_word;
-  logic [3:0] table_high, high_read_q;
+  logic [3:0] table_high, high_read_q, read_op;
   logic [31:0] program_q;
   logic [3:0] program_high_q;
   logic crc_busy, crc_reads, crc_program, crc_table;
@@ -149,7 +149,10 @@ module engine #(
   assign read_program = !checking && (crc_reads ? crc_program : addr_i[9]);
   assign read_table   = !checking && (crc_reads ? crc_table : addr_i[11:10] != 2'd0 && !addr_i[9]);
   assign read_address = crc_reads ? crc_address : addr_i[8:0];
-  assign read_data    = checking ? commit_address : read_program || read_table ? Zero : read_address;
+  assign read_data    = checking ? commit_address : read_table ? Zero : read_address;
+  assign read_op      = read_program ? feltgate_engine_pkg::OP_NOP :
+                        read_table ? feltgate_engine_pkg::OP_TAB :
+                        minus ? feltgate_engine_pkg::OP_SUB : feltgate_engine_pkg::OP_ADD;
 
   logic signed [31:0] result;
   logic output_valid, event_valid, last;
@@ -182,8 +185,7 @@ module engine #(
       .write_address_i(write_address_q),
       .write_word_i(write_word_q),
       .write_high_i(write_high_q),
-      .read_table_i(read_table),
-      .read_minus_i(minus),
+      .read_op_i(read_op),
       .keeps_i(minus),
       .read_data_i(read_data),
       .read_address_i(read_address),
@@ -297,7 +299,8 @@ module engine #(
 
   // What the host reads.
   logic [31:0] read_q, register;
-  logic [11:0] status;
+  logic [11:0] status, read_word;
+  assign read_word = {7'h50, addr_i[4:0]};
   assign status = {running, 1'b0, overrun_q, bank, late_o, crc_good_o, crc_busy, refused, committing};
   assign busy_o = waits_q || checking || crc_busy;
   always_ff @(posedge clk_i) begin
@@ -305,7 +308,7 @@ module engine #(
                                                            : result;
   end
   always_comb begin
-    case ({7'h50, addr_i[4:0]})
+    case (read_word)
       feltgate_engine_pkg::H_STATUS:       register = {20'd0, status};
       feltgate_engine_pkg::H_REFUSED_WORD: register = {27'd0, refused_word};
       feltgate_engine_pkg::H_EVENT_COUNT:  register = {27'd0, event_count};

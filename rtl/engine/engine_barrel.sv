@@ -40,10 +40,10 @@ module engine_barrel #(
     // The system reads once in a round: data or table in result_o with read_o, where the next is
     // read; the table's upper bits with high_read_o; the program's word with read_o, of the address
     // a round before.
-    input  logic               read_table_i,
-    input  logic               read_minus_i,     // the data word that was kept, minus this one
-    input  logic               keeps_i,          // the data word in clock 6 is kept for that
-    input  logic        [ 8:0] read_data_i,      // a word that is 0 with read_table_i
+    input  logic        [ 3:0] read_op_i,        // ADD, data; SUB, the word kept before minus data;
+                                                 // TAB, table; NOP, write_word_i of that turn
+    input  logic               keeps_i,          // what is in clock 6 is kept
+    input  logic        [ 8:0] read_data_i,      // with TAB a word that is 0
     input  logic        [ 8:0] read_address_i,   // of program and table
     output logic               read_o,
     output logic        [35:0] program_o,
@@ -132,10 +132,7 @@ module engine_barrel #(
   assign own2 = d2_q[8] ? d2_q[7:6] == 2'd0 && d2_q[5:4] == turn2_q[1:0] : d2_q[5:4] != 2'd3;
   always_ff @(posedge clk_i) begin
     if (valid1_q) {op2_q, mode2_q} <= {op1, mode1};
-    else if (!reads1) {op2_q, mode2_q} <= {feltgate_engine_pkg::OP_NOP, 2'd2};
-    else if (read_table_i) {op2_q, mode2_q} <= {feltgate_engine_pkg::OP_TAB, 2'd2};
-    else if (read_minus_i) {op2_q, mode2_q} <= {feltgate_engine_pkg::OP_SUB, 2'd2};
-    else {op2_q, mode2_q} <= {feltgate_engine_pkg::OP_ADD, 2'd2};
+    else {op2_q, mode2_q} <= {reads1 ? read_op_i : feltgate_engine_pkg::OP_NOP, 2'd2};
     {op3_q, op4_q, mode3_q, mode4_q} <= {op2_q, op3_q, mode2_q[0], mode3_q};
     last2_q <= word1[feltgate_engine_pkg::B_LAST];
     {last3_q, last4_q, last5_q, last6_q, last7_q} <= {last2_q, last3_q, last4_q, last5_q, last6_q};

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Twin of rtl/engine/engine.sv, clock by clock. Documentation: docs/blocks/engine.md
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "feltgate/engine_barrel.hpp"
+#include "feltgate/engine_parts.hpp"
+
+namespace feltgate {
+
+/// Clocked twin of an engine of AxisCount axes, whose torques have TorqueW bits.
+template <int AxisCount = 1, int TorqueW = 21>
+class Engine {
+ public:
+  using Inputs = EngineInputs<AxisCount>;
+  using Outputs = EngineOutputs<AxisCount, TorqueW>;
+
+  struct In {
+    bool armed = false;
+    bool enter = false;   ///< one clock: the scene of laws was entered
+    bool locked = false;  ///< programs and what belongs to them cannot be written
+    bool tick = false;    ///< one clock; the inputs are of this tick, and held
+    std::uint32_t tick_count = 0;
+    typename Inputs::Axes position{}, velocity{}, tau_hat{};
+    bool crc_start = false;
+    unsigned addr = 0;  ///< 12 bits
+    std::uint32_t wdata = 0;
+    bool write = false;  ///< one clock, while not busy
+    bool read = false;   ///< one clock: rdata is taken
+  };
+  struct Out {
+    std::array<std::int32_t, AxisCount> torque{};
+    bool fresh = false, late = false, crc_done = false, crc_good = false;
+    bool event_valid = false;
+    int event_number = 0;          ///< with event_valid
+    std::int32_t event_value = 0;  ///< with event_valid
+    std::uint32_t rdata = 0;
+    bool rdata_known = false;  ///< a few rounds after a reset
+    bool busy = false;
+  };
+
+  /// What the memories hold after power-up; a reset keeps it.
+  EngineMemory& memory() { return barrel_.memory; }
+
+  void reset() {
+    last_ = In{};
+    barrel_.reset();
+    barrel_.memory.line_base = EngineMap::table_words;
+    inputs_.reset();
+    outputs_ = Outputs{};
+    commit_ = EngineCommit{};
+    crc_.reset();
+    events_.reset();
+    registers_ = Registers{};
+  }
+
+  Out peek(const In& in) const {
+    Out out;
+    out.torque = outputs_.torque;
+    out.fresh = outputs_.fresh;
+    out.late = outputs_.late;
+    out.crc_done = crc_.done;
+    out.crc_good = crc_.good;
+    out.event_valid = barrel_.event();
+    out.event_number = barrel_.number();
+    out.event_value = barrel_.result();
+    out.rdata_known = registers_.clocks == kKnown || in_registers(in.addr);
+    out.rdata = in_registers(in.addr) ? register_word(in.addr) : registers_.read;
+    out.busy = busy();
+    return out;
+  }
+
+  /// After a clock: with the address that was held in it.
+  Out out() const { return peek(last_); }
+
+  void clock(const In& in) {
+    last_ = in;
+    Registers& r = registers_;
+    using H = EngineMap::H;
+    const bool write = in.write && !busy();
+    const bool open = write && in_registers(in.addr) && !in.locked;
+    const auto addr = static_cast<int>(in.addr);
+    const bool write_run = open && addr == H::run;
+    const bool enter = in.enter || (in.armed && !r.armed) || write_run;
+
+    // What is seen in this clock, before anything changes.
+    const int thread = barrel_.thread5();
+    const bool started = barrel_.starts(inputs_.request), ended = barrel_.ended(r.run);
+    const bool free = barrel_.free(), beat = barrel_.beat();
+    const bool input_taken = inputs_.wanted() && free;
+    const bool host_taken = r.waits && free && !inputs_.wanted();
+    EngineBarrel::In to = barrel_inputs(in);
+
+    // The write that goes on its way now is seen by the barrel in the next clock.
+    Written next = written(in, input_taken, host_taken);
+    next.word = r.beat && reads_program(in) ? r.program
+                : input_taken ? inputs_.word(in.tick_count, in.position, in.velocity, in.tau_hat)
+                : host_taken  ? r.data
+                              : 0;
+    outputs_.clock({write_run, r.run != 0, enter, in.tick, r.max_age, barrel_.result(),
+                    barrel_.output(), barrel_.last(), barrel_.thread7(), barrel_.number() & 3});
+    events_.clock(barrel_.event(), {barrel_.number(), barrel_.result(), in.tick_count},
+                  in.read && addr == H::event_tick);
+    const bool was_committing = commit_.committing();
+    const bool was_checking = commit_.checking, was_crc_busy = crc_.busy();
+    const int bank = commit_.bank;
+    const bool asks = write && addr == H::commit && (in.wdata & 1U) != 0;
+    commit_.clock({asks, was_crc_busy, beat, barrel_.result() < 0, inputs_.running});
+    const unsigned high = crc_was_program(in) ? r.program_high : r.table_high;
+    const std::uint32_t result = static_cast<std::uint32_t>(barrel_.result());
+    crc_.clock({in.crc_start, was_checking, beat, std::uint64_t{high} << 32 | result,
+                barrel_.memory.line_base, r.crc});
+    const bool overrun = inputs_.due_again(r.run);
+    inputs_.clock({r.run, in.tick, open && addr >= H::divider0 && addr <= H::divider3,
+                   (addr - H::divider0) & 3, static_cast<int>(in.wdata & 0xfffU), started, ended,
+                   thread, input_taken});
+
+    if (beat) {
+      r.read = in.addr >= H::program_high
+                   ? (in.addr >= H::table_high ? r.table_high : r.program_high)
+                   : result;
+    }
+    if (barrel_.high_read()) r.table_high = barrel_.table_high();
+    if (beat) {
+      r.program = static_cast<std::uint32_t>(barrel_.program_word());
+      r.program_high = static_cast<unsigned>(barrel_.program_word() >> 32);
+    }
+    r.beat = beat;
+    barrel_.clock(to);
+    r.written = next;
+
+    if (host_taken) r.waits = false;
+    if (write) take(in, bank, was_committing);
+    r.overrun = (r.overrun || overrun) && !write_run;
+    if (started) r.first &= ~(1U << thread);
+    if (enter) r.first = 15;
+    r.armed = in.armed;
+    if (open) set_register(addr, in.wdata);
+    r.clocks = std::min(r.clocks + 1, kKnown);
+  }
+
+ private:
+  static constexpr int kKnown = 40;
+  static constexpr int kZero = EngineMap::private_words - 1;
+
+  struct Written {
+    bool data = false, program = false, table = false;
+    int address = 0;
+    unsigned high = 0;
+    std::uint32_t word = 0;
+  };
+  struct Registers {
+    unsigned high = 0, run = 0, max_age = 0, first = 15;
+    std::uint32_t crc = 0;
+    bool armed = false, overrun = false;
+    bool waits = false, waits_program = false, waits_table = false;
+    int address = 0;
+    std::uint32_t data = 0;
+    bool beat = false;
+    std::uint32_t program = 0, read = 0;
+    unsigned program_high = 0, table_high = 0;
+    Written written;
+    int clocks = 0;
+  };
+
+  static bool in_registers(unsigned addr) { return addr >> 9 == 5; }
+  bool busy() const { return registers_.waits || commit_.checking || crc_.busy(); }
+  bool crc_was_program(const In&) const { return crc_.reads_program(); }
+  bool reads_program(const In& in) const {
+    return !commit_.checking && (crc_.reads ? crc_.reads_program() : (in.addr >> 9 & 1U) != 0);
+  }
+  bool reads_table(const In& in) const {
+    if (commit_.checking) return false;
+    return crc_.reads ? crc_.reads_table() : in.addr >> 10 != 0 && (in.addr >> 9 & 1U) == 0;
+  }
+
+  EngineBarrel::In barrel_inputs(const In& in) const {
+    const Registers& r = registers_;
+    EngineBarrel::In to;
+    to.run = r.run;
+    to.request = inputs_.request;
+    to.first = r.first;
+    to.bank = commit_.bank;
+    to.write_data = r.written.data;
+    to.write_program = r.written.program;
+    to.write_table = r.written.table;
+    to.write_address = r.written.address;
+    to.write_word = r.written.word;
+    to.write_high = r.written.high;
+    to.keeps = commit_.minus();
+    to.read_op = reads_program(in) ? EngineOp::nop
+                 : reads_table(in) ? EngineOp::tab
+                 : commit_.minus() ? EngineOp::sub
+                                   : EngineOp::add;
+    to.read_address = crc_.reads ? crc_.address : static_cast<int>(in.addr & 0x1ffU);
+    to.read_data = commit_.checking ? commit_.address() : reads_table(in) ? kZero : to.read_address;
+    return to;
+  }
+
+  Written written(const In&, bool input_taken, bool host_taken) const {
+    const Registers& r = registers_;
+    Written w;
+    w.data = input_taken || (host_taken && !r.waits_program && !r.waits_table);
+    w.program = host_taken && r.waits_program;
+    w.table = host_taken && r.waits_table;
+    w.address = inputs_.wanted() ? inputs_.address() : r.address;
+    w.high = w.program || w.table ? r.high : 0;
+    return w;
+  }
+
+  /// A word of the host for a memory.
+  void take(const In& in, int bank, bool committing) {
+    Registers& r = registers_;
+    const unsigned region = in.addr >> 9;
+    const bool parameter = in.addr >> 6 == 5;
+    const bool input = region == 0 && (in.addr & 0x130U) == 0x30;
+    r.waits_program = (in.addr & 0x200U) != 0;
+    r.waits_table = (in.addr & 0x400U) != 0;
+    const unsigned other = bank != 0 ? 0 : 0x20;
+    r.address = static_cast<int>(parameter ? (in.addr & 0x1dfU) | other : in.addr & 0x1ffU);
+    r.data = in.wdata;
+    if (parameter ? !committing : !in.locked && region <= 2 && !input) r.waits = true;
+  }
+
+  void set_register(int addr, std::uint32_t word) {
+    using H = EngineMap::H;
+    Registers& r = registers_;
+    if (addr == H::high) r.high = word & 0xfU;
+    if (addr == H::run) r.run = word & 0xfU;
+    if (addr == H::line_base) barrel_.memory.line_base = static_cast<int>(word & 0x3ffU);
+    if (addr == H::max_age) r.max_age = word & 0xffffU;
+    if (addr == H::crc) r.crc = word;
+  }
+
+  std::uint32_t register_word(unsigned addr) const {
+    using H = EngineMap::H;
+    switch (static_cast<int>(0xa00U | (addr & 0x1fU))) {
+      case H::status:
+        return status();
+      case H::refused_word:
+        return static_cast<std::uint32_t>(commit_.refused_word);
+      case H::event_count:
+        return static_cast<std::uint32_t>(events_.count);
+      case H::event_number:
+        return static_cast<std::uint32_t>(events_.oldest().number);
+      case H::event_value:
+        return static_cast<std::uint32_t>(events_.oldest().value);
+      case H::event_tick:
+        return events_.oldest().tick;
+      case H::events_lost:
+        return static_cast<std::uint32_t>(events_.lost);
+      default:
+        return 0;
+    }
+  }
+  std::uint32_t status() const {
+    using S = EngineMap::S;
+    const auto at = [](bool on, int bit) { return static_cast<std::uint32_t>(on) << bit; };
+    return at(commit_.committing(), S::status_committing) | at(commit_.refused, S::status_refused) |
+           at(crc_.busy(), S::status_crc_busy) | at(crc_.good, S::status_crc_good) |
+           at(outputs_.late, S::status_late) | at(commit_.bank != 0, S::status_bank) |
+           at(registers_.overrun, S::status_overrun) | inputs_.running << S::status_running;
+  }
+
+  In last_;
+  EngineBarrel barrel_;
+  Inputs inputs_;
+  Outputs outputs_;
+  EngineCommit commit_;
+  EngineCrc crc_;
+  EngineEvents events_;
+  Registers registers_;
+};
+
+}  // namespace feltgate

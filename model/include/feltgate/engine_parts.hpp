@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Twins of the engine's parts around the barrel, clock by clock: starts and inputs, outputs and
+// age, commit of parameters, CRC, events. Documentation: docs/blocks/engine.md
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "feltgate/generated/engine.hpp"
+
+namespace feltgate {
+
+/// Twin of rtl/engine/engine_inputs.sv.
+template <int AxisCount>
+class EngineInputs {
+ public:
+  using Axes = std::array<std::int32_t, AxisCount>;
+  static constexpr int kWords = EngineMap::input_axis_words * AxisCount + 1;
+
+  struct In {
+    unsigned run = 0;
+    bool tick = false;
+    bool divide = false;
+    int divided = 0, divider = 0;
+    bool started = false, ended = false;
+    int thread = 0;
+    bool taken = false;
+  };
+
+  unsigned request = 0, running = 0;
+
+  /// Dividers and what is left of them are memory and stay.
+  void reset() {
+    request = running = due_ = 0;
+    counting_ = loading_ = written_ = false;
+    counted_ = loaded_ = word_ = 0;
+  }
+
+  bool wanted() const { return loading_ && word_ != kWords; }
+  int address() const {
+    return loaded_ * EngineMap::private_words +
+           (word_ == kWords - 1 ? EngineMap::input_tick : EngineMap::input_first + word_);
+  }
+  std::uint32_t word(std::uint32_t tick, const Axes& position, const Axes& velocity,
+                     const Axes& tau_hat) const {
+    if (word_ >= kWords - 1) return tick;
+    const auto n = static_cast<std::size_t>(word_ / 3);
+    const std::int32_t words[] = {position[n], velocity[n], tau_hat[n]};
+    return static_cast<std::uint32_t>(words[word_ % 3]);
+  }
+  /// A thread is due that waits already.
+  bool due_again(unsigned run) const { return due(run) && (due_ >> counted_ & 1U) != 0; }
+
+  void clock(const In& in) {
+    const bool is_due = due(in.run);
+    const unsigned ready = due_ & ~running;
+    const auto counted = static_cast<std::size_t>(counted_);
+    const int due_thread = counted_;
+    const bool reload = counts_[counted] <= 1;
+    if (counting_) {
+      const bool runs = (in.run >> counted_ & 1U) != 0;
+      counts_[counted] = !runs ? 0 : reload ? dividers_[counted] : counts_[counted] - 1;
+    }
+    if (in.divide) dividers_[static_cast<std::size_t>(in.divided)] = in.divider;
+    const bool counting = counting_;
+    if (in.tick) {
+      counting_ = true;
+    } else if (counted_ == 3) {
+      counting_ = false;
+    }
+    if (counting) counted_ = (counted_ + 1) % 4;
+
+    const bool all = word_ == kWords;
+    const bool was_written = written_;
+    const int loaded = loaded_;
+    written_ = false;
+    if (in.tick || !loading_) {
+      word_ = 0;
+    } else if (in.taken) {
+      ++word_;
+    }
+    if (!loading_) {
+      loading_ = ready != 0;
+      loaded_ = (ready & 1U) != 0 ? 0 : (ready & 2U) != 0 ? 1 : (ready & 4U) != 0 ? 2 : 3;
+    } else if (all && !in.tick) {
+      loading_ = false;
+      written_ = true;
+      due_ &= ~(1U << loaded);
+      running |= 1U << loaded;
+    }
+    if (was_written) request |= 1U << loaded;
+    if (in.started) request &= ~(1U << in.thread);
+    if (in.ended) running &= ~(1U << in.thread);
+    if (is_due) due_ |= 1U << due_thread;
+    due_ &= in.run;
+    request &= in.run;
+    running &= in.run;
+  }
+
+ private:
+  bool due(unsigned run) const {
+    return counting_ && counts_[static_cast<std::size_t>(counted_)] <= 1 &&
+           (run >> counted_ & 1U) != 0;
+  }
+
+  std::array<int, 4> dividers_{}, counts_{};
+  unsigned due_ = 0;
+  bool counting_ = false, loading_ = false, written_ = false;
+  int counted_ = 0, loaded_ = 0, word_ = 0;
+};
+
+/// Twin of rtl/engine/engine_outputs.sv.
+template <int AxisCount, int TorqueW>
+class EngineOutputs {
+ public:
+  struct In {
+    bool clear = false, watched = false, enter = false, tick = false;
+    unsigned max_age = 0;
+    std::int32_t result = 0;
+    bool output = false, last = false;
+    int thread = 0, number = 0;
+  };
+
+  std::array<std::int32_t, AxisCount> torque{};
+  bool fresh = false, late = false;
+
+  void clock(const In& in) {
+    unsigned appears = 0;
+    for (int n = 0; n < AxisCount; ++n) {
+      Axis& a = axes_[static_cast<std::size_t>(n)];
+      if (ends_ && a.waits && a.by == thread_) appears |= 1U << n;
+      if (in.clear) {
+        torque[static_cast<std::size_t>(n)] = 0;
+      } else if ((appears >> n & 1U) != 0) {
+        torque[static_cast<std::size_t>(n)] = a.next;
+      }
+      const bool written = in.output && in.number == n;
+      if (in.clear) {
+        a.waits = false;
+      } else if (written) {
+        a.waits = true;
+      } else if ((appears >> n & 1U) != 0) {
+        a.waits = false;
+      }
+      if (!written) continue;
+      constexpr std::int32_t top = (1 << (TorqueW - 1)) - 1;
+      a.next = std::clamp(in.result, -top - 1, top);
+      a.by = in.thread;
+    }
+    constexpr unsigned all = (1U << AxisCount) - 1;
+    const bool renewed = (renewed_ | appears) == all;
+    renewed_ = in.clear || renewed ? 0 : renewed_ | appears;
+    fresh = renewed && !in.clear;
+    if (in.enter || !in.watched) {
+      late = false;
+    } else if (in.tick && !renewed && age_ == in.max_age) {
+      late = true;
+    }
+    if (renewed || in.enter || !in.watched) {
+      age_ = 0;
+    } else if (in.tick) {
+      age_ = (age_ + 1) & 0xffffU;
+    }
+    ends_ = in.last;
+    thread_ = in.thread;
+  }
+
+ private:
+  struct Axis {
+    std::int32_t next = 0;
+    int by = 0;
+    bool waits = false;
+  };
+  std::array<Axis, AxisCount> axes_{};
+  bool ends_ = false;
+  int thread_ = 0;
+  unsigned renewed_ = 0, age_ = 0;
+};
+
+/// Twin of rtl/engine/engine_commit.sv.
+class EngineCommit {
+ public:
+  struct In {
+    bool commit = false, wait = false, beat = false, negative = false;
+    unsigned running = 0;
+  };
+
+  int bank = 0;
+  bool checking = false, refused = false;
+  int refused_word = 0;
+
+  bool committing() const { return wanted_ || checking || old_ != 0; }
+  bool minus() const { return checking && (beat_ & 1) != 0; }
+  int address() const {
+    using D = EngineMap::D;
+    const int word = beat_ >> 2 & 31, step = beat_ & 3;
+    if (step == 0 || step == 3) {
+      return (bank != 0 ? D::parameter : D::parameter_bank) + word;
+    }
+    return (step == 2 ? D::upper : D::lower) + word;
+  }
+
+  void clock(const In& in) {
+    const bool begins = wanted_ && !in.wait;
+    const bool was_committing = committing();
+    old_ &= in.running;
+    if (checking && in.beat) {
+      const bool even = (beat_ & 1) == 0;
+      const bool bad = even && beat_ != 0 && in.negative;
+      const bool was_refused = refused;
+      if (bad && !refused) {
+        refused = true;
+        refused_word = before_;
+      }
+      before_ = beat_ >> 2 & 31;
+      if (beat_ == 128) {
+        checking = false;
+        if (!was_refused && !bad) {
+          bank = 1 - bank;
+          old_ = in.running;
+        }
+      }
+      beat_ = (beat_ + 1) & 255;
+    }
+    if (in.commit && !was_committing) wanted_ = true;
+    if (begins) {
+      wanted_ = false;
+      checking = true;
+      refused = false;
+      beat_ = 0;
+    }
+  }
+
+ private:
+  bool wanted_ = false;
+  int beat_ = 0, before_ = 0;
+  unsigned old_ = 0;
+};
+
+/// Twin of rtl/engine/engine_crc.sv.
+class EngineCrc {
+ public:
+  struct In {
+    bool start = false, wait = false, beat = false;
+    std::uint64_t word = 0;
+    int line_base = 0;
+    std::uint32_t wanted = 0;
+  };
+
+  bool reads = false, done = false, good = false;
+  int address = 0;
+
+  /// The sum is no register of a reset; it begins anew with each start.
+  void reset() { *this = EngineCrc{}; }
+  bool busy() const { return waits_ || reads; }
+  bool reads_program() const { return reads && part_ == 0; }
+  bool reads_table() const { return reads && part_ == 2; }
+
+  void clock(const In& in) {
+    const bool ends = part_ == 2 && address == in.line_base;
+    const bool loads = reads && in.beat && beats_ == 2 && left_ == 0 && !ends && part_ != 3;
+    const bool finishes = reads && left_ == 0 && (ends || part_ == 3);
+    const bool begins = !reads && !read_ && waits_ && !in.wait;
+    const std::uint32_t sum = sum_;
+    if (!read_) {
+      sum_ = 0xffffffffU;
+    } else if (left_ != 0) {
+      const bool feeds = ((sum_ ^ word_) & 1U) != 0;
+      sum_ = sum_ >> 1 ^ (feeds ? 0xedb88320U : 0);
+    }
+    word_ = loads ? in.word : word_ >> 1;
+    done = finishes;
+    read_ = reads;
+    if (in.start) waits_ = true;
+    if (left_ != 0) --left_;
+    if (reads && in.beat && beats_ != 2) ++beats_;
+    if (loads) {
+      left_ = part_ == 1 ? 32 : 40;
+      beats_ = 0;
+      const bool part_ends = address == 511;
+      address = !part_ends ? address + 1 : part_ == 0 ? EngineMap::D::lower : 0;
+      part_ += part_ends ? 1 : 0;
+    }
+    if (finishes) {
+      reads = false;
+      good = ~sum == in.wanted;
+    }
+    if (begins) {
+      waits_ = in.start;
+      reads = true;
+      good = false;
+      part_ = address = beats_ = 0;
+    }
+  }
+
+ private:
+  bool waits_ = false, read_ = false;
+  int part_ = 0, left_ = 0, beats_ = 0;
+  std::uint64_t word_ = 0;
+  std::uint32_t sum_ = 0;
+};
+
+/// Twin of rtl/engine/engine_events.sv.
+class EngineEvents {
+ public:
+  struct Event {
+    int number = 0;
+    std::int32_t value = 0;
+    std::uint32_t tick = 0;
+  };
+
+  int count = 0, lost = 0;
+
+  /// What is in the places stays.
+  void reset() { first_ = count = lost = 0; }
+  const Event& oldest() const { return events_[static_cast<std::size_t>(first_)]; }
+
+  void clock(bool event, const Event& e, bool take) {
+    const bool full = count == 16, takes = take && count != 0;
+    if (event && full) lost = std::min(lost + 1, 0xffff);
+    if (event && !full) events_[static_cast<std::size_t>((first_ + count) % 16)] = e;
+    if (takes) first_ = (first_ + 1) % 16;
+    count += (event && !full ? 1 : 0) - (takes ? 1 : 0);
+  }
+
+ private:
+  std::array<Event, 16> events_{};
+  int first_ = 0;
+};
+
+}  // namespace feltgate

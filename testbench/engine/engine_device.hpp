@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The engine's twin as a device with a host and ticks of 50 clocks. Documentation:
+// docs/blocks/engine.md
+#pragma once
+
+#include <functional>
+
+#include "engine_bench.hpp"
+#include "feltgate/crc32.hpp"
+#include "machine_programs.hpp"
+
+namespace feltgate::test {
+
+using H = EngineMap::H;
+
+constexpr int kTick = 50;
+
+/// The twin with an image in its memories; the RTL has seen the same in the random runs.
+struct Device {
+  Twin twin;
+  Twin::In in;
+  int since = 0;
+  std::int64_t clocks = 0;
+
+  Device() { twin.reset(); }
+  explicit Device(const EngineMemory& m) {
+    twin.memory() = m;
+    twin.reset();
+    twin.memory().line_base = m.line_base;
+  }
+  Twin::Out out() const { return twin.peek(in); }
+  void clock() {
+    in.tick = ++since == kTick;
+    if (in.tick) since = 0;
+    if (in.tick) ++in.tick_count;
+    twin.clock(in);
+    in.enter = in.crc_start = in.write = in.read = false;
+    ++clocks;
+  }
+  void clock(int n) {
+    for (int k = 0; k < n; ++k) clock();
+  }
+  void write(int addr, std::uint32_t word) {
+    in.addr = static_cast<unsigned>(addr);
+    in.wdata = word;
+    in.write = true;
+    clock();
+    while (out().busy) clock();
+  }
+  std::uint32_t read(int addr) {
+    in.addr = static_cast<unsigned>(addr);
+    while (out().busy) clock();
+    clock(32);
+    const std::uint32_t word = out().rdata;
+    in.read = true;
+    clock();
+    return word;
+  }
+  bool status(int bit) { return (read(H::status) >> bit & 1U) != 0; }
+  /// Clocks up to the next fresh result, at most `limit`.
+  int until_fresh(int limit = 5000) {
+    for (int k = 1; k <= limit; ++k) {
+      clock();
+      if (out().fresh) return k;
+    }
+    return -1;
+  }
+};
+
+inline EngineMemory with_parameters(std::initializer_list<std::int32_t> words) {
+  EngineMemory m;
+  int n = 0;
+  for (const std::int32_t w : words) m.set_data(kParameter + n++, w);
+  return m;
+}
+
+/// A law of one output in thread 0, and its words for the other axes.
+inline EngineMemory image(const std::function<void(EngineMemory&, int)>& make,
+                          std::initializer_list<std::int32_t> parameters) {
+  EngineMemory m = with_parameters(parameters);
+  make(m, 0);
+  return m;
+}
+
+/// CRC-32 of an image as a loader computes it.
+inline std::uint32_t image_crc(const EngineMemory& m) {
+  std::vector<std::uint8_t> bytes;
+  const auto put = [&bytes](std::uint64_t word, int count) {
+    for (int n = 0; n < count; ++n) bytes.push_back(static_cast<std::uint8_t>(word >> (8 * n)));
+  };
+  for (int n = 0; n < 512; ++n) put(m.program_at(n), 5);
+  for (int n = 384; n < 512; ++n) put(static_cast<std::uint32_t>(m.data_at(n)), 4);
+  for (int n = 0; n < m.line_base; ++n) put(m.table_at(n), 5);
+  return crc32(bytes.data(), bytes.size());
+}
+
+}  // namespace feltgate::test

@@ -18,7 +18,8 @@ using law::MachineInputs;
 namespace {
 
 /// Loads an image over the host's port, runs it at every tick over inputs at random, in lock-step.
-void run_in_lock_step(EngineMemory m, std::uint64_t seed, std::int64_t clocks) {
+void run_in_lock_step(EngineMemory m, std::uint64_t seed, std::int64_t clocks,
+                      bool commits = false) {
   m.line_base = 200;
   Host host;
   host.load(m);
@@ -43,13 +44,17 @@ void run_in_lock_step(EngineMemory m, std::uint64_t seed, std::int64_t clocks) {
           }
         }
         in.crc_start = host.queue.size() == 1 && !out.busy;
+        if (commits && host.queue.empty() && random.one_in(40)) {
+          host.write(H::data + kParameter, static_cast<std::uint32_t>(random.between(-900, 900)));
+          host.write(H::commit, 1);
+        }
         if (clock > 8) host.drive(in, out);  // after the reset
         if (out.fresh) ++*fresh;
         if (out.crc_good) *good = true;
         return in;
       },
       clocks);
-  if (AXES == 1) CHECK(*fresh > 100);
+  if (AXES == 1) CHECK(*fresh > 20);
   CHECK(*good);
 }
 
@@ -61,6 +66,13 @@ TEST_CASE("engine: detent, wall, membrane and charge, RTL against twin") {
        {image(detent, {24 * 512, 3277}), image(wall, {100, 20000, -60000}),
         image(membrane, {-1000, 1000, -700, 700}), image(charge, {50, 3000, 700})}) {
     run_in_lock_step(m, ++seed, 55'000);
+  }
+}
+
+TEST_CASE("engine: every instruction over corners, RTL against twin") {
+  for (std::uint64_t seed = 400; seed < 410; ++seed) {
+    Random random(seed);
+    run_in_lock_step(random_arithmetic(random), seed, 45'000);
   }
 }
 
@@ -82,6 +94,21 @@ TEST_CASE("engine: no thread writes its inputs, or words of another, RTL against
     for (const EngineInstruction& i : list) m.set_program(n++, engine_encode(i));
   }
   run_in_lock_step(m, 200, 80'000);
+}
+
+TEST_CASE("engine: a run keeps the parameters that it began with, RTL against twin") {
+  EngineMemory m;
+  m.set_data(EngineMap::D::lower, -1000);
+  m.set_data(EngineMap::D::upper, 1000);
+  std::vector<EngineInstruction> list(110, word(EngineOp::nop, 0, 0, 0));
+  list.front() = to(0, EngineOp::add, kParameter, kConstant);
+  list.push_back(to(1, EngineOp::sub, 0, kParameter));
+  list.push_back(to(1, EngineOp::mul, 1, kConstant + 1));
+  list.push_back(out(0, EngineOp::add, 1, kParameter));
+  m.set_data(kConstant + 1, 1000);
+  int n = 0;
+  for (const EngineInstruction& i : list) m.set_program(n++, engine_encode(i));
+  run_in_lock_step(m, 300, 120'000, true);
 }
 
 TEST_CASE("engine: every run of every thread is what the interpreter gives") {

@@ -24,13 +24,15 @@ class Life {
     start();
   }
 
-  Twin::In operator()(std::int64_t, const Twin::Out& out) {
+  Twin::In operator()(std::int64_t clock, const Twin::Out& out) {
+    if (clock < 8) return in_;  // reset
     in_.enter = random_.one_in(9000);
     in_.crc_start = random_.one_in(60'000);
     if (random_.one_in(4000)) in_.armed = !in_.armed;
-    if (random_.one_in(5000)) in_.locked = !in_.locked;
+    if (loaded_ && random_.one_in(5000)) in_.locked = !in_.locked;
     in_.tick = ++since_ >= period_;
     if (in_.tick) next_tick();
+    loaded_ = loaded_ || host_.queue.empty();
     if (host_.queue.empty()) more();
     host_.drive(in_, out);
     host_.read.clear();
@@ -112,7 +114,7 @@ class Life {
   std::uint32_t random_word() { return static_cast<std::uint32_t>(corner(random_)); }
 
   Random random_;
-  bool busy_;
+  bool busy_, loaded_ = false;
   EngineMemory memory_;
   Host host_;
   Twin::In in_;

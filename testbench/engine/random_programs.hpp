@@ -98,4 +98,28 @@ inline EngineMemory random_memory(Random& random) {
   return m;
 }
 
+/// Straight programs in all threads of every instruction and mode over corners, each result an
+/// event.
+inline EngineMemory random_arithmetic(Random& random) {
+  EngineMemory m = random_memory(random);
+  for (int thread = 0; thread < EngineMap::threads; ++thread) {
+    for (int n = 0; n < EngineMap::thread_words; ++n) {
+      EngineInstruction i;
+      i.op = static_cast<EngineOp>(random.below(16));
+      i.mode = static_cast<int>(random.below(4));
+      i.last = n == EngineMap::thread_words - 1;
+      i.dst = i.last ? 2 : 3;
+      i.d = i.last ? 0 : static_cast<int>(random.below(512));
+      const auto constant = [&random] {
+        return EngineMap::D::lower + static_cast<int>(random.below(128));
+      };
+      i.a = constant();
+      i.b = random.one_in(8) ? i.a : constant();
+      if (i.op == EngineOp::brf) i.b = thread * EngineMap::thread_words + n + 1;
+      m.set_program(thread * EngineMap::thread_words + n, engine_encode(i));
+    }
+  }
+  return m;
+}
+
 }  // namespace feltgate::test

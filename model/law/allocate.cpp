@@ -43,11 +43,15 @@ class Assembly {
  private:
   void place_tables() {
     // A sine of all words goes first; the others as they come.
-    int next = 0;
+    int next = 0, lines = EngineMap::table_words;
     for (TableUse& t : program_.tables) {
-      t.base = next;
-      next += static_cast<int>(t.words.size());
+      const auto size = static_cast<int>(t.words.size());
+      if (t.line >= 0) lines -= size;
+      t.base = t.line >= 0 ? lines : next;
+      if (t.line < 0) next += size;
     }
+    out_.line_base = lines;
+    next += EngineMap::table_words - lines;
     if (next > EngineMap::table_words) {
       throw Refused(
           fmt::format("tables need {} words, table memory has {}", next, EngineMap::table_words),
@@ -189,7 +193,7 @@ class Assembly {
       i.mode = s.mode;
       i.a = address(s.x);
       i.b = address(s.y);
-      if (s.op == EngineOp::lrp || s.op == EngineOp::tab) {
+      if (s.table >= 0) {
         const TableUse& t = program_.tables[at(s.table)];
         i.b = (t.base + s.offset - t.low) & (EngineMap::table_words - 1);
       }

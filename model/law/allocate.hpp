@@ -19,6 +19,7 @@ struct Assembled {
   std::vector<int> step_of;  ///< the step that an instruction is; -1: of a state's start or copy
   std::vector<int> state_address;  ///< private word of each of Program::states
   int private_words = 0;           ///< used
+  int line_base = 512;             ///< first table word of delay lines
 };
 
 /// Throws Refused where words or registers do not suffice. Tables get their places.

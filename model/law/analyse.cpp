@@ -74,7 +74,9 @@ class Analysis {
       }
       case From::state: {
         const StateUse& use = program_.states[at(o.index)];
-        if (at(o.index) >= law_.states.size()) return {{0, 1}, 0};
+        if (at(o.index) >= law_.states.size()) {
+          return {{static_cast<double>(use.lower), static_cast<double>(use.upper)}, 0};
+        }
         const double error = state_error_[at(o.index)] / use.scale;
         const Span s = cell_.states[at(o.index)];
         Span w =
@@ -119,7 +121,7 @@ class Analysis {
   Fact multiplied(const Step& s, const Fact& x, const Fact& y, bool rounds) {
     if (y.words.lo < -131072 || y.words.hi > 131071) fail("a factor can leave 18 bits");
     const double p = power(s.mode);
-    const Span product = s.x == s.y ? square(x.words) : x.words * y.words;
+    const Span product = exact_product(x.words, y.words, s.x == s.y);
     Fact f;
     const double half = rounds && s.mode > 0 ? 0.5 : 0;
     f.words = {std::floor(product.lo / p + half), std::floor(product.hi / p + half)};
@@ -136,9 +138,13 @@ class Analysis {
     const Step& m = program_.steps[at(step_ - 1)];
     if (m.op != EngineOp::mul || m.x.from != From::step) return false;
     const Step& d = program_.steps[at(m.x.index)];
-    if (d.op != EngineOp::sub || d.mode != 0 || !(d.y == s.x)) return false;
-    const Fact a = operand(m.y, m.y_error), x = operand(d.x, d.x_error),
-               y = operand(d.y, d.y_error), difference = operand(m.x, 0);
+    if (d.op != EngineOp::sub || std::fabs(d.scale / s.scale - 1) > 1e-12) return false;
+    // x - y of two words, or of the result before and a word.
+    const bool chained = d.mode == 2 && d.x == s.x;
+    if (!chained && !(d.mode == 0 && d.y == s.x)) return false;
+    const Fact a = operand(m.y, m.y_error), y = operand(s.x, s.x_error),
+               x = chained ? facts_.steps[at(m.x.index - 1)] : operand(d.x, d.x_error),
+               difference = operand(m.x, 0);
     const double p = power(m.mode);
     if (a.words.lo < 0 || a.words.hi > p) return false;
     const auto error = [&](double share) { return (1 - share) * y.error + share * x.error; };
@@ -150,6 +156,13 @@ class Analysis {
 
   Fact table_result(const Step& s, const Fact& x) {
     const TableUse& t = program_.tables[at(s.table)];
+    if (t.line >= 0) {
+      if (x.words.lo < 0 || x.words.hi >= 4096.0 * static_cast<double>(t.words.size())) {
+        fail("its index can leave the line");
+      }
+      return {t.values,
+              state_error_[law_.states.size() + at(t.line)] / program_.lines[at(t.line)].scale};
+    }
     const double first = std::floor(x.words.lo / 4096) + s.offset - t.low;
     const double end = std::floor(x.words.hi / 4096) + s.offset - t.low;
     Fact f;
@@ -202,16 +215,18 @@ class Analysis {
   }
 
   Fact selected(const Step& s, const Fact& x, const Fact& y) {
-    if (flag_.lo > 0) return x;
-    if (flag_.hi <= 0) return y;
     Fact f{hull(x.words, y.words), std::max(x.error, y.error)};
-    if (sources_.size() == 1) {
+    if (flag_.lo > 0) f = x;
+    if (flag_.hi <= 0) f = y;
+    if (flag_.lo <= 0 && flag_.hi > 0 && sources_.size() == 1) {
       const Step& c = program_.steps[at(sources_[0])];
       if (c.mode == 0) f.words = hull(given(s.x, c, true), given(s.y, c, false));
       if (c.mode == 3) f.words = hull(given(s.x, c, false), given(s.y, c, true));
     }
+    // The law may have gone the other way even where the words are sure.
     if (std::find(sources_.begin(), sources_.end(), swap_) != sources_.end()) {
-      f.error += std::max(std::fabs(x.words.hi - y.words.lo), std::fabs(y.words.hi - x.words.lo));
+      f.error = std::max(x.error, y.error) +
+                std::max(std::fabs(x.words.hi - y.words.lo), std::fabs(y.words.hi - x.words.lo));
     }
     return f;
   }
@@ -303,6 +318,9 @@ class Analysis {
       case EngineOp::lrp:
       case EngineOp::tab:
         return table_result(s, x);
+      case EngineOp::tst:
+        (void)table_result(s, x);
+        return acc;
       case EngineOp::abs:
         if (s.x == s.y) return checked({amount(x.words), x.error});
         return checked(flipped(x, y));
@@ -326,21 +344,31 @@ class Analysis {
 
   void states() {
     step_ = -1;
-    for (std::size_t i = 0; i < law_.states.size(); ++i) {
+    for (std::size_t i = 0; i < program_.states.size(); ++i) {
       const StateUse& use = program_.states[i];
+      const bool hidden = i >= law_.states.size();
       if (use.next.from == From::none) {
-        facts_.state_error.push_back(0);
+        if (!hidden) facts_.state_error.push_back(0);
         continue;
       }
       const Fact f = operand(use.next, 0);
-      facts_.state_error.push_back(f.error * use.scale);
-      if (f.words.lo < use.lower || f.words.hi > use.upper) {
-        facts_.unproven.push_back({-1, static_cast<int>(i), ""});
-        facts_.unproven.back().reason =
-            fmt::format("its next value can be {:.6g}",
-                        (f.words.lo < use.lower ? f.words.lo : f.words.hi) * use.scale);
-      }
+      if (!hidden) facts_.state_error.push_back(f.error * use.scale);
+      require(f, use.lower, use.upper, use.scale, static_cast<int>(i));
     }
+    for (std::size_t i = 0; i < program_.lines.size(); ++i) {
+      const LineUse& use = program_.lines[i];
+      const Fact f = operand(use.written, 0);
+      facts_.state_error.push_back(f.error * use.scale);
+      const Span values = program_.tables[at(use.table)].values;
+      require(f, values.lo, values.hi, use.scale, use.pointer);
+    }
+  }
+
+  void require(const Fact& f, double lower, double upper, double scale, int state) {
+    if (f.words.lo >= lower && f.words.hi <= upper) return;
+    const double end = f.words.lo < lower ? f.words.lo : f.words.hi;
+    facts_.unproven.push_back(
+        {-1, state, fmt::format("its next value can be {:.6g}", end * scale)});
   }
 
   const Law& law_;

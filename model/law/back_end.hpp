@@ -23,8 +23,9 @@ struct Choice {
   std::map<NodeId, int> fraction;  ///< of nodes with a format of their own: scale = unit / 2^it
   int uniform = 0;                 ///< > 0: fraction bits to begin with of what is selected or kept
   bool states_first = false;       ///< order of the roots
-  int sine_bits = 0;   ///< segments a turn; 9: all of the table memory; 0: as many as fit
-  int table_bits = 0;  ///< segments of every other table; 0: as many as fit
+  int sine_bits = 0;      ///< segments a turn; 9: all of the table memory; 0: as many as fit
+  int line_fraction = 0;  ///< > 0: fraction bits of all delay lines
+  int table_bits = 0;     ///< segments of every other table; 0: as many as fit
   std::map<std::string, TableUse> made;  ///< tables by what they are of: each is proven once
 };
 
@@ -66,6 +67,8 @@ class BackEnd {
   void collect(NodeId id, double number, bool root, std::vector<Term>& terms) const;
   void gather(NodeId id, bool root, Term& term) const;
   Value sum(NodeId id, double hint);
+  bool turned(NodeId id, NodeId* by, Term* amount) const;
+  Value turned_sum(NodeId id, Term term, double hint);
   struct Multiply {
     Operand x, y;
     int mode = 0;
@@ -115,10 +118,17 @@ class BackEnd {
   // functions.cpp
   Value function(NodeId id);
   Value sine(NodeId id);
+  Value align_for_table(const Value& v, double scale, NodeId argument);
+  Value limited(Value v, const Node& n, NodeId id);
   Value element(NodeId id);
   void count_tables();
   Operand phase(NodeId id, double turn);
   int place_table(const std::string& key, const TableUse& table);
+
+  // lines.cpp
+  void begin_lines();
+  Value line_read(NodeId id);
+  void write_lines();
 
   // roots.cpp
   void outputs();

@@ -43,7 +43,7 @@ class Bounds {
       : law_(law),
         target_(target),
         program_(program),
-        errors_(law.states.size(), 0),
+        errors_(law.states.size() + law.lines.size(), 0),
         whole_(whole != nullptr ? *whole : ranges(law, whole_cell(law, target))) {}
 
   Bound run(int splits) {
@@ -58,6 +58,7 @@ class Bounds {
     b.output.assign(law_.outputs.size(), 0);
     b.words.assign(program_.steps.size(), Span{1, 0});
     b.errors.assign(program_.steps.size(), 0);
+    b.margins.assign(program_.steps.size(), 0);
     b.cells = static_cast<int>(leaves_.size());
     for (const Leaf& l : leaves_) {
       if (!l.facts.reachable) continue;
@@ -67,6 +68,7 @@ class Bounds {
       for (std::size_t s = 0; s < b.words.size(); ++s) {
         b.words[s] = hull(b.words[s], l.facts.steps[s].words);
         b.errors[s] = std::max(b.errors[s], l.facts.steps[s].error);
+        b.margins[s] = std::max(b.margins[s], l.facts.margin[s]);
       }
       if (b.unproven.empty()) b.unproven = l.facts.unproven;
     }
@@ -86,7 +88,7 @@ class Bounds {
 
   /// Errors of states that a run does not make larger; none where they grow without end.
   void settle(const Cell& whole) {
-    if (law_.states.empty()) return;
+    if (errors_.empty()) return;
     std::vector<double> before = errors_;
     for (int i = 0; i < 40; ++i) {
       const CellFacts f = whole_facts(whole);
@@ -122,7 +124,7 @@ class Bounds {
       if (worst(leaves_[i].facts) > worst(leaves_[pick].facts)) pick = i;
     }
     const double now = worst(leaves_[pick].facts);
-    if (now <= 0 || stalled_ > 60) return false;
+    if (now <= 0 || stalled_ > 150) return false;
     const std::size_t count = sides(leaves_[pick].cell).size();
     double best = infinity;
     Leaf low, high;

@@ -62,8 +62,9 @@ struct Bound {
                                ///< run from the states as they stand
   std::vector<Unproven> unproven;
   std::vector<Strip> strips;
-  std::vector<Span> words;     ///< of each step, over all cells
-  std::vector<double> errors;  ///< of each step, words
+  std::vector<Span> words;      ///< of each step, over all cells
+  std::vector<double> errors;   ///< of each step, words
+  std::vector<double> margins;  ///< of each comparison, words
   int cells = 1;
 };
 

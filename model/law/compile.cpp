@@ -35,6 +35,15 @@ void complete_states(Law& law, const Target& target) {
 void require_proofs(const Law& law, const Program& program, const Bound& b) {
   if (b.unproven.empty()) return;
   const Unproven& u = b.unproven.front();
+  if (u.state >= static_cast<int>(law.states.size())) {
+    const auto line = at(u.state) - law.states.size() - law.events.size();
+    const Line& l = law.lines[line];
+    throw Refused(l.place,
+                  fmt::format("line {} can leave its range {:.6g} .. {:.6g}: {}", l.name,
+                              l.range.lower, l.range.upper, u.reason),
+                  fmt::format("write clamp(..., {:.6g}, {:.6g}), or give it a larger range",
+                              l.range.lower, l.range.upper));
+  }
   if (u.state >= 0) {
     const State& s = law.states[at(u.state)];
     throw Refused(s.place,
@@ -85,7 +94,7 @@ Compiled compile(const Law& given, const Target& target) {
   complete_states(c.law, target);
   const std::vector<Span> spans = ranges(c.law, whole_cell(c.law, target));
   c.program = choose_formats(c.law, target, spans, &c.tried);
-  c.bound = bound(c.law, target, c.program, 150);
+  c.bound = bound(c.law, target, c.program, 400);
   require_proofs(c.law, c.program, c.bound);
   c.assembled = assemble(c.law, target, c.program);
   const auto length = static_cast<int>(c.assembled.instructions.size());
@@ -99,9 +108,14 @@ namespace {
 
 template <class Read>
 Compiled settled(const Read& read, const Target& target) {
-  Law law = read(0.0);
-  if (law.rate_hz > 0) return compile(law, target);
   double rate = static_cast<double>(target.tick_hz);
+  try {
+    const Law law = read(0.0);
+    if (law.rate_hz > 0) return compile(law, target);
+  } catch (const LawError&) {
+    // What needs a rate, and nothing else, is well with one.
+    (void)read(rate);
+  }
   // The file has no rate of its own: it is only read as if, for dt and filters.
   const auto at_rate = [&] {
     Law free = read(rate);

@@ -148,6 +148,18 @@ double cost(const Law& law, const Target& target, const Program& program, const 
   const double lsb = std::ldexp(1.0, -target.torque.fraction);
   double error = 0;
   for (const double e : b.output) error = std::max(error, e / lsb);
+  // A comparison's strip counts as an error of what it compares, half as much.
+  double strips = 0;
+  for (std::size_t i = 0; i < program.steps.size(); ++i) {
+    const Step& s = program.steps[i];
+    if (b.margins[i] <= 0) continue;
+    double size = 1;
+    for (const Operand& o : {s.x, s.op == EngineOp::abs ? s.x : s.y}) {
+      if (o.from == From::step)
+        size = std::max(size, b.words[static_cast<std::size_t>(o.index)].size());
+    }
+    strips += 0.5 * std::max(0.0, std::log2(b.margins[i] / size * 65536));
+  }
   // A state whose error the outputs do not show counts in its own range.
   for (std::size_t i = 0; i < law.states.size(); ++i) {
     const Range& r = law.states[i].range;
@@ -166,8 +178,8 @@ double cost(const Law& law, const Target& target, const Program& program, const 
     const double bits = std::log2(std::max(0.5, size / std::fabs(w.scale)));
     c += 0.02 + 0.08 * std::max(0.0, 14 - bits) + 4 * std::max(0.0, 6 - bits);
   }
-  c += 1e4 * static_cast<double>(b.unproven.size());
-  c += b.states_bounded ? 0 : 3;
+  c += strips + 1e4 * static_cast<double>(b.unproven.size());
+  c += b.states_bounded ? 0 : 1000;
   return c;
 }
 

@@ -69,10 +69,15 @@ void BackEnd::count_tables() {
   }
   if (!sines_ && !cosines_) return;
   if (choice_.sine_bits == 0) {
-    choice_.sine_bits = table_words_left_ == most_table_words && other_tables_ == 0 && !asked ? 9
-                        : table_words_left_ / (other_tables_ + 1) >= 250                      ? 8
-                        : table_words_left_ / (other_tables_ + 1) >= 100                      ? 7
-                                                                                              : 6;
+    // All of the memory, or a share that leaves as much for every other table.
+    const int share = table_words_left_ / (other_tables_ + 1);
+    choice_.sine_bits = 8;
+    while (choice_.sine_bits > 5 && (1 << choice_.sine_bits) * (cosines_ ? 5 : 4) / 4 > share + 8) {
+      --choice_.sine_bits;
+    }
+    if (table_words_left_ == most_table_words && other_tables_ == 0 && !asked) {
+      choice_.sine_bits = 9;
+    }
   }
   const int turn = 1 << choice_.sine_bits;
   table_words_left_ -= choice_.sine_bits == 9 ? turn : cosines_ ? turn + turn / 4 : turn;
@@ -81,6 +86,36 @@ void BackEnd::count_tables() {
 int BackEnd::place_table(const std::string& key, const TableUse& table) {
   program_.tables.push_back(table);
   return table_keys_[key] = static_cast<int>(program_.tables.size()) - 1;
+}
+
+/// In the table's scale where it fits before it is limited: an end is finer there.
+Value BackEnd::align_for_table(const Value& v, double scale, NodeId argument) {
+  const bool fits = v.size / scale < 2e9 && scale < v.scale;
+  return fits ? align(v, scale, argument) : v;
+}
+
+/// Within the domain of the law's own table.
+Value BackEnd::limited(Value v, const Node& n, NodeId id) {
+  if (n.op != Op::lookup) return v;
+  const Table& table = law_.tables[at(n.index)];
+  const Span range = span(n.arguments[0]);
+  const Span domain = {table.domain.lower, table.domain.upper};
+  // Beyond the ends by no more than doubles' rounding is no matter.
+  const double slack = 1e-9 * domain.width();
+  if (range.lo < domain.lo - slack) {
+    const double end = domain.lo / v.scale;
+    emit(EngineOp::max, 0, v.operand, constant(std::ceil(end - 1e-9)), v.scale, id).y_error =
+        std::ceil(end - 1e-9) - end;
+    v.operand = last();
+  }
+  if (range.hi > domain.hi + slack) {
+    const double end = domain.hi / v.scale;
+    emit(EngineOp::min, 0, v.operand, constant(std::floor(end + 1e-9)), v.scale, id).y_error =
+        end - std::floor(end + 1e-9);
+    v.operand = last();
+  }
+  v.size = both_of(range, domain).size();
+  return v;
 }
 
 Value BackEnd::function(NodeId id) {
@@ -103,32 +138,14 @@ Value BackEnd::function(NodeId id) {
                   "keep the divisor away from 0, e.g. max(x, 0.01)");
   }
   Value v = value(argument);
-  if (user) {
-    const Span domain = {table->domain.lower, table->domain.upper};
-    // Beyond the ends by no more than doubles' rounding is no matter.
-    const double slack = 1e-9 * domain.width();
-    if (range.lo < domain.lo - slack) {
-      const double end = domain.lo / v.scale;
-      emit(EngineOp::max, 0, v.operand, constant(std::ceil(end - 1e-9)), v.scale, id).y_error =
-          std::ceil(end - 1e-9) - end;
-      v.operand = last();
-    }
-    if (range.hi > domain.hi + slack) {
-      const double end = domain.hi / v.scale;
-      emit(EngineOp::min, 0, v.operand, constant(std::floor(end + 1e-9)), v.scale, id).y_error =
-          end - std::floor(end + 1e-9);
-      v.operand = last();
-    }
-    range = both_of(range, domain);
-    v.size = range.size();
-  }
+  if (user) range = both_of(range, {table->domain.lower, table->domain.upper});
   const int words = table_words_left_ / std::max(1, other_tables_);
   const int wanted = choice_.table_bits > 0 ? std::min(words, 1 << choice_.table_bits) : words;
   const auto first = [&](double scale) {
-    return static_cast<int>(std::floor((range.lo / scale - 8) / 4096));
+    return static_cast<int>(std::floor((range.lo / scale - 512) / 4096));
   };
   const auto count = [&](double scale) {
-    return static_cast<int>(std::floor((range.hi / scale + 8) / 4096)) - first(scale) + 1;
+    return static_cast<int>(std::floor((range.hi / scale + 512) / 4096)) - first(scale) + 1;
   };
   if (range.width() <= 0 || !(range.width() < infinity)) {
     throw Refused(n.place, "the range of the table's argument has no end, or is a point",
@@ -136,14 +153,19 @@ Value BackEnd::function(NodeId id) {
   }
   double scale = v.scale;
   while (range.width() / scale / 4096 > 2.0 * most_table_words || count(scale) > wanted) scale *= 2;
-  while (count(scale / 2) <= wanted && v.size / (scale / 2) < 1e9) scale /= 2;
+  while (count(scale / 2) <= wanted && range.size() / (scale / 2) < 1e9) scale /= 2;
   if (count(v.scale) <= wanted && count(v.scale) > wanted / 4) scale = v.scale;
   if (user && table->segments > 0) {
     // As many as the law asks for, where its first sample lies on one.
     const double own = (table->domain.upper - table->domain.lower) / table->segments / 4096;
     const double start = table->domain.lower / own / 4096;
-    if (std::fabs(start - std::nearbyint(start)) < 1e-9) scale = own;
+    const double ratio = v.scale / own;
+    const double rounded = std::nearbyint(ratio * 4096) / 4096;
+    const bool fine =
+        std::fabs(ratio - (ratio > 32 ? std::nearbyint(ratio) : rounded)) < ratio * 1e-5;
+    if (std::fabs(start - std::nearbyint(start)) < 1e-9 && fine) scale = own;
   }
+  v = limited(align_for_table(v, scale, argument), n, id);
   v = align(v, scale, argument);
   TableRequest r;
   r.function = function_of(law_, n);
@@ -323,8 +345,7 @@ Value BackEnd::element(NodeId id) {
   const double last_index = static_cast<double>(array.values.size()) - 1;
   Value v = value(n.arguments[0]);
   const Span range = span(n.arguments[0]);
-  if (!same_unit(v.scale, 1))
-    throw Refused(n.place, "the index is no whole number", "use a number");
+  v = align(v, 1.0 / 4096, n.arguments[0]);
   if (range.lo < 0) {
     emit(EngineOp::max, 0, v.operand, constant(0), v.scale, id);
     v.operand = last();
@@ -333,8 +354,6 @@ Value BackEnd::element(NodeId id) {
     emit(EngineOp::min, 0, v.operand, constant(last_index / v.scale), v.scale, id);
     v.operand = last();
   }
-  v.size = std::min(v.size, last_index + 1);
-  v = align(v, 1.0 / 4096, n.arguments[0]);
   const double scale =
       chosen_scale(id, 1, largest_fraction(id, 1, span(id).size()), span(id).size());
   const std::string key = fmt::format("array {} {:.17g}", n.index, scale);
@@ -356,6 +375,8 @@ Value BackEnd::element(NodeId id) {
   Step& s = emit(EngineOp::tab, 0, v.operand, {}, scale, id);
   s.table = index;
   s.node = id;
+  s.condition = id;
+  s.margin_scale = v.scale;
   return {last(), scale, 0};
 }
 

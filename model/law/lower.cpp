@@ -152,7 +152,7 @@ Value BackEnd::compute(NodeId id, double hint) {
     case Op::element:
       return element(id);
     case Op::line_read:
-      throw Refused(n.place, "delay lines are not compiled yet", "use a state or a filter");
+      return line_read(id);
     default:
       throw Refused(n.place, "a truth value cannot be a number here", "write: condition ? 1 : 0");
   }
@@ -216,24 +216,6 @@ double BackEnd::common_scale(NodeId id, const std::vector<NodeId>& children, dou
     return std::ldexp(unit, -std::min(preferred, largest_fraction(id, unit, size)));
   }
   return chosen_scale(id, unit, preferred, size);
-}
-
-/// x < 0 ? -v : v
-bool BackEnd::flips(NodeId id) const {
-  const Node& n = node(id);
-  if (n.op != Op::select || is_fixed(n.arguments[1]) || is_fixed(n.arguments[2])) return false;
-  const Node& c = node(n.arguments[0]);
-  if (c.op != Op::less || is_fixed(c.arguments[0])) return false;
-  const Node& zero = node(c.arguments[1]);
-  if (zero.op != Op::constant || zero.value != 0) return false;
-  if (node(n.arguments[1]).op == Op::negate &&
-      node(n.arguments[1]).arguments[0] == n.arguments[2]) {
-    return true;
-  }
-  Term a, b;
-  gather(n.arguments[1], true, a);
-  gather(n.arguments[2], true, b);
-  return a.number == -b.number && a.fixed == b.fixed && a.factors == b.factors;
 }
 
 Value BackEnd::selection(NodeId id, double hint) {

@@ -80,6 +80,7 @@ class ImageMaker {
     for (std::size_t i = 0; i < program_.constants.size(); ++i) {
       image_.data[Image::constant_base + i] = program_.constants[i];
     }
+    image_.line_base = assembled_.line_base;
     for (const TableUse& t : program_.tables) {
       for (std::size_t i = 0; i < t.words.size(); ++i) image_.table[at(t.base) + i] = t.words[i];
     }

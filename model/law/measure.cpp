@@ -47,6 +47,9 @@ class Meter {
 
   void restart() {
     machine_.enter();
+    for (int i = c_.image.line_base; i < EngineMap::table_words; ++i) {
+      machine_.memory().set_table(i, 0);
+    }
     law_.reset();
     started_ = false;
   }
@@ -103,6 +106,10 @@ class Meter {
     for (const Strip& s : c_.bound.strips) {
       if (s.condition < 0) continue;
       const Node& n = c_.law.nodes[at(s.condition)];
+      if (n.op == Op::element) {
+        const double x = law_.value(n.arguments[0]);
+        if (std::fabs(x - std::nearbyint(x)) <= s.width * (1 + 1e-9)) return true;
+      }
       if (n.op != Op::less) continue;
       const double apart = law_.value(n.arguments[0]) - law_.value(n.arguments[1]);
       if (std::fabs(apart) <= s.width * (1 + 1e-9)) return true;

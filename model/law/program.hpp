@@ -67,6 +67,7 @@ struct TableUse {
   Span values;         ///< words
   std::string what;    ///< for the listing
   std::string proof;   ///< how its error was proven
+  int line = -1;       ///< >= 0: words of this delay line, which runs write
   int base = 0;        ///< address, when placed
 };
 
@@ -76,12 +77,22 @@ struct StateUse {
   std::int32_t initial = 0, lower = 0, upper = 0;
 };
 
+/// A delay line: as Law::lines.
+struct LineUse {
+  double scale = 1;
+  Operand written;   ///< a step
+  int table = -1;    ///< Program::tables
+  int pointer = -1;  ///< Program::states: the index that is written next, times 4096
+};
+
 struct Program {
   std::vector<Step> steps;
   std::vector<Word> words;
   std::vector<std::int32_t> constants;
   std::vector<TableUse> tables;
-  std::vector<StateUse> states;  ///< as Law::states, then one per event: whether it held
+  std::vector<StateUse> states;  ///< as Law::states, then one per event: whether it held; one per
+                                 ///< line: where it is written
+  std::vector<LineUse> lines;
 };
 
 /// Steps of `program` that pass acc from the step before.

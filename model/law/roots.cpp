@@ -36,14 +36,10 @@ double BackEnd::state_unit(NodeId id, int depth) const {
     case Op::multiply: {
       double unit = 1;
       for (const NodeId a : n.arguments) {
-        if (node(a).op == Op::constant) {
-          unit *= std::fabs(node(a).value);
-        } else if (!is_fixed(a)) {
+        if (!is_fixed(a)) {
           const double u = state_unit(a, depth - 1);
           if (u == 0) return 0;
           unit *= u;
-        } else {
-          return 0;
         }
       }
       return unit;
@@ -185,7 +181,9 @@ void BackEnd::finish() {
   // The flag joins comparisons: each needs those before it that it goes on from.
   for (std::size_t i = steps.size(); i-- > 0;) {
     const Step& s = steps[i];
-    if (s.output >= 0 || s.event >= 0 || s.op == EngineOp::brf) kept[i] = 1;
+    if (s.output >= 0 || s.event >= 0 || s.op == EngineOp::brf || s.op == EngineOp::tst) {
+      kept[i] = 1;
+    }
     for (const StateUse& u : program_.states) {
       if (u.next == Operand{From::step, static_cast<int>(i)}) kept[i] = 1;
     }
@@ -219,16 +217,19 @@ void BackEnd::finish() {
   for (StateUse& u : program_.states) {
     if (u.next.from == From::step) u.next.index = to[at(u.next.index)];
   }
+  for (LineUse& l : program_.lines) l.written.index = to[at(l.written.index)];
   steps = std::move(left);
 }
 
 Program BackEnd::run() {
-  program_.states.resize(law_.states.size() + law_.events.size());
+  program_.states.resize(law_.states.size() + law_.events.size() + law_.lines.size());
   count_tables();
+  begin_lines();
   if (choice_.states_first) states();
   events();
   outputs();
   if (!choice_.states_first) states();
+  write_lines();
   finish();
   return std::move(program_);
 }

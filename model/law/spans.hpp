@@ -54,6 +54,13 @@ inline Span square(const Span& a) {
   const bool zero = a.lo <= 0 && a.hi >= 0;
   return {zero ? 0 : down(std::min(p, q)), up(std::max(p, q))};
 }
+/// Of words, which doubles hold exactly.
+inline Span exact_product(const Span& a, const Span& b, bool same) {
+  const double p = a.lo * b.lo, q = a.lo * b.hi, r = a.hi * b.lo, s = a.hi * b.hi;
+  if (same) return {a.lo <= 0 && a.hi >= 0 ? 0 : std::min(p, s), std::max(p, s)};
+  return {std::min({p, q, r, s}), std::max({p, q, r, s})};
+}
+
 inline Span least(const Span& a, const Span& b) {
   return {std::min(a.lo, b.lo), std::min(a.hi, b.hi)};
 }

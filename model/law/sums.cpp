@@ -189,6 +189,9 @@ double BackEnd::sum_scale(NodeId id, const std::vector<Term>& terms, double hint
     if (t.factors.size() == 2) pairs.push_back(scale);
   }
   const double size = span(id).size();
+  if (terms.size() == 1 && plain.size() == 1 && hint != 0 && !same_unit(plain[0], hint)) {
+    return chosen_scale(id, unit_of(hint), fraction_of(hint), size);
+  }
   if (!plain.empty()) {
     // The unit that most have; of these the most bits that fit.
     double best = plain[0];
@@ -335,6 +338,13 @@ Value BackEnd::chain(const Chain& c, double scale, NodeId id) {
 Value BackEnd::sum(NodeId id, double hint) {
   std::vector<Term> terms;
   collect(id, 1, true, terms);
+  if (terms.size() == 1 && terms[0].factors.size() > 1) {
+    NodeId by = -1;
+    Term amount;
+    for (const NodeId f : terms[0].factors) {
+      if (turned(f, &by, &amount)) return turned_sum(id, terms[0], hint);
+    }
+  }
   if (terms.empty()) terms.push_back({0, {}, {}});
   // What is computed last is in acc; leaves are nowhere better than in memory.
   const auto rank = [this](const Term& t) {
@@ -349,7 +359,13 @@ Value BackEnd::sum(NodeId id, double hint) {
     const bool alone = t.fixed.empty() && t.factors.size() == 1;
     for (const NodeId f : t.factors) (void)value(f, alone ? hint / std::fabs(t.number) : 0);
   }
-  if (terms.size() == 1 && terms[0].fixed.empty() && terms[0].factors.size() == 1) {
+  // A value times a number is the same word under another scale, unless that is of no use where
+  // the value goes.
+  const auto renamed = [&] {
+    const double scale = value(terms[0].factors[0]).scale;
+    return hint == 0 || same_unit(scale * terms[0].number, hint) || !same_unit(scale, hint);
+  };
+  if (terms.size() == 1 && terms[0].fixed.empty() && terms[0].factors.size() == 1 && renamed()) {
     Value v = value(terms[0].factors[0]);
     if (terms[0].number < 0) v = negated(v, id);
     v.scale *= std::fabs(terms[0].number);

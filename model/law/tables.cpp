@@ -14,7 +14,7 @@ namespace feltgate::law {
 namespace {
 
 constexpr int fraction = 4096;
-constexpr int pieces = 16;
+constexpr int pieces = 8;
 
 /// A segment: where it begins and ends, what is asked, what was chosen.
 struct Segment {
@@ -134,7 +134,7 @@ TableUse make_table(const TableRequest& r) {
   }
   t.error = up(t.error * (1 + 1e-9));
   t.proof = curvature ? "second derivative by intervals"
-                      : "second derivative by intervals, slope over sixteenths where it has none";
+                      : "second derivative by intervals, slope over eighths where it has none";
   return t;
 }
 

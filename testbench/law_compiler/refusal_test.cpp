@@ -47,5 +47,22 @@ TEST_CASE("a root of what can be negative, a division by what can be zero") {
   CHECK_THAT(refusal("out torque = 0.1 Nm / position\n"), Contains("x.law:1:"));
 }
 
+TEST_CASE("a delay line that can leave its range, or the table memory") {
+  CHECK_THAT(
+      refusal("rate = 10 kHz\nline past[100] in -0.1 .. 0.1 Nm\n"
+              "next past = 0.2 Nm * sin(position)\nout torque = past[100]\n"),
+      Contains("x.law:2:") && Contains("line past can leave its range") && Contains("clamp"));
+  CHECK_THAT(refusal("rate = 10 kHz\nline past[400] in -1 .. 1 Nm\nline more[200] in -1 .. 1 Nm\n"
+                     "next past = more[3]\nnext more = 0.1 Nm * clamp(position, -1, 1)\n"
+                     "out torque = past[100]\n"),
+             Contains("table memory"));
+}
+
+TEST_CASE("a phase that steps by more than a turn") {
+  CHECK_THAT(refusal("rate = 1 kHz\nphase a = 0 in 0 .. 1\nnext a = a + velocity * dt\n"
+                     "out torque = 0.1 Nm * sin(2 * pi * a)\n"),
+             Contains("x.law:2:") && Contains("more than a whole turn"));
+}
+
 }  // namespace
 }  // namespace feltgate::law

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Every construct of the language as instructions: within the bound, and bounded at all.
+#include <catch2/catch.hpp>
+#include <map>
+
+#include "engine/machine.hpp"
+#include "law/measure.hpp"
+
+namespace feltgate::law {
+namespace {
+
+Compiled compiled(const std::string& text) { return compile_text(text, "x.law", Target{}); }
+
+void require_within(const Compiled& c, bool free_running) {
+  const Measured m = measure(c, 3, 20000, free_running);
+  REQUIRE(m.runs > m.in_strips);
+  for (std::size_t o = 0; o < m.output.size(); ++o) {
+    INFO("measured " << m.output[o] << ", bound " << c.bound.output[o]);
+    CHECK(m.output[o] <= c.bound.output[o] * (1 + 1e-9) + 1e-8);
+  }
+}
+
+struct Sample {
+  std::string text;
+  int instructions;  ///< no more
+  double bound_nm;   ///< no more
+};
+
+const std::map<std::string, Sample> samples = {
+    {"whole parameter, mailbox, phase of both",
+     {"param teeth = 12 in 1 .. 100 whole\n"
+      "param depth = 20 mNm in 0 .. 0.2 Nm\n"
+      "mailbox turned = 0 deg in -180 .. 180 deg max_age 5 ms\n"
+      "out torque = -depth * sin(teeth * (position - turned))\n",
+      6, 5e-5}},
+    {"table of the law, sign of the argument",
+     {"param peak = 0.2 Nm in 0 .. 0.5 Nm\n"
+      "table bump(x) on [0, 0.2 rad] = (x / 0.1)^2 * exp(1 - (x / 0.1)^2) with 64 segments\n"
+      "out torque = -peak * sgn(position) * bump(abs(position))\n",
+      6, 6e-4}},
+    {"low-pass: its error has an end",
+     {"param k = 0.05 Nm s/rad in 0 .. 0.2 Nm s/rad\n"
+      "out torque = -k * clamp(lowpass(velocity, 144 Hz), -20 rad/s, 20 rad/s)\n",
+      8, 3e-3}},
+    {"presliding friction: an anchor in counts",
+     {"param k = 5 Nm/rad in 0 .. 20 Nm/rad\n"
+      "state anchor = 0 rad in -250 rad .. 250 rad\n"
+      "let z = clamp(position - anchor, -0.05, 0.05)\n"
+      "next anchor = position - z\n"
+      "out torque = -k * z\n",
+      8, 2e-5}},
+    {"root, quotient, exponential: three tables",
+     {"out torque = 0.1 Nm * sqrt(0.5 + abs(clamp(position, -1, 1)))"
+      " / (1 + clamp(position, 0, 3)^2) * exp(-clamp(position, 0, 2))\n",
+      24, 1e-3}},
+    {"an odd factor of the position, sine beside another table",
+     {"param a = 1 rad in -3 .. 3 rad\n"
+      "out torque = 0.1 Nm * sin(7.3 * position + a) * sqrt(1 + cos(position)^2)\n",
+      24, 1e-3}},
+    {"sine of a speed, torque of the observer",
+     {"out torque = 0.01 Nm * sin(velocity * 0.1 s) + tau_hat * 0.3\n", 8, 5e-5}},
+    {"an array by number and by index",
+     {"array steps = [0.1, -0.2, 0.05, 0.3] Nm\n"
+      "let i = clamp(2 + position, 0, 3.9)\n"
+      "out torque = steps[i] + 0.1 * sin(position) * 1 Nm\n",
+      8, 5e-5}},
+    {"conditions: and, or, not",
+     {"param a = 0.2 in -1 .. 1\n"
+      "let inside = (position > a and position < 2) or (not (velocity < 1 rad/s) and position < "
+      "-3)\n"
+      "out torque = if inside then 0.2 Nm else -0.1 Nm\n",
+      10, 2e-5}},
+    {"two states that change places",
+     {"state a = 0.1 in -1 .. 1\nstate b = -0.2 in -1 .. 1\n"
+      "next a = b\nnext b = a\n"
+      "out torque = a * 1 Nm + 0.01 Nm * clamp(position, -1, 1)\n",
+      12, 5e-5}}};
+
+TEST_CASE("constructs stay within their bounds, which are small") {
+  for (const auto& [name, sample] : samples) {
+    INFO(name);
+    const Compiled c = compiled(sample.text);
+    CHECK(c.bound.unproven.empty());
+    CHECK(static_cast<int>(c.assembled.instructions.size()) <= sample.instructions);
+    CHECK(c.bound.output[0] <= sample.bound_nm);
+    require_within(c, false);
+    if (c.bound.states_bounded) require_within(c, true);
+  }
+}
+
+TEST_CASE("phases, delay lines and events run on as the law does") {
+  const Compiled c = compiled(
+      "rate = 40 kHz\n"
+      "param ring = 200 Hz in 50 .. 400 Hz\n"
+      "phase angle = 0 in 0 .. 1\n"
+      "next angle = angle + ring * dt\n"
+      "state strength = 0 Nm in 0 .. 0.1 Nm\n"
+      "let inside = position > 0.5\n"
+      "next strength = if inside then 0.1 Nm else 0.999 * strength\n"
+      "line past[400] in -0.11 .. 0.11 Nm\n"
+      "next past = strength * sin(2 * pi * angle)\n"
+      "event hit(velocity) when inside\n"
+      "out torque = past[1] + 0.5 * past[400]\n");
+  CHECK(c.rate_hz == 40000);
+  CHECK(c.image.line_base == 112);
+  REQUIRE(c.bound.states_bounded);
+  CHECK(c.bound.output[0] < 1e-3);
+  require_within(c, true);
+}
+
+TEST_CASE("an event is one run's: where its condition becomes true") {
+  const Compiled c = compiled(
+      "event hit(velocity) when position > 0.5\nevent low(position) when position < -1\n"
+      "out torque = 0.1 Nm * clamp(position, -1, 1)\n");
+  EngineMemory memory;
+  memory.program = c.image.program;
+  memory.data = c.image.data;
+  memory.table = c.image.table;
+  Machine machine(memory);
+  const auto run = [&](std::int32_t position) {
+    MachineInputs inputs{};
+    inputs[0] = position;
+    inputs[1] = 12345;
+    return machine.run(0, inputs);
+  };
+  CHECK(run(0).events.empty());
+  const MachineRun hit = run(400);
+  REQUIRE(hit.events.size() == 1);
+  CHECK(hit.events[0].number == 1);
+  CHECK(hit.events[0].value * c.image.events[0].scale == Approx(12345 * 0x1p-21));
+  CHECK(run(500).events.empty());
+  CHECK(run(0).events.empty());
+  const MachineRun low = run(-1000);
+  REQUIRE(low.events.size() == 1);
+  CHECK(low.events[0].number == 2);
+  CHECK(run(400).events.size() == 1);
+  machine.enter();
+  CHECK(run(400).events.size() == 1);
+}
+
+TEST_CASE("the first run has the initial values, every entry again") {
+  const Compiled c =
+      compiled("state n = 3 in 0 .. 10\nnext n = min(n + 1, 10)\nout torque = 0.1 Nm * n\n");
+  EngineMemory memory;
+  memory.program = c.image.program;
+  memory.data = c.image.data;
+  Machine machine(memory);
+  const auto torque = [&] { return machine.run(0, {}).outputs[0] * 0x1p-16; };
+  CHECK(torque() == Approx(0.3).margin(2e-5));
+  CHECK(torque() == Approx(0.4).margin(2e-5));
+  machine.enter();
+  CHECK(torque() == Approx(0.3).margin(2e-5));
+}
+
+TEST_CASE("compiling is repeatable") {
+  for (const char* name : {"charge", "pantograph"}) {
+    const std::string path = std::string(FELTGATE_ROOT) + "/rtl/laws/" + name + ".law";
+    CHECK(text(compile_file(path, Target{}).image) == text(compile_file(path, Target{}).image));
+  }
+}
+
+TEST_CASE("designs with other formats and ticks") {
+  Target t;
+  t.tick_hz = 100000;
+  t.clocks_per_tick = 500;
+  t.torque = {1, 4, 18};
+  const Compiled c = compile_file(std::string(FELTGATE_ROOT) + "/rtl/laws/pantograph.law", t);
+  CHECK(c.divider == 1);
+  require_within(c, false);
+}
+
+}  // namespace
+}  // namespace feltgate::law

@@ -89,6 +89,13 @@ class Bounds {
   /// Errors of states that a run does not make larger; none where they grow without end.
   void settle(const Cell& whole) {
     if (errors_.empty()) return;
+    std::vector<double> start = errors_;
+    for (std::size_t k = 0; k < law_.states.size(); ++k) {
+      const StateUse& use = program_.states[k];
+      start[k] = std::fabs(use.initial * use.scale - law_.states[k].initial);
+      if (start[k] < 1e-12 * std::fabs(law_.states[k].initial)) start[k] = 0;
+    }
+    errors_ = start;
     std::vector<double> before = errors_;
     for (int i = 0; i < 40; ++i) {
       const CellFacts f = whole_facts(whole);

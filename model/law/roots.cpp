@@ -143,7 +143,12 @@ void BackEnd::states() {
     }
     if (own < 0) continue;
     const double scale = value(own).scale;
-    const Value v = next_state(s, scale);
+    Value v = next_state(s, scale);
+    if (v.operand.from == From::state && v.operand.index != static_cast<int>(i)) {
+      // Another state as the run before left it: read before any is written.
+      emit(EngineOp::add, 0, v.operand, constant(0), scale, s.next).node = s.next;
+      v.operand = last();
+    }
     StateUse& use = program_.states[i];
     use.next = v.operand;
     use.scale = scale;

@@ -65,7 +65,7 @@ const std::map<std::string, Sample> samples = {
      {"array steps = [0.1, -0.2, 0.05, 0.3] Nm\n"
       "let i = clamp(2 + position, 0, 3.9)\n"
       "out torque = steps[i] + 0.1 * sin(position) * 1 Nm\n",
-      8, 5e-5}},
+      14, 5e-5}},
     {"conditions: and, or, not",
      {"param a = 0.2 in -1 .. 1\n"
       "let inside = (position > a and position < 2) or (not (velocity < 1 rad/s) and position < "

@@ -14,7 +14,7 @@
 
 namespace feltgate::test {
 
-using Twin = Engine<AXES, 21>;
+using Twin = law::Engine<AXES, 21>;
 
 struct Adapter {
   static void drive(Vengine& rtl, const Twin::In& in) {

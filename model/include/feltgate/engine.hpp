@@ -12,7 +12,7 @@
 #include "feltgate/engine_barrel.hpp"
 #include "feltgate/engine_parts.hpp"
 
-namespace feltgate {
+namespace feltgate::law {
 
 /// Clocked twin of an engine of AxisCount axes, whose torques have TorqueW bits.
 template <int AxisCount = 1, int TorqueW = 21>
@@ -78,6 +78,9 @@ class Engine {
 
   /// After a clock: with the address that was held in it.
   Out out() const { return peek(last_); }
+
+  /// Whether a thread is in a run, or about to be: its inputs have been latched.
+  bool running(int thread) const { return (inputs_.running >> thread & 1U) != 0; }
 
   void clock(const In& in) {
     last_ = in;
@@ -278,4 +281,4 @@ class Engine {
   Registers registers_;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::law

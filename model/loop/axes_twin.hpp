@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <utility>
 
 #include "../plant/sampled_law.hpp"
@@ -17,6 +18,40 @@
 #include "feltgate/feltgate_axes.hpp"
 
 namespace feltgate {
+
+/// What the cores have of a tick, as an engine gets it.
+template <std::size_t N>
+struct AxesWords {
+  std::array<std::int32_t, N> position = {};  ///< counts from the pose in which the angles are 0
+  std::array<std::int64_t, N> velocity = {};  ///< raw, in the design's format
+  std::array<std::int32_t, N> tau_hat = {};
+  std::uint32_t tick = 0;
+};
+/// Torques in the design's format, raw; run once in a tick, rendered with the next.
+template <std::size_t N>
+using AxesProgram = std::function<std::array<std::int32_t, N>(const AxesWords<N>&)>;
+
+/// A law in real numbers as a program: its torques are rounded half up and saturated.
+template <std::size_t N>
+AxesProgram<N> program_of(plant::AxesLaw<N> law, const DesignInfo& design) {
+  return [law = std::move(law), count_rad = design.count_rad, velocity = design.velocity,
+          torque = design.torque](const AxesWords<N>& words) {
+    plant::AxesMotion<N> motion;
+    for (std::size_t n = 0; n < N; ++n) {
+      motion.theta_rad[n] = words.position[n] * count_rad;
+      motion.omega_rad_s[n] =
+          std::ldexp(static_cast<double>(words.velocity[n]), -velocity.fraction);
+    }
+    const auto asked_nm = law(motion);
+    const double most = std::ldexp(1.0, torque.width() - 1);
+    std::array<std::int32_t, N> raw{};
+    for (std::size_t n = 0; n < N; ++n) {
+      const double rounded = std::floor(std::ldexp(asked_nm[n], torque.fraction) + 0.5);
+      raw[n] = static_cast<std::int32_t>(std::clamp(rounded, -most, most - 1.0));
+    }
+    return raw;
+  };
+}
 
 /// Cores of design D, one for each joint of the plant. Every clock goes through FeltgateAxes; the
 /// bridges are averaged: what a core changes acts with the next step of the plant, at most
@@ -27,11 +62,11 @@ class AxesTwin : public plant::AxesDevice<Plant> {
   static constexpr std::size_t axes = Plant::axes;
   using Twin = FeltgateAxes<D, static_cast<int>(axes), false>;
 
-  /// `program` is run with every tick, with the angles and speeds that the cores have of it; its
-  /// torques are rounded to their format and rendered with the next tick. The cores' counts begin
-  /// at 0: what they are then of the joints is `home_rad`, as after homing.
-  AxesTwin(plant::AxesLaw<axes> program, std::array<double, axes> home_rad)
-      : program_(std::move(program)), home_rad_(home_rad), info_(design_info<D>()) {
+  /// The cores' counts begin at 0; `home` is what the joints' counts are then, as after homing.
+  /// `ticks` from input to torque of the program: until two of them after arming its torque may
+  /// jump, and the cores ramp, as the engine of a device has them do.
+  AxesTwin(AxesProgram<axes> program, std::array<std::int64_t, axes> home, int ticks = 1)
+      : program_(std::move(program)), home_(home), ticks_(ticks), info_(design_info<D>()) {
     for (auto& axis : in_.axis) axis.scene = static_cast<std::uint8_t>(info_.scene_number("law"));
   }
 
@@ -84,32 +119,30 @@ class AxesTwin : public plant::AxesDevice<Plant> {
   void clock() {
     // The request must have been low in a tick before it is seen to rise.
     in_.arm = wanted_ && at_ >= 4 * D::clocks_per_tick;
+    in_.law_restart = since_arming_ <= 2 * ticks_;
     const bool measured = twin_.measured();
     const auto duty_before = twin_.out().axis[0].duty_active;
     twin_.clock(in_);
     if (twin_.out().axis[0].duty_active != duty_before) phase_ = (at_ + 1) % most_clocks;
     if (!measured) return;
-    plant::AxesMotion<axes> motion;
+    AxesWords<axes> words;
+    words.tick = twin_.out().axis[0].tick_count;
     for (std::size_t n = 0; n < axes; ++n) {
       const CoreOut& out = twin_.out().axis[n];
-      motion.theta_rad[n] = home_rad_[n] + out.position * info_.count_rad;
-      motion.omega_rad_s[n] =
-          std::ldexp(static_cast<double>(out.velocity), -info_.velocity.fraction);
+      words.position[n] = static_cast<std::int32_t>(home_[n] + out.position);
+      words.velocity[n] = out.velocity;
+      words.tau_hat[n] = out.tau_hat;
     }
-    const auto torque = program_(motion);
-    for (std::size_t n = 0; n < axes; ++n) in_.axis[n].law_torque = rounded(torque[n]);
+    const auto torque = program_(words);
+    for (std::size_t n = 0; n < axes; ++n) in_.axis[n].law_torque = torque[n];
     ++runs_;
+    since_arming_ = twin_.out().axis[0].armed ? std::min(since_arming_ + 1, 2 * ticks_ + 1) : 0;
   }
 
-  // Half up and saturated, as an engine's output.
-  std::int32_t rounded(double nm) const {
-    const double words = std::ldexp(1.0, info_.torque.width() - 1);
-    const double raw = std::floor(std::ldexp(nm, info_.torque.fraction) + 0.5);
-    return static_cast<std::int32_t>(std::clamp(raw, -words, words - 1.0));
-  }
-
-  plant::AxesLaw<axes> program_;
-  std::array<double, axes> home_rad_;
+  AxesProgram<axes> program_;
+  std::array<std::int64_t, axes> home_;
+  int ticks_;
+  int since_arming_ = 0;  ///< ticks
   DesignInfo info_;
   Twin twin_;
   typename Twin::In in_;

@@ -7,6 +7,7 @@
 
 #include "catch.hpp"
 #include "feltgate/generated/lever_law.hpp"
+#include "image_axes.hpp"
 #include "law_axes.hpp"
 #include "loop/axes_twin.hpp"
 #include "pantograph_fixture.hpp"
@@ -27,13 +28,9 @@ PantographParameters direct() {
   return p;
 }
 
-/// Where the joints are at the start of the cores, to the middle of a count: what homing finds.
-Joints home(const Pantograph& plant) {
-  Joints h;
-  for (std::size_t i = 0; i < 2; ++i) {
-    h[i] = (static_cast<double>(plant.encoder(i).count()) + 0.5) * plant.encoder(i).count_rad();
-  }
-  return h;
+/// The joints' counts at the start of the cores: what homing finds.
+std::array<std::int64_t, 2> home(const Pantograph& plant) {
+  return {plant.encoder(0).count(), plant.encoder(1).count()};
 }
 
 }  // namespace
@@ -51,8 +48,8 @@ TEST_CASE("two cores in closed loop: a floor and drag felt by a hand, passive", 
   law.set("floor", floor_m);
   law.set("stiffness", stiffness);
   law.set("drag", 1.0);
-  Cores cores(law.axes(), home(plant));
-  const std::array<std::int64_t, 2> first{plant.encoder(0).count(), plant.encoder(1).count()};
+  Cores cores(program_of<2>(law.axes(), design_info<LeverLaw>()), home(plant));
+  const auto first = home(plant);
   TwoAxisLoop loop(plant, cores);
   double least_j = 0.0, deepest_m = 0.0, held_n = 0.0, held_m = 0.0;
   loop.run(clocks_of(0.35), [&](const Pantograph& now) {
@@ -81,7 +78,8 @@ TEST_CASE("a program can only ask: ramp, limit and stop are the cores'", "[cores
   hold.kind = PenPhase::Kind::kPrescribed;
   hold.x = hold.y = {segment(Segment::Kind::kHold, 1.0)};
   Pantograph plant(p, p.effects, drive_of(design_info<LeverLaw>()), PenHand{{}, {hold}});
-  Cores cores([](const AxesMotion<2>&) { return Joints{10.0, -0.05}; }, home(plant));
+  const AxesLaw<2> pushing = [](const AxesMotion<2>&) { return Joints{10.0, -0.05}; };
+  Cores cores(program_of<2>(pushing, design_info<LeverLaw>()), home(plant));
   TwoAxisLoop loop(plant, cores);
   double most_step_nm = 0.0, last_nm = 0.0;
   loop.run(clocks_of(0.12), [&](const Pantograph&) {
@@ -104,4 +102,72 @@ TEST_CASE("a program can only ask: ramp, limit and stop are the cores'", "[cores
     CHECK(plant.seen().current_a[i] == 0.0);
   }
   CHECK(length(plant.seen().hand_n) < 0.2);
+}
+
+TEST_CASE("the compiled law: its force at the pen is the linkage's, its place within 5 um",
+          "[cores]") {
+  const DesignInfo design = design_info<LeverLaw>();
+  test::ImageAxes<2> image("pantograph", design);
+  constexpr double stiffness = 1000.0, depth_m = 2e-3;
+  image.set("stiffness", stiffness);
+  image.set("drag", 0.0);
+  const Linkage linkage(pantograph().linkage);
+  double worst_m = 0.0, worst_nm = 0.0;
+  for (int first = -300; first < 1700; first += 23) {
+    for (int between = 228; between < 1820; between += 29) {
+      AxesWords<2> words;
+      words.position = {first, first + between};
+      const LinkagePose p =
+          linkage.pose({first * design.count_rad, (first + between) * design.count_rad});
+      if (p.pen.y > 0.195) continue;
+      image.set("floor", p.pen.y + depth_m);
+      const auto raw = image.run(words);
+      const Joints nm{std::ldexp(raw[0], -design.torque.fraction),
+                      std::ldexp(raw[1], -design.torque.fraction)};
+      const Joints asked = p.torque({0.0, stiffness * depth_m});
+      for (std::size_t i = 0; i < 2; ++i) {
+        worst_nm = std::max(worst_nm, std::abs(nm[i] - asked[i]));
+      }
+      // Height that the law must have seen to ask for this: its force along y.
+      worst_m = std::max(worst_m, std::abs(depth_m - p.force(nm).y / stiffness));
+    }
+  }
+  INFO("height within " << 1e6 * worst_m << " um (a count is 153 um), torque within "
+                        << 1e3 * worst_nm << " mNm of 2 N");
+  CHECK(worst_m < 5e-6);
+  CHECK(worst_nm < 0.1e-3);
+  CHECK(image.compiled().rate_hz >= 250e3);
+}
+
+TEST_CASE("law file to bridge, bit by bit: two cores, the engine's words, a hand; passive",
+          "[cores]") {
+  const PantographParameters p = direct();
+  PenPhase press;
+  press.kind = PenPhase::Kind::kImpedance;
+  press.y = {segment(Segment::Kind::kMinimumJerk, 0.1, 0.09), segment(Segment::Kind::kHold, 0.1),
+             segment(Segment::Kind::kMinimumJerk, 0.1, 0.125)};
+  Pantograph plant(p, p.effects, drive_of(design_info<LeverLaw>()),
+                   PenHand{Vec2{0.0, 0.115}, {press}});
+  constexpr double floor_m = 0.11, stiffness = 300.0;
+  test::ImageAxes<2> image("pantograph", design_info<LeverLaw>());
+  image.set("floor", floor_m);
+  image.set("stiffness", stiffness);
+  image.set("drag", 1.0);
+  Cores cores(image.program(), home(plant), 2 * image.compiled().divider);
+  TwoAxisLoop loop(plant, cores);
+  double least_j = 0.0, deepest_m = 0.0, held_n = 0.0, held_m = 0.0;
+  loop.run(clocks_of(0.35), [&](const Pantograph& now) {
+    least_j = std::min(least_j, now.seen().hand_work_j);
+    deepest_m = std::max(deepest_m, floor_m - now.seen().pen_m.y);
+    if (now.seconds() > 0.199) return;
+    held_n = now.seen().hand_n.y;
+    held_m = floor_m - now.seen().pen_m.y;
+  });
+  CHECK(cores.out(0).armed);
+  CHECK(cores.out(0).faults == 0);
+  CHECK(cores.out(1).faults == 0);
+  CHECK(deepest_m > 2e-3);
+  CHECK(held_n < -0.5);
+  CHECK(held_n == Approx(-stiffness * held_m).margin(0.15));
+  CHECK(least_j > -1e-6);
 }

@@ -50,6 +50,7 @@ class Bounds {
     Cell whole = whole_cell(law_, target_);
     settle(whole);
     leaves_.push_back({whole, whole_facts(whole)});
+    const bool whole_reachable = leaves_.front().facts.reachable;
     for (int i = 0; i < splits && split(whole); ++i) {
     }
     Bound b;
@@ -72,6 +73,8 @@ class Bounds {
       }
       if (b.unproven.empty()) b.unproven = l.facts.unproven;
     }
+    // Formats that hold no value at all prove nothing.
+    if (!whole_reachable) b.unproven.push_back({0, -1, "its formats hold no value"});
     if (!bounded_) drifting(&b);
     if (splits > 0) strips(whole, &b);
     return b;

@@ -61,6 +61,12 @@ void BackEnd::count_tables() {
     others[key] = 0;
     table_words_left_ -= segments + 1;
   }
+  if (table_words_left_ < 0) {
+    throw Refused(fmt::format("arrays, delay lines and tables ask for {} words of table memory, "
+                              "which has {}",
+                              most_table_words - table_words_left_, most_table_words),
+                  "ask for fewer segments: each is a word, and one more for every table");
+  }
   other_tables_ = 0;
   bool asked = false;
   for (const auto& [key, one] : others) {
@@ -140,7 +146,14 @@ Value BackEnd::function(NodeId id) {
   Value v = value(argument);
   if (user) range = both_of(range, {table->domain.lower, table->domain.upper});
   const int words = table_words_left_ / std::max(1, other_tables_);
-  const int wanted = choice_.table_bits > 0 ? std::min(words, 1 << choice_.table_bits) : words;
+  const bool asked = user && table->segments > 0;
+  const int wanted = asked                    ? std::max(words, table->segments + 1)
+                     : choice_.table_bits > 0 ? std::min(words, 1 << choice_.table_bits)
+                                              : words;
+  if (wanted < 2) {
+    throw Refused(n.place, "no table memory is left for this",
+                  "ask for fewer segments of the other tables");
+  }
   const auto first = [&](double scale) {
     return static_cast<int>(std::floor((range.lo / scale - 512) / 4096));
   };

@@ -267,6 +267,8 @@ Value BackEnd::state(NodeId id) {
   unit /= std::exp2(std::floor(std::log2(unit) + 1e-9));
   const int preferred = s.whole ? 0 : std::min(largest_fraction(id, unit, size) - 1, 28);
   const double scale = chosen_scale(id, unit, preferred, size);
+  if (s.whole && scale > 1) throw Unfit("a whole state counts in ones");
+  if (s.range.upper - s.range.lower < 2 * scale) throw Unfit("a state's format holds no value");
   program_.states[static_cast<std::size_t>(index)].scale = scale;
   return {{From::state, index}, scale, size};
 }

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Formats that the search must not take, and memory that tables ask for. Documentation:
+// docs/law-compiler.md
+#include "catch.hpp"
+#include "law/compile.hpp"
+#include "law/measure.hpp"
+
+namespace feltgate::law {
+namespace {
+
+/// The largest difference from the law in a run of its own, and the bound.
+void check_within(const std::string& text) {
+  const Compiled c = compile_text(text, "x.law", Target{});
+  const Measured m = measure(c, 1, 5000);
+  CHECK(c.bound.unproven.empty());
+  CHECK(c.bound.output[0] > 0);
+  CHECK(c.bound.output[0] < 1e-3);
+  CHECK(m.output[0] <= c.bound.output[0] + 1e-8);
+}
+
+TEST_CASE("a whole state counts in ones") {
+  check_within(
+      "state count = 0 in 0 .. 9 whole\n"
+      "next count = if count < 5 and not velocity > 1 rad/s then count + 1 else 0\n"
+      "out torque = 0.01 Nm * count\n");
+}
+
+TEST_CASE("no format is taken that holds no value of a phase") {
+  check_within(
+      "param a = 50 mNm in 0 .. 0.1 Nm\nparam n = 3 in 1 .. 9 whole\n"
+      "mailbox goal = 30 deg in -90 .. 90 deg max_age 5 ms\nrate = 20 kHz\n"
+      "let q = sin(n * position) + 0.5 * exp(-abs(goal))\n"
+      "table f(x) on [0, 2] = x^2 / (1 + x) with 64 segments\n"
+      "state count = 0 in 0 .. 9 whole\n"
+      "next count = if count < 5 and not velocity > 1 rad/s then count + 1 else 0\n"
+      "phase w = 0.25 in -0.5 .. 0.5\nnext w = w + 200 Hz * dt\n"
+      "event hit(position) when 0 <= position < 1 or q > 0.5\n"
+      "out torque = a * f(clamp(q, 0, 2)) + 0.01 Nm * (count + w) * sgn(q)\n");
+}
+
+TEST_CASE("tables get the segments that they ask for, or are refused") {
+  const auto with = [](const std::string& a, const std::string& b) {
+    return "table f(x) on [0, 3] = x^2 / 9 with " + a + " segments\n" +
+           "table h(x) on [0, 3] = x^3 / 27 with " + b + " segments\n" +
+           "out torque = 0.1 Nm * (f(abs(position)) + h(abs(position)))\n";
+  };
+  CHECK_THROWS_WITH(compile_text(with("300", "300"), "x.law", Target{}),
+                    Catch::Contains("602 words of table memory, which has 512") &&
+                        Catch::Contains("fewer segments"));
+  check_within(with("300", "210"));
+  check_within(
+      "table f(x) on [0, 3] = x^2 / 9 with 511 segments\n"
+      "out torque = 0.1 Nm * f(abs(position))\n");
+}
+
+}  // namespace
+}  // namespace feltgate::law

@@ -278,7 +278,7 @@ module engine #(
   logic [4:0] event_count;
   logic [8:0] event_number;
   logic [31:0] event_value, event_tick;
-  logic [15:0] events_lost;
+  logic [7:0] events_lost;
   engine_events u_events (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
@@ -315,7 +315,7 @@ module engine #(
       feltgate_engine_pkg::H_EVENT_NUMBER: register = {23'd0, event_number};
       feltgate_engine_pkg::H_EVENT_VALUE:  register = event_value;
       feltgate_engine_pkg::H_EVENT_TICK:   register = event_tick;
-      feltgate_engine_pkg::H_EVENTS_LOST:  register = {16'd0, events_lost};
+      feltgate_engine_pkg::H_EVENTS_LOST:  register = {24'd0, events_lost};
       default:                                  register = '0;
     endcase
   end

@@ -18,7 +18,7 @@ module engine_events (
     output logic [ 8:0] number_o,  // of the oldest
     output logic [31:0] value_o,
     output logic [31:0] tick_o,
-    output logic [15:0] lost_o     // stays at its end
+    output logic [ 7:0] lost_o     // stays at its end
 );
   logic [72:0] events[0:15];
   initial begin
@@ -44,7 +44,7 @@ module engine_events (
     end else begin
       if (takes) first_q <= first_q + 4'd1;
       if (keeps != takes) count_q <= keeps ? count_q + 5'd1 : count_q - 5'd1;
-      if (event_i && count_q[4] && lost_o != '1) lost_o <= lost_o + 16'd1;
+      if (event_i && count_q[4] && lost_o != '1) lost_o <= lost_o + 8'd1;
     end
   end
 endmodule

@@ -72,38 +72,32 @@ module engine_inputs #(
   assign overrun_o = due && due_q[counted_q];
   assign ready     = due_q & ~running_o;
   assign wanted_o  = loading_q && word_q != Words;
+  logic all_written;
+  assign all_written = loading_q && word_q == Words && !tick_i;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      due_q      <= '0;
-      loading_q  <= 1'b0;
-      loaded_q   <= 2'd0;
-      word_q     <= '0;
-      written_q  <= 1'b0;
-      request_o  <= '0;
-      running_o  <= '0;
-    end else begin
+      due_q     <= '0;
+      loading_q <= 1'b0;
+      loaded_q  <= 2'd0;
+      word_q    <= '0;
       written_q <= 1'b0;
+      request_o <= '0;
+      running_o <= '0;
+    end else begin
+      written_q <= all_written;
       if (tick_i || !loading_q) word_q <= '0;  // of one tick
       else if (taken_i) word_q <= word_q + 4'd1;
       if (!loading_q) begin
         loading_q <= ready != '0;
         loaded_q  <= ready[0] ? 2'd0 : ready[1] ? 2'd1 : ready[2] ? 2'd2 : 2'd3;
-      end else if (word_q == Words && !tick_i) begin
-        loading_q <= 1'b0;
-        written_q <= 1'b1;
-        due_q[loaded_q]     <= 1'b0;
-        running_o[loaded_q] <= 1'b1;
-      end
-      if (written_q) request_o[loaded_q] <= 1'b1;
-      if (started_i) request_o[thread_i] <= 1'b0;
-      if (ended_i) running_o[thread_i] <= 1'b0;
-      if (due) due_q[counted_q] <= 1'b1;
+      end else if (all_written) loading_q <= 1'b0;
       for (int t = 0; t < 4; t = t + 1) begin
-        if (!run_i[t]) begin
-          due_q[t]     <= 1'b0;
-          request_o[t] <= 1'b0;
-          running_o[t] <= 1'b0;
-        end
+        due_q[t] <= run_i[t] && ((due && counted_q == 2'(t)) ||
+                                 (due_q[t] && !(all_written && loaded_q == 2'(t))));
+        running_o[t] <= run_i[t] && !(ended_i && thread_i == 2'(t)) &&
+                        (running_o[t] || (all_written && loaded_q == 2'(t)));
+        request_o[t] <= run_i[t] && !(started_i && thread_i == 2'(t)) &&
+                        (request_o[t] || (written_q && loaded_q == 2'(t)));
       end
     end
   end

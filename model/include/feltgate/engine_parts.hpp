@@ -321,7 +321,7 @@ class EngineEvents {
 
   void clock(bool event, const Event& e, bool take) {
     const bool full = count == 16, takes = take && count != 0;
-    if (event && full) lost = std::min(lost + 1, 0xffff);
+    if (event && full) lost = std::min(lost + 1, 0xff);
     if (event && !full) events_[static_cast<std::size_t>((first_ + count) % 16)] = e;
     if (takes) first_ = (first_ + 1) % 16;
     count += (event && !full ? 1 : 0) - (takes ? 1 : 0);

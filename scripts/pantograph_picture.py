@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Draws docs/images/pantograph.svg: where the pen of the default pantograph can be and what its motors
-can push there, and a drop of its cranks against a stop, from the table that the test prints.
+"""Draws docs/images/pantograph.svg: where the pen of the default pantograph can be and what its
+motors can push there, and a drop of its cranks against a stop, from the table that the test prints.
 
   build/testbench/pantograph/linkage_test "[.drop]" > drop.csv
   scripts/pantograph_picture.py drop.csv

@@ -46,6 +46,10 @@ TEST_CASE("the shipped pantograph is read", "[pantograph_file]") {
   CHECK(p.joint.ratio() == Approx(3.0));
   CHECK(p.bodies.joint_inertia_kg_m2[1] == Approx(1e-5 + 9 * 1.38e-5));
   CHECK_FALSE(p.joint.encoder_on_motor);
+  Effects on = p.effects;
+  CHECK(p.smooth_nm_s_rad(on) == Approx(9 * 1.5e-6));
+  on.viscous = true;
+  CHECK(p.smooth_nm_s_rad(on) == Approx(9 * 1.5e-6 + 1e-3));
   CHECK(p.stops.least_rad == Approx(20 * kDegree));
   CHECK(p.stops.most_rad == Approx(160 * kDegree));
   CHECK(p.motor.torque_constant_nm_a == shipped("p24").motor.torque_constant_nm_a);

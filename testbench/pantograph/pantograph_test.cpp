@@ -188,6 +188,38 @@ TEST_CASE("dry friction of the capstan holds small forces and lets larger ones g
   }
 }
 
+TEST_CASE("a motor breaks away by its own friction, whatever the capstan", "[pantograph]") {
+  PantographParameters p = pantograph();
+  Effects on = p.effects;
+  on.dead_time = false;
+  for (const double ratio : {1.0, 3.0}) {
+    p.joint.drum_radius_m = ratio * p.joint.pulley_radius_m;
+    for (const double share : {0.8, 1.3}) {
+      const double amps = share * p.lugre.static_nm / p.motor.torque_constant_nm_a;
+      const double volts = p.motor.resistance_ohm * amps + p.motor.dead_voltage_v;
+      Pantograph plant(p, on, Drive{});
+      while (plant.now() < clocks_of(0.2)) {
+        plant.advance({Bridge::averaged(volts / 24.0), Bridge::averaged(-volts / 24.0)}, 250);
+      }
+      const double way = std::abs(plant.seen().pen_m.y - 0.1);
+      if (share < 1.0) CHECK(way < 3e-4);
+      if (share > 1.0) CHECK(way > 1e-3);
+    }
+  }
+}
+
+TEST_CASE("each encoder has imperfect edges of its own", "[pantograph]") {
+  const PantographParameters p = pantograph();
+  Effects on = p.effects;
+  on.encoder_imperfect = true;
+  const Pantograph plant(p, on, Drive{});
+  int alike = 0;
+  for (int edge = 0; edge < 400; edge += 4) {
+    alike += plant.encoder(0).edge_rad(edge) == plant.encoder(1).edge_rad(edge) ? 1 : 0;
+  }
+  CHECK(alike < 3);
+}
+
 TEST_CASE("a motion that pins cannot show ends the run", "[pantograph]") {
   PantographParameters p = pantograph();
   p.encoder.lines = 1 << 20;

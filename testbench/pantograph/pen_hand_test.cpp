@@ -92,6 +92,18 @@ TEST_CASE("pen hand: a rigid grip swings with the closed form's frequency", "[pe
   CHECK(6.283185307 * swings / (last - first) == Approx(rad_s).epsilon(3e-4));
 }
 
+TEST_CASE("pen hand: along an even motion it does not lag, for its damper moves too", "[pen]") {
+  const PantographParameters p = pantograph();
+  Effects on = kNoEffects;
+  on.hand_dynamics = true;
+  PenHand hand = hand_at_rest({-0.04, 0.12});
+  hand.phases[0].x = {segment(Segment::Kind::kRamp, 2.0, 0.06)};
+  Pantograph plant(p, on, Drive{}, hand);
+  run(plant, {}, 1.5);
+  // A damper to the ground would hold it back by 6.45*0.05/135 = 2.4 mm.
+  CHECK(plant.seen().hand_m.x == Approx(-0.04 + 0.05 * 1.5).margin(2e-4));
+}
+
 TEST_CASE("all work is accounted for: hand, motors, friction, stops", "[pen]") {
   const PantographParameters p = pantograph();
   Effects on = p.effects;

@@ -31,4 +31,14 @@ operand_bus.sv
 mult.sv
 multipliers.sv
 feltgate_core.sv
+generated/feltgate_engine_pkg.sv
+engine/engine_alu.sv
+engine/engine_memory.sv
+engine/engine_barrel.sv
+engine/engine_inputs.sv
+engine/engine_outputs.sv
+engine/engine_commit.sv
+engine/engine_crc.sv
+engine/engine_events.sv
+engine/engine.sv
 axes/feltgate_axes.sv

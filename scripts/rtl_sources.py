@@ -10,6 +10,7 @@ CELL_WRAPPERS = ("mult18_ecp5",)  # one cell of one vendor: no other vendor's so
 # Folders of blocks beside the core: the list of all files up to them, and the package that they add.
 FOLDERS = {"link": "feltgate_linked", "bus": "feltgate_bus", "engine": "feltgate_engine", "axes": "feltgate_axes"}
 PACKAGES = {"link": "feltgate_link_pkg", "engine": "feltgate_engine_pkg"}
+NEEDS = {"axes": "engine"}  # a folder whose blocks instantiate those of another
 NO_BLOCKS = ("feltgate_checks",)  # elaborated, never clocked: no twin, no test of its own block
 
 
@@ -66,7 +67,8 @@ def folder_files(root, folder):
     """Files below rtl/ that the blocks of a folder add to the core's, in order."""
     files = [path for path in modules(root)[0].values() if path.startswith(f"{folder}/")]
     package = [f"generated/{PACKAGES[folder]}.sv"] if folder in PACKAGES else []
-    return [*package, *files] if files else []
+    needed = folder_files(root, NEEDS[folder]) if folder in NEEDS else []
+    return [*needed, *package, *files] if files else []
 
 
 def cell_files(root):

@@ -99,7 +99,7 @@ def axes_targets():
             {"AxisCount": str(count)},
             registered,
             tuple(set(SNAPSHOT_PORTS) - {"asks_o", "ready_o", "testing_o"}),
-            ("law_torque_i", "law_late_i", "law_restart_i"),
+            ("law_torque_i", "law_late_i", "law_restart_i", "reg_read_i"),
         )
         for count in (1, 2, 3)
         for registered, which in ((True, "registered"), (False, "inferred"))
@@ -129,7 +129,7 @@ def copy_sources(root, design, folder):
     """
     is_path = isinstance(design, Path)
     package = design if is_path else root / f"rtl/generated/{design}/feltgate_pkg.sv"
-    beside = [*rtl_sources.folder_files(root, "axes"), *engine_sources(root)]
+    beside = rtl_sources.folder_files(root, "axes")  # and the engine, which they need
     names = [f"{CELL_WRAPPER}.sv", *core_sources(root), *link_sources(root), *beside]
     shutil.copy(package, folder / "feltgate_pkg.sv")
     for name in names:

@@ -2,13 +2,15 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // One to three cores as axes of one device: one tick, one register port, armed together, and a fault of any
-// opens the gates of all. Axis n is bit n, or the n-th part from below, of each vector.
+// opens the gates of all; and the engine whose programs give their torques, where the design has one.
+// Axis n is bit n, or the n-th part from below, of each vector.
 // docs/blocks/feltgate_axes.md
 
 `default_nettype none
 
 module feltgate_axes #(
     parameter int AxisCount = feltgate_pkg::AXES,
+    parameter int Engine = feltgate_pkg::ENGINE,  // 0: programmed torque comes in by ports
     parameter int ReadBack = 1,    // as of feltgate_core
     parameter ParameterFile = ""   // as of feltgate_core, for all axes
 ) (
@@ -30,18 +32,28 @@ module feltgate_axes #(
     input  logic [  AxisCount-1:0] set_zero_i,
     input  logic [4*AxisCount-1:0] scene_i,
 
-    // Programmed torque, as of feltgate_core
+    // Programmed torque, as of feltgate_core; nobody looks where the engine gives it
+    /* verilator lint_off UNUSEDSIGNAL */
     input  logic [AxisCount*feltgate_pkg::TORQUE_W-1:0] law_torque_i,
     input  logic                                        law_late_i,
     input  logic                                        law_restart_i,
+    /* verilator lint_on UNUSEDSIGNAL */
     output logic                                        measured_o,
 
-    // Register port: axis n at n * 0x400
+    // Register port: axis n at n * 0x400, the engine at 0x4000
     input  logic [15:0] reg_addr_i,
     input  logic [31:0] reg_wdata_i,
     input  logic        reg_write_i,
-    output logic        reg_busy_o,  // of the axis that is addressed
+    /* verilator lint_off UNUSEDSIGNAL */
+    input  logic        reg_read_i,  // one clock: the word was taken; of the engine's events
+    /* verilator lint_on UNUSEDSIGNAL */
+    output logic        reg_busy_o,  // of what is addressed
     output logic [31:0] reg_rdata_o,
+
+    // Events of programs
+    output logic        event_valid_o,
+    output logic [ 8:0] event_number_o,
+    output logic [31:0] event_value_o,
 
     // Snapshots: all of one tick in the clock in which snapshot_valid_o is high
     output logic                                          snapshot_valid_o,
@@ -80,9 +92,11 @@ module feltgate_axes #(
   // The port. An axis that is not addressed is asked for a word that is not there, which reads 0.
   logic [AxisCount-1:0] busy, addressed;
   logic [31:0] rdata[AxisCount];
-  assign reg_busy_o = |(busy & addressed);
+  logic engine_busy;  // where it is addressed
+  logic [31:0] engine_rdata;
+  assign reg_busy_o = |(busy & addressed) || engine_busy;
   always_comb begin
-    reg_rdata_o = '0;
+    reg_rdata_o = engine_rdata;
     for (int k = 0; k < AxisCount; k++) reg_rdata_o = reg_rdata_o | rdata[k];
   end
 
@@ -96,6 +110,12 @@ module feltgate_axes #(
   assign word_slot_o      = word_slot[0];
   assign tick_count_o     = tick_count[0];
 
+  // What the engine asks and says.
+  localparam int TorqueW = feltgate_pkg::TORQUE_W;
+  logic [AxisCount*TorqueW-1:0] law_torque;
+  logic [AxisCount-1:0] in_law;
+  logic law_late, law_restart, unchecked, unfit;
+
   generate
   genvar n;
   for (n = 0; n < AxisCount; n = n + 1) begin : g_axis
@@ -103,6 +123,7 @@ module feltgate_axes #(
     localparam logic [AxisCount-1:0] Before = Own - AxisCount'(1);
     assign addressed[n] = reg_addr_i[15:10] == 6'(n);
     assign faulty[n]    = first_fault_o[n*FirstW+:FirstW] != '0;
+    assign in_law[n]    = scene_o[4*n+:4] == feltgate_map_pkg::SCENE_LAW;
 
     feltgate_core #(.ReadBack(ReadBack), .ParameterFile(ParameterFile)) u_core (
         .clk_i(clk_i), .rst_ni(rst_ni),
@@ -110,11 +131,11 @@ module feltgate_axes #(
         .gate_a_hi_o(gate_a_hi_o[n]), .gate_a_lo_o(gate_a_lo_o[n]),
         .gate_b_hi_o(gate_b_hi_o[n]), .gate_b_lo_o(gate_b_lo_o[n]),
         .arm_i(arm_i), .stop_i(stop_i), .set_zero_i(set_zero_i[n]), .scene_i(scene_i[4*n+:4]),
-        .law_torque_i(law_torque_i[n*feltgate_pkg::TORQUE_W+:feltgate_pkg::TORQUE_W]),
-        .law_late_i(law_late_i), .law_restart_i(law_restart_i),
+        .law_torque_i(law_torque[n*TorqueW+:TorqueW]),
+        .law_late_i(law_late), .law_restart_i(law_restart),
         .axis_fault_i(|(faulty & ~Own)),
-        .axis_silent_i(!(&(asks | Own))),
-        .axis_blocked_i(!(&(ready | Own))),
+        .axis_silent_i(!(&(asks | Own)) || unchecked),
+        .axis_blocked_i(!(&(ready | Own)) || unfit),
         .axis_testing_i(|(testing & ~Own)),
         .axis_waits_i(|(testing & Before)),
         .asks_o(asks[n]), .ready_o(ready[n]), .testing_o(testing[n]),
@@ -143,9 +164,101 @@ module feltgate_axes #(
   end
   endgenerate
 
+  generate
+  if (Engine != 0) begin : g_engine
+    logic law_any, law_any_q, all_ask, armed, armed_q, fresh, late, changed;
+    logic engine_addressed, engine_busy_now;
+    logic check, checks_q, check_of_these_q, checked_q, crc_done, crc_good;
+    logic [31:0] engine_word;
+    assign law_any = |in_law;
+    assign all_ask = &asks;
+    assign armed   = |armed_o;
+    assign engine_addressed = reg_addr_i[15:12] == 4'd4;
+
+    // Arming waits until the CRC of the programs is computed: the axes hear that another does not ask.
+    // Looked at once a tick, for a request may come from a pin.
+    assign check     = snapshot_valid_o && all_ask && !checked_q && !checks_q;
+    assign unchecked = !checked_q;
+    assign unfit     = law_any && !crc_good;
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        checks_q         <= 1'b0;
+        check_of_these_q <= 1'b0;
+        checked_q        <= 1'b0;
+      end else begin
+        checks_q <= check || (checks_q && !crc_done);
+        if (snapshot_valid_o && !all_ask) begin
+          check_of_these_q <= 1'b0;
+          checked_q        <= 1'b0;
+        end else begin
+          if (check) check_of_these_q <= 1'b1;
+          if (crc_done && check_of_these_q) checked_q <= 1'b1;
+        end
+      end
+    end
+
+    // From what makes the torque jump until a run that began after it has ended, and its torque was sampled:
+    // a run may be under way, so the second one that ends.
+    logic [1:0] runs_q;
+    logic sampled_q, jumps;
+    assign jumps       = (law_any && !law_any_q) || (armed && !armed_q) || zeroed_o != '0 || changed;
+    assign law_restart = runs_q != 2'd0 || !sampled_q;
+    assign law_late    = late || !crc_good;
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        law_any_q <= 1'b0;
+        armed_q   <= 1'b0;
+        runs_q    <= '0;
+        sampled_q <= 1'b1;
+      end else begin
+        law_any_q <= law_any;
+        armed_q   <= armed;
+        if (jumps) runs_q <= 2'd2;
+        else if (fresh && runs_q != 2'd0) runs_q <= runs_q - 2'd1;
+        sampled_q <= runs_q == 2'd0 && (sampled_q || measured_o);
+      end
+    end
+
+    // The engine's word is registered: the port shows an address 33 clocks later.
+    assign engine_busy = engine_addressed && engine_busy_now;
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) engine_rdata <= '0;
+      else engine_rdata <= engine_addressed ? engine_word : '0;
+    end
+
+    logic [32*AxisCount-1:0] velocity, tau_hat;
+    for (n = 0; n < AxisCount; n = n + 1) begin : g_inputs
+      assign velocity[32*n+:32] = 32'($signed(velocity_o[n*feltgate_pkg::VELOCITY_W+:feltgate_pkg::VELOCITY_W]));
+      assign tau_hat[32*n+:32]  = 32'($signed(tau_hat_o[n*TorqueW+:TorqueW]));
+    end
+    engine #(.AxisCount(AxisCount), .AgeReset(16'(feltgate_pkg::ENGINE_MAX_AGE))) u_engine (
+        .clk_i(clk_i), .rst_ni(rst_ni),
+        .armed_i(armed), .enter_i(law_any && !law_any_q), .locked_i(armed || all_ask || checks_q),
+        .tick_i(measured_o), .tick_count_i(tick_count_o),
+        .position_i(position_o), .velocity_i(velocity), .tau_hat_i(tau_hat),
+        .torque_o(law_torque), .fresh_o(fresh), .late_o(late), .changed_o(changed),
+        .crc_start_i(check), .crc_done_o(crc_done), .crc_good_o(crc_good),
+        .event_valid_o(event_valid_o), .event_number_o(event_number_o), .event_value_o(event_value_o),
+        .addr_i(reg_addr_i[11:0]), .wdata_i(reg_wdata_i), .write_i(reg_write_i && engine_addressed),
+        .read_i(reg_read_i && engine_addressed), .rdata_o(engine_word), .busy_o(engine_busy_now)
+    );
+  end else begin : g_no_engine
+    assign law_torque     = law_torque_i;
+    assign law_late       = law_late_i;
+    assign law_restart    = law_restart_i;
+    assign unchecked      = 1'b0;
+    assign unfit          = 1'b0;
+    assign engine_busy    = 1'b0;
+    assign engine_rdata   = '0;
+    assign event_valid_o  = 1'b0;
+    assign event_number_o = '0;
+    assign event_value_o  = '0;
+  end
+  endgenerate
+
   logic unused;
   always_comb begin
-    unused = ^{snapshot_valid, word_valid, measured};
+    unused = ^{snapshot_valid, word_valid, measured, in_law};
     for (int k = 0; k < AxisCount; k++) unused = unused ^ (^{word_slot[k], tick_count[k]});
   end
 endmodule

@@ -29,6 +29,7 @@ module engine #(
     output logic signed [feltgate_pkg::TORQUE_W*AxisCount-1:0] torque_o,
     output logic                    fresh_o,
     output logic                    late_o,
+    output logic                    changed_o,     // one clock: a commit is in force for the runs to come
     input  logic                    crc_start_i,
     output logic                    crc_done_o,    // one clock
     output logic                    crc_good_o,
@@ -63,6 +64,8 @@ module engine #(
   logic started, ended;
   logic [1:0] thread5;
   assign enter = enter_i || (armed_i && !armed_q) || write_run;
+  logic bank, bank_q;
+  assign changed_o = bank != bank_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       high_q      <= '0;
@@ -72,9 +75,11 @@ module engine #(
       crc_q       <= CrcReset;
       overrun_q   <= 1'b0;
       armed_q     <= 1'b0;
+      bank_q      <= 1'b0;
       first_q     <= '1;
     end else begin
       armed_q <= armed_i;
+      bank_q  <= bank;
       if (open_register && addr_i == feltgate_engine_pkg::H_HIGH) high_q <= wdata_i[3:0];
       if (write_run) run_q <= wdata_i[3:0];
       if (open_register && addr_i == feltgate_engine_pkg::H_LINE_BASE) line_base_q <= wdata_i[9:0];
@@ -91,7 +96,7 @@ module engine #(
   logic [8:0] address_q;
   logic [31:0] data_q;
   logic free, input_wanted, input_taken, host_taken;
-  logic bank, checking, committing, minus;
+  logic checking, committing, minus;
   logic [8:0] commit_address, input_address;
   logic [31:0] input_word;
   assign parameter_write = addr_i[11:6] == 6'd5;

@@ -33,7 +33,7 @@ module engine_events (
   assign place   = first_q + count_q[3:0];
   assign count_o = count_q;
   assign {number_o, value_o, tick_o} = events[first_q];
-  always_ff @(posedge clk_i) begin
+  always @(posedge clk_i) begin  // not always_ff: another process writes the zeros of power-up
     if (keeps) events[place] <= {number_i, value_i, tick_i};
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -35,9 +35,9 @@ module engine_inputs #(
   logic [11:0] dividers[0:3];
   logic [11:0] counts[0:3];
   initial begin
-    for (int n = 0; n < 4; n = n + 1) begin
-      dividers[n] = '0;
-      counts[n]   = '0;
+    for (int k = 0; k < 4; k = k + 1) begin
+      dividers[k] = '0;
+      counts[k]   = '0;
     end
   end
   logic [11:0] count;
@@ -45,7 +45,7 @@ module engine_inputs #(
   logic counting_q, due;
   assign count = counts[counted_q];
   assign due   = counting_q && count[11:1] == 11'd0 && run_i[counted_q];
-  always_ff @(posedge clk_i) begin
+  always @(posedge clk_i) begin  // not always_ff: another process writes the zeros of power-up
     if (divide_i) dividers[divided_i] <= divider_i;
     if (counting_q) begin
       if (!run_i[counted_q]) counts[counted_q] <= 12'd0;

@@ -26,7 +26,7 @@ module engine_memory #(
     if (Content != "") $readmemh(Content, words);
   end
 
-  always_ff @(posedge clk_i) begin
+  always @(posedge clk_i) begin  // not always_ff: the content is written by another process
     word_o <= words[read_address_i];
     if (write_i) words[write_address_i] <= data_i;
   end

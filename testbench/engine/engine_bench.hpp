@@ -39,6 +39,7 @@ struct Adapter {
     }
     check("fresh", rtl.fresh_o, out.fresh);
     check("late", rtl.late_o, out.late);
+    check("changed", rtl.changed_o, out.changed);
     check("crc_done", rtl.crc_done_o, out.crc_done);
     check("crc_good", rtl.crc_good_o, out.crc_good);
     check("event_valid", rtl.event_valid_o, out.event_valid);

@@ -19,7 +19,8 @@ namespace feltgate::test {
 
 using Design = LeverLaw;
 constexpr int kAxes = AXES;
-using AxesTwin = FeltgateAxes<Design, kAxes>;
+constexpr bool kEngine = ENGINE != 0;
+using AxesTwin = FeltgateAxes<Design, kAxes, true, kEngine>;
 
 /// Bits [first, first + width) of a port, however Verilator keeps it; width up to 33.
 template <class Port>
@@ -70,6 +71,7 @@ struct AxesAdapter {
     rtl.reg_addr_i = in.reg_addr;
     rtl.reg_wdata_i = in.reg_wdata;
     rtl.reg_write_i = in.reg_write;
+    rtl.reg_read_i = in.reg_read;
   }
   static void at_edge(Vfeltgate_axes& rtl) { rtl.stop_i = 0; }
 
@@ -117,7 +119,11 @@ struct AxesAdapter {
     check("word_valid", rtl.word_valid_o, first.word_valid);
     check("word_slot", rtl.word_slot_o, first.word_slot);
     check("reg_busy", rtl.reg_busy_o, out.reg_busy);
-    check("reg_rdata", rtl.reg_rdata_o, out.reg_rdata);
+    if (out.rdata_known) check("reg_rdata", rtl.reg_rdata_o, out.reg_rdata);
+    check("event_valid", rtl.event_valid_o, out.event_valid);
+    if (!out.event_valid) return;
+    check("event_number", rtl.event_number_o, out.event_number);
+    check("event_value", rtl.event_value_o, static_cast<std::uint32_t>(out.event_value));
   }
 };
 

@@ -16,7 +16,9 @@ namespace feltgate::test {
 template <class D, int N>
 class AxesStimulus {
  public:
-  explicit AxesStimulus(std::uint64_t seed) : random_(seed) {
+  /// `patience`: for so many clocks after a request to arm nobody writes another.
+  explicit AxesStimulus(std::uint64_t seed, std::int64_t patience = 0)
+      : random_(seed), patience_(patience) {
     for (int n = 0; n < N; ++n) levers_.emplace_back(seed + 1000u * static_cast<unsigned>(n));
   }
 
@@ -24,6 +26,7 @@ class AxesStimulus {
     if (random_.one_in(30'000)) active_ = random_.below(N);
     in_.reg_write = false;
     if (wait_ > 0) --wait_;
+    if (keeps_ > 0) --keeps_;
     for (std::size_t n = 0; n < N; ++n) {
       const CoreIn of = levers_[n](clock);
       auto& axis = in_.axis[n];
@@ -66,6 +69,7 @@ class AxesStimulus {
       return;
     }
     const bool control = of.reg_addr == C::control, command = of.reg_addr == C::command;
+    if (control && keeps_ > 0) return;
     const bool all = (control && !random_.one_in(12)) || (command && !random_.one_in(4));
     for (std::size_t n = 0; n < N; ++n) {
       if (!all && n != active_) continue;
@@ -75,8 +79,10 @@ class AxesStimulus {
         word |= random_.below(11) << C::control_scene;
         word ^= random_.below(4) << C::control_motor_polarity;
       }
+      if (control && patience_ > 0) word |= 1u << C::control_host;
       writes_.push_back({at(n, of.reg_addr), word});
     }
+    if (all && control && (of.reg_wdata >> C::control_arm & 1u) != 0) keeps_ = patience_;
   }
 
   Random random_;
@@ -85,6 +91,7 @@ class AxesStimulus {
   std::deque<Write> writes_;
   std::size_t active_ = 0;
   std::uint64_t wait_ = 0;
+  std::int64_t patience_, keeps_ = 0;
 };
 
 }  // namespace feltgate::test

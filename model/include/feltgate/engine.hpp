@@ -37,6 +37,7 @@ class Engine {
   struct Out {
     std::array<std::int32_t, AxisCount> torque{};
     bool fresh = false, late = false, crc_done = false, crc_good = false;
+    bool changed = false;  ///< a commit is in force for the runs to come
     bool event_valid = false;
     int event_number = 0;          ///< with event_valid
     std::int32_t event_value = 0;  ///< with event_valid
@@ -44,6 +45,9 @@ class Engine {
     bool rdata_known = false;  ///< a few rounds after a reset
     bool busy = false;
   };
+
+  /// `max_age` [tick] as it is after a reset.
+  explicit Engine(unsigned max_age = 0) : max_age_(max_age) { registers_.max_age = max_age; }
 
   /// What the memories hold after power-up; a reset keeps it.
   EngineMemory& memory() { return barrel_.memory; }
@@ -58,6 +62,7 @@ class Engine {
     crc_.reset();
     events_.reset();
     registers_ = Registers{};
+    registers_.max_age = max_age_;
   }
 
   Out peek(const In& in) const {
@@ -65,6 +70,7 @@ class Engine {
     out.torque = outputs_.torque;
     out.fresh = outputs_.fresh;
     out.late = outputs_.late;
+    out.changed = commit_.bank != registers_.bank_before;
     out.crc_done = crc_.done;
     out.crc_good = crc_.good;
     out.event_valid = barrel_.event();
@@ -144,6 +150,7 @@ class Engine {
     if (started) r.first &= ~(1U << thread);
     if (enter) r.first = 15;
     r.armed = in.armed;
+    r.bank_before = bank;
     if (open) set_register(addr, in.wdata);
     r.clocks = std::min(r.clocks + 1, kKnown);
   }
@@ -160,6 +167,7 @@ class Engine {
   };
   struct Registers {
     unsigned high = 0, run = 0, max_age = 0, first = 15;
+    int bank_before = 0;
     std::uint32_t crc = 0;
     bool armed = false, overrun = false;
     bool waits = false, waits_program = false, waits_table = false;
@@ -279,6 +287,7 @@ class Engine {
   EngineCrc crc_;
   EngineEvents events_;
   Registers registers_;
+  unsigned max_age_;
 };
 
 }  // namespace feltgate::law

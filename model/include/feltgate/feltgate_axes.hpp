@@ -9,46 +9,21 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
+#include "feltgate/axes_engine.hpp"
 #include "feltgate/feltgate_core.hpp"
 
 namespace feltgate {
 
-/// Inputs of N axes in one clock.
-template <int N>
-struct AxesIn {
-  struct Axis {
-    EncoderPins encoder;
-    bool set_zero = false;
-    std::uint8_t scene = 0;
-    std::int32_t law_torque = 0;  ///< raw, in the format of the torque
-  };
-  std::array<Axis, N> axis;
-  bool arm = false;
-  bool stop = false;  ///< the stop was seen since the last clock, however shortly
-  bool law_late = false, law_restart = false;  ///< as of a core
-  std::uint16_t reg_addr = 0;                  ///< axis n at n * axes_stride
-  std::uint32_t reg_wdata = 0;
-  bool reg_write = false;
-};
-
-/// Addresses from one axis to the next.
-constexpr int axes_stride = 0x400;
-
-/// Outputs of N axes after one clock.
-template <int N>
-struct AxesOut {
-  std::array<CoreOut, N> axis;  ///< reg_rdata and reg_busy of each are its own
-  std::uint32_t reg_rdata = 0;
-  bool reg_busy = false;  ///< of the axis that is addressed
-};
-
-/// N axes of design D. Each is a core: the device adds what they say to each other, and the port.
-template <class D, int N, bool ReadBack = true>
+/// N axes of design D. Each is a core: the device adds what they say to each other, the port, and
+/// with WithEngine the engine that gives the programmed torque, in place of the inputs law_...
+template <class D, int N, bool ReadBack = true, bool WithEngine = false>
 class FeltgateAxes {
  public:
   static_assert(N >= 1 && N <= 3, "one to three axes");
   using Core = FeltgateCore<D, ReadBack>;
+  using Glue = std::conditional_t<WithEngine, AxesEngine<D, N>, NoAxesEngine<D, N>>;
   using In = AxesIn<N>;
   using Out = AxesOut<N>;
 
@@ -57,11 +32,13 @@ class FeltgateAxes {
   /// The parameter RAMs keep their words, as in the RTL.
   void reset() {
     for (Core& core : cores_) core.reset();
+    glue_.reset();
     show(last_);
   }
 
   void clock(const In& in) {
     const std::array<CoreIn, N> each = inputs(in);
+    glue_.clock(in, cores_, each);
     for (std::size_t n = 0; n < N; ++n) cores_[n].clock(each[n]);
     show(in);
   }
@@ -74,7 +51,7 @@ class FeltgateAxes {
     while (clocks > 0) {
       const std::array<CoreIn, N> each = inputs(in);
       const int left = D::clocks_per_tick - clock_of_tick();
-      std::int64_t step = std::min<std::int64_t>(clocks, left);
+      std::int64_t step = WithEngine ? 1 : std::min<std::int64_t>(clocks, left);
       bool snapshot = false;
       if (apart(each, step == left)) {
         for (std::size_t n = 0; n < N; ++n) {
@@ -85,6 +62,7 @@ class FeltgateAxes {
         }
       } else {
         step = 1;
+        glue_.clock(in, cores_, each);
         for (std::size_t n = 0; n < N; ++n) {
           cores_[n].clock(each[n]);
           out_.axis[n] = cores_[n].out();
@@ -104,6 +82,8 @@ class FeltgateAxes {
   int clock_of_tick() const { return cores_[0].clock_of_tick(); }
   /// In the clock to come position, velocity and tau_hat of all axes have become those of the tick.
   bool measured() const { return cores_[0].measured(); }
+  /// The engine; only with WithEngine.
+  auto& engine() { return glue_.engine(); }
 
  private:
   /// What each core is given in the clock to come: pins, port, and what the others say.
@@ -116,9 +96,6 @@ class FeltgateAxes {
       c.stop = in.stop;
       c.set_zero = in.axis[n].set_zero;
       c.scene = in.axis[n].scene;
-      c.law_torque = in.axis[n].law_torque;
-      c.law_late = in.law_late;
-      c.law_restart = in.law_restart;
       c.reg_addr = address_at(n, in.reg_addr);
       c.reg_wdata = in.reg_wdata;
       c.reg_write = in.reg_write;
@@ -134,12 +111,14 @@ class FeltgateAxes {
         each[n].axis_waits |= other < n && core.testing();
       }
     }
+    glue_.give(in, cores_, each);
     return each;
   }
 
   /// Whether up to the end of the tick nothing that an axis does concerns the others: no gates
   /// fall, and where the tick ends none are armed.
   bool apart(const std::array<CoreIn, N>& each, bool ends) const {
+    if (WithEngine) return false;
     if (N == 1) return true;
     bool enabled = false;
     for (const Core& core : cores_) enabled |= core.out().gates_enable;
@@ -166,9 +145,11 @@ class FeltgateAxes {
       out_.reg_rdata |= out_.axis[n].reg_rdata;
       out_.reg_busy |= addressed(n, in.reg_addr) && out_.axis[n].reg_busy;
     }
+    glue_.show(in, out_);
   }
 
   std::array<Core, N> cores_;
+  Glue glue_;
   In last_;
   Out out_;
 };

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The ports of several axes. Documentation: docs/blocks/feltgate_axes.md
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "feltgate/core_ports.hpp"
+
+namespace feltgate {
+
+/// Inputs of N axes in one clock.
+template <int N>
+struct AxesIn {
+  struct Axis {
+    EncoderPins encoder;
+    bool set_zero = false;
+    std::uint8_t scene = 0;
+    std::int32_t law_torque = 0;  ///< raw, in the format of the torque
+  };
+  std::array<Axis, N> axis;
+  bool arm = false;
+  bool stop = false;  ///< the stop was seen since the last clock, however shortly
+  bool law_late = false, law_restart = false;  ///< as of a core
+  std::uint16_t reg_addr = 0;  ///< axis n at n * axes_stride, the engine at axes_engine
+  std::uint32_t reg_wdata = 0;
+  bool reg_write = false;
+  bool reg_read = false;  ///< one clock: the word was taken; of the engine's events
+};
+
+/// Addresses from one axis to the next.
+constexpr int axes_stride = 0x400;
+/// First address of the engine, which has 0x1000.
+constexpr int axes_engine = 0x4000;
+
+/// Outputs of N axes after one clock.
+template <int N>
+struct AxesOut {
+  std::array<CoreOut, N> axis;  ///< reg_rdata and reg_busy of each are its own
+  std::uint32_t reg_rdata = 0;
+  bool reg_busy = false;    ///< of what is addressed
+  bool rdata_known = true;  ///< a memory of the engine shows any word for 40 clocks after a reset
+  bool event_valid = false;
+  int event_number = 0;          ///< with event_valid
+  std::int32_t event_value = 0;  ///< with event_valid
+};
+
+}  // namespace feltgate

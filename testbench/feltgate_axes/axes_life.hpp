@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Axes with a host and a panel that do what a test says, and what must hold between axes whatever
+// comes. Documentation: docs/blocks/feltgate_axes.md
+#pragma once
+
+#include <vector>
+
+#include "axes_adapter.hpp"
+#include "catch.hpp"
+
+namespace feltgate::test {
+
+using In = AxesIn<kAxes>;
+using A = Design::A;
+using C = Design::C;
+constexpr int kTick = Design::clocks_per_tick;
+inline constexpr std::uint32_t kHost =
+    static_cast<std::uint32_t>(Design::control_reset) | 1u << C::control_host;
+
+/// What a life has met, by axis.
+struct Tally {
+  std::int64_t clocks = 0, armed = 0;
+  std::int64_t own[kAxes] = {}, spread[kAxes] = {}, tests[kAxes] = {};
+};
+
+/// What must hold whatever comes.
+struct Watch {
+  Tally* tally;
+  bool gates = false;   ///< of all, the clock before
+  bool faulty = false;  ///< of any, the clock before
+  int testing = -1;     ///< the axis whose pulse it is
+  unsigned first[3] = {0, 0, 0};
+
+  const char* operator()(const In&, const Vfeltgate_axes& rtl, const AxesTwin& twin, bool reset) {
+    const auto of = [](const auto& port, int n, int width = 1) {
+      return static_cast<unsigned>(bits_of(port, n * width, width));
+    };
+    int armed = 0, enabled = 0, pulses = 0;
+    bool any = false;
+    for (int n = 0; n < kAxes; ++n) {
+      const unsigned fault = of(rtl.first_fault_o, n, C::faults_first_width);
+      armed += static_cast<int>(of(rtl.armed_o, n));
+      enabled += static_cast<int>(of(rtl.gates_enable_o, n));
+      any = any || fault != 0;
+      if (fault != 0 && first[n] == 0) {
+        const bool spread = fault == static_cast<unsigned>(Fault::axis);
+        ++(spread ? tally->spread : tally->own)[n];
+        if (spread && !faulty) return "a fault of another axis that has none";
+      }
+      if (fault != 0 && first[n] != 0 && fault != first[n] && !reset)
+        return "the first cause is kept";
+      first[n] = fault;
+      // A pulse of the self-test: its torque while the test lasts.
+      const bool pulse = twin.core(n).testing() && twin.core(n).out().tau_ref != 0;
+      pulses += pulse ? 1 : 0;
+      tally->tests[n] += pulse ? 1 : 0;
+      for (int m = 0; m < kAxes; ++m) {
+        if (pulse && m != n && twin.core(m).out().snapshot_valid &&
+            twin.core(m).out().tau_ref != 0 && !twin.core(m).testing())
+          return "a torque beside the pulse of another axis";
+      }
+    }
+    ++tally->clocks;
+    tally->armed += armed == kAxes ? 1 : 0;
+    // A fault in the very clock of the arming, or of the end of a tick, is that of one axis for a
+    // tick.
+    if (armed != 0 && armed != kAxes && !any) return "armed together";
+    // A fault of any, one clock for the others.
+    if (faulty && any && enabled != 0) return "gates on a clock after a fault";
+    if (pulses > 1) return "two tests at once";
+    faulty = any;
+    return nullptr;
+  }
+};
+
+/// Axes with a host, who does what a test says: the twin at once, the RTL beside one afterwards.
+class Life {
+ public:
+  In in;
+
+  const CoreOut& out(int n) const { return twin_.out().axis[static_cast<std::size_t>(n)]; }
+  AxesTwin& twin() { return twin_; }
+  In::Axis& axis(int n) { return in.axis[static_cast<std::size_t>(n)]; }
+
+  void clocks(std::int64_t count) {
+    for (; count > 0; --count) {
+      inputs_.push_back(in);
+      twin_.clock(in);
+    }
+  }
+  void to_clock(int c) { clocks((c - twin_.clock_of_tick() + kTick) % kTick); }
+  void ticks(std::int64_t n) {
+    to_clock(0);
+    clocks(n * kTick);
+  }
+  void write(int n, int address, std::uint32_t word) {
+    to_clock(5);
+    in.reg_addr = static_cast<std::uint16_t>(n * axes_stride + address);
+    in.reg_wdata = word;
+    in.reg_write = true;
+    clocks(1);
+    in.reg_write = false;
+    to_clock(0);
+  }
+  void write_all(int address, std::uint32_t word) {
+    for (int n = 0; n < kAxes; ++n) write(n, address, word);
+  }
+  std::uint32_t read(int n, int address) {
+    in.reg_addr = static_cast<std::uint16_t>(n * axes_stride + address);
+    clocks(4);
+    return twin_.out().reg_rdata;
+  }
+  void control(int n, int scene, bool arm) {
+    write(n, C::control,
+          kHost | static_cast<std::uint32_t>(scene) << C::control_scene |
+              std::uint32_t{arm} << C::control_arm);
+  }
+  /// All, without a ramp.
+  void arm(int scene, std::uint32_t test_pulse = 0) {
+    for (int n = 0; n < kAxes; ++n) control(n, scene, false);
+    write_all(A::self_test_pulse, test_pulse);
+    write_all(A::ramp_step, 0x7ffffff);
+    write_all(C::command, 1u << C::command_clear_faults);
+    ticks(2);
+    for (int n = 0; n < kAxes; ++n) control(n, scene, true);
+    ticks(1);
+    for (int n = 0; n < kAxes; ++n) REQUIRE(out(n).armed);
+  }
+  const std::vector<In>& inputs() const { return inputs_; }
+  void play() {
+    Tally tally;
+    AxesBench bench("feltgate_axes", 1);
+    bench.run(Replay{&inputs_}, static_cast<std::int64_t>(inputs_.size()) + AxesBench::kFirstReset,
+              {}, Watch{&tally});
+  }
+
+ private:
+  struct Replay {
+    const std::vector<In>* inputs;
+    In operator()(std::int64_t cycle) const {
+      const std::int64_t k = cycle - AxesBench::kFirstReset;
+      return k < 0 ? In{} : (*inputs)[static_cast<std::size_t>(k)];
+    }
+  };
+
+  AxesTwin twin_;
+  std::vector<In> inputs_;
+};
+
+inline std::int32_t torque(double nm) {
+  return static_cast<std::int32_t>(nm * (1 << Design::f.torque.fraction));
+}
+
+}  // namespace feltgate::test

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Axes with their engine: a law on two axes, loaded by the host, RTL against twin in every clock;
+// what arming, ramps and the age monitor make of it. Documentation: docs/blocks/feltgate_axes.md
+#include "../machine/machine_programs.hpp"
+#include "axes_life.hpp"
+#include "axes_stimulus.hpp"
+#include "feltgate/crc32.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+using H = EngineMap::H;
+using D = Design;
+
+namespace {
+
+/// Two levers that a spring couples: parameters 0 and 1 are minus and plus the stiffness, torque
+/// steps per count.
+EngineMemory coupling() {
+  using Op = EngineOp;
+  EngineMemory m;
+  program(m, 0,
+          {to(0, Op::sub, kPosition, kPosition + 3),
+           word(Op::mul, 0, 0, kParameter, EngineTarget::output, 0),
+           out(1, Op::mul, 0, kParameter + 1)});
+  for (int n = 0; n < 2; ++n) {
+    m.set_data(EngineMap::D::lower + n, -2000);
+    m.set_data(EngineMap::D::upper + n, 2000);
+  }
+  return m;
+}
+
+std::uint32_t image_crc(const EngineMemory& m) {
+  std::vector<std::uint8_t> bytes;
+  const auto put = [&bytes](std::uint64_t word, int count) {
+    for (int n = 0; n < count; ++n) bytes.push_back(static_cast<std::uint8_t>(word >> (8 * n)));
+  };
+  for (int n = 0; n < 512; ++n) put(m.program_at(n), 5);
+  for (int n = 384; n < 512; ++n) put(static_cast<std::uint32_t>(m.data_at(n)), 4);
+  for (int n = 0; n < 512; ++n) put(m.table_at(n), 5);
+  return crc32(bytes.data(), bytes.size());
+}
+
+/// Axes whose host loads a law.
+class LawLife : public Life {
+ public:
+  void idle() {
+    int n = 0;
+    while (twin().out().reg_busy) {
+      REQUIRE(++n < 20'000);
+      clocks(1);
+    }
+  }
+  void engine(int address, std::uint32_t word) {
+    in.reg_addr = static_cast<std::uint16_t>(axes_engine + address);
+    in.reg_wdata = word;
+    clocks(1);
+    idle();
+    in.reg_write = true;
+    clocks(1);
+    in.reg_write = false;
+    clocks(1);
+    idle();
+  }
+  std::uint32_t engine_word(int address) {
+    in.reg_addr = static_cast<std::uint16_t>(axes_engine + address);
+    clocks(40);
+    in.reg_read = true;
+    clocks(1);
+    in.reg_read = false;
+    return twin().out().reg_rdata;
+  }
+  void parameters(std::int32_t minus, std::int32_t plus) {
+    engine(kParameter, static_cast<std::uint32_t>(minus));
+    engine(kParameter + 1, static_cast<std::uint32_t>(plus));
+    engine(H::commit, 1);
+    clocks(600);
+  }
+  void load(const EngineMemory& m, std::uint32_t crc, std::uint32_t max_age = 10) {
+    for (int n = 0; n < 3; ++n) {
+      engine(H::high, static_cast<std::uint32_t>(m.program_at(n) >> 32));
+      engine(H::program + n, static_cast<std::uint32_t>(m.program_at(n)));
+    }
+    for (int n = 0; n < 2; ++n) {
+      engine(EngineMap::D::lower + n,
+             static_cast<std::uint32_t>(m.data_at(EngineMap::D::lower + n)));
+      engine(EngineMap::D::upper + n,
+             static_cast<std::uint32_t>(m.data_at(EngineMap::D::upper + n)));
+    }
+    engine(H::crc, crc);
+    engine(H::max_age, max_age);
+    parameters(-100, 100);
+    engine(H::run, 1);
+  }
+  void ask(int scene) {
+    for (int n = 0; n < kAxes; ++n) control(n, scene, false);
+    write_all(A::self_test_pulse, 0);
+    write_all(A::ramp_step, 0x7ffffff);
+    write_all(C::command, 1u << C::command_clear_faults);
+    ticks(2);
+    for (int n = 0; n < kAxes; ++n) control(n, scene, true);
+  }
+  bool armed() const { return out(0).armed && out(1).armed; }
+  /// Ticks until both are armed.
+  int until_armed(int limit) {
+    int n = 0;
+    while (!armed() && n < limit) ticks(1), ++n;
+    return n;
+  }
+  void arm_law() {
+    ask(D::S::law);
+    REQUIRE(until_armed(5000) < 5000);
+    ticks(8);
+  }
+  void step(int n, bool up) {
+    phase_[n] += up ? 1u : 3u;
+    const bool a = (phase_[n] & 2u) != 0;
+    axis(n).encoder.a = a;
+    axis(n).encoder.b = ((phase_[n] & 1u) != 0) != a;
+    ticks(1);
+  }
+
+ private:
+  unsigned phase_[2] = {0, 0};
+};
+
+const EngineMemory kLaw = coupling();
+const std::uint32_t kCrc = image_crc(kLaw);
+
+}  // namespace
+
+TEST_CASE("engine: a law on two axes, each with its torque, two ticks after the count") {
+  LawLife s;
+  s.load(kLaw, kCrc);
+  s.arm_law();
+  for (int k = 0; k < 5; ++k) s.step(0, true);
+  s.step(1, false);
+  s.ticks(3);
+  CHECK(s.out(0).position == 5);
+  CHECK(s.out(1).position == -1);
+  CHECK(s.out(0).tau_ref == -600);
+  CHECK(s.out(1).tau_ref == 600);
+  // From the sample of a count to the tick in which its torque is the reference.
+  s.step(0, true);
+  int ticks = 0;
+  while (s.out(0).tau_ref != -700 && ticks < 10) s.ticks(1), ++ticks;
+  CHECK(ticks <= 2);
+  CHECK(s.out(0).tau_ref == -700);
+  s.play();
+}
+
+TEST_CASE(
+    "engine: arming waits for the CRC, which must be that of the image in the scene of laws") {
+  LawLife s;
+  s.load(kLaw, kCrc ^ 1u);
+  s.ask(D::S::law);
+  CHECK(s.until_armed(6000) == 6000);
+  // Without a law it does not matter; entering it is a fault.
+  s.ask(D::S::setpoint);
+  const int waited = s.until_armed(6000);
+  INFO("ticks " << waited);
+  CHECK(waited > 100);
+  CHECK(waited * 1000.0 / D::tick_hz < 5.0);
+  for (int n = 0; n < kAxes; ++n) s.control(n, D::S::law, true);
+  s.ticks(2);
+  for (int n = 0; n < kAxes; ++n) {
+    CHECK_FALSE(s.out(n).gates_enable);
+    CHECK(s.out(n).tau_ref == 0);
+  }
+  CHECK(s.out(0).first_fault == static_cast<unsigned>(Fault::engine));
+  s.play();
+}
+
+TEST_CASE("engine: a law that gives no fresh torque in its time is a fault of all axes") {
+  LawLife s;
+  s.load(kLaw, kCrc);
+  s.engine(H::divider0, 200);
+  s.ask(D::S::law);
+  CHECK(s.until_armed(6000) < 6000);
+  s.ticks(30);
+  for (int n = 0; n < kAxes; ++n) {
+    CHECK_FALSE(s.out(n).gates_enable);
+    CHECK(s.out(n).first_fault == static_cast<unsigned>(Fault::engine));
+  }
+  s.play();
+}
+
+TEST_CASE("engine: a commit while armed, a zero and the entry into the scene ramp") {
+  LawLife s;
+  s.load(kLaw, kCrc);
+  s.ask(D::S::setpoint);
+  CHECK(s.until_armed(6000) < 6000);
+  for (int k = 0; k < 5; ++k) s.step(0, true);
+  // Slow: 4 torque steps a tick; no tick moves the reference by more.
+  constexpr int fine = D::f.ramp.fraction - D::f.torque.fraction;
+  s.write_all(A::ramp_step, 4u << fine);
+  std::int32_t before = s.out(0).tau_ref;
+  const auto follow = [&](int ticks) {
+    for (int k = 0; k < ticks; ++k) {
+      s.ticks(1);
+      const std::int32_t now = s.out(0).tau_ref;
+      REQUIRE(std::abs(now - before) <= 4);
+      before = now;
+    }
+  };
+  s.control(0, D::S::law, true);
+  before = s.out(0).tau_ref;
+  follow(150);
+  CHECK(before == -500);
+  s.control(1, D::S::law, true);
+  s.engine(kParameter, static_cast<std::uint32_t>(-150));
+  s.engine(H::commit, 1);
+  before = s.out(0).tau_ref;
+  follow(100);
+  CHECK(before == -750);
+  s.axis(0).set_zero = true;
+  s.clocks(1);
+  s.axis(0).set_zero = false;
+  follow(250);
+  CHECK(before == 0);
+  s.play();
+}
+
+TEST_CASE("engine: while armed its program is locked, its words are read") {
+  LawLife s;
+  s.load(kLaw, kCrc);
+  const auto low = static_cast<std::uint32_t>(kLaw.program_at(1));
+  CHECK(s.engine_word(H::program + 1) == low);
+  s.arm_law();
+  s.engine(H::program + 1, 0);
+  CHECK(s.engine_word(H::program + 1) == low);
+  CHECK((s.engine_word(H::status) >> EngineMap::S::status_crc_good & 1u) == 1);
+  // Another axis' address reads its own.
+  CHECK(s.read(1, C::control) != 0);
+  s.play();
+}
+
+TEST_CASE("engine: random levers and hosts around a law") {
+  LawLife s;
+  s.load(kLaw, kCrc);
+  struct Loaded {
+    std::vector<In> first;
+    AxesStimulus<D, kAxes> then;
+    In operator()(std::int64_t clock) {
+      const std::int64_t k = clock - AxesBench::kFirstReset;
+      if (k < 0) return {};
+      return k < static_cast<std::int64_t>(first.size()) ? first[static_cast<std::size_t>(k)]
+                                                         : then(clock);
+    }
+  };
+  Tally tally;
+  AxesBench bench("feltgate_axes", 5);
+  bench.run(Loaded{s.inputs(), AxesStimulus<D, kAxes>(5, 150'000)}, scaled_clocks(1'000'000), {},
+            Watch{&tally});
+  INFO("armed in " << tally.armed << " of " << tally.clocks);
+  CHECK(tally.armed > tally.clocks / 200);
+}

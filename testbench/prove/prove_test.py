@@ -6,6 +6,7 @@
 import contextlib
 import io
 import os
+import re
 import sys
 import tempfile
 import unittest
@@ -127,7 +128,8 @@ class Product(unittest.TestCase):
         # nothing is proven.
         without = {"feltgate_core", "feltgate_axes", "feltgate_checks", "mult18_ecp5"}
         for block, names in catalog.open_ports(ROOT, self.proofs).items():
-            if block not in without:
+            # Of the engine's parts only what programs may write and the age of the outputs are proven.
+            if block not in without and not re.match(r"engine(_|$)", block):
                 self.assertEqual(names, [], block)
 
     def test_every_defect_applies_and_says_what_it_breaks(self):

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Whatever the programs do: without a fresh result for more than max_age ticks the outputs are late, and
+// stay so; and a torque changes only at the end of a run.
+`default_nettype none
+
+module age_proof (
+    input logic               clk_i,
+    input logic               rst_ni,
+    input logic               clear_i,
+    input logic               watched_i,
+    input logic               enter_i,
+    input logic               tick_i,
+    input logic signed [31:0] result_i,
+    input logic               output_i,
+    input logic               last_i,
+    input logic        [ 1:0] thread_i,
+    input logic        [ 1:0] number_i
+);
+  `include "reset.svh"
+  (* anyconst *) logic [15:0] max_age_i;
+  always_comb assume (!clear_i || enter_i);  // both are a write of run
+
+  logic signed [2*feltgate_pkg::TORQUE_W-1:0] torque, torque_q;
+  logic fresh, late, late_q, ended_q, ended2_q, cleared_q, forgives_q;
+  engine_outputs #(.AxisCount(2)) u_dut (
+      .*,
+      .torque_o(torque),
+      .fresh_o(fresh),
+      .late_o(late)
+  );
+  (* hierconn *) wire [15:0] \u_dut.age_q ;
+  (* hierconn *) wire \u_dut.ends_q ;
+
+  // Ticks since the last fresh result.
+  logic [16:0] quiet_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      quiet_q    <= '0;
+      torque_q   <= '0;
+      late_q     <= 1'b0;
+      ended2_q   <= 1'b0;
+      cleared_q  <= 1'b0;
+      forgives_q <= 1'b0;
+    end else begin
+      if (enter_i || !watched_i) quiet_q <= '0;
+      else if (fresh) quiet_q <= {16'd0, tick_i};
+      else if (tick_i && !quiet_q[16]) quiet_q <= quiet_q + 17'd1;
+      torque_q   <= torque;
+      late_q     <= late;
+      ended2_q   <= ended_q;
+      cleared_q  <= clear_i;
+      forgives_q <= enter_i || !watched_i;
+    end
+  end
+  always_ff @(posedge clk_i) ended_q <= last_i;
+
+  always_comb begin
+    if (rst_ni && past_ok_q) begin
+      late_in_time: assert (late || fresh || quiet_q <= {1'b0, max_age_i});
+      late_stays: assert (!late_q || late || forgives_q);
+      torque_at_an_end: assert (torque == torque_q || ended2_q || cleared_q);
+      inside_ends: assert (\u_dut.ends_q == ended_q);
+      inside_age: assert (late || fresh || quiet_q == {1'b0, \u_dut.age_q });
+      becomes_late: cover (late && max_age_i == 16'd1);
+      renewed: cover (fresh && torque != '0);
+    end
+  end
+endmodule
+
+`default_nettype wire

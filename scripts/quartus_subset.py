@@ -48,6 +48,8 @@ WIDENED = (
     Kind.LogicalShiftRightExpression,
 )
 GENERATES = (Kind.IfGenerate, Kind.LoopGenerate, Kind.CaseGenerate)
+# At a port with a sign Yosys 0.23 derives the module twice and stops.
+UNSIZED = ("'0", "'1", "'x", "'z")
 FUNCTIONS = ("$clog2", "$signed", "$unsigned", "$bits", "$readmemh", "$readmemb")
 
 
@@ -105,6 +107,8 @@ def complaints(node, functions):
     elif kind == Kind.CastExpression:
         if node.parent.kind in WIDENED and is_in(node, Kind.ConcatenationExpression):
             yield "a cast beside an operator in a concatenation; give the result a name of its own"
+    elif kind == Kind.NamedPortConnection and text_of(node.expr) in UNSIZED:
+        yield f"{text_of(node.expr)} at a port; write it with its width"
     elif kind == Kind.InvocationExpression:
         called = text_of(node.left).rpartition("::")[2]
         if called in functions and is_in(node, Kind.FunctionDeclaration):

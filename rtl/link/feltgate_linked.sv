@@ -65,7 +65,7 @@ module feltgate_linked #(
       .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o),
       .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
       .arm_i(arm_i), .stop_i(stop_i), .set_zero_i(set_zero_i), .scene_i(scene_i),
-      .law_torque_i('0), .law_late_i(1'b0), .law_restart_i(1'b0),
+      .law_torque_i({feltgate_pkg::TORQUE_W{1'b0}}), .law_late_i(1'b0), .law_restart_i(1'b0),
       .axis_fault_i(1'b0), .axis_silent_i(1'b0), .axis_blocked_i(1'b0), .axis_testing_i(1'b0), .axis_waits_i(1'b0),
       .asks_o(), .ready_o(), .testing_o(), .measured_o(), .zeroed_o(),
       .reg_addr_i(reg_addr), .reg_wdata_i(reg_wdata), .reg_write_i(reg_write),

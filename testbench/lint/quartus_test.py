@@ -46,6 +46,7 @@ IN_A_MODULE = (
     ("initial wait (0);", 1, "wait"),
     ("real a;", 1, "real"),
     ("wire [11:0] a;\nwire [15:0] b = {8'd0, 8'(a) | 8'd1};", 2, "cast beside an operator"),
+    ("m u_m (.a_i(1'b0), .b_i('0));", 1, "'0 at a port"),
     ("typedef union packed {logic a; logic b;} u;", 1, "union"),
 )  # fmt: skip
 ELSEWHERE = (

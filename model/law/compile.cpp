@@ -57,7 +57,7 @@ void require_proofs(const Law& law, const Program& program, const Bound& b) {
 }
 
 int divider_for(const Law& law, const Target& target, int instructions) {
-  const std::int64_t clocks = std::int64_t{instructions} * target.round_clocks;
+  const int clocks = engine_period(instructions, target.axes);
   const auto least =
       static_cast<int>((clocks + target.clocks_per_tick - 1) / target.clocks_per_tick);
   const double tick = static_cast<double>(target.tick_hz);
@@ -71,10 +71,10 @@ int divider_for(const Law& law, const Target& target, int instructions) {
   }
   if (divider < least) {
     throw Refused(
-        fmt::format("{} instructions of {} clocks do not fit in {} clocks: at most {:.6g} Hz",
-                    instructions, target.round_clocks, divider * target.clocks_per_tick,
-                    tick / least),
-        fmt::format("write rate = {:.6g} Hz, or leave the rate away", tick / least));
+        fmt::format("{} instructions take {} clocks from start to start and do not fit in {}: at "
+                    "most {:.9g} Hz",
+                    instructions, clocks, divider * target.clocks_per_tick, tick / least),
+        fmt::format("write rate = {:.9g} Hz, or leave the rate away", tick / least));
   }
   if (divider > 4095) {
     throw Refused(fmt::format("a rate of {:.6g} Hz needs a divider of {}, 4095 is the largest",
@@ -91,14 +91,16 @@ Compiled compile(const Law& given, const Target& target) {
   c.law = given;
   c.target = target;
   if (c.law.outputs.empty()) throw Refused("the law has no output", "write: out torque = ...");
+  for (const Input& i : c.law.inputs) c.target.axes = std::max(c.target.axes, i.axis + 1);
+  for (const Output& o : c.law.outputs) c.target.axes = std::max(c.target.axes, o.axis + 1);
   complete_states(c.law, target);
   const std::vector<Span> spans = ranges(c.law, whole_cell(c.law, target));
-  c.program = choose_formats(c.law, target, spans, &c.tried);
+  c.program = choose_formats(c.law, c.target, spans, &c.tried);
   c.bound = bound(c.law, target, c.program, 400);
   require_proofs(c.law, c.program, c.bound);
   c.assembled = assemble(c.law, target, c.program);
   const auto length = static_cast<int>(c.assembled.instructions.size());
-  c.divider = divider_for(c.law, target, length);
+  c.divider = divider_for(c.law, c.target, length);
   c.rate_hz = static_cast<double>(target.tick_hz) / c.divider;
   c.image = make_image(c.law, target, c.program, c.assembled, c.divider);
   return c;

@@ -169,7 +169,8 @@ double cost(const Law& law, const Target& target, const Program& program, const 
   }
   // Instructions, and more so a tick of time; bits of the error; bits that a host cannot set.
   const auto steps = static_cast<double>(program.steps.size());
-  const double ticks = std::ceil(steps * target.round_clocks / target.clocks_per_tick);
+  const int clocks = engine_period(static_cast<int>(program.steps.size()), target.axes);
+  const double ticks = std::ceil(1.0 * clocks / target.clocks_per_tick);
   double c = (steps > 8 ? 0.4 * steps + 1.6 : 0.6 * steps) + (law.rate_hz > 0 ? 0 : 3 * ticks) +
              std::log2(std::max(error, 0.4));
   for (const Word& w : program.words) {

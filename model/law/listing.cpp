@@ -70,8 +70,9 @@ std::string report(const Compiled& c, const Measured& m) {
   std::string s = fmt::format("law {}, design {}: {}\n", c.law.name, c.target.design,
                               c.law.summary.empty() ? "no description" : c.law.summary);
   s += parameters(c);
-  s += fmt::format("\n{} instructions of {} clocks: every {} clocks, {:.6g} Hz\n", count,
-                   c.target.round_clocks, c.divider * c.target.clocks_per_tick, c.rate_hz);
+  s += fmt::format("\n{} instructions, {} clocks from start to start: every {} clocks, {:.6g} Hz\n",
+                   count, engine_period(count, c.target.axes), c.divider * c.target.clocks_per_tick,
+                   c.rate_hz);
   s += fmt::format("memory: {} private words of {}, {} parameters of 32, {} constants of 64\n",
                    c.assembled.private_words, EngineMap::input_first, c.image.words.size(),
                    c.program.constants.size());

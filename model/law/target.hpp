@@ -20,6 +20,7 @@ struct Target {
   std::int64_t tick_hz = 1000000;
   int clocks_per_tick = 50;
   int round_clocks = EngineMap::round_clocks;
+  int axes = 1;  ///< of the engine, which gives a run the inputs of all
   int counts_per_turn = 4096;
   Format velocity{1, 10, 21};  ///< rad/s
   Format torque{1, 4, 16};     ///< Nm

@@ -63,6 +63,8 @@ std::string json(const Compiled& c, const Measured& m) {
   j["design"] = c.target.design;
   j["instructions"] = c.assembled.instructions.size();
   j["clocks_per_instruction"] = c.target.round_clocks;
+  j["clocks_per_run"] =
+      engine_period(static_cast<int>(c.assembled.instructions.size()), c.target.axes);
   j["ticks_per_run"] = c.divider;
   j["rate_hz"] = c.rate_hz;
   j["unproven"] = c.bound.unproven.size();

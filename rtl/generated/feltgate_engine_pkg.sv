@@ -10,6 +10,7 @@
 package feltgate_engine_pkg;
   localparam int THREADS = 4;  // programs that run beside each other
   localparam int ROUND_CLOCKS = 6;  // clocks from one instruction of a thread to its next
+  localparam int START_CLOCKS = 4;  // clocks between two runs of a thread beside those that its inputs take (engine_period in engine_ops.hpp)
   localparam int THREAD_WORDS = 128;  // a thread's program begins at this times its number
   localparam int PROGRAM_WORDS = 512;  // words of program memory
   localparam int PROGRAM_BITS = 36;  // bits of a program word, and of a table word

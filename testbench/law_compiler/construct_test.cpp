@@ -42,7 +42,7 @@ const std::map<std::string, Sample> samples = {
       6, 6e-4}},
     {"low-pass: its error has an end",
      {"param k = 0.05 Nm s/rad in 0 .. 0.2 Nm s/rad\n"
-      "out torque = -k * clamp(lowpass(velocity, 144 Hz), -20 rad/s, 20 rad/s)\n",
+      "out torque = -k * clamp(lowpass(velocity, 70 Hz), -20 rad/s, 20 rad/s)\n",
       8, 3e-3}},
     {"presliding friction: an anchor in counts",
      {"param k = 5 Nm/rad in 0 .. 20 Nm/rad\n"

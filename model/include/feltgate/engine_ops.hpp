@@ -87,6 +87,17 @@ constexpr std::int32_t engine_factor(std::int32_t y) {
 /// Bits of a product that the mode drops.
 constexpr int engine_shift(int mode) { return EngineMap::shifts[mode & 3]; }
 
+/// Least clocks from start to start of a thread with runs of so many instructions, in an engine of
+/// 1 to 3 axes in which no other thread runs. Where ticks of its divider last as long, a run starts
+/// at each; where they do not, starts are missed.
+constexpr int engine_period(int instructions, int axes) {
+  constexpr int round = EngineMap::round_clocks;
+  const int words = EngineMap::input_axis_words * axes + 1;
+  // A word of inputs takes a clock, but in one of the system's turns none is written.
+  const int between = EngineMap::start_clocks + words + (words - 1) / (round - 1);
+  return round * (instructions + (between + round - 1) / round);
+}
+
 /// Word of table memory that LRP, TAB and TST reach.
 constexpr int engine_table_address(std::int32_t x, int b) {
   const std::int64_t segment = engine_floor_shift(x, EngineMap::fraction_bits);

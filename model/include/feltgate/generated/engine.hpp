@@ -35,6 +35,7 @@ enum class EngineOp : std::uint8_t {
 struct EngineMap {
   static constexpr int threads = 4;  ///< programs that run beside each other
   static constexpr int round_clocks = 6;  ///< clocks from one instruction of a thread to its next
+  static constexpr int start_clocks = 4;  ///< clocks between two runs of a thread beside those that its inputs take (engine_period in engine_ops.hpp)
   static constexpr int thread_words = 128;  ///< a thread's program begins at this times its number
   static constexpr int program_words = 512;  ///< words of program memory
   static constexpr int program_bits = 36;  ///< bits of a program word, and of a table word

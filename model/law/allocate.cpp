@@ -123,7 +123,7 @@ class Assembly {
       case From::state:
         return o.index;
       case From::word:
-        return EngineMap::D::parameter + o.index;
+        return EngineMap::D::parameter + word_number(law_, program_, o.index);
       case From::constant:
         return EngineMap::D::constant + o.index;
       case From::none:

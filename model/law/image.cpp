@@ -96,6 +96,9 @@ void read_line(Image& image, std::uint32_t& stored, Line& line) {
     image.line_base = line.take<int>("line_base");
   } else if (key == "max_age") {
     image.max_age_ticks = line.take<int>("max_age");
+  } else if (key == "mailbox") {
+    image.mailbox_first = static_cast<int>(line.index("mailbox", 33));
+    image.mailbox_age = static_cast<int>(line.index("age", 0x10000));
   } else if (key == "crc") {
     stored = static_cast<std::uint32_t>(line.hex("crc", 32));
   } else if (key == "parameter") {
@@ -157,6 +160,9 @@ std::string text(const Image& image) {
   }
   s += fmt::format("line_base {}\nmax_age {}\ncrc {:08x}\n", image.line_base, image.max_age_ticks,
                    crc(image));
+  if (image.mailbox_first != 32) {
+    s += fmt::format("mailbox {} {}\n", image.mailbox_first, image.mailbox_age);
+  }
   for (const ImageWord& w : image.words) {
     s += fmt::format("parameter {} {} {} {:.17g} {:.17g} {} {} {} {} {} {:.17g} {}\n", w.word,
                      w.name, blank(w.unit), w.scale, w.to_si, w.lower, w.upper, w.initial,

@@ -57,6 +57,8 @@ struct Image {
   std::array<ImageThread, 4> threads{};
   int line_base = 512;         ///< first table word of delay lines; 512: none
   int max_age_ticks = 0xffff;  ///< a result older than this is late
+  int mailbox_first = 32;      ///< first parameter word that is a mailbox's; 32: there is none
+  int mailbox_age = 0;         ///< steps of 64 ticks that the last commit may be old: its register
   std::vector<ImageWord> words;
   std::vector<ImageOutput> outputs;
   std::vector<ImageEvent> events;

@@ -33,6 +33,11 @@ std::string parameters(const Compiled& c) {
                      w.initial * step + 0.0, std::min(a, b) + 0.0, std::max(a, b) + 0.0,
                      std::fabs(step), w.unit, w.mailbox ? " (mailbox)" : "");
   }
+  if (c.image.mailbox_first != EngineMap::parameter_words) {
+    const double step = EngineMap::mailbox_step / static_cast<double>(c.target.tick_hz);
+    s += fmt::format("mailbox: {:.6g} ms without a commit, and the torque ramps to 0\n",
+                     1e3 * step * (c.image.mailbox_age + 1));
+  }
   return s;
 }
 

@@ -102,10 +102,12 @@ class ImageMaker {
  private:
   void words() {
     const std::vector<Span> spans = ranges(law_, whole_cell(law_, target_));
+    int mailboxes = 0;
     for (std::size_t i = 0; i < program_.words.size(); ++i) {
       const Word& w = program_.words[i];
       ImageWord word;
-      word.word = static_cast<int>(i);
+      word.word = word_number(law_, program_, static_cast<int>(i));
+      mailboxes += is_mailbox(law_, program_, i) ? 1 : 0;
       word.scale = w.scale;
       Span s{1, 1};
       for (const NodeId n : w.nodes) s = s * spans[at(n)];
@@ -145,7 +147,7 @@ class ImageMaker {
           [&](const ImageWord& w) { return w.formula.empty() && w.name == parameter.name; });
       if (known) continue;
       ImageWord word;
-      word.word = static_cast<int>(image_.words.size());
+      word.word = static_cast<int>(image_.words.size()) - mailboxes;
       describe(parameter, &word);
       const double size =
           std::max({std::fabs(parameter.range.lower), std::fabs(parameter.range.upper), 1e-30});
@@ -158,6 +160,8 @@ class ImageMaker {
       throw Refused(fmt::format("the law needs {} parameter words, 32 fit", image_.words.size()),
                     "make some parameters constants");
     }
+    image_.mailbox_first = EngineMap::parameter_words - mailboxes;
+    image_.mailbox_age = mailboxes > 0 ? mailbox_age() : 0;
     std::vector<double> initial;
     for (const ImageWord& w : image_.words) {
       if (w.formula.empty()) initial.push_back(value_of(w.name));
@@ -170,6 +174,27 @@ class ImageMaker {
       image_.data[at(Image::lower_base + w.word)] = w.lower;
       image_.data[at(Image::upper_base + w.word)] = w.upper;
     }
+  }
+
+  /// What the engine counts for the shortest max_age: late after more steps than this, and at
+  /// most one more.
+  int mailbox_age() const {
+    const double step = EngineMap::mailbox_step / static_cast<double>(target_.tick_hz);
+    int least = 0xffff;
+    for (const Parameter& p : law_.parameters) {
+      if (!p.mailbox) continue;
+      const double steps = std::floor(p.max_age_s / step + 1e-9) - 1;
+      if (steps < 1 || steps > 0xffff) {
+        throw Refused(
+            p.place,
+            fmt::format("max_age of mailbox {} is {:.6g} ms; this design counts {:.6g} "
+                        "ms to {:.6g} ms",
+                        p.name, 1e3 * p.max_age_s, 2e3 * step, 1e3 * 0x10000 * step),
+            fmt::format("write max_age {:.6g} ms", 1e3 * step * (steps < 1 ? 2 : 0x10000)));
+      }
+      least = std::min(least, static_cast<int>(steps));
+    }
+    return least;
   }
 
   double value_of(const std::string& name) const {

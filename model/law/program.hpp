@@ -95,6 +95,26 @@ struct Program {
   std::vector<LineUse> lines;
 };
 
+/// Whether word `index` of Program::words is a mailbox's.
+inline bool is_mailbox(const Law& law, const Program& program, std::size_t index) {
+  const Node& n = law.nodes[static_cast<std::size_t>(program.words[index].nodes[0])];
+  return n.op == Op::parameter && law.parameters[static_cast<std::size_t>(n.index)].mailbox;
+}
+
+/// Its number in parameter memory: mailbox words lie at the end, up to 31.
+inline int word_number(const Law& law, const Program& program, int index) {
+  const auto i = static_cast<std::size_t>(index);
+  int before = 0, from_here = 0;
+  for (std::size_t k = 0; k < program.words.size(); ++k) {
+    if (is_mailbox(law, program, k)) {
+      from_here += k >= i ? 1 : 0;
+    } else {
+      before += k < i ? 1 : 0;
+    }
+  }
+  return is_mailbox(law, program, i) ? EngineMap::parameter_words - from_here : before;
+}
+
 /// Steps of `program` that pass acc from the step before.
 inline bool takes_acc(const Step& s) {
   return s.op == EngineOp::mac || s.op == EngineOp::tst ||

@@ -14,6 +14,8 @@ module engine #(
     parameter logic [3:0] RunReset       = 4'd0,    // threads that run without a host
     parameter logic [9:0] LineBaseReset  = 10'd512,
     parameter logic [15:0] AgeReset      = 16'd0,
+    parameter logic [5:0] MailboxReset   = 6'd32,
+    parameter logic [15:0] MailboxAgeReset = 16'd0,
     parameter logic [31:0] CrcReset      = 32'd0
 ) (
     input  logic                    clk_i,
@@ -29,7 +31,7 @@ module engine #(
     output logic signed [feltgate_pkg::TORQUE_W*AxisCount-1:0] torque_o,
     output logic                    fresh_o,
     output logic                    late_o,
-    output logic                    changed_o,     // one clock: a commit is in force for the runs to come
+    output logic                    changed_o,     // one clock: from now on torques may jump
     input  logic                    crc_start_i,
     output logic                    crc_done_o,    // one clock
     output logic                    crc_good_o,
@@ -47,7 +49,8 @@ module engine #(
   // Words of the host that are registers.
   logic [3:0] high_q, run_q;
   logic [9:0] line_base_q;
-  logic [15:0] max_age_q;
+  logic [5:0] mailbox_first_q;
+  logic [15:0] max_age_q, mailbox_age_q;
   logic [31:0] crc_q;
   logic overrun_q;
 
@@ -64,26 +67,27 @@ module engine #(
   logic started, ended;
   logic [1:0] thread5;
   assign enter = enter_i || (armed_i && !armed_q) || write_run;
-  logic bank, bank_q;
-  assign changed_o = bank != bank_q;
+  logic bank;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       high_q      <= '0;
       run_q       <= RunReset;
       line_base_q <= LineBaseReset;
       max_age_q   <= AgeReset;
+      mailbox_first_q <= MailboxReset;
+      mailbox_age_q   <= MailboxAgeReset;
       crc_q       <= CrcReset;
       overrun_q   <= 1'b0;
       armed_q     <= 1'b0;
-      bank_q      <= 1'b0;
       first_q     <= '1;
     end else begin
       armed_q <= armed_i;
-      bank_q  <= bank;
       if (open_register && addr_i == feltgate_engine_pkg::H_HIGH) high_q <= wdata_i[3:0];
       if (write_run) run_q <= wdata_i[3:0];
       if (open_register && addr_i == feltgate_engine_pkg::H_LINE_BASE) line_base_q <= wdata_i[9:0];
       if (open_register && addr_i == feltgate_engine_pkg::H_MAX_AGE) max_age_q <= wdata_i[15:0];
+      if (open_register && addr_i == feltgate_engine_pkg::H_MAILBOX_FIRST) mailbox_first_q <= wdata_i[5:0];
+      if (open_register && addr_i == feltgate_engine_pkg::H_MAILBOX_AGE) mailbox_age_q <= wdata_i[15:0];
       if (open_register && addr_i == feltgate_engine_pkg::H_CRC) crc_q <= wdata_i;
       overrun_q <= (overrun_q || overrun) && !write_run;
       if (started) first_q[thread5] <= 1'b0;
@@ -225,10 +229,12 @@ module engine #(
       .word_o(input_word)
   );
 
+  logic mailbox_late;
   engine_outputs #(.AxisCount(AxisCount)) u_outputs (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
       .clear_i(write_run),
+      .zero_i(mailbox_late),
       .watched_i(run_q != 4'd0),
       .enter_i(enter),
       .tick_i(tick_i),
@@ -243,23 +249,40 @@ module engine #(
       .late_o(late_o)
   );
 
-  logic refused;
+  logic refused, taken, differs;
   logic [4:0] refused_word;
   engine_commit u_commit (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
       .commit_i(commit),
       .wait_i(crc_busy),
+      .tick_i(tick_i),
       .beat_i(beat),
       .negative_i(result[31]),
       .running_i(running),
+      .mailbox_first_i(mailbox_first_q),
       .bank_o(bank),
+      .taken_o(taken),
+      .differs_o(differs),
       .checking_o(checking),
       .committing_o(committing),
       .refused_o(refused),
       .refused_word_o(refused_word),
       .minus_o(minus),
       .address_o(commit_address)
+  );
+
+  engine_mailbox u_mailbox (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .tick_i(tick_i),
+      .step_i((tick_count_i & 32'(feltgate_engine_pkg::MAILBOX_STEP - 1)) == '0),
+      .watched_i(!mailbox_first_q[5]),
+      .max_age_i(mailbox_age_q),
+      .taken_i(taken),
+      .differs_i(differs),
+      .late_o(mailbox_late),
+      .jumps_o(changed_o)
   );
 
   engine_crc u_crc (
@@ -306,7 +329,7 @@ module engine #(
   logic [31:0] read_q, register;
   logic [11:0] status, read_word;
   assign read_word = {7'h50, addr_i[4:0]};
-  assign status = {running, 1'b0, overrun_q, bank, late_o, crc_good_o, crc_busy, refused, committing};
+  assign status = {running, mailbox_late, overrun_q, bank, late_o, crc_good_o, crc_busy, refused, committing};
   assign busy_o = waits_q || checking || crc_busy;
   always_ff @(posedge clk_i) begin
     if (beat) read_q <= addr_i[11] || addr_i[10:9] == 2'd3 ? {28'd0, addr_i[11] ? high_read_q : program_high_q}

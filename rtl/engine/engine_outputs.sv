@@ -12,6 +12,7 @@ module engine_outputs #(
     input  logic               clk_i,
     input  logic               rst_ni,
     input  logic               clear_i,    // outputs 0
+    input  logic               zero_i,     // outputs 0 while this holds
     input  logic               watched_i,  // some thread should run
     input  logic               enter_i,
     input  logic               tick_i,
@@ -59,7 +60,7 @@ module engine_outputs #(
           torque_q <= '0;
           waits_q  <= 1'b0;
         end else begin
-          if (clear_i) torque_q <= '0;
+          if (clear_i || zero_i) torque_q <= '0;
           else if (appears[n]) torque_q <= next_q;
           if (clear_i) waits_q <= 1'b0;
           else if (output_i && number_i == 2'(n)) waits_q <= 1'b1;

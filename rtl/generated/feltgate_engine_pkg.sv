@@ -31,6 +31,7 @@ package feltgate_engine_pkg;
   localparam int EVENT_BITS = 9;  // bits of an event's number
   localparam int DIVIDER_BITS = 12;  // bits of a thread's divider, ticks per start; 0 counts as 1
   localparam int AGE_BITS = 16;  // bits of max_age, ticks
+  localparam int MAILBOX_STEP = 64;  // ticks that mailbox_age counts as one: those whose number is a multiple of it end a step
   localparam int HOST_BITS = 12;  // bits of a host address
 
   // Shifts of a product, by the field mode.
@@ -105,9 +106,12 @@ package feltgate_engine_pkg;
   localparam int B_STATUS_LATE = 4;
   localparam int B_STATUS_BANK = 5;
   localparam int B_STATUS_OVERRUN = 6;
+  localparam int B_STATUS_MAILBOX_LATE = 7;
   localparam int B_STATUS_RUNNING = 8;
   localparam int W_STATUS_RUNNING = 4;
   localparam logic [11:0] H_REFUSED_WORD = 12'ha0b;
+  localparam logic [11:0] H_MAILBOX_FIRST = 12'ha0c;
+  localparam logic [11:0] H_MAILBOX_AGE = 12'ha0d;
   localparam logic [11:0] H_EVENT_COUNT = 12'ha10;
   localparam logic [11:0] H_EVENT_NUMBER = 12'ha11;
   localparam logic [11:0] H_EVENT_VALUE = 12'ha12;

@@ -17,12 +17,15 @@ using H = EngineMap::H;
 
 constexpr int kTick = 50;
 
-/// The twin with an image in its memories; the RTL has seen the same in the random runs.
+/// The twin with an image in its memories.
 struct Device {
   Twin twin;
   Twin::In in;
   int since = 0;
   std::int64_t clocks = 0;
+  int jumps = 0;  ///< clocks in which torques may begin to jump
+
+  std::vector<Twin::In> inputs{{}};  ///< the first one is held in the reset
 
   Device() { twin.reset(); }
   explicit Device(const EngineMemory& m) {
@@ -36,8 +39,10 @@ struct Device {
     if (in.tick) since = 0;
     if (in.tick) ++in.tick_count;
     twin.clock(in);
+    inputs.push_back(in);
     in.enter = in.crc_start = in.write = in.read = false;
     ++clocks;
+    jumps += out().changed;
   }
   void clock(int n) {
     for (int k = 0; k < n; ++k) clock();
@@ -75,6 +80,17 @@ inline EngineMemory with_parameters(std::initializer_list<std::int32_t> words) {
   for (const std::int32_t w : words) m.set_data(kParameter + n++, w);
   return m;
 }
+
+/// An image that came over the port, so that the RTL can live the same life.
+struct LoadedDevice : Device {
+  explicit LoadedDevice(const EngineMemory& m) {
+    Host host;
+    host.load(m);
+    for (const Access& a : host.queue) write(static_cast<int>(a.addr), a.word);
+  }
+  /// What was lived, RTL against twin.
+  void play() const { Bench("engine", 1).run_list(inputs); }
+};
 
 /// A law of one output in thread 0, and its words for the other axes.
 inline EngineMemory image(const std::function<void(EngineMemory&, int)>& make,

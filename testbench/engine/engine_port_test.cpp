@@ -179,6 +179,33 @@ TEST_CASE("engine: the age is of the last result; no program, and any, keeps it 
   }
 }
 
+TEST_CASE("engine: a thread that is switched off ends amid its run") {
+  EngineMemory m;
+  std::vector<EngineInstruction> list(100, word(EngineOp::add, 0, 63, 63, EngineTarget::event, 3));
+  for (std::size_t n = 0; n < list.size(); ++n) {
+    m.set_program(static_cast<int>(n), engine_encode(list[n]));
+  }
+  LoadedDevice device(m);
+  device.write(H::divider0, 4000);
+  device.write(H::run, 1);
+  int events = 0;
+  const auto count = [&](int clocks) {
+    for (int k = 0; k < clocks; ++k) device.clock(), events += device.out().event_valid;
+  };
+  count(3 * kTick);
+  CHECK(events > 5);
+  CHECK(events < 50);
+  device.in.addr = H::run;
+  device.in.wdata = 0;
+  device.in.write = true;
+  count(12);  // what is in the pipeline
+  events = 0;
+  count(20 * kTick);
+  CHECK(events == 0);
+  CHECK(device.read(H::status) >> 8 == 0);
+  device.play();
+}
+
 TEST_CASE("engine: the first run after arming, entering and a write of run has a flag") {
   EngineMemory m;
   m.set_data(kConstant + 1, 1);

@@ -46,12 +46,15 @@ class Life {
       host_.write(H::divider0 + n, random_.one_in(2) ? random_.below(3) : random_.below(9));
     }
     host_.write(H::max_age, random_.below(12));
+    host_.write(H::mailbox_first, random_.one_in(3) ? 32 : random_.below(40));
+    host_.write(H::mailbox_age, random_.below(5));
     host_.write(H::run, random_.one_in(5) ? random_.below(16) : 15);
   }
   void next_tick() {
     since_ = 0;
     period_ = random_.one_in(8) ? 3 + static_cast<int>(random_.below(90)) : 50;
-    ++in_.tick_count;
+    // To the next step of the mailbox's age, sometimes.
+    in_.tick_count += random_.one_in(8) ? 64 - in_.tick_count % 64 : 1;
     for (std::size_t n = 0; n < AXES; ++n) {
       in_.position[n] = corner(random_);
       in_.velocity[n] = corner(random_);
@@ -125,7 +128,7 @@ class Life {
 struct Reached {
   std::int64_t fresh = 0, late = 0, events = 0, lost = 0, refused = 0, banks = 0, overrun = 0,
                crc = 0;
-  std::int64_t limits = 0, busy = 0;
+  std::int64_t limits = 0, busy = 0, mailbox_late = 0, jumps = 0;
   std::uint32_t before = 0;
 };
 
@@ -149,6 +152,8 @@ TEST_CASE("engine: random programs, hosts and resets, RTL against twin") {
       r->late += rose(S::status_late);
       r->banks += rose(S::status_bank);
       r->crc += rose(S::status_crc_busy);
+      r->mailbox_late += rose(S::status_mailbox_late);
+      r->jumps += out.changed;
       r->before = out.rdata;
       r->fresh += out.fresh;
       r->events += out.event_valid;
@@ -160,7 +165,7 @@ TEST_CASE("engine: random programs, hosts and resets, RTL against twin") {
               count);
   }
   CAPTURE(total.fresh, total.late, total.events, total.refused, total.banks, total.overrun,
-          total.crc, total.limits);
+          total.crc, total.limits, total.mailbox_late, total.jumps);
   CHECK(total.fresh > 1000 / AXES / AXES / AXES);
   CHECK(total.late > 8);
   CHECK(total.events > 1000);
@@ -169,4 +174,6 @@ TEST_CASE("engine: random programs, hosts and resets, RTL against twin") {
   CHECK(total.overrun > 10);
   CHECK(total.crc > 5);
   CHECK(total.limits > 10);
+  CHECK(total.mailbox_late > 10);
+  CHECK(total.jumps > 20);
 }

@@ -31,6 +31,42 @@ TEST_CASE("a changed word is found by the CRC, a wrong line by its number") {
   CHECK_THROWS(read_image("something else\n"));
 }
 
+TEST_CASE("mailbox words lie at the end, and the shortest max_age counts") {
+  const Compiled c = compile_text(
+      "mailbox goal = 0 rad in -1 .. 1 rad max_age 20 ms\n"
+      "param stiffness = 1 Nm/rad in 0 .. 2 Nm/rad\n"
+      "mailbox push = 0 Nm in -0.1 .. 0.1 Nm max_age 5 ms\n"
+      "param most = 0.3 Nm in 0.1 .. 0.5 Nm\n"
+      "out torque = clamp(stiffness * (goal - clamp(position, -2, 2)), -most, most) + push\n",
+      "x.law", Target{});
+  const Image& image = c.image;
+  int mailboxes = 0;
+  for (const ImageWord& w : image.words) {
+    CHECK((w.word >= image.mailbox_first) == w.mailbox);
+    CHECK(image.data[static_cast<std::size_t>(Image::parameter_base + w.word)] == w.initial);
+    CHECK(image.data[static_cast<std::size_t>(Image::upper_base + w.word)] == w.upper);
+    mailboxes += w.mailbox ? 1 : 0;
+  }
+  CHECK(mailboxes == 2);
+  CHECK(image.mailbox_first == 30);
+  // Late after the 78th step of 64 us at the latest.
+  CHECK(image.mailbox_age == 77);
+  CHECK(read_image(text(image)) == image);
+  CHECK(read_image(text(image)).mailbox_age == 77);
+  CHECK(detent().image.mailbox_first == 32);
+  // The program reads them there.
+  bool goal = false;
+  for (const EngineInstruction& i : c.assembled.instructions) {
+    for (const int address : {i.a, i.b}) {
+      if (address >= Image::parameter_base + 30 && address < Image::parameter_base + 32) {
+        goal = true;
+      }
+      CHECK_FALSE((address >= Image::parameter_base + 4 && address < Image::parameter_base + 30));
+    }
+  }
+  CHECK(goal);
+}
+
 TEST_CASE("the CRC is zlib's, over program, ranges, constants and tables") {
   Image image;
   const std::uint32_t empty = crc(image);

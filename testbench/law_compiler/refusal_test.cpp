@@ -42,6 +42,17 @@ TEST_CASE("a rate that is no part of the tick is refused") {
              Contains("is no whole part of the tick") && Contains("250000 Hz"));
 }
 
+TEST_CASE("a max_age that the engine cannot count is refused with what it can") {
+  const auto aged = [](const std::string& age) {
+    return refusal("mailbox push = 0 Nm in -0.1 .. 0.1 Nm max_age " + age +
+                   "\nout torque = push\n");
+  };
+  CHECK_THAT(aged("0.1 ms"), Contains("x.law:1:") && Contains("write max_age 0.128 ms"));
+  CHECK_THAT(aged("10 s"), Contains("write max_age 4194.3 ms"));
+  CHECK(aged("0.128 ms") == "compiled");
+  CHECK(aged("4194.3 ms") == "compiled");
+}
+
 TEST_CASE("a root of what can be negative, a division by what can be zero") {
   CHECK_THAT(refusal("out torque = 0.1 Nm * sqrt(position)\n"), Contains("x.law:1:"));
   CHECK_THAT(refusal("out torque = 0.1 Nm / position\n"), Contains("x.law:1:"));

@@ -37,7 +37,7 @@ class Engine {
   struct Out {
     std::array<std::int32_t, AxisCount> torque{};
     bool fresh = false, late = false, crc_done = false, crc_good = false;
-    bool changed = false;  ///< a commit is in force for the runs to come
+    bool changed = false;  ///< one clock: from now on torques may jump
     bool event_valid = false;
     int event_number = 0;          ///< with event_valid
     std::int32_t event_value = 0;  ///< with event_valid
@@ -59,6 +59,7 @@ class Engine {
     inputs_.reset();
     outputs_ = Outputs{};
     commit_ = EngineCommit{};
+    mailbox_ = EngineMailbox{};
     crc_.reset();
     events_.reset();
     registers_ = Registers{};
@@ -70,7 +71,7 @@ class Engine {
     out.torque = outputs_.torque;
     out.fresh = outputs_.fresh;
     out.late = outputs_.late;
-    out.changed = commit_.bank != registers_.bank_before;
+    out.changed = mailbox_.jumps;
     out.crc_done = crc_.done;
     out.crc_good = crc_.good;
     out.event_valid = barrel_.event();
@@ -112,15 +113,20 @@ class Engine {
                 : input_taken ? inputs_.word(in.tick_count, in.position, in.velocity, in.tau_hat)
                 : host_taken  ? r.data
                               : 0;
-    outputs_.clock({write_run, r.run != 0, enter, in.tick, r.max_age, barrel_.result(),
-                    barrel_.output(), barrel_.last(), barrel_.thread7(), barrel_.number() & 3});
+    outputs_.clock({write_run, mailbox_late(), r.run != 0, enter, in.tick, r.max_age,
+                    barrel_.result(), barrel_.output(), barrel_.last(), barrel_.thread7(),
+                    barrel_.number() & 3});
     events_.clock(barrel_.event(), {barrel_.number(), barrel_.result(), in.tick_count},
                   in.read && addr == H::event_tick);
     const bool was_committing = commit_.committing();
     const bool was_checking = commit_.checking, was_crc_busy = crc_.busy();
     const int bank = commit_.bank;
     const bool asks = write && addr == H::commit && (in.wdata & 1U) != 0;
-    commit_.clock({asks, was_crc_busy, beat, barrel_.result() < 0, inputs_.running});
+    const bool step = in.tick_count % EngineMap::mailbox_step == 0;
+    mailbox_.clock(
+        {in.tick, step, watches_mailbox(), r.mailbox_age, commit_.taken(in.tick), commit_.differs});
+    commit_.clock({asks, was_crc_busy, in.tick, beat, barrel_.result() < 0, inputs_.running,
+                   r.mailbox_first});
     const unsigned high = crc_was_program(in) ? r.program_high : r.table_high;
     const std::uint32_t result = static_cast<std::uint32_t>(barrel_.result());
     crc_.clock({in.crc_start, was_checking, beat, std::uint64_t{high} << 32 | result,
@@ -150,7 +156,6 @@ class Engine {
     if (started) r.first &= ~(1U << thread);
     if (enter) r.first = 15;
     r.armed = in.armed;
-    r.bank_before = bank;
     if (open) set_register(addr, in.wdata);
     r.clocks = std::min(r.clocks + 1, kKnown);
   }
@@ -167,7 +172,8 @@ class Engine {
   };
   struct Registers {
     unsigned high = 0, run = 0, max_age = 0, first = 15;
-    int bank_before = 0;
+    int mailbox_first = EngineMap::parameter_words;
+    unsigned mailbox_age = 0;
     std::uint32_t crc = 0;
     bool armed = false, overrun = false;
     bool waits = false, waits_program = false, waits_table = false;
@@ -181,6 +187,10 @@ class Engine {
   };
 
   static bool in_registers(unsigned addr) { return addr >> 9 == 5; }
+  bool watches_mailbox() const {
+    return (registers_.mailbox_first & EngineMap::parameter_words) == 0;
+  }
+  bool mailbox_late() const { return mailbox_.late(watches_mailbox()); }
   bool busy() const { return registers_.waits || commit_.checking || crc_.busy(); }
   bool crc_was_program(const In&) const { return crc_.reads_program(); }
   bool reads_program(const In& in) const {
@@ -246,6 +256,8 @@ class Engine {
     if (addr == H::run) r.run = word & 0xfU;
     if (addr == H::line_base) barrel_.memory.line_base = static_cast<int>(word & 0x3ffU);
     if (addr == H::max_age) r.max_age = word & 0xffffU;
+    if (addr == H::mailbox_first) r.mailbox_first = static_cast<int>(word & 0x3fU);
+    if (addr == H::mailbox_age) r.mailbox_age = word & 0xffffU;
     if (addr == H::crc) r.crc = word;
   }
 
@@ -276,7 +288,8 @@ class Engine {
     return at(commit_.committing(), S::status_committing) | at(commit_.refused, S::status_refused) |
            at(crc_.busy(), S::status_crc_busy) | at(crc_.good, S::status_crc_good) |
            at(outputs_.late, S::status_late) | at(commit_.bank != 0, S::status_bank) |
-           at(registers_.overrun, S::status_overrun) | inputs_.running << S::status_running;
+           at(registers_.overrun, S::status_overrun) | at(mailbox_late(), S::status_mailbox_late) |
+           inputs_.running << S::status_running;
   }
 
   In last_;
@@ -284,6 +297,7 @@ class Engine {
   Inputs inputs_;
   Outputs outputs_;
   EngineCommit commit_;
+  EngineMailbox mailbox_;
   EngineCrc crc_;
   EngineEvents events_;
   Registers registers_;

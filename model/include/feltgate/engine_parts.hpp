@@ -118,7 +118,7 @@ template <int AxisCount, int TorqueW>
 class EngineOutputs {
  public:
   struct In {
-    bool clear = false, watched = false, enter = false, tick = false;
+    bool clear = false, zero = false, watched = false, enter = false, tick = false;
     unsigned max_age = 0;
     std::int32_t result = 0;
     bool output = false, last = false;
@@ -133,7 +133,7 @@ class EngineOutputs {
     for (int n = 0; n < AxisCount; ++n) {
       Axis& a = axes_[static_cast<std::size_t>(n)];
       if (ends_ && a.waits && a.by == thread_) appears |= 1U << n;
-      if (in.clear) {
+      if (in.clear || in.zero) {
         torque[static_cast<std::size_t>(n)] = 0;
       } else if ((appears >> n & 1U) != 0) {
         torque[static_cast<std::size_t>(n)] = a.next;
@@ -185,60 +185,95 @@ class EngineOutputs {
 class EngineCommit {
  public:
   struct In {
-    bool commit = false, wait = false, beat = false, negative = false;
+    bool commit = false, wait = false, tick = false, beat = false, negative = false;
     unsigned running = 0;
+    int mailbox_first = 0;
   };
 
   int bank = 0;
+  bool differs = false;  ///< of the last commit: a word below mailbox_first
   bool checking = false, refused = false;
   int refused_word = 0;
 
-  bool committing() const { return wanted_ || checking || old_ != 0; }
+  bool committing() const { return wanted_ || checking || passed_ || old_ != 0; }
+  /// The other bank comes into force with the next clock.
+  bool taken(bool tick) const { return passed_ && tick; }
   bool minus() const { return checking && (beat_ & 1) != 0; }
   int address() const {
     using D = EngineMap::D;
-    const int word = beat_ >> 2 & 31, step = beat_ & 3;
-    if (step == 0 || step == 3) {
-      return (bank != 0 ? D::parameter : D::parameter_bank) + word;
-    }
-    return (step == 2 ? D::upper : D::lower) + word;
+    const int word = beat_ >> 3 & 31, step = beat_ & 7;
+    if (step == 1 || step == 2) return (step == 1 ? D::lower : D::upper) + word;
+    const bool other = step == 5 || step == 6 ? bank == 0 : bank != 0;
+    return (other ? D::parameter : D::parameter_bank) + word;
   }
 
   void clock(const In& in) {
-    const bool begins = wanted_ && !in.wait;
+    const bool begins = wanted_ && !in.wait, takes = taken(in.tick);
     const bool was_committing = committing();
     old_ &= in.running;
     if (checking && in.beat) {
-      const bool even = (beat_ & 1) == 0;
-      const bool bad = even && beat_ != 0 && in.negative;
-      const bool was_refused = refused;
-      if (bad && !refused) {
+      const bool negative = in.negative && beat_ % 2 == 0 && beat_ > 1;
+      const int of = beat_ & 6;  // 2, 4: an end of the range; 6, 0: the word in force
+      const bool range = of == 2 || of == 4, was_refused = refused;
+      if (negative && range && !refused) {
         refused = true;
-        refused_word = before_;
+        refused_word = beat_ >> 3 & 31;
       }
-      before_ = beat_ >> 2 & 31;
-      if (beat_ == 128) {
+      if (negative && !range && beat_ <= in.mailbox_first * 8) differs = true;
+      if (beat_ == 256) {
         checking = false;
-        if (!was_refused && !bad) {
-          bank = 1 - bank;
-          old_ = in.running;
-        }
+        passed_ = !was_refused;
       }
-      beat_ = (beat_ + 1) & 255;
+      beat_ = (beat_ + 1) & 511;
     }
     if (in.commit && !was_committing) wanted_ = true;
     if (begins) {
       wanted_ = false;
       checking = true;
-      refused = false;
+      refused = differs = false;
       beat_ = 0;
+    }
+    if (takes) {
+      passed_ = false;
+      bank = 1 - bank;
+      old_ = in.running;
     }
   }
 
  private:
-  bool wanted_ = false;
-  int beat_ = 0, before_ = 0;
+  bool wanted_ = false, passed_ = false;
+  int beat_ = 0;
   unsigned old_ = 0;
+};
+
+/// Twin of rtl/engine/engine_mailbox.sv.
+class EngineMailbox {
+ public:
+  struct In {
+    bool tick = false, step = false, watched = false;
+    unsigned max_age = 0;
+    bool taken = false, differs = false;
+  };
+
+  bool jumps = false;
+
+  bool late(bool watched) const { return late_ && watched; }
+
+  void clock(const In& in) {
+    const bool counts = in.tick && in.step;
+    const bool ends = counts && age_ == in.max_age;
+    jumps = in.taken ? in.differs || late(in.watched) : ends && in.watched && !late_;
+    late_ = (late_ || ends) && !in.taken;
+    if (in.taken) {
+      age_ = 0;
+    } else if (counts) {
+      age_ = (age_ + 1) & 0xffffU;
+    }
+  }
+
+ private:
+  unsigned age_ = 0;
+  bool late_ = true;  // nothing was fed
 };
 
 /// Twin of rtl/engine/engine_crc.sv.

@@ -9,6 +9,7 @@ module age_proof (
     input logic               clk_i,
     input logic               rst_ni,
     input logic               clear_i,
+    input logic               zero_i,
     input logic               watched_i,
     input logic               enter_i,
     input logic               tick_i,
@@ -23,7 +24,7 @@ module age_proof (
   always_comb assume (!clear_i || enter_i);  // both are a write of run
 
   logic signed [2*feltgate_pkg::TORQUE_W-1:0] torque, torque_q;
-  logic fresh, late, late_q, ended_q, ended2_q, cleared_q, forgives_q;
+  logic fresh, late, late_q, ended_q, ended2_q, cleared_q, zeroed_q, forgives_q;
   engine_outputs #(.AxisCount(2)) u_dut (
       .*,
       .torque_o(torque),
@@ -42,6 +43,7 @@ module age_proof (
       late_q     <= 1'b0;
       ended2_q   <= 1'b0;
       cleared_q  <= 1'b0;
+      zeroed_q   <= 1'b0;
       forgives_q <= 1'b0;
     end else begin
       if (enter_i || !watched_i) quiet_q <= '0;
@@ -50,7 +52,8 @@ module age_proof (
       torque_q   <= torque;
       late_q     <= late;
       ended2_q   <= ended_q;
-      cleared_q  <= clear_i;
+      cleared_q  <= clear_i || zero_i;
+      zeroed_q   <= zero_i;
       forgives_q <= enter_i || !watched_i;
     end
   end
@@ -61,6 +64,7 @@ module age_proof (
       late_in_time: assert (late || fresh || quiet_q <= {1'b0, max_age_i});
       late_stays: assert (!late_q || late || forgives_q);
       torque_at_an_end: assert (torque == torque_q || ended2_q || cleared_q);
+      zero_without_mailbox: assert (!zeroed_q || torque == '0);
       inside_ends: assert (\u_dut.ends_q == ended_q);
       inside_age: assert (late || fresh || quiet_q == {1'b0, \u_dut.age_q });
       becomes_late: cover (late && max_age_i == 16'd1);

@@ -56,6 +56,7 @@ struct EngineMap {
   static constexpr int event_bits = 9;  ///< bits of an event's number
   static constexpr int divider_bits = 12;  ///< bits of a thread's divider, ticks per start; 0 counts as 1
   static constexpr int age_bits = 16;  ///< bits of max_age, ticks
+  static constexpr int mailbox_step = 64;  ///< ticks that mailbox_age counts as one: those whose number is a multiple of it end a step
   static constexpr int host_bits = 12;  ///< bits of a host address
   static constexpr int shifts[] = {0, 12, 17, 27};  ///< of a product, by the field mode
   static constexpr std::string_view op_names[] = {
@@ -109,6 +110,8 @@ struct EngineMap {
     static constexpr int commit = 0xa09;
     static constexpr int status = 0xa0a;
     static constexpr int refused_word = 0xa0b;
+    static constexpr int mailbox_first = 0xa0c;
+    static constexpr int mailbox_age = 0xa0d;
     static constexpr int event_count = 0xa10;
     static constexpr int event_number = 0xa11;
     static constexpr int event_value = 0xa12;
@@ -132,6 +135,8 @@ struct EngineMap {
     static constexpr int status_bank_width = 1;
     static constexpr int status_overrun = 6;  ///< a start found its thread still running; cleared by a write of run
     static constexpr int status_overrun_width = 1;
+    static constexpr int status_mailbox_late = 7;  ///< there is a mailbox, and no commit within mailbox_age: the torques are 0 until the next
+    static constexpr int status_mailbox_late_width = 1;
     static constexpr int status_running = 8;  ///< bit per thread: it is in a run, or about to be
     static constexpr int status_running_width = 4;
   };

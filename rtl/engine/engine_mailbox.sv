@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The age of what the host feeds: without a commit in its time the torques are 0, until the next. And when
+// torques may jump. docs/blocks/engine.md
+
+`default_nettype none
+
+module engine_mailbox (
+    input  logic        clk_i,
+    input  logic        rst_ni,
+    input  logic        tick_i,
+    input  logic        step_i,     // with tick_i: the age counts
+    input  logic        watched_i,  // there is a mailbox
+    input  logic [15:0] max_age_i,  // steps
+    input  logic        taken_i,    // a commit comes into force
+    input  logic        differs_i,  // with another parameter
+    output logic        late_o,
+    output logic        jumps_o     // one clock
+);
+  logic [15:0] age_q;
+  logic late_q, ends;
+  assign late_o = late_q && watched_i;
+  assign ends   = tick_i && step_i && age_q == max_age_i;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      age_q   <= '0;
+      late_q  <= 1'b1;  // nothing was fed
+      jumps_o <= 1'b0;
+    end else begin
+      if (taken_i) age_q <= '0;
+      else if (tick_i && step_i) age_q <= age_q + 16'd1;
+      late_q  <= (late_q || ends) && !taken_i;
+      jumps_o <= taken_i ? differs_i || late_o : ends && watched_i && !late_q;
+    end
+  end
+endmodule
+
+`default_nettype wire

@@ -11,12 +11,15 @@ One file per kind, written by the command that measures (its --update) and commi
 A count is [reached, of]. The keys of each kind are in KINDS; seconds are of CPU time. A block, a
 key or a file that is not there is a dash in the table. Rows that are no block of rtl/ are named in
 EXTRA. Where blocks are measured one by one "dates" of a row says when each of its keys was; the
-file's own date is that of all others.
+file's own date is that of all others. "sources" of a row is the fingerprint of what each key was
+measured on, so that the table can mark what is of an earlier source.
 """
 
 import datetime
+import hashlib
 import json
 import os
+import re
 from pathlib import Path
 
 import outputs
@@ -54,6 +57,8 @@ HEADINGS = {
     "silent": "flips silent",
 }
 DASH = "-"
+EARLIER = "*"
+BESIDE = ("dates", "sources")  # of a row: by key, no results
 
 
 class ResultsError(Exception):
@@ -79,17 +84,17 @@ def check(kind, blocks, where):
     """ResultsError where a row has another key than its kind, or a value that is none."""
     for block, found in blocks.items():
         for key, value in found.items():
-            if key == "dates":
+            if key in BESIDE:
                 strange = [k for k in value if k not in KINDS[kind] or k not in found]
                 if strange:
                     raise ResultsError(
-                        f"{where}: {block} has a date of {', '.join(strange)}, which it has not"
+                        f"{where}: {block} has {key} of {', '.join(strange)}, which it has not"
                     )
                 continue
             if key != "seconds" and key not in KINDS[kind]:
                 known = ", ".join(KINDS[kind])
                 raise ResultsError(
-                    f"{where}: {block} has the key '{key}'; there are {known}, seconds, dates"
+                    f"{where}: {block} has the key '{key}'; there are {known}, seconds, {', '.join(BESIDE)}"
                 )
             pair = (
                 isinstance(value, list)
@@ -102,6 +107,33 @@ def check(kind, blocks, where):
                 )
             if pair and not 0 <= value[0] <= value[1]:
                 raise ResultsError(f"{where}: {block}, {key}: {value[0]} of {value[1]}")
+
+
+def sources(root, block, key):
+    """What a key of a block is measured on: its own file, of a row that is no block all of them."""
+    if key == "twin" or block == EXTRA[1]:
+        folder, pattern = Path(root, "model/include/feltgate"), "*.hpp"
+    else:
+        folder, pattern = Path(root, "rtl"), "*.sv"
+    if block in EXTRA:
+        return sorted(folder.glob(pattern))
+    own = [path for path in folder.rglob(pattern) if path.stem == block]
+    return [path for path in own if "generated" not in path.parts]
+
+
+def fingerprint(root, block, key):
+    """Eight digits of the sources, of which comments and blanks do not count."""
+    text = "".join(path.read_text(encoding="utf-8") for path in sources(root, block, key))
+    code = re.sub(r"//[^\n]*|/\*.*?\*/|\s+", "", text, flags=re.S)
+    return hashlib.sha256(code.encode()).hexdigest()[:8]
+
+
+def stamp(root, kind, rows):
+    """Enters what the keys of these rows were measured on: the sources as they are."""
+    for block, row in rows.items():
+        keys = sorted(row.keys() & KINDS[kind].keys())
+        if keys:
+            row["sources"] = {key: fingerprint(root, block, key) for key in keys}
 
 
 def today():
@@ -120,17 +152,26 @@ def merge(root, kind, command, rows):
     for block, found in rows.items():
         row = blocks.setdefault(block, {"dates": {}})
         row["dates"] |= dict.fromkeys(found.keys() & KINDS[kind].keys(), today())
+        earlier = row.get("sources", {})
+        stamp(root, kind, {block: found})
         row |= found
+        row["sources"] = earlier | found.get("sources", {})
     for row in blocks.values():
         older = {key: date for key, date in sorted(row.pop("dates").items()) if date != today()}
         if older:
             row["dates"] = older
-    write(root, kind, command, blocks)
+    put(root, kind, command, blocks)
 
 
 def write(root, kind, command, blocks, date=None):
-    """Puts the results of `command`, measured on `date` or today, where docs/blocks.md takes them
-    from."""
+    """Puts the results of `command`, measured on `date` or today and on the sources as they are,
+    where docs/blocks.md takes them from."""
+    stamp(root, kind, blocks)
+    put(root, kind, command, blocks, date)
+
+
+def put(root, kind, command, blocks, date=None):
+    """The file of a kind, of rows that say what they were measured on."""
     where = path_of(root, kind)
     check(kind, blocks, where)
     head = {
@@ -185,6 +226,13 @@ def cell(value):
     return f"{value[0]} of {value[1]}" if isinstance(value, list) else str(value)
 
 
+def marked_cell(root, block, key, row):
+    """A cell, with a mark where it is known to be of an earlier source of the block."""
+    of = row.get("sources", {}).get(key)
+    stale = of is not None and of != fingerprint(root, block, key)
+    return cell(row.get(key)) + (EARLIER if stale else "")
+
+
 def table(root, names):
     """Lines of the table, one row per block, and what each kind was measured with."""
     kinds = {kind: read(root, kind) for kind in KINDS}
@@ -198,12 +246,16 @@ def table(root, names):
         "|---|" + "---|" * (len(keys) + 1),
     ]
     for name in [*names, *(extra for extra in EXTRA if any(extra in b for b in measured.values()))]:
-        cells = [cell(measured.get(kind, {}).get(name, {}).get(key)) for kind, key in keys]
+        cells = [
+            marked_cell(root, name, key, measured.get(kind, {}).get(name, {})) for kind, key in keys
+        ]
         seconds = [b[name]["seconds"] for b in measured.values() if "seconds" in b.get(name, {})]
         lines.append(
             f"| {name} | " + " | ".join(cells) + f" | {round(sum(seconds)) if seconds else DASH} |"
         )
     lines.append("")
+    if any(EARLIER in line for line in lines):
+        lines += [f"\\{EARLIER} measured before the last change of the block's own source.", ""]
     for kind, found in kinds.items():
         if found:
             lines.append(f"- {kind}: `{found['command']}`, {when(found)}, {found['machine']}")

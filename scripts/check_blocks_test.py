@@ -109,6 +109,7 @@ class CheckBlocks(unittest.TestCase):
         block_results.write(**write, blocks=old, date="2020-01-02")
         block_results.merge(**write, rows={"alpha": {"rtl": [2, 2], "seconds": 1.0}})
         blocks = block_results.read(self.root, "mutants")["blocks"]
+        self.assertEqual(blocks["alpha"].pop("sources").keys(), {"rtl", "twin"})
         self.assertEqual(blocks["alpha"], {"rtl": [2, 2], "twin": [3, 4], "seconds": 1.0, "dates": {"twin": "2020-01-02"}})
         self.assertEqual(blocks["scene_spring"]["dates"], {"rtl": "2020-01-02"})
         lines = block_results.table(self.root, ["alpha", "scene_spring"])
@@ -116,13 +117,29 @@ class CheckBlocks(unittest.TestCase):
         block_results.merge(**write, rows={"alpha": {"twin": [4, 4]}, "scene_spring": {"rtl": [4, 5]}})
         self.assertNotIn("dates", json.dumps(block_results.read(self.root, "mutants")))
 
+    def test_results_of_an_earlier_source_are_marked(self):
+        write = {"root": self.root, "kind": "mutants", "command": "measured"}
+        block_results.write(**write, blocks={"alpha": {"rtl": [1, 2], "twin": [3, 4]}})
+        rtl = next(self.root.glob("rtl/alpha.sv"))
+        text = rtl.read_text(encoding="utf-8")
+        rtl.write_text(text.replace(";", "; // the same code", 1), encoding="utf-8")
+        self.assertNotIn("*", block_results.table(self.root, ["alpha"])[2])
+        rtl.write_text(text.replace("module", "module extra; endmodule module", 1), encoding="utf-8")
+        lines = block_results.table(self.root, ["alpha"])
+        self.assertIn("| 1 of 2* | 3 of 4 |", lines[2])
+        self.assertIn(r"\* measured before the last change of the block's own source.", lines)
+        block_results.merge(**write, rows={"alpha": {"twin": [4, 4]}})
+        self.assertIn("| 1 of 2* | 4 of 4 |", block_results.table(self.root, ["alpha"])[2])
+        block_results.merge(**write, rows={"alpha": {"rtl": [2, 2]}})
+        self.assertIn("| 2 of 2 | 4 of 4 |", block_results.table(self.root, ["alpha"])[2])
+
     def test_wrong_results(self):
         for blocks, said in (
             ({"beta": {}}, "beta, which is no block"),
             ({"alpha": {"lines": [1, 1]}}, "has the key 'lines'"),
             ({"alpha": {"line": [2, 1]}}, "2 of 1"),
             ({"alpha": {"line": "all"}}, "'all' is no number"),
-            ({"alpha": {"line": [1, 1], "dates": {"toggle": "2026-01-02"}}}, "a date of toggle"),
+            ({"alpha": {"line": [1, 1], "dates": {"toggle": "2026-01-02"}}}, "dates of toggle"),
         ):
             with self.subTest(said):
                 path = block_results.path_of(self.root, "coverage")

@@ -148,7 +148,8 @@ struct SystemC {
   }
   template <int K, class X>
   static SystemCValue scaled(const X& x) {
-    return {sc_dt::sc_fxval(systemc::exact(x)) << K};
+    const sc_dt::sc_fxval value(systemc::exact(x));
+    return {K >= 0 ? value << (K >= 0 ? K : 0) : value >> (K >= 0 ? 0 : -K)};
   }
 };
 

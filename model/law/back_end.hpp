@@ -134,6 +134,7 @@ class BackEnd {
   void outputs();
   void events();
   void states();
+  bool whole(NodeId id) const;
   Value next_state(const State& s, double scale);
   double state_unit(NodeId id, int depth) const;
   void finish();

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "law/functions.hpp"
+#include "feltgate/real_functions.hpp"
 #include "law/law.hpp"
 
 namespace feltgate::law {

@@ -112,12 +112,14 @@ Value BackEnd::limited(Value v, const Node& n, NodeId id) {
     const double end = domain.lo / v.scale;
     emit(EngineOp::max, 0, v.operand, constant(std::ceil(end - 1e-9)), v.scale, id).y_error =
         std::ceil(end - 1e-9) - end;
+    program_.steps.back().y.exact = end;
     v.operand = last();
   }
   if (range.hi > domain.hi + slack) {
     const double end = domain.hi / v.scale;
     emit(EngineOp::min, 0, v.operand, constant(std::floor(end + 1e-9)), v.scale, id).y_error =
         end - std::floor(end + 1e-9);
+    program_.steps.back().y.exact = end;
     v.operand = last();
   }
   v.size = both_of(range, domain).size();
@@ -219,6 +221,7 @@ Value BackEnd::function(NodeId id) {
   }
   Step& s = emit(EngineOp::lrp, 0, v.operand, {}, r.value_scale, id);
   s.table = index;
+  s.argument_scale = scale;
   s.node = id;
   return {last(), r.value_scale, 0};
 }
@@ -262,6 +265,7 @@ Operand BackEnd::phase(NodeId id, double turn) {
       if (std::fabs(left) * v.size / v.scale > 0.5 && m.y_error > 0) {
         // What the first factor left over, with bits of its own.
         products.back().y_error = 0;
+        products.back().y.exact = program_.constants[at(m.y.index)];
         Value rest = v;
         products.push_back(by_number(rest, left, id));
       }
@@ -348,6 +352,7 @@ Value BackEnd::sine(NodeId id) {
   Step& s = emit(EngineOp::lrp, 0, x, {}, scale, id);
   s.table = index;
   s.offset = cosine ? 1 << (bits - 2) : 0;
+  s.argument_scale = std::ldexp(1.0, -12 - bits);
   s.node = id;
   return {last(), scale, 0};
 }

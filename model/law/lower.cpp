@@ -67,10 +67,10 @@ Operand BackEnd::constant(double value) {
   if (!(std::fabs(value) <= 2147483647.0)) throw Unfit("a constant does not fit in 32 bits");
   const auto c = static_cast<std::int32_t>(std::nearbyint(value));
   for (std::size_t i = 0; i < program_.constants.size(); ++i) {
-    if (program_.constants[i] == c) return {From::constant, static_cast<int>(i)};
+    if (program_.constants[i] == c) return {From::constant, static_cast<int>(i), value};
   }
   program_.constants.push_back(c);
-  return {From::constant, static_cast<int>(program_.constants.size()) - 1};
+  return {From::constant, static_cast<int>(program_.constants.size()) - 1, value};
 }
 
 double BackEnd::fixed_size(const std::vector<NodeId>& nodes) const {

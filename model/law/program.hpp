@@ -23,6 +23,7 @@ enum class From : std::uint8_t { none, step, input, state, word, constant };
 struct Operand {
   From from = From::none;
   int index = -1;
+  double exact = 0;  ///< of a constant: what it stands for, in words, before it was rounded
   bool operator==(const Operand& o) const { return from == o.from && index == o.index; }
   bool operator<(const Operand& o) const {
     return from != o.from ? from < o.from : index < o.index;
@@ -36,6 +37,7 @@ struct Step {
   Operand x, y;
   double x_error = 0, y_error = 0;  ///< of a constant operand against what it stands for, in words
   int table = -1, offset = 0;       ///< of LRP and TAB: Program::tables, words from its start
+  double argument_scale = 1;        ///< of LRP: SI value, or turns, of 1 of x
   double scale = 1;
   NodeId node = -1;    ///< whose value it is: that node's range holds for it too; -1: a part of one
   int sign = 1;        ///< -1: it is the negated value of `node`

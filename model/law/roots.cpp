@@ -93,13 +93,42 @@ void BackEnd::events() {
   }
 }
 
+/// Whether a node's value is a whole number, whatever its format.
+bool BackEnd::whole(NodeId id) const {
+  const Node& n = node(id);
+  switch (n.op) {
+    case Op::constant:
+      return std::floor(n.value) == n.value;
+    case Op::parameter:
+      return law_.parameters[at(n.index)].whole;
+    case Op::state:
+      return law_.states[at(n.index)].whole;
+    case Op::select:
+      return whole(n.arguments[1]) && whole(n.arguments[2]);
+    case Op::negate:
+    case Op::absolute:
+      return whole(n.arguments[0]);
+    case Op::add:
+    case Op::subtract:
+    case Op::multiply:
+    case Op::minimum:
+    case Op::maximum:
+      return whole(n.arguments[0]) && whole(n.arguments[1]);
+    default:
+      return false;
+  }
+}
+
 Value BackEnd::next_state(const State& s, double scale) {
   double error = 0;
   if (s.whole) {
     // Rounded down, as the file's language does.
     if (is_fixed(s.next)) return at_scale(s.next, scale, &error);
     const Value v = value(s.next);
-    if (same_scale(v.scale, 1)) return align(v, scale, s.next);
+    if (same_scale(v.scale, 1)) {
+      if (!whole(s.next)) throw Unfit("a value that is rounded down needs fraction bits");
+      return align(v, scale, s.next);
+    }
     const Value fine = align(v, 1.0 / 4096, s.next);
     emit(EngineOp::mlw, 1, fine.operand, constant(1), 1, s.next);
     return align({last(), 1, v.size}, scale, s.next);

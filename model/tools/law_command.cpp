@@ -12,6 +12,7 @@
 #include "design/design.hpp"
 #include "files/json_text.hpp"
 #include "files/output_file.hpp"
+#include "law/cpp.hpp"
 #include "law/listing.hpp"
 #include "tools/commands.hpp"
 
@@ -24,7 +25,7 @@ using law::Compiled;
 using law::Measured;
 
 struct LawArguments {
-  std::string law, design = "lever", json, out;
+  std::string law, design = "lever", json, out, cpp;
   bool listing = false, quiet = false;
 };
 
@@ -111,11 +112,13 @@ int run(const LawArguments& a) {
   outputs.reads(find_file(a.design, "rtl/designs"));
   files::OutputFile* json_file = outputs.open("--json", a.json);
   files::OutputFile* image_file = outputs.open("--out", a.out);
+  files::OutputFile* cpp_file = outputs.open("--cpp", a.cpp);
   const Compiled c = law::compile_file(path, target(a.design));
   Measured m = law::measure_all(c);
   if (!m.all_inputs) m = law::measure(c, 1, 50000);
   if (json_file != nullptr) json_file->write(json(c, m));
   if (image_file != nullptr) image_file->write(law::text(c.image));
+  if (cpp_file != nullptr) cpp_file->write(law::cpp_header(c, a.law));
   if (!a.quiet) {
     outputs.say(law::report(c, m) + (a.listing ? law::listing(c) : ""));
   }
@@ -140,6 +143,7 @@ void add_law(CLI::App& app, int* exit_code) {
       "  feltgate law detent\n"
       "  feltgate law detent --listing\n"
       "  feltgate law detent --out detent.img --json detent.json\n"
+      "  feltgate law detent --cpp detent.hpp\n"
       "Exit code: 0 all well, 1 a run left its bound, 2 unusable input: a law that cannot be "
       "read,\n"
       "proven, fitted or scheduled, with line, reason and mend.");
@@ -151,6 +155,8 @@ void add_law(CLI::App& app, int* exit_code) {
       ->capture_default_str();
   sub->add_flag("--listing", a->listing, "every instruction: format, range and error");
   sub->add_option("--out", a->out, "the image that an engine runs")->type_name("FILE");
+  sub->add_option("--cpp", a->cpp, "the law as a C++ template over the number type")
+      ->type_name("FILE");
   sub->add_option("--json", a->json, "the same as JSON (docs/json.md)")->type_name("FILE");
   sub->add_flag("--quiet", a->quiet, "print nothing");
   sub->callback([a, exit_code] { *exit_code = run(*a); });

@@ -83,6 +83,7 @@ feltgate_sim_library(bounds bounds feltgate_design Boost::headers)
 
 # Laws as files: reader, evaluation, compiler. The grammar is Boost.Spirit X3, in one source.
 feltgate_library(feltgate_law law Boost::headers)
+include(laws)
 
 # The plant itself reads no file; plant_files reads plants and hands.
 feltgate_sim_library(plant plant EXCEPT "_file\\.cpp$")

@@ -3,7 +3,7 @@
 //
 // sin, cos, exp, sqrt of binary128 against long double and against each other. Documentation:
 // docs/laws.md
-#include "law/functions.hpp"
+#include "feltgate/real_functions.hpp"
 
 #include <cmath>
 

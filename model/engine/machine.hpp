@@ -42,7 +42,11 @@ class Machine {
   explicit Machine(const EngineMemory& memory = {}) : memory_(memory) {}
 
   /// The next run of each thread starts with flag 1: after load, arming, entry into the scene.
-  void enter() { first_ = {true, true, true, true}; }
+  /// Lines hold zeros.
+  void enter() {
+    first_ = {true, true, true, true};
+    for (int n = memory_.line_base; n < EngineMap::table_words; ++n) memory_.set_table(n, 0);
+  }
 
   /// Parameter `word` (0 to 31) of the bank that is not in force; commit() makes it that in force.
   void set_parameter(int word, std::int32_t value) {

@@ -63,10 +63,12 @@ module engine #(
   assign commit = write_register && addr_i == feltgate_engine_pkg::H_COMMIT && wdata_i[0];
 
   logic armed_q, enter, overrun;
-  logic [3:0] first_q, request, running;
+  logic [3:0] first_q, request, running, run;
   logic started, ended;
   logic [1:0] thread5;
   assign enter = enter_i || (armed_i && !armed_q) || write_run;
+  logic clearing;  // the lines
+  assign run = clearing ? 4'd0 : run_q;
   logic bank;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -99,9 +101,9 @@ module engine #(
   logic waits_q, waits_program_q, waits_table_q, may_write, parameter_write;
   logic [8:0] address_q;
   logic [31:0] data_q;
-  logic free, input_wanted, input_taken, host_taken;
+  logic free, input_wanted, input_taken, host_taken, line_taken;
   logic checking, committing, minus;
-  logic [8:0] commit_address, input_address;
+  logic [8:0] commit_address, input_address, line_address;
   logic [31:0] input_word;
   assign parameter_write = addr_i[11:6] == 6'd5;
   assign may_write = addr_i[11:9] == 3'd0 ? (parameter_write ? !committing
@@ -141,12 +143,12 @@ module engine #(
     else begin
       write_data_q    <= input_taken || (host_taken && !waits_program_q && !waits_table_q);
       write_program_q <= host_taken && waits_program_q;
-      write_table_q   <= host_taken && waits_table_q;
+      write_table_q   <= line_taken || (host_taken && waits_table_q);
     end
   end
   always_ff @(posedge clk_i) begin
     write_high_q    <= host_taken && (waits_program_q || waits_table_q) ? high_q : 4'd0;
-    write_address_q <= input_wanted ? input_address : address_q;
+    write_address_q <= input_wanted ? input_address : clearing && !waits_q ? line_address : address_q;
     if (beat2_q && read_program) write_word_q <= program_q;
     else if (input_taken) write_word_q <= input_word;
     else if (host_taken) write_word_q <= data_q;
@@ -174,7 +176,7 @@ module engine #(
   ) u_barrel (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
-      .run_i(run_q),
+      .run_i(run),
       .request_i(request),
       .first_i(first_q),
       .bank_i(bank),
@@ -208,7 +210,7 @@ module engine #(
   engine_inputs #(.AxisCount(AxisCount)) u_inputs (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
-      .run_i(run_q),
+      .run_i(run),
       .tick_i(tick_i),
       .tick_count_i(tick_count_i),
       .position_i(position_i),
@@ -233,10 +235,10 @@ module engine #(
   engine_outputs #(.AxisCount(AxisCount)) u_outputs (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
-      .clear_i(write_run),
+      .clear_i(write_run || clearing),
       .zero_i(mailbox_late),
       .watched_i(run_q != 4'd0),
-      .enter_i(enter),
+      .enter_i(enter || clearing),
       .tick_i(tick_i),
       .max_age_i(max_age_q),
       .result_i(result),
@@ -247,6 +249,17 @@ module engine #(
       .torque_o(torque_o),
       .fresh_o(fresh_o),
       .late_o(late_o)
+  );
+
+  engine_lines u_lines (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .enter_i(enter),
+      .line_base_i(line_base_q),
+      .free_i(free && !input_wanted && !waits_q),
+      .clearing_o(clearing),
+      .taken_o(line_taken),
+      .address_o(line_address)
   );
 
   logic refused, taken, differs;
@@ -330,7 +343,7 @@ module engine #(
   logic [11:0] status, read_word;
   assign read_word = {7'h50, addr_i[4:0]};
   assign status = {running, mailbox_late, overrun_q, bank, late_o, crc_good_o, crc_busy, refused, committing};
-  assign busy_o = waits_q || checking || crc_busy;
+  assign busy_o = waits_q || checking || crc_busy || clearing;
   always_ff @(posedge clk_i) begin
     if (beat) read_q <= addr_i[11] || addr_i[10:9] == 2'd3 ? {28'd0, addr_i[11] ? high_read_q : program_high_q}
                                                            : result;

@@ -232,6 +232,105 @@ TEST_CASE("engine: the first run after arming, entering and a write of run has a
   CHECK(first() == 1);
 }
 
+TEST_CASE("engine: lines are zeros when states begin anew, and nothing else of the table") {
+  EngineMemory m;
+  // Writes 7 into the last word of the lines in every run, and gives what was in the first.
+  m.set_data(kConstant + 1, 7);
+  m.set_data(kConstant + 2, 511 << 12);
+  m.line_base = 400;
+  m.set_data(kConstant + 3, m.line_base << 12);
+  program(m, 0,
+          {to(0, EngineOp::tab, kConstant + 3, 0), to(1, EngineOp::add, kConstant + 1, kConstant),
+           word(EngineOp::tst, 0, kConstant + 2, 0), out(0, EngineOp::add, 0, kConstant)});
+  for (int n = 0; n < 512; ++n) m.set_table(n, static_cast<std::uint64_t>(n) + (7ULL << 33));
+  LoadedDevice device(m);
+  const auto expect = [&](const char* what, bool zeros) {
+    INFO(what);
+    const EngineMemory& now = device.twin.memory();
+    for (int n = 0; n < 511; ++n) {
+      INFO("word " << n);
+      CHECK(now.table_at(n) == (zeros && n >= m.line_base ? 0 : m.table_at(n)));
+    }
+    CHECK(now.table_at(511) == (zeros ? 7 : m.table_at(511)));
+  };
+  device.clock(20);
+  expect("after load", false);
+  const auto fill = [&] {
+    for (int n = m.line_base; n < 512; ++n) {
+      device.write(H::high, static_cast<std::uint32_t>(m.table_at(n) >> 32));
+      device.write(H::table + n, static_cast<std::uint32_t>(m.table_at(n)));
+    }
+  };
+  device.write(H::max_age, 2);
+  device.write(H::run, 1);
+  // A word a clock but for the system's turn of six; 5 ms are 250,000 clocks.
+  const std::int64_t begun = device.clocks;
+  REQUIRE(device.until_fresh() > 0);
+  CHECK(device.clocks - begun < 1000);
+  device.clock(3 * kTick);
+  expect("run", true);
+  const auto entered = [&](const char* what) {
+    INFO(what);
+    const std::int64_t from = device.clocks;
+    bool late = false, zero = false, busy = false;
+    device.clock();
+    while (device.out().busy) {
+      busy = true;
+      device.clock();
+      zero = zero || device.out().torque[0] == 0;
+      late = late || device.out().late || device.out().fresh;
+    }
+    CHECK(busy);
+    CHECK(zero);
+    CHECK_FALSE(late);
+    CHECK(device.clocks - from < 200);
+    CHECK(device.clocks - from > 112);
+    REQUIRE(device.until_fresh() > 0);
+    CHECK(device.out().torque[0] == 0);  // what the first run found
+    device.clock(3 * kTick);
+    expect(what, true);
+  };
+  fill();
+  device.in.enter = true;
+  entered("entry");
+  fill();
+  device.in.armed = true;
+  entered("arming");
+  // Amid a run, wherever it is.
+  for (int k = 0; k < 2 * kTick; k += 3) {
+    device.clock(k);
+    device.in.enter = true;
+    entered("entry again");
+  }
+  // Once more while it is under way: from the start.
+  fill();
+  device.in.enter = true;
+  device.clock(60);
+  device.in.enter = true;
+  entered("twice");
+  // One word, and none.
+  for (const int base : {511, 512}) {
+    fill();
+    device.write(H::line_base, static_cast<std::uint32_t>(base));
+    device.in.enter = true;
+    device.clock();
+    device.clock(300);
+    const EngineMemory& now = device.twin.memory();
+    for (int n = 0; n < 511; ++n) CHECK(now.table_at(n) == m.table_at(n));
+    CHECK(now.table_at(511) == (base == 511 ? 7 : m.table_at(511)));
+  }
+  // All of the table: a word a clock but for one in six.
+  device.write(H::line_base, 0);
+  device.in.enter = true;
+  device.clock();
+  int clocks = 1;
+  while (device.out().busy) device.clock(), ++clocks;
+  INFO("clocks " << clocks);
+  CHECK(clocks >= 614);
+  CHECK(clocks <= 622);
+  device.play();
+}
+
 TEST_CASE("engine: events wait, oldest first; those without a place are counted") {
   EngineMemory m;
   program(m, 0,

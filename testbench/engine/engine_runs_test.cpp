@@ -121,7 +121,9 @@ TEST_CASE("engine: every run of every thread is what the interpreter gives") {
       Machine machine(m);
       device.write(H::line_base, static_cast<std::uint32_t>(m.line_base));
       device.write(H::divider0 + thread, 1);
+      device.since = -1000;  // no tick while the lines are cleared
       device.write(H::run, 1U << thread);
+      machine.enter();
       for (int k = 0; k < 12; ++k) {
         while (!device.in.tick) device.clock();
         MachineInputs inputs{};

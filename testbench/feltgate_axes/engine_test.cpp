@@ -3,14 +3,11 @@
 //
 // Axes with their engine: a law on two axes, loaded by the host, RTL against twin in every clock;
 // what arming, ramps and the age monitor make of it. Documentation: docs/blocks/feltgate_axes.md
-#include "../machine/machine_programs.hpp"
-#include "axes_life.hpp"
+#include "axes_law_life.hpp"
 #include "axes_stimulus.hpp"
-#include "feltgate/crc32.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
-using H = EngineMap::H;
 using D = Design;
 
 namespace {
@@ -30,100 +27,6 @@ EngineMemory coupling() {
   }
   return m;
 }
-
-std::uint32_t image_crc(const EngineMemory& m) {
-  std::vector<std::uint8_t> bytes;
-  const auto put = [&bytes](std::uint64_t word, int count) {
-    for (int n = 0; n < count; ++n) bytes.push_back(static_cast<std::uint8_t>(word >> (8 * n)));
-  };
-  for (int n = 0; n < 512; ++n) put(m.program_at(n), 5);
-  for (int n = 384; n < 512; ++n) put(static_cast<std::uint32_t>(m.data_at(n)), 4);
-  for (int n = 0; n < 512; ++n) put(m.table_at(n), 5);
-  return crc32(bytes.data(), bytes.size());
-}
-
-/// Axes whose host loads a law.
-class LawLife : public Life {
- public:
-  void idle() {
-    int n = 0;
-    while (twin().out().reg_busy) {
-      REQUIRE(++n < 20'000);
-      clocks(1);
-    }
-  }
-  void engine(int address, std::uint32_t word) {
-    in.reg_addr = static_cast<std::uint16_t>(axes_engine + address);
-    in.reg_wdata = word;
-    clocks(1);
-    idle();
-    in.reg_write = true;
-    clocks(1);
-    in.reg_write = false;
-    clocks(1);
-    idle();
-  }
-  std::uint32_t engine_word(int address) {
-    in.reg_addr = static_cast<std::uint16_t>(axes_engine + address);
-    clocks(40);
-    in.reg_read = true;
-    clocks(1);
-    in.reg_read = false;
-    return twin().out().reg_rdata;
-  }
-  void parameters(std::int32_t minus, std::int32_t plus) {
-    engine(kParameter, static_cast<std::uint32_t>(minus));
-    engine(kParameter + 1, static_cast<std::uint32_t>(plus));
-    engine(H::commit, 1);
-    clocks(600);
-  }
-  void load(const EngineMemory& m, std::uint32_t crc, std::uint32_t max_age = 10) {
-    for (int n = 0; n < 3; ++n) {
-      engine(H::high, static_cast<std::uint32_t>(m.program_at(n) >> 32));
-      engine(H::program + n, static_cast<std::uint32_t>(m.program_at(n)));
-    }
-    for (int n = 0; n < 2; ++n) {
-      engine(EngineMap::D::lower + n,
-             static_cast<std::uint32_t>(m.data_at(EngineMap::D::lower + n)));
-      engine(EngineMap::D::upper + n,
-             static_cast<std::uint32_t>(m.data_at(EngineMap::D::upper + n)));
-    }
-    engine(H::crc, crc);
-    engine(H::max_age, max_age);
-    parameters(-100, 100);
-    engine(H::run, 1);
-  }
-  void ask(int scene) {
-    for (int n = 0; n < kAxes; ++n) control(n, scene, false);
-    write_all(A::self_test_pulse, 0);
-    write_all(A::ramp_step, 0x7ffffff);
-    write_all(C::command, 1u << C::command_clear_faults);
-    ticks(2);
-    for (int n = 0; n < kAxes; ++n) control(n, scene, true);
-  }
-  bool armed() const { return out(0).armed && out(1).armed; }
-  /// Ticks until both are armed.
-  int until_armed(int limit) {
-    int n = 0;
-    while (!armed() && n < limit) ticks(1), ++n;
-    return n;
-  }
-  void arm_law() {
-    ask(D::S::law);
-    REQUIRE(until_armed(5000) < 5000);
-    ticks(8);
-  }
-  void step(int n, bool up) {
-    phase_[n] += up ? 1u : 3u;
-    const bool a = (phase_[n] & 2u) != 0;
-    axis(n).encoder.a = a;
-    axis(n).encoder.b = ((phase_[n] & 1u) != 0) != a;
-    ticks(1);
-  }
-
- private:
-  unsigned phase_[2] = {0, 0};
-};
 
 const EngineMemory kLaw = coupling();
 const std::uint32_t kCrc = image_crc(kLaw);

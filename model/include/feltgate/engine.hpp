@@ -60,6 +60,7 @@ class Engine {
     outputs_ = Outputs{};
     commit_ = EngineCommit{};
     mailbox_ = EngineMailbox{};
+    lines_ = EngineLines{};
     crc_.reset();
     events_.reset();
     registers_ = Registers{};
@@ -101,21 +102,28 @@ class Engine {
 
     // What is seen in this clock, before anything changes.
     const int thread = barrel_.thread5();
-    const bool started = barrel_.starts(inputs_.request), ended = barrel_.ended(r.run);
+    const bool clearing = lines_.clearing;
+    const unsigned run = clearing ? 0 : r.run;
+    const bool started = barrel_.starts(inputs_.request), ended = barrel_.ended(run);
     const bool free = barrel_.free(), beat = barrel_.beat();
     const bool input_taken = inputs_.wanted() && free;
     const bool host_taken = r.waits && free && !inputs_.wanted();
+    const bool line_free = free && !inputs_.wanted() && !r.waits;
+    const int line_base = barrel_.memory.line_base;
     EngineBarrel::In to = barrel_inputs(in);
+    to.run = run;
 
     // The write that goes on its way now is seen by the barrel in the next clock.
     Written next = written(in, input_taken, host_taken);
+    if (lines_.taken(line_base, line_free)) next.table = true;
+    if (clearing && !inputs_.wanted() && !r.waits) next.address = lines_.address;
     next.word = r.beat && reads_program(in) ? r.program
                 : input_taken ? inputs_.word(in.tick_count, in.position, in.velocity, in.tau_hat)
                 : host_taken  ? r.data
                               : 0;
-    outputs_.clock({write_run, mailbox_late(), r.run != 0, enter, in.tick, r.max_age,
-                    barrel_.result(), barrel_.output(), barrel_.last(), barrel_.thread7(),
-                    barrel_.number() & 3});
+    outputs_.clock({write_run || clearing, mailbox_late(), r.run != 0, enter || clearing, in.tick,
+                    r.max_age, barrel_.result(), barrel_.output(), barrel_.last(),
+                    barrel_.thread7(), barrel_.number() & 3});
     events_.clock(barrel_.event(), {barrel_.number(), barrel_.result(), in.tick_count},
                   in.read && addr == H::event_tick);
     const bool was_committing = commit_.committing();
@@ -131,8 +139,9 @@ class Engine {
     const std::uint32_t result = static_cast<std::uint32_t>(barrel_.result());
     crc_.clock({in.crc_start, was_checking, beat, std::uint64_t{high} << 32 | result,
                 barrel_.memory.line_base, r.crc});
-    const bool overrun = inputs_.due_again(r.run);
-    inputs_.clock({r.run, in.tick, open && addr >= H::divider0 && addr <= H::divider3,
+    const bool overrun = inputs_.due_again(run);
+    lines_.clock(enter, line_base, line_free);
+    inputs_.clock({run, in.tick, open && addr >= H::divider0 && addr <= H::divider3,
                    (addr - H::divider0) & 3, static_cast<int>(in.wdata & 0xfffU), started, ended,
                    thread, input_taken});
 
@@ -191,7 +200,9 @@ class Engine {
     return (registers_.mailbox_first & EngineMap::parameter_words) == 0;
   }
   bool mailbox_late() const { return mailbox_.late(watches_mailbox()); }
-  bool busy() const { return registers_.waits || commit_.checking || crc_.busy(); }
+  bool busy() const {
+    return registers_.waits || commit_.checking || crc_.busy() || lines_.clearing;
+  }
   bool crc_was_program(const In&) const { return crc_.reads_program(); }
   bool reads_program(const In& in) const {
     return !commit_.checking && (crc_.reads ? crc_.reads_program() : (in.addr >> 9 & 1U) != 0);
@@ -298,6 +309,7 @@ class Engine {
   Outputs outputs_;
   EngineCommit commit_;
   EngineMailbox mailbox_;
+  EngineLines lines_;
   EngineCrc crc_;
   EngineEvents events_;
   Registers registers_;

@@ -276,6 +276,34 @@ class EngineMailbox {
   bool late_ = true;  // nothing was fed
 };
 
+/// Twin of rtl/engine/engine_lines.sv.
+class EngineLines {
+ public:
+  bool clearing = false;
+  int address = 0;
+
+  bool taken(int line_base, bool free) const {
+    return clearing && wait_ == 0 && free && line_base < EngineMap::table_words;
+  }
+
+  void clock(bool enter, int line_base, bool free) {
+    const bool takes = taken(line_base, free);
+    const bool none = line_base >= EngineMap::table_words;
+    if (wait_ > 0) --wait_;
+    if (enter) {
+      clearing = !none;
+      wait_ = 2;
+      address = EngineMap::table_words - 1;
+      return;
+    }
+    if (none || (takes && address == line_base)) clearing = false;
+    if (takes) address = (address - 1) & (EngineMap::table_words - 1);
+  }
+
+ private:
+  int wait_ = 0;
+};
+
 /// Twin of rtl/engine/engine_crc.sv.
 class EngineCrc {
  public:

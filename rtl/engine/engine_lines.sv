@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Fills the lines, table words from line_base on, with zeros where states begin anew; no thread runs
+// meanwhile. docs/blocks/engine.md
+
+`default_nettype none
+
+module engine_lines (
+    input  logic       clk_i,
+    input  logic       rst_ni,
+    input  logic       enter_i,
+    input  logic [9:0] line_base_i,
+    input  logic       free_i,      // a word could be written
+    output logic       clearing_o,
+    output logic       taken_o,     // it is, in this clock
+    output logic [8:0] address_o
+);
+  // Two clocks until what the threads had begun is ahead.
+  logic [1:0] wait_q;
+  assign taken_o = clearing_o && !wait_q[1] && free_i && !line_base_i[9];
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      clearing_o <= 1'b0;
+      wait_q     <= '0;
+      address_o  <= '0;
+    end else begin
+      wait_q <= {wait_q[0], 1'b0};
+      if (enter_i) begin
+        clearing_o <= !line_base_i[9];
+        wait_q     <= '1;
+        address_o  <= '1;
+      end else begin
+        if (taken_o) address_o <= address_o - 9'd1;
+        if (line_base_i[9] || (taken_o && address_o == line_base_i[8:0])) clearing_o <= 1'b0;
+      end
+    end
+  end
+endmodule
+
+`default_nettype wire

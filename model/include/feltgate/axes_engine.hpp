@@ -10,7 +10,7 @@
 #include <cstdint>
 
 #include "feltgate/axes_ports.hpp"
-#include "feltgate/engine.hpp"
+#include "feltgate/engine_runs.hpp"
 #include "feltgate/generated/map.hpp"
 
 namespace feltgate {
@@ -32,6 +32,18 @@ class NoAxesEngine {
     }
   }
   void show(const AxesIn<N>&, AxesOut<N>&) const {}
+
+  // From event to event: the torques are given.
+  template <class Cores>
+  bool by_runs(const AxesIn<N>&, const Cores&, const std::array<CoreIn, N>&) {
+    return true;
+  }
+  bool may_tick(int) const { return true; }
+  void torques(int, std::array<CoreIn, N>&) const {}
+  template <class Cores>
+  void tick(int, const Cores&) {}
+  template <class Cores>
+  void advance(int, const Cores&) {}
 };
 
 /// The engine, the check of its programs at each arming, and when a torque may jump.
@@ -42,11 +54,16 @@ class AxesEngine {
 
   AxesEngine() { reset(); }
 
-  EngineOf& engine() { return engine_; }
+  EngineOf& engine() { return runs_.clocked(); }
+  const EngineWatch& watch() const { return runs_.watch(); }
+  /// Whether it goes run by run at present.
+  bool runs_whole() const { return runs_.on(); }
+  /// It would not take a write.
+  bool busy() const { return out_.busy; }
 
   void reset() {
-    engine_.reset();
-    out_ = engine_.out();
+    runs_.reset();
+    out_ = runs_.clocked().out();
     state_ = {};
   }
 
@@ -96,7 +113,7 @@ class AxesEngine {
     to.write = in.reg_write && addressed;
     to.read = in.reg_read && addressed;
 
-    const typename EngineOf::Out before = engine_.peek(to);
+    const typename EngineOf::Out before = runs_.clocked().peek(to);
     s.rdata = addressed ? before.rdata : 0;
     s.rdata_known = !addressed || before.rdata_known;
     if (shown && !all_ask) {
@@ -114,8 +131,60 @@ class AxesEngine {
     }
     s.law = law;
     s.armed = armed;
-    engine_.clock(to);
-    out_ = engine_.out();
+    runs_.clock(to);
+    runs_.show(&out_);
+  }
+
+  // From event to event.
+  /// Whether to the end of the tick nothing changes the engine but the tick itself, and the engine
+  /// goes run by run. The inputs hold.
+  template <class Cores>
+  bool by_runs(const AxesIn<N>& in, const Cores& cores, const std::array<CoreIn, N>& each) {
+    State& s = state_;
+    if (s.runs != 0 || !s.sampled || s.checks || in.reg_write || in.reg_read ||
+        is_engine(in.reg_addr)) {
+      return false;
+    }
+    bool law = false, armed = false, all_ask = true;
+    for (std::size_t n = 0; n < N; ++n) {
+      law |= in_law(cores[n]);
+      armed |= cores[n].out().armed;
+      all_ask &= cores[n].asks(each[n]);
+    }
+    const bool settled = all_ask ? s.checked : !s.checked && !s.check_of_these;
+    if (law != s.law || (armed && !s.armed) || !settled) return false;
+    s.armed = armed;
+    s.rdata = 0;
+    s.rdata_known = true;
+    typename EngineOf::In to;
+    to.armed = armed;
+    to.tick = cores[0].measured();
+    to.tick_count = cores[0].out().tick_count;
+    to.addr = in.reg_addr & 0xfffu;
+    return runs_.enter(to, cores[0].clock_of_tick());
+  }
+  /// Whether tick() may be called for the clock `ahead` of this one; if not, clock by clock.
+  bool may_tick(int ahead) {
+    const bool may = runs_.may_tick(ahead);
+    if (!may) runs_.give_up();
+    return may;
+  }
+  /// The torques that the cores take in the clock `ahead` of this one.
+  void torques(int ahead, std::array<CoreIn, N>& each) {
+    const auto& torque = runs_.torque(ahead);
+    for (std::size_t n = 0; n < N; ++n) each[n].law_torque = torque[n];
+  }
+  /// The clock `ahead` of this one is that of a tick, of which the cores hold what they measured.
+  template <class Cores>
+  void tick(int ahead, const Cores& cores) {
+    Axes tau_hat;
+    for (std::size_t n = 0; n < N; ++n) tau_hat[n] = cores[n].out().tau_hat;
+    runs_.tick(ahead, positions(cores), velocities(cores), tau_hat);
+  }
+  template <class Cores>
+  void advance(int clocks, const Cores& cores) {
+    runs_.advance(clocks, positions(cores), velocities(cores));
+    runs_.show(&out_);
   }
 
   void show(const AxesIn<N>& in, AxesOut<N>& out) const {
@@ -137,13 +206,35 @@ class AxesEngine {
     bool rdata_known = true;
   };
 
+  using Axes = typename EngineOf::Inputs::Axes;
+
+  template <class Cores>
+  static Axes positions(const Cores& cores) {
+    Axes axes;
+    for (std::size_t n = 0; n < N; ++n) axes[n] = cores[n].out().position;
+    return axes;
+  }
+  template <class Cores>
+  static Axes velocities(const Cores& cores) {
+    Axes axes;
+    for (std::size_t n = 0; n < N; ++n) {
+      axes[n] = static_cast<std::int32_t>(cores[n].out().velocity);
+    }
+    return axes;
+  }
   static bool is_engine(std::uint16_t address) { return address >> 12 == axes_engine >> 12; }
   template <class Core>
   static bool in_law(const Core& core) {
     return core.out().scene == Map::S::law;
   }
 
-  EngineOf engine_{D::engine_max_age};
+  using Runs = law::EngineRuns<N, D::f.torque.width()>;
+  // The snapshot is shown a clock before its step.
+  static constexpr law::RunTiming kTiming{D::clocks_per_tick, Map::T::tau_hat - Map::T::sample,
+                                          Map::T::tau_hat - Map::T::velocity,
+                                          Map::T::snapshot - Map::T::tau_hat - 2};
+
+  Runs runs_{D::engine_max_age, kTiming};
   typename EngineOf::Out out_;
   State state_;
 };

@@ -170,6 +170,9 @@ class Engine {
   }
 
  private:
+  template <int Axes, int Width>
+  friend class EngineRuns;
+
   static constexpr int kKnown = 40;
   static constexpr int kZero = EngineMap::private_words - 1;
 

@@ -12,6 +12,11 @@
 #include "feltgate/engine_memory.hpp"
 #include "feltgate/engine_ops.hpp"
 
+namespace feltgate::law {
+template <int AxisCount, int TorqueW>
+class EngineRuns;
+}  // namespace feltgate::law
+
 namespace feltgate {
 
 /// Clocked twin of the engine's machine.
@@ -83,6 +88,9 @@ class EngineBarrel {
   }
 
  private:
+  template <int AxisCount, int TorqueW>
+  friend class law::EngineRuns;
+
   /// An instruction, or a turn without one, on its way.
   struct Turn {
     int turn = 0;

@@ -12,6 +12,11 @@
 
 #include "feltgate/generated/engine.hpp"
 
+namespace feltgate::law {
+template <int AxisCount, int TorqueW>
+class EngineRuns;
+}  // namespace feltgate::law
+
 namespace feltgate {
 
 /// Twin of rtl/engine/engine_inputs.sv.
@@ -102,6 +107,9 @@ class EngineInputs {
   }
 
  private:
+  template <int Axes, int TorqueW>
+  friend class law::EngineRuns;
+
   bool due(unsigned run) const {
     return counting_ && counts_[static_cast<std::size_t>(counted_)] <= 1 &&
            (run >> counted_ & 1U) != 0;
@@ -170,6 +178,9 @@ class EngineOutputs {
   }
 
  private:
+  template <int Axes, int Width>
+  friend class law::EngineRuns;
+
   struct Axis {
     std::int32_t next = 0;
     int by = 0;
@@ -272,6 +283,9 @@ class EngineMailbox {
   }
 
  private:
+  template <int AxisCount, int TorqueW>
+  friend class law::EngineRuns;
+
   unsigned age_ = 0;
   bool late_ = true;  // nothing was fed
 };
@@ -361,6 +375,9 @@ class EngineCrc {
   }
 
  private:
+  template <int AxisCount, int TorqueW>
+  friend class law::EngineRuns;
+
   bool waits_ = false, read_ = false;
   int part_ = 0, left_ = 0, beats_ = 0;
   std::uint64_t word_ = 0;

@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "feltgate/axes_engine.hpp"
+#include "feltgate/core_steps.hpp"
 #include "feltgate/feltgate_core.hpp"
 
 namespace feltgate {
@@ -49,18 +50,10 @@ class FeltgateAxes {
   template <class OnSnapshot>
   void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
     while (clocks > 0) {
-      const std::array<CoreIn, N> each = inputs(in);
-      const int left = D::clocks_per_tick - clock_of_tick();
-      std::int64_t step = WithEngine ? 1 : std::min<std::int64_t>(clocks, left);
+      std::array<CoreIn, N> each = inputs(in);
       bool snapshot = false;
-      if (apart(each, step == left)) {
-        for (std::size_t n = 0; n < N; ++n) {
-          cores_[n].run(each[n], step, [&, n] {
-            out_.axis[n] = cores_[n].out();
-            snapshot = true;
-          });
-        }
-      } else {
+      int step = pass(in, each, clocks, &snapshot);
+      if (step == 0) {
         step = 1;
         glue_.clock(in, cores_, each);
         for (std::size_t n = 0; n < N; ++n) {
@@ -84,8 +77,57 @@ class FeltgateAxes {
   bool measured() const { return cores_[0].measured(); }
   /// The engine; only with WithEngine.
   auto& engine() { return glue_.engine(); }
+  /// What lies between engine and cores.
+  const Glue& glue() const { return glue_; }
+  /// For `clocks` clocks neither a duty in force nor an enable of gates changes, as
+  /// FeltgateCore::calm().
+  bool calm(const In& in, std::int64_t clocks) {
+    const std::array<CoreIn, N> each = inputs(in);
+    if (clock_of_tick() != 0 || !glue_.by_runs(in, cores_, each) || !glue_.may_tick(kMeasured)) {
+      return false;
+    }
+    for (std::size_t n = 0; n < N; ++n) {
+      if (!cores_[n].calm(each[n], clocks)) return false;
+    }
+    return true;
+  }
 
  private:
+  /// The clock of a tick in which the cores have measured; they take torques in that before it.
+  static constexpr int kMeasured = core_steps::clock_of(Map::T::tau_hat) + 1;
+  static_assert(kMeasured == core_steps::clock_of(Map::T::law_torque) + 1);
+
+  /// At most `clocks` clocks from event to event, at most to the end of the tick; 0 where the next
+  /// one is not to be passed.
+  int pass(const In& in, std::array<CoreIn, N>& each, std::int64_t clocks, bool* snapshot) {
+    constexpr int tick = D::clocks_per_tick;
+    const int from = clock_of_tick();
+    int to = static_cast<int>(std::min<std::int64_t>(tick, from + clocks));
+    if (WithEngine) {
+      if (!glue_.by_runs(in, cores_, each)) return 0;
+      for (const Core& core : cores_) {
+        if (from == tick - 1 && core.zeroed()) return 0;
+        if (!core.at_rest() && from < tick - 1) to = std::min(to, tick - 1);
+      }
+      // Torques are given for the whole stretch, measurements looked at after it.
+      if (from < kMeasured && (from != 0 || to != tick)) to = std::min(to, kMeasured);
+    }
+    if (!apart(each, to == tick)) return 0;
+    const bool takes = from < kMeasured && kMeasured <= to;
+    const bool measures = from <= kMeasured && kMeasured < to;
+    if (measures && !glue_.may_tick(kMeasured - from)) return 0;
+    if (takes) glue_.torques(kMeasured - 1 - from, each);
+    for (std::size_t n = 0; n < N; ++n) {
+      cores_[n].run(each[n], to - from, [&, n] {
+        out_.axis[n] = cores_[n].out();
+        *snapshot = true;
+      });
+    }
+    if (measures) glue_.tick(kMeasured - from, cores_);
+    glue_.advance(to - from, cores_);
+    return to - from;
+  }
+
   /// What each core is given in the clock to come: pins, port, and what the others say.
   std::array<CoreIn, N> inputs(const In& in) const {
     std::array<CoreIn, N> each;
@@ -118,7 +160,6 @@ class FeltgateAxes {
   /// Whether up to the end of the tick nothing that an axis does concerns the others: no gates
   /// fall, and where the tick ends none are armed.
   bool apart(const std::array<CoreIn, N>& each, bool ends) const {
-    if (WithEngine) return false;
     if (N == 1) return true;
     bool enabled = false;
     for (const Core& core : cores_) enabled |= core.out().gates_enable;

@@ -148,6 +148,8 @@ class FeltgateCore {
   /// In the clock to come the position becomes 0.
   bool zeroed() const { return clock_ == D::clocks_per_tick - 1 && registers_.sets_zero(); }
   bool ready() const { return supervisor_.ready(); }
+  /// No write or command waits for the end of the tick.
+  bool at_rest() const { return registers_.at_rest(); }
   /// Register writes carried out so far.
   std::int64_t writes() const { return writes_; }
   /// The clock of the tick that comes next, 0 .. clocks_per_tick - 1.

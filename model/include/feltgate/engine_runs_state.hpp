@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// How runs taken as a whole begin from the engine's clocked twin, and how it goes on after them.
+// Included by engine_runs.hpp. Documentation: docs/blocks/engine.md
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "feltgate/engine_runs.hpp"
+
+namespace feltgate::law {
+
+template <int AxisCount, int TorqueW>
+bool EngineRuns<AxisCount, TorqueW>::enter(const In& in, int clock_of_tick) {
+  if (on_) {  // nothing changes but by ticks
+    if (addr_ != in.addr) addr_since_ = now_;
+    addr_ = in.addr;
+    armed_ = in.armed;
+    return true;
+  }
+  if (rest_ > 0 || !at_start(in)) return false;
+  const auto& r = engine_.registers_;
+  run_ = r.run;
+  thread_ = run_ == 0 ? 0 : engine_.barrel_.thread5();
+  for (int k = 0; k < 6; ++k) {
+    const int turn = stage(k).turn;
+    if (turn == EngineBarrel::kSystem) system_ = k;
+    if (turn == thread_) own_ = k;
+  }
+  now_ = addr_since_ = 0;
+  ticks_.begin(in.tick_count, clock_of_tick);
+  addr_ = in.addr;
+  armed_ = r.armed;
+  program_.begin(thread_, engine_.commit_.bank);
+  writes_.clear();
+  events_.clear();
+  coming_ = 0;
+  begins_at_ = fresh_at_ = start_ = never;
+  endless_ = loading_ = false;
+  state_ = {};
+  state_.torque = engine_.outputs_.torque;
+  state_.renewed = engine_.outputs_.renewed_;
+  state_.age = engine_.outputs_.age_;
+  state_.count = engine_.inputs_.counts_[static_cast<std::size_t>(thread_)];
+  state_.first = r.first;
+  state_.overrun = r.overrun;
+  state_.mail_age = engine_.mailbox_.age_;
+  state_.mail_late = engine_.mailbox_.late_;
+  late_ = engine_.outputs_.late;
+  silent_ = engine_.mailbox_late();
+  end_ = never;
+  land_inputs();
+  base_ = last_ = state_;
+  on_ = true;
+  if (run_ != 0) {
+    shortest_ = program_.shortest(engine_.barrel_.memory, ticks_.long_run());
+    execute(0);
+  }
+  if (endless_) give_up();
+  return on_;
+}
+
+template <int AxisCount, int TorqueW>
+void EngineRuns<AxisCount, TorqueW>::leave() {
+  if (!on_) return;
+  on_ = false;
+  writes_.take_back(engine_.barrel_.memory);
+  adopt();
+  In in;
+  in.armed = armed_;
+  in.addr = addr_;
+  std::size_t next = 0;
+  for (std::int64_t n = base_.clock; n < now_; ++n) {
+    next = ticks_.at_or_after(n, next);
+    in.tick = ticks_.is_tick(n, next);
+    in.tick_count = ticks_.count_at(n);
+    in.position = ticks_.position(n, next);
+    in.velocity = ticks_.velocity(n, next);
+    in.tau_hat = ticks_.tau_hat(n, next);
+    const bool ran = engine_.running(0);
+    engine_.clock(in);
+    // A run whose inputs were late has not been told yet.
+    if (engine_.running(0) && !ran && ticks_.beyond(n, next)) watch_.begin(in.tick_count);
+  }
+  // What was read before the address changed is nobody's.
+  auto& clocks = engine_.registers_.clocks;
+  clocks = static_cast<int>(std::min<std::int64_t>(clocks, now_ - addr_since_));
+  watch_.running = engine_.running(0);
+  if (fresh_at_ != now_) watch_.ended_before = watch_.ended;
+}
+
+/// A run starts, or none runs, and nothing else is under way.
+template <int AxisCount, int TorqueW>
+bool EngineRuns<AxisCount, TorqueW>::at_start(const In& in) const {
+  const auto& r = engine_.registers_;
+  const auto& inputs = engine_.inputs_;
+  const auto& outputs = engine_.outputs_;
+  if ((r.run & (r.run - 1)) != 0 || r.waits || engine_.busy() || engine_.commit_.committing() ||
+      engine_.crc_.read_ || in.armed != r.armed || in.tick || engine_.mailbox_.jumps ||
+      inputs.counting_ || inputs.loading_ || inputs.written_ || inputs.due_ != 0 || outputs.ends_ ||
+      outputs.fresh) {
+    return false;
+  }
+  for (const auto& axis : outputs.axes_) {
+    if (axis.waits) return false;
+  }
+  for (const auto& turn : engine_.barrel_.at_) {
+    if (turn.valid) return false;
+  }
+  return r.run == 0 ? inputs.request == 0 && inputs.running == 0 && !r.written.data
+                    : inputs.request == r.run && inputs.running == r.run &&
+                          engine_.barrel_.starts(inputs.request);
+}
+
+/// The last word of the inputs may still be on its way.
+template <int AxisCount, int TorqueW>
+void EngineRuns<AxisCount, TorqueW>::land_inputs() {
+  const auto& w = engine_.registers_.written;
+  for (const int k : {6, 5, 4}) {
+    if (!stage(k).writes_data) continue;
+    write(stage(k).address, k == 6 ? stage(k).result : static_cast<std::int32_t>(stage(k).extra));
+  }
+  if (w.data) write(w.address, static_cast<std::int32_t>(w.word));
+}
+
+/// The clocked twin to the state of base_: before the start of a run, nothing under way.
+template <int AxisCount, int TorqueW>
+void EngineRuns<AxisCount, TorqueW>::adopt() {
+  if (base_.clock == 0) return;
+  auto& barrel = engine_.barrel_;
+  const auto turns = static_cast<int>(base_.clock % stages);
+  std::array<int, 8> turn{};
+  for (int k = 0; k < 8; ++k) {
+    turn[static_cast<std::size_t>(k)] = stage((k - turns + 2 * stages) % stages).turn;
+  }
+  for (std::size_t k = 0; k < turn.size(); ++k) {
+    barrel.at_[k] = {};
+    barrel.at_[k].turn = turn[k];
+  }
+  barrel.acc_ = {};
+  auto& inputs = engine_.inputs_;
+  inputs.request = inputs.running = run_;
+  inputs.loading_ = inputs.written_ = false;
+  inputs.due_ = base_.due ? run_ : 0;
+  inputs.word_ = 0;
+  inputs.counted_ = ticks_.counted(base_.clock);
+  inputs.counting_ = inputs.counted_ >= 0;
+  if (!inputs.counting_) inputs.counted_ = 0;
+  inputs.counts_ = {};
+  inputs.counts_[static_cast<std::size_t>(thread_)] = run_ == 0 ? 0 : base_.count;
+  auto& outputs = engine_.outputs_;
+  outputs.torque = base_.torque;
+  outputs.fresh = outputs.ends_ = false;
+  for (auto& axis : outputs.axes_) axis.waits = false;
+  outputs.renewed_ = base_.renewed;
+  outputs.age_ = base_.age;
+  engine_.mailbox_.age_ = base_.mail_age;
+  engine_.mailbox_.late_ = base_.mail_late;
+  engine_.registers_.written = {};
+  engine_.registers_.first = base_.first;
+  engine_.registers_.overrun = base_.overrun;
+}
+
+}  // namespace feltgate::law

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Axes with their engine twice, clock by clock and from event to event, and someone who plays with
+// them. Documentation: docs/blocks/feltgate_axes.md
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "catch.hpp"
+#include "feltgate/feltgate_axes.hpp"
+#include "feltgate/generated/lever_law.hpp"
+#include "law/image.hpp"
+#include "random.hpp"
+
+namespace feltgate::test {
+
+using D = LeverLaw;
+using C = D::C;
+using H = EngineMap::H;
+
+/// Everything that a host sees after a clock, and what the engine's runs are of.
+template <int N>
+void same(AxesOut<N> a, AxesOut<N> b, const EngineWatch& x, const EngineWatch& y, bool snapshot) {
+  for (std::size_t n = 0; n < N; ++n) {
+    for (CoreOut* o : {&a.axis[n], &b.axis[n]}) {
+      if (!snapshot) continue;  // amid a stretch the words are not shown one by one
+      o->reg_rdata = o->word_data = o->word_slot = 0;
+      o->reg_busy = o->word_valid = false;
+    }
+    INFO("axis " << n);
+    if (!(a.axis[n] == b.axis[n])) {
+      CAPTURE(a.axis[n].tau_ref, b.axis[n].tau_ref, a.axis[n].faults, b.axis[n].faults);
+      FAIL("by events the outputs are not those by clocks");
+    }
+  }
+  if (snapshot && (x.begins != y.begins || x.in_force != y.in_force ||
+                   x.changes_at_begin != y.changes_at_begin)) {
+    CAPTURE(x.begins, y.begins, x.in_force.value_or(7), y.in_force.value_or(7), x.changes_at_begin,
+            y.changes_at_begin, snapshot, a.axis[0].tick_count);
+    FAIL("another run is behind the torque");
+  }
+  if (snapshot) return;
+  if (a.reg_busy != b.reg_busy) FAIL("busy");
+  if (a.rdata_known && b.rdata_known && a.reg_rdata != b.reg_rdata) {
+    CAPTURE(a.reg_rdata, b.reg_rdata);
+    FAIL("read data");
+  }
+  if (a.event_valid != b.event_valid) FAIL("an event");
+  if (a.event_valid && (a.event_number != b.event_number || a.event_value != b.event_value)) {
+    FAIL("an event's number or value");
+  }
+  if (x.ended != y.ended || x.changes != y.changes) FAIL("another run has ended");
+}
+
+template <int N>
+class Both {
+ public:
+  using Axes = FeltgateAxes<D, N, true, true>;
+  AxesIn<N> in;
+  Axes by_clock, by_event;
+  std::int64_t done = 0, whole = 0;
+
+  void run(std::int64_t clocks) {
+    struct Shown {
+      AxesOut<N> out;
+      EngineWatch watch;
+    };
+    std::vector<Shown> shown;
+    for (std::int64_t k = 0; k < clocks; ++k) {
+      by_clock.clock(in);
+      if (by_clock.out().axis[0].snapshot_valid) {
+        shown.push_back({by_clock.out(), by_clock.glue().watch()});
+      }
+    }
+    INFO("clock " << done << ", " << clocks << " clocks, clock of tick "
+                  << by_clock.clock_of_tick());
+    std::size_t next = 0;
+    if (in.reg_write || in.reg_read) {
+      by_event.clock(in);
+      next = shown.size();
+    } else {
+      by_event.run(in, clocks, [&] {
+        REQUIRE(next < shown.size());
+        same<N>(shown[next].out, by_event.out(), shown[next].watch, by_event.glue().watch(), true);
+        ++next;
+      });
+    }
+    REQUIRE(next == shown.size());
+    same<N>(by_clock.out(), by_event.out(), by_clock.glue().watch(), by_event.glue().watch(),
+            false);
+    done += clocks;
+    if (by_event.glue().runs_whole()) whole += clocks;
+  }
+  void write(int address, std::uint32_t word) {
+    in.reg_addr = static_cast<std::uint16_t>(address);
+    in.reg_wdata = word;
+    for (int n = 0; (by_clock.out().reg_busy || n == 0) && n < 20'000; ++n) run(1);
+    in.reg_write = true;
+    run(1);
+    in.reg_write = false;
+    for (int n = 0; (by_clock.out().reg_busy || n == 0) && n < 20'000; ++n) run(1);
+  }
+  void engine(int address, std::uint32_t word) { write(axes_engine + address, word); }
+  void core(int n, int address, std::uint32_t word) { write(n * axes_stride + address, word); }
+  void control(int n, int scene, bool arm) {
+    core(n, C::control,
+         1U << C::control_host | static_cast<unsigned>(arm) << C::control_arm |
+             static_cast<unsigned>(scene) << C::control_scene);
+  }
+  void arm(int scene) {
+    for (int n = 0; n < N; ++n) {
+      core(n, D::A::self_test_pulse, 0);
+      core(n, D::A::ramp_step, 0x7ffffff);
+      core(n, C::command, 1U << C::command_clear_faults);
+    }
+    for (int n = 0; n < N; ++n) control(n, scene, true);
+    in.reg_addr = 0;
+    for (int k = 0; k < 1300 && !by_clock.out().axis[0].armed; ++k) run(D::clocks_per_tick);
+  }
+  void memories() {
+    const EngineMemory &a = by_clock.engine().memory(), &b = by_event.engine().memory();
+    if (a.data != b.data) FAIL("data");
+    if (a.table != b.table) FAIL("table");
+  }
+  void step(std::size_t n, bool up) {
+    phase_[n] += up ? 1u : 3u;
+    const bool a = (phase_[n] & 2u) != 0;
+    in.axis[n].encoder.a = a;
+    in.axis[n].encoder.b = ((phase_[n] & 1u) != 0) != a;
+  }
+
+ private:
+  std::array<unsigned, N> phase_{};
+};
+
+/// Memories go in at once; registers by the port, so that their CRC and ranges are looked at.
+template <int N>
+void load(Both<N>& b, const EngineMemory& m, unsigned run, unsigned divider, unsigned max_age) {
+  b.by_clock.engine().memory() = m;
+  b.by_event.engine().memory() = m;
+  for (int t = 0; t < 4; ++t) b.engine(H::divider0 + t, divider);
+  b.engine(H::line_base, static_cast<std::uint32_t>(m.line_base));
+  b.engine(H::max_age, max_age);
+  law::Image image;
+  image.program = m.program;
+  image.data = m.data;
+  image.table = m.table;
+  image.line_base = m.line_base;
+  b.engine(H::crc, law::crc(image));
+  b.engine(H::run, run);
+  b.in.reg_addr = 0;
+}
+
+/// Someone moves the levers, the host meddles.
+template <int N>
+void live(Both<N>& b, Random& random, int stretches, bool meddles) {
+  std::int64_t pace = 200;
+  for (int k = 0; k < stretches; ++k) {
+    if (random.one_in(50)) pace = std::int64_t{20} << random.below(7);
+    const std::size_t n = random.below(N);
+    if (!random.one_in(4)) b.step(n, random.below(10) < 6);
+    std::int64_t clocks = 1 + random.below(static_cast<std::uint64_t>(pace));
+    if (random.one_in(10)) clocks = 1 + random.below(4000);
+    if (random.one_in(3)) clocks = D::clocks_per_tick - b.by_clock.clock_of_tick();
+    b.run(clocks);
+    if (random.one_in(60)) b.memories();
+    if (!meddles || !random.one_in(25)) continue;
+    const auto some = static_cast<int>(n);
+    switch (random.below(10)) {
+      case 0:
+        for (int w = 0; w < 4; ++w) b.engine(EngineMap::D::parameter + w, random.below(3));
+        b.engine(H::commit, 1);
+        break;
+      case 1:
+        b.core(some, D::A::ramp_step, 0x7ffffff - random.below(5));
+        break;
+      case 2:  // reads, at once or in time
+        b.in.reg_addr = static_cast<std::uint16_t>(axes_engine + random.below(0xa20));
+        b.run(1 + random.below(60));
+        b.in.reg_read = true;
+        b.run(1);
+        b.in.reg_read = false;
+        break;
+      case 3:
+        b.in.axis[n].set_zero = true;
+        b.in.reg_write = true;  // a clock of its own
+        b.in.reg_addr = 0x3fff;
+        b.run(1);
+        b.in.axis[n].set_zero = false;
+        b.in.reg_write = false;
+        break;
+      case 4:
+        b.control(some, random.coin() ? D::S::law : D::S::setpoint, random.below(3) != 0);
+        break;
+      case 5:
+        b.arm(D::S::law);
+        break;
+      case 6:
+        b.in.stop = random.one_in(3);
+        break;
+      case 7:
+        b.engine(H::max_age, random.below(12));
+        b.engine(H::mailbox_first, random.below(64));
+        b.engine(H::mailbox_age, random.below(8));
+        break;
+      default:
+        break;
+    }
+    if (!random.one_in(5)) b.in.reg_addr = static_cast<std::uint16_t>(random.below(0x300));
+    if (!random.one_in(4)) b.in.stop = false;
+  }
+}
+
+}  // namespace feltgate::test

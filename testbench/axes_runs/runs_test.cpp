@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The twin of axes with their engine from event to event against its clocks, random programs: the
+// same outputs at the end of every stretch and in every snapshot, the same memories, the same run
+// behind every torque. Documentation: docs/blocks/feltgate_axes.md
+#include <algorithm>
+#include <memory>
+
+#include "../machine/machine_programs.hpp"
+#include "both.hpp"
+#include "mismatch.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+/// A program that ends, mostly: random words, branches forward but for some.
+EngineMemory random_program(Random& random, int length) {
+  EngineMemory m;
+  m.line_base = random.coin() ? 512 : 400;
+  for (auto& word : m.table) word = random.bits() >> 28;
+  for (int n = 448; n < 512; ++n) m.set_data(n, static_cast<std::int32_t>(random.bits() >> 40));
+  for (int t = 0; t < 4; ++t) {
+    for (int n = 0; n < length; ++n) {
+      EngineInstruction i = engine_decode(random.bits() >> 28);
+      const int at = t * EngineMap::thread_words + n;
+      i.last = n + 1 == length || random.one_in(40);
+      if (i.op == EngineOp::brf) {
+        i.b = std::min(at + 1 + static_cast<int>(random.below(4)), at - n + length - 1);
+        if (random.one_in(300)) i.b = at;
+      }
+      if (random.one_in(3)) i.a = 48 + static_cast<int>(random.below(10));
+      if (i.dst == 2) i.d = static_cast<int>(random.below(3));
+      if (i.dst == 1 && random.coin()) i.d = static_cast<int>(random.below(40));
+      if (n + 3 >= length) i.dst = 2;  // mostly a run renews all outputs
+      if (n + 3 >= length) i.d = length - 1 - n;
+      m.set_program(at, engine_encode(i));
+    }
+  }
+  return m;
+}
+
+template <int N>
+void random_programs(std::uint64_t seed, int programs) {
+  Random random(seed);
+  std::int64_t done = 0, whole = 0;
+  for (int k = 0; k < programs; ++k) {
+    auto b = std::make_unique<Both<N>>();
+    const int length = 1 + static_cast<int>(random.below(random.coin() ? 8 : 30));
+    const unsigned rounds = static_cast<unsigned>(length) * 6 / 50 + 1;
+    const unsigned divider = random.one_in(4) ? random.below(6) : rounds + random.below(3);
+    const unsigned run = random.one_in(6) ? random.below(16) : 1U << random.below(4);
+    INFO("program " << k << ", length " << length << ", divider " << divider << ", run " << run);
+    load<N>(*b, random_program(random, length), run, divider,
+            random.one_in(4)   ? random.below(4)
+            : random.one_in(2) ? 30
+                               : 4000);
+    live<N>(*b, random, 60, true);
+    if (random.one_in(3)) {
+      b->engine(H::mailbox_first, random.below(32));
+      b->engine(H::mailbox_age, random.below(6));
+    }
+    b->arm(D::S::law);
+    b->engine(H::commit, 1);
+    b->in.reg_addr = 0;
+    live<N>(*b, random, 150, false);
+    live<N>(*b, random, 250, true);
+    done += b->done;
+    whole += b->whole;
+  }
+  INFO("clocks " << done << ", run by run " << whole);
+  CHECK(whole > done / 10);
+}
+
+}  // namespace
+
+TEST_CASE("axes by runs: a few random programs", "[few]") {
+  random_programs<1>(1, 4);
+  random_programs<2>(2, 1);
+}
+
+TEST_CASE(
+    "axes by runs: starts that are late, long and short runs in turns, looked at in any clock",
+    "[few]") {
+  Random random(1);
+  for (int k = 0; k < 14; ++k) {
+    const int length = 9 + k / 2;
+    const bool branches = k % 2 == 0;
+    EngineMemory m;
+    program(m, 0,
+            {word(EngineOp::cmp, 0, kPosition, kConstant + 1),
+             word(branches ? EngineOp::brf : EngineOp::add, 0, 0, length)});
+    for (int n = 2; n < length; ++n) {
+      m.set_program(n, engine_encode(to(n, EngineOp::add, n - 1, EngineMap::input_tick)));
+    }
+    m.set_program(length, engine_encode(out(0, EngineOp::add, kPosition, EngineMap::input_tick)));
+    m.set_data(kConstant + 1, 1);
+    Both<1> b;
+    load<1>(b, m, 1, 1, length % 3 == 0 ? 1 : 4000);
+    for (int n = 0; n < 400; ++n) {
+      if (n % 130 == 0) b.arm(D::S::law);
+      if (random.one_in(2)) b.step(0, (n & 1) != 0);
+      b.run(1 + random.below(150));
+      if (random.one_in(5)) b.memories();
+    }
+  }
+}
+
+TEST_CASE("axes by runs: random programs, one axis, two and three") {
+  random_programs<1>(3, static_cast<int>(scaled_clocks(10)));
+  random_programs<2>(4, static_cast<int>(scaled_clocks(4)));
+  random_programs<3>(5, static_cast<int>(scaled_clocks(4)));
+}

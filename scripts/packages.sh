@@ -36,6 +36,7 @@ PACKAGES=(
   "test|python3-matplotlib|draws the notebook's pictures"
   "test|yosys|checks that the RTL is synthesizable, and writes what z3 proves"
   "test|z3|proves the properties of the blocks"
+  "test|gappa|proves the bounds of laws a second time"
   "test|chromium|runs the page with the lever"
   "test|chromium-driver|lets a test drag and type in it"
   "test|python3-selenium|the same"
@@ -50,6 +51,7 @@ PACKAGES=(
   "prove|ca-certificates|lets pip fetch them over https"
   "prove|patch|seeds the defects that the proofs must find"
   "faults|yosys|names the flip-flops of the core"
+  "gappa|gappa|proves the bound of a law a second time"
   "dask|python3-distributed|sends the chunks of a sweep to many machines"
 )
 

@@ -51,13 +51,16 @@ class SignalsHeld {
 
 }  // namespace
 
-int run_program(const std::vector<std::string>& words, int stdout_fd) {
+int run_program(const std::vector<std::string>& words, int stdout_fd, int stderr_fd) {
   posix_spawnattr_t attributes;
   posix_spawn_file_actions_t actions;
   posix_spawnattr_init(&attributes);
   posix_spawn_file_actions_init(&actions);
   if (stdout_fd != STDOUT_FILENO) {
     posix_spawn_file_actions_adddup2(&actions, stdout_fd, STDOUT_FILENO);
+  }
+  if (stderr_fd != STDERR_FILENO) {
+    posix_spawn_file_actions_adddup2(&actions, stderr_fd, STDERR_FILENO);
   }
   pid_t child = 0;
   int error = 0;

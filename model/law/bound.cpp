@@ -61,6 +61,12 @@ class Bounds {
     b.errors.assign(program_.steps.size(), 0);
     b.margins.assign(program_.steps.size(), 0);
     b.cells = static_cast<int>(leaves_.size());
+    std::size_t largest = 0;
+    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+      if (worst(leaves_[i].facts) > worst(leaves_[largest].facts)) largest = i;
+      b.parts.push_back(leaves_[i].cell);
+    }
+    std::swap(b.parts.front(), b.parts[largest]);
     for (const Leaf& l : leaves_) {
       if (!l.facts.reachable) continue;
       for (std::size_t o = 0; o < b.output.size(); ++o) {

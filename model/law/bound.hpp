@@ -29,10 +29,21 @@ struct Unproven {
   std::string reason;
 };
 
+/// How the facts of a step came about; what a second proof starts from.
+struct Reason {
+  Fact x, y, acc;        ///< what it was given
+  bool between = false;  ///< ADD: taken as y + a (x - y)
+  int taken = 0;         ///< MIN, MAX, SEL: surely x (1), surely y (2)
+  int source = -1;       ///< SEL: the only comparison that decides
+  Span decided{0, 1};    ///< CMP: its own result, before it joins the flag
+  Span law{1, 0};        ///< words of the law's range, where that narrowed the step's
+};
+
 /// A program over one cell.
 struct CellFacts {
   bool reachable = true;
   std::vector<Fact> steps;
+  std::vector<Reason> reasons;  ///< of each step, where asked for
   std::vector<Unproven> unproven;
   std::vector<double> output_error;  ///< Nm, as Law::outputs
   std::vector<double> state_error;   ///< SI, after the run
@@ -41,10 +52,11 @@ struct CellFacts {
 
 /// `state_error`: how far the states may be from the law's before the run, SI. `swap`: that
 /// comparison may go wrong, so what it selects may be off by all that it chooses from; -1: none.
-/// `spans`: the ranges of the law over the cell where they are known already.
+/// `spans`: the ranges of the law over the cell where they are known already. `explain`: with
+/// CellFacts::reasons.
 CellFacts analyse(const Law& law, const Target& target, const Program& program, const Cell& cell,
                   const std::vector<double>& state_error, int swap = -1,
-                  const std::vector<Span>* spans = nullptr);
+                  const std::vector<Span>* spans = nullptr, bool explain = false);
 
 /// A comparison beside which outputs may differ by more than the bound.
 struct Strip {
@@ -66,6 +78,7 @@ struct Bound {
   std::vector<double> errors;   ///< of each step, words
   std::vector<double> margins;  ///< of each comparison, words
   int cells = 1;
+  std::vector<Cell> parts;  ///< the cells, the one with the largest error first
 };
 
 /// Splits the cell at most `splits` times, where it helps.

@@ -61,16 +61,18 @@ struct Word {
 /// A table in table memory.
 struct TableUse {
   std::vector<std::uint64_t> words;
-  int low = 0;         ///< index x >> 12 of the first word
-  bool wraps = false;  ///< all 512 words, any index
-  double error = 0;    ///< largest, in words of the value; proven
-  double slope = 0;    ///< largest change of the value in words per word of the argument
-  double jump = 0;     ///< largest from segment to segment, words
-  Span values;         ///< words
-  std::string what;    ///< for the listing
-  std::string proof;   ///< how its error was proven
-  int line = -1;       ///< >= 0: words of this delay line, which runs write
-  int base = 0;        ///< address, when placed
+  int low = 0;                 ///< index x >> 12 of the first word
+  bool wraps = false;          ///< all 512 words, any index
+  double error = 0;            ///< largest, in words of the value; proven
+  std::vector<double> errors;  ///< of each segment
+  std::vector<double> steep;   ///< of each segment and its neighbours: largest slope
+  double slope = 0;            ///< largest change of the value in words per word of the argument
+  double jump = 0;             ///< largest from segment to segment, words
+  Span values;                 ///< words
+  std::string what;            ///< for the listing
+  std::string proof;           ///< how its error was proven
+  int line = -1;               ///< >= 0: words of this delay line, which runs write
+  int base = 0;                ///< address, when placed
 };
 
 struct StateUse {

@@ -14,7 +14,7 @@ namespace feltgate::law {
 namespace {
 
 constexpr int fraction = 4096;
-constexpr int pieces = 8;
+constexpr int pieces = 8;  // in which a segment is looked at for its shift
 
 /// A segment: where it begins and ends, what is asked, what was chosen.
 struct Segment {
@@ -22,43 +22,37 @@ struct Segment {
   std::int32_t value, slope;
 };
 
-/// The error of a chord's line against the function, both in words: by the curvature, whose largest
-/// effect is width^2/8 of it in the middle.
-double by_curvature(const TableRequest& r, const Segment& s) {
-  const Jet j = r.function({s.from, s.to});
-  const double h = s.to - s.from;
-  const double bend = h * h / 8 / r.value_scale;
-  const Span curved = j.d2 * Span{-bend, 0};  // function - chord
-  if (!(curved.size() < infinity)) return infinity;
-  const auto at_end = [&](double x, double line) {
-    return r.function({x, x}).v * (1 / r.value_scale) - Span{line, line};
-  };
-  const Span ends = hull(at_end(s.from, s.value), at_end(s.to, double{1} * s.value + s.slope));
-  return up((ends + hull(curved, {0, 0})).size());
-}
+constexpr int most_halvings = 20;
+constexpr int most_looks = 400;
 
-/// The same by the slope: pieces, the function in the middle of each, and how far it can go.
-double by_slope(const TableRequest& r, const Segment& s) {
-  double worst = 0;
-  const double h = (s.to - s.from) / pieces;
-  for (int i = 0; i < pieces; ++i) {
-    const Span x = {s.from + h * i, s.from + h * (i + 1)};
-    const Jet j = r.function(x);
-    const auto line = [&](double t) { return s.value + s.slope * (t - s.from) / (s.to - s.from); };
-    const Span whole = j.v * (1 / r.value_scale) -
-                       Span{std::min(line(x.lo), line(x.hi)), std::max(line(x.lo), line(x.hi))};
-    double error = whole.size();
-    const Span relative =
-        j.d1 * (1 / r.value_scale) - Span{s.slope / (s.to - s.from), s.slope / (s.to - s.from)};
-    if (relative.size() < infinity) {
-      const double middle = x.middle();
-      const Span there =
-          r.function({middle, middle}).v * (1 / r.value_scale) - Span{line(middle), line(middle)};
-      error = std::min(error, there.size() + relative.size() * h / 2);
-    }
-    worst = std::max(worst, error);
+/// The error of a segment's line against the function over x, both in words: by the curvature,
+/// whose largest effect is width^2/8 of it in the middle; where the function has a kink, in halves
+/// down to the smallest, which is looked at by its slope.
+double line_error(const TableRequest& r, const Segment& s, const Span& x, int depth, int* looks) {
+  const Jet j = r.function(x);
+  const double h = x.hi - x.lo;
+  const auto line = [&](double t) { return s.value + s.slope * ((t - s.from) / (s.to - s.from)); };
+  const auto apart = [&](double t) {
+    return r.function({t, t}).v * (1 / r.value_scale) - Span{down(line(t)), up(line(t))};
+  };
+  const double bend = up(h * h / 8 / r.value_scale);
+  const Span curved = j.d2 * Span{-bend, 0};  // function - chord
+  if (curved.size() < infinity) {
+    return up((hull(apart(x.lo), apart(x.hi)) + hull(curved, {0, 0})).size());
   }
-  return up(worst * (1 + 1e-12));
+  if (depth < most_halvings && ++*looks < most_looks) {
+    return std::max(line_error(r, s, {x.lo, x.middle()}, depth + 1, looks),
+                    line_error(r, s, {x.middle(), x.hi}, depth + 1, looks));
+  }
+  const Span whole = j.v * (1 / r.value_scale) -
+                     Span{std::min(line(x.lo), line(x.hi)), std::max(line(x.lo), line(x.hi))};
+  const double gradient = s.slope / (s.to - s.from);
+  const Span relative = j.d1 * (1 / r.value_scale) - Span{gradient, gradient};
+  double error = whole.size();
+  if (relative.size() < infinity) {
+    error = std::min(error, apart(x.middle()).size() + relative.size() * h / 2);
+  }
+  return up(error * (1 + 1e-12));
 }
 
 }  // namespace
@@ -67,7 +61,7 @@ TableUse make_table(const TableRequest& r) {
   TableUse t;
   t.low = r.low;
   t.values = {infinity, -infinity};
-  bool curvature = true;
+  bool halved = false;
   const double width = r.argument_scale * fraction;
   const auto value = [&](double x) {
     const double inside = std::clamp(x, r.domain.lo, r.domain.hi);
@@ -99,42 +93,31 @@ TableUse make_table(const TableRequest& r) {
                                static_cast<double>(std::max(s.value, s.value + s.slope))});
     t.slope = std::max(t.slope, std::fabs(static_cast<double>(s.slope)) / fraction);
     // What is proven of the part of the segment within the domain.
-    Segment inside = s;
-    const double x0 = std::clamp(from, r.domain.lo, r.domain.hi);
-    const double x1 = std::clamp(to, r.domain.lo, r.domain.hi);
-    if (x1 - x0 < width * 1e-3) {
-      // Only an end lies in it: the line leaves the end's value by no more than its slope.
-      t.error = std::max(t.error, std::fabs(value(x0) - s.value) + std::abs(s.slope));
-      continue;
-    }
+    s.from = from;
+    s.to = to;
+    const Span inside = {std::clamp(from, r.domain.lo, r.domain.hi),
+                         std::clamp(to, r.domain.lo, r.domain.hi)};
     double error = 0;
-    if (x0 == from && x1 == to) {
-      inside.from = from;
-      inside.to = to;
-      error = by_curvature(r, inside);
-      if (!(error < infinity)) {
-        curvature = false;
-        error = by_slope(r, inside);
-      }
+    if (inside.width() < width * 1e-3) {
+      // Only an end lies in it: the line leaves the end's value by no more than its slope.
+      error = std::fabs(value(inside.lo) - s.value) + std::abs(s.slope);
     } else {
-      // A cut segment: its line over the part, an end each way.
-      const auto line = [&](double x) { return s.value + s.slope * (x - from) / width; };
-      const Jet j = r.function({x0, x1});
-      const Span ends = hull(Span{value(x0) - line(x0), value(x0) - line(x0)},
-                             Span{value(x1) - line(x1), value(x1) - line(x1)});
-      const double h = x1 - x0;
-      const Span curved = j.d2 * Span{-h * h / 8 / r.value_scale, 0};
-      error = curved.size() < infinity
-                  ? up((ends + hull(curved, {0, 0})).size())
-                  : up((j.v * (1 / r.value_scale) -
-                        Span{std::min(line(x0), line(x1)), std::max(line(x0), line(x1))})
-                           .size());
+      int looks = 0;
+      error = line_error(r, s, inside, 0, &looks);
+      halved = halved || looks > 0;
     }
-    t.error = std::max(t.error, error);
+    t.errors.push_back(up(error * (1 + 1e-9)));
+    t.error = std::max(t.error, t.errors.back());
   }
-  t.error = up(t.error * (1 + 1e-9));
-  t.proof = curvature ? "second derivative by intervals"
-                      : "second derivative by intervals, slope over eighths where it has none";
+  const auto slope = [&t](std::size_t i) {
+    return std::fabs(static_cast<double>(engine_table_slope(t.words[i]))) / fraction;
+  };
+  for (std::size_t i = 0; i < t.words.size(); ++i) {
+    t.steep.push_back(
+        std::max({slope(i), slope(i > 0 ? i - 1 : i), slope(std::min(i + 1, t.words.size() - 1))}));
+  }
+  t.proof = halved ? "second derivative by intervals, in halves where it has none"
+                   : "second derivative by intervals";
   return t;
 }
 
@@ -149,6 +132,7 @@ TableUse sine_turn(std::int32_t limit, double value_scale) {
   TableUse t = make_table(r);
   // Word 0 of the memory is index 0.
   std::rotate(t.words.begin(), t.words.begin() + 256, t.words.end());
+  std::rotate(t.errors.begin(), t.errors.begin() + 256, t.errors.end());
   t.low = 0;
   t.wraps = true;
   t.what = "sine, 512 segments a turn";

@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate law. Documentation: docs/law-compiler.md
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -12,7 +14,9 @@
 #include "design/design.hpp"
 #include "files/json_text.hpp"
 #include "files/output_file.hpp"
+#include "files/program.hpp"
 #include "law/cpp.hpp"
+#include "law/gappa.hpp"
 #include "law/listing.hpp"
 #include "tools/commands.hpp"
 
@@ -25,7 +29,8 @@ using law::Compiled;
 using law::Measured;
 
 struct LawArguments {
-  std::string law, design = "lever", json, out, cpp;
+  std::string law, design = "lever", json, out, cpp, gappa;
+  int cells = 4;
   bool listing = false, quiet = false;
 };
 
@@ -58,7 +63,7 @@ law::Target target(const std::string& design) {
   return t;
 }
 
-std::string json(const Compiled& c, const Measured& m) {
+std::string json(const Compiled& c, const Measured& m, const law::GappaCount* g) {
   Json j{{"schema", "feltgate-law/1"}, {"version", FELTGATE_VERSION}};
   j["law"] = c.law.name;
   j["design"] = c.target.design;
@@ -102,7 +107,42 @@ std::string json(const Compiled& c, const Measured& m) {
   for (const law::TableUse& t : c.program.tables) {
     j["tables"].push_back({{"of", t.what}, {"words", t.words.size()}, {"error_words", t.error}});
   }
+  if (g != nullptr) {
+    j["gappa"] = {{"instructions", g->steps},
+                  {"uncovered", g->uncovered},
+                  {"cells", g->cells},
+                  {"lemmas", g->lemmas},
+                  {"not_proven", g->open}};
+  }
   return files::json_text(j);
+}
+
+/// The lemmas as files in the folder, each proven by Gappa there.
+law::GappaCount gappa(const Compiled& c, const LawArguments& a) {
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  const law::GappaCount count = law::prove_again(c, a.cells, [&](const law::GappaLemma& l) {
+    const std::string path = (std::filesystem::path(a.gappa) / l.name).string();
+    files::OutputFile file("--gappa", path);
+    file.write(l.text);
+    file.commit();
+    return files::run_program({"gappa", path}, nowhere, nowhere) == 0;
+  });
+  close(nowhere);
+  return count;
+}
+
+std::string text(const Compiled& c, const law::GappaCount& g) {
+  std::string s = fmt::format(
+      "gappa: {} of {} instructions covered; {} of {} lemmas proven, of {} of {} cells\n",
+      g.steps - static_cast<int>(g.uncovered.size()), g.steps,
+      g.lemmas - static_cast<int>(g.open.size()), g.lemmas, g.cells, g.all_cells);
+  for (const int i : g.uncovered) {
+    const law::Step& step = c.program.steps[static_cast<std::size_t>(i)];
+    s += fmt::format("gappa: not covered: instruction {}, {}, of line {}\n", i,
+                     EngineMap::op_names[static_cast<std::size_t>(step.op)], step.place.line);
+  }
+  for (const std::string& name : g.open) s += fmt::format("gappa: not proven: {}\n", name);
+  return s;
 }
 
 int run(const LawArguments& a) {
@@ -113,16 +153,21 @@ int run(const LawArguments& a) {
   files::OutputFile* json_file = outputs.open("--json", a.json);
   files::OutputFile* image_file = outputs.open("--out", a.out);
   files::OutputFile* cpp_file = outputs.open("--cpp", a.cpp);
+  outputs.folder("--gappa", a.gappa);
   const Compiled c = law::compile_file(path, target(a.design));
   Measured m = law::measure_all(c);
   if (!m.all_inputs) m = law::measure(c, 1, 50000);
-  if (json_file != nullptr) json_file->write(json(c, m));
+  law::GappaCount again;
+  if (!a.gappa.empty()) again = gappa(c, a);
+  if (json_file != nullptr) json_file->write(json(c, m, a.gappa.empty() ? nullptr : &again));
   if (image_file != nullptr) image_file->write(law::text(c.image));
   if (cpp_file != nullptr) cpp_file->write(law::cpp_header(c, a.law));
   if (!a.quiet) {
-    outputs.say(law::report(c, m) + (a.listing ? law::listing(c) : ""));
+    outputs.say(law::report(c, m) + (a.gappa.empty() ? "" : text(c, again)) +
+                (a.listing ? law::listing(c) : ""));
   }
   outputs.commit();
+  if (!again.open.empty()) return exit_failed;
   for (std::size_t o = 0; o < m.output.size(); ++o) {
     if (m.output[o] > c.bound.output[o] * (1 + 1e-9) + 1e-9) return exit_failed;
   }
@@ -144,9 +189,9 @@ void add_law(CLI::App& app, int* exit_code) {
       "  feltgate law detent --listing\n"
       "  feltgate law detent --out detent.img --json detent.json\n"
       "  feltgate law detent --cpp detent.hpp\n"
-      "Exit code: 0 all well, 1 a run left its bound, 2 unusable input: a law that cannot be "
-      "read,\n"
-      "proven, fitted or scheduled, with line, reason and mend.");
+      "  feltgate law detent --gappa lemmas\n"
+      "Exit code: 0 all well, 1 a run left its bound or Gappa did not prove a lemma, 2 unusable\n"
+      "input: a law that cannot be read, proven, fitted or scheduled, with line, reason and mend.");
   sub->add_option("law", a->law, "name in rtl/laws, or the path of a law file")
       ->required()
       ->type_name("LAW");
@@ -158,6 +203,12 @@ void add_law(CLI::App& app, int* exit_code) {
   sub->add_option("--cpp", a->cpp, "the law as a C++ template over the number type")
       ->type_name("FILE");
   sub->add_option("--json", a->json, "the same as JSON (docs/json.md)")->type_name("FILE");
+  sub->add_option("--gappa", a->gappa, "the proof again, by Gappa: its problems as files")
+      ->type_name("DIR");
+  sub->add_option("--cells", a->cells, "cells that Gappa gets; 0: all")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
   sub->add_flag("--quiet", a->quiet, "print nothing");
   sub->callback([a, exit_code] { *exit_code = run(*a); });
 }

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Tables, low-passes, and what is chosen. Documentation: docs/law-compiler.md
+#include <algorithm>
+#include <cmath>
+
+#include "law/analysis.hpp"
+
+namespace feltgate::law {
+
+namespace analysis {
+
+bool Analysis::blend(const Step& s, Fact* f) {
+  if (s.op != EngineOp::add || s.mode != 2 || step_ == 0) return false;
+  const Step& m = program_.steps[at(step_ - 1)];
+  if (m.op != EngineOp::mul || m.x.from != From::step) return false;
+  const Step& d = program_.steps[at(m.x.index)];
+  if (d.op != EngineOp::sub || std::fabs(d.scale / s.scale - 1) > 1e-12) return false;
+  // x - y of two words, or of the result before and a word.
+  const bool chained = d.mode == 2 && d.x == s.x;
+  if (!chained && !(d.mode == 0 && d.y == s.x)) return false;
+  const Fact a = operand(m.y, m.y_error), y = operand(s.x, s.x_error),
+             x = chained ? facts_.steps[at(m.x.index - 1)] : operand(d.x, d.x_error),
+             difference = operand(m.x, 0);
+  const double p = power(m.mode);
+  if (a.words.lo < 0 || a.words.hi > p) return false;
+  const auto error = [&](double share) { return (1 - share) * y.error + share * x.error; };
+  f->words = hull(x.words, y.words);
+  f->error = std::max(error(a.words.lo / p), error(a.words.hi / p)) +
+             a.error * (difference.words.size() + difference.error) / p + 0.5;
+  f->error = raised(f->error);
+  return true;
+}
+
+Fact Analysis::table_result(const Step& s, const Fact& x) {
+  const TableUse& t = program_.tables[at(s.table)];
+  if (t.line >= 0) {
+    if (x.words.lo < 0 || x.words.hi >= 4096.0 * static_cast<double>(t.words.size())) {
+      fail("its index can leave the line");
+    }
+    return {t.values,
+            state_error_[law_.states.size() + at(t.line)] / program_.lines[at(t.line)].scale};
+  }
+  const double first = std::floor(x.words.lo / 4096) + s.offset - t.low;
+  const double end = std::floor(x.words.hi / 4096) + s.offset - t.low;
+  Fact f;
+  f.words = t.values;
+  f.error = t.error;
+  const double last = static_cast<double>(t.words.size()) - 1;
+  if (!t.wraps && (first < 0 || end > last)) {
+    fail("its index can leave the table");
+    return f;
+  }
+  if (s.op == EngineOp::lrp) {
+    const bool near = x.error < 4096, part = !t.wraps && end - first < last / 2;
+    // The segments that words reach, and one more each way for the law beside them.
+    const double from = part ? std::max(0.0, first - 1) : 0;
+    const double to = part ? std::min(last, end + 1) : last;
+    if (part) f.words = {infinity, -infinity};
+    if (near && !t.wraps) f.error = 0;
+    for (double i = from; !t.wraps && i <= to; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      if (near) f.error = std::max(f.error, t.errors[k] + t.steep[k] * x.error);
+      const double v = engine_table_value(t.words[k]), rise = engine_table_slope(t.words[k]);
+      if (part && i >= first && i <= end)
+        f.words = hull(f.words, hull({v, v}, {v + rise, v + rise}));
+    }
+    if (!near || t.wraps) f.error += t.slope * x.error;
+    // A seam between segments, or several.
+    if (x.error > 0) f.error += t.jump * (1 + (near ? 0 : x.error / 4096));
+    f.error = raised(f.error + 0.5);
+  } else if (x.error > 0) {
+    facts_.margin[at(step_)] = x.error;
+    if (swap_ == step_) f.error += t.values.width();
+  }
+  return f;
+}
+
+Span Analysis::given(const Operand& o, const Step& c, bool truth) {
+  const auto known = [&](const Operand& p) {
+    Span w = operand(p, 0).words;
+    const Span x = operand(c.x, 0).words, y = operand(c.y, 0).words;
+    if (p == c.x) w = both_of(w, truth ? Span{word_low, y.hi - 1} : Span{y.lo, word_high});
+    if (p == c.y) w = both_of(w, truth ? Span{x.lo + 1, word_high} : Span{word_low, x.hi});
+    return w;
+  };
+  Span w = known(o);
+  if (o.from == From::step && w.lo <= w.hi) {
+    const Step& s = program_.steps[at(o.index)];
+    if (s.mode == 0 && (s.op == EngineOp::add || s.op == EngineOp::sub)) {
+      const Span a = known(s.x), b = known(s.y);
+      const Span r =
+          s.op == EngineOp::add ? Span{a.lo + b.lo, a.hi + b.hi} : Span{a.lo - b.hi, a.hi - b.lo};
+      w = both_of(w, r);
+    }
+  }
+  return w;
+}
+
+Fact Analysis::only(const Fact& f, int which) {
+  why_.taken = which;
+  return f;
+}
+
+Fact Analysis::selected(const Step& s, const Fact& x, const Fact& y) {
+  Fact f{hull(x.words, y.words), std::max(x.error, y.error)};
+  if (flag_.lo > 0) f = only(x, 1);
+  if (flag_.hi <= 0) f = only(y, 2);
+  if (sources_.size() == 1) why_.source = sources_[0];
+  if (flag_.lo <= 0 && flag_.hi > 0 && sources_.size() == 1) {
+    const Step& c = program_.steps[at(sources_[0])];
+    if (c.mode == 0) f.words = hull(given(s.x, c, true), given(s.y, c, false));
+    if (c.mode == 3) f.words = hull(given(s.x, c, false), given(s.y, c, true));
+  }
+  // The law may have gone the other way even where the words are sure.
+  if (std::find(sources_.begin(), sources_.end(), swap_) != sources_.end()) {
+    f.error = std::max(x.error, y.error) +
+              std::max(std::fabs(x.words.hi - y.words.lo), std::fabs(y.words.hi - x.words.lo));
+  }
+  return f;
+}
+
+Fact Analysis::flipped(const Fact& x, const Fact& y) {
+  Fact f = y;
+  if (x.words.hi < 0) {
+    f.words = -y.words;
+  } else if (x.words.lo < 0) {
+    f.words = hull(y.words, -y.words);
+  }
+  if (x.error > 0 && x.words.lo <= x.error && x.words.hi >= -x.error) {
+    facts_.margin[at(step_)] = x.error;
+    if (swap_ == step_) f.error += 2 * y.words.size();
+  }
+  return f;
+}
+
+Fact Analysis::compared(const Step& s, const Fact& x, const Fact& y) {
+  const Span c = x.words.hi < y.words.lo    ? Span{1, 1}
+                 : x.words.lo >= y.words.hi ? Span{0, 0}
+                                            : Span{0, 1};
+  why_.decided = c;
+  switch (s.mode) {
+    case 1:
+      flag_ = most(flag_, c);
+      break;
+    case 2:
+      flag_ = least(flag_, c);
+      break;
+    case 3:
+      flag_ = {1 - c.hi, 1 - c.lo};
+      break;
+    default:
+      flag_ = c;
+  }
+  if (s.mode == 0 || s.mode == 3) sources_.clear();
+  sources_.push_back(step_);
+  // Truth values of comparisons that were kept bring their own.
+  if (s.y.from == From::step && program_.steps[at(s.y.index)].op == EngineOp::cmp) {
+    sources_.push_back(s.y.index);
+  }
+  const double apart = std::max(y.words.lo - x.words.hi, x.words.lo - y.words.hi);
+  if (apart <= x.error + y.error) facts_.margin[at(step_)] = x.error + y.error;
+  return {flag_, 0};
+}
+
+}  // namespace analysis
+
+}  // namespace feltgate::law

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Ranges and errors of a program's steps over a cell, one step after the other. Documentation:
+// docs/law-compiler.md
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "law/bound.hpp"
+
+namespace feltgate::law::analysis {
+
+constexpr double word_low = -2147483648.0, word_high = 2147483647.0;
+inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// A little more, where a sum of products was rounded: errors are upper bounds.
+inline double raised(double e) { return e * (1 + 0x1p-50); }
+
+inline double raised_sum(double a, double b) {
+  const double s = a + b;
+  return s - a == b && s - b == a ? s : raised(s);
+}
+
+inline double power(int mode) { return std::exp2(EngineMap::shifts[mode]); }
+
+class Analysis {
+ public:
+  Analysis(const Law& law, const Target& target, const Program& program, const Cell& cell,
+           const std::vector<double>& state_error, int swap, const std::vector<Span>* spans,
+           bool explain)
+      : law_(law),
+        target_(target),
+        program_(program),
+        cell_(cell),
+        state_error_(state_error),
+        swap_(swap),
+        explain_(explain),
+        spans_(spans != nullptr ? *spans : ranges(law, cell)) {}
+  CellFacts run();
+
+ private:
+  void fail(const std::string& reason) { facts_.unproven.push_back({step_, -1, reason}); }
+
+  Fact operand(const Operand& o, double extra);
+  Fact checked(const Fact& f);
+  Fact multiplied(const Step& s, const Fact& x, const Fact& y, bool rounds);
+  /// y + a * (x - y) with a in 0 .. 1: between x and y, and their errors do not add.
+  bool blend(const Step& s, Fact* f);
+  Fact table_result(const Step& s, const Fact& x);
+  /// What an operand can be where a comparison came out this way.
+  Span given(const Operand& o, const Step& c, bool truth);
+  /// Of two, this one is surely taken.
+  Fact only(const Fact& f, int which);
+  Fact selected(const Step& s, const Fact& x, const Fact& y);
+  /// y with the sign turned where x is below 0.
+  Fact flipped(const Fact& x, const Fact& y);
+  Fact compared(const Step& s, const Fact& x, const Fact& y);
+  Fact result(const Step& s);
+  static Fact wrapped(const Fact& f);
+  void narrow_by_law(const Step& s, Fact* f);
+  void states();
+  void require(const Fact& f, double lower, double upper, double scale, int state);
+  const Law& law_;
+  const Target& target_;
+  const Program& program_;
+  const Cell& cell_;
+  const std::vector<double>& state_error_;
+  int swap_;
+  bool explain_;
+  Reason why_;  ///< of the step at hand
+  std::vector<Span> spans_;
+  CellFacts facts_;
+  int step_ = 0;
+  Span flag_{0, 1};
+  std::vector<int> sources_;
+};
+
+}  // namespace feltgate::law::analysis

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Where words or law go one way of two. Documentation: docs/law-compiler.md
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "law/gappa_cutter.hpp"
+
+namespace feltgate::law {
+
+namespace gappa {
+
+void Cutter::extreme(bool least) {
+  // What is taken is called a; the other one b.
+  for (int side = 0; side < 2; ++side) {
+    const int taken = why(n_).taken;
+    if (taken != 0 && taken != side + 1) continue;
+    for (int crossed = 0; crossed < (taken == 0 ? 2 : 1); ++crossed) {
+      begin();
+      const Term a = operand(n_, side == 1), b = operand(n_, side == 0);
+      const Term &high = least ? b : a, &low = least ? a : b;
+      const std::string gap = high.word + " - " + low.word, real = high.law + " - " + low.law;
+      const bool differ = gap != real;
+      if (taken != 0) {
+        want(gap + " >= 0");
+        if (differ) {
+          want(real + " >= 0");
+          hint(real, fmt::format("({}) - ({} - {}) + ({} - {})", gap, high.word, high.law, low.word,
+                                 low.law));
+        }
+      } else {
+        give(gap + " >= 0");
+        if (a.word[0] != '(') hint(a.word, b.word + (least ? " - (" : " + (") + gap + ")");
+      }
+      if (crossed == 0) {
+        require(a);
+      } else if (differ) {
+        // a - B = (a - A) + (A - B) = (b - B) + (a - b).
+        give(real + " <= 0");
+        const std::string far = a.word + " - " + b.law;
+        hint(far, fmt::format("({} - {}) + ({} - {})", a.word, a.law, a.law, b.law));
+        hint(far, fmt::format("({} - {}) + ({} - {})", b.word, b.law, a.word, b.word));
+        if (least) hint(a.law + " - " + b.law, "0 - (" + real + ")");
+        if (least) hint(a.word + " - " + b.word, "0 - (" + gap + ")");
+        require(a.word, b.law);
+      } else {
+        continue;
+      }
+      finish(fmt::format(".{}{}", side == 1 ? "y" : "x", crossed != 0 ? "crossed" : ""));
+    }
+  }
+}
+
+void Cutter::select() {
+  for (int side = 0; side < 2; ++side) {
+    if (why(n_).taken != 0 && why(n_).taken != side + 1) continue;
+    begin();
+    const int c = why(n_).source;
+    const Term r = operand(n_, side == 1);
+    if (c >= 0 && (steps_[at(c)].mode == 0 || steps_[at(c)].mode == 3) && why(n_).taken == 0) {
+      known_branch(c, (steps_[at(c)].mode == 0) == (side == 0), side == 1);
+    }
+    require(r);
+    finish(side == 0 ? ".x" : ".y");
+  }
+}
+
+void Cutter::known_branch(int c, bool truth, bool second) {
+  const Term x = operand(c, false), y = operand(c, true);
+  const std::string low = truth ? x.word : y.word, high = truth ? y.word : x.word;
+  give(fmt::format("{} - {} >= {}", high, low, truth ? 1 : 0));
+  const std::string gap = "(" + high + " - " + low + ")";
+  if (low[0] != '(') hint(low, high + " - " + gap);
+  if (high[0] != '(') hint(high, low + " + " + gap);
+  const Operand& o = second ? steps_[at(n_)].y : steps_[at(n_)].x;
+  if (o.from != From::step) return;
+  const Step& s = steps_[at(o.index)];
+  if (s.mode != 0 || (s.op != EngineOp::add && s.op != EngineOp::sub)) return;
+  const Term e = expression(o.index);
+  const std::string t = fmt::format("t{}", o.index), same = t + " - (" + e.word + ")";
+  give(same + " in [0,0]");
+  hint(t, "(" + e.word + ") + (" + same + ")");
+}
+
+void Cutter::compare() {
+  const double e = why(n_).x.error + why(n_).y.error;
+  const Span decided = why(n_).decided;
+  for (int side = 0; side < 2; ++side) {
+    const auto sides = [&] {
+      begin();
+      const Term x = operand(n_, false), y = operand(n_, true);
+      return side == 0 ? std::pair{y, x} : std::pair{x, y};
+    };
+    if (decided.lo == decided.hi && decided.lo == 1 - side) {
+      const auto [high, low] = sides();
+      want(fmt::format("{} - {} >= {}", high.word, low.word, 1 - side));
+      finish(side == 0 ? ".surely" : ".surelynot");
+    }
+    // Further apart than both errors, law and words compare alike.
+    const auto [high, low] = sides();
+    const std::string gap = high.word + " - " + low.word, real = high.law + " - " + low.law;
+    give(gap + " >= " + number(up(e)));
+    want(real + " >= 0");
+    if (gap != real) {
+      hint(real, fmt::format("({}) - ({} - {}) + ({} - {})", gap, high.word, high.law, low.word,
+                             low.law));
+    }
+    finish(side == 0 ? ".less" : ".not");
+  }
+}
+
+void Cutter::amount() {
+  const bool exact = why(n_).x.error == 0;
+  for (int word = 0; word < 2; ++word) {
+    for (int law = 0; law < 2; ++law) {
+      if (exact && word != law) continue;
+      begin();
+      const Term x = operand(n_, false);
+      give(x.word + (word == 0 ? " >= 0" : " <= 0"));
+      if (!exact) give(x.law + (law == 0 ? " >= 0" : " <= 0"));
+      const std::string w = (word == 0 ? "" : "-") + x.word, l = (law == 0 ? "" : "-") + x.law;
+      const std::string gap = "(" + x.word + " - " + x.law + ")";
+      if (word == law && word == 1 && !exact) hint(w + " - " + l, "0 - " + gap);
+      if (word < law) {
+        hint(w + " - " + l, gap + " + 2 * " + x.law);
+        hint(w + " - " + l, "2 * " + x.word + " - " + gap);
+      } else if (word > law) {
+        hint(w + " - " + l, "0 - " + gap + " - 2 * " + x.law);
+        hint(w + " - " + l, gap + " - 2 * " + x.word);
+      }
+      require(w, l);
+      finish(fmt::format(".{}{}", word == 0 ? "plus" : "minus", word != law ? "crossed" : ""));
+    }
+  }
+}
+
+void Cutter::sign() {
+  for (int minus = 0; minus < 2; ++minus) {
+    begin();
+    const Term x = operand(n_, false), y = operand(n_, true);
+    if (why(n_).x.words.lo >= 0 && minus == 1) continue;
+    if (why(n_).x.words.hi < 0 && minus == 0) continue;
+    if (minus == 1) {
+      const std::string w = "-" + y.word, l = "-" + y.law;
+      if (w != l) hint(w + " - " + l, fmt::format("0 - ({} - {})", y.word, y.law));
+      require(w, l);
+    } else {
+      require(y);
+    }
+    // Beyond the margin both have the same sign.
+    const double e = why(n_).x.error;
+    if (e > 0 && x.word != x.law) {
+      give(fmt::format("{} {} {}", x.word, minus == 1 ? "<=" : ">=", number(minus == 1 ? -e : e)));
+      want(fmt::format("{} {} 0", x.law, minus == 1 ? "<=" : ">="));
+      hint(x.law, fmt::format("{0} - ({0} - {1})", x.word, x.law));
+    }
+    finish(minus == 1 ? ".minus" : ".plus");
+  }
+}
+
+}  // namespace gappa
+
+}  // namespace feltgate::law

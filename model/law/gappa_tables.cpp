@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What tables say, word by word. Documentation: docs/law-compiler.md
+#include <algorithm>
+#include <cmath>
+
+#include "law/gappa.hpp"
+
+namespace feltgate::law {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// SI, or turns, of one word of what the step looks up.
+double argument_scale(const Compiled& c, const Step& s) {
+  switch (s.x.from) {
+    case From::step:
+      return c.program.steps[at(s.x.index)].scale;
+    case From::state:
+      return c.program.states[at(s.x.index)].scale;
+    case From::input:
+      switch (c.law.inputs[at(s.x.index)].source) {
+        case Source::position:
+          return c.target.count_rad();
+        case Source::velocity:
+          return std::ldexp(1.0, -c.target.velocity.fraction);
+        default:
+          return std::ldexp(1.0, -c.target.torque.fraction);
+      }
+    default:
+      return 1;
+  }
+}
+
+}  // namespace
+
+TableProof table_proof(const Compiled& c, int step) {
+  const Step& s = c.program.steps[at(step)];
+  const TableUse& t = c.program.tables[at(s.table)];
+  const Node& n = c.law.nodes[at(s.node)];
+  const double word = t.wraps ? std::ldexp(1.0, -21) : argument_scale(c, s);
+  const Table* own = n.op == Op::lookup ? &c.law.tables[at(n.index)] : nullptr;
+  const auto function = [&](const Span& x) {
+    const Jet j{x, {1, 1}, {0, 0}};
+    switch (n.op) {
+      case Op::sine:
+      case Op::cosine:  // the table is the sine; the index is moved by a quarter
+        return sine(Jet{x * Span{2 * pi, up(2 * pi)}, {2 * pi, 2 * pi}, {0, 0}});
+      case Op::root:
+        return root(j);
+      case Op::reciprocal:
+        return inverse(j);
+      case Op::exponential:
+        return exponential(j);
+      default:
+        return table_jet(c.law, *own, x);
+    }
+  };
+  // What the argument can be, in words of the table's own index.
+  const double begin = 4096.0 * (t.low - s.offset),
+               size = 4096.0 * static_cast<double>(t.words.size());
+  const Span reach =
+      s.x.from == From::step ? c.bound.words[at(s.x.index)] : Span{begin, begin + size - 1};
+  const double low = t.wraps ? 0 : reach.lo + 4096.0 * s.offset;
+  const double high = t.wraps ? 4096.0 * 512 - 1 : reach.hi + 4096.0 * s.offset;
+  Span domain = {low * word, high * word};
+  if (own != nullptr) domain = {own->domain.lower, own->domain.upper};
+  TableProof proof;
+  for (std::size_t i = 0; i < t.words.size(); ++i) {
+    const double value = engine_table_value(t.words[i]), slope = engine_table_slope(t.words[i]);
+    const double first = 4096.0 * (t.low + static_cast<double>(i));
+    double error = 0;
+    Span line{infinity, -infinity};
+    for (double f = std::max(0.0, low - first); f < 4096 && first + f <= high; ++f) {
+      const double x = std::clamp((first + f) * word, domain.lo, domain.hi);
+      const Span exact = function({x, x}).v * (1 / s.scale);
+      const double there = value + slope * f / 4096;  // exact in a double
+      error = std::max({error, up(there - exact.lo), up(exact.hi - there)});
+      line = hull(line, {there, there});
+    }
+    proof.error.push_back(error);
+    proof.values.push_back(line);
+    const Span part = both_of({first * word, (first + 4096) * word}, domain);
+    const double gradient = part.empty() ? 0 : function(part).d1.size() * word / s.scale;
+    proof.gradient.push_back(up(up(gradient)));
+  }
+  return proof;
+}
+
+}  // namespace feltgate::law

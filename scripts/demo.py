@@ -35,10 +35,15 @@ REPLAY_SCENE = "damper"
 
 
 def scene_jobs():
-    """Every scene on lever; those in which the published design teaches something on paper too."""
-    names = sorted(path.stem for path in runs.SCENES.glob("*.toml"))
-    on_paper = [n for n in names if n.startswith(("torque_step", "calibration_"))]
-    return [runs.scene_job(n) for n in names] + [runs.scene_job(n, "paper") for n in on_paper]
+    """Every scene on lever, or where it has a law of its own on the design with an engine; those in
+    which the published design teaches something on paper too."""
+    scenes = {path.stem: runs.read_toml(path)["core"] for path in runs.SCENES.glob("*.toml")}
+    jobs = [
+        runs.scene_job(name, runs.ENGINE_DESIGN if "law" in scenes[name] else "lever")
+        for name in sorted(scenes)
+    ]
+    on_paper = [n for n in sorted(scenes) if n.startswith(("torque_step", "calibration_"))]
+    return jobs + [runs.scene_job(n, "paper") for n in on_paper]
 
 
 def all_jobs(scenes, replays, figures):

@@ -94,7 +94,7 @@ class Chain {
     Parts p;
     p.velocity = velocity().upper();
     velocity_error_ = from_above(p.velocity);
-    p.tau_ref = detail::scene_error(c_, region_.scene, level_, rounds_.scenes, p.velocity,
+    p.tau_ref = detail::scene_error(c_, region_, level_, rounds_.scenes, p.velocity,
                                     real_velocity_.upper());
     const Interval one(1.0);
     const Interval observed_gain =

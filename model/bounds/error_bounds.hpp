@@ -5,6 +5,7 @@
 // current reference of a design. Theorem, assumptions and proof: docs/error-bounds.md
 #pragma once
 
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,8 @@ struct InputRegion {
   double velocity_rad_s = 0;
   std::string scene;  ///< what is rendered; empty: the worst of all scenes that are built in
   int mode = 0;       ///< of the control word: 0 closed loop, 1 open loop, 2 voltage
+  /// Scene law: largest error of the program's torque for the reference's velocity, Nm.
+  double law_nm = std::numeric_limits<double>::infinity();
 };
 
 /// Bounds of one signal against three references. Infinity where nothing can be promised.
@@ -94,7 +97,7 @@ Interval rounding_error(const ChainNumbers& c, Format f);
 Interval truncation_error(int fraction, Format f);
 
 /// Bound of |tau_ref - tau_ref of the reference| [Nm] off the ramp, given one of the velocity.
-double scene_error(const ChainNumbers& c, const std::string& scene, Level level, bool rounds,
+double scene_error(const ChainNumbers& c, const InputRegion& region, Level level, bool rounds,
                    double velocity_error_rad_s, double velocity_rad_s);
 
 }  // namespace detail

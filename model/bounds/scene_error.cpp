@@ -25,8 +25,8 @@ class Scenes {
   Scenes(const ChainNumbers& c, Level level, bool rounds)
       : c_(c), level_(level), rounds_(rounds), limit_(of("torque_limit")) {}
 
-  Interval error(const std::string& scene, const Interval& velocity_error,
-                 const Interval& velocity) const {
+  Interval error(const std::string& scene, const Interval& velocity_error, const Interval& velocity,
+                 double law_nm) const {
     if (scene == "free") return Interval(0.0);
     if (scene == "setpoint") return limits() + word("setpoint_torque");
     if (scene == "membrane") return limits() + membrane();
@@ -41,6 +41,7 @@ class Scenes {
     if (scene == "wall") return limits() + wall(velocity_error, velocity);
     if (scene == "charge_attract") return limits() + charge("attract");
     if (scene == "charge_repel") return limits() + charge("repel");
+    if (scene == "law" && law_nm < endless) return limits() + Interval(law_nm);
     return {endless, endless};
   }
 
@@ -123,8 +124,9 @@ class Scenes {
 
 }  // namespace
 
-double scene_error(const ChainNumbers& c, const std::string& scene, Level level, bool rounds,
+double scene_error(const ChainNumbers& c, const InputRegion& region, Level level, bool rounds,
                    double velocity_error_rad_s, double velocity_rad_s) {
+  const std::string& scene = region.scene;
   const Scenes scenes(c, level, rounds);
   const Interval error(velocity_error_rad_s), velocity(velocity_rad_s);
   if (!scene.empty()) {
@@ -133,11 +135,11 @@ double scene_error(const ChainNumbers& c, const std::string& scene, Level level,
           "scene \"{}\" is not built in design {}; {}choose one of {}, or a design that lists it",
           scene, c.design, config::did_you_mean(scene, c.scenes), fmt::join(c.scenes, ", ")));
     }
-    return scenes.error(scene, error, velocity).upper();
+    return scenes.error(scene, error, velocity, region.law_nm).upper();
   }
   double worst = 0;
   for (const std::string& s : c.scenes) {
-    worst = std::max(worst, scenes.error(s, error, velocity).upper());
+    worst = std::max(worst, scenes.error(s, error, velocity, region.law_nm).upper());
   }
   return worst;
 }

@@ -101,7 +101,7 @@ class ClockedEngine : public Engine {
     for (const Clock end = now_ + clocks; now_ < end; ++now_) {
       in.encoder = events_.at(now_);
       in.reg_write = false;
-      if (clock_of_tick == host_write_clock && !writes_.empty()) {
+      if (clock_of_tick == host_write_clock && !writes_.empty() && !last_.reg_busy) {
         issue_write(&in);
       }
       if (++clock_of_tick == info_.clocks_per_tick) clock_of_tick = 0;

@@ -29,6 +29,11 @@ struct Snapshot {
   // Not shown by the RTL, hence not compared:
   std::int16_t travel = 0;  ///< sampled free-running count
   std::int64_t writes = 0;  ///< register writes carried out before this wave
+  /// Of the scene law: a run of the program began with the samples of this tick; the tick of the
+  /// samples from which the torque in force comes, and whether there is one.
+  bool law_begins = false, law_known = false;
+  std::uint32_t law_tick = 0;
+  std::int64_t law_changes = 0;  ///< sets of parameters that had come into force by then
 
   Snapshot() = default;
   Snapshot(const CoreOut& o, std::int16_t sampled_travel, std::int64_t writes_before)

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "feltgate/feltgate_core.hpp"
+#include "law_core.hpp"
 #include "rtl_core.hpp"
 
 namespace feltgate {
@@ -80,17 +81,19 @@ class OutputLog {
 template <class Rtl, class D>
 class LockStepCore {
  public:
+  using Twin = std::conditional_t<is_axes<Rtl>, LawCore<D, true>, FeltgateCore<D>>;
+
   void power_up(std::uint64_t seed, EncoderPins pins) {
     clear();
     rtl_.power_up(seed, pins);
     clock_ = mismatches_ = 0;
     first_.clear();
-    twin_ = FeltgateCore<D>();
+    twin_ = Twin();
   }
   /// A waveform of the RTL, as RtlCore::trace().
   void trace(const std::string& path, Clock from, Clock to) { rtl_.trace(path, from, to); }
 
-  const FeltgateCore<D>& twin() const { return twin_; }
+  const Twin& twin() const { return twin_; }
 
   /// Clocks that the twin may lead before the RTL follows.
   Clock room() const { return static_cast<Clock>(longest - shown_); }
@@ -148,7 +151,7 @@ class LockStepCore {
              difference(rtl_.out(), shown_outputs_.at(n));
   }
 
-  FeltgateCore<D> twin_;
+  Twin twin_;
   RtlCore<Rtl, D> rtl_;
   std::vector<Inputs> held_;
   OutputLog<longest> shown_outputs_;

@@ -35,7 +35,7 @@ class LockStepEngine : public ClockedEngine {
   void advance(Clock clocks, const EncoderEvent* first, const EncoderEvent* last) override {
     snapshots_.clear();
     if (first != last) events_.push(first, last);
-    const FeltgateCore<D>& twin = core_.twin();
+    const auto& twin = core_.twin();
     gates_before_ = twin.gate_clocks();
     CoreIn in = inputs();
     for (const Clock end = now_ + clocks; now_ < end; in.reg_write = false) {
@@ -43,14 +43,16 @@ class LockStepEngine : public ClockedEngine {
       Clock until = std::min({end, events_.next(end), now_ + core_.room()});
       if (!writes_.empty()) {
         const int ahead = host_write_clock - twin.clock_of_tick();
-        if (ahead == 0) issue_write(&in);
+        if (ahead == 0 && takes_write(twin)) issue_write(&in);
         until = std::min(until, now_ + (ahead == 0  ? 1
                                         : ahead > 0 ? ahead
                                                     : ahead + D::clocks_per_tick));
       }
       twin_watch_.time([&] {
-        core_.lead(in, until - now_,
-                   [&] { keep(twin.out(), twin.sampled_travel(), twin.writes()); });
+        core_.lead(in, until - now_, [&] {
+          keep(twin.out(), twin.sampled_travel(), twin.writes());
+          tell_of_law(twin, &snapshots_.back());
+        });
       });
       now_ = until;
       if (core_.room() == 0) core_.follow();

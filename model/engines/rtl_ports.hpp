@@ -5,6 +5,8 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
+#include <utility>
 
 #include "feltgate/core_ports.hpp"
 
@@ -25,6 +27,12 @@ inline std::int32_t narrow_word(std::uint32_t word, int width) {
 
 }  // namespace detail
 
+/// Whether Rtl is Verilator's class of feltgate_axes, of one axis then.
+template <class Rtl, class = void>
+constexpr bool is_axes = false;
+template <class Rtl>
+constexpr bool is_axes<Rtl, std::void_t<decltype(std::declval<Rtl&>().reg_read_i)>> = true;
+
 /// Sets every input but clock and reset, for design D. The stop is to be lowered with the edge: it
 /// was seen since the last one, and is not in the next.
 template <class D, class Rtl>
@@ -42,11 +50,15 @@ void drive_inputs(Rtl& rtl, const CoreIn& in) {
   rtl.law_torque_i = static_cast<std::uint32_t>(in.law_torque) & ((1u << D::f.torque.width()) - 1);
   rtl.law_late_i = in.law_late;
   rtl.law_restart_i = in.law_restart;
-  rtl.axis_fault_i = in.axis_fault;
-  rtl.axis_silent_i = in.axis_silent;
-  rtl.axis_blocked_i = in.axis_blocked;
-  rtl.axis_testing_i = in.axis_testing;
-  rtl.axis_waits_i = in.axis_waits;
+  if constexpr (is_axes<Rtl>) {
+    rtl.reg_read_i = 0;
+  } else {
+    rtl.axis_fault_i = in.axis_fault;
+    rtl.axis_silent_i = in.axis_silent;
+    rtl.axis_blocked_i = in.axis_blocked;
+    rtl.axis_testing_i = in.axis_testing;
+    rtl.axis_waits_i = in.axis_waits;
+  }
 }
 
 /// Every output after an edge, for design D.

@@ -13,6 +13,7 @@
 #include "../reference/chain.hpp"
 #include "../reference/real_chain.hpp"
 #include "clocked_engine.hpp"
+#include "law_core.hpp"
 
 namespace feltgate {
 
@@ -41,11 +42,14 @@ class TwinEngine : public ClockedEngine {
     if (gate_times_) gates_before_ = core_.gate_clocks();
     now_ -= waiting_;
     waiting_ = 0;
-    const auto tell = [this] { keep(core_.out(), core_.sampled_travel(), core_.writes()); };
+    const auto tell = [this] {
+      keep(core_.out(), core_.sampled_travel(), core_.writes());
+      tell_of_law(core_, &snapshots_.back());
+    };
     while (now_ < end) {
       in.encoder = events_.at(now_);
       const int clock_of_tick = core_.clock_of_tick();
-      if (!writes_.empty() && clock_of_tick == host_write_clock) {
+      if (!writes_.empty() && clock_of_tick == host_write_clock && takes_write(core_)) {
         issue_write(&in);
         core_.clock(in);
         if (core_.out().snapshot_valid) tell();
@@ -80,7 +84,7 @@ class TwinEngine : public ClockedEngine {
   bool gates_enabled() const override { return core_.out().gates_enable; }
 
  private:
-  using Core = FeltgateCore<D, false>;  // nobody reads registers through an engine
+  using Core = EngineCore<D, false>;  // nobody reads registers through an engine
 
   /// Before the inputs change: the clocks that wait.
   void settle() {

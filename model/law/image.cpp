@@ -56,7 +56,7 @@ class Line {
   }
   [[noreturn]] void fail(const std::string& reason) const {
     throw std::invalid_argument(fmt::format(
-        "line {}: {}; compile the law again: feltgate law NAME --out FILE", number_, reason));
+        "line {}: {}; compile the law again: feltgate law NAME -o FILE", number_, reason));
   }
 
  private:

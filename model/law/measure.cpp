@@ -10,6 +10,7 @@
 #include "engine/machine.hpp"
 #include "feltgate/random.hpp"
 #include "law/evaluate.hpp"
+#include "law/load.hpp"
 
 namespace feltgate::law {
 
@@ -87,15 +88,6 @@ class Meter {
   Measured result() const { return result_; }
 
  private:
-  static EngineMemory memory(const Image& image) {
-    EngineMemory m;
-    m.program = image.program;
-    m.data = image.data;
-    m.table = image.table;
-    m.line_base = image.line_base;
-    return m;
-  }
-
   double scale(const Input& input) const {
     return input.source == Source::position   ? c_.target.count_rad()
            : input.source == Source::velocity ? std::ldexp(1.0, -c_.target.velocity.fraction)

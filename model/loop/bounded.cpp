@@ -55,7 +55,9 @@ RunResult run_within_bounds(const design::Elaborated& e, const Scenario& scenari
                             const plant::Parameters& plant, RunOptions options) {
   return held(
       e, options, [&] { return run_scenario(scenario, plant, options); },
-      [&](double velocity_rad_s) { return scenario_bounds(e, scenario, velocity_rad_s).worst(); });
+      [&](double velocity_rad_s) {
+        return scenario_bounds(e, scenario, velocity_rad_s, options.law).worst();
+      });
 }
 
 RunResult replay_within_bounds(const design::Elaborated& e, EncoderSource& source,

@@ -11,6 +11,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "feltgate/axes_ports.hpp"
+
 namespace feltgate {
 
 Ensemble::Ensemble(const std::string& design, const EngineChoice& choice, std::uint64_t seed,
@@ -44,7 +46,17 @@ void Ensemble::write(HostWrite w) {
   pending_.push_back(w);
 }
 
+void Ensemble::run_law(SceneLaw& law) {
+  law_ = &law;
+  for (const auto& [address, data] : law.load()) write({0, address, data, 0});
+  for (Rider& r : riders_) r.law = law.rider(r.figures.name);
+}
+
 void Ensemble::set_parameter(const std::string& name, double value) {
+  if (law_ != nullptr && law_->has(name)) {
+    for (const auto& [address, data] : law_->set(name, value)) write({0, address, data, 0});
+    return;
+  }
   const ParameterInfo* info = design().find(name);
   if (info == nullptr) {
     throw std::invalid_argument(design().unknown(name));
@@ -69,7 +81,7 @@ void Ensemble::ride(const Snapshot& s) {
   for (; writes_applied_ < s.writes && !pending_.empty(); ++writes_applied_) {
     const HostWrite w = pending_.front();
     pending_.pop_front();
-    if (!host_.write(w.address, w.data)) continue;
+    if (w.address >= axes_engine || !host_.write(w.address, w.data)) continue;
     for (Rider& r : riders_) r.chain->set_parameter(w.address, w.value);
     if (passenger_ != nullptr) passenger_->set_parameter(w.address, w.value);
   }
@@ -80,9 +92,19 @@ void Ensemble::ride(const Snapshot& s) {
                    restart,    relief_of(s.limits)};
   watch_velocity(s.travel);
   if (passenger_ != nullptr) passenger_->tick(in);
-  for (Rider& r : riders_) {
-    r.watch.time([&] { r.chain->tick(in); });
+  const bool in_law = law_ != nullptr && s.armed && design().scene_number("law") == s.scene;
+  if (in_law && !law_entered_) {
+    for (Rider& r : riders_) r.law->enter();
   }
+  law_entered_ = in_law;
+  for (Rider& r : riders_) {
+    r.watch.time([&] {
+      if (r.law != nullptr) r.chain->program(r.law->torque_nm(s));
+      r.chain->tick(in);
+      if (r.law != nullptr) follow_law(r, s);
+    });
+  }
+  law_changes_ = std::max(law_changes_, s.law_changes);
   if (reference_ == nullptr) return;
   if (covers_) check_coverage(s);
   if (lead_figures_.compared) {
@@ -94,6 +116,11 @@ void Ensemble::ride(const Snapshot& s) {
     compare(r.figures, o.velocity_rad_s, o.tau_hat_nm, o.current_a);
     r.figures.compared = true;
   }
+}
+
+void Ensemble::follow_law(Rider& r, const Snapshot& s) const {
+  for (std::int64_t n = law_changes_; n < s.law_changes; ++n) r.law->change();
+  r.law->follow(s, *r.chain);
 }
 
 EngineSignals Ensemble::of_core(const Snapshot& s) const {

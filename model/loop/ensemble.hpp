@@ -15,6 +15,7 @@
 #include "engines/sampled_watch.hpp"
 #include "feltgate/while_armed.hpp"
 #include "loop/loop.hpp"
+#include "loop/scene_law.hpp"
 
 namespace feltgate {
 
@@ -33,7 +34,11 @@ class Ensemble {
   const Engine& lead_const() const { return *lead_; }
   const DesignInfo& design() const { return *design_; }
 
-  /// A parameter in its unit, for every engine; takes effect with the same tick in all.
+  /// Loads a law into the engine of laws, and has the riders run it; once, before the first
+  /// advance(). It must outlive this.
+  void run_law(SceneLaw& law);
+  /// A parameter of the law or of the design in its unit, for every engine; takes effect with the
+  /// same tick in all.
   /// Throws std::invalid_argument for an unknown name or a value that does not fit.
   void set_parameter(const std::string& name, double value);
   void set_control(int scene, int mode, bool arm);
@@ -100,6 +105,7 @@ class Ensemble {
  private:
   struct Rider {
     std::unique_ptr<RealChain> chain;
+    std::unique_ptr<LawRider> law;  ///< of a scene with a law
     EngineFigures figures;
     SampledWatch watch;
   };
@@ -112,6 +118,7 @@ class Ensemble {
   EngineSignals of_chain(const ChainOut& o) const;
   void write(HostWrite w);
   void ride(const Snapshot& s);
+  void follow_law(Rider& r, const Snapshot& s) const;
   void watch_velocity(std::int16_t travel);
   void check_coverage(const Snapshot& s);
   void compare(EngineFigures& f, double velocity_rad_s, double tau_hat_nm, double current_a);
@@ -127,6 +134,9 @@ class Ensemble {
   bool covers_ = false;
   std::deque<std::int16_t> window_;  ///< travel of the last m1 ticks
   int largest_counts_ = 0;
+  SceneLaw* law_ = nullptr;
+  std::int64_t law_changes_ = 1;  ///< sets of parameters that the riders know; the first loads
+  bool law_entered_ = false;
   std::deque<HostWrite> pending_;
   std::vector<HostWrite>* log_ = nullptr;
   HostBeside host_;

@@ -71,6 +71,7 @@ class ScenarioRun {
           traces::VectorHeader{d.name, d.clock_hz, {"A", "B", "Z"}}, plant_.encoder().pins());
     }
     core_.cover(options_.coverage);
+    if (options_.law != nullptr) core_.run_law(*options_.law);
     core_.carry(options_.passenger);
     if (options_.inputs != nullptr) {
       *options_.inputs = {end, plant_.encoder().pins(), {}, {}};
@@ -353,7 +354,7 @@ class ScenarioRun {
 
 RunResult run_scenario(const Scenario& scenario, const plant::Parameters& plant,
                        const RunOptions& options) {
-  check_scenario(scenario, plant, design_named(options.design));
+  check_scenario(scenario, plant, design_named(options.design), options.law);
   try {
     return ScenarioRun(scenario, plant, options).run();
   } catch (const plant::MotionError& error) {

@@ -25,6 +25,7 @@ namespace feltgate {
 namespace bounds {
 class Coverage;
 }
+class SceneLaw;
 namespace plant {
 struct Observables;
 }
@@ -93,6 +94,7 @@ struct RunInputs {
 struct RunOptions {
   std::string design = "lever";
   std::string engine = "all";  ///< comma list, see choose_engines()
+  SceneLaw* law = nullptr;     ///< what the scene "law" runs; parameters by its names too
   std::uint64_t seed = 1;
   std::string fst;                  ///< waveform of the clocks fst_from to fst_to; empty: none
   Clock fst_from = 0, fst_to = -1;  ///< fst_to < 0: to the end

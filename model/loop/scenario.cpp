@@ -100,6 +100,10 @@ Scenario read_scenario(const std::string& path) {
     config::TomlReader core = top.section("core");
     s.scene = core.text("scene");
     s.scene_line = core.line("scene");
+    if (core.has("law")) {
+      s.law = core.text("law");
+      s.law_line = core.line("law");
+    }
     if (core.has("mode")) s.mode = static_cast<int>(core.choice("mode", kModes));
     s.arm_s = core.number_or("arm_s", 0.0, config::kNotNegative);
     core.finish();

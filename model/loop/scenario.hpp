@@ -55,6 +55,8 @@ struct Scenario {
   bool switched = false;  ///< gates drive the plant instead of the mean duty
   std::string scene = "free";
   int scene_line = 0;  ///< of the file; 0: not of a file
+  std::string law;     ///< of the scene "law": a name in rtl/laws or a path; empty: none
+  int law_line = 0;
   int mode = 0;
   double arm_s = 0;
   std::map<std::string, double> parameters;    ///< set before arming, in their units

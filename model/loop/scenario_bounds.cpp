@@ -45,6 +45,11 @@ RunBounds::RunBounds(const design::Elaborated& e, double velocity_rad_s)
   region_.velocity_rad_s = velocity_rad_s;
 }
 
+void RunBounds::run_law(const SceneLaw* law) {
+  law_ = law;
+  if (law != nullptr) region_.law_nm = law->bound_nm();
+}
+
 void RunBounds::render(const std::string& scene, int mode) {
   region_.scene = scene;
   region_.mode = mode;
@@ -52,6 +57,7 @@ void RunBounds::render(const std::string& scene, int mode) {
 }
 
 void RunBounds::set(const std::string& parameter, double value, bool in_the_middle) {
+  if (law_ != nullptr && law_->has(parameter)) return;  // its bound is for all values
   numbers_.set(parameter, value);
   // No bound depends on a set-point.
   if (!in_the_middle || parameter == "setpoint_torque" || parameter == "voltage_setpoint") return;
@@ -84,8 +90,9 @@ void RunBounds::add() {
 }
 
 RunBounds scenario_bounds(const design::Elaborated& e, const Scenario& scenario,
-                          double velocity_rad_s) {
+                          double velocity_rad_s, const SceneLaw* law) {
   RunBounds run(e, velocity_rad_s);
+  run.run_law(law);
   for (const auto& [name, value] : scenario.parameters) run.set(name, value, false);
   std::string scene = scenario.scene;
   int mode = scenario.mode;

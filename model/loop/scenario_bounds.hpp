@@ -8,6 +8,7 @@
 #include "bounds/coverage.hpp"
 #include "bounds/error_bounds.hpp"
 #include "loop/scenario.hpp"
+#include "loop/scene_law.hpp"
 
 namespace feltgate {
 
@@ -16,6 +17,8 @@ class RunBounds {
  public:
   /// From the values of the design; |N-method velocity| up to velocity_rad_s, 0: all of the format.
   RunBounds(const design::Elaborated& e, double velocity_rad_s);
+  /// The scene law runs this one; none: its torque is without a bound.
+  void run_law(const SceneLaw* law);
   /// From now on this scene and mode. Throws std::invalid_argument for a scene not built in.
   void render(const std::string& scene, int mode);
   /// From now on this value. In the middle of a run no bound survives a change of a filter.
@@ -28,6 +31,7 @@ class RunBounds {
  private:
   void add();
 
+  const SceneLaw* law_ = nullptr;
   bounds::ChainNumbers numbers_;
   bounds::InputRegion region_;
   bounds::ErrorBounds worst_;
@@ -40,6 +44,6 @@ constexpr double hardly_any_rad_s = 1e-9;
 
 /// Of a scene file on a design.
 RunBounds scenario_bounds(const design::Elaborated& e, const Scenario& scenario,
-                          double velocity_rad_s = 0);
+                          double velocity_rad_s = 0, const SceneLaw* law = nullptr);
 
 }  // namespace feltgate

@@ -25,8 +25,16 @@ void check_scene(const Scenario& s, int line, const std::string& name, const Des
 }
 
 void check_parameter(const std::string& place, const std::string& name, double value,
-                     const DesignInfo& design) {
+                     const DesignInfo& design, const SceneLaw* law) {
   const std::string at = place.empty() ? "" : place + ": ";
+  if (law != nullptr && law->has(name)) {
+    try {
+      law->check(name, value);
+    } catch (const std::invalid_argument& error) {
+      throw config::ConfigError(at + error.what());
+    }
+    return;
+  }
   const ParameterInfo* info = design.find(name);
   if (info == nullptr) throw config::ConfigError(at + design.unknown(name));
   try {
@@ -45,7 +53,8 @@ void check_held(const Scenario& s, const DesignInfo& design) {
     const bool disarms = e.arm && !*e.arm;
     std::string what;
     for (const auto& [name, value] : e.set) {
-      if (while_armed(design.find(name)->address, 0) == WhileArmed::refused) what = name;
+      const ParameterInfo* info = design.find(name);  // none: of the law
+      if (info != nullptr && while_armed(info->address, 0) == WhileArmed::refused) what = name;
     }
     if (e.mode && *e.mode != mode && !disarms) what = "mode";
     if (armed && !what.empty()) {
@@ -67,21 +76,32 @@ int scene_number(const DesignInfo& design, const std::string& name) {
   throw config::ConfigError(design.unknown_scene(name));
 }
 
-void check_scenario(const Scenario& s, const plant::Parameters& plant, const DesignInfo& design) {
+void check_scenario(const Scenario& s, const plant::Parameters& plant, const DesignInfo& design,
+                    const SceneLaw* law) {
   check_scene(s, s.scene_line, s.scene, design);
   for (const auto& [name, value] : s.parameters) {
     const auto line = s.parameter_lines.find(name);
     const bool of_file = line != s.parameter_lines.end();
-    check_parameter(of_file ? fmt::format("{}:{}", s.path, line->second) : "", name, value, design);
+    check_parameter(of_file ? fmt::format("{}:{}", s.path, line->second) : "", name, value, design,
+                    law);
   }
   for (const Event& e : s.events) {
     if (e.scene) check_scene(s, e.line, *e.scene, design);
     for (const auto& [name, value] : e.set) {
-      check_parameter(e.line == 0 ? "" : fmt::format("{}:{}", s.path, e.line), name, value, design);
+      check_parameter(e.line == 0 ? "" : fmt::format("{}:{}", s.path, e.line), name, value, design,
+                      law);
     }
   }
   check_held(s, design);
   check_step(s, plant, static_cast<double>(design.clock_hz));
+}
+
+void require_no_law(const Scenario& scenario, const std::string& command) {
+  if (scenario.law.empty() && scenes_used(scenario).count("law") == 0) return;
+  throw std::invalid_argument(fmt::format(
+      "{}:{}: `feltgate {}` takes no scene with a law; `feltgate law` tells the error, rate and "
+      "size of one, `feltgate run` runs its scene",
+      scenario.path, scenario.law.empty() ? scenario.scene_line : scenario.law_line, command));
 }
 
 }  // namespace feltgate

@@ -6,18 +6,23 @@
 
 #include "../engines/engine.hpp"
 #include "scenario.hpp"
+#include "scene_law.hpp"
 
 namespace feltgate {
 
 /// Number of a torque law. Throws config::ConfigError with the laws that the design has.
 int scene_number(const DesignInfo& design, const std::string& name);
 
-/// Every scene that is named is in the design, every parameter that is set is one of the design and
-/// fits its word, and the plant's step is short enough for each phase of the hand (docs/plant.md).
-/// Errors: config::ConfigError "file:line: what; mend", without file and line for what was not read
-/// from a file.
+/// Every scene that is named is in the design, every parameter that is set is one of the law or of
+/// the design and fits its word, and the plant's step is short enough for each phase of the hand
+/// (docs/plant.md). Errors: config::ConfigError "file:line: what; mend", without file and line for
+/// what was not read from a file.
 void check_scenario(const Scenario& scenario, const plant::Parameters& plant,
-                    const DesignInfo& design);
+                    const DesignInfo& design, const SceneLaw* law = nullptr);
+
+/// Throws std::invalid_argument "file:line: what; mend" where the scene runs a law, which the
+/// subcommand cannot.
+void require_no_law(const Scenario& scenario, const std::string& command);
 
 /// The step alone, at a clock of `clock_hz`.
 void check_step(const Scenario& scenario, const plant::Parameters& plant, double clock_hz);

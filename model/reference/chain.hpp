@@ -48,6 +48,15 @@ class Chain : public RealChain {
     }
   }
 
+  void program(double torque_nm) override {
+    using Torque = typename ControlChain<D, N>::Torque;
+    if constexpr (N::is_fixed) {
+      chain_.program(Torque::from_raw(std::llround(std::ldexp(torque_nm, D::f.torque.fraction))));
+    } else {
+      chain_.program(static_cast<Torque>(torque_nm));
+    }
+  }
+
   void tick(const ChainIn& in) override {
     chain_.tick(in);
     made_ = false;

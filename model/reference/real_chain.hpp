@@ -53,6 +53,8 @@ class RealChain {
   virtual void set_parameter(int address, double value) = 0;
   /// The same as a word of the parameter RAM: real arithmetic takes the value that the word means.
   virtual void set_word(int address, std::uint32_t word) = 0;
+  /// What a program asks for [Nm], for the scene law, in the ticks to come; "fixed" rounds it.
+  virtual void program(double torque_nm) { (void)torque_nm; }
   virtual void tick(const ChainIn& in) = 0;
   /// Signals of the last tick in their units; "fixed" scales its integers, which is exact.
   virtual const ChainOut& out() const = 0;

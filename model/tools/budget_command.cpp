@@ -12,6 +12,7 @@
 #include "budget/scene_budget.hpp"
 #include "files/json_text.hpp"
 #include "files/output_file.hpp"
+#include "loop/scenario_check.hpp"
 #include "plant/plant_file.hpp"
 #include "tools/checks.hpp"
 #include "tools/commands.hpp"
@@ -103,6 +104,7 @@ std::string json(const SceneBudget& b, const std::string& scene, const std::stri
 
 int run(const BudgetArguments& a) {
   Scenario scenario = read_scenario(find_file(a.scene, "vectors/scenes"));
+  require_no_law(scenario, "budget");
   if (!a.plant.empty()) scenario.plant = a.plant;
   const std::string plant_path = find_file(scenario.plant, "vectors/plants");
   const plant::Parameters plant = plant::read_plant_file(plant_path);

@@ -101,6 +101,20 @@ std::string find_file(const std::string& name, const std::string& folder) {
                   folder, config::did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
+std::string find_law(const std::string& name) {
+  if (name.find('/') != std::string::npos || fs::path(name).extension() == ".law") return name;
+  const fs::path folder = fs::path(repository()) / "rtl/laws", path = folder / (name + ".law");
+  if (fs::exists(path)) return path.string();
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".law") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  throw std::invalid_argument(
+      fmt::format("\"{}\" is not in rtl/laws; {}choose one of {}, or give the path of a file", name,
+                  config::did_you_mean(name, names), fmt::join(names, ", ")));
+}
+
 design::Elaborated elaborated_design(const std::string& name) {
   return design::elaborate(design::read_design(find_file(name, "rtl/designs")),
                            design::read_registers(repository() + "/rtl/registers.toml"));
@@ -111,7 +125,10 @@ std::string built_design(const std::string& given) {
   if (std::find(built.begin(), built.end(), given) != built.end()) return given;
   const std::set<std::string> names = names_in("rtl/designs");
   if (!is_path(given)) {
-    if (names.count(given) > 0) (void)design_named(given);  // says how presets are built
+    if (names.count(given) > 0) {
+      (void)design_named(given);  // a preset: this program has it, or that says how it is built
+      return given;
+    }
     throw std::invalid_argument(fmt::format("design \"{}\" is unknown; {}choose one of {}", given,
                                             config::did_you_mean(given, names),
                                             fmt::join(names, ", ")));

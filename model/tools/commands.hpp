@@ -37,6 +37,9 @@ std::string repository();
 /// repository. Throws std::invalid_argument listing what there is.
 std::string find_file(const std::string& name, const std::string& folder);
 
+/// The path of a law: given as one, or a name in rtl/laws. Throws likewise.
+std::string find_law(const std::string& name);
+
 /// Parses the command line, which runs the command that it names, and returns the exit code: the
 /// command's own, or that of an error, which is told on stderr as one line that begins with the
 /// program's name, the nearest name suggested for what is misspelt.

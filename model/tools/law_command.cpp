@@ -34,22 +34,6 @@ struct LawArguments {
   bool listing = false, quiet = false;
 };
 
-/// The path of a law: given as one, or a name in rtl/laws.
-std::string law_path(const std::string& name) {
-  namespace fs = std::filesystem;
-  if (name.find('/') != std::string::npos || fs::path(name).extension() == ".law") return name;
-  const fs::path folder = fs::path(repository()) / "rtl/laws", path = folder / (name + ".law");
-  if (fs::exists(path)) return path.string();
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == ".law") names.push_back(entry.path().stem().string());
-  }
-  std::sort(names.begin(), names.end());
-  throw std::invalid_argument(
-      fmt::format("\"{}\" is not in rtl/laws; {}choose one of {}, or give the path of a file", name,
-                  config::did_you_mean(name, names), fmt::join(names, ", ")));
-}
-
 law::Target target(const std::string& design) {
   const auto e = design::elaborate(design::read_design(find_file(design, "rtl/designs")),
                                    design::read_registers(repository() + "/rtl/registers.toml"));
@@ -146,12 +130,12 @@ std::string text(const Compiled& c, const law::GappaCount& g) {
 }
 
 int run(const LawArguments& a) {
-  const std::string path = law_path(a.law);
+  const std::string path = find_law(a.law);
   files::Outputs outputs;
   outputs.reads(path);
   outputs.reads(find_file(a.design, "rtl/designs"));
   files::OutputFile* json_file = outputs.open("--json", a.json);
-  files::OutputFile* image_file = outputs.open("--out", a.out);
+  files::OutputFile* image_file = outputs.open("--output", a.out);
   files::OutputFile* cpp_file = outputs.open("--cpp", a.cpp);
   outputs.folder("--gappa", a.gappa);
   const Compiled c = law::compile_file(path, target(a.design));
@@ -187,7 +171,7 @@ void add_law(CLI::App& app, int* exit_code) {
       "by side (docs/law-compiler.md).\n"
       "  feltgate law detent\n"
       "  feltgate law detent --listing\n"
-      "  feltgate law detent --out detent.img --json detent.json\n"
+      "  feltgate law detent -o detent.img --json detent.json\n"
       "  feltgate law detent --cpp detent.hpp\n"
       "  feltgate law detent --gappa lemmas\n"
       "Exit code: 0 all well, 1 a run left its bound or Gappa did not prove a lemma, 2 unusable\n"
@@ -199,7 +183,7 @@ void add_law(CLI::App& app, int* exit_code) {
       ->type_name("DESIGN")
       ->capture_default_str();
   sub->add_flag("--listing", a->listing, "every instruction: format, range and error");
-  sub->add_option("--out", a->out, "the image that an engine runs")->type_name("FILE");
+  sub->add_option("-o,--output", a->out, "the image that an engine runs")->type_name("FILE");
   sub->add_option("--cpp", a->cpp, "the law as a C++ template over the number type")
       ->type_name("FILE");
   sub->add_option("--json", a->json, "the same as JSON (docs/json.md)")->type_name("FILE");

@@ -96,6 +96,10 @@ int replay(ReplayArguments& a) {
   ReplayOptions options;
   options.design = a.design;
   options.engine = a.engine;
+  if (a.scene == "law") {
+    throw std::invalid_argument(
+        "--scene law: a replay loads no program; choose another scene, or use feltgate run");
+  }
   options.scene = a.scene;
   options.seed = how.seed;
   if (a.seconds > 0) {

@@ -6,10 +6,12 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 
 #include "files/output_file.hpp"
+#include "law_loop/scene_law.hpp"
 #include "loop/bounded.hpp"
 #include "loop/scenario_check.hpp"
 #include "plant/plant_file.hpp"
@@ -21,6 +23,8 @@
 namespace feltgate {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 struct RunArguments {
   std::string scene, design = "lever", plant, engine = "all", report, json, csv, fst, record;
@@ -46,6 +50,30 @@ void apply_settings(const std::vector<std::string>& set, Scenario& scenario) {
   }
 }
 
+/// A path is from the scene's folder.
+std::string law_file(const Scenario& s) {
+  const bool path = s.law.find('/') != std::string::npos || fs::path(s.law).extension() == ".law";
+  return path ? (fs::path(s.path).parent_path() / s.law).string() : find_law(s.law);
+}
+
+/// The law that the scene runs; none: nullptr.
+std::unique_ptr<SceneLaw> law_of(const Scenario& s, const DesignInfo& design) {
+  const bool renders = scenes_used(s).count("law") != 0;
+  if (s.law.empty() && !renders) return nullptr;
+  const std::string at = fmt::format("{}:{}: ", s.path, s.law.empty() ? s.scene_line : s.law_line);
+  if (s.law.empty()) {
+    throw std::invalid_argument(at + "scene \"law\" runs a law; name one: law = \"detent\"");
+  }
+  if (!renders) {
+    throw std::invalid_argument(at + "no scene renders the law; write scene = \"law\"");
+  }
+  if (design.scene_number("law") < 0) {
+    throw std::invalid_argument(fmt::format(
+        "{}design {} has no engine for a law; use --design lever_law", at, design.name));
+  }
+  return make_scene_law(law_file(s), design);
+}
+
 int run(const RunArguments& a) {
   if (a.columns) {
     fmt::print("{}", columns_markdown());
@@ -59,7 +87,9 @@ int run(const RunArguments& a) {
   const std::string plant_path = find_file(scenario.plant, "vectors/plants");
   const plant::Parameters plant = plant::read_plant_file(plant_path);
   resolve_effects(scenario, plant.effects);
-  check_scenario(scenario, plant, design_named(a.design));
+  const DesignInfo& design = design_named(a.design);
+  const std::unique_ptr<SceneLaw> law = law_of(scenario, design);
+  check_scenario(scenario, plant, design, law.get());
 
   if (a.every > 0 && a.csv.empty() && a.report.empty()) {
     throw std::invalid_argument("--every thins out the rows of --csv; add --csv FILE");
@@ -68,6 +98,7 @@ int run(const RunArguments& a) {
   options.design = a.design;
   options.engine = a.engine;
   options.seed = a.seed;
+  options.law = law.get();
   // Opened before the run: a name that cannot be written must not cost it.
   files::Outputs outputs;
   outputs.reads(scene_path);
@@ -158,6 +189,7 @@ void add_run(CLI::App& app, int* exit_code) {
       "quad\n"
       "  feltgate run torque_step --design paper --report out\n"
       "  feltgate run damper --engine twin,double,float --csv damper.csv    fixed beside float\n"
+      "  feltgate run detent                        a scene with a law of its own (docs/laws.md)\n"
       "Exit code: 0 no mismatch, every expectation of the scene holds and every error is within "
       "its\n"
       "proven bound, 1 otherwise, 2 unusable input.");

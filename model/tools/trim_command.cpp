@@ -13,6 +13,7 @@
 
 #include "files/json_text.hpp"
 #include "files/output_file.hpp"
+#include "loop/scenario_check.hpp"
 #include "plant/plant_file.hpp"
 #include "tools/checks.hpp"
 #include "tools/commands.hpp"
@@ -185,6 +186,7 @@ int run_trim(TrimArguments& a) {
   a.options.tolerance = share_of(a.tolerance);
   a.options.window_s = 1e-3 * a.window_ms;
   Scenario scene = read_scenario(find_file(a.scene, "vectors/scenes"));
+  require_no_law(scene, "trim");
   if (!a.plant.empty()) scene.plant = a.plant;
   constexpr double fewest_windows = 10;  // fewer say nothing of a scene
   if (a.duration_s > 0 && a.duration_s < fewest_windows * a.options.window_s) {

@@ -13,8 +13,8 @@ foreach(design IN LISTS FELTGATE_PRESETS)
     continue()
   endif()
   feltgate_type_of(${design} type)
-  feltgate_verilate(core_${design} feltgate_core "${package};${FELTGATE_CORE_SOURCES}"
-    CLASS Vcore_${design} -O3)
+  feltgate_core_of(${design} top sources)
+  feltgate_verilate(core_${design} ${top} "${package};${sources}" CLASS Vcore_${design} -O3)
   target_compile_options(core_${design} PRIVATE ${FELTGATE_FASTEST_RTL})
   feltgate_for_design(design_preset.cpp.in "${PROJECT_BINARY_DIR}/engines/${design}_preset.cpp")
   add_executable(feltgate_${design}

@@ -9,11 +9,28 @@ include(verilate)
 file(STRINGS "${FELTGATE_ROOT}/rtl/feltgate_core.f" FELTGATE_CORE_SOURCES REGEX "^[^/]")
 list(TRANSFORM FELTGATE_CORE_SOURCES PREPEND "${FELTGATE_ROOT}/rtl/")
 
+file(STRINGS "${FELTGATE_ROOT}/rtl/feltgate_axes.f" FELTGATE_AXES_SOURCES REGEX "^[^/]")
+list(TRANSFORM FELTGATE_AXES_SOURCES PREPEND "${FELTGATE_ROOT}/rtl/")
+
+# feltgate_core_of(<design> <top> <sources>): the module that an engine of the design runs, and its
+# files: the core, or with an engine of laws one axis and that.
+function(feltgate_core_of design top sources)
+  set(of core)
+  file(STRINGS "${FELTGATE_ROOT}/rtl/generated/${design}/feltgate_pkg.sv" engine REGEX " ENGINE = 1;")
+  if(engine)
+    set(of axes)
+  endif()
+  string(TOUPPER ${of} files)
+  set(${top} feltgate_${of} PARENT_SCOPE)
+  set(${sources} ${FELTGATE_${files}_SOURCES} PARENT_SCOPE)
+endfunction()
+
 add_library(feltgate_rtl STATIC "${FELTGATE_ROOT}/model/engines/rtl_engines.cpp")
 foreach(design IN LISTS FELTGATE_DESIGNS)
   set(type ${FELTGATE_TYPE_${design}})
-  feltgate_verilate(core_${design} feltgate_core
-    "${FELTGATE_ROOT}/rtl/generated/${design}/feltgate_pkg.sv;${FELTGATE_CORE_SOURCES}"
+  feltgate_core_of(${design} top sources)
+  feltgate_verilate(core_${design} ${top}
+    "${FELTGATE_ROOT}/rtl/generated/${design}/feltgate_pkg.sv;${sources}"
     CLASS Vcore_${design} -O3)
   target_compile_options(core_${design} PRIVATE ${FELTGATE_FASTEST_RTL})
   feltgate_for_design(design_rtl.cpp.in "${PROJECT_BINARY_DIR}/engines/${design}_rtl.cpp")

@@ -130,6 +130,7 @@ def wrapper(block, source, width):
     """The module of the block's own name: its ports, and which mutant it is."""
     head = Head(block, source)
     ports = ", ".join(f".{port}({port})" for _, _, port in head.ports)
+    edges = set(re.findall(r"\bposedge (\w+)", source)) & {port for _, _, port in head.ports}
     return "\n".join(
         [
             "`default_nettype none",
@@ -138,9 +139,9 @@ def wrapper(block, source, width):
             f"  logic [{width - 1}:0] mutsel;",
             f"  initial mutsel = {width}'(feltgate_chosen_mutant());",
             f"  {block}_mutants u_mutants ({ports}, .mutsel(mutsel));",
-            # Verilator orders the members of its class by what is a clock: clk_i must be one here,
-            # too.
-            *(["  always @(posedge clk_i) if (&mutsel) $stop;"] if head.clocked else []),
+            # Verilator orders the members of its class by what is a clock: what is one in the block
+            # must be one here, too, whatever a mutant does to it.
+            *(f"  always @(posedge {port}) if (&mutsel) $stop;" for port in sorted(edges)),
             "endmodule",
             "`default_nettype wire",
             "",

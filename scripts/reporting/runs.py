@@ -22,15 +22,19 @@ import numpy as np
 
 ROOT = Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[2]))
 SCENES = ROOT / "vectors" / "scenes"
+ENGINE_DESIGN = "lever_law"  # has an engine for laws, and a program of its own
 
 
 def build_folder():
     return Path(os.environ.get("FELTGATE_BUILD", ROOT / "build"))
 
 
-def program():
-    """Path of the built program; a mistake here is the caller's to report."""
+def program(design=""):
+    """Path of the built program, that of a design which has its own; a mistake here is the
+    caller's to report."""
     path = Path(os.environ.get("FELTGATE_PROGRAM") or build_folder() / "feltgate")
+    if design == ENGINE_DESIGN and path.name == "feltgate":
+        path = path.with_name(f"feltgate_{design}")
     if not os.access(path, os.X_OK):
         raise FileNotFoundError(f"{path}: not built; start it through ./feltgate, which builds it")
     return path
@@ -89,6 +93,11 @@ class Job:
     seconds: float
     every: int = 100
     recording: object = None  # reporting.recordings.Recording of a replay
+
+    @property
+    def design(self):
+        """The design that its arguments name."""
+        return dict(zip(self.arguments, self.arguments[1:])).get("--design", "")
 
 
 @dataclass
@@ -170,7 +179,7 @@ def start(job, folder, children):
     json_path, csv_path = folder / f"{job.name}.json", folder / f"{job.name}.csv"
     for path in (json_path, csv_path):
         path.unlink(missing_ok=True)
-    command = [str(program()), *job.arguments, "--engine", "all", "--quiet"]
+    command = [str(program(job.design)), *job.arguments, "--engine", "all", "--quiet"]
     command += ["--json", str(json_path), "--csv", str(csv_path), "--every", str(job.every)]
     began = time.monotonic()
     child = children.start(command)
@@ -199,7 +208,8 @@ def run_all(jobs, folder, progress, workers=None):
     An interrupt ends the programs that were started here, and no others.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    program()  # complain once, not once per job
+    for design in {"", *(job.design for job in jobs)}:
+        program(design)  # complain once, not once per job
     children, runs = Children(), {}
 
     def one(job):

@@ -22,6 +22,7 @@ TITLES = {
     "hold_and_release": "Hold and release",
     "calibration_open_loop": "Calibration with voltages",
     "calibration_closed_loop": "Calibration with torques",
+    "detent": "Knob with clicks, from a law file",
 }
 
 SAID = {
@@ -45,6 +46,8 @@ SAID = {
     "torque, up to {most}.",
     "hold_and_release": "The hand blocks the lever while the motor pushes with {most}, and then "
     "lets go: nothing has wound up, and the lever does not leap.",
+    "detent": "The hand turns a knob with clicks, between {low} and {high}: the motor pushes with up "
+    "to {most} to the nearest one. The force is a law file, which the engine runs.",
 }
 MOVED = "The lever moves between {low} and {high}, and the motor puts up to {most} on it."
 STILL = "The lever stands still, and the motor puts up to {most} on it."

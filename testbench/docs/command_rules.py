@@ -27,6 +27,8 @@ RULES = (
     Rule(r"feltgate \w+ --help", "WHOLE"),
     # 2: what the page says of this line is that it is refused.
     Rule(r"feltgate run torque_step --set voltage_gain=0\.6", "WHOLE", status=(2,)),
+    # The launcher gives these a design with an engine.
+    Rule(r"feltgate run (?:detent|my_scene\.toml --set amplitude\S*)", "BY", "scene.detent.lever_law"),
     Rule(r"feltgate (?:run|replay|import|budget|design|law)", "WHOLE"),
     Rule(r"feltgate generate", "WHOLE"),
     # 1: of a scene of milliseconds there may be nothing to leave out.

@@ -73,6 +73,7 @@ def make(folder):
     for source, copies in {
         "vectors/scenes/membrane.toml": ("path/to/my.toml", "fast.toml", "my_scene.toml"),
         "vectors/spaces/smoke.toml": ("my_space.toml",),
+        "rtl/laws/detent.law": ("my.law",),
         "vectors/plants/p24.toml": ("my.toml", "vectors/plants/mine.toml"),
         "rtl/designs/lever.toml": ("my_design.toml", "my_point.toml", "rtl/designs/mine.toml"),
     }.items():

@@ -37,6 +37,13 @@ class CommandLine(Bench):
         self.assert_refused(process, *said)
         self.assert_only()
 
+    def test_a_law_where_none_is_taken(self):
+        for command in ("trim", "budget"):
+            with self.subTest(command):
+                said = f"detent.toml:11: `feltgate {command}` takes no scene with a law"
+                self.refused(command, "detent", said=(said, "`feltgate run` runs its scene"))
+        self.refused("replay", "x.vec", "--scene", "law", said=("--scene law", "loads no program"))
+
     def test_numbers(self):
         for command, option, values, accepted in NUMBERS:
             for value in values:

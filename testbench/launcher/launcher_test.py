@@ -124,6 +124,18 @@ class Presets(Machine):
         self.assertEqual(self.built("design", "fast"), [["feltgate"]])
         self.assertEqual(self.built("run", "wall", "--design", "faster"), [["feltgate"]])
 
+    def test_a_scene_with_a_law_takes_the_design_with_an_engine(self):
+        self.installed(*BUILD_PACKAGES)
+        mine = self.folder / "mine.toml"
+        mine.write_text('[core]\nscene = "law"\nlaw = "my.law"\n', encoding="utf-8")
+        self.assertEqual(self.built("run", "--csv", "out", str(mine)), [["feltgate_lever_law"]])
+        self.assertIn(f"--csv out {mine} --design lever_law\n", self.said)
+        self.assertEqual(self.built("run", str(mine), "--design", "fast"), [["feltgate_fast"]])
+
+    def test_the_demo_has_a_scene_with_a_law(self):
+        self.installed(*BUILD_PACKAGES)
+        self.assertEqual(self.built("demo"), [["feltgate", "feltgate_lever_law"]])
+
 
 class Tests(Machine):
     def setUp(self):

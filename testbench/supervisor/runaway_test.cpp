@@ -239,6 +239,7 @@ void scenes(Count& count, const std::string& design) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".toml") continue;
     Scenario scene = read_scenario(entry.path().string());
+    if (!scene.law.empty()) continue;  // needs an engine
     const plant::Parameters motor = motor_of(scene.plant);
     resolve_effects(scene, motor.effects);
     Watchers<D> w;

@@ -52,6 +52,7 @@ class Pair {
     rtl_->clear_faults_i = in.clear_faults;
     rtl_->kick_i = in.kick;
     rtl_->encoder_error_i = 0;
+    rtl_->axis_blocked_i = 0;
     rtl_->trips_i = 0;
     rtl_->velocity_i = static_cast<std::uint32_t>(in.velocity);
     rtl_->current_ref_i = port_bits<Design::f.current.width()>(in.current_ref);

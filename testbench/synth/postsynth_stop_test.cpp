@@ -5,27 +5,15 @@
 // clock, gone before the next phase, and with a clock that stands. docs/synthesis.md
 #include <Vpair.h>
 
-#include <cstdint>
-#include <cstring>
 #include <memory>
-#include <stdexcept>
 
 #include "catch.hpp"
 #include "feltgate/generated/causes.hpp"
-#include "pair_fields.hpp"
+#include "pair_ports.hpp"
 
 namespace {
 
-static_assert(kInputBits <= 64, "the inputs are one integer in Verilator's class");
 constexpr int kPhases = 20;  // of a clock: it rises before phase 0 and falls before phase 10
-
-template <int N>
-const Field& named(const Field (&fields)[N], const char* name) {
-  for (const Field& f : fields) {
-    if (std::strcmp(f.name, name) == 0) return f;
-  }
-  throw std::runtime_error(name);
-}
 
 class Pair {
  public:
@@ -37,20 +25,14 @@ class Pair {
     pair_->rst_ni = 1;
   }
   void set(const char* name, bool value) {
-    const std::uint64_t bit = std::uint64_t{1} << named(kInputs, name).first;
-    pair_->in_i = (pair_->in_i & ~bit) | (value ? bit : 0);
+    feltgate::test::set_input(pair_->in_i, name, value);
     pair_->eval();
     REQUIRE(get(true, "gate_a_lo_o") == get(false, "gate_a_lo_o"));
   }
   unsigned get(bool netlist, const char* name) const {
-    const Field& field = named(kFields, name);
-    unsigned value = 0;
-    for (int k = 0; k < field.width; ++k) {
-      const auto n = static_cast<unsigned>(field.first + k);
-      const auto word = netlist ? pair_->netlist_o[n / 32] : pair_->rtl_o[n / 32];
-      value |= (word >> n % 32 & 1u) << k;
-    }
-    return value;
+    using feltgate::test::output_of;
+    return static_cast<unsigned>(netlist ? output_of(pair_->netlist_o, name)
+                                         : output_of(pair_->rtl_o, name));
   }
   unsigned gates(bool netlist) const {
     return get(netlist, "gate_a_hi_o") | get(netlist, "gate_a_lo_o") << 1 |

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Register writes that load a law. Documentation: docs/law-compiler.md
+#include "law/load.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "feltgate/generated/engine.hpp"
+
+namespace feltgate::law {
+
+namespace {
+
+using H = EngineMap::H;
+
+/// Words of a memory with more bits than a register: the upper ones first, where they change.
+template <class Words>
+void add_long_words(const Words& words, int base, bool zeros, std::vector<HostWord>* writes) {
+  std::uint32_t high = 0;
+  bool known = zeros;
+  for (std::size_t n = 0; n < words.size(); ++n) {
+    if (zeros && words[n] == 0) continue;
+    const auto upper = static_cast<std::uint32_t>(words[n] >> 32);
+    if (!known || upper != high) writes->push_back({H::high, upper});
+    known = true;
+    high = upper;
+    writes->push_back({base + static_cast<int>(n), static_cast<std::uint32_t>(words[n])});
+  }
+}
+
+std::vector<HostWord> load(const Image& image, bool zeros) {
+  std::vector<HostWord> writes{{H::run, 0}};
+  add_long_words(image.program, H::program, zeros, &writes);
+  // The register of the upper bits holds the program's last.
+  writes.push_back({H::high, 0});
+  add_long_words(image.table, H::table, zeros, &writes);
+  const auto data = [&](int word) {
+    const std::int32_t value = image.data[static_cast<std::size_t>(word)];
+    if (!zeros || value != 0) {
+      writes.push_back({H::data + word, static_cast<std::uint32_t>(value)});
+    }
+  };
+  for (int word = Image::lower_base; word < EngineMap::data_words; ++word) data(word);
+  unsigned run = 0;
+  for (std::size_t t = 0; t < image.threads.size(); ++t) {
+    const ImageThread& thread = image.threads[t];
+    run |= static_cast<unsigned>(thread.used) << t;
+    if (thread.used) {
+      writes.push_back(
+          {H::divider0 + static_cast<int>(t), static_cast<std::uint32_t>(thread.divider)});
+    }
+  }
+  writes.push_back({H::line_base, static_cast<std::uint32_t>(image.line_base)});
+  writes.push_back({H::max_age, static_cast<std::uint32_t>(image.max_age_ticks)});
+  writes.push_back({H::crc, crc(image)});
+  for (int word = 0; word < EngineMap::parameter_words; ++word) data(Image::parameter_base + word);
+  writes.push_back({H::commit, 1});
+  writes.push_back({H::run, run});
+  return writes;
+}
+
+}  // namespace
+
+std::vector<HostWord> load(const Image& image) { return load(image, false); }
+std::vector<HostWord> load_into_zeros(const Image& image) { return load(image, true); }
+
+EngineMemory memory(const Image& image) {
+  EngineMemory m;
+  m.program = image.program;
+  m.data = image.data;
+  m.table = image.table;
+  m.line_base = image.line_base;
+  return m;
+}
+
+LoadedParameters::LoadedParameters(const Image& image) : image_(image) {
+  for (const ImageWord& w : image.words) {
+    if (w.formula.empty()) si_[w.name] = w.initial * w.scale;
+  }
+}
+
+const ImageWord* LoadedParameters::find(const std::string& name) const {
+  for (const ImageWord& w : image_.words) {
+    if (w.formula.empty() && w.name == name) return &w;
+  }
+  return nullptr;
+}
+
+double LoadedParameters::value(const std::string& name) const {
+  const ImageWord* word = find(name);
+  return word == nullptr ? 0 : si_.at(name) / word->to_si;
+}
+
+double LoadedParameters::rounded_si(const std::string& name, double value) const {
+  const ImageWord* word = find(name);
+  if (word == nullptr) {
+    std::string names;
+    for (const auto& [known, unused] : si_) names += (names.empty() ? "" : ", ") + known;
+    throw std::invalid_argument(fmt::format("law {} has no parameter \"{}\"; it has {}",
+                                            image_.name, name, names.empty() ? "none" : names));
+  }
+  const double raw = value * word->to_si / word->scale;
+  if (!(std::nearbyint(raw) >= word->lower && std::nearbyint(raw) <= word->upper)) {
+    const double a = word->lower * word->scale / word->to_si;
+    const double b = word->upper * word->scale / word->to_si;
+    throw std::invalid_argument(
+        fmt::format("{} = {:g} {} is out of its range; law {} takes {:g} to {:g}", name, value,
+                    word->unit, image_.name, std::min(a, b), std::max(a, b)));
+  }
+  return std::nearbyint(raw) * word->scale;
+}
+
+void LoadedParameters::check(const std::string& name, double value) const {
+  (void)rounded_si(name, value);
+}
+
+std::vector<HostWord> LoadedParameters::set(const std::string& name, double value) {
+  si_[name] = rounded_si(name, value);
+  std::vector<double> values;
+  for (const ImageWord& w : image_.words) {
+    if (w.formula.empty()) values.push_back(si_.at(w.name));
+  }
+  const std::vector<std::int32_t> words = parameter_words(image_, values);
+  std::vector<HostWord> writes;
+  for (const ImageWord& w : image_.words) {
+    writes.push_back({H::data + Image::parameter_base + w.word,
+                      static_cast<std::uint32_t>(words[static_cast<std::size_t>(w.word)])});
+  }
+  writes.push_back({H::commit, 1});
+  return writes;
+}
+
+}  // namespace feltgate::law

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A compiled law for loops. Documentation: docs/laws.md
+#include "law_loop/scene_law.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "feltgate/axes_ports.hpp"
+#include "law/load.hpp"
+
+namespace feltgate {
+
+namespace {
+
+SceneLaw::Writes of_port(const std::vector<law::HostWord>& words) {
+  SceneLaw::Writes writes;
+  for (const law::HostWord& w : words) writes.emplace_back(axes_engine + w.address, w.data);
+  return writes;
+}
+
+class CompiledSceneLaw : public SceneLaw {
+ public:
+  CompiledSceneLaw(law::Compiled law, DesignInfo design)
+      : law_(std::move(law)), design_(std::move(design)), parameters_(law_.image) {
+    // The riders begin with the values as rounded to words.
+    for (std::size_t n = 0; n < law_.law.parameters.size(); ++n) {
+      const law::Parameter& p = law_.law.parameters[n];
+      if (p.derived < 0 && has(p.name)) note(n);
+    }
+    initial_ = changes_.size();
+  }
+  const std::string& name() const override { return law_.law.name; }
+  double bound_nm() const override {
+    const auto position = [](const law::Input& in) { return in.source == law::Source::position; };
+    const auto& inputs = law_.law.inputs;
+    const bool bounded = std::all_of(inputs.begin(), inputs.end(), position) &&
+                         law_.bound.states_bounded && law_.bound.strips.empty();
+    return bounded ? law_.bound.output.front() : std::numeric_limits<double>::infinity();
+  }
+  Writes load() const override { return of_port(law::load_into_zeros(law_.image)); }
+  bool has(const std::string& parameter) const override {
+    return parameters_.find(parameter) != nullptr;
+  }
+  void check(const std::string& parameter, double value) const override {
+    parameters_.check(parameter, value);
+  }
+  Writes set(const std::string& parameter, double value) override {
+    const auto words = parameters_.set(parameter, value);
+    for (std::size_t n = 0; n < law_.law.parameters.size(); ++n) {
+      if (law_.law.parameters[n].name == parameter) note(n);
+    }
+    return of_port(words);
+  }
+  std::unique_ptr<LawRider> rider(const std::string& kind) const override {
+    auto made = make_law_rider(law_, design_, kind, changes_);
+    for (std::size_t n = 0; n < initial_; ++n) made->change();
+    return made;
+  }
+
+ private:
+  void note(std::size_t parameter) {
+    const law::Parameter& p = law_.law.parameters[parameter];
+    changes_.push_back({parameter, parameters_.value(p.name) * p.to_si});
+  }
+
+  law::Compiled law_;
+  DesignInfo design_;
+  law::LoadedParameters parameters_;
+  std::vector<LawChange> changes_;
+  std::size_t initial_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<SceneLaw> make_scene_law(const std::string& path, const DesignInfo& design) {
+  law::Compiled law = law::compile_file(path, law::target_of(design));
+  for (const law::Output& o : law.law.outputs) {
+    if (o.axis == 0) continue;
+    throw std::invalid_argument(
+        fmt::format("{}:{}: a torque for axis {}, and a scene has one lever; "
+                    "`feltgate law {}` measures laws of several axes",
+                    path, o.place.line, o.axis, path));
+  }
+  return std::make_unique<CompiledSceneLaw>(std::move(law), design);
+}
+
+}  // namespace feltgate

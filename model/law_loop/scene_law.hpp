@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A compiled law for loops: loaded by the host's writes, beside it the law in real numbers.
+// Documentation: docs/laws.md
+#pragma once
+
+#include <memory>
+
+#include "law/compile.hpp"
+#include "loop/scene_law.hpp"
+
+namespace feltgate {
+
+/// The law of a file for a design. Errors: law::LawError, law::Refused; std::invalid_argument for a
+/// law of several axes, which a loop of one lever cannot run.
+std::unique_ptr<SceneLaw> make_scene_law(const std::string& path, const DesignInfo& design);
+
+/// Runs it in the numbers of a chain of this kind: "fixed" runs the image, "quad" the graph in
+/// binary128, the others in double. `changes` are the parameters' numbers and SI values, in the
+/// order in which they are set; it may grow.
+struct LawChange {
+  std::size_t parameter;
+  double si;
+};
+std::unique_ptr<LawRider> make_law_rider(const law::Compiled& law, const DesignInfo& design,
+                                         const std::string& kind,
+                                         const std::vector<LawChange>& changes);
+
+}  // namespace feltgate

@@ -5,28 +5,16 @@
 #include "bench/measure.hpp"
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
 #include <map>
 
+#include "bench/cpu_time.hpp"
+#include "bench/law_speed.hpp"
+
 namespace feltgate::bench {
 
 namespace {
-
-/// CPU time of this process: another program on the machine does not count.
-double cpu_s() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-template <class Do>
-double timed(Do&& action) {
-  const double begin = cpu_s();
-  action();
-  return cpu_s() - begin;
-}
 
 /// FNV-1a, a word at a time.
 void add_to_hash(std::uint64_t* hash, const RawTick& raw) {
@@ -79,6 +67,7 @@ class Measurement {
       inspect(work);
     }
     estimate_length();
+    if (!options_.laws.empty()) laws_ = std::make_unique<LawBench>(options_.laws);
     for (int k = 0; k < options_.repetitions; ++k) repeat();
     conclude();
     return std::move(result_);
@@ -103,7 +92,7 @@ class Measurement {
       const bool first = e.integer && integers_of.empty();
       if (first) integers_of = e.name;
       std::size_t tick = 0;
-      inspect_s_[e.name] += timed([&] {
+      inspect_s_[e.name] += cpu_seconds([&] {
         runner.inspect(work, [&](const TickResult& r) {
           if (tick < exact.size()) {
             e.compared = true;
@@ -163,7 +152,7 @@ class Measurement {
           if (pass > 0 && !fast(e)) continue;
           Runner& runner = *runners_[i];
           runner.prepare(work);
-          const double s = timed([&] { runner.run(work); }) / runner.lanes();
+          const double s = cpu_seconds([&] { runner.run(work); }) / runner.lanes();
           if (spent[i].size() <= static_cast<std::size_t>(pass)) spent[i].push_back(0);
           spent[i][static_cast<std::size_t>(pass)] += s;
           if (e.name == "twin_event" && is_closed_loop(work)) {
@@ -178,11 +167,12 @@ class Measurement {
         result_.engines[i].samples.push_back(1e9 * s / static_cast<double>(result_.ticks));
       }
     }
+    if (laws_ != nullptr) laws_->repeat();
     double loops_s = 0, simulated_s = 0;
     for (const Scene& scene : closed_loops_) {
       RunOptions options;
       options.engine = "twin";
-      const double s = timed([&] { run_scenario(scene.scenario, scene.plant, options); });
+      const double s = cpu_seconds([&] { run_scenario(scene.scenario, scene.plant, options); });
       loop_samples_[scene.scenario.name].push_back(scene.scenario.duration_s / s);
       loops_s += s;
       simulated_s += scene.scenario.duration_s;
@@ -217,6 +207,7 @@ class Measurement {
       result_.loops.push_back(
           {s.scenario.name, s.scenario.duration_s, spread(loop_samples_[s.scenario.name])});
     }
+    conclude_laws();
     const EngineResult* rtl = result_.find("rtl");
     const EngineResult* event = result_.find("twin_event");
     const EngineResult* tick = result_.find("twin_tick");
@@ -253,6 +244,33 @@ class Measurement {
     }
   }
 
+  /// Of a law's instruction, all laws run once: its time over the tick of the same repetition.
+  void conclude_laws() {
+    if (laws_ == nullptr) return;
+    const auto n = static_cast<std::size_t>(options_.repetitions);
+    std::vector<double> ns(n);
+    double instructions = 0;
+    for (const LawSamples& s : laws_->samples()) {
+      result_.laws.push_back(
+          {s.name, s.instructions, spread(s.compiled), spread(s.real), spread(s.interpreted)});
+      instructions += s.instructions;
+      for (std::size_t k = 0; k < n; ++k) ns[k] += s.compiled[k];
+    }
+    const EngineResult* tick = result_.find("twin_tick");
+    if (tick == nullptr) return;
+    const std::size_t passes = tick->samples.size() / n;
+    std::vector<double> ratios;
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto first = tick->samples.begin() + static_cast<std::ptrdiff_t>(k * passes);
+      const double ticks_ns = spread({first, first + static_cast<std::ptrdiff_t>(passes)}).median;
+      ratios.push_back(ns[k] / instructions / ticks_ns);
+    }
+    result_.goals.push_back({"law_instruction_over_tick",
+                             "an instruction of a law in C++, time over twin_tick", 0.1, true,
+                             spread(ratios)});
+  }
+
+  std::unique_ptr<LawBench> laws_;
   const std::vector<std::unique_ptr<Runner>>& runners_;
   const std::vector<Work>& works_;
   const std::vector<Scene>& closed_loops_;

@@ -42,6 +42,13 @@ struct LoopResult {
   Spread speed;
 };
 
+/// A shipped law: ns of a run.
+struct LawResult {
+  std::string name;
+  int instructions = 0;
+  Spread compiled, real, interpreted;  ///< C++ in fixed point, in double; the interpreter
+};
+
 /// What is promised, and what was measured.
 struct Goal {
   std::string key, text;
@@ -60,6 +67,7 @@ struct Result {
   std::optional<ErrorLimits> bounds;
   std::vector<EngineResult> engines;
   std::vector<LoopResult> loops;
+  std::vector<LawResult> laws;
   std::vector<Goal> goals;
   std::string divergence;  ///< first tick and signal in which integer engines differ; else empty
   double simulated_s = 0;  ///< of all works together
@@ -69,6 +77,7 @@ struct Result {
 
 struct Options {
   int repetitions = 3;
+  std::string laws;                           ///< folder of the shipped laws; empty: none
   int passes = 5;                             ///< of the fast engines in each repetition
   std::function<void(double done)> progress;  ///< called with 0..1; may be empty
 };

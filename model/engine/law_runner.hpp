@@ -116,6 +116,13 @@ struct CompiledEntry {
 /// Those of rtl/laws, compiled for the design lever and others of its formats.
 const std::vector<CompiledEntry>& shipped_laws();
 
+inline bool is_shipped(std::uint32_t image_crc) {
+  for (const CompiledEntry& e : shipped_laws()) {
+    if (e.image_crc == image_crc) return true;
+  }
+  return false;
+}
+
 /// Compiled where a shipped law has this CRC-32, else interpreted.
 inline std::unique_ptr<LawRunner> make_law_runner(const EngineMemory& memory,
                                                   std::uint32_t image_crc) {

@@ -21,8 +21,8 @@ const char* constant_text(bool value) { return value ? "true" : "false"; }
 
 class Header {
  public:
-  Header(const Compiled& c, const std::string& source)
-      : c_(c), law_(c.law), source_(source), class_(cpp_class(law_.name)) {}
+  Header(const Compiled& c, const std::string& source, const std::string& space)
+      : c_(c), law_(c.law), source_(source), space_(space), class_(cpp_class(law_.name)) {}
 
   std::string run() {
     std::string s = fmt::format(
@@ -30,10 +30,10 @@ class Header {
         "//\n// Generated from {}\n// by `feltgate law`: do not edit.\n"
         "#pragma once\n\n#include <array>\n#include <cstddef>\n#include <cstdint>\n\n"
         "#include \"feltgate/law_ops.hpp\"\n\n"
-        "namespace feltgate::laws {{\n\n{}template <class N>\nclass {} {{\n public:\n",
-        source_, about(), class_);
+        "namespace feltgate::{} {{\n\n{}template <class N>\nclass {} {{\n public:\n",
+        source_, space_, about(), class_);
     s += facts() + functions() + members();
-    return s + "};\n\n}  // namespace feltgate::laws\n";
+    return s + "};\n\n}  // namespace feltgate::" + space_ + "\n";
   }
 
  private:
@@ -42,7 +42,7 @@ class Header {
   std::string about() const {
     const auto count = static_cast<int>(c_.assembled.instructions.size());
     std::string s = fmt::format(
-        "/// {}\n///\n/// For design {}: {} instructions, {} clocks from start to start, {:.6g} "
+        "/// {}\n///\n/// For design {}: {} instructions, {} clocks from start to start, {:.9g} "
         "Hz.\n",
         law_.summary.empty() ? law_.name : law_.summary, c_.target.design, count,
         engine_period(count, c_.target.axes), c_.rate_hz);
@@ -120,10 +120,8 @@ class Header {
         "      set_values(values);\n"
         "    }}\n"
         "  }}\n\n"
-        "  /// The next run is the first: states begin at their initial values.\n"
-        "  void enter() {{ first_ = true; }}\n"
-        "  /// Lines with zeros, as after load.\n"
-        "  void clear_lines() {{{}}}\n"
+        "  /// The next run is the first: states begin at their initial values, lines with zeros.\n"
+        "  void enter() {{{} first_ = true; }}\n"
         "  /// A word of `words` as the host writes it.\n"
         "  void set_word(std::size_t n, std::int32_t w) {{ word_[n] = O::word(w); }}\n"
         "  /// All parameters, in SI, in the order of those `words` that are not derived. In "
@@ -147,7 +145,7 @@ class Header {
         "  template <class T>\n"
         "  static std::array<T, words.size()> words_of(const std::array<T, parameters>&{}) {{\n"
         "    return {{{{\n",
-        class_, has_lines() ? " lines_.clear(); " : "", class_, none ? "" : " value");
+        class_, has_lines() ? " lines_.clear();" : "", class_, none ? "" : " value");
     std::map<std::string, std::string> names;
     std::size_t next = 0;
     for (const ImageWord& w : c_.image.words) {
@@ -222,13 +220,14 @@ class Header {
 
   const Compiled& c_;
   const Law& law_;
-  std::string source_, class_;
+  std::string source_, space_, class_;
 };
 
 }  // namespace
 
-std::string cpp_header(const Compiled& compiled, const std::string& source) {
-  return Header(compiled, source).run();
+std::string cpp_header(const Compiled& compiled, const std::string& source,
+                       const std::string& space) {
+  return Header(compiled, source, space).run();
 }
 
 }  // namespace feltgate::law

@@ -12,8 +12,9 @@
 
 namespace feltgate::law {
 
-/// The header, whose class is feltgate::laws::NAME<N>. `source` is named in it: the law's file.
-std::string cpp_header(const Compiled& compiled, const std::string& source);
+/// The header, whose class is feltgate::SPACE::NAME<N>. `source` is named in it: the law's file.
+std::string cpp_header(const Compiled& compiled, const std::string& source,
+                       const std::string& space = "laws");
 
 /// NAME: "charge_far" becomes "ChargeFar".
 std::string cpp_class(const std::string& law);

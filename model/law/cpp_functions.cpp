@@ -78,11 +78,10 @@ std::string table(const Law& law, int index) {
   const Table& t = law.tables[at(index)];
   std::string s = fmt::format(
       "  /// The law's table `{}`, exact; beyond {:.6g} .. {:.6g} it stays.\n"
-      "  template <class T>\n  static T {}(T x) {{\n"
-      "    x = x < T({}) ? T({}) : x > T({}) ? T({}) : x;\n",
-      t.name, t.domain.lower, t.domain.upper, cpp_table_name(law, index),
-      cpp_number(t.domain.lower), cpp_number(t.domain.lower), cpp_number(t.domain.upper),
-      cpp_number(t.domain.upper));
+      "  template <class T>\n  static T {}(T x) {{\n",
+      t.name, t.domain.lower, t.domain.upper, cpp_table_name(law, index));
+  s += fmt::format("    x = x < T({0}) ? T({0}) : x > T({1}) ? T({1}) : x;\n",
+                   cpp_number(t.domain.lower), cpp_number(t.domain.upper));
   std::set<NodeId> nodes;
   body(law, t.body, nodes);
   for (const NodeId id : nodes) {

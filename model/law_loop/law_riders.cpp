@@ -8,7 +8,7 @@
 #include <map>
 #include <vector>
 
-#include "engine/machine.hpp"
+#include "engine/law_runner.hpp"
 #include "feltgate/quad.hpp"
 #include "law/evaluate.hpp"
 #include "law/load.hpp"
@@ -50,12 +50,15 @@ class RealLaw : public LawRider {
   std::vector<N> inputs_;
 };
 
-/// The image in the interpreter.
+/// The image: compiled C++ where the law is a shipped one, else its words in the interpreter.
 class FixedLaw : public LawRider {
  public:
   FixedLaw(const law::Compiled& law, const DesignInfo& design,
            const std::vector<LawChange>& changes)
-      : law_(law), torque_(design.torque), changes_(changes), machine_(law::memory(law.image)) {}
+      : law_(law),
+        torque_(design.torque),
+        changes_(changes),
+        runner_(law::make_law_runner(law::memory(law.image), law::crc(law.image))) {}
   void change() override {
     const LawChange& c = changes_.at(next_++);
     values_[law_.law.parameters[c.parameter].name] = c.si;
@@ -67,19 +70,19 @@ class FixedLaw : public LawRider {
     }
     const std::vector<std::int32_t> words = law::parameter_words(law_.image, values);
     for (std::size_t n = 0; n < words.size(); ++n) {
-      machine_.set_parameter(static_cast<int>(n), words[n]);
+      runner_->set_parameter(static_cast<int>(n), words[n]);
     }
-    machine_.commit();
+    runner_->commit();
   }
 
  private:
-  void reset() override { machine_.enter(); }
+  void reset() override { runner_->enter(); }
   double run(const Snapshot& s, const RealChain& chain) override {
     const ChainRaw& raw = *chain.raw();
     const auto tick = static_cast<std::int32_t>(s.tick);
     const law::MachineInputs in{
         s.position, static_cast<std::int32_t>(raw.velocity), raw.tau_hat, 0, 0, 0, 0, 0, 0, tick};
-    const std::int32_t word = machine_.run(0, in).outputs[0];
+    const std::int32_t word = runner_->run(in).outputs[0];
     return std::ldexp(static_cast<double>(saturate(torque_, word)), -torque_.fraction);
   }
   static std::int64_t saturate(Format f, std::int32_t word) {
@@ -92,7 +95,7 @@ class FixedLaw : public LawRider {
   const std::vector<LawChange>& changes_;
   std::size_t next_ = 0;
   std::map<std::string, double> values_;  ///< SI
-  law::Machine machine_;
+  std::unique_ptr<law::LawRunner> runner_;
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "engine/law_runner.hpp"
 #include "feltgate/axes_ports.hpp"
 #include "law/load.hpp"
 
@@ -35,6 +36,7 @@ class CompiledSceneLaw : public SceneLaw {
     initial_ = changes_.size();
   }
   const std::string& name() const override { return law_.law.name; }
+  bool compiled() const override { return law::is_shipped(law::crc(law_.image)); }
   double bound_nm() const override {
     const auto position = [](const law::Input& in) { return in.source == law::Source::position; };
     const auto& inputs = law_.law.inputs;

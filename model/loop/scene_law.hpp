@@ -61,6 +61,8 @@ class SceneLaw {
   using Writes = std::vector<std::pair<int, std::uint32_t>>;
   virtual ~SceneLaw() = default;
   virtual const std::string& name() const = 0;
+  /// Whether its words run as C++ that was built with the program; else in the interpreter.
+  virtual bool compiled() const = 0;
   /// Largest error of its torque against real arithmetic of the same tick's samples, Nm; infinite
   /// where it takes more than the position, or jumps.
   virtual double bound_nm() const = 0;

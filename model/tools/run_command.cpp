@@ -146,7 +146,15 @@ int run(const RunArguments& a) {
   for (files::OutputFile* file : {json, report_json}) {
     if (file != nullptr) file->write(run_json(result, labels));
   }
-  if (!a.quiet) outputs.say(run_text(result, labels));
+  if (!a.quiet) {
+    outputs.say(run_text(result, labels));
+    if (law != nullptr) {
+      outputs.say(fmt::format("law {}: {}\n", law->name(),
+                              law->compiled()
+                                  ? "compiled into this program"
+                                  : "not compiled into this program, the interpreter runs it"));
+    }
+  }
   outputs.commit();
   const bool ok = result.mismatches == 0 && result.broken.empty();
   if (!a.report.empty()) {

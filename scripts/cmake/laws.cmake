@@ -18,7 +18,7 @@ function(feltgate_law_headers target list)
     list(APPEND headers "${folder}/laws/${name}.hpp")
   endforeach()
   add_custom_command(OUTPUT ${headers}
-    COMMAND feltgate_laws "${folder}" ${list} ${ARGN}
+    COMMAND feltgate_laws "${folder}" laws ${list} ${ARGN}
     DEPENDS feltgate_laws ${ARGN} COMMENT "Laws as C++: ${list}" VERBATIM)
   add_library(${target} INTERFACE)
   target_sources(${target} INTERFACE ${headers})

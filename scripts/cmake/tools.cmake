@@ -77,7 +77,7 @@ feltgate_program(feltgate_host
   feltgate_files feltgate_engines feltgate_hostlink feltgate_identify feltgate_traces nlohmann_json::nlohmann_json CLI11::CLI11)
 
 # The benchmark links SystemC, which nothing else of the product needs: only built when asked for.
-feltgate_library(feltgate_bench_parts bench feltgate_rtl feltgate_loop systemc)
+feltgate_library(feltgate_bench_parts bench feltgate_rtl feltgate_loop feltgate_law feltgate_shipped_laws systemc)
 target_compile_definitions(feltgate_bench_parts PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
 feltgate_program(feltgate_bench "bench_main.cpp;checks.cpp;commands.cpp;command_line.cpp"
   feltgate_files feltgate_bench_parts nlohmann_json::nlohmann_json CLI11::CLI11)

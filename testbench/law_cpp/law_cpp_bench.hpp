@@ -11,8 +11,17 @@
 #include "engine/law_runner.hpp"
 #include "feltgate/random.hpp"
 #include "law/compile.hpp"
+#include "laws/shipped.hpp"
 
 namespace feltgate::test {
+
+/// The shipped laws; with seeded defects of what writes the C++ only the others, which have them.
+template <class Visitor>
+void visit_shipped([[maybe_unused]] Visitor&& visitor) {
+#ifndef LAW_CPP_DEFECTS
+  laws::visit_shipped(visitor);
+#endif
+}
 
 /// The law of a generated class, compiled here once more.
 inline const law::Compiled& compiled_law(const std::string& name) {
@@ -66,7 +75,12 @@ class Stimulus {
  private:
   std::int32_t word(std::int64_t limit) {
     const std::int64_t kind = random_.below(within_ ? 15 : 16);
-    if (kind == 15) return static_cast<std::int32_t>(random_.bits());
+    if (kind == 15) {
+      const std::int64_t end = random_.below(4);
+      return end == 0   ? INT32_MIN
+             : end == 1 ? INT32_MAX
+                        : static_cast<std::int32_t>(random_.bits());
+    }
     if (kind == 14) return static_cast<std::int32_t>(random_.below(2) == 0 ? -limit : limit - 1);
     const std::int64_t spread = std::max<std::int64_t>(limit >> random_.below(18), 1);
     return static_cast<std::int32_t>(random_.below(2 * spread) - spread);

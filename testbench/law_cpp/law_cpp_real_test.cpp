@@ -8,7 +8,6 @@
 #include "law/evaluate.hpp"
 #include "law_cpp_bench.hpp"
 #include "laws/constructs.hpp"
-#include "laws/shipped.hpp"
 
 namespace feltgate::test {
 namespace {
@@ -35,7 +34,6 @@ struct AgainstGraph {
       if (stimulus.one_in(100)) set(c, stimulus, random, &own, &graph);
       if (n > 0 && stimulus.one_in(500)) {
         own.enter();
-        own.clear_lines();
         graph.reset();
       }
       const law::MachineInputs words = stimulus.inputs();
@@ -84,12 +82,12 @@ struct AgainstGraph {
 };
 
 TEST_CASE("C++ of laws in double is the law in double") {
-  laws::visit_shipped(AgainstGraph<double>{20000, 1e-10});
+  visit_shipped(AgainstGraph<double>{20000, 1e-10});
   laws::visit_constructs(AgainstGraph<double>{20000, 1e-10});
 }
 
 TEST_CASE("C++ of laws in binary128 is the law in binary128, but for constants of the program") {
-  laws::visit_shipped(AgainstGraph<Quad>{1000, 1e-11});
+  visit_shipped(AgainstGraph<Quad>{1000, 1e-11});
   laws::visit_constructs(AgainstGraph<Quad>{1000, 1e-11});
 }
 

@@ -7,7 +7,6 @@
 #include "catch.hpp"
 #include "law_cpp_bench.hpp"
 #include "laws/constructs.hpp"
-#include "laws/shipped.hpp"
 #include "mismatch.hpp"
 
 namespace feltgate::test {
@@ -62,7 +61,7 @@ struct AgainstSystemC {
 };
 
 TEST_CASE("C++ of laws: SystemC's words are those of fixed") {
-  laws::visit_shipped(AgainstSystemC{scaled_clocks(2000)});
+  visit_shipped(AgainstSystemC{scaled_clocks(2000)});
   laws::visit_constructs(AgainstSystemC{scaled_clocks(1000)});
 }
 

@@ -43,4 +43,5 @@ engine/engine_mailbox.sv
 engine/engine_crc.sv
 engine/engine_events.sv
 engine/engine.sv
+axes/axes_engine.sv
 axes/feltgate_axes.sv

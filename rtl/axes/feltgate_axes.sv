@@ -166,81 +166,21 @@ module feltgate_axes #(
 
   generate
   if (Engine != 0) begin : g_engine
-    logic law_any, law_any_q, all_ask, armed, armed_q, fresh, late, changed;
-    logic engine_addressed, engine_busy_now;
-    logic check, checks_q, check_of_these_q, checked_q, crc_done, crc_good;
-    logic [31:0] engine_word;
-    assign law_any = |in_law;
-    assign all_ask = &asks;
-    assign armed   = |armed_o;
-    assign engine_addressed = reg_addr_i[15:12] == 4'd4;
-
-    // Arming waits until the CRC of the programs is computed: the axes hear that another does not ask.
-    // Looked at once a tick, for a request may come from a pin.
-    assign check     = snapshot_valid_o && all_ask && !checked_q && !checks_q;
-    assign unchecked = !checked_q;
-    assign unfit     = law_any && !crc_good;
-    always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) begin
-        checks_q         <= 1'b0;
-        check_of_these_q <= 1'b0;
-        checked_q        <= 1'b0;
-      end else begin
-        checks_q <= check || (checks_q && !crc_done);
-        if (snapshot_valid_o && !all_ask) begin
-          check_of_these_q <= 1'b0;
-          checked_q        <= 1'b0;
-        end else begin
-          if (check) check_of_these_q <= 1'b1;
-          if (crc_done && check_of_these_q) checked_q <= 1'b1;
-        end
-      end
-    end
-
-    // From what makes the torque jump until a run that began after it has ended, and its torque was sampled:
-    // a run may be under way, so the second one that ends.
-    logic [1:0] runs_q;
-    logic sampled_q, jumps;
-    assign jumps       = (law_any && !law_any_q) || (armed && !armed_q) || zeroed_o != '0 || changed;
-    assign law_restart = runs_q != 2'd0 || !sampled_q;
-    assign law_late    = late || !crc_good;
-    always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) begin
-        law_any_q <= 1'b0;
-        armed_q   <= 1'b0;
-        runs_q    <= '0;
-        sampled_q <= 1'b1;
-      end else begin
-        law_any_q <= law_any;
-        armed_q   <= armed;
-        if (jumps) runs_q <= 2'd2;
-        else if (fresh && runs_q != 2'd0) runs_q <= runs_q - 2'd1;
-        sampled_q <= runs_q == 2'd0 && (sampled_q || measured_o);
-      end
-    end
-
-    // The engine's word is registered: the port shows an address 33 clocks later.
-    assign engine_busy = engine_addressed && engine_busy_now;
-    always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) engine_rdata <= '0;
-      else engine_rdata <= engine_addressed ? engine_word : '0;
-    end
-
     logic [32*AxisCount-1:0] velocity, tau_hat;
     for (n = 0; n < AxisCount; n = n + 1) begin : g_inputs
       assign velocity[32*n+:32] = 32'($signed(velocity_o[n*feltgate_pkg::VELOCITY_W+:feltgate_pkg::VELOCITY_W]));
       assign tau_hat[32*n+:32]  = 32'($signed(tau_hat_o[n*TorqueW+:TorqueW]));
     end
-    engine #(.AxisCount(AxisCount), .AgeReset(16'(feltgate_pkg::ENGINE_MAX_AGE))) u_engine (
+    axes_engine #(.AxisCount(AxisCount)) u_engine (
         .clk_i(clk_i), .rst_ni(rst_ni),
-        .armed_i(armed), .enter_i(law_any && !law_any_q), .locked_i(armed || all_ask || checks_q),
-        .tick_i(measured_o), .tick_count_i(tick_count_o),
+        .law_i(in_law), .asks_i(asks), .armed_i(armed_o), .zeroed_i(zeroed_o),
+        .snapshot_i(snapshot_valid_o), .measured_i(measured_o), .tick_count_i(tick_count_o),
         .position_i(position_o), .velocity_i(velocity), .tau_hat_i(tau_hat),
-        .torque_o(law_torque), .fresh_o(fresh), .late_o(late), .changed_o(changed),
-        .crc_start_i(check), .crc_done_o(crc_done), .crc_good_o(crc_good),
-        .event_valid_o(event_valid_o), .event_number_o(event_number_o), .event_value_o(event_value_o),
-        .addr_i(reg_addr_i[11:0]), .wdata_i(reg_wdata_i), .write_i(reg_write_i && engine_addressed),
-        .read_i(reg_read_i && engine_addressed), .rdata_o(engine_word), .busy_o(engine_busy_now)
+        .torque_o(law_torque), .late_o(law_late), .restart_o(law_restart),
+        .unchecked_o(unchecked), .unfit_o(unfit),
+        .reg_addr_i(reg_addr_i), .reg_wdata_i(reg_wdata_i), .reg_write_i(reg_write_i), .reg_read_i(reg_read_i),
+        .reg_busy_o(engine_busy), .reg_rdata_o(engine_rdata),
+        .event_valid_o(event_valid_o), .event_number_o(event_number_o), .event_value_o(event_value_o)
     );
   end else begin : g_no_engine
     assign law_torque     = law_torque_i;

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What stands between the engine and the axes: its port, the check of its programs at each arming, and when
+// a torque may jump. docs/blocks/axes_engine.md
+
+`default_nettype none
+
+module axes_engine #(
+    parameter int AxisCount = 1
+) (
+    input  logic clk_i,
+    input  logic rst_ni,
+
+    // The axes: each is bit n, or the n-th part from below.
+    input  logic [AxisCount-1:0] law_i,     // in the scene of laws
+    input  logic [AxisCount-1:0] asks_i,    // to be armed, or to stay so
+    input  logic [AxisCount-1:0] armed_i,
+    input  logic [AxisCount-1:0] zeroed_i,  // one clock: the position was set to 0
+    input  logic snapshot_i,                // one clock a tick
+    input  logic measured_i,                // one clock a tick: what follows is of it, and held
+    input  logic [31:0] tick_count_i,
+    input  logic [32*AxisCount-1:0] position_i,
+    input  logic [32*AxisCount-1:0] velocity_i,
+    input  logic [32*AxisCount-1:0] tau_hat_i,
+    output logic [AxisCount*feltgate_pkg::TORQUE_W-1:0] torque_o,
+    output logic late_o,                    // no torque that counts
+    output logic restart_o,                 // in the last clock of a tick: the torque may jump
+    output logic unchecked_o,               // arming must wait
+    output logic unfit_o,                   // it must not be
+
+    // Register port, the engine at 0x4000
+    input  logic [15:0] reg_addr_i,
+    input  logic [31:0] reg_wdata_i,
+    input  logic        reg_write_i,
+    input  logic        reg_read_i,         // one clock: the word was taken
+    output logic        reg_busy_o,         // of the engine, where it is addressed
+    output logic [31:0] reg_rdata_o,
+
+    // Events of programs
+    output logic        event_valid_o,
+    output logic [ 8:0] event_number_o,
+    output logic [31:0] event_value_o
+);
+  logic law_any, law_any_q, all_ask, armed, armed_q, fresh, late, changed;
+  logic engine_addressed, engine_busy;
+  logic check, checks_q, check_of_these_q, checked_q, crc_done, crc_good;
+  logic [31:0] engine_word;
+  assign law_any = |law_i;
+  assign all_ask = &asks_i;
+  assign armed   = |armed_i;
+  assign engine_addressed = reg_addr_i[15:12] == 4'd4;
+
+  // Arming waits until the CRC of the programs is computed: the axes hear that another does not ask.
+  // Looked at once a tick, for a request may come from a pin.
+  assign check       = snapshot_i && all_ask && !checked_q && !checks_q;
+  assign unchecked_o = !checked_q;
+  assign unfit_o     = law_any && !crc_good;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      checks_q         <= 1'b0;
+      check_of_these_q <= 1'b0;
+      checked_q        <= 1'b0;
+    end else begin
+      checks_q <= check || (checks_q && !crc_done);
+      if (snapshot_i && !all_ask) begin
+        check_of_these_q <= 1'b0;
+        checked_q        <= 1'b0;
+      end else begin
+        if (check) check_of_these_q <= 1'b1;
+        if (crc_done && check_of_these_q) checked_q <= 1'b1;
+      end
+    end
+  end
+
+  // From what makes the torque jump until a run that began after it has ended, and its torque was sampled:
+  // a run may be under way, so the second one that ends.
+  logic [1:0] runs_q;
+  logic sampled_q, jumps;
+  assign jumps     = (law_any && !law_any_q) || (armed && !armed_q) || zeroed_i != '0 || changed;
+  assign restart_o = runs_q != 2'd0 || !sampled_q;
+  assign late_o    = late || !crc_good;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      law_any_q <= 1'b0;
+      armed_q   <= 1'b0;
+      runs_q    <= '0;
+      sampled_q <= 1'b1;
+    end else begin
+      law_any_q <= law_any;
+      armed_q   <= armed;
+      if (jumps) runs_q <= 2'd2;
+      else if (fresh && runs_q != 2'd0) runs_q <= runs_q - 2'd1;
+      sampled_q <= runs_q == 2'd0 && (sampled_q || measured_i);
+    end
+  end
+
+  // The engine's word is registered: the port shows an address 33 clocks later.
+  assign reg_busy_o = engine_addressed && engine_busy;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) reg_rdata_o <= '0;
+    else reg_rdata_o <= engine_addressed ? engine_word : '0;
+  end
+
+  engine #(.AxisCount(AxisCount), .AgeReset(16'(feltgate_pkg::ENGINE_MAX_AGE))) u_engine (
+      .clk_i(clk_i), .rst_ni(rst_ni),
+      .armed_i(armed), .enter_i(law_any && !law_any_q), .locked_i(armed || all_ask || checks_q),
+      .tick_i(measured_i), .tick_count_i(tick_count_i),
+      .position_i(position_i), .velocity_i(velocity_i), .tau_hat_i(tau_hat_i),
+      .torque_o(torque_o), .fresh_o(fresh), .late_o(late), .changed_o(changed),
+      .crc_start_i(check), .crc_done_o(crc_done), .crc_good_o(crc_good),
+      .event_valid_o(event_valid_o), .event_number_o(event_number_o), .event_value_o(event_value_o),
+      .addr_i(reg_addr_i[11:0]), .wdata_i(reg_wdata_i), .write_i(reg_write_i && engine_addressed),
+      .read_i(reg_read_i && engine_addressed), .rdata_o(engine_word), .busy_o(engine_busy)
+  );
+endmodule
+
+`default_nettype wire

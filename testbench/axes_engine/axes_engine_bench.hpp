@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The part between an engine and its axes, with axes that do what a test says: RTL and twin.
+// Documentation: docs/blocks/axes_engine.md
+#pragma once
+
+#include <Vaxes_engine.h>
+
+#include <vector>
+
+#include "feltgate/axes_engine.hpp"
+#include "feltgate/crc32.hpp"
+#include "feltgate/generated/lever_law.hpp"
+#include "lock_step.hpp"
+#include "machine_programs.hpp"
+
+namespace feltgate::test {
+
+using H = EngineMap::H;
+constexpr int kAxes = 2;
+
+/// What an axis says.
+struct Axis {
+  bool law = false, asks = false, armed = false, zeroed = false;
+  std::int32_t position = 0, velocity = 0, tau_hat = 0;
+};
+
+struct AxisOf {
+  CoreOut core;
+  Axis says;
+  bool is_measured = false;
+  const CoreOut& out() const { return core; }
+  bool asks(const CoreIn&) const { return says.asks; }
+  bool zeroed() const { return says.zeroed; }
+  bool measured() const { return is_measured; }
+};
+
+/// The twin as a block of its own.
+class Twin {
+ public:
+  struct In {
+    std::array<Axis, kAxes> axis;
+    bool snapshot = false, measured = false;
+    std::uint32_t tick_count = 0;
+    AxesIn<kAxes> port;
+  };
+  struct Out {
+    std::array<std::int32_t, kAxes> torque{};
+    bool late = false, restart = false, unchecked = false, unfit = false;
+    AxesOut<kAxes> port;
+  };
+
+  void reset() {
+    twin_.reset();
+    last_ = In{};
+  }
+  Out peek(const In& in) const {
+    Out out;
+    std::array<CoreIn, kAxes> each;
+    twin_.give(in.port, axes(in), each);
+    for (std::size_t n = 0; n < kAxes; ++n) out.torque[n] = each[n].law_torque;
+    out.late = each[0].law_late;
+    out.restart = each[0].law_restart;
+    out.unchecked = each[0].axis_silent;
+    out.unfit = each[0].axis_blocked;
+    twin_.show(in.port, out.port);
+    return out;
+  }
+  Out out() const { return peek(last_); }
+  void clock(const In& in) {
+    last_ = in;
+    twin_.clock(in.port, axes(in), {});
+  }
+
+ private:
+  static std::array<AxisOf, kAxes> axes(const In& in) {
+    std::array<AxisOf, kAxes> all;
+    for (std::size_t n = 0; n < kAxes; ++n) {
+      AxisOf& a = all[n];
+      a.says = in.axis[n];
+      a.is_measured = in.measured;
+      a.core.scene = in.axis[n].law ? Map::S::law : 0;
+      a.core.armed = in.axis[n].armed;
+      a.core.snapshot_valid = in.snapshot;
+      a.core.tick_count = in.tick_count;
+      a.core.position = in.axis[n].position;
+      a.core.velocity = in.axis[n].velocity;
+      a.core.tau_hat = in.axis[n].tau_hat;
+    }
+    return all;
+  }
+
+  AxesEngine<LeverLaw, kAxes> twin_;
+  In last_;
+};
+
+struct Adapter {
+  static void drive(Vaxes_engine& rtl, const Twin::In& in) {
+    const auto bits = [&in](bool Axis::*what) {
+      return static_cast<std::uint8_t>(in.axis[0].*what | in.axis[1].*what << 1);
+    };
+    const auto words = [&in](std::int32_t Axis::*what) {
+      return std::uint64_t{static_cast<std::uint32_t>(in.axis[1].*what)} << 32 |
+             static_cast<std::uint32_t>(in.axis[0].*what);
+    };
+    rtl.law_i = bits(&Axis::law);
+    rtl.asks_i = bits(&Axis::asks);
+    rtl.armed_i = bits(&Axis::armed);
+    rtl.zeroed_i = bits(&Axis::zeroed);
+    rtl.snapshot_i = in.snapshot;
+    rtl.measured_i = in.measured;
+    rtl.tick_count_i = in.tick_count;
+    rtl.position_i = words(&Axis::position);
+    rtl.velocity_i = words(&Axis::velocity);
+    rtl.tau_hat_i = words(&Axis::tau_hat);
+    rtl.reg_addr_i = in.port.reg_addr;
+    rtl.reg_wdata_i = in.port.reg_wdata;
+    rtl.reg_write_i = in.port.reg_write;
+    rtl.reg_read_i = in.port.reg_read;
+  }
+  template <class Check>
+  static void compare(Check& check, const Vaxes_engine& rtl, const Twin::Out& out) {
+    constexpr int width = LeverLaw::f.torque.width();
+    const auto torque = [&rtl](int n) {
+      const std::uint64_t raw = rtl.torque_o >> (width * n) << (64 - width);
+      return static_cast<std::int64_t>(raw) >> (64 - width);
+    };
+    check("torque of axis 0", torque(0), std::int64_t{out.torque[0]});
+    check("torque of axis 1", torque(1), std::int64_t{out.torque[1]});
+    check("late", rtl.late_o, out.late);
+    check("restart", rtl.restart_o, out.restart);
+    check("unchecked", rtl.unchecked_o, out.unchecked);
+    check("unfit", rtl.unfit_o, out.unfit);
+    check("reg_busy", rtl.reg_busy_o, out.port.reg_busy);
+    if (out.port.rdata_known) check("reg_rdata", rtl.reg_rdata_o, out.port.reg_rdata);
+    check("event_valid", rtl.event_valid_o, out.port.event_valid);
+    if (!out.port.event_valid) return;
+    check("event_number", rtl.event_number_o, out.port.event_number);
+    check("event_value", static_cast<std::int32_t>(rtl.event_value_o), out.port.event_value);
+  }
+};
+using Bench = LockStep<Vaxes_engine, Twin, Adapter>;
+
+/// A state that begins at 900 and loses one in a run: axis 0 has it with parameter 0, axis 1 its
+/// position with mailbox word 30. An event tells of velocity and tau_hat of axis 1.
+inline EngineMemory counting_law() {
+  using Op = EngineOp;
+  EngineMemory m;
+  m.set_data(kConstant + 1, 900);
+  m.set_data(kConstant + 2, 1);
+  m.line_base = 509;
+  program(m, 0,
+          {to(0, Op::sel, kConstant + 1, 0), to(0, Op::sub, 0, kConstant + 2),
+           word(Op::add, 0, 0, kParameter, EngineTarget::output, 0),
+           word(Op::sub, 0, kVelocity + 3, kVelocity + 4, EngineTarget::event, 5),
+           out(1, Op::add, kPosition + 3, kParameter + 30)});
+  for (const int n : {0, 30}) {
+    m.set_data(EngineMap::D::lower + n, -1000);
+    m.set_data(EngineMap::D::upper + n, 1000);
+  }
+  return m;
+}
+
+inline std::uint32_t image_crc(const EngineMemory& m) {
+  std::vector<std::uint8_t> bytes;
+  const auto put = [&bytes](std::uint64_t word, int count) {
+    for (int n = 0; n < count; ++n) bytes.push_back(static_cast<std::uint8_t>(word >> (8 * n)));
+  };
+  for (int n = 0; n < 512; ++n) put(m.program_at(n), 5);
+  for (int n = 384; n < 512; ++n) put(static_cast<std::uint32_t>(m.data_at(n)), 4);
+  for (int n = 0; n < m.line_base; ++n) put(m.table_at(n), 5);
+  return crc32(bytes.data(), bytes.size());
+}
+
+/// The twin with ticks of 50 clocks and a host, and what it was given, for the RTL.
+class Device {
+ public:
+  static constexpr int kTick = 50;
+  Twin::In in;
+
+  Device() { twin_.reset(); }
+  Twin::Out out() const { return twin_.peek(in); }
+  Axis& axis(int n) { return in.axis[static_cast<std::size_t>(n)]; }
+  void clock() {
+    since_ = (since_ + 1) % kTick;
+    in.snapshot = since_ == 0;
+    in.measured = since_ == 23;
+    if (in.measured) ++in.tick_count;
+    twin_.clock(in);
+    inputs_.push_back(in);
+    for (Axis& a : in.axis) a.zeroed = false;
+    in.port.reg_write = in.port.reg_read = false;
+  }
+  void clocks(int n) {
+    for (int k = 0; k < n; ++k) clock();
+  }
+  void ticks(int n) { clocks(n * kTick); }
+  void write(int address, std::uint32_t word) {
+    in.port.reg_addr = static_cast<std::uint16_t>(axes_engine + address);
+    while (out().port.reg_busy) clock();
+    in.port.reg_wdata = word;
+    in.port.reg_write = true;
+    clock();
+    while (out().port.reg_busy) clock();
+  }
+  std::uint32_t read(int address) {
+    in.port.reg_addr = static_cast<std::uint16_t>(axes_engine + address);
+    while (out().port.reg_busy) clock();
+    clocks(40);
+    const std::uint32_t word = out().port.reg_rdata;
+    in.port.reg_read = true;
+    clock();
+    return word;
+  }
+  void load(const EngineMemory& m, std::uint32_t crc, std::uint32_t max_age = 20) {
+    for (int n = 0; n < 8; ++n) {
+      write(H::high, static_cast<std::uint32_t>(m.program_at(n) >> 32));
+      write(H::program + n, static_cast<std::uint32_t>(m.program_at(n)));
+    }
+    for (int n = EngineMap::D::lower; n < EngineMap::data_words; ++n) {
+      if (m.data_at(n) != 0) write(H::data + n, static_cast<std::uint32_t>(m.data_at(n)));
+    }
+    write(H::line_base, static_cast<std::uint32_t>(m.line_base));
+    write(H::mailbox_first, 30);
+    write(H::mailbox_age, 2000);
+    write(H::crc, crc);
+    write(H::max_age, max_age);
+    commit(0, 0);
+    write(H::run, 1);
+  }
+  void commit(std::int32_t parameter, std::int32_t mailbox) {
+    write(H::data + kParameter, static_cast<std::uint32_t>(parameter));
+    write(H::data + kParameter + 30, static_cast<std::uint32_t>(mailbox));
+    write(H::commit, 1);
+    while ((read(H::status) & 1U) != 0) clock();
+  }
+  void set(bool Axis::*what, bool on) {
+    for (Axis& a : in.axis) a.*what = on;
+  }
+  /// Ticks until the check is over, at most `limit`.
+  int until_checked(int limit) {
+    int n = 0;
+    while (out().unchecked && n < limit) ticks(1), ++n;
+    return n;
+  }
+  void arm() {
+    set(&Axis::asks, true);
+    until_checked(3000);
+    set(&Axis::armed, true);
+  }
+  /// What was lived, RTL against twin; the first input is held in the reset.
+  void play() const { Bench("axes_engine", 1).run_list(inputs_); }
+
+ private:
+  Twin twin_;
+  std::vector<Twin::In> inputs_{{}};
+  int since_ = 0;
+};
+
+}  // namespace feltgate::test

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// axes_engine: what arming, entries, commits and a silent program make of an engine's torque, RTL
+// against twin on every clock. Documentation: docs/blocks/axes_engine.md
+#include "axes_engine_bench.hpp"
+#include "catch.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+const EngineMemory kLaw = counting_law();
+const std::uint32_t kCrc = image_crc(kLaw);
+
+/// From the change on: the torque may jump until the second run that ended after it was sampled.
+void expect_restart(Device& device, const char* what) {
+  INFO(what);
+  device.clocks(3);
+  CHECK(device.out().restart);
+  int ticks = 0;
+  while (device.out().restart && ticks < 20) device.ticks(1), ++ticks;
+  CHECK(ticks >= 2);
+  CHECK(ticks <= 4);
+}
+
+}  // namespace
+
+TEST_CASE("axes_engine: states begin anew with the first axis in the scene, and with arming") {
+  Device device;
+  device.load(kLaw, kCrc);
+  device.ticks(30);
+  CHECK(device.out().torque[0] < 900 - 25);
+  const auto begins = [&](const char* what) {
+    device.ticks(5);
+    INFO(what << ", torque " << device.out().torque[0]);
+    CHECK(device.out().torque[0] > 900 - 8);
+    device.ticks(20);
+  };
+  device.axis(1).law = true;
+  begins("entry");
+  device.axis(0).law = true;
+  device.ticks(5);
+  CHECK(device.out().torque[0] < 900 - 25);  // it is in force already
+  device.arm();
+  begins("arming");
+  device.set(&Axis::law, false);
+  device.ticks(5);
+  CHECK(device.out().torque[0] < 900 - 25);
+  device.axis(0).law = true;
+  begins("entry while armed");
+  device.set(&Axis::armed, false);
+  device.ticks(5);
+  CHECK(device.out().torque[0] < 900 - 25);
+  device.play();
+}
+
+TEST_CASE("axes_engine: arming waits for a check of its own, and for a good one in the scene") {
+  for (const std::uint32_t wrong : {0U, 1U}) {
+    Device device;
+    device.load(kLaw, kCrc ^ wrong);
+    CHECK(device.out().unchecked);
+    device.ticks(20);
+    CHECK(device.out().unchecked);
+    CHECK_FALSE(device.out().unfit);
+    CHECK(device.out().late);  // no good check yet
+    device.axis(0).asks = true;
+    device.ticks(20);
+    CHECK(device.out().unchecked);  // one of two
+    device.axis(1).asks = true;
+    const int whole = device.until_checked(3000);
+    CHECK(whole > 500);
+    CHECK(whole < 1500);
+    CHECK(device.out().late == (wrong != 0));
+    CHECK_FALSE(device.out().unfit);
+    device.axis(1).law = true;
+    device.clock();
+    CHECK(device.out().unfit == (wrong != 0));
+    // A check that another request began does not count.
+    device.axis(0).asks = false;
+    device.ticks(2);
+    CHECK(device.out().unchecked);
+    device.axis(0).asks = true;
+    device.ticks(whole / 2);
+    device.axis(0).asks = false;
+    device.ticks(3);
+    device.axis(0).asks = true;
+    const int again = device.until_checked(3000);
+    INFO("ticks " << whole << ", " << again);
+    CHECK(again > whole);
+    device.play();
+  }
+}
+
+TEST_CASE("axes_engine: what jumps ramps until it was sampled") {
+  Device device;
+  device.load(kLaw, kCrc);
+  device.axis(0).law = true;
+  device.arm();
+  expect_restart(device, "arming");
+  device.axis(1).zeroed = true;
+  device.clock();
+  expect_restart(device, "zero of the second axis");
+  device.set(&Axis::law, false);
+  device.ticks(5);
+  CHECK_FALSE(device.out().restart);
+  device.axis(1).law = true;
+  device.clock();
+  expect_restart(device, "entry");
+  device.axis(0).law = true;
+  device.clocks(3);
+  CHECK_FALSE(device.out().restart);
+  // A parameter: seen in any clock of the wait for it.
+  const auto commit_ramps = [&device](std::int32_t parameter, std::int32_t mailbox) {
+    device.write(H::data + kParameter, static_cast<std::uint32_t>(parameter));
+    device.write(H::data + kParameter + 30, static_cast<std::uint32_t>(mailbox));
+    device.write(H::commit, 1);
+    bool any = false;
+    for (int k = 0; k < 45 * Device::kTick; ++k) {
+      device.clock();
+      any = any || device.out().restart;
+    }
+    CHECK_FALSE(device.out().restart);
+    return any;
+  };
+  CHECK(commit_ramps(5, 0));
+  CHECK_FALSE(commit_ramps(5, 7));
+  CHECK_FALSE(commit_ramps(5, -7));
+  CHECK(commit_ramps(0, -7));
+  CHECK(device.out().torque[1] == -7);
+  device.play();
+}
+
+TEST_CASE("axes_engine: a program that gives nothing is late, until it is entered anew") {
+  Device device;
+  device.load(kLaw, kCrc, 5);
+  device.arm();
+  device.ticks(20);
+  CHECK_FALSE(device.out().late);
+  device.set(&Axis::armed, false);
+  device.set(&Axis::asks, false);
+  device.ticks(2);
+  device.write(H::divider0, 400);
+  device.arm();
+  device.ticks(10);
+  CHECK(device.out().late);
+  device.axis(1).law = true;
+  device.clocks(3);
+  CHECK_FALSE(device.out().late);
+  device.ticks(10);
+  CHECK(device.out().late);
+  device.play();
+}
+
+TEST_CASE("axes_engine: a program is locked from the request to arm on") {
+  Device device;
+  device.load(kLaw, kCrc ^ 1U);
+  const auto low = static_cast<std::uint32_t>(kLaw.program_at(3));
+  const auto writes = [&device](std::uint32_t word) {
+    device.write(H::program + 3, word);
+    device.ticks(1);
+    return device.read(H::program + 3) == word;
+  };
+  device.write(H::high, static_cast<std::uint32_t>(kLaw.program_at(3) >> 32));
+  CHECK(writes(low ^ 1));
+  CHECK(writes(low));
+  device.set(&Axis::asks, true);
+  device.until_checked(3000);
+  CHECK_FALSE(writes(low ^ 1));
+  device.axis(0).asks = false;
+  CHECK(writes(low ^ 1));
+  device.axis(0).asks = true;
+  device.ticks(2);
+  device.axis(0).asks = false;  // the check is under way
+  device.in.port.reg_addr = static_cast<std::uint16_t>(axes_engine + H::line_base);
+  device.in.port.reg_wdata = 7;
+  device.in.port.reg_write = true;
+  device.clocks(3);
+  device.axis(1).armed = true;
+  CHECK_FALSE(writes(low));
+  device.play();
+}
+
+TEST_CASE("axes_engine: the port has the engine's words at their place, and events that wait") {
+  Device device;
+  device.load(kLaw, kCrc);
+  CHECK(device.read(H::program + 1) == static_cast<std::uint32_t>(kLaw.program_at(1)));
+  device.axis(1).velocity = -123456;
+  device.axis(1).tau_hat = 77;
+  device.axis(0).velocity = 999;
+  device.axis(1).position = -50;
+  device.ticks(30);
+  CHECK(device.out().torque[1] == -50);
+  CHECK(device.read(H::event_count) == 16);
+  for (int n = 0; n < 15; ++n) {
+    CHECK(device.read(H::event_number) == 5);
+    (void)device.read(H::event_tick);
+  }
+  CHECK(static_cast<std::int32_t>(device.read(H::event_value)) == -123456 - 77);
+  // Another's address reads 0, is not busy, and takes no event away.
+  device.write(H::run, 0);
+  const std::uint32_t count = device.read(H::event_count);
+  for (const unsigned page : {0x0000U, 0x3000U, 0x5000U, 0xc000U}) {
+    device.in.port.reg_addr =
+        static_cast<std::uint16_t>(page | static_cast<unsigned>(H::event_tick));
+    device.clocks(40);
+    CHECK(device.out().port.reg_rdata == 0);
+    device.in.port.reg_read = true;
+    device.in.port.reg_write = true;
+    device.clock();
+    CHECK_FALSE(device.out().port.reg_busy);
+  }
+  CHECK(device.read(H::event_count) == count);
+  device.play();
+}
+
+TEST_CASE("axes_engine: axes and hosts at random, RTL against twin") {
+  Device device;
+  device.load(kLaw, kCrc);
+  Random random(7);
+  int restarts = 0, lates = 0, unfits = 0, checks = 0;
+  for (int tick = 0; tick < 12'000; ++tick) {
+    for (Axis& a : device.in.axis) {
+      if (random.one_in(150)) a.law = !a.law;
+      if (random.one_in(a.asks ? 4000 : 100)) a.asks = !a.asks;
+      if (!a.asks || device.out().unchecked) a.armed = false;
+      if (a.asks && !device.out().unchecked && random.one_in(30)) a.armed = true;
+      a.zeroed = random.one_in(300);
+      a.position = static_cast<std::int32_t>(random.between(-3000, 3000));
+      a.velocity = static_cast<std::int32_t>(random.between(-100'000, 100'000));
+      a.tau_hat = static_cast<std::int32_t>(random.between(-9000, 9000));
+    }
+    if (random.one_in(200)) {
+      device.in.port.reg_addr = static_cast<std::uint16_t>(
+          axes_engine + (random.one_in(2) ? H::commit : kParameter + (random.one_in(2) ? 30 : 0)));
+      device.in.port.reg_wdata = static_cast<std::uint32_t>(random.between(-1001, 1001));
+      device.in.port.reg_write = true;
+    } else if (random.one_in(3000)) {
+      device.in.port.reg_addr = static_cast<std::uint16_t>(axes_engine + H::divider0);
+      device.in.port.reg_wdata = random.one_in(2) ? 1 : 60;
+      device.in.port.reg_write = true;
+    } else if (random.one_in(20)) {
+      device.in.port.reg_addr = static_cast<std::uint16_t>(axes_engine + H::event_tick);
+      device.in.port.reg_read = true;
+    }
+    const int part = static_cast<int>(random.below(Device::kTick));
+    device.clocks(part);
+    for (Axis& a : device.in.axis) a.zeroed = random.one_in(300);
+    device.clocks(Device::kTick - part);
+    restarts += device.out().restart;
+    lates += device.out().late;
+    unfits += device.out().unfit;
+    checks += !device.out().unchecked;
+  }
+  INFO("restart " << restarts << ", late " << lates << ", unfit " << unfits << ", checked "
+                  << checks);
+  CHECK(restarts > 100);
+  CHECK(lates > 100);
+  CHECK(unfits > 100);
+  CHECK(checks > 500);
+  device.play();
+}

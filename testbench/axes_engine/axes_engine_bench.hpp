@@ -9,6 +9,7 @@
 
 #include <vector>
 
+#include "catch.hpp"
 #include "feltgate/axes_engine.hpp"
 #include "feltgate/crc32.hpp"
 #include "feltgate/generated/lever_law.hpp"
@@ -51,6 +52,7 @@ class Twin {
     AxesOut<kAxes> port;
   };
 
+  auto& engine() { return twin_.engine(); }
   void reset() {
     twin_.reset();
     last_ = In{};
@@ -249,12 +251,15 @@ class Device {
     until_checked(3000);
     set(&Axis::armed, true);
   }
-  /// What was lived, RTL against twin; the first input is held in the reset.
-  void play() const { Bench("axes_engine", 1).run_list(inputs_); }
+  /// What was lived, RTL against twin.
+  void play() {
+    Twin again = Bench("axes_engine", 1).run_list(inputs_);
+    CHECK(again.engine().memory().data == twin_.engine().memory().data);
+  }
 
  private:
   Twin twin_;
-  std::vector<Twin::In> inputs_{{}};
+  std::vector<Twin::In> inputs_;
   int since_ = 0;
 };
 

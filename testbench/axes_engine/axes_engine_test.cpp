@@ -210,6 +210,11 @@ TEST_CASE("axes_engine: the port has the engine's words at their place, and even
     device.in.port.reg_write = true;
     device.clock();
     CHECK_FALSE(device.out().port.reg_busy);
+    device.in.port.reg_addr = static_cast<std::uint16_t>(page | static_cast<unsigned>(H::run));
+    device.in.port.reg_wdata = 1;
+    device.in.port.reg_write = true;
+    device.ticks(4);
+    CHECK(device.out().torque[1] == 0);
   }
   CHECK(device.read(H::event_count) == count);
   device.play();

@@ -7,6 +7,8 @@
 
 #include <functional>
 
+#include "catch.hpp"
+
 #include "engine_bench.hpp"
 #include "feltgate/crc32.hpp"
 #include "machine_programs.hpp"
@@ -25,7 +27,7 @@ struct Device {
   std::int64_t clocks = 0;
   int jumps = 0;  ///< clocks in which torques may begin to jump
 
-  std::vector<Twin::In> inputs{{}};  ///< the first one is held in the reset
+  std::vector<Twin::In> inputs;
 
   Device() { twin.reset(); }
   explicit Device(const EngineMemory& m) {
@@ -89,7 +91,11 @@ struct LoadedDevice : Device {
     for (const Access& a : host.queue) write(static_cast<int>(a.addr), a.word);
   }
   /// What was lived, RTL against twin.
-  void play() const { Bench("engine", 1).run_list(inputs); }
+  void play() {
+    Twin again = Bench("engine", 1).run_list(inputs);
+    CHECK(again.memory().data == twin.memory().data);
+    CHECK(again.memory().table == twin.memory().table);
+  }
 };
 
 /// A law of one output in thread 0, and its words for the other axes.

@@ -56,6 +56,10 @@ std::vector<HostWord> load(const Image& image, bool zeros) {
   }
   writes.push_back({H::line_base, static_cast<std::uint32_t>(image.line_base)});
   writes.push_back({H::max_age, static_cast<std::uint32_t>(image.max_age_ticks)});
+  if (!zeros || image.mailbox_first != EngineMap::parameter_words) {
+    writes.push_back({H::mailbox_first, static_cast<std::uint32_t>(image.mailbox_first)});
+    writes.push_back({H::mailbox_age, static_cast<std::uint32_t>(image.mailbox_age)});
+  }
   writes.push_back({H::crc, crc(image)});
   for (int word = 0; word < EngineMap::parameter_words; ++word) data(Image::parameter_base + word);
   writes.push_back({H::commit, 1});

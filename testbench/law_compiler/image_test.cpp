@@ -4,7 +4,10 @@
 // Images as text, their CRC, words from parameters.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 #include "law/compile.hpp"
+#include "law/load.hpp"
 
 namespace feltgate::law {
 namespace {
@@ -54,6 +57,11 @@ TEST_CASE("mailbox words lie at the end, and the shortest max_age counts") {
   CHECK(read_image(text(image)) == image);
   CHECK(read_image(text(image)).mailbox_age == 77);
   CHECK(detent().image.mailbox_first == 32);
+  const auto writes = load_into_zeros(image);
+  for (const HostWord& w :
+       {HostWord{EngineMap::H::mailbox_first, 30}, HostWord{EngineMap::H::mailbox_age, 77}}) {
+    CHECK(std::count(writes.begin(), writes.end(), w) == 1);
+  }
   // The program reads them there.
   bool goal = false;
   for (const EngineInstruction& i : c.assembled.instructions) {

@@ -113,8 +113,15 @@ struct CompiledEntry {
   std::unique_ptr<LawRunner> (*make)(const EngineMemory&);
 };
 
-/// Those of rtl/laws, compiled for the design lever and others of its formats.
+/// Those of rtl/laws, compiled for the design lever and others of its formats; in a browser none.
+#ifdef __wasm__
+inline const std::vector<CompiledEntry>& shipped_laws() {
+  static const std::vector<CompiledEntry> none;
+  return none;
+}
+#else
 const std::vector<CompiledEntry>& shipped_laws();
+#endif
 
 inline bool is_shipped(std::uint32_t image_crc) {
   for (const CompiledEntry& e : shipped_laws()) {

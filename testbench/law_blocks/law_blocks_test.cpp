@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Wall and charge as laws beside the twins of their blocks, with the same coefficients, over every
+// position. Torques are in the last bit of the torque format, 2^-16 Nm.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+#include "engine/machine.hpp"
+#include "feltgate/generated/lever.hpp"
+#include "feltgate/scene_charge.hpp"
+#include "feltgate/scene_wall.hpp"
+#include "law/compile.hpp"
+
+namespace feltgate::law {
+namespace {
+
+constexpr std::int32_t end = 131072;          // of the positions that laws are proven for
+constexpr std::int64_t torque_end = 1 << 20;  // of the torque format, 16 Nm
+
+/// A shipped law in the interpreter.
+class Running {
+ public:
+  explicit Running(const std::string& name)
+      : compiled_(
+            compile_file(std::string(FELTGATE_ROOT) + "/rtl/laws/" + name + ".law", Target{})),
+        machine_(memory(compiled_.image)) {}
+
+  /// In SI; rounded to a word, which word() tells.
+  void set(const std::map<std::string, double>& named) {
+    std::vector<double> values;
+    for (const ImageWord& w : compiled_.image.words) {
+      if (w.formula.empty()) values.push_back(named.at(w.name));
+    }
+    words_ = parameter_words(compiled_.image, values);
+    for (int bank = 0; bank < 2; ++bank) {
+      for (int i = 0; i < 32; ++i) machine_.set_parameter(i, words_[static_cast<std::size_t>(i)]);
+      machine_.commit();
+    }
+  }
+  /// The value of a parameter as its word says it, SI.
+  double value(const std::string& name) const {
+    for (const ImageWord& w : compiled_.image.words) {
+      if (w.name == name && w.formula.empty()) {
+        return words_[static_cast<std::size_t>(w.word)] * w.scale;
+      }
+    }
+    throw std::invalid_argument(name);
+  }
+  std::int64_t torque(std::int32_t position, std::int32_t velocity) {
+    MachineInputs inputs{};
+    inputs[0] = position;
+    inputs[1] = velocity;
+    const std::int64_t t = machine_.run(0, inputs).outputs[0];
+    return std::clamp(t, -torque_end, torque_end - 1);
+  }
+
+ private:
+  static EngineMemory memory(const Image& image) {
+    EngineMemory m;
+    m.program = image.program;
+    m.data = image.data;
+    m.table = image.table;
+    m.line_base = image.line_base;
+    return m;
+  }
+  Compiled compiled_;
+  Machine machine_;
+  std::vector<std::int32_t> words_;
+};
+
+/// The blocks' words.
+struct Words {
+  template <int Key>
+  using Num = Fixed::num<Key>;
+  using P = Lever::P;
+  using Offset = Num<Lever::f.scene_offset.key()>;
+  std::int64_t reference = 0, k = 0, b = 0, strength = 0, core = 0;
+
+  Offset wall_contact() const { return Offset::from_raw(reference); }
+  auto wall_stiffness() const { return Num<P::wall_stiffness.key()>::from_raw(k); }
+  auto wall_damping() const { return Num<P::wall_damping.key()>::from_raw(b); }
+  Offset attract_centre() const { return Offset::from_raw(reference); }
+  Offset repel_centre() const { return Offset::from_raw(reference); }
+  auto attract_strength() const { return Num<P::attract_strength.key()>::from_raw(strength); }
+  auto repel_strength() const { return Num<P::repel_strength.key()>::from_raw(strength); }
+  auto attract_core_slope() const { return Num<P::attract_core_slope.key()>::from_raw(k); }
+  auto repel_core_slope() const { return Num<P::repel_core_slope.key()>::from_raw(k); }
+  template <int Key>
+  auto get(int) const {
+    return Num<Key>::from_raw(core);
+  }
+};
+
+/// x in steps of 2^-fraction, which it is a whole number of.
+std::int64_t exact(double x, int fraction) {
+  const double words = std::ldexp(x, fraction);
+  INFO(x << " in steps of 2^-" << fraction);
+  REQUIRE(std::fabs(words - std::nearbyint(words)) < 1e-6 * std::max(1.0, std::fabs(words)));
+  return std::llround(words);
+}
+
+double mnm(std::int64_t lsb) { return std::ldexp(1e3 * static_cast<double>(lsb), -16); }
+
+std::int64_t in_torque_format(std::int64_t t) { return std::clamp(t, -torque_end, torque_end - 1); }
+
+/// Say `what` on stdout where FELTGATE_SHOW is set: numbers of docs/law-compiler.md.
+void show(const std::string& what) {
+  if (std::getenv("FELTGATE_SHOW") != nullptr) fmt::print("{}\n", what);
+}
+
+TEST_CASE("the wall as a law is within a last bit of the block, at every position") {
+  using Wall = SceneWallLaw<Lever, Fixed>;
+  const double count = Target{}.count_rad();
+  Running law("wall");
+  Words words;
+  std::int64_t worst = 0, pushing = 0, different = 0, all = 0;
+  for (const auto& [contact, stiffness, damping] :
+       {std::array<double, 3>{0.5, 4, 0.005}, {-3, 40, 0.1}, {9.99, 0.1, 0}, {0, 7.7, 0.03}}) {
+    law.set({{"contact", contact}, {"stiffness", stiffness}, {"damping", damping}});
+    words.reference = 256 * exact(law.value("contact") / count, 0);
+    words.k = exact(law.value("stiffness") * count, Words::P::wall_stiffness.fraction);
+    words.b = exact(law.value("damping"), Words::P::wall_damping.fraction);
+    for (const double rad_s : {0.0, 3.7, -3.7, 200.0, -200.0}) {
+      const auto raw = static_cast<std::int32_t>(std::ldexp(rad_s, Lever::f.velocity.fraction));
+      const auto velocity = Wall::Velocity::from_raw(raw);
+      for (std::int32_t position = -end; position <= end; ++position) {
+        const std::int64_t block = in_torque_format(Wall::torque(words, position, velocity).raw());
+        const std::int64_t apart = std::abs(law.torque(position, raw) - block);
+        worst = std::max(worst, apart);
+        pushing += block < 0 && block > -torque_end ? 1 : 0;
+        different += apart > 0 ? 1 : 0;
+        ++all;
+      }
+    }
+  }
+  show(
+      fmt::format("wall: {} torques, {} of them differ, by {} LSB at most", all, different, worst));
+  CHECK(worst <= 1);
+  CHECK(pushing > 50000);
+}
+
+/// Largest difference to the block where the distance is up to `reach` counts, and beyond, LSB.
+std::array<std::int64_t, 2> charges_apart(const std::string& name, double core_rad,
+                                          std::int64_t reach) {
+  using Charge = SceneChargeLaw<Lever, Fixed>;
+  const double count = Target{}.count_rad();
+  Running law(name);
+  std::array<std::int64_t, 2> worst{};
+  for (const double centre : {0.0, 1.5339807878856412, -6.1359231515425647}) {  // whole counts
+    for (const double peak : {0.45, -0.45, 0.1, 0.003}) {
+      law.set({{"centre", centre}, {"core", core_rad}, {"peak", peak}});
+      const double own = law.value("peak"), core = core_rad / count;
+      const std::int64_t middle = std::llround(law.value("centre") / count);
+      Words words;
+      words.reference = 256 * middle;
+      words.core = std::llround(core);
+      words.strength = std::llround(
+          std::ldexp(std::fabs(own) * core * core, Words::P::attract_strength.fraction));
+      words.k =
+          std::llround(std::ldexp(std::fabs(own) / core, Words::P::attract_core_slope.fraction));
+      for (std::int32_t position = -end; position <= end; ++position) {
+        const std::int64_t block = Charge::torque(words, own > 0, position).raw();
+        const std::int64_t apart = std::abs(law.torque(position, 0) - block);
+        std::int64_t& w = worst[std::abs(position - middle) <= reach ? 0 : 1];
+        w = std::max(w, apart);
+      }
+    }
+  }
+  show(fmt::format("{}: {} LSB ({:.3g} mNm) to {} counts, {} LSB ({:.3g} mNm) beyond", name,
+                   worst[0], mnm(worst[0]), reach, worst[1], mnm(worst[1])));
+  return worst;
+}
+
+TEST_CASE("the charge as a law is within 0.2 mNm of the block where it reaches") {
+  // 15.5 cores of 128 counts; beyond, the law keeps the 1/15.5^2 of its peak that it has there.
+  const auto worst = charges_apart("charge", 2 * pi / 32, 1984);
+  CHECK(mnm(worst[0]) <= 0.2);
+  CHECK(mnm(worst[1]) <= 0.45e3 / 15.5 / 15.5 + 0.2);
+}
+
+TEST_CASE("the far charge is within 0.2 mNm of the block at every position") {
+  const auto worst = charges_apart("charge_far", 128 * Target{}.count_rad(), 8149);
+  CHECK(mnm(worst[0]) <= 0.2);
+  CHECK(mnm(worst[1]) <= 0.2);
+}
+
+}  // namespace
+}  // namespace feltgate::law

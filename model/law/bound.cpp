@@ -192,11 +192,23 @@ class Bounds {
     }
   }
 
+  /// Words and law change sides together, and can.
+  bool sharp(const Step& s, const Reason& why) const {
+    if (s.condition < 0) return false;
+    if (s.op == EngineOp::cmp) return why.decided.lo != why.decided.hi;
+    return s.op == EngineOp::abs && !(s.x == s.y) && why.x.words.lo < 0 && why.x.words.hi >= 0;
+  }
+
   void strips(const Cell& whole, Bound* b) const {
-    const CellFacts base = whole_facts(whole);
+    const CellFacts base = analyse(law_, target_, program_, whole, errors_, -1, &whole_, true);
     if (!base.reachable) return;
     for (std::size_t i = 0; i < program_.steps.size(); ++i) {
-      if (base.margin[i] <= 0) continue;
+      if (base.margin[i] <= 0) {
+        if (sharp(program_.steps[i], base.reasons[i])) {
+          b->sharp.push_back(program_.steps[i].place);
+        }
+        continue;
+      }
       const CellFacts swapped = whole_facts(whole, static_cast<int>(i));
       Strip s;
       s.condition = program_.steps[i].condition;

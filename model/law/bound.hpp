@@ -74,8 +74,9 @@ struct Bound {
                                ///< run from the states as they stand
   std::vector<Unproven> unproven;
   std::vector<Strip> strips;
-  std::vector<Span> words;      ///< of each step, over all cells
-  std::vector<double> errors;   ///< of each step, words
+  std::vector<Place> sharp;    ///< comparisons without a strip: words and law change sides together
+  std::vector<Span> words;     ///< of each step, over all cells
+  std::vector<double> errors;  ///< of each step, words
   std::vector<double> margins;  ///< of each comparison, words
   int cells = 1;
   std::vector<Cell> parts;  ///< the cells, the one with the largest error first

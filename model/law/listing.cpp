@@ -54,16 +54,24 @@ std::string tables(const Compiled& c) {
              : s + fmt::format("table memory: {} of {} words\n", words, EngineMap::table_words);
 }
 
+/// Where the law can jump, and the strip around it in which words may be on the other side.
 std::string strips(const Compiled& c) {
   std::string s;
+  for (const Place& place : c.bound.sharp) {
+    const std::string line =
+        fmt::format("strip: line {}, column {}: none, words and law change sides together\n",
+                    place.line, place.column);
+    if (s.find(line) == std::string::npos) s += line;
+  }
   for (const Strip& strip : c.bound.strips) {
     double jump = 0;
     for (const double j : strip.jump) jump = std::max(jump, j);
     const std::string unit = text_of(strip.unit);
-    s += fmt::format(
-        "strip: line {}, column {}: within {:.3g}{}{} of equal the comparison may go "
-        "either way; outputs may then differ by {:.3g} Nm\n",
-        strip.place.line, strip.place.column, strip.width, unit.empty() ? "" : " ", unit, jump);
+    s += fmt::format("strip: line {}, column {}: ", strip.place.line, strip.place.column) +
+         fmt::format(
+             "within {:.3g}{}{} of equal the comparison may go either way; outputs may "
+             "then differ by {:.3g} Nm\n",
+             strip.width, unit.empty() ? "" : " ", unit, jump);
   }
   return s;
 }

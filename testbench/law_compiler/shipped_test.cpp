@@ -52,6 +52,31 @@ TEST_CASE("shipped laws are proven, fit their rate and stay within their bounds"
   }
 }
 
+TEST_CASE("what the page says of the strips of shipped laws") {
+  for (const char* name : {"wall", "membrane", "charge", "charge_far"}) {
+    INFO(name);
+    const Compiled c = shipped(name);
+    CHECK(c.bound.strips.empty());
+    CHECK_FALSE(c.bound.sharp.empty());
+  }
+  for (const auto& [name, width] :
+       std::map<std::string, double>{{"quaternion", 1.95e-6}, {"gimbal", 4.45e-4}}) {
+    INFO(name);
+    const Compiled c = shipped(name);
+    REQUIRE_FALSE(c.bound.strips.empty());
+    for (const Strip& s : c.bound.strips) CHECK(s.width < width);
+  }
+  CHECK(shipped("detent").bound.sharp.empty());
+}
+
+TEST_CASE("the bounds of laws with tables are near what was seen") {
+  for (const auto& [name, most] :
+       std::map<std::string, double>{{"charge", 0.27e-3}, {"charge_far", 0.27e-3}}) {
+    INFO(name);
+    CHECK(shipped(name).bound.output[0] < most);
+  }
+}
+
 TEST_CASE("a law of one input and no state is run over all of its positions") {
   const Compiled c = shipped("detent");
   const Measured m = measure_all(c);

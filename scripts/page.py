@@ -30,8 +30,8 @@ EPILOG = """examples:
 
 It compiles for a minute or two. Exit code: 0 written or current, 1 --check found the page stale,
 2 a design or a tool cannot be used."""
-DESIGNS = ("lever", "paper", "fast")
-SCRIPTS = ("core.js", "objects.js", "device.js", "curves.js", "page.js")
+DESIGNS = ("lever", "paper", "fast", "lever_law")
+SCRIPTS = ("core.js", "objects.js", "device.js", "curves.js", "law.js", "page.js")
 COMMITTED = "docs/page.html"
 STAMP = re.compile(r'<meta name="feltgate-sources" content="(\w+)">')
 
@@ -104,7 +104,13 @@ def numbers_of(root, designs):
     done = interrupts.run([program, *designs], **interrupts.CAPTURED)
     if done.returncode:
         raise PageError(done.stderr.strip())
-    return dict(json.loads(done.stdout), version=version_of(root))
+    return dict(json.loads(done.stdout), version=version_of(root), laws=laws_of(root))
+
+
+def laws_of(root):
+    """The shipped laws that a lever can render: name to text."""
+    texts = {path.stem: path.read_text(encoding="utf-8") for path in root.glob("rtl/laws/*.law")}
+    return {name: text for name, text in sorted(texts.items()) if "[1]" not in text}
 
 
 def assembled(root, numbers, script, wasm):

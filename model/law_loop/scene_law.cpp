@@ -88,6 +88,9 @@ std::unique_ptr<SceneLaw> make_scene_law(const std::string& path, const DesignIn
                     "`feltgate law {}` measures laws of several axes",
                     path, o.place.line, o.axis, path));
   }
+  return make_scene_law(std::move(law), design);
+}
+std::unique_ptr<SceneLaw> make_scene_law(law::Compiled law, const DesignInfo& design) {
   return std::make_unique<CompiledSceneLaw>(std::move(law), design);
 }
 

@@ -15,6 +15,8 @@ namespace feltgate {
 /// The law of a file for a design. Errors: law::LawError, law::Refused; std::invalid_argument for a
 /// law of several axes, which a loop of one lever cannot run.
 std::unique_ptr<SceneLaw> make_scene_law(const std::string& path, const DesignInfo& design);
+/// One that is compiled for the design, of one axis.
+std::unique_ptr<SceneLaw> make_scene_law(law::Compiled law, const DesignInfo& design);
 
 /// Runs it in the numbers of a chain of this kind: "fixed" runs the image, "quad" the graph in
 /// binary128, the others in double. `changes` are the parameters' numbers and SI values, in the

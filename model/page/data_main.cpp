@@ -5,10 +5,12 @@
 // the native twin over them, and a closed loop as it went here. Documentation: docs/page.md
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "law_loop/scene_law.hpp"
 #include "loop/scenario.hpp"
 #include "page/live_loop.hpp"
 #include "page/recorded_inputs.hpp"
@@ -20,6 +22,7 @@ using nlohmann::json;
 namespace page = feltgate::page;
 
 const std::string vectors = FELTGATE_SOURCE_DIR "/vectors/";
+const std::string laws = FELTGATE_SOURCE_DIR "/rtl/laws/";
 
 /// Scenes whose inputs are recorded. The calibrations are as long as they are dull.
 const std::vector<std::string> scenes_of_default = {
@@ -37,6 +40,11 @@ json recorded(const std::string& design, const std::string& scene) {
   options.design = design;
   options.engine = "twin";
   options.inputs = &inputs;
+  std::unique_ptr<feltgate::SceneLaw> law;
+  if (!scenario.law.empty()) {
+    law = feltgate::make_scene_law(laws + scenario.law + ".law", feltgate::design_named(design));
+    options.law = law.get();
+  }
   run_scenario(scenario, plant, options);
   const std::string text = page::text_of(inputs);
   return {{"design", design},
@@ -68,6 +76,9 @@ int main(int count, char** argv) {
       const std::string design = argv[i];
       for (const std::string& scene : i == 1 ? scenes_of_default : scenes_of_others) {
         out["recorded"].push_back(recorded(design, scene));
+      }
+      if (feltgate::design_named(design).scene_number("law") >= 0) {
+        out["recorded"].push_back(recorded(design, "detent"));
       }
       out["closed"].push_back(closed_loop(design));
     }

@@ -71,6 +71,11 @@ void LiveLoop::select(const std::string& scene) {
   control();
 }
 
+void LiveLoop::run_law(std::unique_ptr<SceneLaw> law) {
+  law_ = std::move(law);
+  core_.run_law(*law_);
+}
+
 void LiveLoop::arm(bool wanted) {
   armed_ = wanted;
   control();

@@ -7,10 +7,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "loop/ensemble.hpp"
+#include "loop/scene_law.hpp"
 #include "loop/step_plan.hpp"
 #include "plant/period_mean.hpp"
 #include "plant/plant.hpp"
@@ -50,6 +52,9 @@ class LiveLoop {
   void select(const std::string& scene);
   /// A parameter in its unit. Errors: std::invalid_argument.
   void set(const std::string& parameter, double value) { core_.set_parameter(parameter, value); }
+  /// The host loads this law for the scene `law`, whose parameters set() knows too; once, before
+  /// the first advance().
+  void run_law(std::unique_ptr<SceneLaw> law);
   void arm(bool wanted);
   /// Disarms and forgets faults; what is broken stays so.
   void clear_faults();
@@ -85,6 +90,7 @@ class LiveLoop {
   const std::vector<EncoderEvent>& through_the_wires(const std::vector<EncoderEvent>& events);
 
   plant::Plant plant_;
+  std::unique_ptr<SceneLaw> law_;
   Ensemble core_;
   double clock_hz_;
   StepPlan plan_;

@@ -15,6 +15,7 @@
 #include "page/live_loop.hpp"
 #include "page/own_design.hpp"
 #include "page/recorded_inputs.hpp"
+#include "page/user_law.hpp"
 #include "plant/plant_file.hpp"
 #include "stability/linear_loop.hpp"
 
@@ -24,6 +25,7 @@ using emscripten::val;
 namespace page = feltgate::page;
 
 const char* registers = "/rtl/registers.toml";
+constexpr int law_runs = 5000;  ///< beside the law in double
 std::string plant_path(const std::string& name) { return "/plants/" + name + ".toml"; }
 
 /// What went wrong as a text for the page; empty: nothing.
@@ -47,6 +49,41 @@ class Loop {
   }
   std::string set(const std::string& name, double value) {
     return said([&] { loop_.set(name, value); });
+  }
+  /// Compiles a law and loads it; empty, or the first thing that is wrong with it.
+  std::string run_law(const std::string& text) {
+    return said([&] {
+      law_ = std::make_unique<page::UserLaw>(text, loop_.design());
+      loop_.run_law(law_->scene());
+    });
+  }
+  val law_parameters() const {
+    val list = val::array();
+    if (law_ == nullptr) return list;
+    for (const page::LawParameter& p : law_->parameters()) {
+      val one = val::object();
+      one.set("name", p.name);
+      one.set("unit", p.unit);
+      one.set("comment", p.comment);
+      one.set("value", p.value);
+      one.set("low", p.low);
+      one.set("high", p.high);
+      one.set("step", p.step);
+      list.call<void>("push", one);
+    }
+    return list;
+  }
+  std::string set_law(const std::string& name, double value) {
+    return said([&] {
+      law_->set(name, value);
+      loop_.set(name, value);
+    });
+  }
+  /// Torque over a turn, an array of doubles.
+  val law_curve(int points) const {
+    val list = val::array();
+    for (const double nm : law_->curve(points)) list.call<void>("push", nm);
+    return list;
   }
   void arm(bool wanted) { loop_.arm(wanted); }
   void clear_faults() { loop_.clear_faults(); }
@@ -113,7 +150,30 @@ class Loop {
 
  private:
   page::LiveLoop loop_;
+  std::unique_ptr<page::UserLaw> law_;
 };
+
+/// What is wrong with a law, by line; or the table of `feltgate law`.
+val check_law(const std::string& design, const std::string& text) {
+  val out = val::object(), errors = val::array();
+  try {
+    const page::UserLaw law(text, feltgate::design_named(design));
+    out.set("report", law.report(law_runs));
+  } catch (const feltgate::law::LawError& error) {
+    for (const feltgate::law::Diagnostic& d : error.diagnostics()) {
+      val one = val::object();
+      one.set("line", d.place.line);
+      one.set("column", d.place.column);
+      one.set("what", d.what);
+      one.set("mend", d.mend);
+      errors.call<void>("push", one);
+    }
+  } catch (const std::exception& error) {
+    out.set("failed", std::string(error.what()));
+  }
+  out.set("errors", errors);
+  return out;
+}
 
 val design_names() {
   val list = val::array();
@@ -185,6 +245,10 @@ EMSCRIPTEN_BINDINGS(feltgate) {
       .function("select", &Loop::select)
       .function("set", &Loop::set)
       .function("arm", &Loop::arm)
+      .function("runLaw", &Loop::run_law)
+      .function("lawParameters", &Loop::law_parameters)
+      .function("setLaw", &Loop::set_law)
+      .function("lawCurve", &Loop::law_curve)
       .function("clearFaults", &Loop::clear_faults)
       .function("stop", &Loop::stop)
       .function("hostWall", &Loop::host_wall)
@@ -197,6 +261,7 @@ EMSCRIPTEN_BINDINGS(feltgate) {
       .function("parameters", &Loop::parameters)
       .function("design", &Loop::design);
   emscripten::function("designNames", &design_names);
+  emscripten::function("checkLaw", &check_law);
   emscripten::function("hash", &hash);
   emscripten::function("closedLoop", &closed_loop);
   emscripten::function("border", &border);

@@ -9,9 +9,15 @@ const option = (value, text) => Object.assign(document.createElement("option"), 
 const devices = (act) => page.devices.forEach(act);
 
 function place_device(n, design) {
-  const own = design === "own" ? page.own : null;
+  const law = page.scene === "law", own = design === "own" && !law ? page.own : null;
   const device = new Device(page.core, own ? own.base : design, own, $("plant").value, $("stages"));
   page.devices[n] = device;
+  if (law) {
+    say(device.loop.runLaw(page.law));
+    const parameters = device.loop.lawParameters();
+    device.law_words = Object.fromEntries(parameters.map((p) => [p.name, p.value]));
+    SCENES.law.sliders = law_sliders(parameters);
+  }
   device.loop.breakIt(Number($("break").value));
   apply_values(device);
   device.select(page.scene);
@@ -23,7 +29,17 @@ function place_devices() {
   page.devices.forEach((device) => device.remove());
   page.devices.length = 0;
   $("stages").textContent = "";
-  [$("first").value, $("second").value].filter(Boolean).forEach((design, n) => place_device(n, design));
+  const designs = page.scene === "law" ? [LAW_DESIGN] : [$("first").value, $("second").value].filter(Boolean);
+  designs.forEach((design, n) => place_device(n, design));
+}
+
+/** A law that compiles is felt at once, with the values that it says. */
+function take_law(text) {
+  page.law = text;
+  for (const name of Object.keys(page.values)) if (name.startsWith("law:")) delete page.values[name];
+  if (page.scene !== "law") return;
+  place_devices();
+  build_sliders();
 }
 
 function apply_values(device) {
@@ -31,6 +47,13 @@ function apply_values(device) {
   for (const slider of SCENES[page.scene].sliders) {
     const value = page.values[slider.name];
     if (slider.choices || value === undefined) continue;
+    if (slider.law) {
+      if (device.law_words[slider.law] === value) continue;
+      say(device.loop.setLaw(slider.law, Math.max(slider.low, Math.min(slider.high, value))));
+      device.law_words[slider.law] = value;
+      device.turn = null;
+      continue;
+    }
     const word = slider.per_count ? value * rad : slider.per_count2 ? value / rad ** 2 : value;
     say(device.set(slider.name, Math.min(word, device.ranges[slider.name].high)));
   }
@@ -45,9 +68,13 @@ function say(text) {
 }
 
 function select_scene(scene) {
+  const other_design = (page.scene === "law") !== (scene === "law");
   page.scene = scene;
+  $("law").hidden = scene !== "law";
+  if (other_design) place_devices();
   build_sliders();
   devices((d) => { apply_values(d); say(d.select(scene)); });
+  if (scene === "law" && !$("law-table").textContent) page.editor.check();
   ask_verdict();
 }
 
@@ -66,7 +93,8 @@ function build_sliders() {
       label.append(s.label, select);
     } else {
       const range = Object.assign(document.createElement("input"), { type: "range", min: 0, max: 1000 });
-      const value_of = (x) => (s.log ? s.low * (s.high / s.low) ** (x / 1000) : s.low + ((s.high - s.low) * x) / 1000);
+      const whole = (v) => (s.step === 1 ? Math.round(v) : v);
+      const value_of = (x) => whole(s.log ? s.low * (s.high / s.low) ** (x / 1000) : s.low + ((s.high - s.low) * x) / 1000);
       const x_of = (v) => 1000 * (s.log ? Math.log(v / s.low) / Math.log(s.high / s.low) : (v - s.low) / (s.high - s.low));
       range.value = x_of(page.values[s.name]);
       range.setAttribute("aria-label", `${s.label} in ${s.unit}`);
@@ -116,7 +144,7 @@ function build_controls() {
     label.append(radio, " " + SCENES[scene].title);
     $("scenes").append(label);
   }
-  for (const name of page.core.designNames()) {
+  for (const name of page.core.designNames().filter((design) => design !== LAW_DESIGN)) {
     $("first").append(option(name, name));
     $("second").append(option(name, name));
   }
@@ -133,7 +161,7 @@ function build_controls() {
     devices((d) => d.loop.stop(pressed));
   };
   document.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.altKey || event.metaKey || /INPUT|SELECT/.test(event.target.tagName)) return;
+    if (event.ctrlKey || event.altKey || event.metaKey || /INPUT|SELECT|TEXTAREA/.test(event.target.tagName)) return;
     const button = { a: "arm", s: "stop", c: "clear" }[event.key.toLowerCase()];
     if (button) $(button).click();
   });
@@ -208,12 +236,15 @@ function frame(time) {
   if (used > 0) page.speed += 0.05 * (passed / used - page.speed);
   devices((d) => d.draw(page.values));
   draw_curves(page.devices);
+  if (page.scene === "law") draw_turn(page.devices[0]);
   if (page.frames.length % 15 === 0) $("speed").textContent = `${fixed(page.speed, 1)}× real time`;
 }
 
 (async () => {
   Object.assign(page, await load_core());
   $("version").textContent = page.numbers.version;
+  page.law = page.numbers.laws.detent;
+  page.editor = new LawEditor(page.numbers.laws, page.worker, take_law);
   build_controls();
   build_sliders();
   place_devices();

@@ -58,8 +58,8 @@ class AxesEngine {
   const EngineWatch& watch() const { return runs_.watch(); }
   /// Whether it goes run by run at present.
   bool runs_whole() const { return runs_.on(); }
-  /// It would not take a write.
-  bool busy() const { return out_.busy; }
+  /// It would not take every write.
+  bool busy() const { return out_.busy || runs_.committing(); }
 
   void reset() {
     runs_.reset();

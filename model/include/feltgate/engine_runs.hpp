@@ -48,6 +48,8 @@ class EngineRuns {
     if (rest_ > 0) --rest_;
   }
   const EngineWatch& watch() const { return watch_; }
+  /// A commit is under way: parameters cannot be written.
+  bool committing() const { return engine_.commit_.committing(); }
 
   /// Whether runs are taken as a whole.
   bool on() const { return on_; }

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Documentation: docs/page.md
+#include "page/user_law.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "law/listing.hpp"
+#include "law/measure.hpp"
+#include "law_loop/scene_law.hpp"
+
+namespace feltgate::page {
+
+namespace {
+
+law::Compiled compiled(const std::string& text, const DesignInfo& design) {
+  law::Compiled c = law::compile_text(text, "law", law::target_of(design));
+  for (const law::Output& o : c.law.outputs) {
+    if (o.axis == 0) continue;
+    throw law::LawError("law", {{o.place, fmt::format("a torque for axis {}", o.axis),
+                                 "the page has one lever: write out torque = ..."}});
+  }
+  return c;
+}
+
+}  // namespace
+
+UserLaw::UserLaw(const std::string& text, const DesignInfo& design)
+    : design_(design),
+      law_(compiled(text, design)),
+      values_(law_.image),
+      machine_(law::memory(law_.image)) {}
+
+std::string UserLaw::report(int runs) const {
+  return law::report(law_, law::measure(law_, 1, runs));
+}
+
+void UserLaw::set(const std::string& name, double value) {
+  constexpr int first = EngineMap::H::data + law::Image::parameter_base;
+  for (const law::HostWord& w : values_.set(name, value)) {
+    if (w.address == EngineMap::H::commit) {
+      machine_.commit();
+    } else {
+      machine_.set_parameter(w.address - first, static_cast<std::int32_t>(w.data));
+    }
+  }
+}
+
+std::vector<LawParameter> UserLaw::parameters() const {
+  std::vector<LawParameter> all;
+  for (const law::Parameter& p : law_.law.parameters) {
+    const law::ImageWord* w = p.derived < 0 ? values_.find(p.name) : nullptr;
+    if (w == nullptr) continue;
+    const double step = w->scale / w->to_si;
+    const auto [low, high] = std::minmax(w->lower * step, w->upper * step);
+    all.push_back({p.name, p.unit_text, p.comment, values_.value(p.name), low, high,
+                   p.whole ? 1 : std::fabs(step)});
+  }
+  return all;
+}
+
+std::unique_ptr<SceneLaw> UserLaw::scene() const { return make_scene_law(law_, design_); }
+
+std::vector<double> UserLaw::curve(int points) const {
+  law::Machine machine = machine_;
+  machine.enter();
+  const int turn = static_cast<int>(std::lround(2 * law::pi / design_.count_rad));
+  const std::int32_t top = (1 << (design_.torque.width() - 1)) - 1;
+  std::vector<double> torques;
+  for (int k = 0; k < points; ++k) {
+    law::MachineInputs inputs{};
+    inputs[0] = turn * k / (points - 1) - turn / 2;
+    const std::int32_t word = machine.run(0, inputs).outputs[0];
+    torques.push_back(std::ldexp(std::clamp(word, -top - 1, top), -design_.torque.fraction));
+  }
+  return torques;
+}
+
+}  // namespace feltgate::page

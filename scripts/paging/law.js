@@ -1,0 +1,109 @@
+// A law that the user writes: the text with its errors, the table, and its torque over a turn.
+"use strict";
+
+const LAW_DESIGN = "lever_law"; // which has an engine
+const PAUSE_MS = 400; // of typing, before the law is compiled
+const TURN_POINTS = 1441;
+
+SCENES.law = { title: "a law of yours", sliders: [], law: (v, s) => `τ = f(θ, ω), your law: ${fixed(s.tau_ref)} Nm at ${fixed(s.theta)} rad, ${fixed(s.omega, 2)} rad/s` };
+
+const law_sliders = (parameters) => parameters.map((p) => ({ ...p, name: `law:${p.name}`, law: p.name, label: p.name }));
+
+class LawEditor {
+  /** `changed(text)` is called with a law that compiles. */
+  constructor(laws, worker, changed) {
+    this.laws = laws;
+    this.worker = worker;
+    this.changed = changed;
+    this.text = $("law-text");
+    this.asked = 0;
+    for (const name of Object.keys(laws)) $("shipped").append(option(name, name));
+    $("shipped").append(option("", "your own"));
+    $("shipped").oninput = () => { if ($("shipped").value) this.show(laws[$("shipped").value]); };
+    this.text.oninput = () => {
+      $("shipped").value = Object.keys(laws).find((name) => laws[name] === this.text.value) || "";
+      this.point();
+      clearTimeout(this.waiting);
+      this.waiting = setTimeout(() => this.check(), PAUSE_MS);
+    };
+    this.text.onscroll = () => this.point();
+    $("shipped").value = "detent";
+    this.text.value = laws.detent;
+  }
+
+  show(text) {
+    this.text.value = text;
+    this.text.scrollTop = 0;
+    clearTimeout(this.waiting);
+    return this.check();
+  }
+
+  async check() {
+    const text = this.text.value, asked = ++this.asked, begin = performance.now();
+    const answer = await this.worker.call("checkLaw", LAW_DESIGN, text);
+    if (asked !== this.asked) return; // there is a newer one
+    this.seconds = (performance.now() - begin) / 1000;
+    this.errors = answer.failed ? [{ line: 1, column: 1, what: answer.failed, mend: "" }] : answer.errors;
+    this.point();
+    if (this.errors.length) {
+      $("law-said").textContent = `${this.errors.length === 1 ? "1 error" : `${this.errors.length} errors`}; the lever still feels the law before.`;
+      return;
+    }
+    $("law-said").textContent = `compiled in ${fixed(this.seconds, 1)} s`;
+    $("law-table").textContent = answer.report;
+    this.changed(text);
+  }
+
+  /** The first error under its line, at its column. */
+  point() {
+    const box = $("law-error"), first = (this.errors || [])[0];
+    box.hidden = !first;
+    if (!first) return;
+    const style = getComputedStyle(this.text), line = parseFloat(style.lineHeight), inset = parseFloat(style.paddingTop);
+    box.textContent = `^ ${first.line}:${first.column}: ${first.what}${first.mend ? `; ${first.mend}` : ""}`;
+    box.style.top = `${inset + first.line * line - this.text.scrollTop}px`;
+    box.style.left = `calc(${inset - this.text.scrollLeft}px + ${Math.min(first.column - 1, 40)}ch)`;
+  }
+}
+
+/** Torque against position over a turn, as the words of the program say it, and where the lever is. */
+function draw_turn(device) {
+  const canvas = $("turn"), ratio = window.devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
+  if (!width) return;
+  if (canvas.width !== Math.round(width * ratio)) {
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+  }
+  device.turn ??= device.loop.lawCurve(TURN_POINTS);
+  const style = getComputedStyle(document.documentElement), colour = (name) => style.getPropertyValue(name).trim();
+  const pen = canvas.getContext("2d"), left = 46, right = width - 8, top = 24, bottom = height - 18;
+  const most = Math.max(0.01, Math.abs(device.now.tau_ref), ...device.turn.map(Math.abs));
+  const x = (rad) => left + ((rad + Math.PI) / (2 * Math.PI)) * (right - left), y = (nm) => (top + bottom) / 2 - (nm / most) * ((bottom - top) / 2);
+  pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+  pen.clearRect(0, 0, width, height);
+  pen.font = "11px system-ui";
+  pen.strokeStyle = colour("--line");
+  pen.fillStyle = colour("--faint");
+  pen.fillText("torque over a turn at rest, Nm", left + 6, 15);
+  for (const rad of [-3, -2, -1, 0, 1, 2, 3]) {
+    pen.beginPath(); pen.moveTo(x(rad), top); pen.lineTo(x(rad), bottom); pen.stroke();
+    pen.fillText(rad === 0 ? "0 rad" : `${fixed(rad, 0)}`, x(rad) - 4, height - 5);
+  }
+  for (const nm of [-most, 0, most]) {
+    pen.beginPath(); pen.moveTo(left, y(nm)); pen.lineTo(right, y(nm)); pen.stroke();
+    pen.fillText(nm.toFixed(2), 4, y(nm) + 4);
+  }
+  pen.strokeStyle = colour("--blue");
+  pen.lineWidth = 1.5;
+  pen.beginPath();
+  device.turn.forEach((nm, n) => {
+    const at_x = x(-Math.PI + (2 * Math.PI * n) / (TURN_POINTS - 1));
+    if (n) pen.lineTo(at_x, y(nm)); else pen.moveTo(at_x, y(nm));
+  });
+  pen.stroke();
+  pen.lineWidth = 1;
+  pen.strokeStyle = pen.fillStyle = colour("--red");
+  const theta = Math.atan2(Math.sin(device.now.theta), Math.cos(device.now.theta));
+  pen.beginPath(); pen.moveTo(x(theta), top); pen.lineTo(x(theta), bottom); pen.stroke();
+  pen.beginPath(); pen.arc(x(theta), y(device.now.tau_ref), 4, 0, 7); pen.fill();
+}

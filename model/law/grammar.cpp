@@ -3,7 +3,8 @@
 //
 // The grammar, in Boost.Spirit X3. Line ends mean nothing: every statement begins with its word.
 #include <boost/fusion/include/at_c.hpp>
-#include <charconv>
+#include <cerrno>
+#include <cstdlib>
 
 #include "law/recovery.hpp"
 #include "law/spirit.hpp"
@@ -124,9 +125,10 @@ const auto decimal = raw(
                !(x3::char_("0-9") | (x3::lit('.') >> x3::char_("0-9")))]);
 
 double number_in(std::string_view text) {
-  double value = 0;
-  const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (end.ec != std::errc()) {
+  // Not by from_chars, which the library of the page's compiler has for integers only.
+  errno = 0;
+  const double value = std::strtod(std::string(text).c_str(), nullptr);
+  if (errno == ERANGE) {
     throw SyntaxError{text.data(), "a number that is too large or too small",
                       "numbers lie between 1e-300 and 1e300"};
   }

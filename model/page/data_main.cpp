@@ -74,11 +74,12 @@ int main(int count, char** argv) {
     json out = {{"recorded", json::array()}, {"closed", json::array()}};
     for (int i = 1; i < count; ++i) {
       const std::string design = argv[i];
-      for (const std::string& scene : i == 1 ? scenes_of_default : scenes_of_others) {
-        out["recorded"].push_back(recorded(design, scene));
-      }
       if (feltgate::design_named(design).scene_number("law") >= 0) {
         out["recorded"].push_back(recorded(design, "detent"));
+        continue;
+      }
+      for (const std::string& scene : i == 1 ? scenes_of_default : scenes_of_others) {
+        out["recorded"].push_back(recorded(design, scene));
       }
       out["closed"].push_back(closed_loop(design));
     }

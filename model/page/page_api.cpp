@@ -10,7 +10,9 @@
 #include <exception>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "engine/law_runner.hpp"
 #include "feltgate/reading.hpp"
 #include "page/live_loop.hpp"
 #include "page/own_design.hpp"
@@ -238,6 +240,12 @@ val own_design(const std::string& text) {
 }
 
 }  // namespace
+
+/// No law is compiled into the page: the interpreter runs them all.
+const std::vector<feltgate::law::CompiledEntry>& feltgate::law::shipped_laws() {
+  static const std::vector<CompiledEntry> none;
+  return none;
+}
 
 EMSCRIPTEN_BINDINGS(feltgate) {
   emscripten::class_<Loop>("Loop")

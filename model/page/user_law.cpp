@@ -57,9 +57,9 @@ std::vector<LawParameter> UserLaw::parameters() const {
     const law::ImageWord* w = p.derived < 0 ? values_.find(p.name) : nullptr;
     if (w == nullptr) continue;
     const double step = w->scale / w->to_si;
-    const auto [low, high] = std::minmax(w->lower * step, w->upper * step);
-    all.push_back({p.name, p.unit_text, p.comment, values_.value(p.name), low, high,
-                   p.whole ? 1 : std::fabs(step)});
+    const double a = w->lower * step, b = w->upper * step;
+    all.push_back({p.name, p.unit_text, p.comment, values_.value(p.name), std::min(a, b),
+                   std::max(a, b), p.whole ? 1 : std::fabs(step)});
   }
   return all;
 }

@@ -60,9 +60,12 @@ class LawEditor {
     box.hidden = !first;
     if (!first) return;
     const style = getComputedStyle(this.text), line = parseFloat(style.lineHeight), inset = parseFloat(style.paddingTop);
-    box.textContent = `^ ${first.line}:${first.column}: ${first.what}${first.mend ? `; ${first.mend}` : ""}`;
     box.style.top = `${inset + first.line * line - this.text.scrollTop}px`;
-    box.style.left = `calc(${inset - this.text.scrollLeft}px + ${Math.min(first.column - 1, 40)}ch)`;
+    const mark = Object.assign(document.createElement("i"), { textContent: "^" });
+    mark.style.marginLeft = `calc(${inset - this.text.scrollLeft}px + ${first.column - 1}ch)`;
+    const said = document.createElement("span");
+    said.textContent = `${first.line}:${first.column}: ${first.what}${first.mend ? `; ${first.mend}` : ""}`;
+    box.replaceChildren(mark, said);
   }
 }
 

@@ -126,6 +126,7 @@ function ask_verdict() {
     let shakes = false;
     for (const d of [...page.devices]) {
       const b = await page.worker.call("border", d.info.name, d.own ? d.own.text : "", $("plant").value, page.values.wall_damping, page.values.rate);
+      if (page.scene !== "wall") return;
       if (b.error) { lines.push(b.error); continue; }
       const over = stiffness > b.stiffness_nm_rad;
       shakes = shakes || over;

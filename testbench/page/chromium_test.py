@@ -144,6 +144,59 @@ class Chromium(unittest.TestCase):
             self.assertEqual(self.js("return feltgate.devices[0].status.faults"), "", scene)
             self.js("feltgate.devices[0].take(false)")  # held on, it would get too hot
 
+    def write_law(self, text):
+        self.js(
+            "const t = document.getElementById('law-text'); t.value = arguments[0]; t.oninput()",
+            text,
+        )
+
+    def test_a_law_is_written_and_felt(self):
+        self.driver.find_element(By.CSS_SELECTOR, "#scenes input[value=law]").click()
+        self.until("return document.getElementById('law-table').textContent.includes('bound')")
+        self.until("return feltgate.devices[0].status.armed")
+        self.assertEqual(self.js("return feltgate.devices[0].info.name"), "lever_law")
+        # An error stands under its line, and the law before is still felt.
+        self.write_law("# mine\nout torque = -0.2 Nm * sin(8 * postion)\n")
+        self.until("return !document.getElementById('law-error').hidden")
+        said = self.driver.find_element(By.ID, "law-error").text
+        self.assertRegex(said, r"2:32: .*postion.*position")
+        self.assertTrue(self.js("return feltgate.devices[0].status.armed"))
+        # Another law, without the error: at rest against a hand the torque is the law's.
+        self.write_law(
+            "param strength = 0.2 Nm in 0 .. 0.4 Nm\nout torque = -strength * sin(8 * position)\n"
+        )
+        self.until("return document.getElementById('law-error').hidden")
+        self.until("return feltgate.law.includes('strength')")
+        self.until("return feltgate.devices[0].status.armed")
+        off = (
+            "const n = feltgate.devices[0].now;"
+            "return Math.abs(n.tau_ref + arguments[0] * Math.sin(8 * n.position))"
+        )
+        self.js("feltgate.devices[0].take(true); feltgate.devices[0].aim(0.1)")
+        self.passed(1)
+        self.assertGreater(abs(self.now()["tau_ref"]), 0.05)
+        self.assertLess(self.js(off, 0.2), 0.01)
+        self.js("const s = document.querySelector('#sliders input'); s.value = 250; s.oninput()")
+        self.passed(0.5)
+        self.assertLess(self.js(off, 0.1), 0.01)
+        curve = self.js("return feltgate.devices[0].turn")
+        self.assertAlmostEqual(max(curve), 0.1, 2)
+        # Back to a scene in hardware, on its own design.
+        self.driver.find_element(By.CSS_SELECTOR, "#scenes input[value=wall]").click()
+        self.until("return feltgate.devices[0].info.name === 'lever'")
+        self.assertFalse(self.driver.find_element(By.ID, "law").is_displayed())
+
+    def test_every_shipped_law(self):
+        self.driver.find_element(By.CSS_SELECTOR, "#scenes input[value=law]").click()
+        for name in self.js("return Object.keys(feltgate.numbers.laws)"):
+            self.js(
+                "const s = document.getElementById('shipped'); s.value = arguments[0]; s.oninput()",
+                name,
+            )
+            self.until("return feltgate.law === feltgate.numbers.laws[arguments[0]]", name)
+            self.until("return feltgate.devices[0].status.armed")
+            self.assertTrue(self.driver.find_element(By.ID, "law-error").get_property("hidden"))
+
     def test_a_dead_channel_is_a_fault(self):
         self.js("feltgate.devices[0].take(true)")
         self.js("const s = document.getElementById('break'); s.value = 1; s.oninput()")
@@ -220,6 +273,13 @@ def pictures(folder):
         "membrane": "document.querySelector('input[value=membrane]').click();",
         "charges": "document.querySelector('input[value=charge_attract]').click();",
         "spring": "document.querySelector('input[value=spring_tension]').click();",
+        "law": "document.getElementById('second').value = '';"
+        "document.querySelector('input[value=law]').click();",
+        "law_error": "const t = document.getElementById('law-text');"
+        "t.value = t.value.replace('* position', '* postion'); t.oninput();"
+        "document.getElementById('theme').click();",
+        "law_back": "document.getElementById('theme').click();"
+        "document.querySelector('input[value=wall]').click();",
         "two": "const s = document.getElementById('second'); s.value = 'paper'; s.oninput();"
         "document.getElementById('theme').click(); document.getElementById('check').click();",
     }
@@ -230,6 +290,8 @@ def pictures(folder):
             driver.execute_script("for (const d of feltgate.devices) d.aim(arguments[0])", lead)
             time.sleep(0.05)
         time.sleep(4)
+        if "law" in name:
+            driver.find_element(By.ID, "law").location_once_scrolled_into_view  # noqa: B018
         driver.save_screenshot(str(folder / f"{name}.png"))
     driver.quit()
 

@@ -31,6 +31,17 @@ operand_bus.sv
 mult.sv
 multipliers.sv
 feltgate_core.sv
+generated/feltgate_engine_pkg.sv
+engine/engine_alu.sv
+engine/engine_memory.sv
+engine/engine_barrel.sv
+engine/engine_inputs.sv
+engine/engine_outputs.sv
+engine/engine_commit.sv
+engine/engine_crc.sv
+engine/engine_events.sv
+engine/engine.sv
+axes/feltgate_axes.sv
 generated/feltgate_link_pkg.sv
 link/uart_rx.sv
 link/link_receiver.sv

@@ -10,7 +10,7 @@ CELL_WRAPPERS = ("mult18_ecp5",)  # one cell of one vendor: no other vendor's so
 # Folders of blocks beside the core: the list of all files up to them, and the package that they add.
 FOLDERS = {"link": "feltgate_linked", "bus": "feltgate_bus", "engine": "feltgate_engine", "axes": "feltgate_axes"}
 PACKAGES = {"link": "feltgate_link_pkg", "engine": "feltgate_engine_pkg"}
-NEEDS = {"axes": "engine"}  # a folder whose blocks instantiate those of another
+NEEDS = {"axes": "engine", "link": "axes"}  # a folder whose blocks instantiate those of another
 NO_BLOCKS = ("feltgate_checks",)  # elaborated, never clocked: no twin, no test of its own block
 
 

@@ -59,19 +59,37 @@ module board_pins (
   );
 
   // What a board's top has no use for.
-  assign reg_busy_o    = u_linked.u_core.reg_busy_o;
-  assign reg_rdata_o   = u_linked.u_core.reg_rdata_o;
-  assign tick_count_o  = u_linked.u_core.tick_count_o;
-  assign velocity_o    = u_linked.u_core.velocity_o;
-  assign tau_hat_o     = u_linked.u_core.tau_hat_o;
-  assign tau_ref_o     = u_linked.u_core.tau_ref_o;
-  assign current_ref_o = u_linked.u_core.current_ref_o;
-  assign voltage_o     = u_linked.u_core.voltage_o;
-  assign duty_o        = u_linked.u_core.duty_o;
-  assign duty_active_o = u_linked.u_core.duty_active_o;
-  assign word_valid_o  = u_linked.u_core.word_valid_o;
-  assign word_slot_o   = u_linked.u_core.word_slot_o;
-  assign word_data_o   = u_linked.u_core.word_data_o;
+  generate
+  if (feltgate_pkg::ENGINE != 0) begin : g_law
+    assign reg_busy_o    = u_linked.g_law.u_axes.reg_busy_o;
+    assign reg_rdata_o   = u_linked.g_law.u_axes.reg_rdata_o;
+    assign tick_count_o  = u_linked.g_law.u_axes.tick_count_o;
+    assign velocity_o    = u_linked.g_law.u_axes.velocity_o;
+    assign tau_hat_o     = u_linked.g_law.u_axes.tau_hat_o;
+    assign tau_ref_o     = u_linked.g_law.u_axes.tau_ref_o;
+    assign current_ref_o = u_linked.g_law.u_axes.current_ref_o;
+    assign voltage_o     = u_linked.g_law.u_axes.voltage_o;
+    assign duty_o        = u_linked.g_law.u_axes.duty_o;
+    assign duty_active_o = u_linked.g_law.u_axes.duty_active_o;
+    assign word_valid_o  = u_linked.g_law.u_axes.word_valid_o;
+    assign word_slot_o   = u_linked.g_law.u_axes.word_slot_o;
+    assign word_data_o   = u_linked.g_law.u_axes.word_data_o;
+  end else begin : g_core
+    assign reg_busy_o    = u_linked.g_core.u_core.reg_busy_o;
+    assign reg_rdata_o   = u_linked.g_core.u_core.reg_rdata_o;
+    assign tick_count_o  = u_linked.g_core.u_core.tick_count_o;
+    assign velocity_o    = u_linked.g_core.u_core.velocity_o;
+    assign tau_hat_o     = u_linked.g_core.u_core.tau_hat_o;
+    assign tau_ref_o     = u_linked.g_core.u_core.tau_ref_o;
+    assign current_ref_o = u_linked.g_core.u_core.current_ref_o;
+    assign voltage_o     = u_linked.g_core.u_core.voltage_o;
+    assign duty_o        = u_linked.g_core.u_core.duty_o;
+    assign duty_active_o = u_linked.g_core.u_core.duty_active_o;
+    assign word_valid_o  = u_linked.g_core.u_core.word_valid_o;
+    assign word_slot_o   = u_linked.g_core.u_core.word_slot_o;
+    assign word_data_o   = u_linked.g_core.u_core.word_data_o;
+  end
+  endgenerate
 endmodule
 
 `default_nettype wire

@@ -21,9 +21,10 @@ package feltgate_link_pkg;
   localparam int KIND_REPLY = 'h80;  // set in the first byte of a reply
   localparam int REQUEST_BYTES = 'hc;  // bytes of every request, its CRC among them
   localparam int READ_WORDS = 'h40;  // most words of one read
-  localparam int MAP_BITS = 'he;  // bits of an address; a request beyond is bad
+  localparam int MAP_BITS = 'he;  // bits of an address; a request beyond is bad. One more where features.engine is set
   localparam int NO_SEQUENCE = 'h100;  // last_write_sequence before the first write
   localparam int WORDS = 'h1000;  // first address of the link's words; below are the core's
+  localparam int ENGINE = 'h4000;  // first address of the engine's words (engine-isa.md), where features.engine is set
   localparam int MEMORY = 'h2000;  // first address of the capture memory: 8 words of a row, then the next row
   localparam int ROWS_LOG2 = 'ha;  // log2 of the rows of the capture memory
   localparam int COLUMNS = 'h8;  // words of a row
@@ -42,6 +43,7 @@ package feltgate_link_pkg;
   localparam int B_FEATURES_SIMULATED = 0;
   localparam int B_FEATURES_CAPTURE = 1;
   localparam int B_FEATURES_STREAM = 2;
+  localparam int B_FEATURES_ENGINE = 3;
   localparam int B_FEATURES_ROWS_LOG2 = 8;
   localparam int W_FEATURES_ROWS_LOG2 = 8;
   localparam int B_FEATURES_COLUMNS = 16;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The core with its host's link: encoder and UART in, gates and UART out. A board's top instantiates it instead of
-// feltgate_core. Documentation: docs/blocks/feltgate_linked.md, docs/link.md
+// feltgate_core, or of feltgate_axes where the design has an engine. Documentation: docs/blocks/feltgate_linked.md, docs/link.md
 `default_nettype none
 
 module feltgate_linked #(
@@ -48,10 +48,11 @@ module feltgate_linked #(
 );
   localparam int FEATURES = (1 << feltgate_link_pkg::B_FEATURES_CAPTURE) |
                             (1 << feltgate_link_pkg::B_FEATURES_STREAM) |
+                            (feltgate_pkg::ENGINE << feltgate_link_pkg::B_FEATURES_ENGINE) |
                             (feltgate_link_pkg::ROWS_LOG2 << feltgate_link_pkg::B_FEATURES_ROWS_LOG2) |
                             (feltgate_link_pkg::COLUMNS << feltgate_link_pkg::B_FEATURES_COLUMNS);
 
-  logic [11:0] reg_addr;
+  logic [15:0] reg_addr;
   logic [31:0] reg_wdata, reg_rdata;
   logic        reg_write, reg_busy;
   logic        word_valid;
@@ -59,25 +60,53 @@ module feltgate_linked #(
   logic [31:0] word_data;
 
   /* verilator lint_off PINCONNECTEMPTY */  // the host reads these as words
-  feltgate_core #(.ReadBack(1), .ParameterFile(ParameterFile)) u_core (
-      .clk_i(clk_i), .rst_ni(rst_ni),
-      .enc_a_i(enc_a_i), .enc_b_i(enc_b_i), .enc_z_i(enc_z_i),
-      .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o),
-      .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
-      .arm_i(arm_i), .stop_i(stop_i), .set_zero_i(set_zero_i), .scene_i(scene_i),
-      .law_torque_i({feltgate_pkg::TORQUE_W{1'b0}}), .law_late_i(1'b0), .law_restart_i(1'b0),
-      .axis_fault_i(1'b0), .axis_silent_i(1'b0), .axis_blocked_i(1'b0), .axis_testing_i(1'b0), .axis_waits_i(1'b0),
-      .asks_o(), .ready_o(), .testing_o(), .measured_o(), .zeroed_o(),
-      .reg_addr_i(reg_addr), .reg_wdata_i(reg_wdata), .reg_write_i(reg_write),
-      .reg_busy_o(reg_busy), .reg_rdata_o(reg_rdata),
-      .snapshot_valid_o(snapshot_valid_o),
-      .tick_count_o(), .velocity_o(), .tau_hat_o(), .tau_ref_o(),
-      .current_ref_o(), .voltage_o(), .duty_o(), .duty_active_o(),
-      .word_valid_o(word_valid), .word_slot_o(word_slot), .word_data_o(word_data),
-      .position_o(position_o), .scene_o(scene_o), .limits_o(limits_o),
-      .faults_o(faults_o), .first_fault_o(first_fault_o),
-      .armed_o(armed_o), .gates_enable_o(gates_enable_o)
-  );
+  generate
+  if (feltgate_pkg::ENGINE != 0) begin : g_law
+    // A read that is repeated must change nothing, so an event is taken away by a write to its last word.
+    feltgate_axes #(.AxisCount(1), .Engine(1), .ReadBack(1), .ParameterFile(ParameterFile)) u_axes (
+        .clk_i(clk_i), .rst_ni(rst_ni),
+        .enc_a_i(enc_a_i), .enc_b_i(enc_b_i), .enc_z_i(enc_z_i),
+        .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o),
+        .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
+        .arm_i(arm_i), .stop_i(stop_i), .set_zero_i(set_zero_i), .scene_i(scene_i),
+        .law_torque_i({feltgate_pkg::TORQUE_W{1'b0}}), .law_late_i(1'b0), .law_restart_i(1'b0),
+        .measured_o(), .zeroed_o(),
+        .reg_addr_i(reg_addr), .reg_wdata_i(reg_wdata), .reg_write_i(reg_write),
+        .reg_read_i(reg_write && !reg_busy),
+        .reg_busy_o(reg_busy), .reg_rdata_o(reg_rdata),
+        .event_valid_o(), .event_number_o(), .event_value_o(),
+        .snapshot_valid_o(snapshot_valid_o),
+        .tick_count_o(), .velocity_o(), .tau_hat_o(), .tau_ref_o(),
+        .current_ref_o(), .voltage_o(), .duty_o(), .duty_active_o(),
+        .word_valid_o(word_valid), .word_slot_o(word_slot), .word_data_o(word_data),
+        .position_o(position_o), .scene_o(scene_o), .limits_o(limits_o),
+        .faults_o(faults_o), .first_fault_o(first_fault_o),
+        .armed_o(armed_o), .gates_enable_o(gates_enable_o)
+    );
+  end else begin : g_core
+    feltgate_core #(.ReadBack(1), .ParameterFile(ParameterFile)) u_core (
+        .clk_i(clk_i), .rst_ni(rst_ni),
+        .enc_a_i(enc_a_i), .enc_b_i(enc_b_i), .enc_z_i(enc_z_i),
+        .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o),
+        .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
+        .arm_i(arm_i), .stop_i(stop_i), .set_zero_i(set_zero_i), .scene_i(scene_i),
+        .law_torque_i({feltgate_pkg::TORQUE_W{1'b0}}), .law_late_i(1'b0), .law_restart_i(1'b0),
+        .axis_fault_i(1'b0), .axis_silent_i(1'b0), .axis_blocked_i(1'b0), .axis_testing_i(1'b0), .axis_waits_i(1'b0),
+        .asks_o(), .ready_o(), .testing_o(), .measured_o(), .zeroed_o(),
+        .reg_addr_i(reg_addr[11:0]), .reg_wdata_i(reg_wdata), .reg_write_i(reg_write),
+        .reg_busy_o(reg_busy), .reg_rdata_o(reg_rdata),
+        .snapshot_valid_o(snapshot_valid_o),
+        .tick_count_o(), .velocity_o(), .tau_hat_o(), .tau_ref_o(),
+        .current_ref_o(), .voltage_o(), .duty_o(), .duty_active_o(),
+        .word_valid_o(word_valid), .word_slot_o(word_slot), .word_data_o(word_data),
+        .position_o(position_o), .scene_o(scene_o), .limits_o(limits_o),
+        .faults_o(faults_o), .first_fault_o(first_fault_o),
+        .armed_o(armed_o), .gates_enable_o(gates_enable_o)
+    );
+    logic unused;
+    assign unused = ^reg_addr[15:12];
+  end
+  endgenerate
   /* verilator lint_on PINCONNECTEMPTY */
 
   logic [7:0] rx_byte;
@@ -89,7 +118,7 @@ module feltgate_linked #(
 
   logic        request_valid, request_write, request_taken, good, bad;
   logic [ 7:0] request_sequence;
-  logic [13:0] request_address;
+  logic [13+feltgate_pkg::ENGINE:0] request_address;
   logic [31:0] request_data;
   link_receiver u_link_receiver (
       .clk_i(clk_i), .rst_ni(rst_ni),

@@ -8,7 +8,8 @@
 module link_port #(
     parameter int Simulated = 0,
     parameter int Board = 0,
-    parameter int Features = 0  // further bits of the word features
+    parameter int Features = 0,  // further bits of the word features
+    parameter int Engine = feltgate_pkg::ENGINE  // 1: the port has the engine's words too
 ) (
     input  logic        clk_i,
     input  logic        rst_ni,
@@ -17,7 +18,7 @@ module link_port #(
     input  logic        valid_i,
     input  logic        write_i,
     input  logic [ 7:0] sequence_i,
-    input  logic [13:0] address_i,
+    input  logic [13+Engine:0] address_i,
     input  logic [31:0] data_i,
     input  logic        good_i,
     input  logic        bad_i,
@@ -27,12 +28,12 @@ module link_port #(
     input  logic [ 7:0] inputs_i,        // the board's
     input  logic        tick_i,          // once a tick, in any one clock of it
 
-    // The core's register port
-    output logic [11:0] reg_addr_o,
+    // The core's register port, and the engine's
+    output logic [15:0] reg_addr_o,
     output logic [31:0] reg_wdata_o,
     output logic        reg_write_o,
     input  logic        reg_busy_i,
-    input  logic [31:0] reg_rdata_i,     // follows the address by 3 clocks
+    input  logic [31:0] reg_rdata_i,     // follows the address by 3 clocks; of the engine by 33 while not busy
 
     // Stream and capture: 0 where the address is not theirs
     output logic [15:0] addr_o,
@@ -46,8 +47,11 @@ module link_port #(
     output logic        last_o,
     input  logic        ready_i
 );
-  localparam logic [13:0] STATUS =
-      14'(feltgate_map_pkg::A_SNAPSHOT) + 14'(feltgate_map_pkg::R_STATUS);
+  localparam int AddressW = 14 + Engine;
+  localparam logic [AddressW-1:0] STATUS =
+      AddressW'(feltgate_map_pkg::A_SNAPSHOT) + AddressW'(feltgate_map_pkg::R_STATUS);
+  // The engine's words lie where the core's do, with one more bit in front.
+  localparam logic [15:0] OF_PORT = {1'b0, 1'(Engine), 2'd0, 12'hfff};
 
   // Writes. One is done once: not again until a request with another sequence was.
   logic [8:0] sequence_q;  // of the last, 0x100 none
@@ -76,23 +80,29 @@ module link_port #(
   localparam logic [1:0] WAIT = 2'd1;   // for a status that knows the write
   localparam logic [1:0] READ = 2'd2;   // for a word
   localparam logic [1:0] BYTES = 2'd3;  // sends four
-  logic [ 1:0] state_q, ticks_q, clocks_q, byte_q;
+  localparam int ENGINE_CLOCKS = 40;  // for a word of the engine
+  localparam int ClocksW = 2 + 4 * Engine;
+  logic [ 1:0] state_q, ticks_q, byte_q;
+  logic [ClocksW-1:0] clocks_q, last_clock;
   logic        status_q;  // the reply is one to a write
-  logic [13:0] address_q;
+  logic [AddressW-1:0] address_q;
   logic [ 6:0] left_q;    // words to be read
   logic [31:0] word_q;
 
-  logic [13:0] read_address;
+  logic [AddressW-1:0] read_address;
+  logic of_engine;  // the word that is read
   assign read_address = status_q ? STATUS : address_q;
-  assign addr_o       = {2'd0, write_o ? address_i : read_address};
-  assign reg_addr_o   = host_write ? address_i[11:0]
-                      : panel_write ? feltgate_map_pkg::A_COMMAND : read_address[11:0];
+  assign of_engine    = Engine != 0 && read_address[AddressW-1] && read_address[13:12] == 2'd0;
+  assign last_clock   = of_engine ? ClocksW'(ENGINE_CLOCKS) : ClocksW'(3);
+  assign addr_o       = write_o ? 16'(address_i) : 16'(read_address);
+  assign reg_addr_o   = OF_PORT & (host_write ? 16'(address_i)
+                      : panel_write ? 16'(feltgate_map_pkg::A_COMMAND) : 16'(read_address));
 
   // The link's own words.
   logic [15:0] good_q, bad_q;
   logic [31:0] own, word;
   always_comb begin
-    case ({2'd0, read_address})
+    case (16'(read_address))
       feltgate_link_pkg::A_IDENTITY:        own = 32'(feltgate_link_pkg::IDENTITY);
       feltgate_link_pkg::A_VERSION:         own = 32'(feltgate_link_pkg::VERSION);
       feltgate_link_pkg::A_DESIGN_CRC:      own = feltgate_pkg::DESIGN_CRC;
@@ -128,10 +138,10 @@ module link_port #(
       bad_q      <= 16'd0;
       state_q    <= IDLE;
       ticks_q    <= 2'd0;
-      clocks_q   <= 2'd0;
+      clocks_q   <= '0;
       byte_q     <= 2'd0;
       status_q   <= 1'b0;
-      address_q  <= 14'd0;
+      address_q  <= '0;
       left_q     <= 7'd0;
       word_q     <= 32'd0;
     end else begin
@@ -146,7 +156,7 @@ module link_port #(
           status_q  <= write_i;
           address_q <= address_i;
           left_q    <= write_i ? 7'd1 : data_i[6:0];
-          word_q    <= {2'd0, address_i, sequence_i, kind};
+          word_q    <= {16'(address_i), sequence_i, kind};
           ticks_q   <= 2'd3;
           if (taken_o) state_q <= write_i ? WAIT : BYTES;
         end
@@ -155,12 +165,12 @@ module link_port #(
           if (ticks_q == 2'd0) state_q <= BYTES;
         end
         READ: begin
-          clocks_q <= (reg_write_o || write_o) ? 2'd0 : clocks_q + 2'd1;
+          clocks_q <= (reg_write_o || write_o || (of_engine && reg_busy_i)) ? '0 : clocks_q + ClocksW'(1);
           word_q   <= word;
-          if (clocks_q == 2'd3) begin
+          if (clocks_q == last_clock) begin
             state_q   <= BYTES;
-            clocks_q  <= 2'd0;
-            address_q <= address_q + 14'd1;
+            clocks_q  <= '0;
+            address_q <= address_q + AddressW'(1);
             left_q    <= left_q - 7'd1;
           end
         end

@@ -6,7 +6,9 @@
 // Documentation: docs/blocks/link_receiver.md
 `default_nettype none
 
-module link_receiver (
+module link_receiver #(
+    parameter int Engine = feltgate_pkg::ENGINE  // 1: the map has the engine's words too, above the others
+) (
     input  logic        clk_i,
     input  logic        rst_ni,
     input  logic [ 7:0] byte_i,
@@ -16,7 +18,7 @@ module link_receiver (
     output logic        valid_o,     // a request stands
     output logic        write_o,
     output logic [ 7:0] sequence_o,
-    output logic [13:0] address_o,
+    output logic [13+Engine:0] address_o,
     output logic [31:0] data_o,      // or the number of words
     output logic        good_o,      // one clock: a frame that is a request
     output logic        bad_o        // one clock: one that is not
@@ -50,13 +52,13 @@ module link_receiver (
   assign words_ok = frame_q[63:39] == '0 && (frame_q[38] ? frame_q[37:32] == '0 : frame_q[37:32] != '0);
   assign over     = {1'b0, frame_q[21:16]} + frame_q[38:32];
   assign beyond   = frame_q[29:22] == '1 && over > 7'd64;
-  assign in_map   = frame_q[31:30] == '0;
+  assign in_map   = !frame_q[31] && (Engine != 0 || !frame_q[30]);
   assign whole    = count_q == BYTES && !escaped_q && !spoiled_q && crc_q == feltgate_link_pkg::CRC_GOOD;
   assign sound    = whole && in_map && (writes || (reads && words_ok && !beyond));
 
   assign write_o    = writes;
   assign sequence_o = frame_q[15:8];
-  assign address_o  = frame_q[29:16];
+  assign address_o  = frame_q[29+Engine:16];
   assign data_o     = frame_q[63:32];
 
   logic shifting, feedback;

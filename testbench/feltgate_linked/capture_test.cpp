@@ -3,49 +3,21 @@
 //
 // A contact captured and read back over the UART, RTL and twin in lock-step: each word is that of
 // its tick. Documentation: docs/blocks/feltgate_linked.md
-#include <Vfeltgate_linked.h>
-
 #include <array>
 #include <map>
 #include <memory>
 
 #include "catch.hpp"
-#include "feltgate/generated/lever.hpp"
-#include "feltgate_linked_twin.hpp"
 #include "frames.hpp"
-#include "lock_step.hpp"
+#include "linked_adapter.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
-using D = Lever;
 
 namespace {
 
-using Twin = FeltgateLinked<D, BAUD>;
 using A = LinkMap::A;
 using N = LinkMap::N;
-
-struct Adapter {
-  static void drive(Vfeltgate_linked& rtl, const LinkedIn& in) {
-    rtl.enc_a_i = in.encoder.a;
-    rtl.enc_b_i = in.encoder.b;
-    rtl.enc_z_i = in.encoder.z;
-    rtl.arm_i = in.arm;
-    rtl.stop_i = in.stop;
-    rtl.set_zero_i = in.set_zero;
-    rtl.clear_faults_i = in.clear_faults;
-    rtl.scene_i = in.scene;
-    rtl.uart_rx_i = in.uart_rx;
-    rtl.inputs_i = in.inputs;
-  }
-  template <class Check>
-  static void compare(Check& check, const Vfeltgate_linked& rtl, const LinkedOut& out) {
-    check("uart_tx", rtl.uart_tx_o, out.uart_tx);
-    check("position", static_cast<std::int32_t>(rtl.position_o), out.core.position);
-    check("armed", rtl.armed_o, out.core.armed);
-  }
-};
-using Bench = LockStep<Vfeltgate_linked, Twin, Adapter>;
 
 using Tick = std::array<std::uint32_t, LinkMap::snapshot_words>;
 constexpr std::uint32_t kMask = 1U << N::status | 1U << N::position | 1U << N::tick |

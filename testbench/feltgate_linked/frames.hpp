@@ -42,6 +42,7 @@ inline Bytes request(int kind, int sequence, std::uint32_t address, std::uint32_
 
 /// Frames of the wire, byte by byte.
 struct WireReader {
+  bool engine = false;  ///< the board's features say so
   struct Frame {
     bool good = false;
     int kind = 0, sequence = 0;
@@ -84,7 +85,8 @@ struct WireReader {
     Frame f{true, body[0], body[1], number(body, 2, 2), number(body, 4, 4)};
     const bool read = f.kind == 1 && f.value >= 1 && f.value <= 64;
     const std::uint32_t last_address = f.address + (read ? f.value - 1 : 0);
-    f.good = (read || f.kind == 2) && last_address < 0x4000;
+    const bool of_engine = engine && f.address >= 0x4000;
+    f.good = (read || f.kind == 2) && last_address < (of_engine ? 0x8000 : 0x4000);
     return f;
   }
 };

@@ -53,9 +53,10 @@ class LinkPort {
     Out o;
     o.taken = state_ == State::idle && in.request.valid && (!in.request.write || done_);
     const std::uint16_t reading = read_address();
-    o.reg_addr = d.host_write    ? in.request.address & 0xfffU
-                 : d.panel_write ? D::C::command
-                                 : reading & 0xfffU;
+    o.reg_addr = (d.host_write    ? in.request.address
+                  : d.panel_write ? static_cast<std::uint16_t>(D::C::command)
+                                  : reading) &
+                 kPort;
     o.reg_write = d.host_write || d.panel_write;
     constexpr std::uint32_t bits = (1U << D::C::command_width) - 1;
     o.reg_wdata = d.host_write ? in.request.data
@@ -99,13 +100,14 @@ class LinkPort {
         break;
       case State::read:
         word_ = word;
-        if (clocks_ == 3) {
+        if (clocks_ == (of_engine(read_address()) ? kEngineClocks : 3)) {
           state_ = State::bytes;
-          address_ = (address_ + 1U) & 0x3fffU;
+          address_ = (address_ + 1U) & ((window << kEngine) - 1);
           left_ = (left_ - 1) & 127;
           clocks_ = 0;
         } else {
-          clocks_ = d.host_write || d.panel_write || d.link_write ? 0 : clocks_ + 1;
+          const bool waits = of_engine(read_address()) && in.reg_busy;
+          clocks_ = d.host_write || d.panel_write || d.link_write || waits ? 0 : clocks_ + 1;
         }
         break;
       case State::bytes:
@@ -132,12 +134,21 @@ class LinkPort {
     bool repeats = false, host_write = false, link_write = false, panel_write = false;
   };
 
+  static constexpr unsigned kEngine = D::engine != 0 ? 1 : 0;
+  static constexpr unsigned window = 1U << LinkMap::map_bits;
+  /// What of an address goes to the register port: the engine's words lie where the core's do, with
+  /// one more bit in front.
+  static constexpr std::uint16_t kPort = kEngine << LinkMap::map_bits | (LinkMap::words - 1);
+  static constexpr int kEngineClocks = 40;  ///< for a word of the engine
+  static bool of_port(std::uint16_t address) { return address % window < LinkMap::words; }
+  static bool of_engine(std::uint16_t address) { return address >= window && of_port(address); }
+
   Does does(const LinkRequest& r) const {
     Does d;
     d.repeats = sequence_ == r.sequence;
     const bool writes = r.valid && r.write && !done_ && !d.repeats;
-    d.host_write = writes && r.address < LinkMap::words;
-    d.link_write = writes && r.address >= LinkMap::words;
+    d.host_write = writes && of_port(r.address);
+    d.link_write = writes && !of_port(r.address);
     d.panel_write = clear_ && !d.host_write;
     return d;
   }
@@ -147,7 +158,7 @@ class LinkPort {
   }
   std::uint32_t read_word(const In& in) const {
     const std::uint16_t address = read_address();
-    if (address < LinkMap::words) return in.reg_rdata;
+    if (of_port(address)) return in.reg_rdata;
     return own(address, in.inputs) | in.rdata;
   }
   std::uint32_t own(std::uint16_t address, std::uint8_t inputs) const {

@@ -34,7 +34,9 @@ class LinkReceiver {
     bool good = false, bad = false;  ///< one clock
   };
 
-  void reset() { *this = LinkReceiver(); }
+  /// With `engine` the map has the engine's words too, above the others.
+  explicit LinkReceiver(bool engine = false) : map_bits_(static_cast<int>(LinkMap::map_bits) + (engine ? 1 : 0)) {}
+  void reset() { *this = LinkReceiver(map_bits_ > static_cast<int>(LinkMap::map_bits)); }
   const Out& out() const { return out_; }
   /// Without a byte, clock() changes nothing.
   bool idle() const { return bits_ == 0 && !out_.good && !out_.bad; }
@@ -93,25 +95,29 @@ class LinkReceiver {
     if (count_ <= static_cast<int>(LinkMap::request_bytes)) ++count_;
   }
 
+  /// A read does not go beyond the words of the core, link and capture, or of the engine.
+  static constexpr unsigned window = 1U << LinkMap::map_bits;
+
   std::uint8_t kind() const { return static_cast<std::uint8_t>(frame_); }
 
   bool sound() const {
     const LinkRequest& r = out_.request;
     if (count_ != static_cast<int>(LinkMap::request_bytes) || escaped_ || spoiled_) return false;
-    if (crc_ != crc32_good || frame_ >> 30 & 3U) return false;
+    if (crc_ != crc32_good || (frame_ >> 16 & 0xffffU) >> map_bits_ != 0) return false;
     if (r.write) return true;
     return kind() == LinkMap::kind_read && r.data >= 1 && r.data <= LinkMap::read_words &&
-           r.address + r.data <= 1U << LinkMap::map_bits;
+           r.address % window + r.data <= window;
   }
 
   void show() {
     LinkRequest& r = out_.request;
     r.write = kind() == LinkMap::kind_write;
     r.sequence = static_cast<std::uint8_t>(frame_ >> 8);
-    r.address = static_cast<std::uint16_t>(frame_ >> 16 & 0x3fffU);
+    r.address = static_cast<std::uint16_t>(frame_ >> 16 & ((1U << map_bits_) - 1));
     r.data = static_cast<std::uint32_t>(frame_ >> 32);
   }
 
+  int map_bits_;
   int count_ = 0, bits_ = 0;
   bool escaped_ = false, spoiled_ = false;
   std::uint8_t byte_ = 0;

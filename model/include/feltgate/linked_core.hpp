@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/link/feltgate_linked.sv: the core with its host's link, clock by clock, or with the
-// host's bytes from event to event. Documentation: docs/blocks/feltgate_linked.md
+// Twin of rtl/link/feltgate_linked.sv: the core, or an axis with its engine, with its host's link,
+// clock by clock, or with the host's bytes from event to event. Documentation: docs/blocks/feltgate_linked.md
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "feltgate/feltgate_core.hpp"
@@ -16,6 +17,7 @@
 #include "feltgate/link_receiver.hpp"
 #include "feltgate/link_stream.hpp"
 #include "feltgate/link_transmitter.hpp"
+#include "feltgate/linked_axis.hpp"
 #include "feltgate/uart_line.hpp"
 #include "feltgate/uart_rx.hpp"
 #include "feltgate/uart_tx.hpp"
@@ -43,8 +45,11 @@ struct LinkedOptions {
 template <class D>
 class LinkedCore {
  public:
+  using Device = std::conditional_t<D::engine != 0, LinkedAxis<D>, FeltgateCore<D>>;
+
   explicit LinkedCore(LinkedOptions o = {})
       : rx_(uart_step(D::clock_hz, o.baud)),
+        receiver_(D::engine != 0),
         port_({o.simulated, o.board, kFeatures}),
         tx_(uart_step(D::clock_hz, o.baud)),
         line_(D::clock_hz, o.baud) {
@@ -85,8 +90,10 @@ class LinkedCore {
   }
 
   const LinkedOut& out() const { return out_; }
-  const FeltgateCore<D>& core() const { return core_; }
-  FeltgateCore<D>& core() { return core_; }
+  const FeltgateCore<D>& core() const { return core_of(core_); }
+  FeltgateCore<D>& core() { return core_of(core_); }
+  /// What has the register port: the core, or an axis with its engine.
+  Device& device() { return core_; }
 
   /// To the board, at the bit timing of the baud rate, as run() goes on.
   void send(std::uint8_t byte) { line_.send(byte); }
@@ -121,6 +128,8 @@ class LinkedCore {
  private:
   static constexpr std::uint32_t kFeatures = 1U << LinkMap::B::features_capture |
                                              1U << LinkMap::B::features_stream |
+                                             (D::engine != 0 ? 1U : 0U)
+                                                 << LinkMap::B::features_engine |
                                              LinkMap::rows_log2 << LinkMap::B::features_rows_log2 |
                                              LinkMap::columns << LinkMap::B::features_columns;
 
@@ -132,10 +141,14 @@ class LinkedCore {
     p.clear_faults = in.clear_faults;
     p.inputs = in.inputs;
     p.tick = core_.out().snapshot_valid;
-    p.reg_busy = core_.out().reg_busy;
     p.reg_rdata = core_.out().reg_rdata;
     p.rdata = stream_.out().rdata | capture_.out().rdata;
     p.ready = transmitter_.out().reply_ready;
+    if constexpr (D::engine != 0) {
+      p.reg_busy = core_.busy(port_.peek(p).reg_addr);
+    } else {
+      p.reg_busy = core_.out().reg_busy;
+    }
     return p;
   }
   static CoreIn core_in(const LinkedIn& in, const typename LinkPort<D>::Out& does) {
@@ -227,12 +240,19 @@ class LinkedCore {
     idle(to - at);
   }
 
+  static FeltgateCore<D>& core_of(FeltgateCore<D>& core) { return core; }
+  static const FeltgateCore<D>& core_of(const FeltgateCore<D>& core) { return core; }
+  template <class Axis>
+  static auto& core_of(Axis& axis) {
+    return axis.core();
+  }
+
   void show() {
     out_.core = core_.out();
     out_.uart_tx = tx_.out().tx;
   }
 
-  FeltgateCore<D> core_;
+  Device core_;
   UartRx rx_;
   LinkReceiver receiver_;
   LinkPort<D> port_;

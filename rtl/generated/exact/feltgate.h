@@ -507,6 +507,8 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_LINK_FEATURES_CAPTURE_MASK 0x00000002u
 #define FELTGATE_LINK_FEATURES_STREAM_BIT 2  /* the stream is built */
 #define FELTGATE_LINK_FEATURES_STREAM_MASK 0x00000004u
+#define FELTGATE_LINK_FEATURES_ENGINE_BIT 3  /* there is an engine for laws; its words begin at the constant engine */
+#define FELTGATE_LINK_FEATURES_ENGINE_MASK 0x00000008u
 #define FELTGATE_LINK_FEATURES_ROWS_LOG2_BIT 8  /* log2 of the rows of the capture memory */
 #define FELTGATE_LINK_FEATURES_ROWS_LOG2_MASK 0x0000ff00u
 #define FELTGATE_LINK_FEATURES_COLUMNS_BIT 16  /* words of a row */
@@ -697,9 +699,10 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_LINK_FORMAT_KIND_REPLY 128  /* set in the first byte of a reply */
 #define FELTGATE_LINK_FORMAT_REQUEST_BYTES 12  /* bytes of every request, its CRC among them */
 #define FELTGATE_LINK_FORMAT_READ_WORDS 64  /* most words of one read */
-#define FELTGATE_LINK_FORMAT_MAP_BITS 14  /* bits of an address; a request beyond is bad */
+#define FELTGATE_LINK_FORMAT_MAP_BITS 14  /* bits of an address; a request beyond is bad. One more where features.engine is set */
 #define FELTGATE_LINK_FORMAT_NO_SEQUENCE 256  /* last_write_sequence before the first write */
 #define FELTGATE_LINK_FORMAT_WORDS 4096  /* first address of the link's words; below are the core's */
+#define FELTGATE_LINK_FORMAT_ENGINE 16384  /* first address of the engine's words (engine-isa.md), where features.engine is set */
 #define FELTGATE_LINK_FORMAT_MEMORY 8192  /* first address of the capture memory: 8 words of a row, then the next row */
 #define FELTGATE_LINK_FORMAT_ROWS_LOG2 10  /* log2 of the rows of the capture memory */
 #define FELTGATE_LINK_FORMAT_COLUMNS 8  /* words of a row */

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What feltgate_linked has in place of a core where the design has an engine: feltgate_axes with one
+// axis, as the link sees it. Documentation: docs/blocks/feltgate_linked.md
+#pragma once
+
+#include <cstdint>
+
+#include "feltgate/feltgate_axes.hpp"
+
+namespace feltgate {
+
+/// One axis of design D with its engine behind the ports of a core; addresses of the register port
+/// have 16 bits.
+template <class D>
+class LinkedAxis {
+ public:
+  void reset() {
+    axes_.reset();
+    show();
+  }
+  void clock(const CoreIn& in) {
+    axes_.clock(to_axes(in));
+    show();
+  }
+  template <class OnSnapshot>
+  void run(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
+    axes_.run(to_axes(in), clocks, [&] {
+      show();
+      on_snapshot();
+    });
+    show();
+  }
+
+  const CoreOut& out() const { return out_; }
+  /// Whether what is at this address would not take a write in the clock to come.
+  bool busy(std::uint16_t address) const {
+    if (address >> 12 == axes_engine >> 12) return engine_busy_;
+    return address < axes_stride && axes_.core(0).out().reg_busy;
+  }
+  std::uint32_t word(int slot) const { return axes_.core(0).word(slot); }
+  int clock_of_tick() const { return axes_.clock_of_tick(); }
+  FeltgateCore<D>& core() { return axes_.core(0); }
+  const FeltgateCore<D>& core() const { return axes_.core(0); }
+  auto& engine() { return axes_.engine(); }
+
+ private:
+  AxesIn<1> to_axes(const CoreIn& in) const {
+    AxesIn<1> to;
+    to.axis[0].encoder = in.encoder;
+    to.axis[0].set_zero = in.set_zero;
+    to.axis[0].scene = in.scene;
+    to.arm = in.arm;
+    to.stop = in.stop;
+    to.reg_addr = in.reg_addr;
+    to.reg_wdata = in.reg_wdata;
+    to.reg_write = in.reg_write;
+    // A write takes an event away, not a read: a read may be repeated.
+    to.reg_read = in.reg_write && !busy(in.reg_addr);
+    return to;
+  }
+  void show() {
+    out_ = axes_.out().axis[0];
+    out_.reg_rdata = axes_.out().reg_rdata;
+    engine_busy_ = axes_.engine().out().busy;
+  }
+
+  FeltgateAxes<D, 1, true, true> axes_;
+  CoreOut out_;
+  bool engine_busy_ = false;
+};
+
+}  // namespace feltgate

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A law loaded over the UART, armed, felt, changed while it runs, and its events taken: RTL and twin
+// in lock-step. Documentation: docs/blocks/feltgate_linked.md
+#include <memory>
+#include <utility>
+
+#include "catch.hpp"
+#include "feltgate/design_info.hpp"
+#include "frames.hpp"
+#include "law/compile.hpp"
+#include "law/load.hpp"
+#include "linked_adapter.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+using H = EngineMap::H;
+
+namespace {
+
+constexpr int kTick = D::clocks_per_tick;
+
+const law::Image& image() {
+  static const law::Image made = [] {
+    const char* text =
+        "param stiffness = 0.25 Nm/rad in 0 .. 1 Nm/rad\n"
+        "event beyond(position) when position > 0.01\n"
+        "out torque = -stiffness * position\n";
+    return law::compile_text(text, "test", law::target_of(design_info<D>())).image;
+  }();
+  return made;
+}
+
+/// A host and a lever at the twin's pins; what they do is kept, and played to the RTL afterwards.
+class Life {
+ public:
+  LinkedIn in;
+
+  const LinkedOut& out() const { return twin_->out(); }
+  void clocks(std::int64_t count) {
+    for (; count > 0; --count) {
+      in.uart_rx = line_.level();
+      line_.clock(twin_->out().uart_tx);
+      inputs_.push_back(in);
+      twin_->clock(in);
+    }
+  }
+  void ticks(int n) { clocks(std::int64_t{n} * kTick); }
+  void send(const Bytes& wire) {
+    for (const std::uint8_t byte : wire) line_.send(byte);
+  }
+  /// The words of the reply; none where the line stays silent.
+  std::vector<std::uint32_t> ask(const Bytes& wire) {  // its sequence is not escaped
+    send(wire);
+    for (int wait = 0; wait < 700 || line_.unsent() > 0; ++wait) {
+      clocks(100);
+      for (const std::uint8_t byte : line_.take_received()) {
+        wait = 0;
+        if (byte != LinkMap::frame_end) {
+          frame_.push_back(byte);
+          continue;
+        }
+        const Bytes frame = std::exchange(frame_, {});
+        // Those before it may be answered too.
+        if (frame.size() > 2 && frame[1] == wire[2]) return words_of(frame);
+      }
+    }
+    return {};
+  }
+  std::vector<std::uint32_t> read(std::uint32_t address, std::uint32_t words) {
+    const auto got = ask(request(1, ++sequence_ & 255, address, words));
+    REQUIRE(got.size() == words);
+    return got;
+  }
+  void write(std::uint32_t address, std::uint32_t word) {
+    REQUIRE(ask(request(2, ++sequence_ & 255, address, word)).size() == 1);
+  }
+  std::vector<std::uint32_t> engine(int address, std::uint32_t words = 1) {
+    return read(LinkMap::engine + static_cast<std::uint32_t>(address), words);
+  }
+  /// All but the last as fast as the wire goes: each acts as soon as its frame is whole.
+  void write_engine(const std::vector<law::HostWord>& words) {
+    for (std::size_t k = 0; k < words.size(); ++k) {
+      const auto address = LinkMap::engine + static_cast<std::uint32_t>(words[k].address);
+      if (k + 1 == words.size()) {
+        write(address, words[k].data);
+      } else {
+        send(request(2, ++sequence_ & 255, address, words[k].data));
+      }
+    }
+  }
+  void control(bool arm) {
+    write(D::C::control,
+          static_cast<std::uint32_t>(D::control_reset) | 1U << D::C::control_host |
+              std::uint32_t{arm} << D::C::control_arm |
+              static_cast<std::uint32_t>(D::S::law) << D::C::control_scene);
+  }
+  void arm() {
+    control(false);
+    write(D::A::self_test_pulse, 0);
+    write(D::A::ramp_step, 0x7ffffff);
+    write(D::C::command, 1U << D::C::command_clear_faults);
+    control(true);
+    for (int k = 0; k < 3000 && !out().core.armed; ++k) ticks(1);
+  }
+  void step(bool up) {
+    phase_ += up ? 1U : 3U;
+    in.encoder = {(phase_ & 2U) != 0, ((phase_ >> 1 ^ phase_) & 1U) != 0, false};
+    ticks(4);
+  }
+  /// What was done, at the RTL beside a twin.
+  void play() {
+    Bench bench("feltgate_linked", 7);
+    const std::vector<LinkedIn>& inputs = inputs_;
+    bench.run(
+        [&inputs](std::int64_t clock) {
+          const std::int64_t k = clock - Bench::kFirstReset;
+          return k < 0 ? LinkedIn{} : inputs[static_cast<std::size_t>(k)];
+        },
+        static_cast<std::int64_t>(inputs.size()) + Bench::kFirstReset);
+  }
+
+ private:
+  static std::vector<std::uint32_t> words_of(const Bytes& frame) {
+    Bytes body;
+    for (std::size_t k = 0; k < frame.size(); ++k) {
+      const bool escaped = frame[k] == LinkMap::frame_escape;
+      if (escaped) ++k;
+      body.push_back(!escaped ? frame[k] : frame[k] == LinkMap::escaped_end ? 0xc0 : 0xdb);
+    }
+    std::vector<std::uint32_t> words;
+    for (std::size_t at = 4; at + 8 <= body.size(); at += 4) {
+      std::uint32_t word = 0;
+      for (std::size_t b = 4; b-- > 0;) word = word << 8 | body[at + b];
+      words.push_back(word);
+    }
+    return words;
+  }
+
+  std::unique_ptr<Twin> twin_ = std::make_unique<Twin>();
+  UartLine line_{D::clock_hz, BAUD};
+  std::vector<LinkedIn> inputs_;
+  Bytes frame_;
+  int sequence_ = 0;
+  unsigned phase_ = 0;
+};
+
+/// Torque for a position, as a word of the torque format.
+int torque(double stiffness, int counts) {
+  const double nm = -stiffness * counts * design_info<D>().count_rad;
+  return static_cast<int>(std::lround(std::ldexp(nm, D::f.torque.fraction)));
+}
+
+}  // namespace
+
+TEST_CASE("feltgate_linked: a law is loaded, verified, felt, changed, and tells events") {
+  law::LoadedParameters parameters(image());
+  Life s;
+  s.clocks(5000);
+  s.write_engine(law::load_into_zeros(image()));
+
+  // Read back: program, ranges, constants.
+  const auto low = s.engine(H::program, 32), high = s.engine(H::program_high, 32);
+  const auto data = s.engine(H::data + EngineMap::D::lower, 64);
+  for (std::size_t k = 0; k < 32; ++k) {
+    CHECK((std::uint64_t{high[k]} << 32 | low[k]) == image().program[k]);
+  }
+  for (std::size_t k = 0; k < 64; ++k) {
+    CHECK(static_cast<std::int32_t>(data[k]) == image().data[EngineMap::D::lower + k]);
+  }
+
+  s.arm();
+  REQUIRE(s.out().core.armed);
+  CHECK((s.engine(H::status)[0] >> EngineMap::S::status_crc_good & 1U) == 1);
+  for (int k = 0; k < 10; ++k) s.step(true);
+  CHECK(s.out().core.position == 10);
+  CHECK(std::abs(s.out().core.tau_ref - torque(parameters.value("stiffness"), 10)) <= 1);
+
+  // A parameter, in force with the commit alone.
+  const double before = parameters.value("stiffness");
+  auto writes = parameters.set("stiffness", 0.5);
+  const law::HostWord commit = writes.back();
+  writes.pop_back();
+  s.write_engine(writes);
+  s.ticks(20);
+  CHECK(std::abs(s.out().core.tau_ref - torque(before, 10)) <= 1);
+  s.write_engine({commit});
+  s.ticks(40);
+  CHECK(std::abs(s.out().core.tau_ref - torque(parameters.value("stiffness"), 10)) <= 1);
+
+  // One out of its range is refused, with its number.
+  writes.front().data = 0x7fffffff;
+  s.write_engine(writes);
+  s.write_engine({commit});
+  s.ticks(40);
+  CHECK(std::abs(s.out().core.tau_ref - torque(parameters.value("stiffness"), 10)) <= 1);
+  const auto status = s.engine(H::status, 2);
+  CHECK((status[0] >> EngineMap::S::status_refused & 1U) == 1);
+  CHECK(status[1] == static_cast<std::uint32_t>(image().words[0].word));
+
+  // The event: a read leaves it, a write takes it, a repeated write takes no second one.
+  for (int k = 0; k < 9; ++k) s.step(false);
+  for (int k = 0; k < 9; ++k) s.step(true);
+  auto event = s.engine(H::event_count, 5);
+  REQUIRE(event[0] == 2);
+  CHECK(s.engine(H::event_count, 5) == event);
+  CHECK(event[1] == static_cast<std::uint32_t>(image().events[0].number));
+  const double at = static_cast<std::int32_t>(event[2]) * image().events[0].scale;
+  CHECK(at > 0.01);
+  CHECK(at < 0.013);
+  const Bytes take = request(2, 201, LinkMap::engine + H::event_tick, 0);
+  REQUIRE(s.ask(take).size() == 1);
+  REQUIRE(s.ask(take).size() == 1);
+  const auto next = s.engine(H::event_count, 5);
+  CHECK(next[0] == 1);
+  CHECK(next[3] > event[3]);
+  CHECK(next[4] == 0);
+
+  // Locked while armed.
+  s.write(LinkMap::engine + static_cast<std::uint32_t>(H::program), 0);
+  CHECK(s.engine(H::program)[0] == low[0]);
+  s.play();
+}
+
+TEST_CASE("feltgate_linked: a law of which the last part is missing is not armed") {
+  const auto all = law::load_into_zeros(image());
+  for (const std::size_t part : {std::size_t{2}, all.size() / 2, all.size() - 6}) {
+    Life s;
+    s.clocks(5000);
+    s.write_engine({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(part)});
+    s.arm();
+    CHECK_FALSE(s.out().core.gates_enable);
+    CHECK(s.out().core.tau_ref == 0);
+    CHECK((s.engine(H::status)[0] >> EngineMap::S::status_crc_good & 1U) == 0);
+    if (part == 2) s.play();
+  }
+}
+
+TEST_CASE("feltgate_linked: a read of the engine waits while it is busy, a disarm does not") {
+  Life s;
+  s.clocks(5000);
+  s.write_engine(law::load_into_zeros(image()));
+  s.control(true);  // the CRC is computed now, 1.1 ms
+  s.send(request(1, 200, LinkMap::engine + static_cast<std::uint32_t>(H::status), 1));
+  s.clocks(20'000);
+  CHECK((s.engine(H::status)[0] >> EngineMap::S::status_crc_good & 1U) == 1);
+  s.arm();
+  REQUIRE(s.out().core.armed);
+  s.control(true);
+  s.send(request(1, 210, LinkMap::engine, 64));
+  s.clocks(10'000);
+  s.control(false);
+  s.ticks(2);
+  CHECK_FALSE(s.out().core.gates_enable);
+  s.play();
+}

@@ -6,12 +6,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 namespace feltgate::board {
 
 #define FELTGATE_DESIGN(name) std::unique_ptr<Core> make_##name##_twin(const BoardOptions&);
-#include "designs.inc"
+#include "board_designs.inc"
 #undef FELTGATE_DESIGN
 
 namespace {
@@ -21,6 +23,15 @@ RtlCoreMaker rtl_maker = nullptr;
 }  // namespace
 
 void provide_rtl_cores(RtlCoreMaker maker) { rtl_maker = maker; }
+
+bool has_design(const std::string& design) {
+  const char* const names[] = {
+#define FELTGATE_DESIGN(name) #name,
+#include "board_designs.inc"
+#undef FELTGATE_DESIGN
+  };
+  return std::find(std::begin(names), std::end(names), design) != std::end(names);
+}
 
 std::unique_ptr<Core> make_core(const std::string& design, const std::string& kind,
                                 const BoardOptions& options) {
@@ -34,7 +45,7 @@ std::unique_ptr<Core> make_core(const std::string& design, const std::string& ki
   }
 #define FELTGATE_DESIGN(name) \
   if (design == #name) return make_##name##_twin(options);
-#include "designs.inc"
+#include "board_designs.inc"
 #undef FELTGATE_DESIGN
   throw std::invalid_argument(fmt::format("design \"{}\" is not in this program", design));
 }

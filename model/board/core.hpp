@@ -79,6 +79,9 @@ class Core {
   virtual const TickHash& ticks() const = 0;
 };
 
+/// Whether there is a twin of this design's board.
+bool has_design(const std::string& design);
+
 /// `kind` is "twin", or "rtl" where that is linked. Throws std::invalid_argument with what there
 /// is.
 std::unique_ptr<Core> make_core(const std::string& design, const std::string& kind,

@@ -67,6 +67,7 @@ BoardInfo read_board(Link& link) {
   b.simulated = has(M::B::features_simulated);
   b.has_capture = has(M::B::features_capture);
   b.has_stream = has(M::B::features_stream);
+  b.has_engine = has(M::B::features_engine);
   b.capture_rows =
       1 << std::min(16u, field(features, M::B::features_rows_log2, M::B::features_rows_log2_width));
   b.capture_columns =

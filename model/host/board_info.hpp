@@ -20,6 +20,7 @@ struct BoardInfo {
   std::int64_t clock_hz = 0;
   int clocks_per_tick = 1;
   bool simulated = false, has_capture = false, has_stream = false;
+  bool has_engine = false;  ///< for laws
   int capture_rows = 0, capture_columns = 0;
   std::uint32_t frames_good = 0, frames_bad = 0;  ///< as the board counts them
   int board = 0;

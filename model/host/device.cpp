@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "config/nearest.hpp"
+#include "feltgate/generated/engine.hpp"
 #include "feltgate/generated/link.hpp"
 #include "feltgate/generated/map.hpp"
 
@@ -180,6 +181,12 @@ void Device::refuse_to_arm(const Tick& t, const std::string& what) {
   std::string why;
   for (const std::string& line : in_words(t)) {
     if (line.rfind("limit", 0) != 0) why += "\n  " + line;
+  }
+  if (board_.has_engine && scene_name(t) == "law") {
+    const std::uint32_t status = link_.read(static_cast<int>(M::engine) + EngineMap::H::status);
+    if ((status >> EngineMap::S::status_crc_good & 1u) == 0) {
+      why += "\n  law: none was loaded whole, its CRC does not hold; load one: law FILE";
+    }
   }
   throw Refused(what + why);
 }

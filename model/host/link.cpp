@@ -28,6 +28,7 @@ constexpr double growth_of_wait = 8;  ///< at most, within one request
 /// On a bad line short frames get through: the fewest words of a read, and reads without a
 /// repetition after which longer ones are tried again.
 constexpr int fewest_words = 8, undamaged_reads = 32;
+constexpr std::size_t answered_writes = 16;  ///< of write_all(), one of so many is answered
 constexpr double quiet_s = 0.02;  ///< garbage that has arrived is read until so long nothing came
 
 int bits_of(unsigned mask) {
@@ -168,6 +169,22 @@ std::vector<std::uint32_t> Link::read(int address, int count) {
 std::uint32_t Link::write(int address, std::uint32_t value) {
   if (!in_step_) begin();
   return get_le(ask(request(M::kind_write, ++write_sequence_, address, value), 1), head_bytes, 4);
+}
+
+void Link::write_all(const std::vector<HostWrite>& writes,
+                     const std::function<void(double)>& progress) {
+  if (!in_step_) begin();
+  for (std::size_t n = 0; n < writes.size(); ++n) {
+    const HostWrite& w = writes[n];
+    if ((n + 1) % answered_writes == 0 || n + 1 == writes.size()) {
+      write(w.address, w.value);
+      progress(static_cast<double>(n + 1) / static_cast<double>(writes.size()));
+      continue;
+    }
+    ++counts_.requests;
+    const Bytes wire = framed(request(M::kind_write, ++write_sequence_, w.address, w.value));
+    transport_.write(wire.data(), wire.size());
+  }
 }
 
 std::optional<StreamFrame> Link::stream(Deadline deadline) {

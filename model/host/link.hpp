@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,12 @@ struct StreamFrame {
   std::uint16_t mask = 0;            ///< bit k: the k-th word of the snapshot in order of its slot
   std::vector<std::uint32_t> words;  ///< those of the mask, lowest bit first
   unsigned lost = 0;  ///< frames that are missing between this one and the one before
+};
+
+/// A word to write at an address.
+struct HostWrite {
+  int address = 0;
+  std::uint32_t value = 0;
 };
 
 /// What happened on the link since it was opened.
@@ -57,6 +64,10 @@ class Link {
   /// Writes a word, once whatever is lost on the way; returns the core's status of a tick after it
   /// acted. Throws LinkLost as read().
   std::uint32_t write(int address, std::uint32_t value);
+
+  /// Writes words as fast as the wire takes them, without an answer to each: on a bad line some do
+  /// not arrive, so the caller reads them back. `progress` is called with 0..1. Throws LinkLost.
+  void write_all(const std::vector<HostWrite>& writes, const std::function<void(double)>& progress);
 
   /// The oldest frame of the stream that was not taken yet; waits until `deadline` for one.
   std::optional<StreamFrame> stream(Deadline deadline);

@@ -87,6 +87,13 @@ LoadedParameters::LoadedParameters(const Image& image) : image_(image) {
   }
 }
 
+void LoadedParameters::take(const std::vector<std::uint32_t>& words) {
+  for (const ImageWord& w : image_.words) {
+    const auto word = static_cast<std::int32_t>(words.at(static_cast<std::size_t>(w.word)));
+    if (w.formula.empty()) si_[w.name] = word * w.scale;
+  }
+}
+
 const ImageWord* LoadedParameters::find(const std::string& name) const {
   for (const ImageWord& w : image_.words) {
     if (w.formula.empty() && w.name == name) return &w;
@@ -112,8 +119,8 @@ double LoadedParameters::rounded_si(const std::string& name, double value) const
     const double a = word->lower * word->scale / word->to_si;
     const double b = word->upper * word->scale / word->to_si;
     throw std::invalid_argument(
-        fmt::format("{} = {:g} {} is out of its range; law {} takes {:g} to {:g}", name, value,
-                    word->unit, image_.name, std::min(a, b), std::max(a, b)));
+        fmt::format("{} = {:g}{}{} is out of its range; law {} takes {:g} to {:g}", name, value,
+                    word->unit.empty() ? "" : " ", word->unit, image_.name, std::min(a, b) + 0.0, std::max(a, b) + 0.0));
   }
   return std::nearbyint(raw) * word->scale;
 }

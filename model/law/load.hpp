@@ -39,6 +39,9 @@ class LoadedParameters {
   /// The values of the image. It must outlive this.
   explicit LoadedParameters(const Image& image);
 
+  /// The values that an engine's 32 parameter words stand for, in place of the image's.
+  void take(const std::vector<std::uint32_t>& words);
+
   /// The word that is parameter `name`, or nullptr.
   const ImageWord* find(const std::string& name) const;
   /// Value in the unit of the law's file; the writes that bring it and all that follows from it

@@ -190,7 +190,9 @@ int main(int argc, char** argv) {
       ->type_name("FILE");
   int exit_code = exit_ok;
   app.callback([&] {
-    if (a.replay.empty()) a.setup.design = built_design(a.setup.design);
+    if (a.replay.empty() && !has_design(a.setup.design)) {
+      a.setup.design = built_design(a.setup.design);
+    }
     exit_code = run(a);
   });
   return run_command_line(app, argc, argv, exit_code);

@@ -6,12 +6,16 @@
 include_guard(GLOBAL)
 
 feltgate_library(feltgate_board_parts board EXCEPT "/rtl_cores" feltgate_loop)
-foreach(design IN LISTS FELTGATE_DESIGNS)
-  set(type ${FELTGATE_TYPE_${design}})
+set(board_designs ${FELTGATE_DESIGNS} lever_law)  # also the preset with an engine
+set(registrations "")
+foreach(design IN LISTS board_designs)
+  feltgate_type_of(${design} type)
+  string(APPEND registrations "FELTGATE_DESIGN(${design})\n")
   set(generated "${PROJECT_BINARY_DIR}/engines/${design}_board")
   feltgate_for_design(design_board.cpp.in "${generated}.cpp")
   target_sources(feltgate_board_parts PRIVATE "${generated}.cpp")
 endforeach()
+file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/engines/board_designs.inc" CONTENT "${registrations}")
 # The RTL of one design: each costs a minute to compile.
 set(design lever)
 set(type ${FELTGATE_TYPE_lever})

@@ -75,15 +75,15 @@ target_include_directories(feltgate_config SYSTEM PUBLIC
 feltgate_sim_library(files files)
 feltgate_sim_library(design design feltgate_config)
 
-# The host's side of the link; Boost.Asio in headers.
-find_package(Threads REQUIRED)
-feltgate_library(feltgate_hostlink host feltgate_design Boost::headers Threads::Threads)
-
 feltgate_sim_library(bounds bounds feltgate_design Boost::headers)
 
 # Laws as files: reader, evaluation, compiler. The grammar is Boost.Spirit X3, in one source.
 feltgate_library(feltgate_law law Boost::headers)
 include(laws)
+
+# The host's side of the link; Boost.Asio in headers.
+find_package(Threads REQUIRED)
+feltgate_library(feltgate_hostlink host feltgate_design feltgate_law Boost::headers Threads::Threads)
 
 # The plant itself reads no file; plant_files reads plants and hands.
 feltgate_sim_library(plant plant EXCEPT "_file\\.cpp$")

@@ -9,6 +9,7 @@
 
 #include "files/output_file.hpp"
 #include "tools/commands.hpp"
+#include "tools/host/law_text.hpp"
 #include "tools/host/session.hpp"
 #include "tools/host/verbs.hpp"
 
@@ -25,6 +26,7 @@ std::string features(const BoardInfo& b) {
   text += b.has_capture
               ? fmt::format(", capture of {} rows of {} words", b.capture_rows, b.capture_columns)
               : ", no capture";
+  if (b.has_engine) text += ", engine for laws";
   return text;
 }
 
@@ -83,6 +85,10 @@ int info(Session& session, const std::string& json_path) {
     const std::string faults = device.fault_names(tick), limits = device.limit_names(tick);
     fault = !faults.empty();
     text += line("state", state(device, tick));
+    if (LawEngine* laws = session.laws_if_any()) {
+      text += line("law", law_state(*laws));
+      j["law"] = laws->image() != nullptr ? nlohmann::ordered_json(laws->image()->name) : nullptr;
+    }
     text += line("at", fmt::format("{:.4f} rad, {:.4g} rad/s, {:.1f} s since the reset",
                                    tick.value(device.quantities().find("angle")),
                                    tick.value(device.quantities().find("velocity")), tick.time_s));

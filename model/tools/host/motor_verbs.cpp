@@ -28,6 +28,12 @@ void say(Device& device, const std::string& what) {
   std::fflush(stdout);
 }
 
+/// What the arming says of the law; nothing in another scene.
+std::string of_law(Device& device) {
+  if (!device.board().has_engine || device.scene_name(device.tick()) != "law") return "";
+  return LawEngine(device).status().crc_good ? "; the CRC of the law holds" : "";
+}
+
 /// Kicks until the end is asked for or a fault comes.
 int hold_armed(Device& device, Hold& hold, double seconds) {
   const Deadline end = within(seconds > 0 ? seconds : 1e9);
@@ -56,16 +62,16 @@ int arm(Session& session, const ArmArguments& a) {
   }
   if (!a.hold) {
     device.arm(a.scene, false);
-    say(device, fmt::format("armed, scene {}; nobody watches it: 'stop' or 'disarm' ends it",
-                            device.scene_name(device.tick())));
+    say(device, fmt::format("armed, scene {}{}; nobody watches it: 'stop' or 'disarm' ends it",
+                            device.scene_name(device.tick()), of_law(device)));
     return exit_ok;
   }
   const Interruptible interruptible;
   Hold hold(device);
   hold.arm(a.scene);
-  say(device, fmt::format("armed, scene {}, held; Ctrl-C disarms, and so does the watchdog {:g} s "
+  say(device, fmt::format("armed, scene {}, held{}; Ctrl-C disarms, and so does the watchdog {:g} s "
                           "after a last kick",
-                          device.scene_name(device.tick()), device.watchdog_s()));
+                          device.scene_name(device.tick()), of_law(device), device.watchdog_s()));
   return hold_armed(device, hold, a.seconds);
 }
 

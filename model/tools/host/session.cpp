@@ -9,8 +9,11 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 
+#include "law/compile.hpp"
 #include "tools/commands.hpp"
 
 namespace feltgate::host {
@@ -77,6 +80,36 @@ Device& Session::device() {
   if (!device_) device_.emplace(link(), board(), design().design);
   return *device_;
 }
+
+law::Image Session::image_of(const std::string& law) {
+  const std::string path = std::filesystem::path(law).extension() == ".img" ? law : find_law(law);
+  if (std::filesystem::path(path).extension() != ".img") {
+    return law::compile_file(path, law_target(design().design)).image;
+  }
+  std::ifstream in(path);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) throw std::invalid_argument(path + ": cannot be read; check the path");
+  try {
+    return law::read_image(text.str());
+  } catch (const std::invalid_argument& e) {
+    throw std::invalid_argument(path + ": " + e.what());
+  }
+}
+
+LawEngine& Session::laws() {
+  if (!laws_) {
+    laws_.emplace(device());
+    if (!options.law.empty()) {
+      laws_->attach(image_of(options.law));
+    } else {
+      (void)laws_->recognise(laws_folder());
+    }
+  }
+  return *laws_;
+}
+
+LawEngine* Session::laws_if_any() { return board().has_engine ? &laws() : nullptr; }
 
 Interruptible::Interruptible() {
   was_interrupted = false;

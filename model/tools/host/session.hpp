@@ -14,6 +14,7 @@
 
 #include "host/device.hpp"
 #include "host/keep_alive.hpp"
+#include "host/law_engine.hpp"
 
 namespace feltgate::host {
 
@@ -22,7 +23,7 @@ constexpr int exit_link = 3;  ///< the link broke down, or nothing answers
 
 /// The words before the verb.
 struct SessionOptions {
-  std::string port, design;
+  std::string port, design, law;
   int baud = 0;
   double patience_s = 0;
 };
@@ -41,6 +42,14 @@ class Session {
   /// The design if it is known.
   const KnownDesign* design_if_known();
   Device& device();
+  /// The engine of the board's laws. Its law is known where --law gives it or this computer loaded
+  /// it. Throws Refused where the board has none, or runs another law than --law.
+  LawEngine& laws();
+  /// nullptr where the board has no engine.
+  LawEngine* laws_if_any();
+  /// The image of a law file, compiled for the board's design, or of an image. Throws with line,
+  /// reason and mend.
+  law::Image image_of(const std::string& law);
 
  private:
   std::unique_ptr<Transport> transport_;
@@ -48,6 +57,7 @@ class Session {
   std::optional<BoardInfo> board_;
   std::optional<KnownDesign> design_;
   std::optional<Device> device_;
+  std::optional<LawEngine> laws_;
   bool looked_ = false;
 };
 

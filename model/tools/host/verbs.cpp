@@ -13,6 +13,8 @@ const std::vector<Verb>& verbs() {
       {"info", "what the board is, its design, faults and status in words", add_info},
       {"get", "values in their units", add_get},
       {"set", "parameters in their units", add_set},
+      {"law", "load a force law from its file, or say which one runs", add_law},
+      {"events", "what the law tells as it runs: lines, also over TCP", add_events},
       {"scene", "choose what the motor renders", add_scene},
       {"arm", "turn the motor on", add_arm},
       {"disarm", "turn it off", add_disarm},

@@ -16,6 +16,8 @@ using Run = std::function<int(Session&)>;
 Run add_info(CLI::App& sub);
 Run add_get(CLI::App& sub);
 Run add_set(CLI::App& sub);
+Run add_law(CLI::App& sub);
+Run add_events(CLI::App& sub);
 Run add_scene(CLI::App& sub);
 Run add_arm(CLI::App& sub);
 Run add_disarm(CLI::App& sub);

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Laws in a board's engine. Documentation: docs/host.md
+#include "host/law_engine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <thread>
+
+#include "config/nearest.hpp"
+#include "feltgate/generated/engine.hpp"
+#include "feltgate/generated/link.hpp"
+#include "feltgate/generated/map.hpp"
+#include "law/units.hpp"
+
+namespace feltgate::host {
+
+namespace {
+
+using E = EngineMap;
+using H = EngineMap::H;
+
+constexpr double commit_patience_s = 1.0;
+/// Of writing what does not read back: a line that loses a tenth of all frames needs four.
+constexpr int most_rounds = 12;
+
+bool bit(std::uint32_t word, int n) { return (word >> n & 1U) != 0; }
+
+}  // namespace
+
+law::Target law_target(const design::Elaborated& design) {
+  law::Target t;
+  t.design = design.design.name;
+  t.tick_hz = design.design.tick_hz;
+  t.clocks_per_tick = design.design.clocks_per_tick();
+  t.counts_per_turn = 4 * design.design.lines;
+  t.velocity = design.design.velocity;
+  t.torque = design.design.torque;
+  return t;
+}
+
+LawEngine::LawEngine(Device& device) : device_(device) {
+  if (device.board().has_engine) return;
+  throw Refused(fmt::format(
+      "this board's design {} has no engine for laws; build one that has, such as lever_law",
+      device.design().design.name));
+}
+
+std::vector<std::uint32_t> LawEngine::read(int address, int words) {
+  return device_.link().read(static_cast<int>(LinkMap::engine) + address, words);
+}
+
+void LawEngine::write(int address, std::uint32_t word) {
+  device_.link().write(static_cast<int>(LinkMap::engine) + address, word);
+}
+
+EngineStatus LawEngine::status() {
+  static_assert(H::refused_word == H::status + 1, "read together");
+  const std::vector<std::uint32_t> words = read(H::status, 2);
+  EngineStatus s;
+  s.committing = bit(words[0], E::S::status_committing);
+  s.refused = bit(words[0], E::S::status_refused);
+  s.crc_busy = bit(words[0], E::S::status_crc_busy);
+  s.crc_good = bit(words[0], E::S::status_crc_good);
+  s.late = bit(words[0], E::S::status_late);
+  s.overrun = bit(words[0], E::S::status_overrun);
+  s.bank = bit(words[0], E::S::status_bank) ? 1 : 0;
+  s.refused_word = static_cast<int>(words[1]);
+  return s;
+}
+
+LawEngine::Memory LawEngine::read_long(int low, int high, int words) {
+  Memory memory;
+  const auto lower = read(low, words), upper = read(high, words);
+  for (std::size_t n = 0; n < lower.size(); ++n) {
+    memory.push_back(std::uint64_t{upper[n]} << 32 | lower[n]);
+  }
+  return memory;
+}
+
+void LawEngine::refuse_while_armed() {
+  if (device_.armed(device_.tick())) {
+    throw Refused("the motor is armed, and its law is locked: disarm first");
+  }
+  const std::uint32_t control = device_.link().read(Map::C::control);
+  if (bit(control, Map::C::control_host) && bit(control, Map::C::control_arm)) {
+    throw Refused("the motor is asked to arm, and its law is locked: disarm first");
+  }
+}
+
+int LawEngine::bring(const law::Image& image, LoadReport* report,
+                     const std::function<void(double)>& progress) {
+  std::vector<HostWrite> writes;
+  constexpr int base = static_cast<int>(LinkMap::engine);
+  const auto add_long = [&](const Memory& there, const std::array<std::uint64_t, 512>& wanted,
+                            int address) {
+    std::optional<std::uint32_t> high;
+    for (std::size_t n = 0; n < wanted.size(); ++n) {
+      if (there[n] == wanted[n]) continue;
+      const auto upper = static_cast<std::uint32_t>(wanted[n] >> 32);
+      if (high != upper) writes.push_back({base + H::high, upper});
+      high = upper;
+      writes.push_back(
+          {base + address + static_cast<int>(n), static_cast<std::uint32_t>(wanted[n])});
+      ++report->written;
+    }
+  };
+  constexpr int words = 512, ranges = law::Image::lower_base;
+  const Memory program = read_long(H::program, H::program_high, words);
+  progress(0.15);
+  const Memory table = read_long(H::table, H::table_high, words);
+  progress(0.3);
+  const auto data = read(H::data + ranges, E::data_words - ranges);
+  add_long(program, image.program, H::program);
+  add_long(table, image.table, H::table);
+  for (std::size_t n = 0; n < data.size(); ++n) {
+    const auto wanted =
+        static_cast<std::uint32_t>(image.data[static_cast<std::size_t>(ranges) + n]);
+    if (data[n] == wanted) continue;
+    writes.push_back({base + H::data + ranges + static_cast<int>(n), wanted});
+    ++report->written;
+  }
+  device_.link().write_all(writes, [&](double share) { progress(0.3 + 0.6 * share); });
+  report->words = 2 * words + static_cast<int>(data.size());
+  return static_cast<int>(writes.size());
+}
+
+LoadReport LawEngine::load(const law::Image& image, const std::function<void(double)>& progress) {
+  if (image.design != device_.design().design.name) {
+    throw Refused(fmt::format("the law was compiled for design {}, the board has {}; compile it again",
+                              image.design, device_.design().design.name));
+  }
+  refuse_while_armed();
+  image_.reset();
+  parameters_.reset();
+  write(H::run, 0);
+  LoadReport report;
+  int left = bring(image, &report, progress);
+  const int first = left;
+  for (; left > 0; left = bring(image, &report, progress)) {
+    if (++report.rounds == most_rounds || (report.rounds == 2 && left >= first)) {
+      throw Refused(fmt::format(
+          "{} words of the law did not stay; does the panel ask to arm? The motor will not arm in "
+          "the scene law until one is loaded whole",
+          left));
+    }
+  }
+  for (std::size_t t = 0; t < image.threads.size(); ++t) {
+    if (!image.threads[t].used) continue;
+    write(H::divider0 + static_cast<int>(t), static_cast<std::uint32_t>(image.threads[t].divider));
+  }
+  write(H::line_base, static_cast<std::uint32_t>(image.line_base));
+  write(H::max_age, static_cast<std::uint32_t>(image.max_age_ticks));
+  std::vector<law::HostWord> parameters;
+  for (int n = 0; n < E::parameter_words; ++n) {
+    const auto word = static_cast<std::size_t>(law::Image::parameter_base + n);
+    parameters.push_back(
+        {H::data + law::Image::parameter_base + n, static_cast<std::uint32_t>(image.data[word])});
+  }
+  image_ = std::make_unique<law::Image>(image);
+  commit(parameters);
+  // From here on it may be armed.
+  write(H::crc, law::crc(image));
+  std::uint32_t run = 0;
+  for (std::size_t t = 0; t < image.threads.size(); ++t) run |= image.threads[t].used << t;
+  write(H::run, run);
+  refresh();
+  progress(1);
+  return report;
+}
+
+bool LawEngine::holds(const law::Image& image) {
+  const int ranges = law::Image::lower_base;
+  const auto data = read(H::data + ranges, E::data_words - ranges);
+  for (std::size_t n = 0; n < data.size(); ++n) {
+    if (static_cast<std::int32_t>(data[n]) != image.data[static_cast<std::size_t>(ranges) + n]) {
+      return false;
+    }
+  }
+  for (std::size_t t = 0; t < image.threads.size(); ++t) {
+    const int length = image.threads[t].used ? image.threads[t].length : 0;
+    if (length == 0) continue;
+    const int first = E::thread_words * static_cast<int>(t);
+    const Memory there = read_long(H::program + first, H::program_high + first, length);
+    if (!std::equal(there.begin(), there.end(), image.program.begin() + first)) return false;
+  }
+  return true;
+}
+
+void LawEngine::attach(const law::Image& image) {
+  if (!holds(image)) {
+    throw Refused(fmt::format("the board does not run the law {}; load it: law FILE", image.name));
+  }
+  image_ = std::make_unique<law::Image>(image);
+  refresh();
+}
+
+void LawEngine::refresh() {
+  parameters_ = std::make_unique<law::LoadedParameters>(*image_);
+  const int bank = status().bank;
+  const auto words =
+      read(H::data + law::Image::parameter_base + bank * E::parameter_words, E::parameter_words);
+  parameters_->take({words.begin(), words.end()});
+}
+
+std::string LawEngine::bare(const std::string& name) const {
+  return name.rfind("law.", 0) == 0 ? name.substr(4) : name;
+}
+
+const law::ImageWord* LawEngine::find(const std::string& name) const {
+  return parameters_ == nullptr ? nullptr : parameters_->find(bare(name));
+}
+
+std::vector<const law::ImageWord*> LawEngine::parameters() const {
+  std::vector<const law::ImageWord*> all;
+  if (image_ == nullptr) return all;
+  for (const law::ImageWord& w : image_->words) {
+    if (w.formula.empty()) all.push_back(&w);
+  }
+  return all;
+}
+
+double LawEngine::value_in(const law::ImageWord& of, const std::string& text) const {
+  std::size_t used = 0;
+  double number = 0;
+  try {
+    number = std::stod(text, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used == 0 || !std::isfinite(number)) {
+    throw std::invalid_argument(
+        fmt::format("\"{}\" is no number; give one, with its unit if you like: 0.25{}", text,
+                    of.unit.empty() ? "" : of.unit));
+  }
+  std::string unit = text.substr(used);
+  unit.erase(0, unit.find_first_not_of(' '));
+  if (!unit.empty() && unit != of.unit) {
+    law::UnitValue given, own;
+    std::size_t size = 0;
+    try {
+      size = law::scan_unit(unit, given);
+      if (!of.unit.empty()) (void)law::scan_unit(of.unit, own);
+    } catch (const law::UnitError& e) {
+      throw std::invalid_argument(fmt::format("{}: {}; {}", of.name, e.what, e.mend));
+    }
+    if (size != unit.size() || !(given.unit == own.unit)) {
+      throw std::invalid_argument(fmt::format("{} is not in {}; give it in {}", of.name, unit,
+                                              of.unit.empty() ? "1" : of.unit));
+    }
+    number *= given.to_si / of.to_si;
+  }
+  parameters_->check(of.name, number);
+  return number;
+}
+
+double LawEngine::get(const std::string& name) {
+  if (image_ == nullptr) throw std::invalid_argument("no law of this host is on the board");
+  refresh();
+  if (find(name) == nullptr) parameters_->check(bare(name), 0);  // says what there is
+  return parameters_->value(bare(name));
+}
+
+std::vector<double> LawEngine::set(const std::vector<std::pair<std::string, double>>& values) {
+  if (image_ == nullptr) throw std::invalid_argument("no law of this host is on the board");
+  for (const auto& [name, value] : values) parameters_->check(bare(name), value);
+  refresh();
+  std::vector<law::HostWord> writes;
+  for (const auto& [name, value] : values) writes = parameters_->set(bare(name), value);
+  if (writes.empty()) return {};
+  writes.pop_back();  // commit() writes that
+  try {
+    commit(writes);
+  } catch (...) {
+    refresh();
+    throw;
+  }
+  std::vector<double> rounded;
+  for (const auto& [name, value] : values) rounded.push_back(parameters_->value(bare(name)));
+  return rounded;
+}
+
+void LawEngine::commit(const std::vector<law::HostWord>& writes) {
+  const Deadline end = within(commit_patience_s);
+  const auto wait = [&](const char* what) {
+    EngineStatus s = status();
+    // A run that takes its time holds the old set.
+    while (s.committing) {
+      if (HostClock::now() > end) throw Refused(what);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      s = status();
+    }
+    return s;
+  };
+  (void)wait("the engine is still busy with the commit before; does the law run?");
+  for (const law::HostWord& w : writes) write(w.address, w.data);
+  write(H::commit, 1);
+  const EngineStatus s = wait("the engine does not finish the commit");
+  if (!s.refused) return;
+  std::string name = fmt::format("word {}", s.refused_word);
+  for (const law::ImageWord& w : image_->words) {
+    if (w.word == s.refused_word) name = w.name;
+  }
+  throw Refused(fmt::format("the board refused the set: {} is out of its range", name));
+}
+
+std::optional<LawEvent> LawEngine::event() {
+  static_assert(H::events_lost == H::event_count + 4, "read together");
+  const std::vector<std::uint32_t> words = read(H::event_count, 5);
+  events_lost_ = words[4];
+  if (words[0] == 0) return {};
+  // A read changes nothing, so that it may be repeated; this takes the event away, once.
+  write(H::event_tick, 0);
+  LawEvent e;
+  e.number = static_cast<int>(words[1]);
+  e.tick = words[3];
+  e.name = fmt::format("event {}", e.number);
+  e.value = static_cast<std::int32_t>(words[2]);
+  if (image_ == nullptr) return e;
+  for (const law::ImageEvent& known : image_->events) {
+    if (known.number != e.number) continue;
+    e.name = known.name;
+    e.value *= known.scale;
+  }
+  return e;
+}
+
+}  // namespace feltgate::host

@@ -8,16 +8,25 @@
 #include <Vlink_port.h>
 
 #include "catch.hpp"
-#include "feltgate/generated/lever.hpp"
 #include "lock_step.hpp"
+#ifdef LAW
+#include "feltgate/generated/lever_law.hpp"
+#else
+#include "feltgate/generated/lever.hpp"
+#endif
 
 using namespace feltgate;
 using namespace feltgate::test;
 
 namespace {
 
-struct Twin : LinkPort<Lever> {
-  Twin() : LinkPort<Lever>({true, 2, 0x80a06U}) {}
+#ifdef LAW
+using Design = LeverLaw;
+#else
+using Design = Lever;
+#endif
+struct Twin : LinkPort<Design> {
+  Twin() : LinkPort<Design>({true, 2, 0x80a06U}) {}
 };
 
 struct Adapter {
@@ -73,6 +82,7 @@ struct Stimulus {
         if (!random.one_in(3)) r.sequence = static_cast<std::uint8_t>(random.below(256));
         static constexpr std::uint16_t base[] = {0, 0x200, 0x300, 0x1000, 0x1000, 0x1020, 0x3ff0};
         r.address = static_cast<std::uint16_t>(base[random.below(7)] + random.below(15));
+        if (Design::engine != 0 && random.coin()) r.address |= LinkMap::engine;
         r.data = r.write ? static_cast<std::uint32_t>(random.bits() >> 32) : 1 + random.below(12);
         in.good = true;
       }
@@ -149,3 +159,30 @@ TEST_CASE("link_port: a read beside a write takes its own word") {
     CHECK(sent[8] + 256 * sent[9] == 0x1021);
   }
 }
+
+#ifdef LAW
+TEST_CASE("link_port: a word of the engine is taken 40 clocks after the port was last busy") {
+  for (const int busy_until : {0, 30, 500}) {
+    Twin twin;
+    Twin::In in;
+    in.request = {true, false, 1, static_cast<std::uint16_t>(LinkMap::engine + 7), 2};
+    in.ready = true;
+    std::uint32_t sent[12] = {};
+    std::size_t bytes = 0;
+    int since = 0;  // clocks with the address, not busy
+    for (int k = 0; k < 700 && bytes < 12; ++k) {
+      in.reg_busy = k < busy_until;
+      const Twin::Out out = twin.peek(in);
+      in.reg_rdata = since >= 33 ? 0x5000U + out.reg_addr : 0xbadU;
+      if (out.reply.valid) sent[bytes++] = out.reply.byte;
+      const auto before = out.reg_addr;
+      twin.clock(in);
+      if (out.taken) in.request.valid = false;
+      since = in.reg_busy || twin.peek(in).reg_addr != before ? 0 : since + 1;
+    }
+    REQUIRE(bytes == 12);
+    CHECK(sent[4] + 256 * sent[5] == 0x9007);
+    CHECK(sent[8] + 256 * sent[9] == 0x9008);
+  }
+}
+#endif

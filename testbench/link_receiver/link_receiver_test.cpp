@@ -19,7 +19,15 @@ using namespace feltgate::test;
 
 namespace {
 
-using Twin = LinkReceiver;
+struct Twin : LinkReceiver {
+  Twin() : LinkReceiver(ENGINE != 0) {}
+};
+/// As the page says it of such a board.
+WireReader reader_of_page() {
+  WireReader reader;
+  reader.engine = ENGINE != 0;
+  return reader;
+}
 
 struct Adapter {
   static void drive(Vlink_receiver& rtl, const Twin::In& in) {
@@ -82,7 +90,7 @@ struct Page {
   const char* operator()(const Twin::In& in, const Vlink_receiver& rtl, const Twin&,
                          bool in_reset) {
     if (in_reset) {
-      *reader = {};
+      *reader = reader_of_page();
       spoiled = false;
       return nullptr;
     }
@@ -116,7 +124,7 @@ struct Page {
 TEST_CASE("link_receiver: frames of every kind, RTL against twin and page") {
   std::int64_t good = 0, bad = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    auto reader = std::make_shared<WireReader>();
+    auto reader = std::make_shared<WireReader>(reader_of_page());
     Bench bench("link_receiver", seed);
     bench.run(Stimulus(seed, seed % 2 == 0), scaled_clocks(2'000'000), {seed == 4 ? 30'000U : 0U},
               Page(reader));
@@ -129,7 +137,7 @@ TEST_CASE("link_receiver: frames of every kind, RTL against twin and page") {
 
 TEST_CASE("link_receiver: frames of random bytes are no requests, and each is counted") {
   Twin twin;
-  WireReader reader;
+  WireReader reader = reader_of_page();
   Random random(8);
   std::int64_t accepted = 0, refused = 0;
   const auto send = [&](std::uint8_t byte) {
@@ -174,8 +182,11 @@ TEST_CASE("link_receiver: the borders of what a request may be") {
   CHECK(!sound(request(1, 0, 0x3fc1, 64)));
   CHECK(sound(request(1, 0, 0x3fff, 1)));
   CHECK(!sound(request(1, 0, 0x3fff, 2)));
-  CHECK(!sound(request(1, 0, 0x4000, 1)));
-  CHECK(!sound(request(2, 0, 0x4000, 1)));
+  CHECK(sound(request(1, 0, 0x4000, 1)) == (ENGINE != 0));
+  CHECK(sound(request(2, 0, 0x4000, 1)) == (ENGINE != 0));
+  CHECK(sound(request(1, 0, 0x7fc0, 64)) == (ENGINE != 0));
+  CHECK(!sound(request(1, 0, 0x7fc1, 64)));
+  CHECK(!sound(request(2, 0, 0xc000, 1)));
   CHECK(!sound(request(2, 0, 0x8000, 1)));
   CHECK(sound(request(2, 0, 0x3fff, 0xffffffff)));
   CHECK(!sound(request(1, 0, 0, 0)));

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The twin of a board at a host's bytes, clock by clock as the host waits: nothing depends on how
+// busy the machine is. The wire can lose bytes, or be cut.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "feltgate/linked_core.hpp"
+#include "feltgate/random.hpp"
+#include "host/transport.hpp"
+
+namespace feltgate::test {
+
+template <class D>
+class BoardInProcess : public host::Transport {
+ public:
+  void write(const std::uint8_t* data, std::size_t size) override {
+    for (std::size_t n = 0; n < size; ++n) {
+      if (left == 0) throw host::LinkLost("wire: cut");
+      if (left > 0) --left;
+      if (lost > 0 && random_.uniform() < lost) continue;
+      board.send(data[n]);
+    }
+    // Somebody who writes on and on does not outrun the wire.
+    while (board.unsent() > 64) run(5000);
+  }
+  std::size_t read(std::uint8_t* data, std::size_t size, host::Deadline) override {
+    if (left == 0) throw host::LinkLost("wire: cut");
+    for (int n = 0; n < 40 && received_.empty(); ++n) run(2000);
+    const std::size_t got = std::min(size, received_.size());
+    std::copy_n(received_.begin(), got, data);
+    received_.erase(received_.begin(), received_.begin() + static_cast<std::ptrdiff_t>(got));
+    return got;
+  }
+  const std::string& name() const override { return name_; }
+
+  void run(std::int64_t clocks) {
+    board.run(in, clocks, [] {});
+    for (const std::uint8_t byte : board.take_received()) received_.push_back(byte);
+  }
+  void step(bool up) {
+    phase_ += up ? 1U : 3U;
+    in.encoder = {(phase_ & 2U) != 0, ((phase_ >> 1 ^ phase_) & 1U) != 0, false};
+    run(std::int64_t{4} * D::clocks_per_tick);
+  }
+
+  LinkedCore<D> board{LinkedOptions{3'000'000, true, 0}};
+  LinkedIn in;
+  std::int64_t left = -1;  ///< bytes until the wire is cut; -1: it is not
+  double lost = 0;         ///< share of bytes to the board
+
+ private:
+  std::vector<std::uint8_t> received_;
+  SplitMix64 random_{5};
+  std::string name_ = "wire";
+  unsigned phase_ = 0;
+};
+
+}  // namespace feltgate::test

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Laws in a board's engine, the host's library against the twin: loaded, cut off, refused, set,
+// felt, told.
+#include "catch.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "board_in_process.hpp"
+#include "feltgate/generated/lever.hpp"
+#include "feltgate/generated/lever_law.hpp"
+#include "host/law_engine.hpp"
+#include "law/compile.hpp"
+
+namespace {
+
+using namespace feltgate;
+using host::LawEngine;
+
+template <class D>
+const design::Elaborated& design_of() {
+  static const host::KnownDesign known = host::read_known_design(
+      FELTGATE_ROOT, std::string(FELTGATE_ROOT "/rtl/designs/") + D::name + ".toml");
+  return known.design;
+}
+
+law::Image compiled(const std::string& text, const std::string& name = "test") {
+  return law::compile_text(text, name, host::law_target(design_of<LeverLaw>())).image;
+}
+
+const law::Image& spring() {
+  static const law::Image image = compiled(
+      "param stiffness = 0.25 Nm/rad in 0 .. 1 Nm/rad\n"
+      "param rest = 0 rad in -1 .. 1 rad\n"
+      "event beyond(position) when position > 0.01\n"
+      "event below(velocity) when position < -0.01\n"
+      "out torque = -stiffness * (position - rest)\n",
+      "spring");
+  return image;
+}
+const law::Image& damper() {
+  static const law::Image image = compiled(
+      "param damping = 0.01 Nm s/rad in 0 .. 0.1 Nm s/rad\n"
+      "out torque = -damping * velocity\n",
+      "damper");
+  return image;
+}
+
+template <class D>
+struct OnWire {
+  std::unique_ptr<test::BoardInProcess<D>> wire = std::make_unique<test::BoardInProcess<D>>();
+  host::Link link{*wire};
+  host::Device device{link, host::read_board(link), design_of<D>()};
+};
+struct OnBoard : OnWire<LeverLaw> {
+  LawEngine engine{device};
+
+  void arm() {
+    device.set("self_test_pulse", 0);
+    device.set("watchdog_ticks", 100000000);
+    device.arm("law", false);
+  }
+  bool armed() { return wire->board.out().core.armed; }
+  double torque() {
+    return std::ldexp(wire->board.out().core.tau_ref, -LeverLaw::f.torque.fraction);
+  }
+  /// Until a ramp is over.
+  void settle() { wire->run(10'000 * std::int64_t{LeverLaw::clocks_per_tick}); }
+};
+
+std::string told(const std::function<void()>& run) {
+  try {
+    run();
+    return "nothing";
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+}
+
+constexpr double count_rad = 2 * 3.14159265358979 / 4096;
+
+}  // namespace
+
+TEST_CASE("host law: loaded, armed, felt, changed while it runs") {
+  OnBoard b;
+  CHECK(b.engine.image() == nullptr);
+  const host::LoadReport r = b.engine.load(spring());
+  CHECK(r.words == 1152);
+  CHECK(r.written > 4);
+  CHECK(b.engine.holds(spring()));
+  CHECK_FALSE(b.engine.holds(damper()));
+  CHECK(std::abs(b.engine.get("stiffness") - 0.25) < 1e-4);
+  b.arm();
+  REQUIRE(b.armed());
+  CHECK(b.engine.status().crc_good);
+  for (int n = 0; n < 100; ++n) b.wire->step(true);
+  b.settle();
+  CHECK(std::abs(b.torque() + 0.25 * 100 * count_rad) < 2e-4);
+
+  const auto set = b.engine.set({{"stiffness", 0.5}, {"law.rest", 0.05}});
+  CHECK(std::abs(set[0] - 0.5) < 1e-4);
+  CHECK(std::abs(set[1] - 0.05) < 1e-4);
+  b.settle();
+  CHECK(std::abs(b.torque() + 0.5 * (100 * count_rad - 0.05)) < 3e-4);
+  // One after the other, as banks alternate.
+  CHECK(std::abs(b.engine.set({{"rest", 0}})[0]) < 1e-9);
+  CHECK(std::abs(b.engine.get("stiffness") - 0.5) < 1e-4);
+  b.settle();
+  CHECK(std::abs(b.torque() + 0.5 * 100 * count_rad) < 3e-4);
+
+  CHECK(told([&] { b.engine.load(damper()); }).find("disarm first") != std::string::npos);
+  CHECK(b.engine.holds(spring()));
+  b.device.disarm();
+  CHECK(b.engine.load(damper()).written > 0);
+  CHECK(b.engine.holds(damper()));
+  // The same again: nothing to write.
+  CHECK(b.engine.load(damper()).written == 0);
+  b.device.arm("law", false);
+  CHECK(b.armed());
+}
+
+TEST_CASE("host law: a load that is cut off at any point leaves nothing that arms") {
+  std::int64_t whole = 0;
+  {
+    OnBoard b;
+    b.wire->left = 1'000'000;
+    b.engine.load(spring());
+    whole = 1'000'000 - b.wire->left;
+  }
+  // Over nothing, and over another law.
+  for (const bool over : {false, true}) {
+    for (const int part : {2, 6}) {
+      OnBoard b;
+      if (over) b.engine.load(damper());
+      b.wire->left = whole * part / 7;
+      INFO("cut at " << b.wire->left << " of " << whole);
+      CHECK(told([&] { b.engine.load(spring()); }) == "wire: cut");
+      b.wire->left = -1;
+      host::Link again(*b.wire);
+      host::Device device(again, host::read_board(again), design_of<LeverLaw>());
+      device.set("self_test_pulse", 0);
+      LawEngine engine(device);
+      const bool old = over && engine.holds(damper());
+      const std::string refused = told([&] { device.arm("law", false); });
+      if (old) {
+        // Nothing of the new one had come: the old one, which stands still.
+        CHECK(b.torque() == 0);
+      } else {
+        CHECK(refused.find("CRC does not hold") != std::string::npos);
+        CHECK_FALSE(b.armed());
+      }
+      device.disarm();
+      engine.load(spring());
+      device.arm("law", false);
+      CHECK(b.armed());
+    }
+  }
+}
+
+TEST_CASE("host law: bytes lost on the way are seen and sent again") {
+  OnBoard b;
+  b.wire->lost = 0.004;
+  const host::LoadReport r = b.engine.load(compiled("param a = 0.05 Nm in 0 .. 0.5 Nm\n"
+                                                    "out torque = -a * sin(24 * position)\n"));
+  b.wire->lost = 0;
+  CHECK(r.rounds > 1);
+  b.arm();
+  CHECK(b.armed());
+}
+
+TEST_CASE("host law: names, units and ranges of parameters") {
+  OnBoard b;
+  CHECK(told([&] { b.engine.set({{"stiffness", 1}}); }).find("no law") == 0);
+  b.engine.load(spring());
+  const law::ImageWord& rest = *b.engine.find("rest");
+  CHECK(b.engine.find("law.rest") == &rest);
+  CHECK(b.engine.find("reste") == nullptr);
+  CHECK(b.engine.parameters().size() == 2);
+  CHECK(std::abs(b.engine.value_in(rest, "10deg") - 0.174533) < 1e-6);
+  CHECK(b.engine.value_in(rest, "0.5 rad") == 0.5);
+  CHECK(b.engine.value_in(rest, "0.5") == 0.5);
+  const law::ImageWord& stiffness = *b.engine.find("stiffness");
+  CHECK(b.engine.value_in(stiffness, "50mNm/rad") == Approx(0.05));
+  CHECK(told([&] { b.engine.value_in(rest, "1 Nm"); }) == "rest is not in Nm; give it in rad");
+  CHECK(told([&] { b.engine.value_in(rest, "far"); }).find("is no number") != std::string::npos);
+  CHECK(told([&] { b.engine.value_in(rest, "2rad"); }).find("out of its range") !=
+        std::string::npos);
+  CHECK(told([&] { b.engine.get("clicks"); }).find("it has ") != std::string::npos);
+  // One of two that cannot be: neither is set.
+  CHECK(told([&] { b.engine.set({{"rest", 0.5}, {"stiffness", 7}}); }).find("stiffness = 7") == 0);
+  CHECK(b.engine.get("rest") == 0);
+}
+
+TEST_CASE("host law: the board refuses a set with a word out of its range, and says which") {
+  OnBoard b;
+  law::Image wrong = spring();
+  const law::ImageWord& word = wrong.words.front();
+  // A range that the host does not know of: narrower on the board than in the image.
+  b.engine.load(spring());
+  const int upper = EngineMap::H::data + law::Image::upper_base + word.word;
+  b.link.write(static_cast<int>(LinkMap::engine) + upper, 100);
+  const double before = b.engine.get(word.name);
+  CHECK(told([&] { b.engine.set({{word.name, 0.5}}); }) ==
+        "the board refused the set: " + word.name + " is out of its range");
+  CHECK(b.engine.get(word.name) == before);
+}
+
+TEST_CASE("host law: events by name, each once, whatever is lost on the way") {
+  OnBoard b;
+  b.engine.load(spring());
+  b.arm();
+  CHECK_FALSE(b.engine.event());
+  const auto swing = [&](int counts) {
+    for (int n = 0; n < std::abs(counts); ++n) b.wire->step(counts > 0);
+  };
+  swing(10);
+  swing(-20);
+  swing(20);
+  b.wire->lost = 0.01;
+  std::vector<host::LawEvent> all;
+  while (const auto e = b.engine.event()) all.push_back(*e);
+  b.wire->lost = 0;
+  REQUIRE(all.size() == 3);
+  CHECK(all[0].name == "beyond");
+  CHECK(all[1].name == "below");
+  CHECK(all[2].name == "beyond");
+  CHECK(all[0].value > 0.01);
+  CHECK(all[0].value < 0.016);  // a run takes the time of some counts
+  CHECK(all[0].tick < all[1].tick);
+  CHECK(all[1].tick < all[2].tick);
+  CHECK(b.engine.events_lost() == 0);
+  for (int n = 0; n < 10; ++n) swing(-20), swing(20);
+  (void)b.engine.event();
+  CHECK(b.engine.events_lost() == 4);
+}
+
+TEST_CASE("host law: a law is known again when the port is opened again") {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / "feltgate_host_law_test";
+  fs::remove_all(folder);
+  OnBoard b;
+  b.engine.load(spring());
+  b.engine.set({{"rest", 0.25}});
+  LawEngine other(b.device);
+  CHECK_FALSE(other.recognise(folder.string()));
+  host::keep_law(folder.string(), damper());
+  CHECK_FALSE(other.recognise(folder.string()));
+  CHECK(told([&] { other.attach(damper()); }).find("does not run the law damper") !=
+        std::string::npos);
+  host::keep_law(folder.string(), spring());
+  REQUIRE(other.recognise(folder.string()));
+  CHECK(other.image()->name == "spring");
+  CHECK(std::abs(other.get("rest") - 0.25) < 1e-4);
+  // The same numbers in another program: not this one.
+  law::Image twisted = spring();
+  twisted.program[0] ^= std::uint64_t{1} << 32;
+  CHECK_FALSE(other.holds(twisted));
+  fs::remove_all(folder);
+}
+
+TEST_CASE("host law: a board without engine, an image of another design") {
+  OnWire<Lever> plain;
+  CHECK_FALSE(plain.device.board().has_engine);
+  CHECK(told([&] { LawEngine none(plain.device); }).find("design lever has no engine") !=
+        std::string::npos);
+  OnBoard b;
+  law::Image other = spring();
+  other.design = "lever";
+  CHECK(told([&] { b.engine.load(other); }).find("compiled for design lever") !=
+        std::string::npos);
+}

@@ -253,12 +253,14 @@ TEST_CASE("feltgate_linked: a read of the engine waits while it is busy, a disar
   s.control(false);
   s.ticks(2);
   CHECK_FALSE(s.out().core.gates_enable);
-  // The panel clears a fault while the engine is busy with a word of the host.
+  // The panel clears a fault while the engine is busy with a commit of the host.
+  s.arm();
   s.in.stop = true;
   s.clocks(1);
   s.in.stop = false;
   s.ticks(3);
   CHECK(s.out().core.faults != 0);
+  s.control(false);
   s.send(request(2, 220, LinkMap::engine + static_cast<std::uint32_t>(H::commit), 1));
   s.in.clear_faults = true;
   s.clocks(1);

@@ -38,6 +38,7 @@ engine/engine_barrel.sv
 engine/engine_inputs.sv
 engine/engine_outputs.sv
 engine/engine_commit.sv
+engine/engine_mailbox.sv
 engine/engine_crc.sv
 engine/engine_events.sv
 engine/engine.sv

@@ -68,6 +68,7 @@ EngineStatus LawEngine::status() {
   s.crc_busy = bit(words[0], E::S::status_crc_busy);
   s.crc_good = bit(words[0], E::S::status_crc_good);
   s.late = bit(words[0], E::S::status_late);
+  s.mailbox_late = bit(words[0], E::S::status_mailbox_late);
   s.overrun = bit(words[0], E::S::status_overrun);
   s.bank = bit(words[0], E::S::status_bank) ? 1 : 0;
   s.refused_word = static_cast<int>(words[1]);
@@ -132,8 +133,9 @@ int LawEngine::bring(const law::Image& image, LoadReport* report,
 
 LoadReport LawEngine::load(const law::Image& image, const std::function<void(double)>& progress) {
   if (image.design != device_.design().design.name) {
-    throw Refused(fmt::format("the law was compiled for design {}, the board has {}; compile it again",
-                              image.design, device_.design().design.name));
+    throw Refused(
+        fmt::format("the law was compiled for design {}, the board has {}; compile it again",
+                    image.design, device_.design().design.name));
   }
   refuse_while_armed();
   image_.reset();
@@ -156,6 +158,8 @@ LoadReport LawEngine::load(const law::Image& image, const std::function<void(dou
   }
   write(H::line_base, static_cast<std::uint32_t>(image.line_base));
   write(H::max_age, static_cast<std::uint32_t>(image.max_age_ticks));
+  write(H::mailbox_first, static_cast<std::uint32_t>(image.mailbox_first));
+  write(H::mailbox_age, static_cast<std::uint32_t>(image.mailbox_age));
   std::vector<law::HostWord> parameters;
   for (int n = 0; n < E::parameter_words; ++n) {
     const auto word = static_cast<std::size_t>(law::Image::parameter_base + n);

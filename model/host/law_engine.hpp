@@ -27,8 +27,9 @@ struct EngineStatus {
   bool refused = false;     ///< the last commit was refused: a word out of its range
   bool crc_busy = false, crc_good = false;  ///< of the last check, at an arming
   bool late = false;                        ///< no fresh torque within max_age
-  bool overrun = false;  ///< a start found its thread still running, since the load
-  int bank = 0;          ///< that is in force
+  bool mailbox_late = false;  ///< the law's mailbox was not fed in time: no torque until it is
+  bool overrun = false;       ///< a start found its thread still running, since the load
+  int bank = 0;               ///< that is in force
   int refused_word = 0;  ///< parameter word 0 to 31 that the last refused commit was refused for
 };
 

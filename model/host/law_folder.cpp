@@ -64,8 +64,8 @@ void keep_law(const std::string& folder, const law::Image& image) {
 
 bool LawEngine::recognise(const std::string& folder) {
   const int ranges = law::Image::lower_base;
-  const std::string key =
-      fmt::format("{:08x}-", key_of(read(EngineMap::H::data + ranges, EngineMap::data_words - ranges)));
+  const std::string key = fmt::format(
+      "{:08x}-", key_of(read(EngineMap::H::data + ranges, EngineMap::data_words - ranges)));
   std::error_code error;
   std::vector<fs::directory_entry> found;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {

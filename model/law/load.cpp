@@ -120,7 +120,8 @@ double LoadedParameters::rounded_si(const std::string& name, double value) const
     const double b = word->upper * word->scale / word->to_si;
     throw std::invalid_argument(
         fmt::format("{} = {:g}{}{} is out of its range; law {} takes {:g} to {:g}", name, value,
-                    word->unit.empty() ? "" : " ", word->unit, image_.name, std::min(a, b) + 0.0, std::max(a, b) + 0.0));
+                    word->unit.empty() ? "" : " ", word->unit, image_.name, std::min(a, b) + 0.0,
+                    std::max(a, b) + 0.0));
   }
   return std::nearbyint(raw) * word->scale;
 }

@@ -9,6 +9,8 @@
 
 #include "host/capture.hpp"
 #include "host/keep_alive.hpp"
+#include "host/law_engine.hpp"
+#include "law/compile.hpp"
 #include "python/bindings.hpp"
 
 namespace feltgate::python {
@@ -82,9 +84,51 @@ class PyDevice {
       of["settable"] = q.writable;
       d[q.name.c_str()] = of;
     }
+    const host::LawEngine* engine = unlocked([&] { return laws(); });
+    if (engine == nullptr) return d;
+    for (const law::ImageWord* w : engine->parameters()) {
+      py::dict of;
+      of["unit"] = w->unit;
+      of["doc"] = "of the law " + engine->image()->name;
+      of["settable"] = true;
+      d[("law." + w->name).c_str()] = of;
+    }
     return d;
   }
+  py::dict law(const std::string& path) {
+    host::LawEngine& engine = engine_of_laws();
+    const host::LoadReport r = unlocked([&] {
+      const law::Image image = law::compile_file(path, host::law_target(device().design())).image;
+      const host::LoadReport report = engine.load(image);
+      host::keep_law(host::laws_folder(), image);
+      return report;
+    });
+    py::dict d;
+    d["name"] = engine.image()->name;
+    d["words"] = r.words;
+    d["written"] = r.written;
+    return d;
+  }
+  py::list events(double seconds) {
+    host::LawEngine& engine = engine_of_laws();
+    std::vector<host::LawEvent> all;
+    unlocked([&] {
+      const host::Deadline end = host::within(seconds);
+      do {
+        check_interrupt();
+        keep_->poll();
+        if (keep_->holds()) check_armed(device().tick());
+        while (auto event = engine.event()) all.push_back(*event);
+      } while (host::HostClock::now() < end);
+    });
+    py::list list;
+    for (const host::LawEvent& e : all) list.append(py::make_tuple(e.tick, e.name, e.value));
+    return list;
+  }
   double get(const std::string& name) {
+    if (host::LawEngine* engine = law_with(name)) {
+      return unlocked([&] { return engine->get(name); });
+    }
     const Quantity& q = device().quantities().find(name);
     return unlocked([&] { return device().get(q); });
   }
@@ -97,6 +141,12 @@ class PyDevice {
     return d;
   }
   double set(const std::string& name, const py::object& value) {
+    if (host::LawEngine* engine = law_with(name)) {
+      const double number = py::isinstance<py::str>(value)
+                                ? engine->value_in(*engine->find(name), value.cast<std::string>())
+                                : value.cast<double>();
+      return unlocked([&] { return engine->set({{name, number}}).front(); });
+    }
     const host::Quantities& all = device().quantities();
     const host::Setting setting = py::isinstance<py::str>(value)
                                       ? all.setting(name + "=" + value.cast<std::string>())
@@ -217,6 +267,7 @@ class PyDevice {
       if (keep_->holds()) keep_->release();
     });
     keep_.reset();
+    laws_.reset();
     device_.reset();
     transport_.reset();
   }
@@ -229,6 +280,26 @@ class PyDevice {
   host::Device& device() {
     if (!device_) throw std::runtime_error("the device is closed; open it again");
     return *device_;
+  }
+  /// The engine, its law known where this computer has loaded it; nullptr without an engine.
+  host::LawEngine* laws() {
+    if (!device().board().has_engine) return nullptr;
+    if (!laws_) {
+      laws_ = std::make_unique<host::LawEngine>(device());
+      (void)laws_->recognise(host::laws_folder());
+    }
+    return laws_.get();
+  }
+  host::LawEngine& engine_of_laws() {
+    host::LawEngine* engine = unlocked([&] { return laws(); });
+    if (engine == nullptr) (void)host::LawEngine(device());  // says that there is none
+    return *engine;
+  }
+  /// The engine where its law has a parameter of this name and the core has not.
+  host::LawEngine* law_with(const std::string& name) {
+    if (device().quantities().look(name) != nullptr) return nullptr;
+    host::LawEngine* engine = unlocked([&] { return laws(); });
+    return engine != nullptr && engine->find(name) != nullptr ? engine : nullptr;
   }
   std::uint16_t status_words() {
     return host::mask_of(device().quantities(), {"status", "faults"});
@@ -257,6 +328,7 @@ class PyDevice {
   host::Link link_;
   std::unique_ptr<host::Device> device_;
   std::unique_ptr<host::KeepAlive> keep_;
+  std::unique_ptr<host::LawEngine> laws_;
 };
 
 }  // namespace
@@ -274,6 +346,8 @@ void bind_host(py::module_& m) {
       .def("get", &PyDevice::get, py::arg("name"))
       .def("tick", &PyDevice::tick)
       .def("set", &PyDevice::set, py::arg("name"), py::arg("value"))
+      .def("law", &PyDevice::law, py::arg("path"))
+      .def("events", &PyDevice::events, py::arg("seconds"))
       .def("arm", &PyDevice::arm, py::arg("scene"))
       .def("hold", &PyDevice::hold, py::arg("seconds"))
       .def("kick", &PyDevice::kick)

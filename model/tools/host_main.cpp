@@ -57,8 +57,9 @@ int main(int argc, char** argv) {
   app.add_option("--design", session.options.design,
                  "name in rtl/designs or a path; default: the one with the board's CRC")
       ->type_name("DESIGN");
-  app.add_option("--law", session.options.law,
-                 "file of the law that the board runs; default: known where it was loaded from here")
+  app.add_option(
+         "--law", session.options.law,
+         "file of the law that the board runs; default: known where it was loaded from here")
       ->type_name("LAW");
   app.add_option("--patience", session.options.patience_s,
                  "so long requests are repeated before the link counts as lost")

@@ -61,7 +61,7 @@ install(TARGETS feltgate_python LIBRARY DESTINATION feltgate COMPONENT python)
 install(DIRECTORY "${FELTGATE_ROOT}/model/python/feltgate" DESTINATION . COMPONENT python
   FILES_MATCHING PATTERN "*.py" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
 # The folders keep their places, so that FELTGATE_ROOT may name a repository instead.
-foreach(folder vectors/plants vectors/scenes vectors/traces rtl/designs)
+foreach(folder vectors/plants vectors/scenes vectors/traces rtl/designs rtl/laws)
   install(DIRECTORY "${FELTGATE_ROOT}/${folder}/" DESTINATION "feltgate/data/${folder}"
     COMPONENT python)
 endforeach()

@@ -45,6 +45,7 @@ RULES = (
     ),
     Rule(r"feltgate board", "BY", "board.host"),
     Rule(r"feltgate host .*(?:calibrate|identify)", "BY", "calibrate.verbs"),
+    Rule(r"feltgate host .*(?: law|/tmp/knob|events)", "BY", "host.laws"),
     Rule(r"feltgate host:?", "BY", "host.verbs"),
     Rule(r"feltgate test", "LAUNCHER"),
     Rule(r"ctest .*-N", "WHOLE"),

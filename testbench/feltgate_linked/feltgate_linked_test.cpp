@@ -16,8 +16,6 @@ using namespace feltgate::test;
 
 namespace {
 
-
-
 constexpr std::uint32_t bit(int n) { return 1U << n; }
 constexpr std::uint32_t control(bool arm, int scene) {
   return static_cast<std::uint32_t>(D::control_reset) | bit(D::C::control_host) |

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A law loaded over the UART, armed, felt, changed while it runs, and its events taken: RTL and twin
-// in lock-step. Documentation: docs/blocks/feltgate_linked.md
+// A law loaded over the UART, armed, felt, changed while it runs, and its events taken: RTL and
+// twin in lock-step. Documentation: docs/blocks/feltgate_linked.md
 #include <memory>
 #include <utility>
 
@@ -91,10 +91,9 @@ class Life {
     }
   }
   void control(bool arm) {
-    write(D::C::control,
-          static_cast<std::uint32_t>(D::control_reset) | 1U << D::C::control_host |
-              std::uint32_t{arm} << D::C::control_arm |
-              static_cast<std::uint32_t>(D::S::law) << D::C::control_scene);
+    write(D::C::control, static_cast<std::uint32_t>(D::control_reset) | 1U << D::C::control_host |
+                             std::uint32_t{arm} << D::C::control_arm |
+                             static_cast<std::uint32_t>(D::S::law) << D::C::control_scene);
   }
   void arm() {
     control(false);

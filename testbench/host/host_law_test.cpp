@@ -166,8 +166,9 @@ TEST_CASE("host law: a load that is cut off at any point leaves nothing that arm
 TEST_CASE("host law: bytes lost on the way are seen and sent again") {
   OnBoard b;
   b.wire->lost = 0.004;
-  const host::LoadReport r = b.engine.load(compiled("param a = 0.05 Nm in 0 .. 0.5 Nm\n"
-                                                    "out torque = -a * sin(24 * position)\n"));
+  const host::LoadReport r =
+      b.engine.load(compiled("param a = 0.05 Nm in 0 .. 0.5 Nm\n"
+                             "out torque = -a * sin(24 * position)\n"));
   b.wire->lost = 0;
   CHECK(r.rounds > 1);
   b.arm();
@@ -206,8 +207,9 @@ TEST_CASE("host law: the board refuses a set with a word out of its range, and s
   const int upper = EngineMap::H::data + law::Image::upper_base + word.word;
   b.link.write(static_cast<int>(LinkMap::engine) + upper, 100);
   const double before = b.engine.get(word.name);
-  CHECK(told([&] { b.engine.set({{word.name, 0.5}}); }) ==
-        "the board refused the set: " + word.name + " is out of its range");
+  CHECK(told([&] {
+          b.engine.set({{word.name, 0.5}});
+        }) == "the board refused the set: " + word.name + " is out of its range");
   CHECK(b.engine.get(word.name) == before);
 }
 
@@ -272,6 +274,5 @@ TEST_CASE("host law: a board without engine, an image of another design") {
   OnBoard b;
   law::Image other = spring();
   other.design = "lever";
-  CHECK(told([&] { b.engine.load(other); }).find("compiled for design lever") !=
-        std::string::npos);
+  CHECK(told([&] { b.engine.load(other); }).find("compiled for design lever") != std::string::npos);
 }

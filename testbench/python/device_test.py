@@ -68,6 +68,15 @@ class DeviceTest(unittest.TestCase):
                 device.capture(trigger="velocity>900", wait_s=0.2)
             self.assertEqual(device.link()["damaged"], 0)
 
+    def test_a_board_without_engine(self):
+        with BoardProcess() as board, feltgate.Device(board.port) as device:
+            with self.assertRaisesRegex(feltgate.Refused, "has no engine"):
+                device.law("detent")
+            with self.assertRaisesRegex(feltgate.Refused, "has no engine"):
+                device.events()
+            with self.assertRaisesRegex(ValueError, 'did you mean "detent"'):
+                device.law("detnt")
+
     def test_trouble(self):
         with self.assertRaisesRegex(ValueError, "there is no such port"):
             feltgate.Device("/dev/ttyNOWHERE")

@@ -35,7 +35,8 @@ class LinkReceiver {
   };
 
   /// With `engine` the map has the engine's words too, above the others.
-  explicit LinkReceiver(bool engine = false) : map_bits_(static_cast<int>(LinkMap::map_bits) + (engine ? 1 : 0)) {}
+  explicit LinkReceiver(bool engine = false)
+      : map_bits_(static_cast<int>(LinkMap::map_bits) + (engine ? 1 : 0)) {}
   void reset() { *this = LinkReceiver(map_bits_ > static_cast<int>(LinkMap::map_bits)); }
   const Out& out() const { return out_; }
   /// Without a byte, clock() changes nothing.

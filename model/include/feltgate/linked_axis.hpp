@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What feltgate_linked has in place of a core where the design has an engine: feltgate_axes with one
-// axis, as the link sees it. Documentation: docs/blocks/feltgate_linked.md
+// What feltgate_linked has in place of a core where the design has an engine: feltgate_axes with
+// one axis, as the link sees it. Documentation: docs/blocks/feltgate_linked.md
 #pragma once
 
 #include <cstdint>

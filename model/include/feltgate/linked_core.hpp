@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/link/feltgate_linked.sv: the core, or an axis with its engine, with its host's link,
-// clock by clock, or with the host's bytes from event to event. Documentation: docs/blocks/feltgate_linked.md
+// clock by clock, or with the host's bytes from event to event. Documentation:
+// docs/blocks/feltgate_linked.md
 #pragma once
 
 #include <algorithm>
@@ -126,12 +127,11 @@ class LinkedCore {
   }
 
  private:
-  static constexpr std::uint32_t kFeatures = 1U << LinkMap::B::features_capture |
-                                             1U << LinkMap::B::features_stream |
-                                             (D::engine != 0 ? 1U : 0U)
-                                                 << LinkMap::B::features_engine |
-                                             LinkMap::rows_log2 << LinkMap::B::features_rows_log2 |
-                                             LinkMap::columns << LinkMap::B::features_columns;
+  static constexpr std::uint32_t kFeatures =
+      1U << LinkMap::B::features_capture | 1U << LinkMap::B::features_stream |
+      (D::engine != 0 ? 1U : 0U) << LinkMap::B::features_engine |
+      LinkMap::rows_log2 << LinkMap::B::features_rows_log2 |
+      LinkMap::columns << LinkMap::B::features_columns;
 
   typename LinkPort<D>::In port_in(const LinkedIn& in) const {
     typename LinkPort<D>::In p;

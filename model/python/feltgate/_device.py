@@ -3,10 +3,10 @@
 """A board on a serial port, or one that `feltgate board` simulates."""
 
 from types import TracebackType
-from typing import Any, Dict, Optional, Sequence, Type, Union
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Type, Union
 
 from feltgate import _core
-from feltgate._files import DESIGNS, PathLike, find, root
+from feltgate._files import DESIGNS, LAWS, PathLike, find, root
 from feltgate._results import Columns
 
 LinkLost = _core.LinkLost
@@ -76,9 +76,25 @@ class Device:
     def set(self, **values: Union[float, str]) -> Dict[str, float]:
         """Parameters in their units, or with another: set(torque_limit=0.1, wall_contact="0.2rad").
 
+        Those of a law too, which come into force one after the other.
+
         Returns what they are after rounding to their words.
         """
         return {name: float(self._core.set(name, value)) for name, value in values.items()}
+
+    def law(self, law: PathLike) -> Dict[str, Any]:
+        """Compiles a law (a name in rtl/laws or a file), loads it, verifies it by reading it back.
+
+        The motor must be disarmed. From then on set(), get() and names() know its parameters.
+        Returns its name, the words that were compared, and those that had to be written.
+        ValueError: a law that cannot be read or proven, with line and reason. Refused: armed, no
+        engine.
+        """
+        return dict(self._core.law(find(law, LAWS, ".law")))
+
+    def events(self, seconds: float = 0.0) -> List[Tuple[int, str, float]]:
+        """Events of the law that wait, and those that come for so long: tick, name, value in SI."""
+        return list(self._core.events(seconds))
 
     def arm(self, scene: str = "") -> None:
         """Arms with the watchdog awake; scene "" is the one that is chosen."""

@@ -13,6 +13,7 @@ PathLike = Union[str, "os.PathLike[str]"]
 
 _DATA = Path(__file__).parent / "data"
 SCENES, PLANTS, DESIGNS = "vectors/scenes", "vectors/plants", "rtl/designs"
+LAWS = "rtl/laws"
 
 
 def root() -> Path:
@@ -20,8 +21,8 @@ def root() -> Path:
     return Path(os.environ.get("FELTGATE_ROOT") or _DATA)
 
 
-def _names(folder: str) -> List[str]:
-    return sorted(path.stem for path in (root() / folder).glob("*.toml"))
+def _names(folder: str, suffix: str = ".toml") -> List[str]:
+    return sorted(path.stem for path in (root() / folder).glob("*" + suffix))
 
 
 def scenes() -> List[str]:
@@ -39,17 +40,17 @@ def designs() -> List[str]:
     return sorted([*_core.design_names(), *_core.extra_designs])
 
 
-def find(name: PathLike, folder: str) -> str:
+def find(name: PathLike, folder: str, suffix: str = ".toml") -> str:
     """The file of a name in a folder, or the path that was given. Raises ValueError."""
     text = os.fspath(name)
-    if os.sep in text or text.endswith(".toml"):
+    if os.sep in text or text.endswith(suffix):
         if not os.path.isfile(text):
             raise ValueError(f"{text}: there is no such file; check the path")
         return text
-    path = root() / folder / f"{text}.toml"
+    path = root() / folder / f"{text}{suffix}"
     if path.is_file():
         return str(path)
-    names = _names(folder)
+    names = _names(folder, suffix)
     near = difflib.get_close_matches(text, names, n=1)
     hint = f"did you mean \"{near[0]}\"? " if near else ""
     raise ValueError(f"\"{text}\" is not in {folder}; {hint}choose one of {', '.join(names)} "

@@ -61,13 +61,15 @@ int events(Session& session, const EventsArguments& a) {
   Deadline look = within(look_s);
   int told = 0;
   std::optional<unsigned> lost_before;
-  while (!Interruptible::interrupted() && HostClock::now() < end && (a.count == 0 || told < a.count)) {
+  while (!Interruptible::interrupted() && HostClock::now() < end &&
+         (a.count == 0 || told < a.count)) {
     hold.poll();
     if (server) server->poll();
     const auto event = laws.event();
     if (!lost_before) lost_before = laws.events_lost();
     if (event) {
-      const std::string line = fmt::format("{} {} {:.9g}\n", event->tick, event->name, event->value);
+      const std::string line =
+          fmt::format("{} {} {:.9g}\n", event->tick, event->name, event->value);
       std::fputs(line.c_str(), stdout);
       std::fflush(stdout);
       if (server) server->send(line);
@@ -78,8 +80,7 @@ int events(Session& session, const EventsArguments& a) {
       check_armed(device);
       look = within(look_s);
     }
-    std::this_thread::sleep_for(
-        std::chrono::duration<double>(std::min(hold.next_in_s(), rest_s)));
+    std::this_thread::sleep_for(std::chrono::duration<double>(std::min(hold.next_in_s(), rest_s)));
   }
   hold.release();
   const unsigned lost = laws.events_lost() - lost_before.value_or(laws.events_lost());
@@ -100,7 +101,8 @@ Run add_events(CLI::App& sub) {
       "  feltgate host /dev/ttyUSB0 events --arm law           arm, hold, tell; Ctrl-C disarms\n"
       "  feltgate host /dev/ttyUSB0 events --arm law --tcp 4711\n"
       "  nc 127.0.0.1 4711                                     in another window\n"
-      "A line each: the tick, the name in the law, the value in SI units. The board keeps 16 events "
+      "A line each: the tick, the name in the law, the value in SI units. The board keeps 16 "
+      "events "
       "until\n"
       "the host takes them; those beyond are counted and told. One host at a time has the port.\n"
       "Exit code: 0 done, 1 no engine, or the motor went off, 2 unusable input or port, 3 the link "
@@ -114,7 +116,8 @@ Run add_events(CLI::App& sub) {
   sub.add_option("--count", a->count, "end after so many events")
       ->type_name("EVENTS")
       ->check(checks::whole(1, 1'000'000'000));
-  sub.add_option("--tcp", a->tcp, "send the lines to those who connect to this port of 127.0.0.1 too; 0: any")
+  sub.add_option("--tcp", a->tcp,
+                 "send the lines to those who connect to this port of 127.0.0.1 too; 0: any")
       ->type_name("PORT")
       ->check(checks::whole(0, 65535));
   return [a](Session& session) { return events(session, *a); };

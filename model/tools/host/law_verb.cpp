@@ -31,9 +31,12 @@ std::string law_state(LawEngine& laws) {
   std::string text = laws.image() != nullptr
                          ? laws.image()->name
                          : "none, or one that is not known here: --law gives its file";
-  text += s.crc_busy    ? "; its CRC is being checked"
-          : s.crc_good  ? "; its CRC held at the last arming"
-                        : "; its CRC is checked when the motor arms";
+  text += s.crc_busy   ? "; its CRC is being checked"
+          : s.crc_good ? "; its CRC held at the last arming"
+                       : "; its CRC is checked when the motor arms";
+  if (s.mailbox_late && laws.image() != nullptr && laws.image()->mailbox_first < 32) {
+    text += "; its mailbox was not fed in time, so there is no torque";
+  }
   if (s.late) text += "; no fresh torque in time";
   if (s.overrun) text += "; a start found it still running";
   return text;
@@ -70,13 +73,13 @@ int run_law(Session& session, const std::string& file) {
     r = laws.load(image, [&](double share) { progress.update(share); });
   }
   keep_law(laws_folder(), image);
-  std::fputs(fmt::format("{}law {}: {} words written, {} read back and equal, CRC 0x{:08x}\n{}"
-                         "the board computes that CRC when the motor arms: arm law --hold\n{}",
-                         simulated_banner(device.board()), image.name, r.written, r.words,
-                         law::crc(image), parameter_lines(laws),
-                         link_troubles(session.link().counts()))
-                 .c_str(),
-             stdout);
+  std::fputs(
+      fmt::format("{}law {}: {} words written, {} read back and equal, CRC 0x{:08x}\n{}"
+                  "the board computes that CRC when the motor arms: arm law --hold\n{}",
+                  simulated_banner(device.board()), image.name, r.written, r.words, law::crc(image),
+                  parameter_lines(laws), link_troubles(session.link().counts()))
+          .c_str(),
+      stdout);
   return exit_ok;
 }
 
@@ -89,9 +92,11 @@ Run add_law(CLI::App& sub) {
       "  feltgate host /dev/ttyUSB0 law mine.law               yours (docs/laws.md)\n"
       "  feltgate host /dev/ttyUSB0 set clicks=12 amplitude=80mNm\n"
       "  feltgate host /dev/ttyUSB0 arm law --hold\n"
-      "Compiles the law for the board's design, loads it while the motor is disarmed, and reads all "
+      "Compiles the law for the board's design, loads it while the motor is disarmed, and reads "
+      "all "
       "of it\n"
-      "back. The board computes the CRC of what it holds at each arming and arms the scene law only "
+      "back. The board computes the CRC of what it holds at each arming and arms the scene law "
+      "only "
       "if it\n"
       "is that of a law that was loaded whole. Its parameters are known by name from then on.\n"
       "Exit code: 0 loaded, 1 refused: armed, no engine; 2 unusable input, a law that cannot be "

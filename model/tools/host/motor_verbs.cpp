@@ -69,9 +69,10 @@ int arm(Session& session, const ArmArguments& a) {
   const Interruptible interruptible;
   Hold hold(device);
   hold.arm(a.scene);
-  say(device, fmt::format("armed, scene {}, held{}; Ctrl-C disarms, and so does the watchdog {:g} s "
-                          "after a last kick",
-                          device.scene_name(device.tick()), of_law(device), device.watchdog_s()));
+  say(device,
+      fmt::format("armed, scene {}, held{}; Ctrl-C disarms, and so does the watchdog {:g} s "
+                  "after a last kick",
+                  device.scene_name(device.tick()), of_law(device), device.watchdog_s()));
   return hold_armed(device, hold, a.seconds);
 }
 

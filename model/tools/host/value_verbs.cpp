@@ -42,12 +42,11 @@ bool is_of_law(Session& session, const std::string& name) {
   std::vector<std::string> names;
   for (const Quantity& q : session.device().quantities().all()) names.push_back(q.name);
   for (const law::ImageWord* w : laws->parameters()) names.push_back(w->name);
-  throw std::invalid_argument(
-      fmt::format("\"{}\" is no value of this board{}; {}get --all lists them", name,
-                  laws->image() != nullptr
-                      ? " and no parameter of the law " + laws->image()->name
-                      : ", and its law is not known here: give the file with --law",
-                  config::did_you_mean(name, names)));
+  throw std::invalid_argument(fmt::format(
+      "\"{}\" is no value of this board{}; {}get --all lists them", name,
+      laws->image() != nullptr ? " and no parameter of the law " + laws->image()->name
+                               : ", and its law is not known here: give the file with --law",
+      config::did_you_mean(name, names)));
 }
 
 int get(Session& session, const GetArguments& a) {

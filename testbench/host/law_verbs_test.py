@@ -1,0 +1,219 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Laws by the verbs of feltgate host, on a board without hardware that has an engine; the session of
+docs/laws.md."""
+
+import json
+import os
+import re
+import shlex
+import signal
+import socket
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+ROOT = Path(os.environ["FELTGATE_ROOT"])
+BUILD = Path(os.environ["FELTGATE_BUILD"])
+PAGE = ROOT / "docs/laws.md"
+PORT = "/tmp/knob"  # on the page
+SPRING = """\
+param stiffness = 20 mNm/rad in 0 .. 1 Nm/rad
+event right(position) when position > 0.3 rad
+event left(position) when position < 0.2 rad
+out torque = -stiffness * position
+"""
+
+
+def pattern_of(line):
+    """Numbers, and how columns are filled, differ from run to run."""
+    line = re.sub(r"0x[0-9a-f]+|[-+]?\d[\d.]*(?:e[-+]?\d+)?", "#", line)
+    return re.sub(r"\s+", " ", line).strip()
+
+
+def patterns_of(text):
+    """Of several lines alike in a row one; a busy machine answers late, and the host says so."""
+    patterns = [pattern_of(line) for line in text.splitlines() if not line.startswith("link: ")]
+    return [p for n, p in enumerate(patterns) if n == 0 or p != patterns[n - 1]]
+
+
+class Laws(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+        self.environment = os.environ | {
+            "FELTGATE_ROOT": str(ROOT),
+            "XDG_CACHE_HOME": str(self.folder / "cache"),
+        }
+
+    def board(self, *words):
+        board = subprocess.Popen(
+            [BUILD / "feltgate_board", *words],
+            env=self.environment,
+            cwd=self.folder,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
+        self.addCleanup(board.stdout.close)
+        self.addCleanup(board.wait)
+        self.addCleanup(board.kill)
+        self.port = board.stdout.readline().split(" -> ")[-1].strip()
+
+    def command(self, *words):
+        return [BUILD / "feltgate_host", "--patience", "30", self.port, *map(str, words)]
+
+    def host(self, *words, status=0):
+        done = subprocess.run(
+            self.command(*words),
+            env=self.environment,
+            cwd=self.folder,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=120,
+        )
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done.stdout + done.stderr
+
+    def start(self, *words):
+        process = subprocess.Popen(
+            self.command(*words),
+            env=self.environment,
+            cwd=self.folder,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.stdout.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def law(self, text):
+        path = self.folder / "mine.law"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def test_the_page(self):
+        self.board("--design", "lever_law", "--hand", "swing")
+        text = PAGE.read_text(encoding="utf-8")
+        blocks = re.findall(r"```console\n(.*?)```", text, re.S)
+        self.assertTrue(blocks)
+        for block in blocks:
+            for part in re.split(r"^\$ ", block, flags=re.M)[1:]:
+                line, _, shown = part.partition("\n")
+                words = shlex.split(line)
+                self.assertEqual(words[:3], ["./feltgate", "host", PORT])
+                refused = "feltgate host: " in shown
+                said = self.host(*words[3:], status=2 if refused else 0)
+                self.assertEqual(patterns_of(said.replace(str(ROOT) + "/", "")), patterns_of(shown))
+
+    def test_load_set_and_get(self):
+        self.board("--design", "lever_law", "--hand", "swing")
+        self.assertIn("law none, or one that is not known here", self.host("law"))
+        self.assertIn("not known here", self.host("set", "clicks=3", status=2))
+        self.host("law", "detent")
+        self.assertIn("law detent", self.host("law"))
+        self.assertIn("law       detent", self.host("info"))
+        said = self.host("set", "clicks=12", "amplitude=80mNm", "torque_limit=0.1Nm")
+        self.assertIn("clicks = 12\n", said)
+        self.host("get", "clicks", "law.amplitude", "torque_limit", "--json", "v.json")
+        values = json.loads((self.folder / "v.json").read_text(encoding="utf-8"))["values"]
+        self.assertEqual(values["clicks"], {"value": 12.0, "unit": ""})
+        self.assertAlmostEqual(values["law.amplitude"]["value"], 0.08, delta=1e-4)
+        self.assertIn("law.clicks", self.host("get", "--all"))
+
+        # Nothing of it is set where one cannot be.
+        self.assertIn("takes 1 to 200", self.host("set", "clicks=7", "clicks=201", status=2))
+        self.assertIn("takes 0 to 0.5", self.host("set", "clicks=7", "amplitude=0.6Nm", status=2))
+        self.assertIn("is not in deg", self.host("set", "clicks=7", "amplitude=3deg", status=2))
+        self.assertIn('did you mean "clicks"', self.host("set", "click=7", status=2))
+        self.assertIn("did you mean", self.host("get", "amplitud", status=2))
+        self.assertRegex(self.host("get", "clicks"), r"clicks +12 ")
+
+        # Another computer, which did not load it.
+        self.environment["XDG_CACHE_HOME"] = str(self.folder / "other")
+        self.assertIn("give the file with --law", self.host("get", "clicks", status=2))
+        self.assertRegex(self.host("get", "clicks", "--law", "detent"), r"clicks +12 ")
+        refused = self.host("get", "stiffness", "--law", "spring", status=1)
+        self.assertIn("does not run the law spring", refused)
+
+    def test_what_cannot_be_loaded(self):
+        self.board("--design", "lever_law")
+        bad = self.law("param a = 1 Nm in 0 .. 2 Nm\nout torque = -a * sin(12 * positio)\n")
+        said = self.host("law", bad, status=2)
+        self.assertRegex(said, r"mine\.law:2:\d+: .*positio")
+        unit = self.law("param a = 1 Nm in 0 .. 2 Nm\nout torque = a + position\n")
+        self.assertRegex(self.host("law", unit, status=2), r"mine\.law:2:\d+: ")
+        self.assertIn("there", self.host("law", "no_such", status=2))
+        (self.folder / "broken.img").write_text("nothing\n", encoding="utf-8")
+        self.assertIn("broken.img", self.host("law", "broken.img", status=2))
+        refused = self.host("arm", "law", status=1)
+        self.assertIn("its CRC does not hold", refused)
+
+        # Armed: the law stays as it is.
+        self.host("law", self.law(SPRING))
+        self.host("set", "watchdog_ticks=20000000", "self_test_pulse=0")
+        self.assertIn("the CRC of the law holds", self.host("arm", "law"))
+        self.assertIn("disarm first", self.host("law", "detent", status=1))
+        self.host("set", "stiffness=0.03")
+        self.host("disarm")
+        self.host("law", "detent")
+
+    def test_a_board_without_engine(self):
+        self.board("--design", "lever")
+        said = self.host("law", "detent", status=1)
+        self.assertIn("design lever has no engine", said)
+        self.assertIn("lever_law", said)
+        self.assertIn("no engine", self.host("events", status=1))
+        self.assertIn('did you mean', self.host("set", "torque_limt=3", status=2))
+
+    def test_events(self):
+        self.board("--design", "lever_law", "--hand", "swing")
+        self.host("law", self.law(SPRING))
+        self.host("set", "watchdog_ticks=20000000", "self_test_pulse=0")
+        process = self.start("events", "--arm", "law", "--count", "4", "--tcp", "0")
+        port = 0
+        for line in process.stderr:
+            if found := re.search(r"127\.0\.0\.1:(\d+)", line):
+                port = int(found[1])
+                break
+        with socket.create_connection(("127.0.0.1", port), timeout=60) as wire:
+            over_wire = wire.makefile(encoding="utf-8").read()
+        shown = process.stdout.read()
+        self.assertEqual(process.wait(timeout=60), 0)
+        lines = [line.split(" ") for line in shown.splitlines()]
+        self.assertEqual(len(lines), 4)
+        for before, after in zip(lines, lines[1:]):
+            self.assertLess(int(before[0]), int(after[0]))
+            self.assertNotEqual(before[1], after[1])
+        for tick, name, value in lines:
+            self.assertIn(name, ("right", "left"))
+            bound = 0.3 if name == "right" else 0.2
+            self.assertAlmostEqual(float(value), bound, delta=0.01)
+        self.assertTrue(shown.endswith(over_wire))
+        self.assertIn("disarmed", self.host("info"))
+
+    def test_a_load_that_is_killed(self):
+        self.board("--design", "lever_law")
+        process = self.start("law", "detent")
+        time.sleep(0.3)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        said = self.host("law")
+        if "law detent" not in said:  # else it was over before
+            self.assertIn("CRC does not hold", self.host("arm", "law", status=1))
+        self.host("law", "detent")
+        self.host("set", "self_test_pulse=0")
+        self.assertIn("the CRC of the law holds", self.host("arm", "law", "--hold", "--for", "0.1"))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -37,6 +37,7 @@ engine/engine_memory.sv
 engine/engine_barrel.sv
 engine/engine_inputs.sv
 engine/engine_outputs.sv
+engine/engine_lines.sv
 engine/engine_commit.sv
 engine/engine_mailbox.sv
 engine/engine_crc.sv

@@ -152,7 +152,7 @@ class Laws(unittest.TestCase):
         self.assertRegex(said, r"mine\.law:2:\d+: .*positio")
         unit = self.law("param a = 1 Nm in 0 .. 2 Nm\nout torque = a + position\n")
         self.assertRegex(self.host("law", unit, status=2), r"mine\.law:2:\d+: ")
-        self.assertIn("there", self.host("law", "no_such", status=2))
+        self.assertIn("choose one of", self.host("law", "no_such", status=2))
         (self.folder / "broken.img").write_text("nothing\n", encoding="utf-8")
         self.assertIn("broken.img", self.host("law", "broken.img", status=2))
         refused = self.host("arm", "law", status=1)
@@ -173,7 +173,7 @@ class Laws(unittest.TestCase):
         self.assertIn("design lever has no engine", said)
         self.assertIn("lever_law", said)
         self.assertIn("no engine", self.host("events", status=1))
-        self.assertIn('did you mean', self.host("set", "torque_limt=3", status=2))
+        self.assertIn("did you mean", self.host("set", "torque_limt=3", status=2))
 
     def test_events(self):
         self.board("--design", "lever_law", "--hand", "swing")
@@ -193,7 +193,6 @@ class Laws(unittest.TestCase):
         self.assertEqual(len(lines), 4)
         for before, after in zip(lines, lines[1:]):
             self.assertLess(int(before[0]), int(after[0]))
-            self.assertNotEqual(before[1], after[1])
         for tick, name, value in lines:
             self.assertIn(name, ("right", "left"))
             bound = 0.3 if name == "right" else 0.2

@@ -173,6 +173,7 @@ TEST_CASE("feltgate_linked: a law is loaded, verified, felt, changed, and tells 
   REQUIRE(s.out().core.armed);
   CHECK((s.engine(H::status)[0] >> EngineMap::S::status_crc_good & 1U) == 1);
   for (int k = 0; k < 10; ++k) s.step(true);
+  s.ticks(40);
   CHECK(s.out().core.position == 10);
   CHECK(std::abs(s.out().core.tau_ref - torque(parameters.value("stiffness"), 10)) <= 1);
 

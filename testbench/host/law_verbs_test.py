@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Laws by the verbs of feltgate host, on a board without hardware that has an engine; the session of
-docs/laws.md."""
+"""Laws by the verbs of feltgate host, on a board without hardware that has an engine, and the
+session of docs/laws.md."""
 
 import json
 import os

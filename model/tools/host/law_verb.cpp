@@ -103,7 +103,7 @@ Run add_law(CLI::App& sub) {
       "read or\n"
       "proven, with line, reason and mend; 3 the link broke down.");
   sub.add_option("law", *file,
-                 "name in rtl/laws, a law file, or an image of feltgate law --out; without it says "
+                 "name in rtl/laws, a law file, or an image of feltgate law --output; without it says "
                  "which law runs")
       ->type_name("LAW");
   return [file](Session& session) { return run_law(session, *file); };

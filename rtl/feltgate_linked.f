@@ -43,6 +43,7 @@ engine/engine_mailbox.sv
 engine/engine_crc.sv
 engine/engine_events.sv
 engine/engine.sv
+axes/axes_engine.sv
 axes/feltgate_axes.sv
 generated/feltgate_link_pkg.sv
 link/uart_rx.sv

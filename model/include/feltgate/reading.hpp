@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <string>
 
-#include "feltgate/generated/causes.hpp"
 #include "feltgate/core_ports.hpp"
 #include "feltgate/design_info.hpp"
+#include "feltgate/generated/causes.hpp"
 
 namespace feltgate {
 

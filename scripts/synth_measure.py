@@ -130,7 +130,8 @@ def copy_sources(root, design, folder):
     is_path = isinstance(design, Path)
     package = design if is_path else root / f"rtl/generated/{design}/feltgate_pkg.sv"
     beside = rtl_sources.folder_files(root, "axes")  # and the engine, which they need
-    names = [f"{CELL_WRAPPER}.sv", *core_sources(root), *link_sources(root), *beside]
+    listed = [f"{CELL_WRAPPER}.sv", *core_sources(root), *link_sources(root), *beside]
+    names = list(dict.fromkeys(listed))  # the link needs the axes, too
     shutil.copy(package, folder / "feltgate_pkg.sv")
     for name in names:
         shutil.copy(root / "rtl" / name, folder)

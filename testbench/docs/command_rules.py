@@ -88,6 +88,7 @@ PLACEHOLDERS = {
     "--for SCENE": "membrane",
     "--for SCENE...": "membrane",
     "run NAME": "wall",
+    "law NAME": "wall",
     "run SCENE": "wall",
     "budget SCENE": "wall",
     "point FILE": "my_design.toml",

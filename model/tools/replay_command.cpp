@@ -88,6 +88,10 @@ int replay(ReplayArguments& a) {
   if (a.every > 0 && a.csv.empty()) {
     throw std::invalid_argument("--every thins out the rows of --csv; add --csv FILE");
   }
+  if (a.scene == "law") {
+    throw std::invalid_argument(
+        "--scene law: a replay loads no program; choose another scene, or use feltgate run");
+  }
   traces::Options how = a.trace.read();
   how.clock_hz = design_named(a.design).clock_hz;
   const auto source = traces::open(a.trace.path, how);
@@ -96,10 +100,6 @@ int replay(ReplayArguments& a) {
   ReplayOptions options;
   options.design = a.design;
   options.engine = a.engine;
-  if (a.scene == "law") {
-    throw std::invalid_argument(
-        "--scene law: a replay loads no program; choose another scene, or use feltgate run");
-  }
   options.scene = a.scene;
   options.seed = how.seed;
   if (a.seconds > 0) {

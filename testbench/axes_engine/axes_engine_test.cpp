@@ -170,6 +170,9 @@ TEST_CASE("axes_engine: a program is locked from the request to arm on") {
   CHECK_FALSE(writes(low ^ 1));
   device.axis(0).asks = false;
   CHECK(writes(low ^ 1));
+  device.axis(1).armed = true;  // alone
+  CHECK_FALSE(writes(low));
+  device.axis(1).armed = false;
   device.axis(0).asks = true;
   device.ticks(2);
   device.axis(0).asks = false;  // the check is under way

@@ -40,7 +40,7 @@ class Scripts(Bench):
         self.pids = self.path("pids")
         self.pids.mkdir()
         self.path("bin").mkdir()
-        for name in ("feltgate", "bin/yosys", "bin/nextpnr-ecp5"):
+        for name in ("feltgate", "feltgate_lever_law", "bin/yosys", "bin/nextpnr-ecp5"):
             self.path(name).write_text(STAND_IN)
             self.path(name).chmod(0o755)
         self.path("sleeper.py").write_text(SLEEPER)

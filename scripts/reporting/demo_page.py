@@ -18,7 +18,7 @@ from reporting.progress import clock_text
 
 
 # What every reader has felt before.
-CARDS = ("membrane-lever", "spring_compression-lever", "wall-lever")
+CARDS = ("membrane-lever", "spring_compression-lever", "wall-lever", "detent-lever_law")
 STEPS = "torque_step-lever"
 
 

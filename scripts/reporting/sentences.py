@@ -46,8 +46,8 @@ SAID = {
     "torque, up to {most}.",
     "hold_and_release": "The hand blocks the lever while the motor pushes with {most}, and then "
     "lets go: nothing has wound up, and the lever does not leap.",
-    "detent": "The hand turns a knob with clicks, between {low} and {high}: the motor pushes with up "
-    "to {most} to the nearest one. The force is a law file, which the engine runs.",
+    "detent": "The hand turns a knob with clicks, between {low} and {high}: the motor pushes with "
+    "up to {most} to the nearest one. The force is a law file, which the FPGA runs as a program.",
 }
 MOVED = "The lever moves between {low} and {high}, and the motor puts up to {most} on it."
 STILL = "The lever stands still, and the motor puts up to {most} on it."

@@ -202,6 +202,7 @@ class Verdicts(unittest.TestCase):
             for _ in range(2):  # the second time replaces the first
                 twin_results.update(folder, row.catalogue, result)
             blocks = block_results.read(folder, "mutants")["blocks"]
+            self.assertEqual(blocks["twin of the core"].pop("sources").keys(), {"twin"})
             self.assertEqual(blocks, {"twin of the core": {"twin": [2, 3]}})
             written = json.loads((folder / twin_results.RESULTS).read_text(encoding="utf-8"))
             self.assertEqual([h["header"] for h in written["headers"]], ["h"])

@@ -56,6 +56,7 @@ class Bounds {
     Bound b;
     b.states_bounded = bounded_;
     b.state = errors_;
+    if (!bounded_) b.drift.assign(law_.states.size(), 0);
     b.output.assign(law_.outputs.size(), 0);
     b.words.assign(program_.steps.size(), Span{1, 0});
     b.errors.assign(program_.steps.size(), 0);
@@ -76,6 +77,9 @@ class Bounds {
         b.words[s] = hull(b.words[s], l.facts.steps[s].words);
         b.errors[s] = std::max(b.errors[s], l.facts.steps[s].error);
         b.margins[s] = std::max(b.margins[s], l.facts.margin[s]);
+      }
+      for (std::size_t k = 0; k < b.drift.size(); ++k) {
+        b.drift[k] = std::max(b.drift[k], l.facts.state_error[k]);
       }
       if (b.unproven.empty()) b.unproven = l.facts.unproven;
     }

@@ -72,6 +72,7 @@ struct Bound {
   std::vector<double> state;   ///< SI
   bool states_bounded = true;  ///< false: some state has no finite error; bounds are then of one
                                ///< run from the states as they stand
+  std::vector<double> drift;   ///< SI: what a run adds to each state's error, where not bounded
   std::vector<Unproven> unproven;
   std::vector<Strip> strips;
   std::vector<Place> sharp;    ///< comparisons without a strip: words and law change sides together

@@ -160,12 +160,16 @@ double cost(const Law& law, const Target& target, const Program& program, const 
     }
     strips += 0.5 * std::max(0.0, std::log2(b.margins[i] / size * 65536));
   }
+  double drifts = 0;
   // A state whose error the outputs do not show counts in its own range.
   for (std::size_t i = 0; i < law.states.size(); ++i) {
     const Range& r = law.states[i].range;
     const double size = std::max(r.upper - r.lower, 1e-12);
     const double e = b.states_bounded ? b.state[i] : program.states[i].scale;
     error = std::max(error, e / size * 65536);
+    // Where it has no end, what a tenth of a second adds.
+    if (b.states_bounded || law.rate_hz <= 0 || law.states[i].phase) continue;
+    drifts += std::max(0.0, std::log2(b.drift[i] * 0.1 * law.rate_hz / size * 65536));
   }
   // Instructions, and more so a tick of time; bits of the error; bits that a host cannot set.
   const auto steps = static_cast<double>(program.steps.size());
@@ -179,7 +183,7 @@ double cost(const Law& law, const Target& target, const Program& program, const 
     const double bits = std::log2(std::max(0.5, size / std::fabs(w.scale)));
     c += 0.02 + 0.08 * std::max(0.0, 14 - bits) + 4 * std::max(0.0, 6 - bits);
   }
-  c += strips + 1e4 * static_cast<double>(b.unproven.size());
+  c += strips + drifts + 1e4 * static_cast<double>(b.unproven.size());
   c += b.states_bounded ? 0 : 1000;
   return c;
 }

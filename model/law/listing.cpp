@@ -108,9 +108,11 @@ std::string report(const Compiled& c, const Measured& m) {
   }
   for (std::size_t i = 0; i < c.law.states.size(); ++i) {
     const State& state = c.law.states[i];
-    s += fmt::format("state {}: shown to stay in {:.6g} .. {:.6g}, step {:.3g}, error {:.3g}\n",
-                     state.name, state.range.lower, state.range.upper, c.program.states[i].scale,
-                     c.bound.state[i]);
+    s += fmt::format("state {}: shown to stay in {:.6g} .. {:.6g}, step {:.3g}, ", state.name,
+                     state.range.lower, state.range.upper, c.program.states[i].scale) +
+         (c.bound.states_bounded
+              ? fmt::format("error {:.3g}\n", c.bound.state[i])
+              : fmt::format("a run adds an error of up to {:.3g}\n", c.bound.drift[i]));
   }
   if (!m.output.empty()) {
     s += m.all_inputs

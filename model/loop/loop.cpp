@@ -289,6 +289,8 @@ class ScenarioRun {
     f["velocity_max_rad_s"] = velocity_.high;
     f["theta_min_rad"] = theta_.low;
     f["theta_max_rad"] = theta_.high;
+    f["theta_end_rad"] = last_.theta_rad;
+    f["tau_ref_end_nm"] = last_.tau_ref_nm;
     f["hand_energy_j"] = out.felt.energy.net_from_hand_j();
     f["energy_absorbed_j"] = absorbed_j_;
     for (std::size_t i = 0; i < steps.size(); ++i) {

@@ -29,6 +29,11 @@ RULES = (
     Rule(r"feltgate run torque_step --set voltage_gain=0\.6", "WHOLE", status=(2,)),
     # The launcher gives these a design with an engine.
     Rule(r"feltgate run (?:detent|my_scene\.toml --set amplitude\S*)", "BY", "scene.detent.lever_law"),
+    Rule(r"feltgate run turn_switch", "BY", "scene.turn_switch.lever_law"),
+    Rule(r"feltgate run graded_membrane", "BY", "scene.graded_membrane.lever_law"),
+    Rule(r"feltgate run end_stops_thrown", "BY", "scene.end_stops_thrown.lever_law"),
+    Rule(r"feltgate run end_stops", "BY", "scene.end_stops.lever_law"),
+    Rule(r"feltgate run scroll_wheel", "BY", "scene.scroll_wheel.lever_law"),
     Rule(r"feltgate (?:run|replay|import|budget|design|law)", "WHOLE"),
     Rule(r"feltgate generate", "WHOLE"),
     # 1: of a scene of milliseconds there may be nothing to leave out.

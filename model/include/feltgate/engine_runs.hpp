@@ -42,9 +42,9 @@ class EngineRuns {
   }
   void clock(const In& in) {
     leave();
+    const bool takes = engine_.commit_.taken(in.tick);
     engine_.clock(in);
-    watch_.clock(in.tick, in.tick_count, engine_.running(0), engine_.out().fresh,
-                 engine_.out().changed);
+    watch_.clock(in.tick, in.tick_count, engine_.running(0), engine_.out().fresh, takes);
     if (rest_ > 0) --rest_;
   }
   const EngineWatch& watch() const { return watch_; }

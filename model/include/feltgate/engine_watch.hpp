@@ -14,7 +14,7 @@ namespace feltgate {
 struct EngineWatch {
   bool begins = false;       ///< a run began with the samples of the last tick
   bool running = false;      ///< as seen in the last clock
-  std::int64_t changes = 0;  ///< sets of parameters that have come into force
+  std::int64_t changes = 0;  ///< sets of parameters that have come into force, also equal ones
   std::int64_t changes_at_begin = 0;
   std::deque<std::uint32_t> begun;  ///< ticks of the runs that have yet to end
   /// Tick of the samples of the last run that has ended, of that a clock ago, and of that whose
@@ -22,13 +22,13 @@ struct EngineWatch {
   std::optional<std::uint32_t> ended, ended_before, in_force;
 
   /// A clock of the engine: its inputs, what it shows after it.
-  void clock(bool ticks, std::uint32_t tick_count, bool runs, bool fresh, bool changed) {
+  void clock(bool ticks, std::uint32_t tick_count, bool runs, bool fresh, bool takes) {
     if (ticks) {
       in_force = ended_before;
       begins = false;
     }
     ended_before = ended;
-    changes += changed;
+    changes += takes;
     if (runs && !running) begin(tick_count);
     running = runs;
     if (fresh) end();

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The laws of the devices with one lever against closed forms. Documentation: docs/devices.md
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "catch.hpp"
+#include "law_case.hpp"
+
+using namespace feltgate::law;
+
+namespace {
+
+/// What the object takes on a straight way, by trapezoids; the law's memory goes along.
+double taken_j(Running<>& law, double from, double to) {
+  constexpr int steps = 20000;
+  double energy = 0, before = law.torque({{"position", from}});
+  for (int i = 1; i <= steps; ++i) {
+    const double torque = law.torque({{"position", from + (to - from) * i / steps}});
+    energy -= (torque + before) / 2 * (to - from) / steps;
+    before = torque;
+  }
+  return energy;
+}
+
+}  // namespace
+
+TEST_CASE("turn switch: springs to the place in which it is latched") {
+  Running<> law(shipped("turn_switch"));
+  const auto at = [&](double x) { return law.torque({{"position", x}}); };
+  CHECK(at(0.25) == Approx(-0.25));  // on the way up it is not latched
+  CHECK(at(0.31) == Approx(0.35 - 0.31));
+  CHECK(at(0.4) == Approx(0.35 - 0.4));
+  CHECK(at(0.21) == Approx(0.35 - 0.21));  // on the way back it is
+  CHECK(at(0.19) == Approx(-0.19));
+  CHECK(at(0.29) == Approx(-0.29));
+  CHECK(at(-0.31) == Approx(-0.35 + 0.31));
+  CHECK(law.torque({{"position", -0.3}, {"velocity", 2}}) == Approx(-0.05 - 0.02));
+  law.set("cancel", 1);
+  CHECK(at(-0.35) == Approx(0.35));
+  law.set("cancel", 0);
+  CHECK(at(-0.29) == Approx(0.29));  // and it stays off
+  law.evaluation().reset();
+  CHECK(at(0.25) == Approx(-0.25));
+}
+
+TEST_CASE("turn switch: in and out takes stiffness times place times the way between both angles") {
+  Running<> law(shipped("turn_switch"));
+  for (const double side : {1.0, -1.0}) {
+    const double energy = taken_j(law, 0, 0.45 * side) + taken_j(law, 0.45 * side, 0);
+    CHECK(energy == Approx(1 * 0.35 * (0.3 - 0.2)).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("graded membrane: from the face that is entered to the one that is left") {
+  Running<> law(shipped("graded_membrane"));
+  const auto at = [&](double x) { return law.torque({{"position", x}}); };
+  CHECK(at(0.6) == 0);  // has been outside of nothing yet
+  CHECK(at(0.4) == 0);
+  CHECK(at(0.5) == Approx(-0.1));
+  CHECK(at(0.65) == Approx(-0.1 - 0.3 * 0.75));
+  CHECK(at(0.55) == Approx(-0.1 - 0.3 * 0.25));
+  CHECK(at(0.71) == 0);
+  CHECK(at(0.65) == Approx(0.1 + 0.3 * 0.25));
+  CHECK(at(0.5) == Approx(0.4));
+  at(0.8);
+  for (const double far : {0.4, 0.05}) {
+    law.set("far", far);
+    CHECK(taken_j(law, 0.3, 0.9) == Approx(0.2 * (0.1 + far) / 2).epsilon(1e-3));
+    CHECK(taken_j(law, 0.9, 0.3) == Approx(0.2 * (0.1 + far) / 2).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("end stops: restitution squared of what they took comes back") {
+  for (const double restitution : {0.5, 0.7, 1.0}) {
+    INFO("restitution " << restitution);
+    Running<> law(shipped("end_stops"));
+    law.set("restitution", restitution);
+    for (const double side : {1.0, -1.0}) {
+      const double in = taken_j(law, 0.9 * side, 1.1 * side);
+      CHECK(in == Approx(4 * 0.1 * 0.1 / 2).epsilon(1e-3));
+      CHECK(-taken_j(law, 1.1 * side, 0.9 * side) ==
+            Approx(restitution * restitution * in).epsilon(1e-3));
+    }
+  }
+}
+
+TEST_CASE("end stops: back along a steeper line, in again along it, never a pull") {
+  Running<> law(shipped("end_stops"));
+  const auto at = [&](double x) { return law.torque({{"position", x}}); };
+  CHECK(at(1) == 0);
+  CHECK(at(1.1) == Approx(-0.4));
+  CHECK(at(1.09) == Approx(-0.4 + 16 * 0.01));
+  CHECK(at(1.07) == 0);  // left behind: it gave all it will
+  CHECK(at(1.09) == Approx(-0.24));
+  CHECK(at(1.12) == Approx(-0.48));
+  CHECK(at(1.11) == Approx(-0.48 + 16 * 0.01));
+  CHECK(at(1.0) == 0);
+  CHECK(at(1.09) == Approx(-0.36));  // a new contact
+  CHECK(at(-1.1) == Approx(0.4));
+}
+
+TEST_CASE("scroll wheel: the clutch turns it, drag slows it down") {
+  Running<> law(shipped("scroll_wheel"));
+  const double dt = 1 / law.law().rate_hz, inertia = 0.2e-3, clutch = 0.01;
+  law.set("drag", 0);
+  double wheel = 0;
+  const auto run = [&](double velocity) {
+    const double pull = std::clamp(clutch * (velocity - wheel), -0.2, 0.2);
+    wheel += dt / inertia * pull;
+    CHECK(law.torque({{"velocity", velocity}}) == Approx(-pull).margin(1e-12));
+  };
+  for (int i = 0; i < 500; ++i) run(10);
+  CHECK(wheel == Approx(10 * (1 - std::pow(1 - dt * clutch / inertia, 500))));
+  for (int i = 0; i < 500; ++i) run(60);  // slips
+  for (int i = 0; i < 500; ++i) run(0);
+  law.set("drag", 1e-3);
+  const double held = wheel * (1 - dt * (clutch + 1e-3) / inertia);
+  law.torque({});
+  CHECK(law.torque({}) == Approx(clutch * held));
+}

@@ -295,6 +295,8 @@ GappaCount prove_again(const Compiled& compiled, int cells,
   }
   count.lemmas = static_cast<int>(known.size());
   for (std::size_t i = 0; i < seen.size(); ++i) {
+    // A branch around an event makes no word.
+    if (compiled.program.steps[i].op == EngineOp::brf) continue;
     if (seen[i] == 0 || open[i] != 0) count.uncovered.push_back(static_cast<int>(i));
   }
   return count;

@@ -95,7 +95,9 @@ void Cutter::states() {
     if (next.word.empty()) continue;
     want(fmt::format("{} in [{},{}]", next.word, use.lower, use.upper));
     if (next.word != next.law) {
-      const double e = i < c_.law.states.size() ? c_.bound.state[i] / std::fabs(use.scale) : 0;
+      // Of one that drifts, what this run adds.
+      const auto& errors = c_.bound.states_bounded ? c_.bound.state : c_.bound.drift;
+      const double e = i < c_.law.states.size() ? errors[i] / std::fabs(use.scale) : 0;
       want(fmt::format("{} - {} {}", next.word, next.law, within(up(e))));
     }
     finish(fmt::format(".state{}", i));

@@ -30,6 +30,8 @@ RULES = (
     # The launcher gives these a design with an engine.
     Rule(r"feltgate run (?:detent|my_scene\.toml --set amplitude\S*)", "BY", "scene.detent.lever_law"),
     Rule(r"feltgate run turn_switch", "BY", "scene.turn_switch.lever_law"),
+    Rule(r"feltgate run flywheel", "BY", "scene.flywheel.lever_law"),
+    Rule(r"feltgate run pendulum", "BY", "scene.pendulum.lever_law"),
     Rule(r"feltgate run graded_membrane", "BY", "scene.graded_membrane.lever_law"),
     Rule(r"feltgate run end_stops_thrown", "BY", "scene.end_stops_thrown.lever_law"),
     Rule(r"feltgate run end_stops", "BY", "scene.end_stops.lever_law"),

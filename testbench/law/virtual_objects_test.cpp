@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Flywheel and pendulum behind a spring and a damper: momentum, energy, and where they are stable.
+// Documentation: docs/devices/flywheel.md
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+
+#include "catch.hpp"
+#include "feltgate/random.hpp"
+#include "law_case.hpp"
+
+using namespace feltgate::law;
+
+namespace {
+
+std::size_t state_of(const Law& law, const std::string& name) {
+  for (std::size_t i = 0; i < law.states.size(); ++i) {
+    if (law.states[i].name == name) return i;
+  }
+  throw std::runtime_error("no state " + name);
+}
+
+/// An object whose lever is where and as fast as one says.
+class Object {
+ public:
+  explicit Object(const std::string& name, double rate_hz = 0)
+      : run_(read_law(FELTGATE_ROOT "/rtl/laws/" + name + ".law", rate_hz)),
+        speed_(state_of(run_.law(), "speed")),
+        twist_(state_of(run_.law(), "twist")) {}
+  void set(const std::string& parameter, double si) { run_.set(parameter, si); }
+  double run(double position, double velocity) {
+    return run_.torque({{"position", position}, {"velocity", velocity}});
+  }
+  void put(double twist, double speed) {
+    run_.evaluation().set_state(twist_, twist);
+    run_.evaluation().set_state(speed_, speed);
+  }
+  double speed() { return run_.evaluation().state(speed_); }
+  double twist() { return run_.evaluation().state(twist_); }
+  double dt() const { return 1 / run_.law().rate_hz; }
+
+ private:
+  Running<> run_;
+  std::size_t speed_, twist_;
+};
+
+/// The larger of both absolute eigenvalues of a run, lever held; the columns are what runs make of
+/// a small twist and a small speed.
+double radius(Object& object) {
+  std::array<double, 4> m{};
+  for (std::size_t column = 0; column < 2; ++column) {
+    object.put(column == 0 ? 1e-9 : 0, column == 0 ? 0 : 1e-9);
+    object.run(0, 0);
+    m[column] = object.twist() / 1e-9;
+    m[2 + column] = object.speed() / 1e-9;
+  }
+  const double half = (m[0] + m[3]) / 2, det = m[0] * m[3] - m[1] * m[2];
+  const std::complex<double> root = std::sqrt(std::complex<double>(half * half - det));
+  return std::max(std::abs(half + root), std::abs(half - root));
+}
+
+}  // namespace
+
+TEST_CASE("flywheel: what the lever gives in torque and time the wheel has in momentum") {
+  Object wheel("flywheel");
+  const double inertia = 0.5e-3;
+  double given = 0;
+  for (int i = 0; i < 50000; ++i) {
+    const double t = i * wheel.dt();
+    given -= wheel.dt() * wheel.run(0.2 * std::sin(20 * t), 4 * std::cos(20 * t));
+  }
+  CHECK(std::abs(wheel.speed()) > 1);
+  CHECK(inertia * wheel.speed() == Approx(given).epsilon(1e-9));
+}
+
+TEST_CASE("flywheel and pendulum: without damping no energy comes or goes") {
+  for (const char* name : {"flywheel", "pendulum"}) {
+    INFO(name);
+    Object object(name);
+    const bool falls = std::string(name) == "pendulum";
+    object.set("damping", 0);
+    const double inertia = 0.5e-3, stiffness = 2, weight = falls ? 0.05 : 0;
+    const auto energy = [&] {
+      return inertia * object.speed() * object.speed() / 2 +
+             stiffness * object.twist() * object.twist() / 2 +
+             weight * (1 - std::cos(object.twist()));
+    };
+    object.run(0, 0);
+    object.put(0, 6);
+    const double before = energy();
+    double least = before, most = before;
+    for (int i = 0; i < 500000; ++i) {
+      object.run(0, 0);
+      least = std::min(least, energy());
+      most = std::max(most, energy());
+    }
+    // The step's own error swings with half of its angle, sqrt(k / J) dt, and does not add up.
+    const double angle = std::sqrt((stiffness + weight) / inertia) * object.dt();
+    CHECK(most - before < before * angle);
+    CHECK(before - least < before * angle);
+  }
+}
+
+TEST_CASE("pendulum: swings with the period of its weight") {
+  Object pendulum("pendulum");
+  pendulum.set("stiffness", 8);
+  pendulum.set("damping", 0);
+  pendulum.set("weight", 0.05);
+  pendulum.put(0.02, 0);
+  // The held spring and the weight together.
+  const double period = 2 * 3.14159265358979 * std::sqrt(0.5e-3 / 8.05);
+  int runs = 0;
+  bool was_back = false;
+  for (; runs < 100000; ++runs) {
+    pendulum.run(0, 0);
+    if (pendulum.twist() < 0) was_back = true;
+    if (was_back && pendulum.twist() > 0) break;
+  }
+  CHECK(runs * pendulum.dt() == Approx(0.75 * period).epsilon(1e-3));
+  Object lifted("pendulum");
+  lifted.set("damping", 0.05);
+  for (int i = 0; i < 100000; ++i) lifted.run(1.2, 0);
+  // At rest the lever carries the weight at the pendulum's angle.
+  CHECK(lifted.run(1.2, 0) == Approx(-0.05 * std::sin(1.2 + lifted.twist())));
+}
+
+TEST_CASE("flywheel: stable where k dt^2 + 2 b dt < 4 J, by eigenvalues and by its runs") {
+  feltgate::SplitMix64 random(1);
+  int stable = 0, unstable = 0;
+  for (const double rate_hz : {50.0, 100.0, 144.0, 490.0, 1000.0, 10e3, 250e3}) {
+    for (int i = 0; i < 200; ++i) {
+      const double k = random.between(0.1, 8), b = random.between(0, 0.05),
+                   inertia = 0.1e-3 * std::pow(50, random.uniform());
+      Object wheel("flywheel", rate_hz);
+      wheel.set("stiffness", k);
+      wheel.set("damping", b);
+      wheel.set("inertia", inertia);
+      const double dt = wheel.dt();
+      const double share = (k * dt * dt + 2 * b * dt) / (4 * inertia);
+      if (std::abs(share - 1) < 1e-3) continue;
+      INFO(rate_hz << " Hz, k " << k << ", b " << b << ", J " << inertia << ": " << share);
+      wheel.run(0, 0);
+      CHECK((radius(wheel) < 1) == (share < 1));
+      ++(share < 1 ? stable : unstable);
+      if (rate_hz > 2000 || std::abs(share - 1) < 0.1) continue;
+      // What it makes of a small push within 400 runs.
+      wheel.put(1e-6, 0);
+      for (int n = 0; n < 400; ++n) wheel.run(0, 0);
+      double largest = 0;
+      for (int n = 0; n < 20; ++n) {
+        wheel.run(0, 0);
+        largest = std::max(largest, std::abs(wheel.twist()));
+      }
+      CHECK((largest < 1e-5) == (share < 1));
+    }
+  }
+  CHECK(stable > 300);
+  CHECK(unstable > 100);
+}
+
+TEST_CASE("flywheel, pendulum: at their own rate nothing that a host can set is unstable") {
+  for (const char* name : {"flywheel", "pendulum"}) {
+    const Law law = shipped(name);
+    const auto range = [&](const std::string& parameter) {
+      for (const Parameter& p : law.parameters) {
+        if (p.name == parameter) return p.range;
+      }
+      throw std::runtime_error("no parameter " + parameter);
+    };
+    const double dt = 1 / law.rate_hz, b = range("damping").upper + 0.005;
+    const double k = range("stiffness").upper + 0.3;  // with the weight's
+    CHECK(k * dt * dt + 2 * b * dt < 4 * range("inertia").lower / 100);
+  }
+}

@@ -54,16 +54,9 @@ class LawCore {
 
  private:
   static AxesIn<1> axes_in(const CoreIn& in) {
-    AxesIn<1> to;
-    to.axis[0].encoder = in.encoder;
-    to.axis[0].set_zero = in.set_zero;
-    to.axis[0].scene = in.scene;
-    to.arm = in.arm;
-    to.stop = in.stop;
+    AxesIn<1> to = single_axis(in);
     // Nobody reads: an address matters only with a write.
-    to.reg_addr = ReadBack || in.reg_write ? in.reg_addr : std::uint16_t{0};
-    to.reg_wdata = in.reg_wdata;
-    to.reg_write = in.reg_write;
+    if (!ReadBack && !in.reg_write) to.reg_addr = 0;
     return to;
   }
   void show() {

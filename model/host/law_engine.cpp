@@ -52,11 +52,11 @@ LawEngine::LawEngine(Device& device) : device_(device) {
 }
 
 std::vector<std::uint32_t> LawEngine::read(int address, int words) {
-  return device_.link().read(static_cast<int>(LinkMap::engine) + address, words);
+  return device_.link().read(EngineMap::port_first + address, words);
 }
 
 void LawEngine::write(int address, std::uint32_t word) {
-  device_.link().write(static_cast<int>(LinkMap::engine) + address, word);
+  device_.link().write(EngineMap::port_first + address, word);
 }
 
 EngineStatus LawEngine::status() {
@@ -97,7 +97,7 @@ void LawEngine::refuse_while_armed() {
 int LawEngine::bring(const law::Image& image, LoadReport* report,
                      const std::function<void(double)>& progress) {
   std::vector<HostWrite> writes;
-  constexpr int base = static_cast<int>(LinkMap::engine);
+  constexpr int base = EngineMap::port_first;
   const auto add_long = [&](const Memory& there, const std::array<std::uint64_t, 512>& wanted,
                             int address) {
     std::optional<std::uint32_t> high;

@@ -29,7 +29,7 @@ module axes_engine #(
     output logic unchecked_o,               // arming must wait
     output logic unfit_o,                   // it must not be
 
-    // Register port, the engine at 0x4000
+    // Register port
     input  logic [15:0] reg_addr_i,
     input  logic [31:0] reg_wdata_i,
     input  logic        reg_write_i,
@@ -49,7 +49,8 @@ module axes_engine #(
   assign law_any = |law_i;
   assign all_ask = &asks_i;
   assign armed   = |armed_i;
-  assign engine_addressed = reg_addr_i[15:12] == 4'd4;
+  localparam logic [15:0] First = 16'(feltgate_engine_pkg::PORT_FIRST);
+  assign engine_addressed = reg_addr_i[15:12] == First[15:12];
 
   // Arming waits until the CRC of the programs is computed: the axes hear that another does not ask.
   // Looked at once a tick, for a request may come from a pin.

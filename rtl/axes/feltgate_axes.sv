@@ -40,7 +40,7 @@ module feltgate_axes #(
     /* verilator lint_on UNUSEDSIGNAL */
     output logic                                        measured_o,
 
-    // Register port: axis n at n * 0x400, the engine at 0x4000
+    // Register port: axis n at n * 0x400, the engine at feltgate_engine_pkg::PORT_FIRST
     input  logic [15:0] reg_addr_i,
     input  logic [31:0] reg_wdata_i,
     input  logic        reg_write_i,

@@ -54,8 +54,9 @@ module engine #(
   logic [31:0] crc_q;
   logic overrun_q;
 
-  logic write_register, open_register, write_run, write_divider, commit;
-  assign write_register = write_i && !busy_o && addr_i[11:9] == 3'd5;
+  logic of_register, write_register, open_register, write_run, write_divider, commit;
+  assign of_register    = addr_i[11:9] == feltgate_engine_pkg::H_HIGH[11:9];
+  assign write_register = write_i && !busy_o && of_register;
   assign open_register  = write_register && !locked_i;
   assign write_run      = open_register && addr_i == feltgate_engine_pkg::H_RUN;
   assign write_divider  = open_register && addr_i >= feltgate_engine_pkg::H_DIVIDER0 &&
@@ -105,9 +106,9 @@ module engine #(
   logic checking, committing, minus;
   logic [8:0] commit_address, input_address, line_address;
   logic [31:0] input_word;
-  assign parameter_write = addr_i[11:6] == 6'd5;
+  assign parameter_write = addr_i[11:6] == {3'd0, feltgate_engine_pkg::D_PARAMETER[8:6]};
   assign may_write = addr_i[11:9] == 3'd0 ? (parameter_write ? !committing
-                         : !locked_i && (addr_i[8] || addr_i[5:4] != 2'd3))
+                         : !locked_i && (addr_i[8] || addr_i[5:0] < 6'(feltgate_engine_pkg::INPUT_FIRST)))
                      : !locked_i && addr_i[11:9] <= 3'd2;
   assign host_taken  = waits_q && free && !input_wanted;
   assign input_taken = input_wanted && free;
@@ -126,7 +127,7 @@ module engine #(
   end
 
   // What the system writes and reads in the barrel. A program's word takes the way of a written one.
-  localparam logic [8:0] Zero = 9'd63;  // the last of thread 0's inputs: nobody writes it
+  localparam logic [8:0] Zero = 9'(feltgate_engine_pkg::PRIVATE_WORDS - 1);  // the last of thread 0's inputs: nobody writes it
   logic write_data_q, write_program_q, write_table_q;
   logic [8:0] write_address_q, read_data, read_address;
   logic [31:0] write_word_q;
@@ -339,10 +340,21 @@ module engine #(
   assign event_value_o  = result;
 
   // What the host reads.
-  logic [31:0] read_q, register;
-  logic [11:0] status, read_word;
-  assign read_word = {7'h50, addr_i[4:0]};
-  assign status = {running, mailbox_late, overrun_q, bank, late_o, crc_good_o, crc_busy, refused, committing};
+  logic [31:0] read_q, register, status;
+  logic [11:0] read_word;
+  assign read_word = {feltgate_engine_pkg::H_HIGH[11:5], addr_i[4:0]};
+  always_comb begin
+    status = '0;
+    status[feltgate_engine_pkg::B_STATUS_COMMITTING]   = committing;
+    status[feltgate_engine_pkg::B_STATUS_REFUSED]      = refused;
+    status[feltgate_engine_pkg::B_STATUS_CRC_BUSY]     = crc_busy;
+    status[feltgate_engine_pkg::B_STATUS_CRC_GOOD]     = crc_good_o;
+    status[feltgate_engine_pkg::B_STATUS_LATE]         = late_o;
+    status[feltgate_engine_pkg::B_STATUS_BANK]         = bank;
+    status[feltgate_engine_pkg::B_STATUS_OVERRUN]      = overrun_q;
+    status[feltgate_engine_pkg::B_STATUS_MAILBOX_LATE] = mailbox_late;
+    status[feltgate_engine_pkg::B_STATUS_RUNNING+:4]   = running;
+  end
   assign busy_o = waits_q || checking || crc_busy || clearing;
   always_ff @(posedge clk_i) begin
     if (beat) read_q <= addr_i[11] || addr_i[10:9] == 2'd3 ? {28'd0, addr_i[11] ? high_read_q : program_high_q}
@@ -350,7 +362,7 @@ module engine #(
   end
   always_comb begin
     case (read_word)
-      feltgate_engine_pkg::H_STATUS:       register = {20'd0, status};
+      feltgate_engine_pkg::H_STATUS:       register = status;
       feltgate_engine_pkg::H_REFUSED_WORD: register = {27'd0, refused_word};
       feltgate_engine_pkg::H_EVENT_COUNT:  register = {27'd0, event_count};
       feltgate_engine_pkg::H_EVENT_NUMBER: register = {23'd0, event_number};
@@ -360,7 +372,7 @@ module engine #(
       default:                                  register = '0;
     endcase
   end
-  assign rdata_o = addr_i[11:9] == 3'd5 ? register : read_q;
+  assign rdata_o = of_register ? register : read_q;
 endmodule
 
 `default_nettype wire

@@ -173,13 +173,13 @@ module engine_alu (
   assign half   = window5_q[1] ? (window5_q[0] ? product[26] : product[16])
                                : (window5_q[0] && product[11]);
 
-  logic signed [31:0] addend6_q, acc5;
+  logic signed [31:0] addend6_q, kept5_q;
   logic signed [32:0] window6_q;
   logic [17:0] top6_q;
   logic carry6_q, wraps6_q, inverse6_q;
   logic [1:0] shift6_q;
   always_ff @(posedge clk_i) begin
-    addend6_q  <= no_addend5_q ? '0 : (acc5_q ? acc5 : addend5_q) ^ {32{invert5_q}};
+    addend6_q  <= no_addend5_q ? '0 : (acc5_q ? kept5_q : addend5_q) ^ {32{invert5_q}};
     window6_q  <= no_window5_q ? '0 : window;
     carry6_q   <= carry5_q || (half && rounds5_q);
     top6_q     <= no_window5_q ? '0 : product[49:32];
@@ -205,7 +205,7 @@ module engine_alu (
   assign result6_o   = limited ? {sign, {31{!sign}}} : sum[31:0] ^ {32{inverse6_q}};
 
   // acc: the result, until the same thread is in clock 5 again.
-  logic signed [31:0] acc1_q, acc2_q, acc3_q, acc4_q, acc5_q2;
+  logic signed [31:0] acc1_q, acc2_q, acc3_q, acc4_q;
   logic keep1_q;
   always_ff @(posedge clk_i) begin
     keep1_q <= keep6_i;
@@ -213,9 +213,8 @@ module engine_alu (
     acc2_q  <= keep1_q ? acc1_q : '0;
     acc3_q  <= acc2_q;
     acc4_q  <= acc3_q;
-    acc5_q2 <= acc4_q;
+    kept5_q <= acc4_q;
   end
-  assign acc5 = acc5_q2;
 endmodule
 
 `default_nettype wire

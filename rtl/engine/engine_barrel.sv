@@ -129,7 +129,8 @@ module engine_barrel #(
   logic [1:0] dst2_q, dst3_q, dst4_q, dst5_q, dst6_q, dst7_q;
   logic [8:0] d2_q, d3_q, d4_q, d5_q, d6_q, d7_q, b2_q, b3_q, b4_q;
   logic own2;  // the address of a write is the thread's own
-  assign own2 = d2_q[8] ? d2_q[7:6] == 2'd0 && d2_q[5:4] == turn2_q[1:0] : d2_q[5:4] != 2'd3;
+  assign own2 = d2_q[8] ? d2_q[7:6] == 2'd0 && d2_q[5:4] == turn2_q[1:0]
+                        : d2_q[5:0] < 6'(feltgate_engine_pkg::INPUT_FIRST);
   always_ff @(posedge clk_i) begin
     if (valid1_q) {op2_q, mode2_q} <= {op1, mode1};
     else {op2_q, mode2_q} <= {reads1 ? read_op_i : feltgate_engine_pkg::OP_NOP, 2'd2};

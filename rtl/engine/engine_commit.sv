@@ -36,9 +36,11 @@ module engine_commit (
   assign range          = beat_q[2] != beat_q[1];
   assign parameter_word = beat_q <= {mailbox_first_i, 3'd0};
   assign minus_o        = checking_o && beat_q[0];
-  assign address_o      = {3'b101, !bank_o, beat_q[7:3]} ^
-                          (beat_q[0] == beat_q[1] ? 9'd0 : beat_q[2] ? 9'b000100000
-                               : {3'b011, !bank_o ^ beat_q[1], 5'd0});
+  localparam logic [2:0] Ranges = feltgate_engine_pkg::D_PARAMETER[8:6] ^ feltgate_engine_pkg::D_LOWER[8:6];
+  assign address_o      = {feltgate_engine_pkg::D_PARAMETER[8:6], !bank_o, beat_q[7:3]} ^
+                          (beat_q[0] == beat_q[1] ? 9'd0
+                               : beat_q[2] ? 9'(feltgate_engine_pkg::PARAMETER_WORDS)
+                               : {Ranges, !bank_o ^ beat_q[1], 5'd0});
   assign committing_o   = wanted_q || checking_o || passed_q || old_q != '0;
   assign taken_o        = passed_q && tick_i;
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -64,7 +64,9 @@ module engine_inputs #(
   end
 
   // Due threads wait for their run to end, then for their words to be written.
-  localparam logic [3:0] Words = 4'(3 * AxisCount + 1);
+  localparam logic [3:0] Words = 4'(feltgate_engine_pkg::INPUT_AXIS_WORDS * AxisCount + 1);
+  localparam logic [5:0] First = 6'(feltgate_engine_pkg::INPUT_FIRST);
+  localparam logic [3:0] Tick  = 4'(feltgate_engine_pkg::INPUT_TICK - feltgate_engine_pkg::INPUT_FIRST);
   logic [3:0] due_q, ready;
   logic [1:0] loaded_q;
   logic [3:0] word_q;
@@ -114,7 +116,7 @@ module engine_inputs #(
   endgenerate
   assign words[96*AxisCount+:32] = tick_count_i;
   assign word_o    = words[32*word_q+:32];
-  assign address_o = {1'b0, loaded_q, 2'b11, word_q == Words - 4'd1 ? 4'd9 : word_q};
+  assign address_o = {1'b0, loaded_q, First[5:4], word_q == Words - 4'd1 ? Tick : word_q};
 endmodule
 
 `default_nettype wire

@@ -17,6 +17,7 @@
 #include "feltgate/scene_charge.hpp"
 #include "feltgate/scene_wall.hpp"
 #include "law/compile.hpp"
+#include "law/load.hpp"
 
 namespace feltgate::law {
 namespace {
@@ -62,14 +63,6 @@ class Running {
   }
 
  private:
-  static EngineMemory memory(const Image& image) {
-    EngineMemory m;
-    m.program = image.program;
-    m.data = image.data;
-    m.table = image.table;
-    m.line_base = image.line_base;
-    return m;
-  }
   Compiled compiled_;
   Machine machine_;
   std::vector<std::int32_t> words_;

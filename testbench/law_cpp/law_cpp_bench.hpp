@@ -11,6 +11,7 @@
 #include "engine/law_runner.hpp"
 #include "feltgate/random.hpp"
 #include "law/compile.hpp"
+#include "law/load.hpp"
 #include "laws/shipped.hpp"
 
 namespace feltgate::test {
@@ -32,15 +33,6 @@ inline const law::Compiled& compiled_law(const std::string& name) {
   std::string path = root + "/rtl/laws/" + name + ".law";
   if (!std::filesystem::exists(path)) path = root + "/testbench/law_cpp/laws/" + name + ".law";
   return known.emplace(name, law::compile_file(path, law::Target{})).first->second;
-}
-
-inline EngineMemory memory_of(const law::Image& image) {
-  EngineMemory m;
-  m.program = image.program;
-  m.data = image.data;
-  m.table = image.table;
-  m.line_base = image.line_base;
-  return m;
 }
 
 /// Words of inputs: of all sizes, their ends, and now and then any word of 32 bits; parameters.

@@ -49,8 +49,8 @@ struct AgainstMachine {
     REQUIRE(Law<Fixed>::image_crc == law::crc(c.image));
     REQUIRE(Law<Fixed>::instructions == static_cast<int>(c.assembled.instructions.size()));
     REQUIRE(Law<Fixed>::ticks_per_run == c.divider);
-    CompiledLaw<Law> compiled(memory_of(c.image));
-    Machine machine(memory_of(c.image));
+    CompiledLaw<Law> compiled(law::memory(c.image));
+    Machine machine(law::memory(c.image));
     Stimulus stimulus(7);
     Seen& s = seen[c.law.name];
     for (std::int64_t n = 0; n < runs; ++n) {
@@ -100,7 +100,7 @@ class Clocked {
   using H = EngineMap::H;
   explicit Clocked(const law::Compiled& c) : c_(c), engine_(0xffff) {
     engine_.reset();
-    engine_.memory() = memory_of(c.image);
+    engine_.memory() = law::memory(c.image);
     write(H::line_base, c.image.line_base);
     write(H::divider0, c.divider);
     write(H::run, 1);
@@ -174,7 +174,7 @@ struct AgainstEngine {
   template <template <class> class Law, int Axes>
   void law_of(const law::Compiled& c) {
     Clocked<Axes> engine(c);
-    CompiledLaw<Law> compiled(memory_of(c.image));
+    CompiledLaw<Law> compiled(law::memory(c.image));
     Stimulus stimulus(11);
     std::deque<std::array<std::int32_t, Axes>> torques;
     std::deque<law::MachineEvent> events;
@@ -272,8 +272,8 @@ TEST_CASE("the example of the page") {
 
 TEST_CASE("what runs a law: a shipped one is compiled, another is interpreted") {
   const law::Compiled &detent = compiled_law("detent"), &other = compiled_law("echo");
-  CHECK(law::make_law_runner(memory_of(detent.image), law::crc(detent.image))->compiled());
-  CHECK_FALSE(law::make_law_runner(memory_of(other.image), law::crc(other.image))->compiled());
+  CHECK(law::make_law_runner(law::memory(detent.image), law::crc(detent.image))->compiled());
+  CHECK_FALSE(law::make_law_runner(law::memory(other.image), law::crc(other.image))->compiled());
   CHECK(law::shipped_laws().size() >= 11);
 }
 

@@ -11,6 +11,7 @@
 #include "catch.hpp"
 #include "engine/machine.hpp"
 #include "law/compile.hpp"
+#include "law/load.hpp"
 #include "loop/axes_twin.hpp"
 
 namespace feltgate::test {
@@ -21,7 +22,7 @@ class ImageAxes {
   ImageAxes(const std::string& name, const DesignInfo& design)
       : compiled_(law::compile_file(std::string(FELTGATE_SOURCE_DIR) + "/rtl/laws/" + name + ".law",
                                     law::target_of(design))),
-        machine_(memory(compiled_.image)) {
+        machine_(law::memory(compiled_.image)) {
     for (const law::ImageWord& w : compiled_.image.words) {
       if (w.formula.empty()) values_.push_back(w.initial * w.scale);
     }
@@ -72,14 +73,6 @@ class ImageAxes {
   const law::Compiled& compiled() const { return compiled_; }
 
  private:
-  static EngineMemory memory(const law::Image& image) {
-    EngineMemory m;
-    m.program = image.program;
-    m.data = image.data;
-    m.table = image.table;
-    m.line_base = image.line_base;
-    return m;
-  }
   void write() {
     const std::vector<std::int32_t> words = law::parameter_words(compiled_.image, values_);
     for (const law::ImageWord& w : compiled_.image.words) {

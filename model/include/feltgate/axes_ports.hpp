@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "feltgate/core_ports.hpp"
+#include "feltgate/generated/engine.hpp"
 
 namespace feltgate {
 
@@ -30,10 +31,24 @@ struct AxesIn {
   bool reg_read = false;  ///< one clock: the word was taken; of the engine's events
 };
 
+/// The inputs of a core as those of a device of one axis.
+inline AxesIn<1> single_axis(const CoreIn& in) {
+  AxesIn<1> to;
+  to.axis[0].encoder = in.encoder;
+  to.axis[0].set_zero = in.set_zero;
+  to.axis[0].scene = in.scene;
+  to.arm = in.arm;
+  to.stop = in.stop;
+  to.reg_addr = in.reg_addr;
+  to.reg_wdata = in.reg_wdata;
+  to.reg_write = in.reg_write;
+  return to;
+}
+
 /// Addresses from one axis to the next.
 constexpr int axes_stride = 0x400;
 /// First address of the engine, which has 0x1000.
-constexpr int axes_engine = 0x4000;
+constexpr int axes_engine = law::EngineMap::port_first;
 
 /// Outputs of N axes after one clock.
 template <int N>

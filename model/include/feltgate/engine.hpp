@@ -114,7 +114,7 @@ class Engine {
     to.run = run;
 
     // The write that goes on its way now is seen by the barrel in the next clock.
-    Written next = written(in, input_taken, host_taken);
+    Written next = written(input_taken, host_taken);
     if (lines_.taken(line_base, line_free)) next.table = true;
     if (clearing && !inputs_.wanted() && !r.waits) next.address = lines_.address;
     next.word = r.beat && reads_program(in) ? r.program
@@ -135,7 +135,7 @@ class Engine {
         {in.tick, step, watches_mailbox(), r.mailbox_age, commit_.taken(in.tick), commit_.differs});
     commit_.clock({asks, was_crc_busy, in.tick, beat, barrel_.result() < 0, inputs_.running,
                    r.mailbox_first});
-    const unsigned high = crc_was_program(in) ? r.program_high : r.table_high;
+    const unsigned high = crc_.reads_program() ? r.program_high : r.table_high;
     const std::uint32_t result = static_cast<std::uint32_t>(barrel_.result());
     crc_.clock({in.crc_start, was_checking, beat, std::uint64_t{high} << 32 | result,
                 barrel_.memory.line_base, r.crc});
@@ -198,7 +198,7 @@ class Engine {
     int clocks = 0;
   };
 
-  static bool in_registers(unsigned addr) { return addr >> 9 == 5; }
+  static bool in_registers(unsigned addr) { return addr >> 9 == EngineMap::H::high >> 9; }
   bool watches_mailbox() const {
     return (registers_.mailbox_first & EngineMap::parameter_words) == 0;
   }
@@ -206,7 +206,6 @@ class Engine {
   bool busy() const {
     return registers_.waits || commit_.checking || crc_.busy() || lines_.clearing;
   }
-  bool crc_was_program(const In&) const { return crc_.reads_program(); }
   bool reads_program(const In& in) const {
     return !commit_.checking && (crc_.reads ? crc_.reads_program() : (in.addr >> 9 & 1U) != 0);
   }
@@ -238,7 +237,7 @@ class Engine {
     return to;
   }
 
-  Written written(const In&, bool input_taken, bool host_taken) const {
+  Written written(bool input_taken, bool host_taken) const {
     const Registers& r = registers_;
     Written w;
     w.data = input_taken || (host_taken && !r.waits_program && !r.waits_table);
@@ -253,12 +252,14 @@ class Engine {
   void take(const In& in, int bank, bool committing) {
     Registers& r = registers_;
     const unsigned region = in.addr >> 9;
-    const bool parameter = in.addr >> 6 == 5;
-    const bool input = region == 0 && (in.addr & 0x130U) == 0x30;
-    r.waits_program = (in.addr & 0x200U) != 0;
-    r.waits_table = (in.addr & 0x400U) != 0;
-    const unsigned other = bank != 0 ? 0 : 0x20;
-    r.address = static_cast<int>(parameter ? (in.addr & 0x1dfU) | other : in.addr & 0x1ffU);
+    const bool parameter = in.addr / 64 == EngineMap::D::parameter / 64;
+    const bool input = in.addr < EngineMap::D::exchange &&
+                       in.addr % EngineMap::private_words >= EngineMap::input_first;
+    r.waits_program = (in.addr & EngineMap::H::program) != 0;
+    r.waits_table = (in.addr & EngineMap::H::table) != 0;
+    const int word = static_cast<int>(in.addr) % EngineMap::data_words;
+    const int other = bank != 0 ? EngineMap::D::parameter : EngineMap::D::parameter_bank;
+    r.address = parameter ? other + word % EngineMap::parameter_words : word;
     r.data = in.wdata;
     if (parameter ? !committing : !in.locked && region <= 2 && !input) r.waits = true;
   }
@@ -277,7 +278,7 @@ class Engine {
 
   std::uint32_t register_word(unsigned addr) const {
     using H = EngineMap::H;
-    switch (static_cast<int>(0xa00U | (addr & 0x1fU))) {
+    switch (H::high + static_cast<int>(addr % 32)) {
       case H::status:
         return status();
       case H::refused_word:

@@ -47,15 +47,7 @@ class LinkedAxis {
 
  private:
   AxesIn<1> to_axes(const CoreIn& in) const {
-    AxesIn<1> to;
-    to.axis[0].encoder = in.encoder;
-    to.axis[0].set_zero = in.set_zero;
-    to.axis[0].scene = in.scene;
-    to.arm = in.arm;
-    to.stop = in.stop;
-    to.reg_addr = in.reg_addr;
-    to.reg_wdata = in.reg_wdata;
-    to.reg_write = in.reg_write;
+    AxesIn<1> to = single_axis(in);
     // A write takes an event away, not a read: a read may be repeated.
     to.reg_read = in.reg_write && !busy(in.reg_addr);
     return to;

@@ -90,6 +90,18 @@ EngineDescription read_engine(const std::string& path) {
   for (TomlReader& r : top.sections("region")) e.regions.push_back(read_words(r, "first", data));
   if (data.size() != 512) top.fail("region", "a data word is in no region", "name all 512");
   for (TomlReader& r : top.sections("host")) e.host.push_back(read_words(r, "address", host));
+  int bit = 0;
+  for (TomlReader& r : top.sections("reset")) {
+    EngineResetField w;
+    w.field.name = r.identifier("name");
+    w.field.bit = bit;
+    w.field.width = integer(r, "width", 1, 32);
+    w.value = r.integer("value", 0, (std::int64_t{1} << w.field.width) - 1);
+    w.field.doc = plain_text(r, "doc");
+    bit += w.field.width;
+    e.reset.push_back(w);
+    r.finish();
+  }
   top.finish();
   return e;
 }

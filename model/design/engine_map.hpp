@@ -23,6 +23,12 @@ struct EngineWords {
   std::vector<Field> fields;
 };
 
+/// What a word of the engine holds after a reset.
+struct EngineResetField {
+  Field field;
+  std::int64_t value = 0;
+};
+
 struct EngineDescription {
   std::vector<Cause> constants;
   std::array<int, 4> shifts{};  ///< of a product, by the field mode
@@ -30,6 +36,7 @@ struct EngineDescription {
   std::vector<Cause> ops;       ///< by number
   std::vector<EngineWords> regions;
   std::vector<EngineWords> host;
+  std::vector<EngineResetField> reset;  ///< fields from bit 0 on, without a gap
 };
 
 /// Reads the description. Throws config::ConfigError with file and line on a malformed entry,

@@ -17,12 +17,13 @@ namespace {
 
 constexpr const char* kSource = "rtl/engine/engine.toml";
 
+void fields_sv(std::ostringstream& s, const std::string& name, const Field& f) {
+  s << fmt::format("  localparam int B_{} = {};\n", upper(name), f.bit);
+  if (f.width > 1) s << fmt::format("  localparam int W_{} = {};\n", upper(name), f.width);
+}
+
 void fields_sv(std::ostringstream& s, const std::string& prefix, const std::vector<Field>& fields) {
-  for (const Field& f : fields) {
-    const std::string name = upper(prefix + f.name);
-    s << fmt::format("  localparam int B_{} = {};\n", name, f.bit);
-    if (f.width > 1) s << fmt::format("  localparam int W_{} = {};\n", name, f.width);
-  }
+  for (const Field& f : fields) fields_sv(s, prefix + f.name, f);
 }
 
 void fields_cpp(std::ostringstream& s, const std::string& prefix,
@@ -69,6 +70,17 @@ std::string engine_package(const EngineDescription& e) {
     s << fmt::format("  localparam logic [11:0] H_{} = 12'h{:03x};\n", upper(w.name), w.first);
     fields_sv(s, w.name + "_", w.fields);
   }
+  s << "\n  // What the engine's words hold after a reset: fields, and an engine that waits for a "
+       "host.\n";
+  int bits = 0;
+  std::string parts;
+  for (const EngineResetField& w : e.reset) {
+    fields_sv(s, "reset_" + w.field.name, w.field);
+    bits = w.field.bit + w.field.width;
+    parts = fmt::format("{}'d{}", w.field.width, w.value) + (parts.empty() ? "" : ", ") + parts;
+  }
+  s << fmt::format("  localparam int RESET_BITS = {};\n", bits)
+    << fmt::format("  localparam logic [{}:0] RESET_EMPTY = {{{}}};\n", bits - 1, parts);
   s << "endpackage\n/* verilator lint_on UNUSEDPARAM */\n\n`default_nettype wire\n";
   return s.str();
 }
@@ -102,7 +114,17 @@ std::string engine_header(const EngineDescription& e) {
   }
   s << "  };\n\n  /// Bits of the host's words.\n  struct S {\n";
   for (const EngineWords& w : e.host) fields_cpp(s, w.name + "_", w.fields);
-  s << "  };\n};\n\n}  // namespace feltgate\n";
+  s << "  };\n};\n\n/// What the engine's words hold after a reset.\nstruct EngineReset {\n";
+  for (const EngineResetField& w : e.reset) {
+    s << fmt::format("  unsigned {} = {};  ///< {}\n", w.field.name, w.value, w.field.doc);
+  }
+  s << "\n  /// Calls `visit(value, width)` for each, from the lowest bit of the RTL's parameter "
+       "on.\n"
+       "  template <class Visit>\n  void for_each(Visit&& visit) const {\n";
+  for (const EngineResetField& w : e.reset) {
+    s << fmt::format("    visit({}, {});\n", w.field.name, w.field.width);
+  }
+  s << "  }\n};\n\n}  // namespace feltgate\n";
   return s.str();
 }
 
@@ -141,6 +163,13 @@ std::string engine_page(const EngineDescription& e) {
       s << fmt::format("| {} | `{}.{}` | {} | | {} |\n", range_text(w, "{:#05x}"), w.name, f.name,
                        bits_text(f), f.doc);
     }
+  }
+  s << "\n## After a reset\n\nFields of the parameter `Reset` of "
+       "[engine](blocks/engine.md#without-a-host).\n\n"
+       "| bits | name | by default | meaning |\n|---|---|---|---|\n";
+  for (const EngineResetField& w : e.reset) {
+    s << fmt::format("| {} | `{}` | {} | {} |\n", bits_text(w.field), w.field.name, w.value,
+                     w.field.doc);
   }
   s << "\n## Numbers\n\n| name | value | meaning |\n|---|---|---|\n";
   for (const Cause& c : e.constants) {

@@ -81,6 +81,22 @@ EngineMemory memory(const Image& image) {
   return m;
 }
 
+EngineReset reset_words(const Image& image) {
+  EngineReset r;
+  unsigned* dividers[] = {&r.divider0, &r.divider1, &r.divider2, &r.divider3};
+  for (std::size_t t = 0; t < image.threads.size(); ++t) {
+    if (!image.threads[t].used) continue;
+    r.run |= 1U << t;
+    *dividers[t] = static_cast<unsigned>(image.threads[t].divider);
+  }
+  r.line_base = static_cast<unsigned>(image.line_base);
+  r.max_age = static_cast<unsigned>(image.max_age_ticks);
+  r.mailbox_first = static_cast<unsigned>(image.mailbox_first);
+  r.mailbox_age = static_cast<unsigned>(image.mailbox_age);
+  r.crc = crc(image);
+  return r;
+}
+
 LoadedParameters::LoadedParameters(const Image& image) : image_(image) {
   for (const ImageWord& w : image.words) {
     if (w.formula.empty()) si_[w.name] = w.initial * w.scale;

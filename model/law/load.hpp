@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "feltgate/engine_memory.hpp"
+#include "feltgate/generated/engine.hpp"
 #include "law/image.hpp"
 
 namespace feltgate::law {
@@ -31,6 +32,8 @@ std::vector<HostWord> load_into_zeros(const Image& image);
 
 /// The engine's memories with the image in them.
 EngineMemory memory(const Image& image);
+/// What its words hold then, for an engine that no host loads.
+EngineReset reset_words(const Image& image);
 
 /// The values of an image's parameters as a host keeps them: what was set last, as rounded to
 /// words.

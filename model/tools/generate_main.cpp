@@ -113,6 +113,21 @@ feltgate::design::Schedule read_schedule(const Options& o,
   return feltgate::design::read_schedule((o.root / "rtl/schedule.toml").string(), registers);
 }
 
+feltgate::design::EngineDescription read_engine(const Options& o) {
+  return feltgate::design::read_engine((o.root / "rtl/engine/engine.toml").string());
+}
+
+/// What the link's users must know of the engine.
+void add_engine(const Options& o, feltgate::design::RegisterMap* registers) {
+  for (const feltgate::design::Cause& c : read_engine(o).constants) {
+    if (c.name == "port_first") {
+      registers->link_constants.push_back(
+          {"engine", c.number,
+           "first address of the engine's words, where features.engine is set"});
+    }
+  }
+}
+
 void generate_one(const Options& o, const feltgate::design::RegisterMap& registers) {
   auto design = feltgate::design::read_design(o.design.string());
   design.allow_coarse = o.allow_coarse;
@@ -135,7 +150,7 @@ bool generate_all(const Options& o, const feltgate::design::RegisterMap& registe
   stale |=
       update(o.root / "rtl/generated/feltgate_link_pkg.sv", link_package(registers), o.check_only);
   stale |= update(headers / "link.hpp", link_header(registers), o.check_only);
-  const auto engine = feltgate::design::read_engine((o.root / "rtl/engine/engine.toml").string());
+  const auto engine = read_engine(o);
   stale |=
       update(o.root / "rtl/generated/feltgate_engine_pkg.sv", engine_package(engine), o.check_only);
   stale |= update(headers / "engine.hpp", engine_header(engine), o.check_only);
@@ -173,8 +188,8 @@ int main(int argc, char** argv) {
     return 0;
   }
   try {
-    const auto registers =
-        feltgate::design::read_registers((o.root / "rtl/registers.toml").string());
+    auto registers = feltgate::design::read_registers((o.root / "rtl/registers.toml").string());
+    add_engine(o, &registers);
     if (!o.design.empty()) {
       generate_one(o, registers);
       return 0;

@@ -15,6 +15,7 @@
 #include "files/json_text.hpp"
 #include "files/output_file.hpp"
 #include "files/program.hpp"
+#include "law/content.hpp"
 #include "law/cpp.hpp"
 #include "law/gappa.hpp"
 #include "law/listing.hpp"
@@ -29,7 +30,7 @@ using law::Compiled;
 using law::Measured;
 
 struct LawArguments {
-  std::string law, design = "lever", json, out, cpp, gappa;
+  std::string law, design = "lever", json, out, cpp, gappa, memories;
   int cells = 4;
   bool listing = false, quiet = false;
 };
@@ -129,6 +130,20 @@ std::string text(const Compiled& c, const law::GappaCount& g) {
   return s;
 }
 
+/// What an engine without a host holds after configuration.
+void write_memories(const Compiled& c, const std::string& folder) {
+  const law::Content content = law::content(c.image, folder + "/");
+  const std::pair<const char*, const std::string*> all[] = {{"program.mem", &content.program},
+                                                            {"data.mem", &content.data},
+                                                            {"table.mem", &content.table},
+                                                            {"law.svh", &content.parameters}};
+  for (const auto& [name, words] : all) {
+    files::OutputFile file("--memories", (std::filesystem::path(folder) / name).string());
+    file.write(*words);
+    file.commit();
+  }
+}
+
 int run(const LawArguments& a) {
   const std::string path = find_law(a.law);
   files::Outputs outputs;
@@ -138,6 +153,7 @@ int run(const LawArguments& a) {
   files::OutputFile* image_file = outputs.open("--output", a.out);
   files::OutputFile* cpp_file = outputs.open("--cpp", a.cpp);
   outputs.folder("--gappa", a.gappa);
+  outputs.folder("--memories", a.memories);
   const Compiled c = law::compile_file(path, target(a.design));
   Measured m = law::measure_all(c);
   if (!m.all_inputs) m = law::measure(c, 1, 50000);
@@ -145,6 +161,7 @@ int run(const LawArguments& a) {
   if (!a.gappa.empty()) again = gappa(c, a);
   if (json_file != nullptr) json_file->write(json(c, m, a.gappa.empty() ? nullptr : &again));
   if (image_file != nullptr) image_file->write(law::text(c.image));
+  if (!a.memories.empty()) write_memories(c, a.memories);
   if (cpp_file != nullptr) cpp_file->write(law::cpp_header(c, a.law));
   if (!a.quiet) {
     outputs.say(law::report(c, m) + (a.gappa.empty() ? "" : text(c, again)) +
@@ -174,6 +191,7 @@ void add_law(CLI::App& app, int* exit_code) {
       "  feltgate law detent -o detent.img --json detent.json\n"
       "  feltgate law detent --cpp detent.hpp\n"
       "  feltgate law detent --gappa lemmas\n"
+      "  feltgate law detent --design lever_law --memories memories\n"
       "Exit code: 0 all well, 1 a run left its bound or Gappa did not prove a lemma, 2 unusable\n"
       "input: a law that cannot be read, proven, fitted or scheduled, with line, reason and mend.");
   sub->add_option("law", a->law, "name in rtl/laws, or the path of a law file")
@@ -188,6 +206,9 @@ void add_law(CLI::App& app, int* exit_code) {
       ->type_name("FILE");
   sub->add_option("--json", a->json, "the same as JSON (docs/json.md)")->type_name("FILE");
   sub->add_option("--gappa", a->gappa, "the proof again, by Gappa: its problems as files")
+      ->type_name("DIR");
+  sub->add_option("--memories", a->memories,
+                  "what the RTL's engine holds after configuration, for a board without a host")
       ->type_name("DIR");
   sub->add_option("--cells", a->cells, "cells that Gappa gets; 0: all")
       ->type_name("N")

@@ -7,7 +7,12 @@
 `default_nettype none
 
 module axes_engine #(
-    parameter int AxisCount = 1
+    parameter int AxisCount = 1,
+    // A law that is there without a host: what `feltgate law --memories` writes.
+    parameter ProgramContent = "",
+    parameter DataContent    = "",
+    parameter TableContent   = "",
+    parameter logic [feltgate_engine_pkg::RESET_BITS-1:0] Reset = feltgate_engine_pkg::RESET_EMPTY
 ) (
     input  logic clk_i,
     input  logic rst_ni,
@@ -103,7 +108,13 @@ module axes_engine #(
     else reg_rdata_o <= engine_addressed ? engine_word : '0;
   end
 
-  engine #(.AxisCount(AxisCount), .AgeReset(16'(feltgate_pkg::ENGINE_MAX_AGE))) u_engine (
+  localparam int AgeBit = feltgate_engine_pkg::B_RESET_MAX_AGE;
+  localparam logic [15:0] MaxAge = Reset[AgeBit+:16] != 16'd0 ? Reset[AgeBit+:16] : 16'(feltgate_pkg::ENGINE_MAX_AGE);
+  engine #(
+      .AxisCount(AxisCount),
+      .ProgramContent(ProgramContent), .DataContent(DataContent), .TableContent(TableContent),
+      .Reset({MaxAge, Reset[AgeBit-1:0]})
+  ) u_engine (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .armed_i(armed), .enter_i(law_any && !law_any_q), .locked_i(armed || all_ask || checks_q),
       .tick_i(measured_i), .tick_count_i(tick_count_i),

@@ -12,7 +12,11 @@ module feltgate_axes #(
     parameter int AxisCount = feltgate_pkg::AXES,
     parameter int Engine = feltgate_pkg::ENGINE,  // 0: programmed torque comes in by ports
     parameter int ReadBack = 1,    // as of feltgate_core
-    parameter ParameterFile = ""   // as of feltgate_core, for all axes
+    parameter ParameterFile = "",  // as of feltgate_core, for all axes
+    parameter ProgramContent = "", // as of axes_engine, and the others
+    parameter DataContent = "",
+    parameter TableContent = "",
+    parameter logic [feltgate_engine_pkg::RESET_BITS-1:0] Reset = feltgate_engine_pkg::RESET_EMPTY
 ) (
     input  logic clk_i,
     input  logic rst_ni,
@@ -171,7 +175,10 @@ module feltgate_axes #(
       assign velocity[32*n+:32] = 32'($signed(velocity_o[n*feltgate_pkg::VELOCITY_W+:feltgate_pkg::VELOCITY_W]));
       assign tau_hat[32*n+:32]  = 32'($signed(tau_hat_o[n*TorqueW+:TorqueW]));
     end
-    axes_engine #(.AxisCount(AxisCount)) u_engine (
+    axes_engine #(
+        .AxisCount(AxisCount),
+        .ProgramContent(ProgramContent), .DataContent(DataContent), .TableContent(TableContent), .Reset(Reset)
+    ) u_engine (
         .clk_i(clk_i), .rst_ni(rst_ni),
         .law_i(in_law), .asks_i(asks), .armed_i(armed_o), .zeroed_i(zeroed_o),
         .snapshot_i(snapshot_valid_o), .measured_i(measured_o), .tick_count_i(tick_count_o),

@@ -11,12 +11,7 @@ module engine #(
     parameter             ProgramContent = "",  // for $readmemh, as of the others
     parameter             DataContent    = "",
     parameter             TableContent   = "",
-    parameter logic [3:0] RunReset       = 4'd0,    // threads that run without a host
-    parameter logic [9:0] LineBaseReset  = 10'd512,
-    parameter logic [15:0] AgeReset      = 16'd0,
-    parameter logic [5:0] MailboxReset   = 6'd32,
-    parameter logic [15:0] MailboxAgeReset = 16'd0,
-    parameter logic [31:0] CrcReset      = 32'd0
+    parameter logic [feltgate_engine_pkg::RESET_BITS-1:0] Reset = feltgate_engine_pkg::RESET_EMPTY
 ) (
     input  logic                    clk_i,
     input  logic                    rst_ni,
@@ -74,12 +69,12 @@ module engine #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       high_q      <= '0;
-      run_q       <= RunReset;
-      line_base_q <= LineBaseReset;
-      max_age_q   <= AgeReset;
-      mailbox_first_q <= MailboxReset;
-      mailbox_age_q   <= MailboxAgeReset;
-      crc_q       <= CrcReset;
+      run_q       <= Reset[feltgate_engine_pkg::B_RESET_RUN+:4];
+      line_base_q <= Reset[feltgate_engine_pkg::B_RESET_LINE_BASE+:10];
+      max_age_q   <= Reset[feltgate_engine_pkg::B_RESET_MAX_AGE+:16];
+      mailbox_first_q <= Reset[feltgate_engine_pkg::B_RESET_MAILBOX_FIRST+:6];
+      mailbox_age_q   <= Reset[feltgate_engine_pkg::B_RESET_MAILBOX_AGE+:16];
+      crc_q       <= Reset[feltgate_engine_pkg::B_RESET_CRC+:32];
       overrun_q   <= 1'b0;
       armed_q     <= 1'b0;
       first_q     <= '1;
@@ -208,7 +203,10 @@ module engine #(
       .line_base_i(line_base_q)
   );
 
-  engine_inputs #(.AxisCount(AxisCount)) u_inputs (
+  engine_inputs #(
+      .AxisCount(AxisCount),
+      .Dividers(Reset[feltgate_engine_pkg::B_RESET_DIVIDER0+:48])
+  ) u_inputs (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
       .run_i(run),

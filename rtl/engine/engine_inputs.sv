@@ -7,7 +7,8 @@
 `default_nettype none
 
 module engine_inputs #(
-    parameter int AxisCount = 1
+    parameter int AxisCount = 1,
+    parameter logic [47:0] Dividers = '0  // of the threads, after configuration
 ) (
     input  logic                     clk_i,
     input  logic                     rst_ni,
@@ -36,7 +37,7 @@ module engine_inputs #(
   logic [11:0] counts[0:3];
   initial begin
     for (int k = 0; k < 4; k = k + 1) begin
-      dividers[k] = '0;
+      dividers[k] = Dividers[12*k+:12];
       counts[k]   = '0;
     end
   end

@@ -33,6 +33,7 @@ package feltgate_engine_pkg;
   localparam int AGE_BITS = 16;  // bits of max_age, ticks
   localparam int MAILBOX_STEP = 64;  // ticks that mailbox_age counts as one: those whose number is a multiple of it end a step
   localparam int HOST_BITS = 12;  // bits of a host address
+  localparam int PORT_FIRST = 16384;  // first address of the engine at the register port of the axes
 
   // Shifts of a product, by the field mode.
   localparam int SHIFT_0 = 0;
@@ -117,6 +118,30 @@ package feltgate_engine_pkg;
   localparam logic [11:0] H_EVENT_VALUE = 12'ha12;
   localparam logic [11:0] H_EVENT_TICK = 12'ha13;
   localparam logic [11:0] H_EVENTS_LOST = 12'ha14;
+
+  // What the engine's words hold after a reset: fields, and an engine that waits for a host.
+  localparam int B_RESET_RUN = 0;
+  localparam int W_RESET_RUN = 4;
+  localparam int B_RESET_DIVIDER0 = 4;
+  localparam int W_RESET_DIVIDER0 = 12;
+  localparam int B_RESET_DIVIDER1 = 16;
+  localparam int W_RESET_DIVIDER1 = 12;
+  localparam int B_RESET_DIVIDER2 = 28;
+  localparam int W_RESET_DIVIDER2 = 12;
+  localparam int B_RESET_DIVIDER3 = 40;
+  localparam int W_RESET_DIVIDER3 = 12;
+  localparam int B_RESET_LINE_BASE = 52;
+  localparam int W_RESET_LINE_BASE = 10;
+  localparam int B_RESET_MAILBOX_FIRST = 62;
+  localparam int W_RESET_MAILBOX_FIRST = 6;
+  localparam int B_RESET_MAILBOX_AGE = 68;
+  localparam int W_RESET_MAILBOX_AGE = 16;
+  localparam int B_RESET_CRC = 84;
+  localparam int W_RESET_CRC = 32;
+  localparam int B_RESET_MAX_AGE = 116;
+  localparam int W_RESET_MAX_AGE = 16;
+  localparam int RESET_BITS = 132;
+  localparam logic [131:0] RESET_EMPTY = {16'd0, 32'd0, 16'd0, 6'd32, 10'd512, 12'd0, 12'd0, 12'd0, 12'd0, 4'd0};
 endpackage
 /* verilator lint_on UNUSEDPARAM */
 

@@ -24,10 +24,10 @@ package feltgate_link_pkg;
   localparam int MAP_BITS = 'he;  // bits of an address; a request beyond is bad. One more where features.engine is set
   localparam int NO_SEQUENCE = 'h100;  // last_write_sequence before the first write
   localparam int WORDS = 'h1000;  // first address of the link's words; below are the core's
-  localparam int ENGINE = 'h4000;  // first address of the engine's words (engine-isa.md), where features.engine is set
   localparam int MEMORY = 'h2000;  // first address of the capture memory: 8 words of a row, then the next row
   localparam int ROWS_LOG2 = 'ha;  // log2 of the rows of the capture memory
   localparam int COLUMNS = 'h8;  // words of a row
+  localparam int ENGINE = 'h4000;  // first address of the engine's words, where features.engine is set
 
   // The CRC-32 of a frame: reflected polynomial, register after a whole frame.
   localparam logic [31:0] CRC_POLYNOMIAL = 32'hedb88320;

@@ -10,7 +10,12 @@ module feltgate_linked #(
     parameter int Baud = feltgate_link_pkg::BAUD,
     parameter int Simulated = 0,
     parameter int Board = 0,       // its number: docs/registers.md
-    parameter ParameterFile = ""   // as of feltgate_core
+    parameter ParameterFile = "",  // as of feltgate_core
+    // As of axes_engine; nobody looks where the design has no engine.
+    parameter ProgramContent = "",
+    parameter DataContent = "",
+    parameter TableContent = "",
+    parameter logic [feltgate_engine_pkg::RESET_BITS-1:0] Reset = feltgate_engine_pkg::RESET_EMPTY
 ) (
     input  logic clk_i,
     input  logic rst_ni,
@@ -63,7 +68,10 @@ module feltgate_linked #(
   generate
   if (feltgate_pkg::ENGINE != 0) begin : g_law
     // A read that is repeated must change nothing, so an event is taken away by a write to its last word.
-    feltgate_axes #(.AxisCount(1), .Engine(1), .ReadBack(1), .ParameterFile(ParameterFile)) u_axes (
+    feltgate_axes #(
+        .AxisCount(1), .Engine(1), .ReadBack(1), .ParameterFile(ParameterFile),
+        .ProgramContent(ProgramContent), .DataContent(DataContent), .TableContent(TableContent), .Reset(Reset)
+    ) u_axes (
         .clk_i(clk_i), .rst_ni(rst_ni),
         .enc_a_i(enc_a_i), .enc_b_i(enc_b_i), .enc_z_i(enc_z_i),
         .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o),

@@ -181,7 +181,7 @@ TEST_CASE("feltgate_linked: reads and writes") {
   CHECK(host.read(7, 0x3fc0, 64)[63] == 0);
   CHECK((head[5] >> LinkMap::B::features_engine & 1U) == (D::engine != 0));
   CHECK(host.ask(request(1, 8, 0x3fc1, 64)).empty());
-  CHECK(host.ask(request(1, 8, law::EngineMap::port_first, 1)).empty() == (D::engine == 0));
+  CHECK(host.ask(request(1, 8, EngineMap::port_first, 1)).empty() == (D::engine == 0));
   CHECK(host.ask(request(1, 8, 0x7fff, 2)).empty());
   CHECK(host.ask(request(1, 8, 0x8000, 1)).empty());
 }

@@ -77,13 +77,12 @@ class Life {
     REQUIRE(ask(request(2, ++sequence_ & 255, address, word)).size() == 1);
   }
   std::vector<std::uint32_t> engine(int address, std::uint32_t words = 1) {
-    return read(static_cast<std::uint32_t>(law::EngineMap::port_first + address), words);
+    return read(static_cast<std::uint32_t>(EngineMap::port_first + address), words);
   }
   /// All but the last as fast as the wire goes: each acts as soon as its frame is whole.
   void write_engine(const std::vector<law::HostWord>& words) {
     for (std::size_t k = 0; k < words.size(); ++k) {
-      const auto address =
-          static_cast<std::uint32_t>(law::EngineMap::port_first + words[k].address);
+      const auto address = static_cast<std::uint32_t>(EngineMap::port_first + words[k].address);
       if (k + 1 == words.size()) {
         write(address, words[k].data);
       } else {
@@ -210,7 +209,7 @@ TEST_CASE("feltgate_linked: a law is loaded, verified, felt, changed, and tells 
   const double at = static_cast<std::int32_t>(event[2]) * image().events[0].scale;
   CHECK(at > 0.01);
   CHECK(at < 0.013);
-  const Bytes take = request(2, 201, law::EngineMap::port_first + H::event_tick, 0);
+  const Bytes take = request(2, 201, EngineMap::port_first + H::event_tick, 0);
   REQUIRE(s.ask(take).size() == 1);
   REQUIRE(s.ask(take).size() == 1);
   const auto next = s.engine(H::event_count, 5);
@@ -219,7 +218,7 @@ TEST_CASE("feltgate_linked: a law is loaded, verified, felt, changed, and tells 
   CHECK(next[4] == 0);
 
   // Locked while armed.
-  s.write(static_cast<std::uint32_t>(law::EngineMap::port_first + H::program), 0);
+  s.write(static_cast<std::uint32_t>(EngineMap::port_first + H::program), 0);
   CHECK(s.engine(H::program)[0] == low[0]);
   s.play();
 }
@@ -243,13 +242,13 @@ TEST_CASE("feltgate_linked: a read of the engine waits while it is busy, a disar
   s.clocks(5000);
   s.write_engine(law::load_into_zeros(image()));
   s.control(true);  // the CRC is computed now, 1.1 ms
-  s.send(request(1, 200, static_cast<std::uint32_t>(law::EngineMap::port_first + H::status), 1));
+  s.send(request(1, 200, static_cast<std::uint32_t>(EngineMap::port_first + H::status), 1));
   s.clocks(20'000);
   CHECK((s.engine(H::status)[0] >> EngineMap::S::status_crc_good & 1U) == 1);
   s.arm();
   REQUIRE(s.out().core.armed);
   s.control(true);
-  s.send(request(1, 210, law::EngineMap::port_first, 64));
+  s.send(request(1, 210, EngineMap::port_first, 64));
   s.clocks(10'000);
   s.control(false);
   s.ticks(2);
@@ -262,7 +261,7 @@ TEST_CASE("feltgate_linked: a read of the engine waits while it is busy, a disar
   s.ticks(3);
   CHECK(s.out().core.faults != 0);
   s.control(false);
-  s.send(request(2, 220, static_cast<std::uint32_t>(law::EngineMap::port_first + H::commit), 1));
+  s.send(request(2, 220, static_cast<std::uint32_t>(EngineMap::port_first + H::commit), 1));
   s.in.clear_faults = true;
   s.clocks(1);
   s.in.clear_faults = false;

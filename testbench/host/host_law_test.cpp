@@ -205,7 +205,7 @@ TEST_CASE("host law: the board refuses a set with a word out of its range, and s
   // A range that the host does not know of: narrower on the board than in the image.
   b.engine.load(spring());
   const int upper = EngineMap::H::data + law::Image::upper_base + word.word;
-  b.link.write(law::EngineMap::port_first + upper, 100);
+  b.link.write(EngineMap::port_first + upper, 100);
   const double before = b.engine.get(word.name);
   CHECK(told([&] {
           b.engine.set({{word.name, 0.5}});

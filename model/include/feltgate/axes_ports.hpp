@@ -48,7 +48,7 @@ inline AxesIn<1> single_axis(const CoreIn& in) {
 /// Addresses from one axis to the next.
 constexpr int axes_stride = 0x400;
 /// First address of the engine, which has 0x1000.
-constexpr int axes_engine = law::EngineMap::port_first;
+constexpr int axes_engine = EngineMap::port_first;
 
 /// Outputs of N axes after one clock.
 template <int N>

@@ -46,16 +46,21 @@ class Engine {
     bool busy = false;
   };
 
-  /// `max_age` [tick] as it is after a reset.
-  explicit Engine(unsigned max_age = 0) : max_age_(max_age) { registers_.max_age = max_age; }
+  /// `max_age` [tick] as it is after a reset where the configuration says nothing of it.
+  explicit Engine(unsigned max_age = 0) { configure({}, EngineReset{}, max_age); }
 
   /// What the memories hold after power-up; a reset keeps it.
   EngineMemory& memory() { return barrel_.memory; }
 
+  /// As after power-up with these contents, and words that a reset brings back.
+  void configure(const EngineMemory& memory, const EngineReset& words) {
+    configure(memory, words, reset_.max_age);
+  }
+
   void reset() {
     last_ = In{};
     barrel_.reset();
-    barrel_.memory.line_base = EngineMap::table_words;
+    barrel_.memory.line_base = static_cast<int>(reset_.line_base);
     inputs_.reset();
     outputs_ = Outputs{};
     commit_ = EngineCommit{};
@@ -64,7 +69,11 @@ class Engine {
     crc_.reset();
     events_.reset();
     registers_ = Registers{};
-    registers_.max_age = max_age_;
+    registers_.run = reset_.run;
+    registers_.max_age = reset_.max_age;
+    registers_.mailbox_first = static_cast<int>(reset_.mailbox_first);
+    registers_.mailbox_age = reset_.mailbox_age;
+    registers_.crc = reset_.crc;
   }
 
   Out peek(const In& in) const {
@@ -183,9 +192,8 @@ class Engine {
     std::uint32_t word = 0;
   };
   struct Registers {
-    unsigned high = 0, run = 0, max_age = 0, first = 15;
+    unsigned high = 0, run = 0, max_age = 0, first = 15, mailbox_age = 0;
     int mailbox_first = EngineMap::parameter_words;
-    unsigned mailbox_age = 0;
     std::uint32_t crc = 0;
     bool armed = false, overrun = false;
     bool waits = false, waits_program = false, waits_table = false;
@@ -198,6 +206,13 @@ class Engine {
     int clocks = 0;
   };
 
+  void configure(const EngineMemory& memory, const EngineReset& words, unsigned max_age) {
+    reset_ = words;
+    if (words.max_age == 0) reset_.max_age = max_age;
+    barrel_.memory = memory;
+    inputs_.configure({words.divider0, words.divider1, words.divider2, words.divider3});
+    reset();
+  }
   static bool in_registers(unsigned addr) { return addr >> 9 == EngineMap::H::high >> 9; }
   bool watches_mailbox() const {
     return (registers_.mailbox_first & EngineMap::parameter_words) == 0;
@@ -317,7 +332,7 @@ class Engine {
   EngineCrc crc_;
   EngineEvents events_;
   Registers registers_;
-  unsigned max_age_;
+  EngineReset reset_;
 };
 
 }  // namespace feltgate::law

@@ -46,6 +46,12 @@ class EngineInputs {
     counted_ = loaded_ = word_ = 0;
   }
 
+  /// As after power-up.
+  void configure(const std::array<unsigned, 4>& dividers) {
+    for (std::size_t t = 0; t < dividers.size(); ++t) dividers_[t] = static_cast<int>(dividers[t]);
+    counts_ = {};
+  }
+
   bool wanted() const { return loading_ && word_ != kWords; }
   int address() const {
     return loaded_ * EngineMap::private_words +

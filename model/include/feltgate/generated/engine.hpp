@@ -58,6 +58,7 @@ struct EngineMap {
   static constexpr int age_bits = 16;  ///< bits of max_age, ticks
   static constexpr int mailbox_step = 64;  ///< ticks that mailbox_age counts as one: those whose number is a multiple of it end a step
   static constexpr int host_bits = 12;  ///< bits of a host address
+  static constexpr int port_first = 16384;  ///< first address of the engine at the register port of the axes
   static constexpr int shifts[] = {0, 12, 17, 27};  ///< of a product, by the field mode
   static constexpr std::string_view op_names[] = {
       "add", "sub", "mul", "mac", "mlw", "min", "max", "sel", "cmp", "lrp", "tab", "tst", "frc", "brf", "abs", "nop",};
@@ -140,6 +141,35 @@ struct EngineMap {
     static constexpr int status_running = 8;  ///< bit per thread: it is in a run, or about to be
     static constexpr int status_running_width = 4;
   };
+};
+
+/// What the engine's words hold after a reset.
+struct EngineReset {
+  unsigned run = 0;  ///< as the host's word of this name, as of the others
+  unsigned divider0 = 0;  ///< of thread 0; a reset leaves the dividers alone, configuration sets them
+  unsigned divider1 = 0;  ///< of thread 1
+  unsigned divider2 = 0;  ///< of thread 2
+  unsigned divider3 = 0;  ///< of thread 3
+  unsigned line_base = 512;  ///< first table word of delay lines
+  unsigned mailbox_first = 32;  ///< first parameter word of the mailbox
+  unsigned mailbox_age = 0;  ///< of the last commit
+  unsigned crc = 0;  ///< the image's CRC-32
+  unsigned max_age = 0;  ///< of a result; 0: that of the design
+
+  /// Calls `visit(value, width)` for each, from the lowest bit of the RTL's parameter on.
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    visit(run, 4);
+    visit(divider0, 12);
+    visit(divider1, 12);
+    visit(divider2, 12);
+    visit(divider3, 12);
+    visit(line_base, 10);
+    visit(mailbox_first, 6);
+    visit(mailbox_age, 16);
+    visit(crc, 32);
+    visit(max_age, 16);
+  }
 };
 
 }  // namespace feltgate

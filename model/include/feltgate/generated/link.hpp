@@ -35,10 +35,10 @@ struct LinkMap {
   static constexpr std::uint32_t map_bits = 0xe;  ///< bits of an address; a request beyond is bad. One more where features.engine is set
   static constexpr std::uint32_t no_sequence = 0x100;  ///< last_write_sequence before the first write
   static constexpr std::uint32_t words = 0x1000;  ///< first address of the link's words; below are the core's
-  static constexpr std::uint32_t engine = 0x4000;  ///< first address of the engine's words (engine-isa.md), where features.engine is set
   static constexpr std::uint32_t memory = 0x2000;  ///< first address of the capture memory: 8 words of a row, then the next row
   static constexpr std::uint32_t rows_log2 = 0xa;  ///< log2 of the rows of the capture memory
   static constexpr std::uint32_t columns = 0x8;  ///< words of a row
+  static constexpr std::uint32_t engine = 0x4000;  ///< first address of the engine's words, where features.engine is set
 
   /// Addresses.
   struct A {

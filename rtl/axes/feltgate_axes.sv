@@ -13,10 +13,12 @@ module feltgate_axes #(
     parameter int Engine = feltgate_pkg::ENGINE,  // 0: programmed torque comes in by ports
     parameter int ReadBack = 1,    // as of feltgate_core
     parameter ParameterFile = "",  // as of feltgate_core, for all axes
+    /* verilator lint_off UNUSEDPARAM */  // without an engine
     parameter ProgramContent = "", // as of axes_engine, and the others
     parameter DataContent = "",
     parameter TableContent = "",
     parameter logic [feltgate_engine_pkg::RESET_BITS-1:0] Reset = feltgate_engine_pkg::RESET_EMPTY
+    /* verilator lint_on UNUSEDPARAM */
 ) (
     input  logic clk_i,
     input  logic rst_ni,

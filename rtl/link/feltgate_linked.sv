@@ -12,10 +12,12 @@ module feltgate_linked #(
     parameter int Board = 0,       // its number: docs/registers.md
     parameter ParameterFile = "",  // as of feltgate_core
     // As of axes_engine; nobody looks where the design has no engine.
+    /* verilator lint_off UNUSEDPARAM */
     parameter ProgramContent = "",
     parameter DataContent = "",
     parameter TableContent = "",
     parameter logic [feltgate_engine_pkg::RESET_BITS-1:0] Reset = feltgate_engine_pkg::RESET_EMPTY
+    /* verilator lint_on UNUSEDPARAM */
 ) (
     input  logic clk_i,
     input  logic rst_ni,

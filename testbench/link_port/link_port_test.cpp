@@ -82,7 +82,7 @@ struct Stimulus {
         if (!random.one_in(3)) r.sequence = static_cast<std::uint8_t>(random.below(256));
         static constexpr std::uint16_t base[] = {0, 0x200, 0x300, 0x1000, 0x1000, 0x1020, 0x3ff0};
         r.address = static_cast<std::uint16_t>(base[random.below(7)] + random.below(15));
-        if (Design::engine != 0 && random.coin()) r.address |= EngineMap::port_first;
+        if (Design::engine != 0 && random.coin()) r.address |= LinkMap::engine;
         r.data = r.write ? static_cast<std::uint32_t>(random.bits() >> 32) : 1 + random.below(12);
         in.good = true;
       }
@@ -165,7 +165,7 @@ TEST_CASE("link_port: a word of the engine is taken 40 clocks after the port was
   for (const int busy_until : {0, 30, 500}) {
     Twin twin;
     Twin::In in;
-    in.request = {true, false, 1, static_cast<std::uint16_t>(EngineMap::port_first + 7), 2};
+    in.request = {true, false, 1, static_cast<std::uint16_t>(LinkMap::engine + 7), 2};
     in.ready = true;
     std::uint32_t sent[12] = {};
     std::size_t bytes = 0;

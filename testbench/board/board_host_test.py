@@ -10,13 +10,14 @@ import random
 import re
 import signal
 import subprocess
-import tempfile
+import sys
 import time
 import unittest
 from pathlib import Path
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
-BUILD = Path(os.environ["FELTGATE_BUILD"])
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "host"))
+from host_program import BUILD, ROOT, ProgramTest  # noqa: E402
+
 SLOPE, DEAD = 0.0302 / 0.42, 0.34 + 0.635  # of p24 at 50 kHz
 
 
@@ -50,26 +51,7 @@ class Board:
         self.process.stdout.close()
 
 
-class BoardTest(unittest.TestCase):
-    def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = Path(scratch.name)
-
-    def run_program(self, program, *words, status=0, typed=""):
-        done = subprocess.run(
-            [BUILD / program, *map(str, words)],
-            env=os.environ | {"FELTGATE_ROOT": str(ROOT)},
-            cwd=self.folder,
-            input=typed,
-            capture_output=True,
-            text=True,
-            check=False,
-            timeout=120,
-        )
-        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
-        return done.stdout + done.stderr
-
+class BoardTest(ProgramTest):
     def host(self, port, *words, status=0, typed=""):
         words = ("--patience", 20, port, *words)
         return self.run_program("feltgate_host", *words, status=status, typed=typed)

@@ -6,16 +6,16 @@ them those of docs/calibration.md, and a motor that is integrated here."""
 
 import json
 import math
-import os
 import re
 import shlex
 import subprocess
-import tempfile
+import sys
 import unittest
 from pathlib import Path
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
-BUILD = Path(os.environ["FELTGATE_BUILD"])
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "host"))
+from host_program import BUILD, ROOT, ProgramTest  # noqa: E402
+
 PAGE = ROOT / "docs/calibration.md"
 COUNT = 2 * math.pi / 4096
 
@@ -47,25 +47,9 @@ def motor(path, plan, every_s=1e-3, r=0.5, kt=0.04, j=1.5e-4, b=2e-4, friction=4
     path.write_text("\n".join(rows) + "\n", encoding="utf-8")
 
 
-class VerbTest(unittest.TestCase):
-    def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = Path(scratch.name)
-
+class VerbTest(ProgramTest):
     def host(self, *words, status=0, typed=""):
-        done = subprocess.run(
-            [BUILD / "feltgate_host", *map(str, words)],
-            env=os.environ | {"FELTGATE_ROOT": str(ROOT)},
-            cwd=self.folder,
-            input=typed,
-            capture_output=True,
-            text=True,
-            check=False,
-            timeout=60,
-        )
-        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
-        return done.stdout + done.stderr
+        return self.run_program("feltgate_host", *words, status=status, typed=typed)
 
     def builds(self, design):
         """The generator accepts it."""

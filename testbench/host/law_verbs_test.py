@@ -5,19 +5,16 @@
 session of docs/laws.md."""
 
 import json
-import os
 import re
 import shlex
 import signal
 import socket
 import subprocess
-import tempfile
 import time
 import unittest
-from pathlib import Path
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
-BUILD = Path(os.environ["FELTGATE_BUILD"])
+from host_program import ROOT, ProgramTest, patterns_of
+
 PAGE = ROOT / "docs/laws.md"
 PORT = "/tmp/knob"  # on the page
 SPRING = """\
@@ -28,73 +25,21 @@ out torque = -stiffness * position
 """
 
 
-def pattern_of(line):
-    """Numbers, and how columns are filled, differ from run to run."""
-    line = re.sub(r"0x[0-9a-f]+|[-+]?\d[\d.]*(?:e[-+]?\d+)?", "#", line)
-    return re.sub(r"\s+", " ", line).strip()
+class Laws(ProgramTest):
+    cache = "cache"  # where the host keeps what it loaded
 
-
-def patterns_of(text):
-    """Of several lines alike in a row one; a busy machine answers late, and the host says so."""
-    patterns = [pattern_of(line) for line in text.splitlines() if not line.startswith("link: ")]
-    return [p for n, p in enumerate(patterns) if n == 0 or p != patterns[n - 1]]
-
-
-class Laws(unittest.TestCase):
-    def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = Path(scratch.name)
-        self.environment = os.environ | {
-            "FELTGATE_ROOT": str(ROOT),
-            "XDG_CACHE_HOME": str(self.folder / "cache"),
-        }
+    def environment(self):
+        return super().environment() | {"XDG_CACHE_HOME": str(self.folder / self.cache)}
 
     def board(self, *words):
-        board = subprocess.Popen(
-            [BUILD / "feltgate_board", *words],
-            env=self.environment,
-            cwd=self.folder,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-        )
-        self.addCleanup(board.stdout.close)
-        self.addCleanup(board.wait)
-        self.addCleanup(board.kill)
+        board = self.start_program("feltgate_board", *words, stderr=subprocess.STDOUT)
         self.port = board.stdout.readline().split(" -> ")[-1].strip()
 
-    def command(self, *words):
-        return [BUILD / "feltgate_host", "--patience", "30", self.port, *map(str, words)]
-
     def host(self, *words, status=0):
-        done = subprocess.run(
-            self.command(*words),
-            env=self.environment,
-            cwd=self.folder,
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            check=False,
-            timeout=120,
-        )
-        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
-        return done.stdout + done.stderr
+        return self.run_program("feltgate_host", "--patience", 30, self.port, *words, status=status)
 
     def start(self, *words):
-        process = subprocess.Popen(
-            self.command(*words),
-            env=self.environment,
-            cwd=self.folder,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
-        self.addCleanup(process.stderr.close)
-        self.addCleanup(process.stdout.close)
-        self.addCleanup(process.wait)
-        self.addCleanup(process.kill)
-        return process
+        return self.start_program("feltgate_host", "--patience", 30, self.port, *words)
 
     def law(self, text):
         path = self.folder / "mine.law"
@@ -139,7 +84,7 @@ class Laws(unittest.TestCase):
         self.assertRegex(self.host("get", "clicks"), r"clicks +12 ")
 
         # Another computer, which did not load it.
-        self.environment["XDG_CACHE_HOME"] = str(self.folder / "other")
+        self.cache = "other"
         self.assertIn("give the file with --law", self.host("get", "clicks", status=2))
         self.assertRegex(self.host("get", "clicks", "--law", "detent"), r"clicks +12 ")
         refused = self.host("get", "stiffness", "--law", "spring", status=1)

@@ -13,13 +13,11 @@ import shlex
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
-from pathlib import Path
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
-BUILD = Path(os.environ["FELTGATE_BUILD"])
+from host_program import BUILD, ROOT, ProgramTest, patterns_of
+
 PAGE = ROOT / "docs/host.md"
 # The picture needs Debian's matplotlib.
 PYTHON = "/usr/bin/python3" if os.access("/usr/bin/python3", os.X_OK) else sys.executable
@@ -52,56 +50,21 @@ class Board:
         self.process.stdout.close()
 
 
-class VerbTest(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-
+class VerbTest(ProgramTest):
     def command(self, port, *words):
         return [str(BUILD / "feltgate_host"), port, *map(str, words)]
 
     def environment(self):
-        return os.environ | {"FELTGATE_PYTHON": PYTHON, "FELTGATE_ROOT": str(ROOT)}
+        return super().environment() | {"FELTGATE_PYTHON": PYTHON}
 
     def start(self, port, *words):
-        return subprocess.Popen(
-            self.command(port, *words),
-            env=self.environment(),
-            cwd=self.folder.name,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
+        return self.start_program("feltgate_host", port, *words)
 
     def host(self, port, *words, status=0):
-        done = subprocess.run(
-            self.command(port, *words),
-            env=self.environment(),
-            cwd=self.folder.name,
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            check=False,
-            timeout=60,
-        )
-        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
-        return done.stdout + done.stderr
+        return self.run_program("feltgate_host", port, *words, status=status)
 
     def path(self, name):
-        return Path(self.folder.name) / name
-
-
-def patterns_of(text):
-    """Its lines without what differs from run to run; of several alike in a row, one. A machine that
-    is busy answers late, and then the host asks again, and says so."""
-    patterns = [pattern_of(line) for line in text.splitlines() if not line.startswith("link: ")]
-    return [p for n, p in enumerate(patterns) if n == 0 or p != patterns[n - 1]]
-
-
-def pattern_of(line):
-    """Numbers, and how columns are filled, differ from run to run."""
-    line = re.sub(r"0x[0-9a-f]+|[-+]?\d[\d.]*(?:e[-+]?\d+)?", "#", line)
-    return re.sub(r"\s+", " ", line.replace(str(ROOT) + "/", "")).strip()
+        return self.folder / name
 
 
 class Session(VerbTest):
@@ -119,7 +82,7 @@ class Session(VerbTest):
                         done = subprocess.run(
                             self.command(board.port, *words[3:]),
                             env=self.environment(),
-                            cwd=self.folder.name,
+                            cwd=self.folder,
                             capture_output=True,
                             text=True,
                             check=False,

@@ -36,8 +36,10 @@ REPLAY_SCENE = "damper"
 
 def scene_jobs():
     """Every scene on lever, or where it has a law of its own on the design with an engine; those in
-    which the published design teaches something on paper too."""
-    scenes = {path.stem: runs.read_toml(path)["core"] for path in runs.SCENES.glob("*.toml")}
+    which the published design teaches something on paper too. Devices of several axes have programs
+    of their own."""
+    files = {path.stem: runs.read_toml(path) for path in runs.SCENES.glob("*.toml")}
+    scenes = {name: file["core"] for name, file in files.items() if "device" not in file}
     jobs = [
         runs.scene_job(name, runs.ENGINE_DESIGN if "law" in scenes[name] else "lever")
         for name in sorted(scenes)

@@ -51,6 +51,7 @@ class CompiledSceneLaw : public SceneLaw {
   void check(const std::string& parameter, double value) const override {
     parameters_.check(parameter, value);
   }
+  double value(const std::string& parameter) const override { return parameters_.value(parameter); }
   Writes set(const std::string& parameter, double value) override {
     const auto words = parameters_.set(parameter, value);
     for (std::size_t n = 0; n < law_.law.parameters.size(); ++n) {

@@ -13,9 +13,9 @@
 #include <optional>
 #include <stdexcept>
 
-#include "config/nearest.hpp"
 #include "config/toml_reader.hpp"
 #include "loop/ensemble.hpp"
+#include "loop/expectations.hpp"
 #include "loop/scenario_check.hpp"
 #include "loop/step_plan.hpp"
 #include "plant/drive.hpp"
@@ -268,7 +268,9 @@ class ScenarioRun {
       if (closes_loop(e.name)) e.steps = steps_;
     }
     fill_figures(out, steps_);
-    for (const Expectation& x : s_.expectations) check(out, x);
+    ExpectationsHeld held = hold_expectations(s_, out.design, out.figures);
+    out.felt.expectations = std::move(held.all);
+    out.broken = std::move(held.broken);
     return out;
   }
 
@@ -303,23 +305,6 @@ class ScenarioRun {
       f["overshoot_pct" + n] = steps[i].torque.overshoot_pct;
       f["final_error_pct" + n] = steps[i].torque.final_error_pct;
     }
-  }
-
-  void check(RunResult& out, const Expectation& x) const {
-    if (x.design && *x.design != out.design) return;
-    const auto it = out.figures.find(x.figure);
-    if (it == out.figures.end()) {
-      std::vector<std::string> names;
-      for (const auto& [name, value] : out.figures) names.push_back(name);
-      throw config::ConfigError(
-          fmt::format("{}:{}: figure \"{}\" is not one of this run; {}docs/scenes.md lists them",
-                      s_.path, x.line, x.figure, config::did_you_mean(x.figure, names)));
-    }
-    const Expected e{x.figure, it->second, x.low, x.high, x.line};
-    out.felt.expectations.push_back(e);
-    if (e.kept()) return;
-    out.broken.push_back(fmt::format("{}:{}: {} = {:.6g} is outside its bounds; expected {}",
-                                     s_.path, x.line, x.figure, e.value, e.wanted()));
   }
 
   const Scenario& s_;

@@ -81,10 +81,9 @@ Expectation read_expectation(config::TomlReader r, const toml::table& table) {
   return x;
 }
 
-}  // namespace
-
-Scenario read_scenario(const std::string& path) {
-  const toml::table root = config::parse_toml_file(path);
+/// What all scenes have; `own` reads what holds the device, and which device.
+Scenario read(const toml::table& root, const std::string& path,
+              const std::function<void(config::TomlReader& file, Scenario& s)>& own) {
   config::TomlReader top(root, path, "the scene");
   Scenario s;
   s.path = path;
@@ -92,10 +91,7 @@ Scenario read_scenario(const std::string& path) {
   s.title = top.text("title");
   s.about = top.paragraph("about");
   s.duration_s = top.number("duration_s", {1e-5, 1e5});
-  s.plant = top.has("plant") ? top.text("plant") : "p24";
-  s.step_given = top.has("step_clocks");
-  if (s.step_given) s.step_clocks = static_cast<int>(top.integer("step_clocks", 1, 250));
-  if (top.has("bridge")) s.switched = top.choice("bridge", {"averaged", "switched"}) == 1;
+  own(top, s);
   {
     config::TomlReader core = top.section("core");
     s.scene = core.text("scene");
@@ -121,7 +117,6 @@ Scenario read_scenario(const std::string& path) {
   std::stable_sort(s.events.begin(), s.events.end(),
                    [](const Event& a, const Event& b) { return a.at_s < b.at_s; });
   if (top.has("effects")) s.effects_set = read_effects_set(top.section("effects"));
-  if (top.has("hand")) s.hand = plant::read_hand(top.section("hand"));
   const auto expectations = top.sections("expect");
   for (std::size_t i = 0; i < expectations.size(); ++i) {
     s.expectations.push_back(
@@ -129,6 +124,36 @@ Scenario read_scenario(const std::string& path) {
   }
   top.finish();
   return s;
+}
+
+}  // namespace
+
+Scenario read_scenario(const std::string& path) {
+  const toml::table root = config::parse_toml_file(path);
+  return read(root, path, [](config::TomlReader& top, Scenario& s) {
+    if (top.has("device")) {
+      top.fail("device", "a device of several axes",
+               "take a scene of one lever, or `feltgate run`");
+    }
+    s.plant = top.has("plant") ? top.text("plant") : "p24";
+    s.step_given = top.has("step_clocks");
+    if (s.step_given) s.step_clocks = static_cast<int>(top.integer("step_clocks", 1, 250));
+    if (top.has("bridge")) s.switched = top.choice("bridge", {"averaged", "switched"}) == 1;
+    if (top.has("hand")) s.hand = plant::read_hand(top.section("hand"));
+  });
+}
+
+Scenario read_device_scene(const std::string& path,
+                           const std::function<void(config::TomlReader& file)>& device) {
+  const toml::table root = config::parse_toml_file(path);
+  return read(root, path, [&](config::TomlReader& top, Scenario& s) {
+    device(top);
+    s.plant.clear();
+  });
+}
+
+bool names_device(const std::string& path) {
+  return config::parse_toml_file(path).contains("device");
 }
 
 std::vector<std::string> effects_off(const Scenario& scenario) {

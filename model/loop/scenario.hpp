@@ -5,6 +5,7 @@
 // long it lasts and what must come out. Documentation: docs/scenes.md
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -16,6 +17,10 @@
 #include "../plant/parameters.hpp"
 
 namespace feltgate {
+
+namespace config {
+class TomlReader;
+}
 
 /// Something that happens at a time: the host changes scene, mode or parameters, or a pin moves.
 struct Event {
@@ -68,8 +73,17 @@ struct Scenario {
   std::vector<Expectation> expectations;
 };
 
-/// Reads vectors/scenes/NAME.toml. Throws config::ConfigError: "file:line: what; mend".
+/// Reads vectors/scenes/NAME.toml. Throws config::ConfigError: "file:line: what; mend", also for a
+/// scene whose device has several axes.
 Scenario read_scenario(const std::string& path);
+
+/// The same of a scene that names a device of several axes: `device` asks the file for its keys
+/// "device" and "hand", and whatever else the device has.
+Scenario read_device_scene(const std::string& path,
+                           const std::function<void(config::TomlReader& file)>& device);
+
+/// Whether the scene names a device of several axes. Errors: those of a file that is not TOML.
+bool names_device(const std::string& path);
 
 /// What the plant of a scene leaves out, by the names of the file: the effects that are off,
 /// "gates" where the bridge is averaged; hand_dynamics only where the scene has a hand with a mass.

@@ -76,8 +76,7 @@ int scene_number(const DesignInfo& design, const std::string& name) {
   throw config::ConfigError(design.unknown_scene(name));
 }
 
-void check_scenario(const Scenario& s, const plant::Parameters& plant, const DesignInfo& design,
-                    const SceneLaw* law) {
+void check_asked(const Scenario& s, const DesignInfo& design, const SceneLaw* law) {
   check_scene(s, s.scene_line, s.scene, design);
   for (const auto& [name, value] : s.parameters) {
     const auto line = s.parameter_lines.find(name);
@@ -93,6 +92,11 @@ void check_scenario(const Scenario& s, const plant::Parameters& plant, const Des
     }
   }
   check_held(s, design);
+}
+
+void check_scenario(const Scenario& s, const plant::Parameters& plant, const DesignInfo& design,
+                    const SceneLaw* law) {
+  check_asked(s, design, law);
   check_step(s, plant, static_cast<double>(design.clock_hz));
 }
 

@@ -20,6 +20,9 @@ int scene_number(const DesignInfo& design, const std::string& name);
 void check_scenario(const Scenario& scenario, const plant::Parameters& plant,
                     const DesignInfo& design, const SceneLaw* law = nullptr);
 
+/// The same without the plant's step, for devices of several axes.
+void check_asked(const Scenario& scenario, const DesignInfo& design, const SceneLaw* law);
+
 /// Throws std::invalid_argument "file:line: what; mend" where the scene runs a law, which the
 /// subcommand cannot.
 void require_no_law(const Scenario& scenario, const std::string& command);

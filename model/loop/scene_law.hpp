@@ -71,6 +71,8 @@ class SceneLaw {
   virtual bool has(const std::string& parameter) const = 0;
   /// Only the errors of set().
   virtual void check(const std::string& parameter, double value) const = 0;
+  /// As rounded to its word, in the unit of the law's file.
+  virtual double value(const std::string& parameter) const = 0;
   /// The value in the unit of the law's file, one set of parameters per call. Errors:
   /// std::invalid_argument with the range.
   virtual Writes set(const std::string& parameter, double value) = 0;

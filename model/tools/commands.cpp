@@ -18,6 +18,7 @@
 
 #include "config/nearest.hpp"
 #include "design/design.hpp"
+#include "engines/axes_cores.hpp"
 #include "engines/engine.hpp"
 #include "files/program.hpp"
 
@@ -125,6 +126,7 @@ std::string built_design(const std::string& given) {
   if (std::find(built.begin(), built.end(), given) != built.end()) return given;
   const std::set<std::string> names = names_in("rtl/designs");
   if (!is_path(given)) {
+    if (find_axes_design(given) != nullptr) return given;
     if (names.count(given) > 0) {
       (void)design_named(given);  // a preset: this program has it, or that says how it is built
       return given;

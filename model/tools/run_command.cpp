@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "files/output_file.hpp"
 #include "law_loop/scene_law.hpp"
@@ -18,6 +19,7 @@
 #include "tools/checks.hpp"
 #include "tools/commands.hpp"
 #include "tools/csv.hpp"
+#include "tools/run_axes.hpp"
 #include "tools/run_output.hpp"
 
 namespace feltgate {
@@ -34,7 +36,8 @@ struct RunArguments {
   bool quiet = false, columns = false;
 };
 
-/// NAME=VALUE pairs onto the scene's parameters.
+}  // namespace
+
 void apply_settings(const std::vector<std::string>& set, Scenario& scenario) {
   for (const std::string& item : set) {
     const auto at = item.find('=');
@@ -50,11 +53,12 @@ void apply_settings(const std::vector<std::string>& set, Scenario& scenario) {
   }
 }
 
-/// A path is from the scene's folder.
 std::string law_file(const Scenario& s) {
   const bool path = s.law.find('/') != std::string::npos || fs::path(s.law).extension() == ".law";
   return path ? (fs::path(s.path).parent_path() / s.law).string() : find_law(s.law);
 }
+
+namespace {
 
 /// The law that the scene runs; none: nullptr.
 std::unique_ptr<SceneLaw> law_of(const Scenario& s, const DesignInfo& design) {
@@ -81,6 +85,16 @@ int run(const RunArguments& a) {
   }
   if (a.scene.empty()) throw std::invalid_argument("run: SCENE is missing; feltgate run --help");
   const std::string scene_path = find_file(a.scene, "vectors/scenes");
+  if (names_device(scene_path)) {
+    for (const auto& [option, value] :
+         {std::pair{"--plant", a.plant}, {"--report", a.report}, {"--record", a.record}}) {
+      if (value.empty()) continue;
+      throw std::invalid_argument(fmt::format(
+          "{} is for scenes of one lever, and {} names a device; leave it out", option, a.scene));
+    }
+    return run_axes_scene(
+        {scene_path, a.design, a.engine, a.json, a.csv, a.fst, a.set, a.seed, a.every, a.quiet});
+  }
   Scenario scenario = read_scenario(scene_path);
   apply_settings(a.set, scenario);
   if (!a.plant.empty()) scenario.plant = a.plant;

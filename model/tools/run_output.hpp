@@ -4,6 +4,7 @@
 // A run's figures as JSON and for reading on a terminal. Documentation: docs/json.md
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -38,5 +39,15 @@ std::string run_text(const RunResult& result, const RunLabels& labels);
 
 /// What was felt, the end of that text.
 std::string felt_text(const RunResult& result);
+
+// Parts of it.
+std::string acted_text(const std::map<std::string, Acted>& all);
+std::string energy_lines(const FeltEnergy& energy);
+std::string expectation_lines(const std::vector<Expected>& all);
+
+/// NAME=VALUE of --set onto the scene's parameters. Throws std::invalid_argument.
+void apply_settings(const std::vector<std::string>& set, Scenario& scenario);
+/// The path of the law that a scene names: a path is from the scene's folder.
+std::string law_file(const Scenario& scenario);
 
 }  // namespace feltgate

@@ -89,7 +89,9 @@ std::string line(const char* name, const std::string& text) {
   return fmt::format("  {:<14} {}\n", name, text);
 }
 
-std::string acted(const std::map<std::string, Acted>& all) {
+}  // namespace
+
+std::string acted_text(const std::map<std::string, Acted>& all) {
   std::vector<std::string> items;
   for (const auto& [name, a] : all) {
     items.push_back(fmt::format("{} {:.4g} s (from {:.4g} s)", name, a.seconds, a.first_s));
@@ -108,6 +110,8 @@ std::string energy_lines(const FeltEnergy& e) {
                               e.peak_from_hand_j, owed));
 }
 
+namespace {
+
 std::string error_text(const FeltError& e) {
   const auto unit = e.signal == "velocity_rad_s" ? "rad/s" : "Nm";
   const auto name = e.signal == "velocity_rad_s" ? "velocity"
@@ -124,6 +128,8 @@ std::string error_text(const FeltError& e) {
                      e.max_error_in_bounds <= e.bound ? "within" : "ABOVE", e.bound, outside);
 }
 
+}  // namespace
+
 std::string expectation_lines(const std::vector<Expected>& all) {
   std::vector<std::string> kept;
   std::string broken;
@@ -138,8 +144,6 @@ std::string expectation_lines(const std::vector<Expected>& all) {
   const std::string none = all.empty() ? "none was checked" : "none";
   return line("kept", kept.empty() ? none : fmt::format("{}", fmt::join(kept, ", "))) + broken;
 }
-
-}  // namespace
 
 std::string felt_text(const RunResult& r) {
   const Felt& f = r.felt;
@@ -162,8 +166,8 @@ std::string felt_text(const RunResult& r) {
     text += line(first ? "largest error" : "", error_text(e));
     first = false;
   }
-  text += line("limits", acted(f.limits));
-  text += line("faults", acted(f.faults));
+  text += line("limits", acted_text(f.limits));
+  text += line("faults", acted_text(f.faults));
   if (f.closed_loop) text += expectation_lines(f.expectations);
   return text;
 }

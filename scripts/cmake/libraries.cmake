@@ -112,8 +112,11 @@ feltgate_sim_library(loop loop
   feltgate_engines feltgate_plant_files feltgate_traces feltgate_bounds)
 # Laws in a loop: the engine's image, and the law in real numbers beside it.
 feltgate_library(feltgate_law_loop law_loop feltgate_law feltgate_shipped_laws feltgate_loop)
+# Devices of several axes with their laws, in one loop.
+feltgate_library(feltgate_axes_loop axes_loop feltgate_law_loop feltgate_linkage_files
+  feltgate_gimbal_files)
 # A closed loop hands scalars from step to step; packed in pairs they would wait for the store.
-foreach(target feltgate_plant feltgate_linkage feltgate_gimbal feltgate_loop)
+foreach(target feltgate_plant feltgate_linkage feltgate_gimbal feltgate_loop feltgate_axes_loop)
   target_compile_options(${target} PRIVATE -fno-tree-slp-vectorize)
 endforeach()
 

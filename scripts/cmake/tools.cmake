@@ -61,7 +61,7 @@ file(GLOB tool_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/tools"
   "${FELTGATE_ROOT}/model/tools/*.cpp")
 list(FILTER tool_sources EXCLUDE REGEX "_main\\.cpp$")
 feltgate_program(feltgate "feltgate_main.cpp;${tool_sources}"
-  feltgate_rtl feltgate_files feltgate_budget feltgate_law feltgate_law_loop feltgate_loop feltgate_stability feltgate_trim feltgate_design
+  feltgate_rtl feltgate_files feltgate_budget feltgate_law feltgate_axes_loop feltgate_law_loop feltgate_loop feltgate_stability feltgate_trim feltgate_design
   nlohmann_json::nlohmann_json CLI11::CLI11)
 
 include(presets)

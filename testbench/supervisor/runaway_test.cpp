@@ -238,6 +238,7 @@ void scenes(Count& count, const std::string& design) {
   const std::filesystem::path folder = std::string(FELTGATE_ROOT) + "/vectors/scenes";
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".toml") continue;
+    if (names_device(entry.path().string())) continue;  // several axes
     Scenario scene = read_scenario(entry.path().string());
     if (!scene.law.empty()) continue;  // needs an engine
     const plant::Parameters motor = motor_of(scene.plant);

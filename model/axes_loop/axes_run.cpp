@@ -1,0 +1,414 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Closed loop of a device with several axes. Documentation: docs/devices.md
+#include "axes_loop/axes_run.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include "axes_loop/device_signals.hpp"
+#include "axes_loop/signal_record.hpp"
+#include "config/toml_reader.hpp"
+#include "feltgate/axes_ports.hpp"
+#include "loop/engine_choice.hpp"
+#include "loop/expectations.hpp"
+#include "loop/scenario_check.hpp"
+#include "plant/axes_loop.hpp"
+#include "plant/drive.hpp"
+
+namespace feltgate {
+
+namespace {
+
+std::string of_axis(const char* name, std::size_t axis) { return fmt::format("{}.{}", name, axis); }
+
+template <class Plant>
+std::vector<std::string> columns_of() {
+  std::vector<std::string> all{"time_s"};
+  for (std::size_t n = 0; n < Plant::axes; ++n) {
+    for (const char* name : {"theta_rad", "position_rad", "velocity_rad_s", "tau_ref_nm",
+                             "tau_hat_nm", "motor_torque_nm", "law_nm", "limits", "faults"}) {
+      all.push_back(of_axis(name, n));
+    }
+  }
+  const auto own = DeviceSignals<Plant>::names();
+  all.insert(all.end(), own.begin(), own.end());
+  return all;
+}
+
+/// Which of the limits stand between a law's torque and the commanded one.
+constexpr unsigned limits_of_torque = limit::torque | limit::ramp | limit::hold | limit::chatter;
+
+struct Choice {
+  std::string lead;                 ///< "twin" or "lockstep"
+  std::vector<std::string> riders;  ///< "double", "quad"
+  std::string reference;
+};
+
+Choice choose(const std::string& engines) {
+  const EngineChoice all = choose_engines(engines);
+  if (all.rider_drives) {
+    throw std::invalid_argument("--engine " + engines +
+                                ": the motors of several axes are driven by the core; add twin or "
+                                "rtl");
+  }
+  Choice c{all.lead == "twin" ? "twin" : "lockstep", {}, {}};
+  for (const std::string& rider : all.riders) {
+    if (rider == "float" && engines == "all") continue;
+    if (rider == "float") {
+      throw std::invalid_argument(
+          "--engine float: beside several axes runs the law in double and quad; choose these");
+    }
+    c.riders.push_back(rider);
+    if (c.reference != "quad") c.reference = rider;
+  }
+  return c;
+}
+
+template <class Plant>
+class AxesRun : plant::AxesDevice<Plant> {
+ public:
+  static constexpr std::size_t axes = Plant::axes;
+
+  AxesRun(const AxesScene& scene, Plant& plant, const AxesRunOptions& options)
+      : s_(scene.scenario),
+        options_(options),
+        choice_(choose(options.engine)),
+        plant_(plant),
+        cores_(make_cores()),
+        design_(cores_->design()),
+        columns_(columns_of<Plant>()),
+        scene_(scene_number(design_, s_.scene)),
+        mode_(s_.mode) {
+    for (const std::string& kind : choice_.riders) {
+      riders_.push_back({kind, options.law->rider(kind), nullptr});
+    }
+    ticks_to_come_ = clock_of(s_.duration_s) / design_.clocks_per_tick;
+    for (std::size_t k = 1; k < columns_.size(); ++k) records_.emplace_back(ticks_to_come_);
+    for (std::size_t n = 0; n < axes; ++n) {
+      meters_.emplace_back(1.0 / static_cast<double>(design_.tick_hz));
+    }
+  }
+
+  AxesResult run() {
+    const auto began = std::chrono::steady_clock::now();
+    home();
+    for (const auto& [address, data] : options_.law->host().load()) cores_->write(address, data);
+    for (const auto& [name, value] : s_.parameters) set_parameter(name, value);
+    control(false);
+    plant::AxesLoop<Plant> loop(plant_, *this, most_clocks);
+    const Clock end = clock_of(s_.duration_s);
+    std::size_t next = 0;
+    const Clock arm_at = clock_of(s_.arm_s);
+    while (plant_.now() < end) {
+      const Clock now = plant_.now();
+      if (!arm_done_ && now >= arm_at) {
+        arm_done_ = true;
+        control(true);
+      }
+      while (next < s_.events.size() && now >= clock_of(s_.events[next].at_s)) {
+        apply(s_.events[next++]);
+      }
+      Clock until = end;
+      if (!arm_done_) until = std::min(until, arm_at);
+      if (next < s_.events.size()) until = std::min(until, clock_of(s_.events[next].at_s));
+      loop.run(until, [this](const Plant& p) { stepped(p); });
+    }
+    // What the cores do in the clocks of the last step.
+    cores_->advance(plant_.now() + homed_ - cores_->now());
+    for (const AxesSnapshot& s : cores_->snapshots()) tick(s);
+    if (options_.progress) options_.progress(1.0);
+    busy_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    return result(end);
+  }
+
+ private:
+  static constexpr Clock most_clocks = 250;
+  /// A duty that is new in a period of the PWM is in force so many clocks after its beginning.
+  static constexpr Clock duty_clocks = 25;
+  /// Of a count on the way from 0 to where the device stands: slower than any overspeed.
+  static constexpr Clock homing_clocks = 400;
+
+  struct Rider {
+    std::string kind;
+    std::unique_ptr<AxesLawRider> law;
+    const AxesLawRider::Torques* now_nm;
+  };
+
+  std::unique_ptr<AxesCores> make_cores() const {
+    const AxesDesignMakers* d = find_axes_design(options_.design);
+    if (d == nullptr) {
+      throw std::invalid_argument(fmt::format(
+          "design {} is not one of {} axes that this program has; ./feltgate builds it with "
+          "--design {}_law",
+          options_.design, axes, plant_.parameters().name));
+    }
+    auto made = d->cores(choice_.lead);
+    if (made->axes() != static_cast<int>(axes)) {
+      throw std::invalid_argument(
+          fmt::format("design {} has {} axes and the device {}; take one "
+                      "with as many",
+                      options_.design, made->axes(), axes));
+    }
+    return made;
+  }
+
+  Clock clock_of(double seconds) const {
+    return std::llround(std::min(seconds * static_cast<double>(design_.clock_hz), 0x1p62));
+  }
+
+  /// The cores count from where their joints are zeroed: motors off, each joint goes from its
+  /// angle 0 to where the device stands.
+  void home() {
+    AxesCores::Pins pins{};
+    std::array<plant::Encoder, axes> encoders = zeroed(std::make_index_sequence<axes>{});
+    std::int64_t most = 0;
+    for (std::size_t n = 0; n < axes; ++n) {
+      pins[n] = encoders[n].pins();
+      most = std::max(most, std::abs(plant_.encoder(n).count()));
+    }
+    if (!options_.fst.empty()) cores_->trace(options_.fst, options_.fst_from, options_.fst_to);
+    cores_->reset(options_.seed, pins);
+    if (most == 0) return;
+    homed_ = most * homing_clocks;
+    homed_ += design_.pwm_period - homed_ % design_.pwm_period;
+    for (std::size_t n = 0; n < axes; ++n) {
+      std::vector<EncoderEvent> edges;
+      const double to_rad =
+          (static_cast<double>(plant_.encoder(n).count()) + 0.5) * plant_.encoder(n).count_rad();
+      encoders[n].advance(to_rad, 0, homed_ - 1, edges);
+      for (const EncoderEvent& e : edges) cores_->edge(n, e);
+    }
+    cores_->advance(homed_);
+  }
+  template <std::size_t... I>
+  std::array<plant::Encoder, axes> zeroed(std::index_sequence<I...> /*all*/) const {
+    const plant::EncoderParameters p = plant_.parameters().encoder;
+    return {((void)I, plant::Encoder(p, false, 0.5 * plant_.encoder(I).count_rad()))...};
+  }
+
+  void write_all(int address, std::uint32_t data) {
+    for (int n = 0; n < static_cast<int>(axes); ++n) {
+      cores_->write(n * axes_stride + address, data);
+    }
+  }
+  void set_parameter(const std::string& name, double value) {
+    if (options_.law->host().has(name)) {
+      for (const auto& [address, data] : options_.law->set(name, value)) {
+        cores_->write(address, data);
+      }
+      return;
+    }
+    const ParameterInfo* info = design_.find(name);
+    if (info == nullptr) throw std::invalid_argument(design_.unknown(name));
+    write_all(info->address, static_cast<std::uint32_t>(quantise_parameter(*info, value)));
+  }
+  void control(bool arm) {
+    armed_ = arm;
+    const ControlBits& bits = design_.control;
+    std::uint32_t word = design_.control_reset | 1u << bits.host;
+    if (arm) word |= 1u << bits.arm;
+    word |= static_cast<std::uint32_t>(scene_) << bits.scene;
+    word |= static_cast<std::uint32_t>(mode_) << bits.mode;
+    write_all(design_.control_address, word);
+  }
+  void apply(const Event& e) {
+    for (const auto& [name, value] : e.set) set_parameter(name, value);
+    if (e.stop) cores_->stop(*e.stop);
+    if (!e.scene && !e.mode && !e.arm) return;
+    if (e.scene) scene_ = scene_number(design_, *e.scene);
+    if (e.mode) mode_ = *e.mode;
+    control(e.arm.value_or(armed_));
+  }
+
+  // The loop asks.
+  plant::AxesCommand<axes> act(const plant::AxesSense<Plant>& sense) override {
+    for (std::size_t n = 0; n < axes; ++n) {
+      for (EncoderEvent e : sense.events[n]) {
+        e.clock += homed_;
+        cores_->edge(n, e);
+      }
+    }
+    if (const Clock clocks = sense.now + homed_ - cores_->now(); clocks > 0) {
+      cores_->advance(clocks);
+      for (const AxesSnapshot& s : cores_->snapshots()) tick(s);
+    }
+    plant::AxesCommand<axes> command;
+    for (std::size_t n = 0; n < axes; ++n) {
+      command.bridges[n] = plant::Bridge::averaged(
+          cores_->duty(n) / static_cast<double>(design_.pwm_period), cores_->gates_enabled(n));
+    }
+    return command;
+  }
+  Clock next(Clock now) const override {
+    const Clock since = (now + most_clocks - duty_clocks) % most_clocks;
+    return now + most_clocks - since;
+  }
+
+  void stepped(const Plant& p) {
+    const double work_j = p.seen().hand_work_j - work_j_;
+    work_j_ += work_j;
+    (work_j > 0 ? energy_.taken_from_hand_j : given_j_) += work_j;
+    energy_.peak_from_hand_j = std::max(energy_.peak_from_hand_j, work_j_);
+    energy_.peak_to_hand_j = std::max(energy_.peak_to_hand_j, -work_j_);
+    if (options_.progress && p.now() >= next_report_) {
+      options_.progress(p.seconds() / s_.duration_s);
+      next_report_ = p.now() + design_.clock_hz / 100;
+    }
+  }
+
+  double nm(std::int64_t raw) const {
+    return std::ldexp(static_cast<double>(raw), -design_.torque.fraction);
+  }
+
+  void ride(const AxesSnapshot& s) {
+    const bool in_law = s[0].armed && design_.scene_number("law") == s[0].scene;
+    for (Rider& r : riders_) {
+      if (in_law && !law_entered_) r.law->enter();
+      r.now_nm = r.law->torques_nm(s);
+      if (in_law && r.now_nm != nullptr && r.kind == choice_.reference) compare(s, *r.now_nm);
+      if (r.now_nm != nullptr) kept_nm_ = *r.now_nm;
+      for (std::int64_t n = law_changes_; n < s[0].law_changes; ++n) r.law->change();
+      r.law->follow(s);
+    }
+    law_entered_ = in_law;
+    law_changes_ = std::max(law_changes_, s[0].law_changes);
+  }
+  void compare(const AxesSnapshot& s, const AxesLawRider::Torques& law_nm) {
+    for (std::size_t n = 0; n < axes; ++n) {
+      if ((s[n].limits & limits_of_torque) != 0) continue;
+      errors_[n].add(nm(s[n].tau_ref) - law_nm[n]);
+    }
+  }
+
+  void tick(const AxesSnapshot& s) {
+    if (ticks_ >= ticks_to_come_) return;
+    ride(s);
+    row_.clear();
+    row_.push_back(static_cast<double>(ticks_) / static_cast<double>(design_.tick_hz));
+    for (std::size_t n = 0; n < axes; ++n) {
+      const double asked_nm = nm(s[n].tau_ref), motor_nm = plant_.seen().motor_nm[n];
+      const double current_a =
+          std::ldexp(static_cast<double>(s[n].current_ref), -design_.current.fraction);
+      meters_[n].tick(asked_nm, design_.torque_constant_nm_a * current_a, s[n].limits, s[n].faults);
+      meters_[n].motor(motor_nm, asked_nm);
+      faults_ |= s[n].faults;
+      row_.insert(row_.end(),
+                  {plant_.seen().theta_rad[n], s[n].position * design_.count_rad,
+                   std::ldexp(static_cast<double>(s[n].velocity), -design_.velocity.fraction),
+                   asked_nm, nm(s[n].tau_hat), motor_nm, kept_nm_[n],
+                   static_cast<double>(s[n].limits), static_cast<double>(s[n].faults)});
+    }
+    DeviceSignals<Plant>::add(plant_, row_);
+    for (std::size_t k = 1; k < row_.size(); ++k) records_[k - 1].add(row_[k]);
+    if (options_.row && ticks_ % options_.row_every == 0) options_.row(row_);
+    ++ticks_;
+  }
+
+  AxesResult result(Clock end) {
+    AxesResult out;
+    out.design = design_.name;
+    out.subject = s_.name;
+    out.device = plant_.parameters().name;
+    out.law = options_.law->host().name();
+    out.clocks = end;
+    out.homing_clocks = homed_;
+    out.ticks = ticks_;
+    out.lock_step = choice_.lead == "lockstep";
+    out.mismatches = cores_->mismatches();
+    out.first_mismatch = cores_->first_mismatch();
+    out.first_mismatch_clock = cores_->first_mismatch_clock();
+    out.reference = choice_.reference;
+    out.simulated_s = static_cast<double>(end) / static_cast<double>(design_.clock_hz);
+    out.busy_s = busy_s_;
+    energy_.given_to_hand_j = 0.0 - given_j_;
+    out.energy = energy_;
+    for (std::size_t n = 0; n < axes; ++n) {
+      const Felt felt = meters_[n].felt();
+      out.axes.push_back(
+          {felt.torque, felt.limits, felt.faults, errors_[n], options_.law->bound_nm(n)});
+    }
+    fill_figures(out);
+    ExpectationsHeld held = hold_expectations(s_, out.design, out.figures);
+    out.expectations = std::move(held.all);
+    out.broken = std::move(held.broken);
+    for (std::size_t n = 0; n < axes; ++n) {
+      const AxisFigures& a = out.axes[n];
+      if (a.law_error_nm.max() <= a.bound_nm) continue;
+      out.broken.push_back(fmt::format(
+          "axis {}: the torque is off from the law in {} by {:.4g} Nm, above its proven "
+          "bound {:.4g} Nm",
+          n, out.reference, a.law_error_nm.max(), a.bound_nm));
+    }
+    return out;
+  }
+
+  void fill_figures(AxesResult& out) const {
+    auto& f = out.figures;
+    f["mismatches"] = static_cast<double>(out.mismatches);
+    f["faults"] = faults_;
+    f["hand_energy_j"] = work_j_;
+    f["hand_energy_least_j"] = 0.0 - energy_.peak_to_hand_j;
+    for (std::size_t n = 0; n < axes; ++n) f[of_axis("law_error_nm", n)] = errors_[n].max();
+    for (std::size_t k = 1; k < columns_.size(); ++k) {
+      const SignalRecord& r = records_[k - 1];
+      f[columns_[k] + ".min"] = r.low();
+      f[columns_[k] + ".max"] = r.high();
+      f[columns_[k] + ".end"] = r.end();
+      f[columns_[k] + ".swing"] = r.swing();
+    }
+  }
+
+  const Scenario& s_;
+  const AxesRunOptions& options_;
+  Choice choice_;
+  Plant& plant_;
+  std::unique_ptr<AxesCores> cores_;
+  const DesignInfo& design_;
+  std::vector<std::string> columns_;
+  int scene_, mode_;
+  bool armed_ = false, arm_done_ = false;
+  Clock homed_ = 0, next_report_ = 0;
+  std::vector<Rider> riders_;
+  bool law_entered_ = false;
+  std::int64_t law_changes_ = 0;
+  AxesLawRider::Torques kept_nm_{};
+  std::array<ErrorFigure, axes> errors_;
+  std::int64_t ticks_ = 0, ticks_to_come_ = 0;
+  std::vector<double> row_;
+  std::vector<SignalRecord> records_;
+  std::vector<FeltMeter> meters_;
+  int faults_ = 0;
+  FeltEnergy energy_;
+  double work_j_ = 0, given_j_ = 0, busy_s_ = 0;
+};
+
+template <class Plant, class Setup>
+AxesResult run_on(const AxesScene& scene, const Setup& setup, const AxesRunOptions& options) {
+  const AxesDesignMakers* d = find_axes_design(options.design);
+  const plant::Drive drive = d == nullptr ? plant::Drive{} : plant::drive_of(d->info());
+  Plant plant(setup.parameters, scene.scenario.effects, drive, setup.hand);
+  return AxesRun<Plant>(scene, plant, options).run();
+}
+
+}  // namespace
+
+std::vector<std::string> axes_columns(const AxesScene& scene) {
+  (void)scene;
+  return columns_of<plant::Pantograph>();
+}
+
+AxesResult run_axes(const AxesScene& scene, const AxesRunOptions& options) {
+  try {
+    return run_on<plant::Pantograph>(scene, std::get<PantographSetup>(scene.device), options);
+  } catch (const plant::MotionError& error) {
+    throw config::ConfigError(scene.scenario.path + ": " + error.what());
+  }
+}
+
+}  // namespace feltgate

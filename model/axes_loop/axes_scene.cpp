@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Reader of scenes with several axes. Documentation: docs/scenes.md
+#include "axes_loop/axes_scene.hpp"
+
+#include <fmt/format.h>
+
+#include "config/toml_reader.hpp"
+#include "plant/pantograph/pantograph.hpp"
+#include "plant/pantograph/pantograph_file.hpp"
+#include "plant/plant_table.hpp"
+
+namespace feltgate {
+
+namespace {
+
+/// Which device a file describes, by the table that only it has.
+DeviceSetup setup_of(const std::string& path, config::TomlReader& top) {
+  const toml::table file = config::parse_toml_file(path);
+  if (file.contains("linkage")) {
+    PantographSetup s{plant::read_pantograph_file(path), {}};
+    if (top.has("hand")) s.hand = plant::read_pen_hand(top.section("hand"));
+    return s;
+  }
+  throw config::ConfigError(path +
+                            ":1: no device that `feltgate run` knows; it takes one with the "
+                            "table [linkage], a pantograph");
+}
+
+}  // namespace
+
+AxesScene read_axes_scene(const std::string& path,
+                          const std::function<std::string(const std::string&)>& find) {
+  AxesScene scene;
+  scene.scenario = read_device_scene(path, [&](config::TomlReader& top) {
+    scene.device_path = find(top.text("device"));
+    scene.device = setup_of(scene.device_path, top);
+  });
+  std::visit([&](const auto& setup) { resolve_effects(scene.scenario, setup.parameters.effects); },
+             scene.device);
+  return scene;
+}
+
+int axes_of(const AxesScene& scene) {
+  return std::visit([](const auto& setup) { return setup.axes; }, scene.device);
+}
+
+const std::string& device_of(const AxesScene& scene) {
+  return std::visit([](const auto& setup) -> const std::string& { return setup.parameters.name; },
+                    scene.device);
+}
+
+}  // namespace feltgate

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A scene file whose device has several axes: that of a lever, with `device` in place of `plant`
+// and the hand of that device. Documentation: docs/scenes.md
+#pragma once
+
+#include <functional>
+#include <string>
+#include <variant>
+
+#include "loop/scenario.hpp"
+#include "plant/pantograph/pantograph_parameters.hpp"
+#include "plant/pantograph/pen_hand.hpp"
+
+namespace feltgate {
+
+struct PantographSetup {
+  static constexpr int axes = 2;
+  plant::PantographParameters parameters;
+  plant::PenHand hand;
+};
+
+using DeviceSetup = std::variant<PantographSetup>;
+
+struct AxesScene {
+  Scenario scenario;  ///< its hand is empty
+  DeviceSetup device;
+  std::string device_path;
+};
+
+/// Reads a scene and the device that it names; `find` makes a path of that name.
+/// Errors: config::ConfigError "file:line: what; mend", and those of `find`.
+AxesScene read_axes_scene(const std::string& path,
+                          const std::function<std::string(const std::string&)>& find);
+
+/// Axes of the device, and its name.
+int axes_of(const AxesScene& scene);
+const std::string& device_of(const AxesScene& scene);
+
+}  // namespace feltgate

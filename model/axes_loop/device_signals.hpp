@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What a device of several axes shows beside its joints, by name. Documentation: docs/scenes.md
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plant/pantograph/pantograph.hpp"
+
+namespace feltgate {
+
+template <class Plant>
+struct DeviceSignals;
+
+template <>
+struct DeviceSignals<plant::Pantograph> {
+  static std::vector<std::string> names() { return {"pen_x_m", "pen_y_m", "hand_x_n", "hand_y_n"}; }
+  static void add(const plant::Pantograph& p, std::vector<double>& to) {
+    const plant::PantographSeen& s = p.seen();
+    to.insert(to.end(), {s.pen_m.x, s.pen_m.y, s.hand_n.x, s.hand_n.y});
+  }
+};
+
+}  // namespace feltgate

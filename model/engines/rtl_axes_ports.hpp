@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The ports of Verilated axes as the twin's types. Documentation: docs/blocks/feltgate_axes.md
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "feltgate/axes_ports.hpp"
+#include "rtl_ports.hpp"
+
+namespace feltgate {
+
+/// Bits [first, first + width) of a port, however Verilator keeps it; width up to 33.
+template <class Port>
+std::uint64_t bits_of(const Port& port, int first, int width) {
+  std::uint64_t word = 0;
+  if constexpr (std::is_integral<Port>::value) {
+    word = static_cast<std::uint64_t>(port) >> first;
+  } else {
+    word = std::uint64_t{port[first / 32]} >> first % 32;
+    if (first % 32 + width > 32) {
+      word |= std::uint64_t{port[first / 32 + 1]} << (32 - first % 32);
+    }
+  }
+  return word & ((std::uint64_t{1} << width) - 1);
+}
+template <class Port>
+void set_bits(Port& port, int first, int width, std::uint64_t value) {
+  for (int k = 0; k < width; ++k) {
+    const int at = first + k;
+    const std::uint64_t bit = value >> k & 1u;
+    if constexpr (std::is_integral<Port>::value) {
+      const std::uint64_t mask = std::uint64_t{1} << at;
+      port = static_cast<Port>((static_cast<std::uint64_t>(port) & ~mask) | bit << at);
+    } else {
+      const std::uint32_t mask = 1u << at % 32;
+      port[at / 32] = (port[at / 32] & ~mask) | static_cast<std::uint32_t>(bit << at % 32);
+    }
+  }
+}
+
+/// Sets every input but clock and reset of N axes of design D whose engine gives the torques.
+template <class D, int N, class Rtl>
+void drive_axes(Rtl& rtl, const AxesIn<N>& in) {
+  for (int n = 0; n < N; ++n) {
+    const auto& axis = in.axis[static_cast<std::size_t>(n)];
+    set_bits(rtl.enc_a_i, n, 1, axis.encoder.a);
+    set_bits(rtl.enc_b_i, n, 1, axis.encoder.b);
+    set_bits(rtl.enc_z_i, n, 1, axis.encoder.z);
+    set_bits(rtl.set_zero_i, n, 1, axis.set_zero);
+    set_bits(rtl.scene_i, 4 * n, 4, axis.scene);
+  }
+  rtl.arm_i = in.arm;
+  rtl.stop_i = in.stop;
+  rtl.reg_addr_i = in.reg_addr;
+  rtl.reg_wdata_i = in.reg_wdata;
+  rtl.reg_write_i = in.reg_write;
+  rtl.reg_read_i = in.reg_read;
+}
+
+/// Every output of axis n after an edge, for design D; what the port reads is the device's.
+template <class D, class Rtl>
+CoreOut read_axis(const Rtl& rtl, int n) {
+  using C = Map::C;
+  const auto number = [n](const auto& port, int width) {
+    return sign_extend(bits_of(port, n * width, width), width);
+  };
+  const auto word = [n](const auto& port, int width) {
+    return static_cast<std::uint32_t>(bits_of(port, n * width, width));
+  };
+  CoreOut o;
+  o.position = static_cast<std::int32_t>(word(rtl.position_o, 32));
+  o.velocity = number(rtl.velocity_o, D::f.velocity.width());
+  o.tau_hat = static_cast<std::int32_t>(number(rtl.tau_hat_o, D::f.torque.width()));
+  o.tau_ref = static_cast<std::int32_t>(number(rtl.tau_ref_o, D::f.torque.width()));
+  o.current_ref = static_cast<std::int32_t>(number(rtl.current_ref_o, D::f.current.width()));
+  o.voltage = static_cast<std::int32_t>(number(rtl.voltage_o, D::f.voltage.width()));
+  o.duty = static_cast<std::int16_t>(number(rtl.duty_o, D::f.duty.width()));
+  o.duty_active = static_cast<std::int16_t>(number(rtl.duty_active_o, D::f.duty.width()));
+  o.gates =
+      static_cast<std::uint8_t>(word(rtl.gate_a_hi_o, 1) | word(rtl.gate_a_lo_o, 1) << 1 |
+                                word(rtl.gate_b_hi_o, 1) << 2 | word(rtl.gate_b_lo_o, 1) << 3);
+  o.gates_enable = word(rtl.gates_enable_o, 1) != 0;
+  o.armed = word(rtl.armed_o, 1) != 0;
+  o.scene = static_cast<std::uint8_t>(word(rtl.scene_o, 4));
+  o.limits = static_cast<std::uint16_t>(word(rtl.limits_o, C::status_limits_width));
+  o.faults = static_cast<std::uint16_t>(word(rtl.faults_o, C::faults_seen_width));
+  o.first_fault = static_cast<std::uint8_t>(word(rtl.first_fault_o, C::faults_first_width));
+  o.tick_count = rtl.tick_count_o;
+  o.snapshot_valid = rtl.snapshot_valid_o != 0;
+  o.word_valid = rtl.word_valid_o != 0;
+  o.word_slot = rtl.word_slot_o;
+  o.word_data = word(rtl.word_data_o, 32);
+  return o;
+}
+
+}  // namespace feltgate

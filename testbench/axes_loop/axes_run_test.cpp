@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A scene of several axes in closed loop: RTL against twin in every clock, the law in real numbers
+// beside it, what a hand feels, and scenes that are refused. docs/devices.md
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "axes_fixture.hpp"
+#include "catch.hpp"
+#include "config/toml_reader.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+/// The message of a scene's text that cannot be used.
+std::string refused(const std::string& text, bool of_one_lever = false) {
+  const std::string path = std::filesystem::temp_directory_path().string() + "/axes_scene.toml";
+  std::ofstream(path) << text;
+  try {
+    if (of_one_lever) {
+      (void)read_scenario(path);
+    } else {
+      (void)read_axes_scene(path, device_file);
+    }
+  } catch (const config::ConfigError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+const std::string kHead =
+    "title = \"t\"\nabout = \"a\"\nduration_s = 0.02\ndevice = \"pantograph\"\n"
+    "[core]\nscene = \"law\"\nlaw = \"pantograph\"\n";
+
+}  // namespace
+
+TEST_CASE("a floor under a pen: what the scene expects, by the twin") {
+  const AxesResult r = run_scene(scene_named("pantograph_floor"), "twin,double,quad");
+  for (const std::string& line : r.broken) UNSCOPED_INFO(line);
+  CHECK(r.broken.empty());
+  CHECK(r.expectations.size() == 7);
+  CHECK(r.ticks == 200'000);
+  CHECK(r.homing_clocks > 600'000);
+  for (const AxisFigures& a : r.axes) {
+    // Most of the run is compared: it arms at 20 ms, and nothing but arming ramps.
+    CHECK(a.law_error_nm.count() > 170'000);
+    CHECK(a.law_error_nm.max() > 0);
+    CHECK(a.law_error_nm.max() < a.bound_nm);
+    CHECK(a.faults.empty());
+  }
+  // Where the joints are, cores and plant agree to a count: homing has found the pose.
+  for (const char* axis : {".0.end", ".1.end"}) {
+    CHECK(r.figures.at(std::string("position_rad") + axis) ==
+          Approx(r.figures.at(std::string("theta_rad") + axis)).margin(1.6e-3));
+  }
+}
+
+TEST_CASE("RTL and twin of two axes and their engine: the same outputs in every clock") {
+  AxesScene scene = scene_named("pantograph_floor");
+  scene.scenario.duration_s = 0.03;
+  scene.scenario.arm_s = 0.012;
+  scene.scenario.parameters["floor"] = 0.118;  // the pen begins in it: torque from arming on
+  scene.scenario.expectations.clear();
+  const AxesResult both = run_scene(scene, "all"), twin = run_scene(scene, "twin,double,quad");
+  CHECK(both.lock_step);
+  INFO(both.first_mismatch);
+  CHECK(both.mismatches == 0);
+  CHECK(both.broken.empty());
+  CHECK(std::abs(both.figures.at("tau_ref_nm.0.end")) > 0.05);
+  CHECK(both.axes[0].law_error_nm.count() > 10'000);
+  // From event to event the twin gives what it gives clock by clock.
+  for (const auto& [name, value] : both.figures) {
+    INFO(name);
+    CHECK(twin.figures.at(name) == value);
+  }
+}
+
+TEST_CASE("scenes of several axes that cannot be used are refused with their line") {
+  CHECK(refused(kHead).empty());
+  const std::string one = refused(kHead, true);
+  CHECK(one.find("axes_scene.toml:4: a device of several axes") != std::string::npos);
+  CHECK(refused("plant = \"p24\"\n" + kHead).find(":1: ") != std::string::npos);
+  CHECK(refused(kHead + "[hand]\nstart_rad = 1\n").find(":9: ") != std::string::npos);
+  CHECK(refused(kHead + "[[event]]\nat_s = 0.01\nstep_nm = 0.1\n").find("step_nm") !=
+        std::string::npos);
+  AxesScene scene = scene_named("pantograph_floor");
+  CHECK_THROWS_AS(run_scene(scene, "twin,float"), std::invalid_argument);
+  CHECK_THROWS_AS(run_scene(scene, "double"), std::invalid_argument);
+  scene.scenario.law = "detent";
+  CHECK_THROWS_AS(run_scene(scene, "twin"), std::invalid_argument);
+  scene.scenario.law = "gimbal";
+  CHECK_THROWS_AS(run_scene(scene, "twin"), std::invalid_argument);
+}

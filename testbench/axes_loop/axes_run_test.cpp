@@ -43,11 +43,11 @@ TEST_CASE("a floor under a pen: what the scene expects, by the twin") {
   for (const std::string& line : r.broken) UNSCOPED_INFO(line);
   CHECK(r.broken.empty());
   CHECK(r.expectations.size() == 7);
-  CHECK(r.ticks == 200'000);
+  CHECK(r.ticks == 100'000);
   CHECK(r.homing_clocks > 600'000);
   for (const AxisFigures& a : r.axes) {
     // Most of the run is compared: it arms at 20 ms, and nothing but arming ramps.
-    CHECK(a.law_error_nm.count() > 170'000);
+    CHECK(a.law_error_nm.count() > 75'000);
     CHECK(a.law_error_nm.max() > 0);
     CHECK(a.law_error_nm.max() < a.bound_nm);
     CHECK(a.faults.empty());

@@ -11,11 +11,11 @@
 #include <memory>
 #include <stdexcept>
 
+#include "axes_loop/axes_engines.hpp"
 #include "axes_loop/device_signals.hpp"
 #include "axes_loop/signal_record.hpp"
 #include "config/toml_reader.hpp"
 #include "feltgate/axes_ports.hpp"
-#include "loop/engine_choice.hpp"
 #include "loop/expectations.hpp"
 #include "loop/scenario_check.hpp"
 #include "plant/axes_loop.hpp"
@@ -44,32 +44,6 @@ std::vector<std::string> columns_of() {
 /// Which of the limits stand between a law's torque and the commanded one.
 constexpr unsigned limits_of_torque = limit::torque | limit::ramp | limit::hold | limit::chatter;
 
-struct Choice {
-  std::string lead;                 ///< "twin" or "lockstep"
-  std::vector<std::string> riders;  ///< "double", "quad"
-  std::string reference;
-};
-
-Choice choose(const std::string& engines) {
-  const EngineChoice all = choose_engines(engines);
-  if (all.rider_drives) {
-    throw std::invalid_argument("--engine " + engines +
-                                ": the motors of several axes are driven by the core; add twin or "
-                                "rtl");
-  }
-  Choice c{all.lead == "twin" ? "twin" : "lockstep", {}, {}};
-  for (const std::string& rider : all.riders) {
-    if (rider == "float" && engines == "all") continue;
-    if (rider == "float") {
-      throw std::invalid_argument(
-          "--engine float: beside several axes runs the law in double and quad; choose these");
-    }
-    c.riders.push_back(rider);
-    if (c.reference != "quad") c.reference = rider;
-  }
-  return c;
-}
-
 template <class Plant>
 class AxesRun : plant::AxesDevice<Plant> {
  public:
@@ -78,7 +52,7 @@ class AxesRun : plant::AxesDevice<Plant> {
   AxesRun(const AxesScene& scene, Plant& plant, const AxesRunOptions& options)
       : s_(scene.scenario),
         options_(options),
-        choice_(choose(options.engine)),
+        choice_(choose_axes_engines(options.engine)),
         plant_(plant),
         cores_(make_cores()),
         design_(cores_->design()),
@@ -366,7 +340,7 @@ class AxesRun : plant::AxesDevice<Plant> {
 
   const Scenario& s_;
   const AxesRunOptions& options_;
-  Choice choice_;
+  AxesEngines choice_;
   Plant& plant_;
   std::unique_ptr<AxesCores> cores_;
   const DesignInfo& design_;

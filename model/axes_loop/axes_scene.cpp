@@ -37,6 +37,11 @@ AxesScene read_axes_scene(const std::string& path,
     scene.device_path = find(top.text("device"));
     scene.device = setup_of(scene.device_path, top);
   });
+  for (const Event& e : scene.scenario.events) {
+    if (!e.step_nm) continue;
+    throw config::ConfigError(
+        fmt::format("{}:{}: step_nm is for scenes of one lever; leave it out", path, e.line));
+  }
   std::visit([&](const auto& setup) { resolve_effects(scene.scenario, setup.parameters.effects); },
              scene.device);
   return scene;

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Which engines run several axes, from the names a user gives. Documentation: docs/devices.md
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace feltgate {
+
+struct AxesEngines {
+  std::string lead;                 ///< "twin" or "lockstep"
+  std::vector<std::string> riders;  ///< the law in "double", "quad"
+  std::string reference;            ///< the most exact of them; empty: none
+};
+
+/// As choose_engines(); rtl brings its twin, and "all" has no float.
+/// Throws std::invalid_argument naming what there is.
+AxesEngines choose_axes_engines(const std::string& engines);
+
+}  // namespace feltgate

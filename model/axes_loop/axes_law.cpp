@@ -38,7 +38,7 @@ class RealAxesLaw : public AxesLawRider {
   }
   void change() override {
     const LawChange& c = changes_.at(next_++);
-    evaluation_.set_parameter(c.parameter, static_cast<N>(c.si));
+    evaluation_.set_parameter(c.parameter, rounded<N>(law_, c));
   }
   const Torques* torques_nm(const AxesSnapshot& s) override {
     if (!s[0].law_known) return nullptr;

@@ -17,17 +17,6 @@ namespace feltgate {
 
 namespace {
 
-/// A parameter's value in the numbers of a chain: its word times its step, so that one in counts
-/// equals the position in counts that it is compared with.
-template <class N>
-N exact(const law::Compiled& law, const LawChange& c) {
-  for (const law::ImageWord& w : law.image.words) {
-    if (!w.formula.empty() || w.name != law.law.parameters[c.parameter].name) continue;
-    return static_cast<N>(std::nearbyint(c.si / w.scale)) * static_cast<N>(w.scale);
-  }
-  return static_cast<N>(c.si);
-}
-
 template <class N>
 class RealLaw : public LawRider {
  public:
@@ -35,7 +24,7 @@ class RealLaw : public LawRider {
       : law_(law), count_rad_(design.count_rad), changes_(changes), evaluation_(law.law) {}
   void change() override {
     const LawChange& c = changes_.at(next_++);
-    evaluation_.set_parameter(c.parameter, exact<N>(law_, c));
+    evaluation_.set_parameter(c.parameter, rounded<N>(law_, c));
   }
 
  private:

@@ -5,7 +5,11 @@
 // Documentation: docs/laws.md
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "law/compile.hpp"
 #include "loop/scene_law.hpp"
@@ -18,13 +22,25 @@ std::unique_ptr<SceneLaw> make_scene_law(const std::string& path, const DesignIn
 /// One that is compiled for the design, of one axis.
 std::unique_ptr<SceneLaw> make_scene_law(law::Compiled law, const DesignInfo& design);
 
-/// Runs it in the numbers of a chain of this kind: "fixed" runs the image, "quad" the graph in
-/// binary128, the others in double. `changes` are the parameters' numbers and SI values, in the
-/// order in which they are set; it may grow.
+/// A parameter's number, and the value in SI that the host has set.
 struct LawChange {
   std::size_t parameter;
   double si;
 };
+/// Its value in the numbers of a chain: its word times its step, so that one in counts
+/// equals the position in counts that it is compared with.
+template <class N>
+N rounded(const law::Compiled& law, const LawChange& c) {
+  for (const law::ImageWord& w : law.image.words) {
+    if (!w.formula.empty() || w.name != law.law.parameters[c.parameter].name) continue;
+    return static_cast<N>(std::nearbyint(c.si / w.scale)) * static_cast<N>(w.scale);
+  }
+  return static_cast<N>(c.si);
+}
+
+/// Runs it in the numbers of a chain of this kind: "fixed" runs the image, "quad" the graph in
+/// binary128, the others in double. `changes` are the parameters' numbers and SI values, in the
+/// order in which they are set; it may grow.
 std::unique_ptr<LawRider> make_law_rider(const law::Compiled& law, const DesignInfo& design,
                                          const std::string& kind,
                                          const std::vector<LawChange>& changes);

@@ -29,6 +29,8 @@ RULES = (
     Rule(r"feltgate run torque_step --set voltage_gain=0\.6", "WHOLE", status=(2,)),
     # The launcher gives these a design with an engine.
     Rule(r"feltgate run (?:detent|my_scene\.toml --set amplitude\S*)", "BY", "scene.detent.lever_law"),
+    Rule(r"feltgate run pantograph_floor.*", "BY", "axes_run_test"),
+    Rule(r"feltgate run pantograph_wall.*", "BY", "pantograph_wall_test"),
     Rule(r"feltgate run turn_switch", "BY", "scene.turn_switch.lever_law"),
     Rule(r"feltgate run flywheel", "BY", "scene.flywheel.lever_law"),
     Rule(r"feltgate run pendulum", "BY", "scene.pendulum.lever_law"),

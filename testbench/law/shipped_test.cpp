@@ -22,7 +22,7 @@ constexpr double kDegree = kPi / 180;
 TEST_CASE("every shipped law has a summary and a torque, and is tested here") {
   const std::vector<std::string> tested{
       "ceiling", "charge_far", "charge", "damper", "detent", "gimbal", "membrane", "spring",
-      "quaternion", "pantograph", "wall",
+      "quaternion", "pantograph", "pantograph_filtered", "wall",
       // lever_devices_test.cpp
       "turn_switch", "graded_membrane", "end_stops", "scroll_wheel",
       // virtual_objects_test.cpp

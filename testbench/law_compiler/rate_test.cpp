@@ -86,13 +86,16 @@ TEST_CASE("clocks from start to start: as many as the twin needs, and not one le
   exact<3>();
 }
 
+/// Runs of a law that are looked at: few of a slow one, which has long ticks between.
+int runs_at(int divider) { return divider < 100 ? 240 : 12; }
+
 template <int Axes>
 Seen at_divider(const Compiled& c, int divider) {
   EngineMemory m;
   m.program = c.image.program;
   m.data = c.image.data;
   m.table = c.image.table;
-  return run<Axes>(m, divider, c.target.clocks_per_tick, 3, 240 * divider);
+  return run<Axes>(m, divider, c.target.clocks_per_tick, 3, runs_at(divider) * divider);
 }
 Seen at_divider(const Compiled& c, int divider) {
   return c.target.axes == 1   ? at_divider<1>(c, divider)
@@ -109,7 +112,7 @@ TEST_CASE("shipped laws reach their rate in the twin, and none a higher one") {
     INFO(c.law.name << ", divider " << c.divider);
     const Seen seen = at_divider(c, c.divider);
     CHECK_FALSE(seen.overrun);
-    CHECK(seen.fresh >= 238);
+    CHECK(seen.fresh >= runs_at(c.divider) - 2);
     if (c.divider == 1 || c.law.rate_hz > 0) continue;
     CHECK(at_divider(c, c.divider - 1).overrun);
     ++slower;

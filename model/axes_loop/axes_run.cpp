@@ -350,7 +350,7 @@ class AxesRun : plant::AxesDevice<Plant> {
   Clock homed_ = 0, next_report_ = 0;
   std::vector<Rider> riders_;
   bool law_entered_ = false;
-  std::int64_t law_changes_ = 0;
+  std::int64_t law_changes_ = 1;  ///< sets of parameters that the riders know; the first loads
   AxesLawRider::Torques kept_nm_{};
   std::array<ErrorFigure, axes> errors_;
   std::int64_t ticks_ = 0, ticks_to_come_ = 0;

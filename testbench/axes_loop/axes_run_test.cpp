@@ -79,6 +79,22 @@ TEST_CASE("RTL and twin of two axes and their engine: the same outputs in every 
   }
 }
 
+TEST_CASE("what the host sets in the middle reaches engine and law in real numbers alike") {
+  AxesScene scene = scene_named("pantograph_floor");
+  scene.scenario.expectations.clear();
+  for (const double stiffness : {300.0, 300.0, 700.0}) {  // the same once more is a set too
+    Event e;
+    e.at_s = 0.08;
+    e.set["stiffness"] = stiffness;
+    scene.scenario.events.push_back(e);
+  }
+  const AxesResult r = run_scene(scene, "twin,double,quad");
+  CHECK(r.broken.empty());
+  CHECK(r.axes[0].law_error_nm.max() < r.axes[0].bound_nm);
+  // 6 mm of 700 N/m instead of 300.
+  CHECK(r.figures.at("tau_ref_nm.0.end") == Approx(0.1 * 0.854 * 4.2).margin(0.012));
+}
+
 TEST_CASE("scenes of several axes that cannot be used are refused with their line") {
   CHECK(refused(kHead).empty());
   const std::string one = refused(kHead, true);

@@ -702,9 +702,9 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_LINK_FORMAT_MAP_BITS 14  /* bits of an address; a request beyond is bad. One more where features.engine is set */
 #define FELTGATE_LINK_FORMAT_NO_SEQUENCE 256  /* last_write_sequence before the first write */
 #define FELTGATE_LINK_FORMAT_WORDS 4096  /* first address of the link's words; below are the core's */
-#define FELTGATE_LINK_FORMAT_ENGINE 16384  /* first address of the engine's words (engine-isa.md), where features.engine is set */
 #define FELTGATE_LINK_FORMAT_MEMORY 8192  /* first address of the capture memory: 8 words of a row, then the next row */
 #define FELTGATE_LINK_FORMAT_ROWS_LOG2 10  /* log2 of the rows of the capture memory */
 #define FELTGATE_LINK_FORMAT_COLUMNS 8  /* words of a row */
+#define FELTGATE_LINK_FORMAT_ENGINE 16384  /* first address of the engine's words, where features.engine is set */
 
 #endif

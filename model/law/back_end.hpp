@@ -161,6 +161,7 @@ class BackEnd {
   std::map<Operand, Value> negated_;
   std::map<std::pair<Operand, Operand>, Value> products_;
   std::map<std::string, int> table_keys_;
+  std::map<std::string, double> memory_scales_;  ///< of arrays and tables through points
   NodeId flag_ = -1;
   int sine_tables_ = 0, other_tables_ = 0, table_words_left_ = 512;
   bool cosines_ = false, sines_ = false;

@@ -74,6 +74,27 @@ std::string expression(const Law& law, const Node& n) {
   }
 }
 
+std::string values(const std::vector<double>& list) {
+  std::string s = "    constexpr double values[] = {";
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    s += fmt::format("{}{}", i % 8 == 0 ? "\n        " : " ", cpp_number(list[i]) + ",");
+  }
+  return s + "\n    };\n";
+}
+
+/// The rest of a table's function where it goes through points.
+std::string points(const Table& t) {
+  return values(t.points) +
+         fmt::format(
+             "    const T place = (x - T({})) / T({}) * T({});\n"
+             "    const int at = static_cast<int>(law::floor_of(place));\n"
+             "    const int first = at < {} ? at : {};\n",
+             cpp_number(t.domain.lower), cpp_number(t.domain.upper - t.domain.lower), t.segments,
+             t.segments - 1, t.segments - 1) +
+         "    return T(values[first]) + (T(values[first + 1]) - T(values[first])) * "
+         "(place - T(first));\n  }\n";
+}
+
 std::string table(const Law& law, int index) {
   const Table& t = law.tables[at(index)];
   std::string s = fmt::format(
@@ -82,6 +103,7 @@ std::string table(const Law& law, int index) {
       t.name, t.domain.lower, t.domain.upper, cpp_table_name(law, index));
   s += fmt::format("    x = x < T({0}) ? T({0}) : x > T({1}) ? T({1}) : x;\n",
                    cpp_number(t.domain.lower), cpp_number(t.domain.upper));
+  if (!t.points.empty()) return s + points(t);
   std::set<NodeId> nodes;
   body(law, t.body, nodes);
   for (const NodeId id : nodes) {
@@ -95,16 +117,11 @@ std::string array(const Law& law, int index) {
   const Array& a = law.arrays[at(index)];
   std::string s = fmt::format(
       "  /// The law's array `{}`; beyond its ends it stays.\n"
-      "  template <class T>\n  static T {}(int index) {{\n"
-      "    constexpr double values[] = {{",
+      "  template <class T>\n  static T {}(int index) {{\n",
       a.name, cpp_array_name(law, index));
-  for (std::size_t i = 0; i < a.values.size(); ++i) {
-    s += fmt::format("{}{}", i % 8 == 0 ? "\n        " : " ", cpp_number(a.values[i]) + ",");
-  }
-  return s +
-         fmt::format(
-             "\n    }};\n    return T(values[index < 0 ? 0 : index > {0} ? {0} : index]);\n  }}\n",
-             a.values.size() - 1);
+  return s + values(a.values) +
+         fmt::format("    return T(values[index < 0 ? 0 : index > {0} ? {0} : index]);\n  }}\n",
+                     a.values.size() - 1);
 }
 
 }  // namespace

@@ -71,14 +71,20 @@ void Lowering::table(const Statement& s) {
     const auto index = static_cast<int>(law_.tables.size());
     t.domain = {lower, upper};
     t.argument = graph_.table_argument(index, upper_unit, t.place);
-    scope_.open();
-    Symbol variable;
-    variable.node = t.argument;
-    scope_.define(s.variable, variable);
-    defining_ = s.name;
-    t.body = number_of(s.value);
-    defining_.clear();
-    scope_.close();
+    if (s.value) {
+      scope_.open();
+      Symbol variable;
+      variable.node = t.argument;
+      scope_.define(s.variable, variable);
+      defining_ = s.name;
+      t.body = number_of(s.value);
+      defining_.clear();
+      scope_.close();
+    } else {
+      Unit unit;
+      if (numbers(s, unit, t.points)) t.body = graph_.constant(t.points.front(), unit, t.place);
+      t.segments = static_cast<int>(t.points.size()) - 1;
+    }
     if (t.body != kNone) {
       refuse_changing(t.body, s);
       law_.tables.push_back(t);
@@ -88,34 +94,43 @@ void Lowering::table(const Statement& s) {
   define(s, symbol);
 }
 
-void Lowering::array(const Statement& s) {
-  Array a;
-  a.name = s.name;
-  a.place = at(s.name_offset);
-  a.unit = s.unit.unit;
-  Symbol symbol;
-  symbol.unit_text = s.unit_text;
+/// The numbers of an array or of a table through points, in SI; false where one is reported.
+bool Lowering::numbers(const Statement& s, Unit& own, std::vector<double>& values) {
+  own = s.unit.unit;
   bool good = s.elements.size() <= kMostElements;
-  if (!good) report(s.name_offset, "an array of more than 512 numbers", "the table has 512 words");
+  if (!good) report(s.name_offset, "more than 512 numbers", "the table has 512 words");
+  if (s.kind == Statement::Kind::table && s.elements.size() < 2) {
+    report(s.name_offset, "a table through one point", "a line needs two, at the table's ends");
+    good = false;
+  }
   for (std::size_t i = 0; good && i < s.elements.size(); ++i) {
     double value = 0;
     Unit unit;
-    good = constant_of(s.elements[i], "an array's element", value, unit);
+    good = constant_of(s.elements[i], "a number between the brackets", value, unit);
     if (!good) break;
     if (!s.unit_text.empty() && !(unit == kNumber)) {
       report(s.elements[i]->offset, "a unit in front of the array's own",
              "write the unit once, behind the bracket");
       good = false;
-    } else if (s.unit_text.empty() && i > 0 && !(unit == a.unit)) {
-      report(s.elements[i]->offset, "elements in " + text_of(a.unit) + " and in " + text_of(unit),
+    } else if (s.unit_text.empty() && i > 0 && !(unit == own)) {
+      report(s.elements[i]->offset, "elements in " + text_of(own) + " and in " + text_of(unit),
              "write the unit once, behind the bracket");
       good = false;
     } else if (s.unit_text.empty()) {
-      a.unit = unit;
+      own = unit;
     }
-    a.values.push_back(value * s.unit.to_si);
+    values.push_back(value * s.unit.to_si);
   }
-  if (good) {
+  return good;
+}
+
+void Lowering::array(const Statement& s) {
+  Array a;
+  a.name = s.name;
+  a.place = at(s.name_offset);
+  Symbol symbol;
+  symbol.unit_text = s.unit_text;
+  if (numbers(s, a.unit, a.values)) {
     symbol.index = static_cast<int>(law_.arrays.size());
     law_.arrays.push_back(a);
   }

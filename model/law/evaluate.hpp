@@ -51,6 +51,9 @@ class Evaluation {
   N number(double x) const { return static_cast<N>(x); }
   N compute(const Node& n, const std::vector<N>& values) const;
   N exact(std::size_t table, N x) const;
+  /// The line through samples at equal distances, at a place within the domain.
+  template <class Sample>
+  N through(const std::vector<Sample>& samples, const Range& domain, N inside) const;
   N read_line(std::size_t line, N runs_ago) const;
   void find_bodies();
   void derive();
@@ -158,6 +161,7 @@ void Evaluation<N>::sample() {
 template <class N>
 N Evaluation<N>::exact(std::size_t table, N x) const {
   const Table& t = law_.tables[table];
+  if (!t.points.empty()) return through(t.points, t.domain, x);
   for (const NodeId id : bodies_[table]) {
     body_[at(id)] = id == t.argument ? x : compute(law_.nodes[at(id)], body_);
   }
@@ -169,13 +173,20 @@ N Evaluation<N>::table(std::size_t index, N x) const {
   const Range domain = law_.tables[index].domain;
   const N lower = number(domain.lower), upper = number(domain.upper);
   const N inside = x < lower ? lower : x > upper ? upper : x;
-  const std::vector<N>& samples = samples_[index];
-  if (samples.empty()) return exact(index, inside);
+  if (samples_[index].empty()) return exact(index, inside);
+  return through(samples_[index], domain, inside);
+}
+
+template <class N>
+template <class Sample>
+N Evaluation<N>::through(const std::vector<Sample>& samples, const Range& domain, N inside) const {
+  const N lower = number(domain.lower), upper = number(domain.upper);
   const auto segments = static_cast<N>(samples.size() - 1);
   const N place = (inside - lower) / (upper - lower) * segments;
   const N first = place < segments ? floor_of(place) : segments - 1;
   const auto i = static_cast<std::size_t>(static_cast<double>(first));
-  return samples[i] + (samples[i + 1] - samples[i]) * (place - first);
+  const N from = static_cast<N>(samples[i]), to = static_cast<N>(samples[i + 1]);
+  return from + (to - from) * (place - first);
 }
 
 template <class N>

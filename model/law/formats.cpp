@@ -167,9 +167,14 @@ double cost(const Law& law, const Target& target, const Program& program, const 
     const double size = std::max(r.upper - r.lower, 1e-12);
     const double e = b.states_bounded ? b.state[i] : program.states[i].scale;
     error = std::max(error, e / size * 65536);
-    // Where it has no end, what a tenth of a second adds.
-    if (b.states_bounded || law.rate_hz <= 0 || law.states[i].phase) continue;
-    drifts += std::max(0.0, std::log2(b.drift[i] * 0.1 * law.rate_hz / size * 65536));
+    if (b.states_bounded || law.states[i].phase) continue;
+    if (law.rate_hz > 0) {
+      // Where it has no end, what a tenth of a second adds.
+      drifts += std::max(0.0, std::log2(b.drift[i] * 0.1 * law.rate_hz / size * 65536));
+    } else if (!law.states[i].whole) {
+      // The bound, of one run, says nothing of what is rounded away in it: its bits count alone.
+      drifts += std::max(0.0, std::log2(program.states[i].scale / size * 262144));
+    }
   }
   // Instructions, and more so a tick of time; bits of the error; bits that a host cannot set.
   const auto steps = static_cast<double>(program.steps.size());

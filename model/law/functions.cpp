@@ -169,7 +169,16 @@ Value BackEnd::function(NodeId id) {
   while (range.width() / scale / 4096 > 2.0 * most_table_words || count(scale) > wanted) scale *= 2;
   while (count(scale / 2) <= wanted && range.size() / (scale / 2) < 1e9) scale /= 2;
   if (count(v.scale) <= wanted && count(v.scale) > wanted / 4) scale = v.scale;
-  if (user && table->segments > 0) {
+  const bool points = user && !table->points.empty();
+  if (points) {
+    // Points lie on samples, the same ones for every argument.
+    scale = (table->domain.upper - table->domain.lower) / table->segments / 4096;
+    const double start = table->domain.lower / scale / 4096;
+    if (std::fabs(start - std::nearbyint(start)) > 1e-9) {
+      throw Refused(table->place, "the first point is no whole number of segments from 0",
+                    fmt::format("let the table {} begin at 0", table->name));
+    }
+  } else if (user && table->segments > 0) {
     // As many as the law asks for, where its first sample lies on one.
     const double own = (table->domain.upper - table->domain.lower) / table->segments / 4096;
     const double start = table->domain.lower / own / 4096;
@@ -183,6 +192,7 @@ Value BackEnd::function(NodeId id) {
   v = align(v, scale, argument);
   TableRequest r;
   r.function = function_of(law_, n);
+  if (points) range = {table->domain.lower, table->domain.upper};
   r.domain = range;
   r.argument_scale = scale;
   r.low = first(scale);
@@ -199,7 +209,13 @@ Value BackEnd::function(NodeId id) {
   }
   const double room = std::min(524200 / std::max(largest, 1e-30), 32700 / std::max(step, 1e-30));
   const int fraction = std::min(30, static_cast<int>(std::floor(std::log2(room))));
-  r.value_scale = chosen_scale(id, 1, fraction, span(id).size());
+  // A table through points, as an array, is there once: its first reader chooses for all.
+  const std::string memory = fmt::format("points {}", n.index);
+  const auto same = memory_scales_.find(memory);
+  r.value_scale = points && same != memory_scales_.end()
+                      ? same->second
+                      : chosen_scale(id, 1, fraction, span(id).size());
+  if (points) memory_scales_[memory] = r.value_scale;
   if (-std::log2(r.value_scale) > fraction + 0.5) throw Unfit("a table's value has 20 bits");
   const std::string key = fmt::format("{} {} {:.17g} {} {} {:.17g}", static_cast<int>(n.op),
                                       n.index, scale, r.low, r.count, r.value_scale);
@@ -353,47 +369,6 @@ Value BackEnd::sine(NodeId id) {
   s.offset = cosine ? 1 << (bits - 2) : 0;
   s.argument_scale = std::ldexp(1.0, -12 - bits);
   s.node = id;
-  return {last(), scale, 0};
-}
-
-Value BackEnd::element(NodeId id) {
-  const Node& n = node(id);
-  const Array& array = law_.arrays[at(n.index)];
-  const double last_index = static_cast<double>(array.values.size()) - 1;
-  Value v = value(n.arguments[0]);
-  const Span range = span(n.arguments[0]);
-  v = align(v, 1.0 / 4096, n.arguments[0]);
-  if (range.lo < 0) {
-    emit(EngineOp::max, 0, v.operand, constant(0), v.scale, id);
-    v.operand = last();
-  }
-  if (range.hi >= last_index + 1) {
-    emit(EngineOp::min, 0, v.operand, constant(last_index / v.scale), v.scale, id);
-    v.operand = last();
-  }
-  const double scale =
-      chosen_scale(id, 1, largest_fraction(id, 1, span(id).size()), span(id).size());
-  const std::string key = fmt::format("array {} {:.17g}", n.index, scale);
-  auto found = table_keys_.find(key);
-  int index = found == table_keys_.end() ? -1 : found->second;
-  if (index < 0) {
-    TableUse t;
-    t.what = array.name;
-    t.proof = "rounded numbers";
-    t.error = 0.5;
-    for (const double a : array.values) {
-      const auto w = static_cast<std::int32_t>(std::lround(a / scale));
-      t.words.push_back(static_cast<std::uint32_t>(w));
-      t.values =
-          t.words.size() == 1 ? Span{double(w), double(w)} : hull(t.values, {double(w), double(w)});
-    }
-    index = place_table(key, t);
-  }
-  Step& s = emit(EngineOp::tab, 0, v.operand, {}, scale, id);
-  s.table = index;
-  s.node = id;
-  s.condition = id;
-  s.margin_scale = v.scale;
   return {last(), scale, 0};
 }
 

@@ -59,6 +59,9 @@ const auto on_ = word<struct OnId>("on", "\"on\"");
 const auto max_age_ = word<struct MaxAgeId>("max_age", "\"max_age\"");
 const auto segments_ = word<struct SegmentsId>("segments", "\"segments\"");
 const auto plain = [](const char* text) { return x3::lexeme[x3::lit(text) >> !inside]; };
+const auto is_or_through = called<struct IsOrThroughId>(
+    "\"=\" or \"through\"",
+    &((x3::lit('=') >> !x3::lit('=')) | x3::lexeme[x3::lit("through") >> !inside]));
 const auto dots = called<struct DotsId>("\"..\"", x3::lit(".."));
 const auto equals = called<struct EqualsId>("\"=\"", x3::lit('=') >> !x3::lit('='));
 const auto comma = called<struct CommaId>("\",\"", x3::lit(','));
@@ -335,12 +338,14 @@ const auto let = begin<S::let>("let") > name[put_name] > defined;
 const auto var = begin<S::var>("var") > name[put_name] > defined;
 const auto set = begin<S::set>("set") > name[put_name] > defined;
 const auto next = begin<S::next>("next") > name[put_name] > defined;
+const auto numbers = open_index > (expression[put_element] % ',') > close_index > unit[put_unit];
 const auto table = begin<S::table>("table") > name[put_name] > open > name[put_variable] > close >
                    on_ > open_index > expression[Put<&Statement::lower>()] > comma >
-                   expression[Put<&Statement::upper>()] > close_index > defined >
-                   -(plain("with") > expression[Put<&Statement::segments>()] > segments_);
-const auto array = begin<S::array>("array") > name[put_name] > equals > open_index >
-                   (expression[put_element] % ',') > close_index > unit[put_unit];
+                   expression[Put<&Statement::upper>()] > close_index > is_or_through >
+                   ((plain("through") > numbers) |
+                    (defined >
+                     -(plain("with") > expression[Put<&Statement::segments>()] > segments_)));
+const auto array = begin<S::array>("array") > name[put_name] > equals > numbers;
 const auto line = begin<S::line>("line") > name[put_name] > open_index >
                   expression[Put<&Statement::index>()] > close_index > ranged;
 const auto loop = begin<S::loop>("for") > name[put_variable] > in_ > range > open_body >

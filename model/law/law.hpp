@@ -110,14 +110,15 @@ struct State {
   Place place;
 };
 
-/// A function of one variable, sampled by the compiler.
+/// A function of one variable: a formula that the compiler samples, or a line through points.
 struct Table {
   std::string name;
   Range domain;
-  NodeId argument = -1;  ///< an Op::input with index -1, and the table's number as
-                         ///< value, that stands for the variable in `body`
-  NodeId body = -1;
-  int segments = 0;  ///< 0: the compiler chooses
+  NodeId argument = -1;        ///< an Op::input with index -1, and the table's number as
+                               ///< value, that stands for the variable in `body`
+  NodeId body = -1;            ///< of points: a constant of their unit
+  std::vector<double> points;  ///< at equal distances over the domain; empty: a formula
+  int segments = 0;            ///< 0: the compiler chooses; of points one less than there are
   Place place;
 };
 

@@ -38,6 +38,7 @@ class Lowering {
   void next(const Statement& s);
   void table(const Statement& s);
   void array(const Statement& s);
+  bool numbers(const Statement& s, Unit& unit, std::vector<double>& values);
   void line(const Statement& s);
   void loop(const Statement& s);
   void out(const Statement& s);

@@ -82,7 +82,7 @@ class Body {
         const Table& t = law_.tables[at(n.index)];
         const Jet a =
             most(least(arg(0), constant_jet(t.domain.upper)), constant_jet(t.domain.lower));
-        const Jet inner = Body(law_, t, {a.v, {1, 1}, {0, 0}}).jet(t.body);
+        const Jet inner = table_jet(law_, t, a.v);
         return chain(a, inner.v, inner.d1, inner.d2);
       }
       default:
@@ -258,7 +258,35 @@ Cell whole_cell(const Law& law, const Target& target) {
 
 std::vector<Span> ranges(const Law& law, const Cell& cell) { return Ranges(law, cell).all(); }
 
+namespace {
+
+/// The line through points. A span that reaches a corner by no more than doubles' rounding lies on
+/// one side of it.
+Jet points_jet(const Table& table, const Span& x) {
+  const double width = (table.domain.upper - table.domain.lower) / table.segments;
+  const auto place = [&](double at) { return (at - table.domain.lower) / width; };
+  constexpr double slack = 1e-9;
+  const double most = table.segments - 1.0;
+  const auto first = static_cast<int>(std::clamp(std::floor(place(x.lo) + slack), 0.0, most));
+  const auto last =
+      std::max(first, static_cast<int>(std::clamp(std::ceil(place(x.hi) - slack) - 1, 0.0, most)));
+  Jet j{{infinity, -infinity}, {infinity, -infinity}, {0, 0}};
+  for (int i = first; i <= last; ++i) {
+    const double from = table.points[at(i)], rise = table.points[at(i + 1)] - from;
+    const Span part{std::max(place(x.lo), static_cast<double>(i)), std::min(place(x.hi), i + 1.0)};
+    const double lo = std::clamp(part.lo - i, 0.0, 1.0), hi = std::clamp(part.hi - i, lo, 1.0);
+    const double a = from + rise * lo, b = from + rise * hi;
+    j.v = hull(j.v, {down(std::min(a, b)), up(std::max(a, b))});
+    j.d1 = hull(j.d1, {down(rise / width), up(rise / width)});
+  }
+  if (first != last) j.d2 = {-infinity, infinity};
+  return j;
+}
+
+}  // namespace
+
 Jet table_jet(const Law& law, const Table& table, const Span& argument) {
+  if (!table.points.empty()) return points_jet(table, argument);
   return Body(law, table, {argument, {1, 1}, {0, 0}}).jet(table.body);
 }
 

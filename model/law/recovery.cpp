@@ -41,7 +41,7 @@ constexpr std::pair<const char*, const char*> kForms[] = {
 };
 
 constexpr const char* kOther[] = {"in", "then", "else",    "if",    "when",     "on",  "and",
-                                  "or", "not",  "max_age", "whole", "segments", "with"};
+                                  "or", "not",  "max_age", "whole", "segments", "with", "through"};
 
 bool is_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c >= '0' && c <= '9');

@@ -212,6 +212,23 @@ TEST_CASE("tables: exact by their formula, or linear between samples") {
   CHECK(nested.torque({{"position", 1.5}}) == Approx(3.25));
 }
 
+TEST_CASE("tables through points: linear between them, sampled or not") {
+  const std::string text =
+      "table f(x) on [1, 2] through [10, 30, 20] mNm\nout torque = f(position)";
+  Running<> exact(law_of(text)), sampled(law_of(text), Tables::sampled);
+  for (Running<>* one : {&exact, &sampled}) {
+    CHECK(one->torque({{"position", 1.0}}) == Approx(0.010));
+    CHECK(one->torque({{"position", 1.25}}) == Approx(0.020));
+    CHECK(one->torque({{"position", 1.5}}) == Approx(0.030));
+    CHECK(one->torque({{"position", 1.75}}) == Approx(0.025));
+    CHECK(one->torque({{"position", 2.0}}) == Approx(0.020));
+    CHECK(one->torque({{"position", 9.0}}) == Approx(0.020));
+    CHECK(one->torque({{"position", -9.0}}) == Approx(0.010));
+  }
+  Running<> units(law_of("table f(x) on [0, 1] through [1 Nm, 2 Nm]\nout torque = f(position)"));
+  CHECK(units.torque({{"position", 0.5}}) == Approx(1.5));
+}
+
 TEST_CASE("arrays: constants in loops, elements by number at run time") {
   Running<> law(
       law_of("array a = [1, 2, 4] mNm\nout torque = a[position] + sum(i in 0 .. 2: a[i])"));

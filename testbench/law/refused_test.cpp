@@ -242,6 +242,17 @@ const Bad kMeaning[] = {
     {"param k = 1 in 0 .. 2\ntable f(x) on [0, 1] = k * x\nout torque = 1 Nm * f(position)",
      "2:7: the table \"f\" uses \"k\", which changes at run time; a table holds a function of its "
      "variable and of constants; multiply outside of it"},
+    {"table f(x) on [0, 1] x\nout torque = 1 Nm * f(position)",
+     "1:22: expected \"=\" or \"through\", found \"x\"; the form is: table NAME(x) on [LOWER, "
+     "UPPER] "
+     "= EXPRESSION with 256 segments"},
+    {"table f(x) on [0, 1] through [1]\nout torque = 1 Nm * f(position)",
+     "1:7: a table through one point; a line needs two, at the table's ends"},
+    {"table f(x) on [0, 1] through [1 Nm, 2 N]\nout torque = f(position)",
+     "1:37: elements in Nm and in N; write the unit once, behind the bracket"},
+    {"param k = 1 in 0 .. 2\ntable f(x) on [0, 1] through [1, k]\nout torque = 1 Nm * f(position)",
+     "2:34: a number between the brackets is not constant; it may hold numbers, pi, dt and lets "
+     "made of them"},
     {"table f(x) on [0, 1] = x * velocity\nout torque = 1 Nm * f(position)",
      "1:7: the table \"f\" uses \"velocity\", which changes at run time; a table holds a function "
      "of its variable and of constants; multiply outside of it\n"
@@ -259,7 +270,8 @@ const Bad kMeaning[] = {
     {"array a = [1 Nm, 2 N]\nout torque = a[1]",
      "1:18: elements in Nm and in N; write the unit once, behind the bracket"},
     {"array a = [1, position]\nout torque = 1 Nm * a[1]",
-     "1:15: an array's element is not constant; it may hold numbers, pi, dt and lets made of them"},
+     "1:15: a number between the brackets is not constant; it may hold numbers, pi, dt and lets "
+     "made of them"},
     {"rate = 5 s" OUT, "1:8: the rate is no frequency above 0; write rate = 40 kHz"},
     {"rate = 1 kHz\nrate = 2 kHz" OUT, "2:1: a second rate; write one"},
     {"out torque = 1 Nm * velocity * dt",

@@ -66,6 +66,12 @@ const std::map<std::string, Sample> samples = {
       "let i = clamp(2 + position, 0, 3.9)\n"
       "out torque = steps[i] + 0.1 * sin(position) * 1 Nm\n",
       14, 5e-5}},
+    {"a table through points, read twice, by a place that is kept",
+     {"table height(q) on [0, 4] through [0.1, -0.2, 0.05, 0.3, 0.1] Nm\n"
+      "state place = 0 in 0 .. 4\n"
+      "next place = clamp(place + clamp(position - place, -0.5, 0.5), 0, 4)\n"
+      "out torque = height(place) + 0.1 * height(4 - place)\n",
+      16, 1e-4}},
     {"conditions: and, or, not",
      {"param a = 0.2 in -1 .. 1\n"
       "let inside = (position > a and position < 2) or (not (velocity < 1 rad/s) and position < "

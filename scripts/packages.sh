@@ -19,6 +19,7 @@ PACKAGES=(
   "build|nlohmann-json3-dev|writes the JSON results"
   "build|libcli11-dev|reads the command line"
   "build|libfmt-dev|formats numbers and messages"
+  "build|libsvgpp-dev|reads the outlines of hidden shapes: SVG++ (headers)"
   "build|zlib1g-dev|writes FST waveforms"
   "python|python3|writes the page of a table"
   "plots|python3-matplotlib|draws the figures of the report"

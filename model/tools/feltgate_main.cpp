@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   add_design(app, &exit_code);
   add_budget(app, &exit_code);
   add_law(app, &exit_code);
+  add_shape(app, &exit_code);
   add_trim(app, &exit_code);
   add_stability(app, &exit_code);
   add_scripts(app, &exit_code);

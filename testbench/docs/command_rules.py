@@ -38,7 +38,8 @@ RULES = (
     Rule(r"feltgate run end_stops_thrown", "BY", "scene.end_stops_thrown.lever_law"),
     Rule(r"feltgate run end_stops", "BY", "scene.end_stops.lever_law"),
     Rule(r"feltgate run scroll_wheel", "BY", "scene.scroll_wheel.lever_law"),
-    Rule(r"feltgate (?:run|replay|import|budget|design|law)", "WHOLE"),
+    Rule(r"feltgate shape .*--table", "BY", "shape.command"),
+    Rule(r"feltgate (?:run|replay|import|budget|design|law|shape)", "WHOLE"),
     Rule(r"feltgate generate", "WHOLE"),
     # 1: of a scene of milliseconds there may be nothing to leave out.
     Rule(r"feltgate trim", "MORE", "--unseen 1 --jobs 1", status=(0, 1)),
@@ -98,6 +99,8 @@ PLACEHOLDERS = {
     "--for SCENE...": "membrane",
     "run NAME": "wall",
     "law NAME": "wall",
+    "law ./fish.law": "wall",
+    "shape FILE.svg": "vectors/shapes/square.svg",
     "run SCENE": "wall",
     "budget SCENE": "wall",
     "point FILE": "my_design.toml",

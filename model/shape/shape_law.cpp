@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Documentation: docs/devices/shapes.md
+#include "shape/shape_law.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace feltgate::shape {
+
+namespace {
+
+/// "begin [a, b, ...] unit", broken into lines.
+std::string list(const std::string& begin, const std::vector<double>& values,
+                 const std::string& unit) {
+  std::string s, line = begin + " [";
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::string number =
+        fmt::format("{:.9g}{}", values[i], i + 1 < values.size() ? "," : "]");
+    if (line.size() + number.size() + 1 > 98) {
+      s += line + "\n";
+      line = "   ";
+    }
+    line += (line.back() == '[' ? "" : " ") + number;
+  }
+  return s + line + " " + unit + "\n";
+}
+
+template <class Of>
+std::vector<double> each(std::size_t count, const Of& of) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < count; ++i) values.push_back(of(i));
+  return values;
+}
+
+constexpr const char* pen = R"(
+# The pen of the rhombus, and its velocity.
+let L = 0.1 m
+let s1 = sin(position[0])
+let c1 = cos(position[0])
+let s5 = sin(position[1])
+let c5 = cos(position[1])
+let x = L * (c1 + c5)
+let y = L * (s1 + s5)
+let vx = clamp(-L * (s1 * velocity[0] + s5 * velocity[1]), -0.5 m/s, 0.5 m/s)
+let vy = clamp(L * (c1 * velocity[0] + c5 * velocity[1]), -0.5 m/s, 0.5 m/s)
+)";
+
+constexpr const char* force = R"(
+# A spring from the pen to that place, as long as the pen is inside; its torques on the cranks.
+let dx = clamp(ax, -0.03 m, 0.03 m)
+let dy = clamp(ay, -0.03 m, 0.03 m)
+let fx = if inside then -stiffness * dx - damping * vx else 0
+let fy = if inside then -stiffness * dy - damping * vy else 0
+out torque[0] = L * (c1 * fy - s1 * fx)
+out torque[1] = L * (c5 * fy - s5 * fx)
+)";
+
+/// Corners, the first one again at the end.
+std::string corners(const Polygon& p, const char* form) {
+  const std::size_t n = p.size();
+  const auto at = [&](std::size_t i) { return p.at[i % n]; };
+  return list(fmt::format(form, "shape_x"), each(n + 1, [&](std::size_t i) { return at(i).x; }),
+              "m") +
+         list(fmt::format(form, "shape_y"), each(n + 1, [&](std::size_t i) { return at(i).y; }),
+              "m");
+}
+
+/// Of the edge behind each corner: 1 / length, or its square.
+std::string reciprocals(const Polygon& p, const char* name, int power) {
+  return list(fmt::format("array {} =", name),
+              each(p.size(), [&](auto i) { return std::pow(p.edge_m(i), -power); }),
+              fmt::format("m^-{}", power));
+}
+
+/// Longest step along an axis from corner to corner, with room for rounding.
+double longest(const Polygon& p) {
+  double most = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) most = std::max(most, p.edge_m(i));
+  return most * 1.0001;
+}
+
+std::string proxy(const Polygon& p) {
+  const std::size_t n = p.size();
+  const std::string form = fmt::format("table {{}}(q) on [0, {}] through", n);
+  std::string s = "# Corners, and the outline's direction there.\n";
+  s += corners(p, form.c_str());
+  s +=
+      list(fmt::format(form, "along_x"), each(n + 1, [&](auto i) { return p.along[i % n].x; }), "");
+  s +=
+      list(fmt::format(form, "along_y"), each(n + 1, [&](auto i) { return p.along[i % n].y; }), "");
+  s += pen;
+  return s +
+         fmt::format(R"(
+# The proxy walks along the outline to where the pen is square to it, half an edge a run at most.
+state place = 0 in 0 .. {0}
+let ax = x - shape_x(place)
+let ay = y - shape_y(place)
+let gx = along_x(place)
+let gy = along_y(place)
+let reached = place + clamp((ax * gx + ay * gy) / {3:.6g} m, -0.5, 0.5)
+let walked = if reached < 0 then reached + {0} else if reached < {0} then reached else reached - {0}
+let behind = ax * gy - ay * gx < 0
+
+# While the pen is outside, and once around at first, half an edge further every run, looks for a
+# nearer place.
+state probe = 0 in 0 .. {1}
+next probe = clamp(if probe < {2} then probe + 0.5 else 0, 0, {1})
+state looked = 0 in 0 .. 1 whole
+next looked = if probe >= {2} then 1 else looked
+let inside = behind and looked > 0.5
+let qx = x - shape_x(probe)
+let qy = y - shape_y(probe)
+let nearer = qx * qx + qy * qy < ax * ax + ay * ay
+next place = clamp(if nearer and not inside then probe else walked, 0, {0})
+)",
+                     n, static_cast<double>(n) - 0.5, n - 1, longest(p)) +
+         force;
+}
+
+std::string simple(const Polygon& p) {
+  const std::size_t n = p.size();
+  std::string s = "# Corners, and 1 / length of the edge behind each.\n";
+  s += corners(p, "array {} =") + reciprocals(p, "per_length", 1) + pen;
+  s += fmt::format(R"(
+# The nearest edge so far, and one a run that may be nearer; where on each is nearest to the pen.
+state edge = 0 in 0 .. {0} whole
+state probe = 0 in 0 .. {0} whole
+next probe = clamp(if probe < {0} then probe + 1 else 0, 0, {0})
+)",
+                   n - 1);
+  for (const char* name : {"edge", "probe"}) {
+    s += fmt::format(R"(let {0}_x = clamp(shape_x[{0} + 1] - shape_x[{0}], -{1:.6g} m, {1:.6g} m)
+let {0}_y = clamp(shape_y[{0} + 1] - shape_y[{0}], -{1:.6g} m, {1:.6g} m)
+let {0}_fx = x - shape_x[{0}]
+let {0}_fy = y - shape_y[{0}]
+let {0}_ux = clamp({0}_x * per_length[{0}], -1, 1)
+let {0}_uy = clamp({0}_y * per_length[{0}], -1, 1)
+let {0}_long = clamp({0}_x * {0}_ux + {0}_y * {0}_uy, 0 m, {1:.6g} m)
+let {0}_s = max(min({0}_fx * {0}_ux + {0}_fy * {0}_uy, {0}_long), 0)
+let {0}_ax = {0}_fx - {0}_s * {0}_ux
+let {0}_ay = {0}_fy - {0}_s * {0}_uy
+)",
+                     name, longest(p));
+  }
+  return s +
+         R"(let nearer = probe_ax * probe_ax + probe_ay * probe_ay < edge_ax * edge_ax + edge_ay * edge_ay
+next edge = if nearer then probe else edge
+let ax = edge_ax
+let ay = edge_ay
+let inside = edge_uy * ax - edge_ux * ay < 0
+)" + force;
+}
+
+std::string walk(const Polygon& p) {
+  const std::size_t n = p.size();
+  std::string s = "# Corners, and 1 / length^2 of the edge behind each.\n";
+  s += corners(p, "array {} =") + reciprocals(p, "per_square", 2) + pen;
+  return s +
+         fmt::format(R"(
+# The proxy is at t of an edge, and goes at most half of it a run; at its ends to the neighbour.
+state edge = 0 in 0 .. {0} whole
+state t = 0 in 0 .. 1
+let ex = clamp(shape_x[edge + 1] - shape_x[edge], -{1:.6g} m, {1:.6g} m)
+let ey = clamp(shape_y[edge + 1] - shape_y[edge], -{1:.6g} m, {1:.6g} m)
+let ax = x - shape_x[edge] - t * ex
+let ay = y - shape_y[edge] - t * ey
+let reached = t + clamp((ax * ex + ay * ey) * per_square[edge], -0.5, 0.5)
+let after = if edge < {0} then edge + 1 else 0
+let before = if edge < 1 then {0} else edge - 1
+let behind = ey * ax - ex * ay < 0
+
+# While the pen is outside, and once around at first, an edge further every run, looks for a
+# nearer corner.
+state probe = 0 in 0 .. {0} whole
+next probe = clamp(if probe < {0} then probe + 1 else 0, 0, {0})
+state looked = 0 in 0 .. 1 whole
+next looked = if probe >= {0} then 1 else looked
+let inside = behind and looked > 0.5
+let qx = x - shape_x[probe]
+let qy = y - shape_y[probe]
+let nearer = qx * qx + qy * qy < ax * ax + ay * ay
+let found = nearer and not inside
+let walked = if reached >= 1 then after else if reached <= 0 then before else edge
+next edge = clamp(if found then probe else walked, 0, {0})
+let moved = if reached >= 1 then 0 else if reached <= 0 then 1 else reached
+next t = clamp(if found then 0 else moved, 0, 1)
+)",
+                     n - 1, longest(p)) +
+         force;
+}
+
+}  // namespace
+
+std::string law_text(const Polygon& polygon, const LawRequest& r) {
+  std::string s = "# " + r.summary + "\n";
+  s += fmt::format(
+      "param stiffness = {:.9g} N/m in 0 .. {:.9g} N/m\n"
+      "param damping = {:.9g} N s/m in 0 .. {:.9g} N s/m\n\n",
+      r.stiffness_n_per_m, most_stiffness_n_per_m, r.damping_ns_per_m, most_damping_ns_per_m);
+  switch (r.kind) {
+    case Kind::proxy:
+      return s + proxy(polygon);
+    case Kind::simple:
+      return s + simple(polygon);
+    case Kind::walk:
+      return s + walk(polygon);
+  }
+  return s;
+}
+
+}  // namespace feltgate::shape

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate shape. Documentation: docs/devices/shapes.md
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+#include <map>
+
+#include "files/output_file.hpp"
+#include "law/compile.hpp"
+#include "law/listing.hpp"
+#include "law/measure.hpp"
+#include "shape/felt.hpp"
+#include "shape/shape_law.hpp"
+#include "tools/commands.hpp"
+
+namespace feltgate {
+
+namespace {
+
+struct ShapeArguments {
+  std::string svg, out, path, law = "proxy", design = "lever";
+  int vertices = 100;
+  double radius_m = 5e-3, stiffness = 50, damping = 0;
+  std::array<double, 2> centre_m{0.0, 0.12};
+  double size_m = 0.06;
+  bool table = false, quiet = false;
+};
+
+const std::map<std::string, shape::Kind> kinds{
+    {"proxy", shape::Kind::proxy}, {"simple", shape::Kind::simple}, {"walk", shape::Kind::walk}};
+
+std::string name_of(shape::Kind kind) {
+  for (const auto& [name, k] : kinds) {
+    if (k == kind) return name;
+  }
+  return {};
+}
+
+law::Target target(const std::string& design) {
+  const auto e = design::elaborate(design::read_design(find_file(design, "rtl/designs")),
+                                   design::read_registers(repository() + "/rtl/registers.toml"));
+  law::Target t;
+  t.design = e.design.name;
+  t.tick_hz = e.design.tick_hz;
+  t.clocks_per_tick = e.design.clocks_per_tick();
+  t.counts_per_turn = 4 * e.design.lines;
+  t.velocity = e.design.velocity;
+  t.torque = e.design.torque;
+  return t;
+}
+
+/// What is wrong with an outline is told with its file.
+template <class Make>
+auto of_file(const std::string& file, const Make& make) {
+  try {
+    return make();
+  } catch (const std::invalid_argument& e) {
+    throw std::invalid_argument(fmt::format("{}:1: {}", file, e.what()));
+  }
+}
+
+constexpr double depth_m = 2e-3, step_m = 0.153e-3;
+
+std::string row(const law::Compiled& c, const shape::Felt& f, const std::string& kind,
+                int vertices) {
+  return fmt::format("{:<8} {:>8} {:>12} {:>8.1f} {:>10.2f} {:>12.1f} {:>12.1f} {:>6}\n", kind,
+                     vertices, c.assembled.instructions.size(), c.rate_hz / 1e3,
+                     1e3 * std::max(c.bound.output[0], c.bound.output[1]), 100 * f.rms_error,
+                     100 * f.most_step, f.jumps);
+}
+
+std::string path_of(const shape::Felt& f) {
+  std::string s = "pen_x_m,pen_y_m,force_x_n,force_y_n\n";
+  for (std::size_t i = 0; i < f.pen_m.size(); ++i) {
+    s += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}\n", f.pen_m[i].x, f.pen_m[i].y, f.force_n[i].x,
+                     f.force_n[i].y);
+  }
+  return s;
+}
+
+int run(const ShapeArguments& a) {
+  files::Outputs outputs;
+  outputs.reads(a.svg);
+  files::OutputFile* file = outputs.open("--output", a.out);
+  files::OutputFile* path_file = outputs.open("--path", a.path);
+  shape::Placing placing;
+  placing.size_m = a.size_m;
+  placing.centre_m = {a.centre_m[0], a.centre_m[1]};
+  const shape::Outline read = shape::read_svg(a.svg);
+  const shape::Curve curve =
+      of_file(a.svg, [&] { return shape::rounded(shape::placed(read, placing), a.radius_m); });
+  const law::Target design = target(a.design);
+  const std::string stem = std::filesystem::path(a.svg).stem().string();
+  const auto text_of = [&](shape::Kind kind, int vertices) {
+    const shape::Polygon polygon = of_file(a.svg, [&] {
+      shape::Polygon p = shape::sampled(curve, vertices);
+      if (shape::crosses_itself(p.at)) {
+        throw std::invalid_argument(fmt::format(
+            "with {} vertices the outline crosses itself; take more --vertices", vertices));
+      }
+      return p;
+    });
+    shape::LawRequest r;
+    r.summary = fmt::format("{}: {} vertices, corners of {:.3g} mm, {}", stem, vertices,
+                            1e3 * a.radius_m, name_of(kind));
+    r.kind = kind;
+    r.stiffness_n_per_m = a.stiffness;
+    r.damping_ns_per_m = a.damping;
+    return shape::law_text(polygon, r);
+  };
+  const std::string text = text_of(kinds.at(a.law), a.vertices);
+  const law::Compiled c = law::compile_text(text, a.out.empty() ? stem + ".law" : a.out, design);
+  std::string said = fmt::format("{}: {} corners in the file, {:.1f} mm around, {} vertices\n",
+                                 a.svg, read.size(), 1e3 * curve.length_m, a.vertices);
+  if (a.table) {
+    said +=
+        fmt::format("\n{:<8} {:>8} {:>12} {:>8} {:>10} {:>12} {:>12} {:>6}\n", "law", "vertices",
+                    "instructions", "kHz", "bound mNm", "rms error %", "most step %", "jumps");
+    for (const shape::Kind kind : {shape::Kind::simple, shape::Kind::walk, shape::Kind::proxy}) {
+      for (const int n : {20, 40, 100}) {
+        const law::Compiled one = law::compile_text(text_of(kind, n), stem + ".law", design);
+        said +=
+            row(one, shape::around(one.law, curve, a.stiffness, depth_m, step_m), name_of(kind), n);
+      }
+    }
+    said += fmt::format(
+        "around at {:.1f} mm depth in steps of {:.3f} mm: error against the smooth curve, largest "
+        "change of force\nin a step, turns of its direction beyond 30 degrees in a step\n",
+        1e3 * depth_m, 1e3 * step_m);
+  } else {
+    said += "\n" + law::report(c, law::measure(c, 1, 20000));
+  }
+  if (file != nullptr) file->write(text);
+  if (path_file != nullptr) {
+    path_file->write(path_of(shape::around(c.law, curve, a.stiffness, depth_m, step_m)));
+  }
+  if (!a.quiet) outputs.say(said);
+  outputs.commit();
+  return exit_ok;
+}
+
+}  // namespace
+
+void add_shape(CLI::App& app, int* exit_code) {
+  auto a = std::make_shared<ShapeArguments>();
+  CLI::App* sub =
+      app.add_subcommand("shape", "an SVG outline as a hidden shape for the pantograph");
+  sub->footer(
+      "Reads the one closed path of an SVG file, scales and places it into the pen's reach, "
+      "rounds\n"
+      "its corners, puts vertices along it, and writes a force law that pushes the pen out of it\n"
+      "(docs/devices/shapes.md). The law is compiled and proven before anything is written.\n"
+      "  feltgate shape vectors/shapes/square.svg\n"
+      "  feltgate shape fish.svg -o fish.law --vertices 40 --radius 3mm\n"
+      "  feltgate shape fish.svg --table          three laws, 20, 40 and 100 vertices\n"
+      "  feltgate law ./fish.law\n"
+      "Exit code: 0 all well, 2 unusable input: no path, several, an open one, one that crosses\n"
+      "itself, out of reach, an edge too short for the radius; nothing is written then.");
+  const std::map<std::string, double> lengths{{"mm", 1e-3}, {"m", 1.0}};
+  sub->add_option("svg", a->svg, "an SVG file with one closed outline")
+      ->required()
+      ->type_name("FILE");
+  sub->add_option("-o,--output", a->out, "the law file")->type_name("FILE");
+  sub->add_option("--law", a->law, "proxy, simple (nearest edge), walk (edge by edge)")
+      ->check(CLI::IsMember({"proxy", "simple", "walk"}))
+      ->type_name("LAW")
+      ->capture_default_str();
+  sub->add_option("--vertices", a->vertices, "on the outline, more where it bends")
+      ->type_name("N")
+      ->check(CLI::Range(shape::fewest_vertices, shape::most_vertices))
+      ->capture_default_str();
+  sub->add_option("--radius", a->radius_m, "of every corner, 5mm; 0mm: as drawn")
+      ->type_name("LENGTH")
+      ->transform(CLI::AsNumberWithUnit(lengths, CLI::AsNumberWithUnit::UNIT_REQUIRED));
+  sub->add_option("--size", a->size_m, "larger side of the shape, 60mm")
+      ->type_name("LENGTH")
+      ->transform(CLI::AsNumberWithUnit(lengths, CLI::AsNumberWithUnit::UNIT_REQUIRED));
+  sub->add_option("--centre", a->centre_m, "its middle, m, motors at 0 0")
+      ->type_name("X Y")
+      ->capture_default_str();
+  sub->add_option("--stiffness", a->stiffness, "N/m at first; the host may change it")
+      ->type_name("N/m")
+      ->check(CLI::Range(0.0, shape::most_stiffness_n_per_m))
+      ->capture_default_str();
+  sub->add_option("--damping", a->damping, "N s/m, likewise")
+      ->type_name("N s/m")
+      ->check(CLI::Range(0.0, shape::most_damping_ns_per_m))
+      ->capture_default_str();
+  sub->add_option("--design", a->design, "design point in rtl/designs")
+      ->type_name("DESIGN")
+      ->capture_default_str();
+  sub->add_option("--path", a->path, "a way around at 2 mm depth: pen and force, as CSV")
+      ->type_name("FILE");
+  sub->add_flag("--table", a->table, "three laws beside each other instead of the proof");
+  sub->add_flag("--quiet", a->quiet, "print nothing");
+  sub->callback([a, exit_code] { *exit_code = run(*a); });
+}
+
+}  // namespace feltgate

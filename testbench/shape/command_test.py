@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""feltgate shape: a law that feltgate law proves; bad input is one line, code 2, nothing written."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = str(Path(os.environ.get("FELTGATE_BUILD", ROOT / "build")) / "feltgate")
+SHAPES = ROOT / "vectors/shapes"
+
+
+class Shape(unittest.TestCase):
+    """In a scratch folder."""
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+
+    def run_it(self, *words):
+        """The program with these words."""
+        return subprocess.run(
+            [PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, text=True, check=False
+        )
+
+    def refused(self, said, *words):
+        """One line with what is wrong and what to do, and no file."""
+        before = sorted(os.listdir(self.folder))
+        done = self.run_it("shape", *words, "-o", "out.law")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertIn(said, done.stderr)
+        self.assertEqual(sorted(os.listdir(self.folder)), before)
+
+    def drawing(self, name, text):
+        """An SVG file in the folder."""
+        (self.folder / name).write_text(text, encoding="utf-8")
+        return name
+
+    def test_written_and_proven(self):
+        for kind, vertices in (("proxy", 40), ("simple", 20), ("walk", 20)):
+            words = ("--law", kind, "--vertices", vertices, "--radius", "2mm", "-o", "fish.law")
+            done = self.run_it("shape", SHAPES / "fish.svg", *words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("proven: no instruction saturates", done.stdout)
+            law = self.run_it("law", "./fish.law", "--json", "fish.json")
+            self.assertEqual(law.returncode, 0, law.stderr)
+            self.assertIn('"unproven": 0', (self.folder / "fish.json").read_text())
+
+    def test_table(self):
+        """The proxy's force never steps by more than 6 %, the others' by their edges."""
+        done = self.run_it("shape", SHAPES / "square.svg", "--table")
+        rows = [line.split() for line in done.stdout.splitlines()]
+        rows = [row for row in rows if row[:1] in (["simple"], ["walk"], ["proxy"])]
+        self.assertEqual(len(rows), 9, done.stdout)
+        steps = {(row[0], int(row[1])): float(row[6]) for row in rows}
+        for vertices in (20, 40, 100):
+            self.assertLess(steps["proxy", vertices], 6.0)
+            self.assertGreater(steps["simple", vertices], 10.0)
+            self.assertGreater(steps["walk", vertices], 10.0)
+
+    def test_refused(self):
+        path = '<svg xmlns="http://www.w3.org/2000/svg"><path d="{}"/></svg>'
+        self.refused("no path", self.drawing("a.svg", "<svg><text>x</text></svg>"))
+        self.refused("crosses", self.drawing("b.svg", path.format("M0 0 L9 9 L9 0 L0 9 Z")))
+        many = " ".join(f"L{i} {i % 5}" for i in range(10_000))
+        self.refused("simplify", self.drawing("c.svg", path.format("M0 0 " + many + " Z")))
+        self.refused("whole XML", self.drawing("d.svg", path.format("M0 0 L9 0")[:-9]))
+        self.refused("too short", SHAPES / "fish.svg", "--radius", "20mm")
+        self.refused("no.svg", "no.svg")
+        self.refused("--vertices", SHAPES / "fish.svg", "--vertices", "1000")
+        self.refused("--radius", SHAPES / "fish.svg", "--radius", "5")
+        self.refused("out of the pen", SHAPES / "fish.svg", "--size", "300mm")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Shapes as words: the law compiled and proven, the interpreter, the engine's twin and its RTL bit
+// for bit. Documentation: docs/devices/shapes.md
+#include <algorithm>
+#include <cmath>
+
+#include "catch.hpp"
+#include "engine/machine.hpp"
+#include "engine_device.hpp"
+#include "shape_case.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+namespace law = feltgate::law;
+
+namespace {
+
+law::Compiled compiled(const shape::Curve& curve, shape::Kind kind, int vertices) {
+  return law::compile_text(shape::text_of(curve, kind, vertices), "shape.law", law::Target{});
+}
+
+EngineMemory memory_of(const law::Image& image) {
+  EngineMemory m;
+  m.program = image.program;
+  m.data = image.data;
+  m.table = image.table;
+  m.line_base = image.line_base;
+  return m;
+}
+
+constexpr int steps = 400;
+
+/// Counts of the cranks with the pen on a way that goes in and out of the shape, all around it.
+std::array<std::int32_t, 2> counts(const law::Target& target, int step) {
+  const double angle = 0.013 * step, away = 0.028 + 0.012 * std::sin(0.057 * step);
+  const auto a = shape::cranks({away * std::cos(angle), 0.12 + away * std::sin(angle)});
+  return {static_cast<std::int32_t>(std::lround(a[0] / target.count_rad())),
+          static_cast<std::int32_t>(std::lround(a[1] / target.count_rad()))};
+}
+
+}  // namespace
+
+TEST_CASE("every law of a shape is proven, within its bound, and fits the memories") {
+  const shape::Curve fish = shape::curve_of("fish", 2e-3);
+  for (const shape::Kind kind : shape::all_kinds()) {
+    for (const int vertices : {20, 100}) {
+      const law::Compiled c = compiled(fish, kind, vertices);
+      INFO("law " << static_cast<int>(kind) << ", " << vertices << " vertices, "
+                  << c.assembled.instructions.size() << " instructions");
+      CHECK(c.bound.unproven.empty());
+      CHECK(c.rate_hz >= 40e3);
+      // 30 mm deep at 200 N/m are 6 N along each axis: of 1.2 Nm the bound is some per cent.
+      for (const double bound : c.bound.output) CHECK(bound < 0.02);
+      for (std::size_t i = 0; i < c.law.states.size(); ++i) {
+        const law::State& s = c.law.states[i];
+        if (!s.whole) CHECK(c.program.states[i].scale <= (s.range.upper - s.range.lower) / 4000);
+      }
+    }
+  }
+}
+
+TEST_CASE("shapes in the interpreter, the engine's twin and its RTL: the same bits") {
+  const shape::Curve fish = shape::curve_of("fish", 2e-3);
+  for (const shape::Kind kind : shape::all_kinds()) {
+    // An engine of three axes asks for three torques.
+    const law::Compiled c =
+        law::compile_text(shape::text_of(fish, kind, kind == shape::Kind::proxy ? 100 : 40) +
+                              "out torque[2] = 0.1 Nm * sin(position[2])\n",
+                          "shape.law", law::Target{});
+    const EngineMemory memory = memory_of(c.image);
+    LoadedDevice device(memory);
+    law::Machine machine(memory);
+    for (const law::ImageWord& w : c.image.words) {
+      const std::int32_t value = memory.data_at(EngineMap::D::parameter + w.word);
+      machine.set_parameter(w.word, value);
+    }
+    machine.commit();
+    device.write(H::max_age, 400);
+    device.write(H::divider0, 1);
+    device.write(H::crc, image_crc(memory));
+    device.in.crc_start = true;
+    device.clock();
+    while (device.out().busy) device.clock();
+    CHECK(device.out().crc_good);
+    device.write(H::commit, 1);
+    device.clock(2000);
+    device.in.armed = true;
+    device.since = -1000;  // no tick before the first run
+    device.write(H::run, 1);
+    machine.enter();
+    int felt = 0, same = 0;
+    for (int step = 0; step < steps; ++step) {
+      const auto n = counts(c.target, step);
+      device.in.position = {n[0], n[1], 3 * step};
+      device.in.velocity = {1000 * (step % 7 - 3), 900 * (step % 5 - 2), 0};
+      law::MachineInputs inputs{};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        inputs[3 * axis] = device.in.position[axis];
+        inputs[3 * axis + 1] = device.in.velocity[axis];
+      }
+      inputs[9] = static_cast<std::int32_t>(device.in.tick_count + 1);
+      const law::MachineRun& run = machine.run(c.target.thread, inputs);
+      REQUIRE(run.ended);
+      // A tick, and none amid the run.
+      device.since = kTick - 1;
+      device.clock();
+      for (int k = 0; k < 6 * (run.instructions + 8); ++k) {
+        device.since = 1;
+        device.clock();
+      }
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        same += run.outputs[axis] == device.out().torque[axis] ? 1 : 0;
+      }
+      felt += run.outputs[0] != 0 ? 1 : 0;
+      // What programs write; the bank of parameters that is not in force is the host's.
+      for (int k = 0; k < EngineMap::D::parameter; ++k) {
+        if (device.twin.memory().data_at(k) != machine.memory().data_at(k)) FAIL("word " << k);
+      }
+    }
+    INFO("law " << static_cast<int>(kind));
+    CHECK(same == 3 * steps);
+    CHECK(felt > 30);
+    CHECK(felt < steps - 50);
+    device.play();
+  }
+}

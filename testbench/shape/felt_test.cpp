@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What the laws of a shape push with: closed forms, one motion under three laws, a thin tail.
+// Documentation: docs/devices/shapes.md
+#include <algorithm>
+#include <cmath>
+
+#include "catch.hpp"
+#include "shape_case.hpp"
+
+using namespace feltgate;
+using namespace feltgate::shape;
+
+namespace {
+
+constexpr int settle = 300;
+
+/// Forces along a straight way from a to b.
+std::vector<Point> pushed(const law::Law& law, Point a, Point b, double step_m) {
+  Pen pen(law);
+  pen.at(a, settle);
+  std::vector<Point> forces;
+  const int steps = static_cast<int>(std::ceil(length(b - a) / step_m));
+  for (int i = 0; i <= steps; ++i) {
+    forces.push_back(pen.at(a + (b - a) * (static_cast<double>(i) / steps), settle));
+  }
+  return forces;
+}
+
+/// A tail 4 mm thick and 30 mm long between two bodies, lying along x at y = 0.12 m.
+Curve tail() {
+  const Outline o{{-0.03, 0.105}, {-0.015, 0.105}, {-0.015, 0.118}, {0.015, 0.118},
+                  {0.015, 0.105}, {0.03, 0.105},   {0.03, 0.135},   {0.015, 0.135},
+                  {0.015, 0.122}, {-0.015, 0.122}, {-0.015, 0.135}, {-0.03, 0.135}};
+  return rounded(o, 1e-3);
+}
+
+}  // namespace
+
+TEST_CASE("the square: 2 mm behind its side at 50 N/m are 0.1 N, square to it") {
+  for (const double radius_m : {0.0, 5e-3}) {
+    const Curve square = curve_of("square", radius_m);
+    for (const Kind kind : all_kinds()) {
+      for (const int vertices : {20, 40, 100}) {
+        const law::Law law = law_of(square, kind, vertices);
+        Pen pen(law);
+        // From 40 to 28 mm beside the middle in one step; the proxy is at (0.03, 0).
+        CHECK(length(pen.at({0.04, 0.12}, settle)) < 1e-12);
+        const Point f = pen.at({0.028, 0.12}, 2);
+        INFO("law " << static_cast<int>(kind) << ", " << vertices << " vertices, corners of "
+                    << radius_m << " m");
+        CHECK(f.x == Approx(50 * 0.002).epsilon(1e-6));
+        CHECK(std::fabs(f.y) < 1e-6);
+      }
+    }
+  }
+}
+
+TEST_CASE(
+    "a rounded shape: at 2 mm depth the force changes by 6 % per 0.153 mm of travel at most") {
+  // On an arc of 5 mm the pen goes around with 3 mm: its normal turns by 0.153 / 3 = 5.1 %.
+  for (const int vertices : {20, 40, 100}) {
+    const Curve c = curve_of("square");
+    const Felt f = around(law_of(c, Kind::proxy, vertices), c, 50, 2e-3, 0.153e-3);
+    INFO(vertices << " vertices: step " << f.most_step << ", error " << f.rms_error);
+    CHECK(f.most_step > 0.03);
+    if (vertices == 100) CHECK(f.most_step < 0.06);
+    CHECK(f.jumps == 0);
+    CHECK(f.rms_error < (vertices == 100 ? 0.02 : vertices == 40 ? 0.06 : 0.2));
+  }
+}
+
+TEST_CASE("the edges alone turn the force by their angle, and a sharp corner by all of it") {
+  const Curve c = curve_of("square");
+  const Felt edges = around(law_of(c, Kind::walk, 20), c, 50, 2e-3, 0.153e-3);
+  const Felt smooth = around(law_of(c, Kind::proxy, 20), c, 50, 2e-3, 0.153e-3);
+  INFO("edges " << edges.most_step << ", smooth " << smooth.most_step);
+  CHECK(edges.most_step > 2 * smooth.most_step);
+  // Along the diagonal beside a sharp corner the nearest side changes: 90 degrees.
+  const Curve sharp = curve_of("square", 0.0);
+  const auto f = pushed(law_of(sharp, Kind::simple, 40), {0.0281, 0.146}, {0.0279, 0.1482}, 1e-4);
+  CHECK(jumps(f) == 1);
+}
+
+TEST_CASE("a thin tail pushed through: the proxy holds on to the side it came from") {
+  const Curve c = tail();
+  const Point above{0.0, 0.124}, below{0.0, 0.1185};
+  // 5.5 mm down through 4 mm: past the middle the nearest edge is the other side.
+  const auto simple = pushed(law_of(c, Kind::simple, 100), above, below, 0.1e-3);
+  CHECK(jumps(simple) == 1);
+  CHECK(simple.back().y < 0);
+  for (const Kind kind : {Kind::proxy, Kind::walk}) {
+    const auto held = pushed(law_of(c, kind, 100), above, below, 0.1e-3);
+    CHECK(jumps(held) == 0);
+    CHECK(held.back().y == Approx(50 * (0.122 - below.y)).epsilon(1e-3));
+    CHECK(std::fabs(held.back().x) < 1e-3);
+    // Through and out: it still pushes back.
+    const auto through = pushed(law_of(c, kind, 100), above, {0.0, 0.116}, 0.1e-3);
+    CHECK(through.back().y > 0.25);
+  }
+}
+
+TEST_CASE("outside there is no force, wherever the pen comes from") {
+  for (const char* name : {"square", "fish", "bell"}) {
+    const Curve c = curve_of(name, 2e-3);
+    const Outline outline = sampled(c, 100).at;
+    const auto inside = [&](Point p) {
+      bool in = false;
+      for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Point a = outline[i], b = outline[(i + 1) % outline.size()];
+        if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)) {
+          in = !in;
+        }
+      }
+      return in;
+    };
+    for (const Kind kind : all_kinds()) {
+      const law::Law law = law_of(c, kind, 100);
+      Pen pen(law);
+      constexpr int ways = 12, runs = 50;
+      const auto at = [](double angle, double away) {
+        return Point{away * std::cos(angle), 0.12 + away * std::sin(angle)};
+      };
+      pen.at(at(0, 0.05), settle);
+      for (int way = 0; way < ways; ++way) {
+        const double angle = 2 * std::acos(-1.0) * way / ways;
+        INFO(name << ", law " << static_cast<int>(kind) << ", from " << angle << " rad");
+        for (int i = 20; i >= 0; --i) {
+          pen.at(at(angle - 2 * std::acos(-1.0) * i / (20 * ways), 0.05), runs);
+        }
+        double away = 0.05, most_n = 0;
+        for (; !inside(at(angle, away)) && away > 0; away -= 0.2e-3) {
+          most_n = std::max(most_n, length(pen.at(at(angle, away), runs)));
+        }
+        REQUIRE(away > 0);
+        CHECK(most_n < 50 * 0.1e-3);  // a polygon's edge is that near to its curve
+        for (int i = 0; i < 10; ++i, away -= 0.2e-3) pen.at(at(angle, away), runs);
+        const double depth_m = length(nearest(c, at(angle, away)).at - at(angle, away));
+        CHECK(length(pen.at(at(angle, away), settle)) == Approx(50 * depth_m).epsilon(0.15));
+        pen.at(at(angle, 0.05), settle);
+      }
+    }
+  }
+}

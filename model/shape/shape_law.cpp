@@ -48,10 +48,13 @@ let vx = clamp(-L * (s1 * velocity[0] + s5 * velocity[1]), -0.5 m/s, 0.5 m/s)
 let vy = clamp(L * (c1 * velocity[0] + c5 * velocity[1]), -0.5 m/s, 0.5 m/s)
 )";
 
-constexpr const char* force = R"(
-# A spring from the pen to that place, as long as the pen is inside; its torques on the cranks.
+constexpr const char* depth = R"(
 let dx = clamp(ax, -0.03 m, 0.03 m)
 let dy = clamp(ay, -0.03 m, 0.03 m)
+)";
+
+constexpr const char* force = R"(
+# A spring from the pen to that place, as long as the pen is inside; its torques on the cranks.
 let fx = if inside then -stiffness * dx - damping * vx else 0
 let fy = if inside then -stiffness * dy - damping * vy else 0
 out torque[0] = L * (c1 * fy - s1 * fx)
@@ -82,7 +85,23 @@ double longest(const Polygon& p) {
   return most * 1.0001;
 }
 
-std::string proxy(const Polygon& p) {
+/// The way from the first corner to each, as a share of the whole way around.
+std::string shares(const Polygon& p, const char* form) {
+  std::vector<double> so_far{0};
+  for (std::size_t i = 0; i < p.size(); ++i) so_far.push_back(so_far.back() + p.edge_m(i));
+  const double around = so_far.back();
+  for (double& s : so_far) s /= around;
+  return list(fmt::format(form, "share"), so_far, "");
+}
+
+/// Ripples that go with the way along the outline: a whole number of them, so that they close.
+constexpr const char* ripples = R"(
+let height = ripple * sin(2 * pi * ripples * share(place))
+let dx = clamp(ax - height * gy, -0.03 m, 0.03 m)
+let dy = clamp(ay + height * gx, -0.03 m, 0.03 m)
+)";
+
+std::string proxy(const Polygon& p, bool texture) {
   const std::size_t n = p.size();
   const std::string form = fmt::format("table {{}}(q) on [0, {}] through", n);
   std::string s = "# Corners, and the outline's direction there.\n";
@@ -91,6 +110,7 @@ std::string proxy(const Polygon& p) {
       list(fmt::format(form, "along_x"), each(n + 1, [&](auto i) { return p.along[i % n].x; }), "");
   s +=
       list(fmt::format(form, "along_y"), each(n + 1, [&](auto i) { return p.along[i % n].y; }), "");
+  if (texture) s += shares(p, form.c_str());
   s += pen;
   return s +
          fmt::format(R"(
@@ -117,7 +137,7 @@ let nearer = qx * qx + qy * qy < ax * ax + ay * ay
 next place = clamp(if nearer and not inside then probe else walked, 0, {0})
 )",
                      n, static_cast<double>(n) - 0.5, n - 1, longest(p)) +
-         force;
+         (texture ? ripples : depth) + force;
 }
 
 std::string simple(const Polygon& p) {
@@ -151,7 +171,8 @@ next edge = if nearer then probe else edge
 let ax = edge_ax
 let ay = edge_ay
 let inside = edge_uy * ax - edge_ux * ay < 0
-)" + force;
+)" + depth +
+         force;
 }
 
 std::string walk(const Polygon& p) {
@@ -189,7 +210,7 @@ let moved = if reached >= 1 then 0 else if reached <= 0 then 1 else reached
 next t = clamp(if found then 0 else moved, 0, 1)
 )",
                      n - 1, longest(p)) +
-         force;
+         depth + force;
 }
 
 }  // namespace
@@ -200,9 +221,13 @@ std::string law_text(const Polygon& polygon, const LawRequest& r) {
       "param stiffness = {:.9g} N/m in 0 .. {:.9g} N/m\n"
       "param damping = {:.9g} N s/m in 0 .. {:.9g} N s/m\n\n",
       r.stiffness_n_per_m, most_stiffness_n_per_m, r.damping_ns_per_m, most_damping_ns_per_m);
+  if (r.texture) {
+    s += "param ripple = 0.2 mm in 0 .. 1 mm         # height of the texture\n"
+         "param ripples = 80 in 0 .. 200 whole       # of them around the outline\n\n";
+  }
   switch (r.kind) {
     case Kind::proxy:
-      return s + proxy(polygon);
+      return s + proxy(polygon, r.texture);
     case Kind::simple:
       return s + simple(polygon);
     case Kind::walk:

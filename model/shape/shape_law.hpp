@@ -21,11 +21,12 @@ struct LawRequest {
   std::string summary;  ///< first line of the file
   Kind kind = Kind::proxy;
   double stiffness_n_per_m = 50, damping_ns_per_m = 0;
+  bool texture = false;  ///< of a proxy: parameters ripple, m, and ripples around the outline
 };
 
 /// Largest values that the law's parameters take, and fewest and most vertices.
 constexpr double most_stiffness_n_per_m = 200, most_damping_ns_per_m = 0.2;
-constexpr int fewest_vertices = 8, most_vertices = 100;
+constexpr int fewest_vertices = 8, most_vertices = 100, most_textured_vertices = 80;
 
 /// The text of the law (docs/laws.md), lines of at most 100 columns.
 std::string law_text(const Polygon& polygon, const LawRequest& request);

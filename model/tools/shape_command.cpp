@@ -26,7 +26,7 @@ struct ShapeArguments {
   double radius_m = 5e-3, stiffness = 50, damping = 0;
   std::array<double, 2> centre_m{0.0, 0.12};
   double size_m = 0.06;
-  bool table = false, quiet = false;
+  bool texture = false, table = false, quiet = false;
 };
 
 const std::map<std::string, shape::Kind> kinds{
@@ -82,6 +82,14 @@ std::string path_of(const shape::Felt& f) {
 }
 
 int run(const ShapeArguments& a) {
+  if (a.texture && (a.law != "proxy" || a.table)) {
+    throw std::invalid_argument("--texture is for --law proxy, without --table; leave one away");
+  }
+  if (a.texture && a.vertices > shape::most_textured_vertices) {
+    throw std::invalid_argument(
+        fmt::format("--texture takes table memory from {} vertices; say --vertices {}", a.vertices,
+                    shape::most_textured_vertices));
+  }
   files::Outputs outputs;
   outputs.reads(a.svg);
   files::OutputFile* file = outputs.open("--output", a.out);
@@ -107,6 +115,7 @@ int run(const ShapeArguments& a) {
     r.summary = fmt::format("{}: {} vertices, corners of {:.3g} mm, {}", stem, vertices,
                             1e3 * a.radius_m, name_of(kind));
     r.kind = kind;
+    r.texture = a.texture;
     r.stiffness_n_per_m = a.stiffness;
     r.damping_ns_per_m = a.damping;
     return shape::law_text(polygon, r);
@@ -192,6 +201,8 @@ void add_shape(CLI::App& app, int* exit_code) {
   sub->add_option("--design", a->design, "design point in rtl/designs")
       ->type_name("DESIGN")
       ->capture_default_str();
+  sub->add_flag("--texture", a->texture,
+                "ripples along the outline: parameters ripple and ripples, at most 80 vertices");
   sub->add_option("--path", a->path, "a way around at 2 mm depth: pen and force, as CSV")
       ->type_name("FILE");
   sub->add_flag("--table", a->table, "three laws beside each other instead of the proof");

@@ -74,6 +74,7 @@ class Shape(unittest.TestCase):
         self.refused("no.svg", "no.svg")
         self.refused("--vertices", SHAPES / "fish.svg", "--vertices", "1000")
         self.refused("--radius", SHAPES / "fish.svg", "--radius", "5")
+        self.refused("say --vertices 80", SHAPES / "fish.svg", "--texture")
         self.refused("out of the pen", SHAPES / "fish.svg", "--size", "300mm")
 
 

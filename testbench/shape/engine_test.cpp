@@ -61,6 +61,17 @@ TEST_CASE("every law of a shape is proven, within its bound, and fits the memori
   }
 }
 
+TEST_CASE("a texture is proven too, beside 80 vertices") {
+  shape::LawRequest request;
+  request.texture = true;
+  const law::Compiled c = law::compile_text(
+      shape::law_text(shape::sampled(shape::curve_of("fish", 2e-3), shape::most_textured_vertices),
+                      request),
+      "shape.law", law::Target{});
+  CHECK(c.bound.unproven.empty());
+  for (const double bound : c.bound.output) CHECK(bound < 0.03);
+}
+
 TEST_CASE("shapes in the interpreter, the engine's twin and its RTL: the same bits") {
   const shape::Curve fish = shape::curve_of("fish", 2e-3);
   for (const shape::Kind kind : shape::all_kinds()) {

@@ -83,6 +83,41 @@ TEST_CASE("the edges alone turn the force by their angle, and a sharp corner by 
   CHECK(jumps(f) == 1);
 }
 
+TEST_CASE("a texture: a sine of the way along the outline, square to it") {
+  const Curve c = curve_of("square");
+  const Polygon p = sampled(c, 80);
+  LawRequest request;
+  request.texture = true;
+  const law::Law law = law::read_law_text(law_text(p, request), "shape.law", 50e3);
+  Pen pen(law);
+  pen.at({0.04, 0.12}, settle);
+  double around_m = 0, least = 1, most = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) around_m += p.edge_m(i);
+  for (double y = 0.105; y < 0.135; y += 0.05e-3) {
+    const Point f = pen.at({0.028, y}, settle);
+    // The way along the polygon to (0.03, y), on one of its edges up the right side.
+    double way_m = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const Point a = p.at[i], b = p.at[(i + 1) % p.size()];
+      if (std::fabs(a.x - 0.03) < 1e-9 && std::fabs(b.x - 0.03) < 1e-9 && a.y <= y && y < b.y) {
+        way_m += y - a.y;
+        break;
+      }
+      way_m += p.edge_m(i);
+    }
+    // K (d + A sin(2 pi n s / length)), 80 ripples of 0.2 mm.
+    const double wanted_n =
+        50 * (2e-3 + 0.2e-3 * std::sin(2 * std::acos(-1.0) * 80 * way_m / around_m));
+    INFO("at " << y);
+    REQUIRE(f.x == Approx(wanted_n).margin(1e-6));
+    CHECK(std::fabs(f.y) < 1e-6);
+    least = std::min(least, f.x);
+    most = std::max(most, f.x);
+  }
+  CHECK(least == Approx(50 * 1.8e-3).epsilon(1e-2));
+  CHECK(most == Approx(50 * 2.2e-3).epsilon(1e-2));
+}
+
 TEST_CASE("a thin tail pushed through: the proxy holds on to the side it came from") {
   const Curve c = tail();
   const Point above{0.0, 0.124}, below{0.0, 0.1185};

@@ -32,6 +32,8 @@ RULES = (
     Rule(r"feltgate run pantograph_floor.*", "BY", "axes_run_test"),
     Rule(r"feltgate run pantograph_wall.*", "BY", "pantograph_wall_test"),
     Rule(r"feltgate run turn_switch", "BY", "scene.turn_switch.lever_law"),
+    Rule(r"feltgate run moved_detents", "BY", "scene.moved_detents.lever_law"),
+    Rule(r"feltgate run collision", "BY", "scene.collision.lever_law"),
     Rule(r"feltgate run flywheel", "BY", "scene.flywheel.lever_law"),
     Rule(r"feltgate run pendulum", "BY", "scene.pendulum.lever_law"),
     Rule(r"feltgate run graded_membrane", "BY", "scene.graded_membrane.lever_law"),

@@ -4,9 +4,10 @@
 // The laws of the devices with one lever against closed forms. Documentation: docs/devices.md
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <vector>
 
 #include "catch.hpp"
+#include "feltgate/random.hpp"
 #include "law_case.hpp"
 
 using namespace feltgate::law;
@@ -120,4 +121,43 @@ TEST_CASE("scroll wheel: the clutch turns it, drag slows it down") {
   const double held = wheel * (1 - dt * (clutch + 1e-3) / inertia);
   law.torque({});
   CHECK(law.torque({}) == Approx(clutch * held));
+}
+
+namespace {
+
+const char* const kPlaces[] = {"p0", "p1", "p2", "p3", "p4"};
+
+/// What a host does: detent i lies in place i mod 5, the five nearest at a time.
+std::size_t keep_nearest(Running<>& law, const std::vector<double>& all, double position) {
+  std::size_t first = 0;
+  while (first + 5 < all.size() &&
+         std::abs(all[first + 5] - position) < std::abs(all[first] - position)) {
+    ++first;
+  }
+  for (std::size_t i = first; i < first + 5; ++i) law.set(kPlaces[i % 5], all[i]);
+  return first;
+}
+
+}  // namespace
+
+TEST_CASE("moved detents: five in the mailbox feel like all of them") {
+  Running<> law(shipped("moved_detents"));
+  const double width = 5.625 * std::acos(-1.0) / 180;
+  feltgate::SplitMix64 random(2);
+  std::vector<double> all{-3};
+  for (int i = 1; i < 25; ++i) all.push_back(all.back() + random.between(2 * width, 0.5));
+  std::size_t moves = 0, before = keep_nearest(law, all, -3.1);
+  for (double x = -3.1; x < all.back() + 0.1; x += 0.0011) {
+    double nearest = 1e9;
+    for (const double p : all) nearest = std::abs(x - p) < std::abs(nearest) ? x - p : nearest;
+    const double torque = -0.1 * std::sin(std::acos(-1.0) * std::clamp(nearest / width, -1.0, 1.0));
+    const double old = law.torque({{"position", x}});
+    const std::size_t first = keep_nearest(law, all, x);
+    moves += first != before ? 1 : 0;
+    before = first;
+    // An exchange far away is not felt.
+    CHECK(law.torque({{"position", x}}) == Approx(old).margin(1e-12));
+    CHECK(old == Approx(torque).margin(1e-12));
+  }
+  CHECK(moves == all.size() - 5);
 }

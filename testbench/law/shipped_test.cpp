@@ -24,9 +24,9 @@ TEST_CASE("every shipped law has a summary and a torque, and is tested here") {
       "ceiling", "charge_far", "charge", "damper", "detent", "gimbal", "membrane", "spring",
       "quaternion", "pantograph", "pantograph_filtered", "wall",
       // lever_devices_test.cpp
-      "turn_switch", "graded_membrane", "end_stops", "scroll_wheel",
+      "turn_switch", "graded_membrane", "end_stops", "scroll_wheel", "moved_detents",
       // virtual_objects_test.cpp
-      "flywheel", "pendulum"};
+      "flywheel", "pendulum", "collision"};
   for (const auto& entry : std::filesystem::directory_iterator(FELTGATE_ROOT "/rtl/laws")) {
     if (entry.path().extension() != ".law") continue;
     const std::string name = entry.path().stem().string();

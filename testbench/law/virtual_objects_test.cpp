@@ -175,3 +175,32 @@ TEST_CASE("flywheel, pendulum: at their own rate nothing that a host can set is 
     CHECK(k * dt * dt + 2 * b * dt < 4 * range("inertia").lower / 100);
   }
 }
+
+TEST_CASE("collision: both momenta and energies are those of an elastic blow") {
+  Running<> law(shipped("collision"));
+  const auto state = [&](const char* name) {
+    return law.evaluation().state(state_of(law.law(), name));
+  };
+  law.set("stiffness", 0);  // the lever has let go
+  law.set("damping", 0);
+  for (const auto& [first, second] :
+       {std::pair{0.4e-3, 0.1e-3}, {0.2e-3, 0.2e-3}, {0.1e-3, 2e-3}}) {
+    INFO(first << " against " << second);
+    law.evaluation().reset();
+    law.set("inertia", first);
+    law.set("other", second);
+    law.torque({});
+    law.evaluation().set_state(state_of(law.law(), "speed"), 10);
+    law.evaluation().set_state(state_of(law.law(), "gap"), 0.01);
+    bool touched = false;
+    for (int i = 0; i < 3000; ++i) {
+      law.torque({});
+      touched |= state("gap") < 0;
+      CHECK(first * state("speed") + second * state("speed2") == Approx(10 * first).epsilon(1e-10));
+    }
+    CHECK(touched);
+    CHECK(state("gap") > 0);
+    CHECK(state("speed") == Approx(10 * (first - second) / (first + second)).margin(0.01));
+    CHECK(state("speed2") == Approx(20 * first / (first + second)).margin(0.01));
+  }
+}

@@ -134,7 +134,9 @@ std::size_t keep_nearest(Running<>& law, const std::vector<double>& all, double 
          std::abs(all[first + 5] - position) < std::abs(all[first] - position)) {
     ++first;
   }
-  for (std::size_t i = first; i < first + 5; ++i) law.set(kPlaces[i % 5], all[i]);
+  for (std::size_t i = first; i < first + 5; ++i) {
+    law.set(kPlaces[i % 5], std::round(all[i] * 4096 / (2 * std::acos(-1.0))));
+  }
   return first;
 }
 
@@ -144,8 +146,11 @@ TEST_CASE("moved detents: five in the mailbox feel like all of them") {
   Running<> law(shipped("moved_detents"));
   const double width = 5.625 * std::acos(-1.0) / 180;
   feltgate::SplitMix64 random(2);
-  std::vector<double> all{-3};
-  for (int i = 1; i < 25; ++i) all.push_back(all.back() + random.between(2 * width, 0.5));
+  const double unit = width / 64;
+  std::vector<double> all{-2000 * unit};
+  for (int i = 1; i < 25; ++i) {
+    all.push_back(all.back() + std::ceil(random.between(128, 330)) * unit);
+  }
   std::size_t moves = 0, before = keep_nearest(law, all, -3.1);
   for (double x = -3.1; x < all.back() + 0.1; x += 0.0011) {
     double nearest = 1e9;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <memory>
 #include <stdexcept>
+#include <type_traits>
 
 #include "axes_loop/axes_engines.hpp"
 #include "axes_loop/device_signals.hpp"
@@ -362,6 +363,10 @@ class AxesRun : plant::AxesDevice<Plant> {
   double work_j_ = 0, given_j_ = 0, busy_s_ = 0;
 };
 
+template <class Setup>
+using PlantOf = std::conditional_t<std::is_same_v<std::decay_t<Setup>, PantographSetup>,
+                                   plant::Pantograph, plant::TwoLevers>;
+
 template <class Plant, class Setup>
 AxesResult run_on(const AxesScene& scene, const Setup& setup, const AxesRunOptions& options) {
   const AxesDesignMakers* d = find_axes_design(options.design);
@@ -373,13 +378,15 @@ AxesResult run_on(const AxesScene& scene, const Setup& setup, const AxesRunOptio
 }  // namespace
 
 std::vector<std::string> axes_columns(const AxesScene& scene) {
-  (void)scene;
-  return columns_of<plant::Pantograph>();
+  return std::visit([](const auto& setup) { return columns_of<PlantOf<decltype(setup)>>(); },
+                    scene.device);
 }
 
 AxesResult run_axes(const AxesScene& scene, const AxesRunOptions& options) {
   try {
-    return run_on<plant::Pantograph>(scene, std::get<PantographSetup>(scene.device), options);
+    return std::visit(
+        [&](const auto& setup) { return run_on<PlantOf<decltype(setup)>>(scene, setup, options); },
+        scene.device);
   } catch (const plant::MotionError& error) {
     throw config::ConfigError(scene.scenario.path + ": " + error.what());
   }

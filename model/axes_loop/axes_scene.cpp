@@ -6,9 +6,12 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "config/toml_reader.hpp"
 #include "plant/pantograph/pantograph.hpp"
 #include "plant/pantograph/pantograph_file.hpp"
+#include "plant/plant_file.hpp"
 #include "plant/plant_table.hpp"
 
 namespace feltgate {
@@ -23,9 +26,24 @@ DeviceSetup setup_of(const std::string& path, config::TomlReader& top) {
     if (top.has("hand")) s.hand = plant::read_pen_hand(top.section("hand"));
     return s;
   }
+  if (file.contains("levers")) {
+    TwoLeversSetup s;
+    config::TomlReader device(file, path, "the file");
+    s.parameters.name = device.text("name");
+    config::TomlReader levers = device.section("levers");
+    const auto folder = std::filesystem::path(path).parent_path();
+    s.parameters.lever = plant::read_plant_file((folder / levers.text("plant")).string());
+    levers.finish();
+    device.finish();
+    s.parameters.encoder = s.parameters.lever.encoder;
+    s.parameters.effects = s.parameters.lever.effects;
+    if (top.has("hand")) s.hand[0] = plant::read_hand(top.section("hand"));
+    if (top.has("met")) s.hand[1] = plant::read_hand(top.section("met"));
+    return s;
+  }
   throw config::ConfigError(path +
                             ":1: no device that `feltgate run` knows; it takes one with the "
-                            "table [linkage], a pantograph");
+                            "table [linkage], a pantograph, or [levers]");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 // and the hand of that device. Documentation: docs/scenes.md
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <variant>
@@ -12,6 +13,7 @@
 #include "loop/scenario.hpp"
 #include "plant/pantograph/pantograph_parameters.hpp"
 #include "plant/pantograph/pen_hand.hpp"
+#include "plant/two_levers/two_levers.hpp"
 
 namespace feltgate {
 
@@ -21,7 +23,13 @@ struct PantographSetup {
   plant::PenHand hand;
 };
 
-using DeviceSetup = std::variant<PantographSetup>;
+struct TwoLeversSetup {
+  static constexpr int axes = 2;
+  plant::TwoLeversParameters parameters;
+  std::array<plant::Hand, 2> hand;  ///< on the first lever, and what the second one meets
+};
+
+using DeviceSetup = std::variant<PantographSetup, TwoLeversSetup>;
 
 struct AxesScene {
   Scenario scenario;  ///< its hand is empty

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "plant/pantograph/pantograph.hpp"
+#include "plant/two_levers/two_levers.hpp"
 
 namespace feltgate {
 
@@ -20,6 +21,15 @@ struct DeviceSignals<plant::Pantograph> {
   static void add(const plant::Pantograph& p, std::vector<double>& to) {
     const plant::PantographSeen& s = p.seen();
     to.insert(to.end(), {s.pen_m.x, s.pen_m.y, s.hand_n.x, s.hand_n.y});
+  }
+};
+
+template <>
+struct DeviceSignals<plant::TwoLevers> {
+  static std::vector<std::string> names() { return {"hand_nm", "met_nm", "met_work_j"}; }
+  static void add(const plant::TwoLevers& p, std::vector<double>& to) {
+    const plant::TwoLeversSeen& s = p.seen();
+    to.insert(to.end(), {s.hand_nm[0], s.hand_nm[1], s.met_work_j});
   }
 };
 

@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "bridge.hpp"
@@ -41,6 +44,15 @@ class AxesDevice {
   virtual Clock next(Clock now) const = 0;
 };
 
+/// Whether a plant may have ideal motors in place of bridges.
+template <class Plant, class = void>
+constexpr bool takes_torques = false;
+template <class Plant>
+constexpr bool
+    takes_torques<Plant, std::void_t<decltype(std::declval<Plant&>().advance(
+                             std::declval<const std::array<double, Plant::axes>&>(), Clock{1}))>> =
+        true;
+
 template <class Plant>
 class AxesLoop {
  public:
@@ -59,11 +71,7 @@ class AxesLoop {
       }
       const Clock corner = std::min({end, next_, plant_.next_corner(), plant_.now() + longest_});
       const Clock clocks = corner - plant_.now();
-      if (command_.ideal) {
-        plant_.advance(command_.torque_nm, clocks);
-      } else {
-        plant_.advance(command_.bridges, clocks);
-      }
+      advance(clocks);
       for (std::size_t axis = 0; axis < Plant::axes; ++axis) {
         const auto& fresh = plant_.events(axis);
         events_[axis].insert(events_[axis].end(), fresh.begin(), fresh.end());
@@ -76,6 +84,14 @@ class AxesLoop {
   }
 
  private:
+  void advance(Clock clocks) {
+    if constexpr (takes_torques<Plant>) {
+      if (command_.ideal) return plant_.advance(command_.torque_nm, clocks);
+    }
+    if (command_.ideal) throw std::logic_error("this plant has no ideal motors");
+    plant_.advance(command_.bridges, clocks);
+  }
+
   Plant& plant_;
   AxesDevice<Plant>& device_;
   Clock longest_;

@@ -31,6 +31,7 @@ RULES = (
     Rule(r"feltgate run (?:detent|my_scene\.toml --set amplitude\S*)", "BY", "scene.detent.lever_law"),
     Rule(r"feltgate run pantograph_floor.*", "BY", "axes_run_test"),
     Rule(r"feltgate run pantograph_wall.*", "BY", "pantograph_wall_test"),
+    Rule(r"feltgate run coupled_levers.*", "BY", "coupled_levers_test"),
     Rule(r"feltgate run turn_switch", "BY", "scene.turn_switch.lever_law"),
     Rule(r"feltgate run moved_detents", "BY", "scene.moved_detents.lever_law"),
     Rule(r"feltgate run collision", "BY", "scene.collision.lever_law"),

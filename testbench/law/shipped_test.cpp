@@ -22,7 +22,7 @@ constexpr double kDegree = kPi / 180;
 TEST_CASE("every shipped law has a summary and a torque, and is tested here") {
   const std::vector<std::string> tested{
       "ceiling", "charge_far", "charge", "damper", "detent", "gimbal", "membrane", "spring",
-      "quaternion", "pantograph", "pantograph_filtered", "wall",
+      "quaternion", "pantograph", "pantograph_filtered", "coupled_levers", "wall",
       // lever_devices_test.cpp
       "turn_switch", "graded_membrane", "end_stops", "scroll_wheel", "moved_detents",
       // virtual_objects_test.cpp
@@ -295,6 +295,24 @@ TEST_CASE("pantograph: against formulas, over its range") {
         CHECK(law.output(0) == Approx(J[0][0] * fx + J[1][0] * fy).margin(1e-14));
         CHECK(law.output(1) == Approx(J[0][1] * fx + J[1][1] * fy).margin(1e-14));
       }
+    }
+  }
+}
+
+TEST_CASE("coupled_levers: a spring between them, mixed with what the follower's observer sees") {
+  Running<> law(shipped("coupled_levers"));
+  law.set("calm", 0.01);
+  for (const double share : {0.0, 0.3, 1.0}) {
+    law.set("share", share);
+    for (const double apart : {-0.5, -0.1, 0.02, 0.2}) {  // 4 Nm/rad, at most 1 Nm
+      law.torque({{"position", 0.7 + apart},
+                  {"position[1]", 0.7},
+                  {"velocity", 3},
+                  {"velocity[1]", 5},
+                  {"tau_hat[1]", 0.07}});
+      const double pull = std::clamp(4 * apart, -1.0, 1.0) - 0.02, follows = pull + share * 0.07;
+      CHECK(law.output(1) == Approx(follows).margin(1e-14));
+      CHECK(law.output(0) == Approx(-(1 - share) * follows - share * 0.07 - 0.03).margin(1e-14));
     }
   }
 }

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Two levers coupled: what the second meets and the hand feels, drag, and the border of stability,
+// position to position against the observer's torque. docs/devices/coupled_levers.md
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "axes_fixture.hpp"
+#include "catch.hpp"
+#include "levers_loop.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+AxesScene scene_with(const std::string& name, double stiffness, double damping, double share) {
+  AxesScene scene = scene_named(name);
+  scene.scenario.parameters["stiffness"] = stiffness;
+  scene.scenario.parameters["damping"] = damping;
+  scene.scenario.parameters["share"] = share;
+  scene.scenario.expectations.clear();
+  return scene;
+}
+
+/// Stiffness that the led lever gives against a hand at 0.3 rad, Nm/rad.
+double felt_nm_rad(double stiffness, double share) {
+  const AxesResult r = run_scene(scene_with("coupled_levers", stiffness, 0.02, share), "twin");
+  return -r.figures.at("tau_ref_nm.0.end") / r.figures.at("theta_rad.0.end");
+}
+
+/// Work of the hand in a period of 0.5 rad either way at 2 Hz, J.
+double drag_j(double share) {
+  return run_scene(scene_with("coupled_levers_drag", 4, 0.02, share), "twin")
+      .figures.at("hand_energy_j");
+}
+
+/// How far the levers swing against each other early and late after a push, rad.
+struct Swing {
+  double early_rad = 0, late_rad = 0;
+};
+Swing pushed(double stiffness, double damping, double share) {
+  const AxesScene scene = scene_with("coupled_levers_free", stiffness, damping, share);
+  const std::vector<std::string> columns = axes_columns(scene);
+  const auto at = [&](const char* name) {
+    return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) -
+                                    columns.begin());
+  };
+  const std::size_t first = at("theta_rad.0"), second = at("theta_rad.1");
+  double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};
+  (void)run_scene(
+      scene, "twin",
+      [&](const std::vector<double>& row) {
+        const double s = row[0], apart = row[first] - row[second];
+        const int part = s >= 0.05 && s < 0.1 ? 0 : s >= 0.25 ? 1 : -1;
+        if (part < 0) return;
+        low[part] = std::min(low[part], apart);
+        high[part] = std::max(high[part], apart);
+      },
+      50);
+  return {high[0] - low[0], high[1] - low[1]};
+}
+
+const plant::Parameters& lever() {
+  static const AxesScene scene = scene_named("coupled_levers");
+  return std::get<TwoLeversSetup>(scene.device).parameters.lever;
+}
+
+}  // namespace
+
+TEST_CASE("coupled levers: a spring that the second one meets is felt, by its observer as it is") {
+  // Position to position the law's spring is in series; 4.5 mNm of dry friction at 0.3 Nm are 1.5
+  // %.
+  CHECK(felt_nm_rad(4, 0) == Approx(4.0 / 5.0).epsilon(0.03));
+  CHECK(felt_nm_rad(4, 1) == Approx(1.0).epsilon(0.02));
+}
+
+TEST_CASE("coupled levers: the drag of a free second lever") {
+  // 2 rad of way against 3.5 mNm of each motor.
+  CHECK(drag_j(0) == Approx(14e-3).epsilon(0.07));
+  const double observed = drag_j(1);
+  CHECK(observed > 7e-3);
+  CHECK(observed < 14e-3);
+}
+
+TEST_CASE("coupled levers: the border position to position is that of the eigenvalues") {
+  const LeversLoop loop;
+  const double border = loop.border_nm_rad(lever());
+  INFO("border " << border << " Nm/rad");
+  const Swing below = pushed(0.85 * border, loop.damping_nm_s_rad, 0);
+  const Swing above = pushed(1.15 * border, loop.damping_nm_s_rad, 0);
+  CHECK(below.late_rad < 0.85 * below.early_rad);
+  CHECK(above.late_rad > 1.3 * above.early_rad);
+  // 5 % by position alone would need 19 Nm/rad.
+  CHECK(border < 19);
+}
+
+TEST_CASE("coupled levers: the observer's torque costs some of that border") {
+  CHECK(pushed(4, 0.005, 1).late_rad < 6e-3);
+  CHECK(pushed(8, 0.005, 1).late_rad > 50e-3);
+  CHECK(pushed(8, 0.005, 0).late_rad < 6e-3);
+}
+
+TEST_CASE("coupled levers: RTL and twin in every clock, the law within its bound") {
+  AxesScene scene = scene_with("coupled_levers_free", 4, 0.005, 0.5);
+  scene.scenario.duration_s = 0.045;  // the push begins at 0.03 s
+  const AxesResult r = run_scene(scene, "all");
+  INFO(r.first_mismatch);
+  CHECK(r.mismatches == 0);
+  CHECK(r.broken.empty());
+  CHECK(r.axes[0].law_error_nm.count() > 15'000);
+  CHECK(r.figures.at("tau_ref_nm.0.swing") > 0.02);
+  CHECK(r.figures.at("tau_ref_nm.1.swing") > 0.02);
+}

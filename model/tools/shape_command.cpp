@@ -163,8 +163,8 @@ void add_shape(CLI::App& app, int* exit_code) {
       "its corners, puts vertices along it, and writes a force law that pushes the pen out of it\n"
       "(docs/devices/shapes.md). The law is compiled and proven before anything is written.\n"
       "  feltgate shape vectors/shapes/square.svg\n"
-      "  feltgate shape fish.svg -o fish.law --vertices 40 --radius 3mm\n"
-      "  feltgate shape fish.svg --table          three laws, 20, 40 and 100 vertices\n"
+      "  feltgate shape vectors/shapes/fish.svg -o fish.law --vertices 40 --radius 3mm\n"
+      "  feltgate shape vectors/shapes/fish.svg --radius 3mm --table\n"
       "  feltgate law ./fish.law\n"
       "Exit code: 0 all well, 2 unusable input: no path, several, an open one, one that crosses\n"
       "itself, out of reach, an edge too short for the radius; nothing is written then.");

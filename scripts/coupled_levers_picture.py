@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Draws docs/images/coupled_levers.svg: what is felt of a spring that the second lever meets, and two
-free levers after a push, below and above the border, from the rows of four runs.
+"""Draws docs/images/coupled_levers.svg: what is felt of a spring that the second lever meets, and
+two free levers after a push, below and above the border, from the rows of four runs.
 
   ./feltgate run coupled_levers --engine twin --every 200 --set share=0 --csv position.csv
   ./feltgate run coupled_levers --engine twin --every 200 --csv observer.csv
@@ -54,7 +54,8 @@ def main(position, observer, below, above):
     apart(right, below, BLUE, "11 Nm/rad")
     right.set(xlabel="time [ms]", ylabel="apart [mrad]", title="pushed apart, border 12.4 Nm/rad")
     right.legend(loc="upper left", frameon=False)
-    figure.savefig(ROOT / "docs/images/coupled_levers.svg", metadata={"Date": None, "Creator": None})
+    nobody = {"Date": None, "Creator": None}
+    figure.savefig(ROOT / "docs/images/coupled_levers.svg", metadata=nobody)
 
 
 if __name__ == "__main__":

@@ -99,7 +99,7 @@ class CompiledAxesLaw : public AxesLaw {
   }
   const SceneLaw& host() const override { return *host_; }
   SceneLaw::Writes set(const std::string& parameter, double value) override {
-    SceneLaw::Writes writes = host_->set(parameter, value);
+    SceneLaw::Writes writes = host_->set({{parameter, value}});
     for (std::size_t n = 0; n < law_.law.parameters.size(); ++n) {
       if (law_.law.parameters[n].name == parameter) note(n);
     }

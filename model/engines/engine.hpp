@@ -60,6 +60,13 @@ struct Snapshot {
   }
 };
 
+/// What a law tells the host: the event's number in the file, its value as a word, the tick.
+struct LawEvent {
+  int number = 0;
+  std::int32_t value = 0;
+  std::uint32_t tick = 0;
+};
+
 /// Switches and pins of the board.
 struct Panel {
   bool arm = false;
@@ -95,6 +102,9 @@ class Engine {
   /// false: nobody will ask for gates(), which then need not be kept up; before the first
   /// advance().
   virtual void keep_gate_times(bool) {}
+  /// All that the law has told since reset(), the first 65536; of an engine without one none. Only
+  /// at the end of a run: it may change how the engine goes on, not what it does.
+  virtual std::vector<LawEvent> law_events() { return {}; }
   /// Duty in force in the bridge, in clocks of the PWM period, and whether the gates are open.
   virtual int duty() const = 0;
   virtual bool gates_enabled() const = 0;

@@ -7,7 +7,9 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <type_traits>
+#include <vector>
 
 #include "engine.hpp"
 #include "feltgate/feltgate_axes.hpp"
@@ -41,6 +43,20 @@ class LawCore {
   std::int16_t sampled_travel() const { return axes_.core(0).sampled_travel(); }
   /// Of core and engine.
   std::int64_t writes() const { return axes_.core(0).writes() + engine_writes_; }
+  /// What the law has told since the reset.
+  std::vector<LawEvent> law_events() {
+    std::vector<LawEvent> all;
+    for (const auto& e : axes_.glue().engine().told()) {
+      all.push_back({e.number, e.value, e.tick});
+    }
+    return all;
+  }
+  /// What it tells in this clock; only after clock().
+  std::optional<LawEvent> law_event() const {
+    const AxesOut<1>& out = axes_.out();
+    if (!out.event_valid) return std::nullopt;
+    return LawEvent{out.event_number, out.event_value, 0};
+  }
   /// Whether the engine would not take a write.
   bool busy() const { return axes_.glue().busy(); }
   /// What a snapshot says of the law's runs.
@@ -81,6 +97,15 @@ void tell_of_law(const Core&, Snapshot*) {}
 template <class D, bool ReadBack>
 void tell_of_law(const LawCore<D, ReadBack>& core, Snapshot* s) {
   core.tell(s);
+}
+/// What a law has told.
+template <class Core>
+std::vector<LawEvent> law_events_of(Core&) {
+  return {};
+}
+template <class D, bool ReadBack>
+std::vector<LawEvent> law_events_of(LawCore<D, ReadBack>& core) {
+  return core.law_events();
 }
 /// Whether what a write would go to takes it.
 template <class Core>

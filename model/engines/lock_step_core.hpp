@@ -7,6 +7,7 @@
 
 #include <array>
 #include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -94,6 +95,8 @@ class LockStepCore {
   void trace(const std::string& path, Clock from, Clock to) { rtl_.trace(path, from, to); }
 
   const Twin& twin() const { return twin_; }
+  /// What the law has told, by the twin.
+  std::vector<LawEvent> law_events() { return law_events_of(twin_); }
 
   /// Clocks that the twin may lead before the RTL follows.
   Clock room() const { return static_cast<Clock>(longest - shown_); }
@@ -103,6 +106,9 @@ class LockStepCore {
     held_.push_back({in, static_cast<std::size_t>(clocks)});
     for (Clock k = 0; k < clocks; ++k) {
       twin_.clock(in);
+      if constexpr (is_axes<Rtl>) {
+        if (const auto e = twin_.law_event()) shown_events_.push_back({shown_, *e});
+      }
       const CoreOut& out = twin_.out();
       shown_outputs_.put(shown_++, out);
       if (out.snapshot_valid) on_snapshot();
@@ -130,31 +136,55 @@ class LockStepCore {
 
   void clear() {
     shown_ = 0;
+    shown_events_.clear();
     held_.clear();
   }
   /// Flat: the outputs are compared where they are, not copied first.
   [[gnu::flatten]] void compare() {
-    std::size_t n = 0;
+    std::size_t n = 0, event = 0;
     for (const Inputs& inputs : held_) {
       rtl_.drive(inputs.in);
       for (const std::size_t end = n + inputs.clocks; n < end; ++n) {
         rtl_.edge();
         if (!shown_outputs_.holds(n, rtl_.out())) miss(n);
+        if constexpr (is_axes<Rtl>) compare_event(n, &event);
       }
     }
     clock_ += static_cast<Clock>(n);
   }
   [[gnu::noinline, gnu::cold]] void miss(std::size_t n) {
+    miss(n, difference(rtl_.out(), shown_outputs_.at(n)));
+  }
+  void miss(std::size_t n, const std::string& what) {
     if (mismatches_++ > 0) return;
     first_clock_ = clock_ + static_cast<Clock>(n);
-    first_ = "clock " + std::to_string(first_clock_) + ", " +
-             difference(rtl_.out(), shown_outputs_.at(n));
+    first_ = "clock " + std::to_string(first_clock_) + ", " + what;
+  }
+  /// What the law tells the host, in the same clock; `next` of the twin's is the one to come.
+  void compare_event(std::size_t n, std::size_t* next) {
+    const std::optional<LawEvent> rtl = rtl_.law_event();
+    const bool shown = *next < shown_events_.size() && shown_events_[*next].clock == n;
+    const LawEvent twin = shown ? shown_events_[(*next)++].event : LawEvent{};
+    if (rtl.has_value() == shown &&
+        (!shown || (rtl->number == twin.number && rtl->value == twin.value))) {
+      return;
+    }
+    const auto told = [](bool is, const LawEvent& e) {
+      return is ? std::to_string(e.number) + " of " + std::to_string(e.value) : "none";
+    };
+    miss(n, "event: rtl " + told(rtl.has_value(), rtl.value_or(LawEvent{})) + ", twin " +
+                told(shown, twin));
   }
 
   Twin twin_;
   RtlCore<Rtl, D> rtl_;
   std::vector<Inputs> held_;
   OutputLog<longest> shown_outputs_;
+  struct ShownEvent {
+    std::size_t clock;  ///< of those shown
+    LawEvent event;
+  };
+  std::vector<ShownEvent> shown_events_;
   std::size_t shown_ = 0;  ///< of them, clocks
   Clock clock_ = 0;        ///< to which the first of them belongs
   std::int64_t mismatches_ = 0;

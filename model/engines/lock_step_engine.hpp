@@ -64,6 +64,7 @@ class LockStepEngine : public ClockedEngine {
     return {after[0] - gates_before_[0], after[1] - gates_before_[1], after[2] - gates_before_[2],
             after[3] - gates_before_[3]};
   }
+  std::vector<LawEvent> law_events() override { return core_.law_events(); }
   int duty() const override { return core_.twin().out().duty_active; }
   bool gates_enabled() const override { return core_.twin().out().gates_enable; }
 

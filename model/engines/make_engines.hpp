@@ -29,12 +29,19 @@ class RtlEngine : public ClockedEngine {
       core_.clock(in);
       note(core_.out());
       if (last_.snapshot_valid) keep(last_, 0, 0);
+      if (const auto e = core_.law_event())
+        told_.push_back({e->number, e->value, last_.tick_count});
     });
   }
+  std::vector<LawEvent> law_events() override { return told_; }
 
  private:
-  void reset_core(std::uint64_t seed, EncoderPins pins) override { core_.power_up(seed, pins); }
+  void reset_core(std::uint64_t seed, EncoderPins pins) override {
+    core_.power_up(seed, pins);
+    told_.clear();
+  }
   RtlCore<Rtl, D> core_;
+  std::vector<LawEvent> told_;
 };
 
 template <class Rtl, class D>

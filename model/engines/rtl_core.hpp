@@ -62,6 +62,8 @@ class RtlCore {
   }
 
   CoreOut out() const { return read_outputs<D>(**rtl_); }
+  /// What the law of a core with an engine tells in this clock.
+  std::optional<LawEvent> law_event() const { return read_law_event(**rtl_); }
 
   /// Writes the clocks [from, to] after the next power_up() to an FST file; to < 0: to the end.
   /// Clock n begins at n periods of the design's clock and rises in their middle.

@@ -5,9 +5,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
+#include "engine.hpp"
 #include "feltgate/core_ports.hpp"
 
 namespace feltgate {
@@ -90,6 +92,18 @@ CoreOut read_outputs(const Rtl& rtl) {
   o.word_slot = rtl.word_slot_o;
   o.word_data = rtl.word_data_o;
   return o;
+}
+
+/// The event that a core with an engine shows; its tick is left 0.
+template <class Rtl>
+std::optional<LawEvent> read_law_event(const Rtl& rtl) {
+  if constexpr (is_axes<Rtl>) {
+    if (rtl.event_valid_o) {
+      return LawEvent{static_cast<int>(rtl.event_number_o),
+                      static_cast<std::int32_t>(rtl.event_value_o), 0};
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace feltgate

@@ -80,6 +80,10 @@ class TwinEngine : public ClockedEngine {
     return {after[0] - gates_before_[0], after[1] - gates_before_[1], after[2] - gates_before_[2],
             after[3] - gates_before_[3]};
   }
+  std::vector<LawEvent> law_events() override {
+    settle();
+    return law_events_of(core_);
+  }
   int duty() const override { return core_.out().duty_active; }
   bool gates_enabled() const override { return core_.out().gates_enable; }
 

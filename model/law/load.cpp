@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -146,13 +147,25 @@ void LoadedParameters::check(const std::string& name, double value) const {
   (void)rounded_si(name, value);
 }
 
+double LoadedParameters::within(const std::string& name, double value) const {
+  const ImageWord* word = find(name);
+  if (word == nullptr) return value;
+  const double unit = word->scale / word->to_si;
+  const double a = word->lower * unit, b = word->upper * unit;
+  return std::clamp(value, std::min(a, b), std::max(a, b));
+}
+
 std::vector<HostWord> LoadedParameters::set(const std::string& name, double value) {
-  si_[name] = rounded_si(name, value);
-  std::vector<double> values;
+  return set(std::map<std::string, double>{{name, value}});
+}
+
+std::vector<HostWord> LoadedParameters::set(const std::map<std::string, double>& values) {
+  for (const auto& [name, value] : values) si_[name] = rounded_si(name, value);
+  std::vector<double> all;
   for (const ImageWord& w : image_.words) {
-    if (w.formula.empty()) values.push_back(si_.at(w.name));
+    if (w.formula.empty()) all.push_back(si_.at(w.name));
   }
-  const std::vector<std::int32_t> words = parameter_words(image_, values);
+  const std::vector<std::int32_t> words = parameter_words(image_, all);
   std::vector<HostWord> writes;
   for (const ImageWord& w : image_.words) {
     writes.push_back({H::data + Image::parameter_base + w.word,

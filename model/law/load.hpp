@@ -51,6 +51,10 @@ class LoadedParameters {
   /// into force together. Errors: std::invalid_argument, for an unknown name with what there is,
   /// for a value out of its range with the range.
   std::vector<HostWord> set(const std::string& name, double value);
+  /// The same of several, by one commit; of none: the words that stand.
+  std::vector<HostWord> set(const std::map<std::string, double>& values);
+  /// The nearest value that the parameter takes; of an unknown name the value itself.
+  double within(const std::string& name, double value) const;
   /// Only the errors of set().
   void check(const std::string& name, double value) const;
   /// As rounded to its word, in the unit of the file.

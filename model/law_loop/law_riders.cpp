@@ -20,11 +20,12 @@ namespace {
 template <class N>
 class RealLaw : public LawRider {
  public:
-  RealLaw(const law::Compiled& law, const DesignInfo& design, const std::vector<LawChange>& changes)
+  RealLaw(const law::Compiled& law, const DesignInfo& design, const LawChanges& changes)
       : law_(law), count_rad_(design.count_rad), changes_(changes), evaluation_(law.law) {}
   void change() override {
-    const LawChange& c = changes_.at(next_++);
-    evaluation_.set_parameter(c.parameter, rounded<N>(law_, c));
+    for (const LawChange& c : changes_.at(next_++)) {
+      evaluation_.set_parameter(c.parameter, rounded<N>(law_, c));
+    }
   }
 
  private:
@@ -44,7 +45,7 @@ class RealLaw : public LawRider {
 
   const law::Compiled& law_;
   double count_rad_;
-  const std::vector<LawChange>& changes_;
+  const LawChanges& changes_;
   std::size_t next_ = 0;
   law::Evaluation<N> evaluation_;
   std::vector<N> inputs_;
@@ -53,15 +54,15 @@ class RealLaw : public LawRider {
 /// The image: compiled C++ where the law is a shipped one, else its words in the interpreter.
 class FixedLaw : public LawRider {
  public:
-  FixedLaw(const law::Compiled& law, const DesignInfo& design,
-           const std::vector<LawChange>& changes)
+  FixedLaw(const law::Compiled& law, const DesignInfo& design, const LawChanges& changes)
       : law_(law),
         torque_(design.torque),
         changes_(changes),
         runner_(law::make_law_runner(law::memory(law.image), law::crc(law.image))) {}
   void change() override {
-    const LawChange& c = changes_.at(next_++);
-    values_[law_.law.parameters[c.parameter].name] = c.si;
+    for (const LawChange& c : changes_.at(next_++)) {
+      values_[law_.law.parameters[c.parameter].name] = c.si;
+    }
     std::vector<double> values;
     for (const law::ImageWord& w : law_.image.words) {
       if (!w.formula.empty()) continue;
@@ -92,7 +93,7 @@ class FixedLaw : public LawRider {
 
   const law::Compiled& law_;
   Format torque_;
-  const std::vector<LawChange>& changes_;
+  const LawChanges& changes_;
   std::size_t next_ = 0;
   std::map<std::string, double> values_;  ///< SI
   std::unique_ptr<law::LawRunner> runner_;
@@ -101,8 +102,7 @@ class FixedLaw : public LawRider {
 }  // namespace
 
 std::unique_ptr<LawRider> make_law_rider(const law::Compiled& law, const DesignInfo& design,
-                                         const std::string& kind,
-                                         const std::vector<LawChange>& changes) {
+                                         const std::string& kind, const LawChanges& changes) {
   if (kind == "fixed") return std::make_unique<FixedLaw>(law, design, changes);
   if (kind == "quad") return std::make_unique<RealLaw<Quad>>(law, design, changes);
   return std::make_unique<RealLaw<double>>(law, design, changes);

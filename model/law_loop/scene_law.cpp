@@ -29,11 +29,11 @@ class CompiledSceneLaw : public SceneLaw {
   CompiledSceneLaw(law::Compiled law, DesignInfo design)
       : law_(std::move(law)), design_(std::move(design)), parameters_(law_.image) {
     // The riders begin with the values as rounded to words.
+    changes_.emplace_back();
     for (std::size_t n = 0; n < law_.law.parameters.size(); ++n) {
       const law::Parameter& p = law_.law.parameters[n];
       if (p.derived < 0 && has(p.name)) note(n);
     }
-    initial_ = changes_.size();
   }
   const std::string& name() const override { return law_.law.name; }
   bool compiled() const override { return law::is_shipped(law::crc(law_.image)); }
@@ -52,30 +52,47 @@ class CompiledSceneLaw : public SceneLaw {
     parameters_.check(parameter, value);
   }
   double value(const std::string& parameter) const override { return parameters_.value(parameter); }
-  Writes set(const std::string& parameter, double value) override {
-    const auto words = parameters_.set(parameter, value);
+  bool is_mailbox(const std::string& parameter) const override {
+    const auto& all = law_.law.parameters;
+    return std::any_of(all.begin(), all.end(),
+                       [&](const law::Parameter& p) { return p.mailbox && p.name == parameter; });
+  }
+  double within(const std::string& parameter, double value) const override {
+    return parameters_.within(parameter, value);
+  }
+  Writes set(const std::map<std::string, double>& values) override {
+    const auto words = parameters_.set(values);
+    changes_.emplace_back();
     for (std::size_t n = 0; n < law_.law.parameters.size(); ++n) {
-      if (law_.law.parameters[n].name == parameter) note(n);
+      if (values.count(law_.law.parameters[n].name) != 0) note(n);
     }
     return of_port(words);
   }
+  double period_s() const override {
+    return law_.image.threads[0].divider / static_cast<double>(design_.tick_hz);
+  }
+  std::pair<std::string, double> event(const LawEvent& told) const override {
+    for (const law::ImageEvent& e : law_.image.events) {
+      if (e.number == told.number) return {e.name, told.value * e.scale};
+    }
+    return {fmt::format("event{}", told.number), told.value};
+  }
   std::unique_ptr<LawRider> rider(const std::string& kind) const override {
     auto made = make_law_rider(law_, design_, kind, changes_);
-    for (std::size_t n = 0; n < initial_; ++n) made->change();
+    made->change();
     return made;
   }
 
  private:
   void note(std::size_t parameter) {
     const law::Parameter& p = law_.law.parameters[parameter];
-    changes_.push_back({parameter, parameters_.value(p.name) * p.to_si});
+    changes_.back().push_back({parameter, parameters_.value(p.name) * p.to_si});
   }
 
   law::Compiled law_;
   DesignInfo design_;
   law::LoadedParameters parameters_;
-  std::vector<LawChange> changes_;
-  std::size_t initial_ = 0;
+  LawChanges changes_;
 };
 
 }  // namespace

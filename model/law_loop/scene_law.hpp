@@ -40,9 +40,9 @@ N rounded(const law::Compiled& law, const LawChange& c) {
 
 /// Runs it in the numbers of a chain of this kind: "fixed" runs the image, "quad" the graph in
 /// binary128, the others in double. `changes` are the parameters' numbers and SI values, in the
-/// order in which they are set; it may grow.
+/// order in which they are set, those of a commit together; it may grow.
+using LawChanges = std::vector<std::vector<LawChange>>;
 std::unique_ptr<LawRider> make_law_rider(const law::Compiled& law, const DesignInfo& design,
-                                         const std::string& kind,
-                                         const std::vector<LawChange>& changes);
+                                         const std::string& kind, const LawChanges& changes);
 
 }  // namespace feltgate

@@ -52,16 +52,24 @@ void Ensemble::run_law(SceneLaw& law) {
   for (Rider& r : riders_) r.law = law.rider(r.figures.name);
 }
 
-void Ensemble::set_parameter(const std::string& name, double value) {
-  if (law_ != nullptr && law_->has(name)) {
-    for (const auto& [address, data] : law_->set(name, value)) write({0, address, data, 0});
-    return;
+void Ensemble::set_parameters(const std::map<std::string, double>& values) {
+  std::map<std::string, double> of_law;
+  for (const auto& [name, value] : values) {
+    if (law_ != nullptr && law_->has(name)) {
+      of_law[name] = value;
+      continue;
+    }
+    const ParameterInfo* info = design().find(name);
+    if (info == nullptr) {
+      throw std::invalid_argument(design().unknown(name));
+    }
+    write({0, info->address, static_cast<std::uint32_t>(quantise_parameter(*info, value)), value});
   }
-  const ParameterInfo* info = design().find(name);
-  if (info == nullptr) {
-    throw std::invalid_argument(design().unknown(name));
-  }
-  write({0, info->address, static_cast<std::uint32_t>(quantise_parameter(*info, value)), value});
+  if (!of_law.empty()) feed_law(of_law);
+}
+
+void Ensemble::feed_law(const std::map<std::string, double>& values) {
+  for (const auto& [address, data] : law_->set(values)) write({0, address, data, 0});
 }
 
 void Ensemble::set_control(int scene, int mode, bool arm) {

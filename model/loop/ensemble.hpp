@@ -7,6 +7,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -40,7 +41,11 @@ class Ensemble {
   /// A parameter of the law or of the design in its unit, for every engine; takes effect with the
   /// same tick in all.
   /// Throws std::invalid_argument for an unknown name or a value that does not fit.
-  void set_parameter(const std::string& name, double value);
+  void set_parameter(const std::string& name, double value) { set_parameters({{name, value}}); }
+  /// Those of the law come into force together.
+  void set_parameters(const std::map<std::string, double>& values);
+  /// Values of the law alone, by one commit; none: what stands is committed anew.
+  void feed_law(const std::map<std::string, double>& values);
   void set_control(int scene, int mode, bool arm);
   void command(std::uint32_t bits);
   /// Register writes wait for their ticks.

@@ -10,12 +10,13 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 
 #include "config/toml_reader.hpp"
 #include "loop/ensemble.hpp"
 #include "loop/expectations.hpp"
+#include "loop/host_feed.hpp"
+#include "loop/rest.hpp"
 #include "loop/scenario_check.hpp"
 #include "loop/step_plan.hpp"
 #include "plant/drive.hpp"
@@ -58,8 +59,10 @@ class ScenarioRun {
         felt_(1.0 / static_cast<double>(core_.design().tick_hz)),
         scene_(scene_number(core_.design(), scenario.scene)),
         mode_(scenario.mode),
-        counter_(plant_.encoder().pins()) {
+        counter_(plant_.encoder().pins()),
+        feed_(scenario, options.law, core_.design().clock_hz) {
     last_.theta_rad = plant_.observables().theta_rad;
+    if (scenario.rest_from_s) rest_.from_clock = clock_of(*scenario.rest_from_s);
   }
 
   RunResult run() {
@@ -77,7 +80,7 @@ class ScenarioRun {
       *options_.inputs = {end, plant_.encoder().pins(), {}, {}};
       core_.note_writes(&options_.inputs->writes);
     }
-    for (const auto& [name, value] : s_.parameters) core_.set_parameter(name, value);
+    core_.set_parameters(s_.parameters);
     core_.set_control(scene_, mode_, false);
     core_.lead().keep_gate_times(s_.switched);
     std::size_t next_event = 0;
@@ -93,9 +96,12 @@ class ScenarioRun {
         apply(s_.events[next_event++]);
         event_at = event_clock(next_event);
       }
+      if (now >= feed_.next()) {
+        feed_.act(now, plant_.observables().theta_rad, position_ * d.count_rad, core_);
+      }
       // What is asked for is done by the end of a tick, and so is what follows from it.
       if (core_.writes_wait()) plan_.stir(now, 2 * d.clocks_per_tick);
-      Clock corner = std::min(event_at, plant_.next_corner());
+      Clock corner = std::min({event_at, plant_.next_corner(), feed_.next()});
       if (now < arm_at) corner = std::min(corner, arm_at);
       step(plan_.end_of_step(now, corner, end) - now);
       if (options_.progress && now >= next_report) {
@@ -128,7 +134,7 @@ class ScenarioRun {
   }
 
   void apply(const Event& e) {
-    for (const auto& [name, value] : e.set) core_.set_parameter(name, value);
+    core_.set_parameters(e.set);
     if (e.stop) {
       if (options_.inputs != nullptr) {
         throw std::invalid_argument("scene " + s_.name +
@@ -147,7 +153,8 @@ class ScenarioRun {
     }
     end_step();
     if (e.step_nm) {
-      step_ = {*e.step_nm, StepSamples(last_.tau_hat_nm), StepSamples(last_.motor_torque_nm)};
+      step_ = std::make_unique<StepRecord>(StepRecord{*e.step_nm, StepSamples(last_.tau_hat_nm),
+                                                      StepSamples(last_.motor_torque_nm)});
     }
   }
 
@@ -222,6 +229,8 @@ class ScenarioRun {
     core_.signals(r, s);
     felt_.tick(r.tau_ref_nm, r.torque_nm, s.limits, s.faults);
     felt_.motor(r.motor_torque_nm, r.tau_ref_nm);
+    position_ = s.position;
+    if (plant_.now() >= rest_.from_clock) rest_.add(theta_rad, r.tau_ref_nm);
     faults_ |= s.faults;
     tau_ref_.add(r.tau_ref_nm);
     tau_hat_.add(r.tau_hat_nm);
@@ -267,6 +276,12 @@ class ScenarioRun {
     for (EngineFigures& e : out.engines) {
       if (closes_loop(e.name)) e.steps = steps_;
     }
+    if (options_.law != nullptr) {
+      for (const LawEvent& e : core_.lead().law_events()) {
+        const auto [name, value] = options_.law->event(e);
+        out.events.push_back({e.tick / static_cast<double>(d.tick_hz), name, value});
+      }
+    }
     fill_figures(out, steps_);
     ExpectationsHeld held = hold_expectations(s_, out.design, out.figures);
     out.felt.expectations = std::move(held.all);
@@ -295,6 +310,14 @@ class ScenarioRun {
     f["tau_ref_end_nm"] = last_.tau_ref_nm;
     f["hand_energy_j"] = out.felt.energy.net_from_hand_j();
     f["energy_absorbed_j"] = absorbed_j_;
+    if (s_.rest_from_s) rest_.tell(f);
+    std::map<std::string, int> told;
+    for (const RunEvent& e : out.events) {
+      const int n = told[e.name]++;
+      f[fmt::format("event.{}.{}", e.name, n)] = e.value;
+      f[fmt::format("event_s.{}.{}", e.name, n)] = e.at_s;
+    }
+    if (options_.law != nullptr) f["events"] = static_cast<double>(out.events.size());
     for (std::size_t i = 0; i < steps.size(); ++i) {
       const std::string n = fmt::format(".{}", i);
       f["tau_hat_settling_ms" + n] = steps[i].tau_hat.settling_ms;
@@ -332,8 +355,11 @@ class ScenarioRun {
   int faults_ = 0;
   double absorbed_j_ = 0;
   Range tau_ref_, tau_hat_, velocity_, theta_;
+  std::int32_t position_ = 0;  ///< counts, as the core showed it last
+  HostFeed feed_;
+  Rest rest_;
   Row last_;
-  std::optional<StepRecord> step_;  ///< under way
+  std::unique_ptr<StepRecord> step_;  ///< under way
   std::vector<StepFigures> steps_;
 };
 

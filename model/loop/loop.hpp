@@ -53,6 +53,13 @@ struct PositionFigures {
   std::int64_t steps = 0, illegal = 0, reversals = 0;
 };
 
+/// What a law told the host.
+struct RunEvent {
+  double at_s = 0;
+  std::string name;
+  double value = 0;  ///< SI
+};
+
 struct RunResult {
   std::string design, subject;  ///< subject: scene or trace
   Clock clocks = 0;
@@ -67,6 +74,7 @@ struct RunResult {
   std::string reference;  ///< engine that the others are compared with, "quad" or "double", or none
   std::vector<EngineFigures> engines;
   Felt felt;
+  std::vector<RunEvent> events;           ///< of the scene's law
   std::map<std::string, double> figures;  ///< what scene files put bounds on
   std::vector<std::string> broken;  ///< expectations and bounds that do not hold, one line each
   double simulated_s = 0;

@@ -50,6 +50,22 @@ Event read_event(config::TomlReader r, const toml::table& table, double duration
   return e;
 }
 
+TrackerSettings read_tracker(config::TomlReader r) {
+  TrackerSettings t;
+  t.line = r.line("mailbox");
+  t.mailbox = r.text("mailbox");
+  if (r.has("encoder_mailbox")) t.encoder_mailbox = r.text("encoder_mailbox");
+  if (r.has("of")) t.of_encoder = r.choice("of", {"lever", "encoder"}) == 1;
+  t.rate_hz = r.number("rate_hz", {0.1, 10e3});
+  t.noise_rad = r.number_or("noise_rad", t.noise_rad, {0, 1});
+  t.resolution_rad = r.number_or("resolution_rad", t.resolution_rad, {0, 1});
+  t.alpha = r.number_or("alpha", t.alpha, {1e-3, 1});
+  t.latency_s = r.number_or("latency_s", t.latency_s, {0, 1});
+  if (r.has("seed")) t.seed = static_cast<std::uint64_t>(r.integer("seed", 0, 1'000'000'000));
+  r.finish();
+  return t;
+}
+
 /// The flags that the table gives: what is the same whatever it stands on.
 std::vector<EffectSetting> read_effects_set(const config::TomlReader& table) {
   plant::Effects all, none;
@@ -116,6 +132,18 @@ Scenario read(const toml::table& root, const std::string& path,
   }
   std::stable_sort(s.events.begin(), s.events.end(),
                    [](const Event& a, const Event& b) { return a.at_s < b.at_s; });
+  if (top.has("feed")) {
+    config::TomlReader feed = top.section("feed");
+    s.feed_line = feed.line("rate_hz");
+    s.feed_hz = feed.number("rate_hz", {0.1, 10e3});
+    feed.finish();
+  }
+  if (top.has("tracker")) s.tracker = read_tracker(top.section("tracker"));
+  if (top.has("rest")) {
+    config::TomlReader rest = top.section("rest");
+    s.rest_from_s = rest.number("from_s", {0, s.duration_s});
+    rest.finish();
+  }
   if (top.has("effects")) s.effects_set = read_effects_set(top.section("effects"));
   const auto expectations = top.sections("expect");
   for (std::size_t i = 0; i < expectations.size(); ++i) {

@@ -15,6 +15,7 @@
 
 #include "../plant/hand.hpp"
 #include "../plant/parameters.hpp"
+#include "tracker.hpp"
 
 namespace feltgate {
 
@@ -67,8 +68,12 @@ struct Scenario {
   std::map<std::string, double> parameters;    ///< set before arming, in their units
   std::map<std::string, int> parameter_lines;  ///< of those that the file sets
   std::vector<Event> events;                   ///< in order of time
-  std::vector<EffectSetting> effects_set;      ///< by the scene
-  plant::Effects effects;                      ///< of the plant, as the scene overrides them
+  double feed_hz = 0;  ///< how often the host sends the mailbox anew; 0: it does not
+  int feed_line = 0;
+  std::optional<TrackerSettings> tracker;
+  std::optional<double> rest_from_s;       ///< from then on the lever should rest
+  std::vector<EffectSetting> effects_set;  ///< by the scene
+  plant::Effects effects;                  ///< of the plant, as the scene overrides them
   plant::Hand hand;
   std::vector<Expectation> expectations;
 };

@@ -44,6 +44,29 @@ void check_parameter(const std::string& place, const std::string& name, double v
   }
 }
 
+/// The host can only feed what the law of the scene keeps as a mailbox.
+void check_mailbox(const Scenario& s, const SceneLaw* law) {
+  const auto refuse = [&](int line, const std::string& what) {
+    throw config::ConfigError(fmt::format("{}:{}: {}", s.path, line, what));
+  };
+  if (s.feed_hz > 0 && law == nullptr) {
+    refuse(s.feed_line,
+           "[feed] needs a law with a mailbox; name one under [core], or leave it out");
+  }
+  if (!s.tracker) return;
+  const TrackerSettings& t = *s.tracker;
+  if (law == nullptr) {
+    refuse(t.line, "[tracker] needs a law with a mailbox; name one: law = \"wall_tracked\"");
+  }
+  for (const std::string& name :
+       {t.mailbox, t.encoder_mailbox.empty() ? t.mailbox : t.encoder_mailbox}) {
+    if (law->is_mailbox(name)) continue;
+    refuse(t.line, fmt::format("law {} has no mailbox \"{}\"; name one that it has, or write "
+                               "`mailbox {} = 0 rad in -10 .. 10 rad max_age 20 ms` into it",
+                               law->name(), name, name));
+  }
+}
+
 /// What the core would drop without a word: the torque could jump by it.
 void check_held(const Scenario& s, const DesignInfo& design) {
   bool armed = false, asked = false;
@@ -91,6 +114,7 @@ void check_asked(const Scenario& s, const DesignInfo& design, const SceneLaw* la
                       law);
     }
   }
+  check_mailbox(s, law);
   check_held(s, design);
 }
 

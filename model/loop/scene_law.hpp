@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -73,9 +74,17 @@ class SceneLaw {
   virtual void check(const std::string& parameter, double value) const = 0;
   /// As rounded to its word, in the unit of the law's file.
   virtual double value(const std::string& parameter) const = 0;
-  /// The value in the unit of the law's file, one set of parameters per call. Errors:
-  /// std::invalid_argument with the range.
-  virtual Writes set(const std::string& parameter, double value) = 0;
+  /// Values in the units of the law's file, which come into force together; none: what stands is
+  /// sent anew, which keeps a mailbox fresh. Errors: std::invalid_argument with the range.
+  virtual Writes set(const std::map<std::string, double>& values) = 0;
+  /// Whether the host has to keep this parameter fresh.
+  virtual bool is_mailbox(const std::string& parameter) const = 0;
+  /// The nearest value that set() takes.
+  virtual double within(const std::string& parameter, double value) const = 0;
+  /// From run to run, s.
+  virtual double period_s() const = 0;
+  /// What an event of its program says: name, and value in SI.
+  virtual std::pair<std::string, double> event(const LawEvent& told) const = 0;
   /// Kinds as make_real_chain(). With the values of before the first set(); change() is the next.
   virtual std::unique_ptr<LawRider> rider(const std::string& kind) const = 0;
 };

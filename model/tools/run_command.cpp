@@ -14,6 +14,7 @@
 #include "files/output_file.hpp"
 #include "law_loop/scene_law.hpp"
 #include "loop/bounded.hpp"
+#include "loop/event_lines.hpp"
 #include "loop/scenario_check.hpp"
 #include "plant/plant_file.hpp"
 #include "tools/checks.hpp"
@@ -29,7 +30,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RunArguments {
-  std::string scene, design = "lever", plant, engine = "all", report, json, csv, fst, record;
+  std::string scene, design = "lever", plant, engine = "all", report, json, csv, fst, record,
+                     events;
   std::vector<std::string> set;
   std::uint64_t seed = 1;
   int every = 0;  ///< 0: sane_every()
@@ -124,6 +126,13 @@ int run(const RunArguments& a) {
   files::OutputFile* csv = outputs.open("--csv", a.csv);
   files::OutputFile* fst = outputs.open("--fst", a.fst);
   files::OutputFile* record = outputs.open("--record", a.record);
+  files::OutputFile* events = outputs.open("--events", a.events);
+  if (events != nullptr && law == nullptr) {
+    throw std::invalid_argument(
+        fmt::format("{}:{}: --events writes what a law tells, and the scene runs none; name one: "
+                    "law = \"drums\"",
+                    scene_path, scenario.scene_line));
+  }
   if (fst != nullptr) options.fst = fst->named();
   if (record != nullptr) options.record = record->handle();
   const design::Elaborated elaborated = elaborated_design(a.design);
@@ -160,6 +169,7 @@ int run(const RunArguments& a) {
   for (files::OutputFile* file : {json, report_json}) {
     if (file != nullptr) file->write(run_json(result, labels));
   }
+  if (events != nullptr) events->write(event_lines(result.events, law->period_s()));
   if (!a.quiet) {
     outputs.say(run_text(result, labels));
     if (law != nullptr) {
@@ -240,6 +250,9 @@ void add_run(CLI::App& app, int* exit_code) {
   sub->add_option("--fst", a->fst, "waveform of every clock of the RTL (large: short scenes only)")
       ->type_name("FILE");
   sub->add_option("--record", a->record, "the encoder's edges as a vector file (docs/traces.md)")
+      ->type_name("FILE");
+  sub->add_option("--events", a->events,
+                  "events of the scene's law as lines for Pure Data (docs/devices/drums.md)")
       ->type_name("FILE");
   sub->add_flag("--quiet", a->quiet, "print only what went wrong");
   sub->callback([a, exit_code] {

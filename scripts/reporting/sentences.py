@@ -23,6 +23,10 @@ TITLES = {
     "calibration_open_loop": "Calibration with voltages",
     "calibration_closed_loop": "Calibration with torques",
     "detent": "Knob with clicks, from a law file",
+    "ceiling": "Soft ceiling over a stick",
+    "wall_tracked": "Wall on a tracker",
+    "ceiling_tracked": "Ceiling on a tracker and an encoder",
+    "drums": "Three drums under a stick",
 }
 
 SAID = {
@@ -48,6 +52,14 @@ SAID = {
     "lets go: nothing has wound up, and the lever does not leap.",
     "detent": "The hand turns a knob with clicks, between {low} and {high}: the motor pushes with "
     "up to {most} to the nearest one. The force is a law file, which the FPGA runs as a program.",
+    "ceiling": "A stick on the lever goes up into a soft ceiling: the motor pushes back with the "
+    "square of the depth, up to {most}.",
+    "wall_tracked": "The hand leans on a wall that sees the lever only 144 times a second, with "
+    "noise: the motor pushes back with up to {most}, and trembles.",
+    "ceiling_tracked": "The hand leans on a soft ceiling that sees the lever by a tracker and goes "
+    "on by the encoder: the motor pushes back with up to {most}.",
+    "drums": "A stick strikes the drums beneath it one after the other: a skin pushes back with up "
+    "to {most}, and the program tells how hard and where it was hit.",
 }
 MOVED = "The lever moves between {low} and {high}, and the motor puts up to {most} on it."
 STILL = "The lever stands still, and the motor puts up to {most} on it."

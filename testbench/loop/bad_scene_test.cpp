@@ -110,6 +110,23 @@ TEST_CASE("events that an armed core drops", "[bad_scene]") {
              event("0.011", "arm = true")) == "");
 }
 
+TEST_CASE("what the host should feed and cannot", "[bad_scene]") {
+  expect(told(kHead + "[tracker]\nmailbox = \"tracked\"\nrate_hz = 144\n"),
+         "7: [tracker] needs a law with a mailbox", "name one: law = ");
+  expect(told(kHead + "[feed]\nrate_hz = 144\n"), "7: [feed] needs a law with a mailbox",
+         "or leave it out");
+  const auto tracker = [](const std::string& key) {
+    return told(kHead + "[tracker]\nmailbox = \"tracked\"\nrate_hz = 144\n" + key + "\n");
+  };
+  expect(tracker("alpha = 1.5"), "9: \"alpha\" = 1.5 is out of range", "from 0.001 to 1");
+  expect(tracker("noise_rad = -1"), "9: \"noise_rad\" = -1 is out of range", "from 0 to 1");
+  expect(tracker("latency_s = 2"), "9: \"latency_s\" = 2 is out of range", "from 0 to 1");
+  expect(tracker("of = \"hand\""), "9: ", "encoder");
+  expect(told(kHead + "[tracker]\nmailbox = \"tracked\"\n"), "6: ", "rate_hz");
+  expect(told(kHead + "[rest]\nfrom_s = 0.03\n"), "7: \"from_s\" = 0.03 is out of range",
+         "from 0 to 0.02");
+}
+
 TEST_CASE("bounds that nothing keeps", "[bad_scene]") {
   expect(told(kHead + "[[expect]]\nfigure = \"faults\"\nlow = 3\nhigh = 2\n"),
          "8: no value is above low and below high", "exchange them");

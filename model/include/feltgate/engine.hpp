@@ -98,6 +98,8 @@ class Engine {
 
   /// Whether a thread is in a run, or about to be: its inputs have been latched.
   bool running(int thread) const { return (inputs_.running >> thread & 1U) != 0; }
+  /// Every event since the reset, up to EngineEvents::most_told of them.
+  const std::vector<EngineEvents::Event>& told() const { return events_.told; }
 
   void clock(const In& in) {
     last_ = in;

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "feltgate/engine_parameters.hpp"
 #include "feltgate/generated/engine.hpp"
@@ -274,14 +275,22 @@ class EngineEvents {
     std::uint32_t tick = 0;
   };
 
+  /// Told events that a simulation remembers, whoever takes them from the places; no hardware.
+  static constexpr std::size_t most_told = 65536;
+
   int count = 0, lost = 0;
+  std::vector<Event> told;
 
   /// What is in the places stays.
-  void reset() { first_ = count = lost = 0; }
+  void reset() {
+    first_ = count = lost = 0;
+    told.clear();
+  }
   const Event& oldest() const { return events_[static_cast<std::size_t>(first_)]; }
 
   void clock(bool event, const Event& e, bool take) {
     const bool full = count == 16, takes = take && count != 0;
+    if (event && told.size() < most_told) told.push_back(e);
     if (event && full) lost = std::min(lost + 1, 0xff);
     if (event && !full) events_[static_cast<std::size_t>((first_ + count) % 16)] = e;
     if (takes) first_ = (first_ + 1) % 16;

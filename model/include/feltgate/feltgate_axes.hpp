@@ -79,6 +79,7 @@ class FeltgateAxes {
   auto& engine() { return glue_.engine(); }
   /// What lies between engine and cores.
   const Glue& glue() const { return glue_; }
+  Glue& glue() { return glue_; }
   /// For `clocks` clocks neither a duty in force nor an enable of gates changes, as
   /// FeltgateCore::calm().
   bool calm(const In& in, std::int64_t clocks) {

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What the host of a scene sends by itself into the mailbox of its law. Documentation:
+// docs/scenes.md
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "ensemble.hpp"
+#include "scenario.hpp"
+#include "tracker.hpp"
+
+namespace feltgate {
+
+class HostFeed {
+ public:
+  /// `law` is that of the scene; scene and law must outlive this.
+  HostFeed(const Scenario& scenario, const SceneLaw* law, std::int64_t clock_hz)
+      : scenario_(scenario), law_(law), clock_hz_(static_cast<double>(clock_hz)) {
+    if (scenario.tracker) tracker_.emplace(*scenario.tracker, clock_hz);
+    if (scenario.feed_hz > 0) next_ = 0;
+  }
+
+  /// The next clock with something to do.
+  Clock next() const { return tracker_ ? std::min(next_, tracker_->next()) : next_; }
+  /// Does it: the lever's angle and the core's position are those of `now`.
+  void act(Clock now, double angle_rad, double encoder_rad, Ensemble& core) {
+    if (tracker_) track(now, angle_rad, encoder_rad, core);
+    if (now < next_) return;
+    core.feed_law({});
+    next_ = std::llround(static_cast<double>(++sent_) * clock_hz_ / scenario_.feed_hz);
+  }
+
+ private:
+  void track(Clock now, double angle_rad, double encoder_rad, Ensemble& core) {
+    tracker_->sample(now, angle_rad, encoder_rad);
+    const std::optional<TrackerSample> seen = tracker_->take(now);
+    if (!seen) return;
+    const TrackerSettings& t = *scenario_.tracker;
+    std::map<std::string, double> words{{t.mailbox, seen->angle_rad}};
+    if (!t.encoder_mailbox.empty()) words[t.encoder_mailbox] = seen->encoder_rad;
+    for (auto& [name, value] : words) value = law_->within(name, value);
+    core.feed_law(words);
+  }
+
+  const Scenario& scenario_;
+  const SceneLaw* law_;
+  double clock_hz_;
+  std::optional<Tracker> tracker_;
+  Clock next_ = std::numeric_limits<Clock>::max();
+  std::int64_t sent_ = 0;
+};
+
+}  // namespace feltgate

@@ -43,6 +43,10 @@ RULES = (
     Rule(r"feltgate run scroll_wheel", "BY", "scene.scroll_wheel.lever_law"),
     Rule(r"feltgate shape .*--table", "BY", "shape.command"),
     Rule(r"feltgate (?:run|replay|import|budget|design|law|shape)", "WHOLE"),
+    Rule(r"feltgate run ceiling(?!_)", "BY", "scene.ceiling.lever_law"),
+    Rule(r"feltgate run drums", "BY", "scene.drums.lever_law"),
+    Rule(r"feltgate run (?:wall|ceiling)_tracked", "BY", "tracked_test"),
+    Rule(r"feltgate (?:run|replay|import|budget|design|law)", "WHOLE"),
     Rule(r"feltgate generate", "WHOLE"),
     # 1: of a scene of milliseconds there may be nothing to leave out.
     Rule(r"feltgate trim", "MORE", "--unseen 1 --jobs 1", status=(0, 1)),
@@ -65,6 +69,7 @@ RULES = (
     Rule(r"ctest", "MORE", "-N"),
     Rule(r"scripts/check_blocks\.py", "WHOLE"),
     Rule(r"scripts/tests\.py", "PARSED"),
+    Rule(r"scripts/drums_sound\.py", "BY", "report.drums_sound_test"),
     Rule(r"scripts/rtl_speed\.py", "BY", "bench.rtl_speed"),
     Rule(r"scripts/defects\.py copy", "BY", "repository.defects_test"),
     Rule(r"sbatch .*scripts/explore\.sbatch", "NAMED"),

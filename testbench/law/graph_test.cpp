@@ -62,6 +62,10 @@ TEST_CASE("every law is in order: arguments first, nothing dead, nothing twice")
     }
     for (const Output& o : law.outputs) note(o.value);
     for (const State& s : law.states) note(s.next);
+    for (const Event& e : law.events) {
+      note(e.condition);
+      note(e.value);
+    }
     for (const Table& t : law.tables) {
       note(t.body);
       note(t.argument);

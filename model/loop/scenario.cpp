@@ -141,6 +141,7 @@ Scenario read(const toml::table& root, const std::string& path,
   if (top.has("tracker")) s.tracker = read_tracker(top.section("tracker"));
   if (top.has("rest")) {
     config::TomlReader rest = top.section("rest");
+    s.rest_line = rest.line("from_s");
     s.rest_from_s = rest.number("from_s", {0, s.duration_s});
     rest.finish();
   }

@@ -71,7 +71,8 @@ struct Scenario {
   double feed_hz = 0;  ///< how often the host sends the mailbox anew; 0: it does not
   int feed_line = 0;
   std::optional<TrackerSettings> tracker;
-  std::optional<double> rest_from_s;       ///< from then on the lever should rest
+  std::optional<double> rest_from_s;  ///< from then on the lever should rest
+  int rest_line = 0;
   std::vector<EffectSetting> effects_set;  ///< by the scene
   plant::Effects effects;                  ///< of the plant, as the scene overrides them
   plant::Hand hand;

@@ -241,12 +241,6 @@ val own_design(const std::string& text) {
 
 }  // namespace
 
-/// No law is compiled into the page: the interpreter runs them all.
-const std::vector<feltgate::law::CompiledEntry>& feltgate::law::shipped_laws() {
-  static const std::vector<CompiledEntry> none;
-  return none;
-}
-
 EMSCRIPTEN_BINDINGS(feltgate) {
   emscripten::class_<Loop>("Loop")
       .constructor<std::string, std::string>()

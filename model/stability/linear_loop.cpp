@@ -24,10 +24,16 @@ struct State {
 
 constexpr int kScalars = 10;
 
+int delay_of(const Wall& wall) {
+  if (wall.delay_ticks >= 0) return wall.delay_ticks;
+  return wall.scene_ticks > 1 ? host_ticks : 0;
+}
+
 /// The tick `k` of the loop.
 void tick(const LoopModel& m, const Wall& wall, long k, State& s) {
   if (k % m.pwm_ticks == 0) s.volts = s.volts_new;
-  if (wall.scene_ticks > 1 && (k - host_ticks) % wall.scene_ticks == 0) s.torque = s.torque_next;
+  const int delay = delay_of(wall);
+  if (delay > 0 && (k - delay) % wall.scene_ticks == 0) s.torque = s.torque_next;
   const double travel = s.angle - s.window[s.oldest];
   s.window[s.oldest] = s.angle;
   if (++s.oldest == s.window.size()) s.oldest = 0;
@@ -35,10 +41,9 @@ void tick(const LoopModel& m, const Wall& wall, long k, State& s) {
   const double inertia = m.inertia_gain * s.velocity;
   s.observer += m.observer_a1 * (m.torque_constant * s.reference + inertia - s.observer);
   const double asked = -wall.stiffness_nm_rad * s.angle - wall.damping_nm_s_rad * s.velocity;
-  if (wall.scene_ticks == 1) {
-    s.torque = s.torque_next = asked;
-  } else if (k % wall.scene_ticks == 0) {
+  if (k % wall.scene_ticks == 0) {
     s.torque_next = asked;
+    if (delay == 0) s.torque = asked;
   }
   s.reference = m.torque_gain * s.torque + m.observer_gain * (s.observer - inertia);
   s.volts_new = m.applied * (m.voltage_gain * s.reference + m.emf_constant * s.velocity);

@@ -20,6 +20,9 @@ struct Wall {
   double stiffness_nm_rad = 0;
   double damping_nm_s_rad = 0;
   int scene_ticks = 1;  ///< 1: the core's own wall; else a host reads, computes and writes
+  /// From the samples to the first tick in which their torque acts, at most scene_ticks; -1: none
+  /// in the core, host_ticks with a host.
+  int delay_ticks = -1;
 };
 
 /// Ticks from the one whose snapshot a host reads to the first in which its torque acts: one for

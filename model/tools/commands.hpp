@@ -24,6 +24,7 @@ void add_replay(CLI::App& app, int* exit_code);
 void add_import(CLI::App& app, int* exit_code);
 void add_design(CLI::App& app, int* exit_code);
 void add_stability(CLI::App& app, int* exit_code);
+void add_rates(CLI::App& app, int* exit_code);
 void add_trim(CLI::App& app, int* exit_code);
 void add_budget(CLI::App& app, int* exit_code);
 void add_law(CLI::App& app, int* exit_code);

@@ -35,6 +35,11 @@ feltgate_library(feltgate_stability stability feltgate_engines feltgate_plant_fi
   Eigen3::Eigen)
 target_link_libraries(feltgate_stability PRIVATE nlohmann_json::nlohmann_json)
 
+# Scenes at several rates.
+feltgate_library(feltgate_rates rates feltgate_stability feltgate_loop feltgate_law_loop)
+target_link_libraries(feltgate_rates PRIVATE nlohmann_json::nlohmann_json)
+target_compile_definitions(feltgate_rates PRIVATE
+  FELTGATE_VERSION="${PROJECT_VERSION}")
 
 # Constants of a motor from readings and recordings: the verbs calibrate and identify of a host.
 feltgate_library(feltgate_calibrate host/calibrate feltgate_design feltgate_traces Eigen3::Eigen
@@ -64,7 +69,7 @@ file(GLOB tool_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/tools"
   "${FELTGATE_ROOT}/model/tools/*.cpp")
 list(FILTER tool_sources EXCLUDE REGEX "_main\\.cpp$")
 feltgate_program(feltgate "feltgate_main.cpp;${tool_sources}"
-  feltgate_rtl feltgate_files feltgate_budget feltgate_law feltgate_shape feltgate_axes_loop feltgate_law_loop feltgate_loop feltgate_stability feltgate_trim feltgate_design
+  feltgate_rtl feltgate_files feltgate_budget feltgate_law feltgate_shape feltgate_axes_loop feltgate_law_loop feltgate_loop feltgate_stability feltgate_rates feltgate_trim feltgate_design
   nlohmann_json::nlohmann_json CLI11::CLI11)
 
 include(presets)

@@ -53,6 +53,7 @@ RULES = (
     Rule(r"feltgate stability .*--rate", "WHOLE"),
     Rule(r"feltgate stability .*--no-bits", "WHOLE"),
     Rule(r"feltgate stability", "MORE", "--rate 490 --damping 0.002 --no-experiments"),
+    Rule(r"feltgate rates", "BY", "rates.command"),
     Rule(r"feltgate extremes", "MORE", "--list"),
     Rule(r"feltgate bench", "MORE", "--quick"),
     Rule(r"feltgate explore (?:plan|page vectors/spaces/trade\.csv)", "WHOLE"),

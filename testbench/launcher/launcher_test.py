@@ -132,6 +132,10 @@ class Presets(Machine):
         self.assertIn(f"--csv out {mine} --design lever_law\n", self.said)
         self.assertEqual(self.built("run", str(mine), "--design", "fast"), [["feltgate_fast"]])
 
+    def test_rates_run_laws(self):
+        self.installed(*BUILD_PACKAGES)
+        self.assertEqual(self.built("rates", "wall"), [["feltgate_lever_law"]])
+
     def test_the_demo_has_a_scene_with_a_law(self):
         self.installed(*BUILD_PACKAGES)
         self.assertEqual(self.built("demo"), [["feltgate", "feltgate_lever_law"]])

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Documentation: docs/rates.md
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "files/json_text.hpp"
+#include "rates/rates.hpp"
+
+namespace feltgate::rates {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double jump_share = 0.05;  ///< of the largest torque: less is not told
+
+std::string slope_text(const Slope& s, double largest_nm) {
+  std::string text;
+  if (s.stiffness_nm_rad > 0) {
+    text = fmt::format("at its steepest {:.4g} Nm/rad with {:.4g} Nm s/rad of damping",
+                       s.stiffness_nm_rad, s.damping_nm_s_rad);
+  } else if (s.damping_nm_s_rad > 0) {
+    text = fmt::format("damping {:.4g} Nm s/rad", s.damping_nm_s_rad);
+  } else {
+    text = "nowhere stiff or damped";
+  }
+  if (s.jump_nm > jump_share * largest_nm) text += fmt::format(", a jump of {:.3g} Nm", s.jump_nm);
+  return text;
+}
+
+std::string margin_text(const Margin& m) {
+  if (m.of == Margin::Of::none) return fmt::format("{:>9} {:>8}", "-", "-");
+  return fmt::format("{:>9.4g} {:>8}", m.border,
+                     m.ratio >= 1e3 ? ">1000" : fmt::format("{:.3g}", m.ratio));
+}
+
+std::string clocks_text(const RateRow& r) {
+  if (r.clocks_available == 0) return "-";
+  return fmt::format("{} of {}", r.clocks_used, r.clocks_available);
+}
+
+const char* margin_kind(const Margin& m) {
+  return m.of == Margin::Of::stiffness ? "stiffness" : m.of == Margin::Of::damping ? "damping" : "";
+}
+
+/// Against the fastest, the last.
+double time_ratio(const Report& r, const RateRow& row) {
+  const double of = r.rows.back().cpu_s_per_s;
+  return of > 0 ? row.cpu_s_per_s / of : 0;
+}
+
+}  // namespace
+
+std::string rate_text(double hz) {
+  if (hz >= 1e6) return fmt::format("{:.3g} MHz", hz / 1e6);
+  return hz >= 1e3 ? fmt::format("{:.3g} kHz", hz / 1e3) : fmt::format("{:.3g} Hz", hz);
+}
+
+std::string report_text(const Report& r) {
+  const bool damper = !r.rows.empty() && r.rows.back().margin.of == Margin::Of::damping;
+  std::string s =
+      fmt::format("scene {}: {}\nlaw {}, {}; to {:.3g} Nm; plant {}, {:.3g} s\n", r.scene, r.title,
+                  r.law, slope_text(r.slope, r.largest_nm), r.largest_nm, r.plant, r.simulated_s);
+  s += fmt::format(
+      "\n{:<17}  {:^19}  {:^18}  {:^16}  {:>5}\n{:<17}  {:>9} {:>9}  {:>9} {:>8}  {:>16}  {:>5}\n",
+      "torque renewed", "torque error, mNm", damper ? "border Nms/rad" : "border Nm/rad",
+      "engine clocks", "CPU", "at", "rms", "worst", "", "margin", "of a run", "time");
+  for (const RateRow& row : r.rows) {
+    s += fmt::format("{:<9} {:<7}  {:>9.4g} {:>9.4g}  {}  {:>16}  {:>5.2f}\n",
+                     rate_text(row.rate_hz), row.block ? "block" : "engine", 1e3 * row.error.rms(),
+                     1e3 * row.error.max(), margin_text(row.margin), clocks_text(row),
+                     time_ratio(r, row));
+  }
+  s += fmt::format("{:<17}  {:>9.4g} {:>9.4g}\n", "counts alone", 1e3 * r.floor.rms(),
+                   1e3 * r.floor.max());
+  if (!r.note.empty()) s += "note: " + r.note + "\n";
+  s += fmt::format("gates, at every rate: {}engine 1324 LUT4 eq, 2 MULT18, 4 BRAM, its law none\n",
+                   r.block_gates.empty() ? "" : "block " + r.block_gates + " LUT4 eq; ");
+  return s;
+}
+
+std::string reports_json(const std::vector<Report>& reports) {
+  Json j{{"schema", "feltgate-rates/1"}, {"version", FELTGATE_VERSION}, {"scenes", Json::array()}};
+  for (const Report& r : reports) {
+    Json scene{{"scene", r.scene},
+               {"title", r.title},
+               {"law", r.law},
+               {"plant", r.plant},
+               {"simulated_s", r.simulated_s},
+               {"largest_nm", r.largest_nm},
+               {"stiffness_nm_rad", r.slope.stiffness_nm_rad},
+               {"damping_nm_s_rad", r.slope.damping_nm_s_rad},
+               {"jump_nm", r.slope.jump_nm},
+               {"lever_damping_nm_s_rad", r.damping_nm_s_rad},
+               {"counts_alone_rms_nm", r.floor.rms()},
+               {"counts_alone_max_nm", r.floor.max()},
+               {"block_gates", r.block_gates},
+               {"note", r.note},
+               {"rates", Json::array()}};
+    for (const RateRow& row : r.rows) {
+      Json one{{"rate_hz", row.rate_hz},
+               {"ticks", row.ticks},
+               {"by", row.block ? "block" : "engine"},
+               {"error_rms_nm", row.error.rms()},
+               {"error_max_nm", row.error.max()},
+               {"error_mean_nm", row.mean_error_nm},
+               {"ticks_compared", row.error.count()},
+               {"cpu_s_per_s", row.cpu_s_per_s},
+               {"time_ratio", time_ratio(r, row)},
+               {"mismatches", row.mismatches},
+               {"clocks_compared", row.clocks_compared}};
+      if (row.margin.of != Margin::Of::none) {
+        one["margin"] = row.margin.ratio;
+        one["border"] = row.margin.border;
+        one["border_of"] = margin_kind(row.margin);
+      }
+      if (!row.block) {
+        one["instructions"] = row.instructions;
+        one["runs"] = row.runs;
+        one["clocks_used"] = row.clocks_used;
+        one["clocks_available"] = row.clocks_available;
+      }
+      scene["rates"].push_back(one);
+    }
+    j["scenes"].push_back(scene);
+  }
+  return files::json_text(j);
+}
+
+std::string reports_csv(const std::vector<Report>& reports) {
+  std::string s =
+      "scene,by,rate_hz,ticks,error_rms_nm,error_max_nm,margin,border,border_of,clocks_used,"
+      "clocks_available,time_ratio\n";
+  for (const Report& r : reports) {
+    for (const RateRow& row : r.rows) {
+      const bool known = row.margin.of != Margin::Of::none;
+      s += fmt::format("{},{},{:.10g},{},{:.6g},{:.6g},{},{},{},{},{},{:.3g}\n", r.scene,
+                       row.block ? "block" : "engine", row.rate_hz, row.ticks, row.error.rms(),
+                       row.error.max(), known ? fmt::format("{:.4g}", row.margin.ratio) : "",
+                       known ? fmt::format("{:.4g}", row.margin.border) : "",
+                       margin_kind(row.margin), row.clocks_used, row.clocks_available,
+                       time_ratio(r, row));
+    }
+  }
+  return s;
+}
+
+}  // namespace feltgate::rates

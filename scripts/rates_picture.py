@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Draws error and margin over the rate from the JSON of feltgate rates; it only draws.
+
+  feltgate rates wall -o wall.svg            calls it
+  feltgate rates --json rates.json && scripts/rates_picture.py rates.json rates.svg
+  scripts/rates_picture.py rates.json docs/images --each    rates_SCENE.svg for each scene, too
+
+Documentation: docs/rates.md
+"""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+import interrupts
+from outputs import write_whole
+from reporting import plots
+
+COLOURS = ["#0072b2", "#b23a00", "#008a64", "#7d4bb5", "#b04a8b", "#8a6d00", "#1d2329", "#5c6670"]
+MARKS = "os^Dv"
+TICKS = {144: "144", 490: "490", 1e3: "1 k", 1e4: "10 k", 4e4: "40 k", 1e5: "100 k", 1e6: "1 M"}
+
+
+def points(scene, key, factor=1.0):
+    """Rates and values of the engine's rows, and of the block's, where they have the value."""
+    out = {}
+    for by in ("engine", "block"):
+        rows = [r for r in scene["rates"] if r["by"] == by and r.get(key)]
+        out[by] = ([r["rate_hz"] for r in rows], [factor * r[key] for r in rows])
+    return out
+
+
+def draw(axis, scene, key, factor, label="", **style):
+    """A line through the engine's rows and a ring for the block. Whether there was anything."""
+    found = points(scene, key, factor)
+    if found["engine"][0]:
+        axis.plot(*found["engine"], markersize=4, linewidth=1.1, label=label, **style)
+    if found["block"][0]:
+        ring = {"marker": "o", "markersize": 8, "markerfacecolor": "none", "linestyle": ""}
+        axis.plot(*found["block"], **ring, color=style["color"])
+    return bool(found["engine"][0])
+
+
+def finish(figure, axes, name, caption):
+    for axis in axes:
+        axis.set_xscale("log")
+        axis.set_yscale("log")
+        axis.set_xticks(list(TICKS), list(TICKS.values()))
+        axis.minorticks_off()
+        axis.set_xlim(110, 1.4e6)
+    axes[-1].set_xlabel("torque renewed at, Hz")
+    return plots.finish(figure, name, caption)
+
+
+def one(scene):
+    """One scene: rms and worst error, and its margin."""
+    caption = (
+        f"{scene['title']}: law {scene['law']} on the engine; a ring is the core's block. "
+        "Above: error of the torque against the continuous law, dashed what the encoder's counts "
+        "alone leave. Below: border of stability over the scene; under 1 the lever swings by "
+        "itself. Simulation."
+    )
+    has_margin = any("margin" in r for r in scene["rates"])
+    title = f"{scene['scene']}: what a slower torque costs"
+    figure, axes = plots.stacked(title, [2.4, 1.6] if has_margin else [2.4])
+    draw(axes[0], scene, "error_max_nm", 1e3, "worst", color=COLOURS[1], marker="s")
+    draw(axes[0], scene, "error_rms_nm", 1e3, "rms", color=COLOURS[0], marker="o")
+    for key, colour in (("counts_alone_max_nm", COLOURS[1]), ("counts_alone_rms_nm", COLOURS[0])):
+        if scene[key] > 0:
+            axes[0].axhline(1e3 * scene[key], color=colour, linewidth=0.9, linestyle="--")
+    axes[0].set_ylabel("torque error, mNm")
+    axes[0].legend(loc="upper right")
+    if has_margin:
+        draw(axes[1], scene, "margin", 1, color=COLOURS[2], marker="o")
+        axes[1].axhline(1, color="#d55e00", linewidth=0.9)
+        axes[1].set_ylabel("border / scene")
+    return finish(figure, axes, f"rates_{scene['scene']}", caption)
+
+
+def several(scenes):
+    """All scenes: rms error as a share of the law's largest torque, and margins."""
+    caption = (
+        "Above: rms error of the torque over the law's largest torque. Below: border of stability "
+        "over the scene's own stiffness; under 1 the lever swings by itself. Rings: the core's "
+        "blocks. Simulation."
+    )
+    figure, axes = plots.stacked("Every scene at every rate", [2.8, 2.4])
+    for number, scene in enumerate(scenes):
+        style = {
+            "color": COLOURS[number % len(COLOURS)],
+            "marker": MARKS[number // len(COLOURS) % len(MARKS)],
+        }
+        share = 100 / scene["largest_nm"] if scene["largest_nm"] > 0 else 0
+        draw(axes[0], scene, "error_rms_nm", share, scene["scene"], **style)
+        draw(axes[1], scene, "margin", 1, **style)
+    axes[0].set_ylabel("torque error rms, %")
+    axes[0].legend(loc="upper left", bbox_to_anchor=(1.0, 1.02))
+    axes[1].axhline(1, color="#d55e00", linewidth=0.9)
+    axes[1].set_ylabel("border / scene")
+    return finish(figure, axes, "rates", caption)
+
+
+def picture(scenes):
+    return one(scenes[0]) if len(scenes) == 1 else several(scenes)
+
+
+def main(argv=None):
+    parser = argparse.ArgumentParser(prog="rates_picture.py", description=__doc__.splitlines()[0])
+    parser.add_argument("json", type=Path, help="what feltgate rates --json wrote")
+    parser.add_argument("svg", type=Path, help="picture to be written; with --each a folder")
+    parser.add_argument("--each", action="store_true", help="rates.svg and one for each scene")
+    arguments = parser.parse_args(argv)
+    interrupts.end_on_signals()
+    try:
+        data = json.loads(arguments.json.read_text(encoding="utf-8"))
+        if data.get("schema") != "feltgate-rates/1":
+            raise ValueError(f"schema is {data.get('schema')!r}, not 'feltgate-rates/1'")
+        scenes = data["scenes"]
+        if not scenes:
+            raise ValueError("no scene was measured")
+        if arguments.each:
+            for made in (several(scenes), *map(one, scenes)):
+                write_whole(arguments.svg / f"{made.name}.svg", made.svg)
+        else:
+            write_whole(arguments.svg, picture(scenes).svg)
+    except (OSError, ValueError, KeyError) as error:
+        print(f"rates_picture: {arguments.json}: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt as interrupt:
+        sys.exit(interrupts.tell("rates", interrupt))

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""feltgate rates as a user calls it: table, JSON, CSV and picture of a short scene; what is wrong
+is told in a line, with exit code 2, and nothing is written."""
+
+import csv
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(os.environ["FELTGATE_ROOT"])
+PROGRAM = Path(os.environ["FELTGATE_BUILD"]) / "feltgate_lever_law"
+SCENE = """title = "Short"
+about = "A wall for some milliseconds."
+duration_s = 0.03
+[core]
+scene = "wall"
+arm_s = 0.001
+[parameters]
+wall_contact = 0
+[hand]
+[[hand.phase]]
+kind = "prescribed"
+motion = [{ kind = "ramp", duration_s = 0.03, to_rad = 0.05 }]
+"""
+NO_TORQUE = SCENE.replace('"wall"', '"free"').replace("[parameters]\nwall_contact = 0\n", "")
+
+
+class Rates(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        (self.folder / "short.toml").write_text(SCENE, encoding="utf-8")
+        (self.folder / "free.toml").write_text(NO_TORQUE, encoding="utf-8")
+
+    def call(self, *words):
+        environment = {**os.environ, "FELTGATE_PYTHON": sys.executable}
+        return subprocess.run(
+            [PROGRAM, "rates", *words],
+            cwd=self.folder,
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+
+    def test_everything_is_written(self):
+        done = self.call(
+            *("short.toml", "--rate", "1000,10000", "--json", "a.json", "--csv", "a.csv"),
+            *("-o", "a.svg"),
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for word in ("1 kHz", "10 kHz", "1 MHz", "block", "48 of 50000", "48 of 50", "1324 LUT4"):
+            self.assertIn(word, done.stdout)
+        data = json.loads((self.folder / "a.json").read_text(encoding="utf-8"))
+        self.assertEqual(data["schema"], "feltgate-rates/1")
+        (scene,) = data["scenes"]
+        self.assertEqual([r["rate_hz"] for r in scene["rates"]], [1e3, 1e4, 1e6, 1e6])
+        with (self.folder / "a.csv").open(encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([r["by"] for r in rows], ["engine", "engine", "engine", "block"])
+        for row, one in zip(rows, scene["rates"], strict=True):
+            self.assertAlmostEqual(float(row["error_rms_nm"]), one["error_rms_nm"], places=7)
+        svg = (self.folder / "a.svg").read_text(encoding="utf-8")
+        self.assertIn("torque error, mNm", svg)
+        self.assertIn("border / scene", svg)
+
+    def test_rtl_and_twin_are_equal_at_every_rate(self):
+        done = self.call("short.toml", "--rate", "144,10000", "--lock-step", "--json", "-")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        (scene,) = json.loads(done.stdout)["scenes"]
+        # 6940 ticks are beyond the engine's divider, so two of its runs make an update.
+        self.assertEqual([r.get("runs") for r in scene["rates"]], [2, 1, 1, None])
+        for row in scene["rates"]:
+            self.assertEqual(row["mismatches"], 0)
+            self.assertGreater(row["clocks_compared"], 1_400_000)
+
+    def test_several_scenes_make_one_picture(self):
+        (self.folder / "other.toml").write_text(SCENE, encoding="utf-8")
+        done = self.call("short.toml", "other.toml", "--rate", "2000", "-o", "b.svg", "--quiet")
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        svg = (self.folder / "b.svg").read_text(encoding="utf-8")
+        for name in ("short", "other", "torque error rms, %"):
+            self.assertIn(name, svg)
+
+    def test_bad_input_is_told_in_a_line(self):
+        for words, told in (
+            (("nosuch",), "nosuch"),
+            (("free.toml",), "free.toml:5: the scene renders no torque law"),
+            (("short.toml", "--rate", "0"), "--rate"),
+            (("short.toml", "--rate", "nan"), "--rate"),
+            (("short.toml", "--rate", "2e6"), "--rate"),
+            (("short.toml", "-o", "none/a.svg"), "none"),
+            (("short.toml", "--json", "short.toml"), "short.toml"),
+        ):
+            with self.subTest(words=words):
+                done = self.call(*words, "--csv", "c.csv")
+                self.assertEqual(done.returncode, 2, done.stdout)
+                self.assertIn(told, done.stderr)
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+                self.assertFalse((self.folder / "c.csv").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -50,6 +50,7 @@ def finish(figure, axes, name, caption):
         axis.set_yscale("log")
         axis.set_xticks(list(TICKS), list(TICKS.values()))
         axis.minorticks_off()
+        axis.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
         axis.set_xlim(110, 1.4e6)
     axes[-1].set_xlabel("torque renewed at, Hz")
     return plots.finish(figure, name, caption)
@@ -87,7 +88,7 @@ def several(scenes):
         "over the scene's own stiffness; under 1 the lever swings by itself. Rings: the core's "
         "blocks. Simulation."
     )
-    figure, axes = plots.stacked("Every scene at every rate", [2.8, 2.4])
+    figure, axes = plots.stacked("Every scene at every rate", [2.8, 2.4], width=7.6)
     for number, scene in enumerate(scenes):
         style = {
             "color": COLOURS[number % len(COLOURS)],

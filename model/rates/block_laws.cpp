@@ -35,7 +35,7 @@ std::vector<BlockLaw> make() {
                  "out torque = setpoint_torque\n",
                  {"setpoint_torque"},
                  [](const Values& v, double) { return v; },
-                 "0, in every core"});
+                 "0 LUT4 eq, it is in every core"});
   all.push_back({"membrane",
                  "membrane",
                  "",
@@ -45,7 +45,7 @@ std::vector<BlockLaw> make() {
                                  {"upper", v.at("membrane_upper") * q},
                                  {"strength", v.at("membrane_torque")}};
                  },
-                 "45"});
+                 "45 LUT4 eq"});
   all.push_back(
       {"spring_compression",
        "",
@@ -57,7 +57,7 @@ std::vector<BlockLaw> make() {
          return Values{{"contact", v.at("compression_contact") * q},
                        {"stiffness", v.at("compression_stiffness") / q}};
        },
-       "1, the block alone"});
+       "1 LUT4 eq, the block alone"});
   all.push_back({"spring_tension",
                  "spring",
                  "",
@@ -66,7 +66,7 @@ std::vector<BlockLaw> make() {
                    return Values{{"rest", v.at("tension_rest") * q},
                                  {"stiffness", v.at("tension_stiffness") / q}};
                  },
-                 "1, the block alone"});
+                 "1 LUT4 eq, the block alone"});
   all.push_back({"damper",
                  "damper",
                  "",
@@ -74,19 +74,19 @@ std::vector<BlockLaw> make() {
                  [](const Values& v, double) {
                    return Values{{"damping", v.at("damper_damping")}};
                  },
-                 "107, wall too"});
+                 "107 LUT4 eq, wall too"});
   all.push_back({"charge_attract",
                  "charge_far",
                  "",
                  {"attract_centre", "attract_strength", "attract_core", "attract_core_slope"},
                  [](const Values& v, double q) { return charge(v, "attract", 1, q); },
-                 "198, both charges"});
+                 "198 LUT4 eq, both charges"});
   all.push_back({"charge_repel",
                  "charge_far",
                  "",
                  {"repel_centre", "repel_strength", "repel_core", "repel_core_slope"},
                  [](const Values& v, double q) { return charge(v, "repel", -1, q); },
-                 "198, both charges"});
+                 "198 LUT4 eq, both charges"});
   all.push_back({"wall",
                  "wall",
                  "",
@@ -96,7 +96,7 @@ std::vector<BlockLaw> make() {
                                  {"stiffness", v.at("wall_stiffness") / q},
                                  {"damping", v.at("wall_damping")}};
                  },
-                 "107, damper too"});
+                 "107 LUT4 eq, damper too"});
   return all;
 }
 

@@ -78,7 +78,7 @@ std::string report_text(const Report& r) {
                    1e3 * r.floor.max());
   if (!r.note.empty()) s += "note: " + r.note + "\n";
   s += fmt::format("gates, at every rate: {}engine 1324 LUT4 eq, 2 MULT18, 4 BRAM, its law none\n",
-                   r.block_gates.empty() ? "" : "block " + r.block_gates + " LUT4 eq; ");
+                   r.block_gates.empty() ? "" : "block " + r.block_gates + "; ");
   return s;
 }
 

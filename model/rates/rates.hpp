@@ -32,6 +32,7 @@ struct RateRow {
   double cpu_s_per_s = 0;  ///< of the closed loop with the twin, per simulated second
   std::int64_t mismatches = 0, clocks_compared = 0;  ///< RTL and twin in lock-step
   std::string first_mismatch;
+  std::string fault;  ///< the first that opened the gates, with its time; empty: none
 };
 
 struct Report {
@@ -40,10 +41,10 @@ struct Report {
   double simulated_s = 0;
   double largest_nm = 0;  ///< of the continuous law
   Slope slope;
-  ErrorFigure floor;            ///< of counts and estimated velocity, at every tick
-  double damping_nm_s_rad = 0;  ///< of the lever, for the margins
-  std::vector<RateRow> rows;    ///< the slowest first
-  std::string note;             ///< why rates are missing; may be empty
+  ErrorFigure floor;               ///< of counts and estimated velocity, at every tick
+  double damping_nm_s_rad = 0;     ///< of the lever, for the margins
+  std::vector<RateRow> rows;       ///< the slowest first
+  std::vector<std::string> notes;  ///< why rates or margins are missing
 };
 
 struct Options {

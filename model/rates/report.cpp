@@ -76,7 +76,12 @@ std::string report_text(const Report& r) {
   }
   s += fmt::format("{:<17}  {:>9.4g} {:>9.4g}\n", "counts alone", 1e3 * r.floor.rms(),
                    1e3 * r.floor.max());
-  if (!r.note.empty()) s += "note: " + r.note + "\n";
+  for (const RateRow& row : r.rows) {
+    if (row.fault.empty()) continue;
+    s += fmt::format("fault at {}: {}; not compared from there on\n", rate_text(row.rate_hz),
+                     row.fault);
+  }
+  for (const std::string& note : r.notes) s += "note: " + note + "\n";
   s += fmt::format("gates, at every rate: {}engine 1324 LUT4 eq, 2 MULT18, 4 BRAM, its law none\n",
                    r.block_gates.empty() ? "" : "block " + r.block_gates + "; ");
   return s;
@@ -98,7 +103,7 @@ std::string reports_json(const std::vector<Report>& reports) {
                {"counts_alone_rms_nm", r.floor.rms()},
                {"counts_alone_max_nm", r.floor.max()},
                {"block_gates", r.block_gates},
-               {"note", r.note},
+               {"notes", r.notes},
                {"rates", Json::array()}};
     for (const RateRow& row : r.rows) {
       Json one{{"rate_hz", row.rate_hz},
@@ -110,6 +115,7 @@ std::string reports_json(const std::vector<Report>& reports) {
                {"ticks_compared", row.error.count()},
                {"cpu_s_per_s", row.cpu_s_per_s},
                {"time_ratio", time_ratio(r, row)},
+               {"fault", row.fault},
                {"mismatches", row.mismatches},
                {"clocks_compared", row.clocks_compared}};
       if (row.margin.of != Margin::Of::none) {

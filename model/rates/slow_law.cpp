@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -81,6 +82,16 @@ std::size_t new_state(Law& law, const std::string& name, law::Unit unit, law::Ra
 Law read(const LawSource& source, double rate_hz) {
   return source.text.empty() ? law::read_law(source.path, rate_hz)
                              : law::read_law_text(source.text, source.path, rate_hz);
+}
+
+bool keeps_time(const LawSource& source) {
+  // dt is folded into constants.
+  const Law a = read(source, 1000), b = read(source, 1024);
+  const auto same = [](const law::Node& x, const law::Node& y) {
+    return x.op == y.op && x.value == y.value && x.arguments == y.arguments;
+  };
+  return a.nodes.size() != b.nodes.size() ||
+         !std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), same);
 }
 
 law::Compiled fastest(const LawSource& source, const law::Target& target) {

@@ -19,6 +19,10 @@ struct LawSource {
 /// The law as read for a rate; 0: for the file's own, or without one where it gives none.
 law::Law read(const LawSource& source, double rate_hz);
 
+/// Whether the law has dt or a filter in it: then its states may be springs and masses, which the
+/// torque's slope in one run does not show.
+bool keeps_time(const LawSource& source);
+
 /// As fast as it gets, or at the rate of its file.
 law::Compiled fastest(const LawSource& source, const law::Target& target);
 

@@ -21,13 +21,13 @@ duration_s = 0.03
 scene = "wall"
 arm_s = 0.001
 [parameters]
-wall_contact = 0
+wall_contact = 5
 [hand]
 [[hand.phase]]
 kind = "prescribed"
 motion = [{ kind = "ramp", duration_s = 0.03, to_rad = 0.05 }]
 """
-NO_TORQUE = SCENE.replace('"wall"', '"free"').replace("[parameters]\nwall_contact = 0\n", "")
+NO_TORQUE = SCENE.replace('"wall"', '"free"').replace("[parameters]\nwall_contact = 5\n", "")
 
 
 class Rates(unittest.TestCase):
@@ -61,6 +61,9 @@ class Rates(unittest.TestCase):
         self.assertEqual(data["schema"], "feltgate-rates/1")
         (scene,) = data["scenes"]
         self.assertEqual([r["rate_hz"] for r in scene["rates"]], [1e3, 1e4, 1e6, 1e6])
+        for rate in scene["rates"]:
+            self.assertGreater(rate["ticks_compared"], 20_000)
+            self.assertGreater(rate["error_rms_nm"], 1e-4)
         with (self.folder / "a.csv").open(encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual([r["by"] for r in rows], ["engine", "engine", "engine", "block"])

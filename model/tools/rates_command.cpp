@@ -109,7 +109,7 @@ int run(const RatesArguments& a) {
     options.progress = [&progress](double done) { progress.update(done); };
     try {
       reports.push_back(rates::measure(w.scene, w.law, w.plant, e, options));
-    } catch (const std::invalid_argument& error) {
+    } catch (const std::exception& error) {
       if (!all) throw;  // one that was asked for
       if (!a.quiet) fmt::print(stderr, "left out: {}\n", error.what());
       continue;

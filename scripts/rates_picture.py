@@ -98,7 +98,8 @@ def several(scenes):
         draw(axes[0], scene, "error_rms_nm", share, scene["scene"], **style)
         draw(axes[1], scene, "margin", 1, **style)
     axes[0].set_ylabel("torque error rms, %")
-    axes[0].legend(loc="upper left", bbox_to_anchor=(1.0, 1.02))
+    if axes[0].get_legend_handles_labels()[0]:
+        figure.legend(loc="outside right upper")
     axes[1].axhline(1, color="#d55e00", linewidth=0.9)
     axes[1].set_ylabel("border / scene")
     return finish(figure, axes, "rates", caption)

@@ -121,6 +121,7 @@ TEST_CASE("what has no single law is refused") {
     CHECK_THROWS_AS(require_one_law(s), config::ConfigError);
   };
   refused("calibration_open_loop.toml");
+  refused("wall_tracked.toml");
   Scenario s = read_scenario(root + "/vectors/scenes/wall.toml");
   CHECK_NOTHROW(require_one_law(s));
   Event e;

@@ -82,7 +82,7 @@ std::string report_text(const Report& r) {
                      row.fault);
   }
   for (const std::string& note : r.notes) s += "note: " + note + "\n";
-  s += fmt::format("gates, at every rate: {}engine 1324 LUT4 eq, 2 MULT18, 4 BRAM, its law none\n",
+  s += fmt::format("gates, at every rate: {}engine 1448 LUT4 eq, 2 MULT18, 4 BRAM, its law none\n",
                    r.block_gates.empty() ? "" : "block " + r.block_gates + "; ");
   return s;
 }

@@ -42,11 +42,10 @@ RULES = (
     Rule(r"feltgate run end_stops", "BY", "scene.end_stops.lever_law"),
     Rule(r"feltgate run scroll_wheel", "BY", "scene.scroll_wheel.lever_law"),
     Rule(r"feltgate shape .*--table", "BY", "shape.command"),
-    Rule(r"feltgate (?:run|replay|import|budget|design|law|shape)", "WHOLE"),
     Rule(r"feltgate run ceiling(?!_)", "BY", "scene.ceiling.lever_law"),
     Rule(r"feltgate run drums", "BY", "scene.drums.lever_law"),
     Rule(r"feltgate run (?:wall|ceiling)_tracked", "BY", "tracked_test"),
-    Rule(r"feltgate (?:run|replay|import|budget|design|law)", "WHOLE"),
+    Rule(r"feltgate (?:run|replay|import|budget|design|law|shape)", "WHOLE"),
     Rule(r"feltgate generate", "WHOLE"),
     # 1: of a scene of milliseconds there may be nothing to leave out.
     Rule(r"feltgate trim", "MORE", "--unseen 1 --jobs 1", status=(0, 1)),

@@ -40,7 +40,7 @@ constexpr std::pair<const char*, const char*> kForms[] = {
     {"rate", "rate = 40 kHz"},
 };
 
-constexpr const char* kOther[] = {"in", "then", "else",    "if",    "when",     "on",  "and",
+constexpr const char* kOther[] = {"in", "then", "else",    "if",    "when",     "on",   "and",
                                   "or", "not",  "max_age", "whole", "segments", "with", "through"};
 
 bool is_name(char c) {

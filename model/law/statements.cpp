@@ -263,7 +263,7 @@ void Lowering::event(const Statement& s) {
   }
   e.value = s.value ? number_of(s.value) : graph_.constant(0, kNumber, e.place);
   e.condition = truth_of(s.condition);
-  if (graph_.is_constant(e.condition == kNone ? 0 : e.condition) && e.condition != kNone) {
+  if (e.condition != kNone && graph_.is_constant(e.condition)) {
     report(s.condition->offset, "a condition that never changes", "compare an input or a state");
   }
   law_.events.push_back(e);

@@ -68,7 +68,7 @@ RULES = (
     Rule(r"ctest .*-N", "WHOLE"),
     Rule(r"ctest", "MORE", "-N"),
     Rule(r"scripts/check_blocks\.py", "WHOLE"),
-    Rule(r"scripts/tests\.py", "PARSED"),
+    Rule(r"scripts/(?:tests|rates_picture)\.py", "PARSED"),
     Rule(r"scripts/drums_sound\.py", "BY", "report.drums_sound_test"),
     Rule(r"scripts/rtl_speed\.py", "BY", "bench.rtl_speed"),
     Rule(r"scripts/defects\.py copy", "BY", "repository.defects_test"),

@@ -68,7 +68,8 @@ class Slang(unittest.TestCase):
 
     def test_every_board(self):
         for board in BOARDS:
-            files = [RTL / "generated/feltgate_link_pkg.sv", *sorted(RTL.glob("link/*.sv"))]
+            packages = [RTL / f"generated/feltgate_{name}_pkg.sv" for name in ("engine", "link")]
+            files = [*packages, *sorted(RTL.glob("link/*.sv"))]
             files += sorted([*RTL.glob("boards/panel/*.sv"), *RTL.glob(f"boards/{board}/*.sv")])
             files.append(ROOT / "testbench/boards/stub/EHXPLLL.sv")
             with self.subTest(board):

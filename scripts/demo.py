@@ -28,24 +28,31 @@ EPILOG = """\
 Without recordings it says where public ones can be downloaded.
   feltgate demo
   feltgate demo --traces recordings -o report
+  feltgate demo --all
 Exit code: 0 nothing broken, 1 a mismatch or a broken expectation, 2 unusable input."""
 DESIGNS = ("lever", "paper")
 # Velocity alone would leave half of the core idle: the damper makes torque of it.
 REPLAY_SCENE = "damper"
 
 
-def scene_jobs():
-    """Every scene on lever, or where it has a law of its own on the design with an engine; those in
-    which the published design teaches something on paper too. Devices of several axes have programs
-    of their own."""
+# Further scenes of devices that others show already, and long ones.
+ALL_ONLY = (
+    *("wall_tracked", "ceiling_tracked", "end_stops_thrown"),
+    *("coupled_levers_drag", "coupled_levers_free"),
+    *("pantograph_wall", "pantograph_wall_filtered"),
+)
+
+
+def scene_jobs(everything=False):
+    """(jobs, those of devices of several axes): every scene on the design that it needs, on lever
+    where it needs none; those in which the published design teaches something on paper too."""
     files = {path.stem: runs.read_toml(path) for path in runs.SCENES.glob("*.toml")}
-    scenes = {name: file["core"] for name, file in files.items() if "device" not in file}
-    jobs = [
-        runs.scene_job(name, runs.ENGINE_DESIGN if "law" in scenes[name] else "lever")
-        for name in sorted(scenes)
-    ]
-    on_paper = [n for n in sorted(scenes) if n.startswith(("torque_step", "calibration_"))]
-    return jobs + [runs.scene_job(n, "paper") for n in on_paper]
+    names = [n for n in sorted(files) if everything or n not in ALL_ONLY]
+    single = [n for n in names if "device" not in files[n]]
+    jobs = [runs.scene_job(n, runs.design_of(n)) for n in single]
+    on_paper = [n for n in single if n.startswith(("torque_step", "calibration_"))]
+    jobs += [runs.scene_job(n, "paper") for n in on_paper]
+    return jobs, [runs.scene_job(n, runs.design_of(n)) for n in names if n not in single]
 
 
 def all_jobs(scenes, replays, figures):
@@ -105,8 +112,8 @@ def arguments_of(argv):
     parser = argparse.ArgumentParser(
         allow_abbrev=False,
         prog="feltgate demo",
-        description="Every scene in closed loop and every recording whole, through RTL and twin in\n"
-        "lock-step; one HTML report. Under ten minutes on two cores.",
+        description="Every object in closed loop and every recording whole, through RTL and twin in\n"
+        "lock-step; one HTML report. About ten minutes on two cores.",
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -117,6 +124,7 @@ def arguments_of(argv):
         "-o", "--output", dest="out", type=Path, metavar="DIR", help="default: demo in build"
     )
     parser.add_argument("--out", dest="out", type=Path, help=argparse.SUPPRESS)  # its old name
+    parser.add_argument("--all", action="store_true", help="scenes that are left out for time, too")
     parser.add_argument("--jobs", type=int, metavar="N", help="runs at a time; default: all cores")
     parser.add_argument(
         "--no-figures", action="store_true", help="leave out the runs that only the figures need"
@@ -138,14 +146,14 @@ def main(argv=None):
     try:
         folder.mkdir(parents=True, exist_ok=True)
         found, unreadable, where = find_recordings(arguments.traces)
-        scenes = scene_jobs()
+        scenes, devices = scene_jobs(arguments.all)
         replays = [recordings.job(r, i, "lever", REPLAY_SCENE) for i, r in enumerate(found, 1)]
         figures = [] if arguments.no_figures else all_figures.jobs(DESIGNS, quick=True)
-        jobs = all_jobs(scenes, replays, figures)
+        jobs = all_jobs(scenes + devices, replays, figures)
         total = sum(job.seconds for job in jobs)
         print(
-            f"demo: {len(scenes)} scenes, {len(replays)} recordings in {where}, "
-            f"{len(jobs) - len(scenes) - len(replays)} more runs for the figures; {total:.0f} s of "
+            f"demo: {len(scenes) + len(devices)} scenes, {len(replays)} recordings in {where}, "
+            f"{len(jobs) - len(scenes) - len(devices) - len(replays)} more runs for the figures; {total:.0f} s of "
             "device time",
             file=sys.stderr,
         )
@@ -161,7 +169,7 @@ def main(argv=None):
             for r in done.values()
             if not r.ran and r.job.recording and not r.job.recording.sure
         ]
-        shown = [job.name for job in scenes + replays if done[job.name].ran]
+        shown = [job.name for job in scenes + devices + replays if done[job.name].ran]
         with ProcessPoolExecutor(
             arguments.jobs, initializer=interrupts.leave_signals_to_the_parent
         ) as pool:
@@ -173,6 +181,7 @@ def main(argv=None):
         demo = demo_page.Demo(
             runs=done,
             scenes=[job.name for job in scenes],
+            devices=[job.name for job in devices],
             replays=[job.name for job in replays],
             drawn=shown_runs,
             figures=drawn,

@@ -16,8 +16,10 @@ namespace feltgate::bounds {
 /// at most half a step, so the result is rigorous wherever IEEE arithmetic holds (no -ffast-math).
 struct Outward {
   using unprotected_rounding = Outward;
-  static double down(double x) { return std::nextafter(x, -std::numeric_limits<double>::max()); }
-  static double up(double x) { return std::nextafter(x, std::numeric_limits<double>::max()); }
+  static double down(double x) {
+    return std::nextafter(x, -std::numeric_limits<double>::infinity());
+  }
+  static double up(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
   void init() {}
   template <class U>
   double conv_down(U const& v) {

@@ -30,9 +30,12 @@ std::string engine_line(const EngineFigures& e, double simulated_s) {
 /// The bounds below the table of errors, and which ticks they are not for.
 std::string bound_lines(const RunResult& r) {
   const auto line = [&r](const char* name, double FeltError::*value) {
-    const auto& e = r.felt.errors;
-    return fmt::format("{:<8} {:>14.3g} {:>12} {:>12.3g} {:>12} {:>12.3g}\n", name, e[0].*value, "",
-                       e[1].*value, "", e[2].*value);
+    const auto told = [&](std::size_t i) {
+      const double x = r.felt.errors[i].*value;
+      return std::isfinite(x) ? fmt::format("{:.3g}", x) : "none";
+    };
+    return fmt::format("{:<8} {:>14} {:>12} {:>12} {:>12} {:>12}\n", name, told(0), "", told(1), "",
+                       told(2));
   };
   std::string text = line("bound", &FeltError::bound);
   for (const EngineFigures& e : r.engines) {

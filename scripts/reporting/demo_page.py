@@ -12,9 +12,10 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from reporting import card, demo_tables, headline, page, recordings, run_pictures, run_section
+from reporting import axes_card, card, demo_tables, headline, page, recordings, run_pictures, run_section
 from reporting import stability_section
 from reporting.progress import clock_text
+from reporting.runs import ENGINE_DESIGN
 
 
 # What every reader has felt before.
@@ -34,8 +35,10 @@ class Drawn:
 def draw(run):
     """A run's pictures, and what else the page shows of it."""
     name, summary = run.job.name, run.summary
+    if run.of_axes:
+        return Drawn([], axes_card.html(f"card-{name}", summary, run.csv))
     drawn = Drawn(run_pictures.pictures(name, summary, run.csv))
-    if name in CARDS:
+    if name in CARDS or run.design == ENGINE_DESIGN:
         drawn.card = card.html(f"card-{name}", summary, run.csv)
     if run.job.recording is not None and run_section.room(summary) != "line":
         drawn.strip = run_pictures.strip(run.csv)
@@ -50,6 +53,7 @@ class Demo:
     scenes: list
     replays: list
     drawn: dict = field(default_factory=dict)
+    devices: list = field(default_factory=list)  # of several axes
     figures: list = field(default_factory=list)
     stability: dict | None = None
     wrong: list = field(default_factory=list)
@@ -72,7 +76,9 @@ class Demo:
 
 
 def contents(demo):
-    links = [page.link("scenes", "scenes"), page.link("recordings", "recordings")]
+    links = [page.link("scenes", "scenes")]
+    links += [page.link("axes", "several axes")] if demo.devices else []
+    links += [page.link("recordings", "recordings")]
     links += [page.link(f.name(), f"figure {f.number}") for f in demo.figures]
     if demo.stability:
         links.append(page.link("stability", "walls"))
@@ -82,7 +88,7 @@ def contents(demo):
 
 def headlines(demo):
     """Clocks and mismatches of all runs, the largest error of any, the settling of a step."""
-    there = [run.summary for run in demo.runs.values() if run.ran]
+    there = [run.summary for run in demo.runs.values() if run.ran and not run.of_axes]
     found = [headline.compared(demo.clocks, demo.mismatches), headline.error(there)]
     run = demo.runs.get(STEPS)
     if run is not None and run.ran and run_section.steps_of(run.summary):
@@ -100,6 +106,19 @@ def cards(demo):
         "simulated, clock by clock."
     )
     return page.section("felt", "What a hand feels", text + "".join(found))
+
+
+def devices(demo):
+    """A card for each device that is a law, beside the one that everybody has seen already."""
+    names = [n for n in demo.scenes + demo.devices if n not in CARDS and n in demo.drawn]
+    found = [demo.drawn[name].card for name in names]
+    if not any(found):
+        return ""
+    text = page.paragraph(
+        "Each is a file of a few lines, compiled for the engine beside the core and loaded by the "
+        "host: no hardware was written for any of them."
+    )
+    return page.section("devices", "Devices as files", text + "".join(found))
 
 
 def recordings_text(demo):
@@ -139,6 +158,13 @@ def tables(demo):
         f"{many(broken, 'expectation')} broken",
         demo_tables.scenes(demo),
     )
+    if demo.devices:
+        axes = [demo.runs[name] for name in demo.devices]
+        text += page.folded(
+            "axes",
+            f"Devices of several axes: {many(len(axes), 'run')} in closed loop, {mismatches(axes)}",
+            demo_tables.axes(demo),
+        )
     text += page.folded("steps", "Torque steps: how fast each settles", demo_tables.steps(demo))
     read = recordings_text(demo) + demo_tables.replays(demo)
     if demo.unreadable:
@@ -192,6 +218,7 @@ def document(demo):
         "SystemVerilog runs beside its bit-exact C++ twin, every output compared in every clock."
     )
     body += page.verdict(demo.wrong, good) + headlines(demo) + cards(demo)
+    body += devices(demo)
     body += page.section("tables", "All runs", tables(demo))
     if demo.figures:
         body += page.section(

@@ -76,6 +76,37 @@ def scenes(demo):
     return page.table(head, rows)
 
 
+def axes(demo):
+    """Runs of devices of several axes: a row for each axis."""
+    head = [
+        *("scene", "design", "device time, s", "mismatches", "expectations broken", "axis"),
+        *("largest torque asked for, Nm", "felt, Nm"),
+        *("largest error of the engine's torque, µNm", "its bound"),
+    ]
+    rows = []
+    for name in demo.devices:
+        run = demo.runs[name]
+        if not run.ran:
+            rows.append([name, NOT_RUN])
+            continue
+        s = run.summary
+        broken = page.good_or_bad(len(s["expectations"]["broken"]))
+        for number, axis in enumerate(s["axes"]):
+            rows.append(
+                [
+                    page.link(f"card-{name}", s["scene"]),
+                    s["design"],
+                    page.number(s["simulated_s"]),
+                    page.good_or_bad(run.mismatches),
+                    page.Cell(f"{broken} of {s['expectations']['checked']}"),
+                    str(number),
+                    *(page.number(axis[f"{kind}_peak_nm"]) for kind in ("asked", "motor")),
+                    *(micro(axis["law_nm"].get(kind)) for kind in ("max_error", "bound")),
+                ]
+            )
+    return page.table(head, rows)
+
+
 def steps(demo):
     head = ["scene", "design"] + [title for title, _ in run_section.STEP_KEYS]
     rows = []

@@ -33,7 +33,7 @@ def program(design=""):
     """Path of the built program, that of a design which has its own; a mistake here is the
     caller's to report."""
     path = Path(os.environ.get("FELTGATE_PROGRAM") or build_folder() / "feltgate")
-    if design == ENGINE_DESIGN and path.name == "feltgate":
+    if design.endswith("_law") and path.name == "feltgate":
         path = path.with_name(f"feltgate_{design}")
     if not os.access(path, os.X_OK):
         raise FileNotFoundError(f"{path}: not built; start it through ./feltgate, which builds it")
@@ -52,6 +52,14 @@ def design(name):
 
 def scene_file(name):
     return read_toml(SCENES / f"{name}.toml")
+
+
+def design_of(scene):
+    """The design that a scene runs on: its device's, or one with an engine where it has a law."""
+    file = scene_file(scene)
+    if "device" in file:
+        return f"{file['device']}_law"
+    return ENGINE_DESIGN if "law" in file["core"] else "lever"
 
 
 def rows_of(path):
@@ -122,6 +130,11 @@ class Run:
     @property
     def design(self):
         return self.summary.get("design", "lever")
+
+    @property
+    def of_axes(self):
+        """Whether it is of a device of several axes: another schema, docs/json.md."""
+        return self.summary.get("schema", "").startswith("feltgate-axes-run/")
 
     @property
     def mismatches(self):

@@ -27,6 +27,21 @@ TITLES = {
     "wall_tracked": "Wall on a tracker",
     "ceiling_tracked": "Ceiling on a tracker and an encoder",
     "drums": "Three drums under a stick",
+    "turn_switch": "Turn switch with a latch",
+    "graded_membrane": "Graded membrane",
+    "end_stops": "End stops",
+    "end_stops_thrown": "Thrown against an end stop",
+    "scroll_wheel": "Scroll wheel with inertia",
+    "moved_detents": "Detents that the host moves",
+    "flywheel": "Flywheel behind a spring",
+    "pendulum": "Pendulum behind a spring",
+    "collision": "Collision of two",
+    "pantograph_floor": "A floor under a pen",
+    "pantograph_wall": "A floor of 50 N/m at 1 kHz",
+    "pantograph_wall_filtered": "The same floor behind filters",
+    "coupled_levers": "Two levers coupled",
+    "coupled_levers_drag": "Two levers coupled by their positions",
+    "coupled_levers_free": "Two levers coupled, the other one free",
 }
 
 SAID = {
@@ -60,6 +75,31 @@ SAID = {
     "on by the encoder: the motor pushes back with up to {most}.",
     "drums": "A stick strikes the drums beneath it one after the other: a skin pushes back with up "
     "to {most}, and the program tells how hard and where it was hit.",
+    "turn_switch": "The hand moves a stalk between {low} and {high}: it springs back with up to "
+    "{most} until it falls into a latch, which then holds it.",
+    "graded_membrane": "The hand goes through a skin that grows stronger on the way, up to {most}; "
+    "then the host turns it round, and it grows weaker.",
+    "end_stops": "The lever runs freely between two stops that give way a little: they push back "
+    "with up to {most} on the way in, and with a quarter of the energy on the way out.",
+    "end_stops_thrown": "The lever is thrown against a stop: the motor catches it with up to {most} "
+    "and gives less back than it took.",
+    "scroll_wheel": "The hand spins up a wheel that exists only as numbers, holds the knob still, "
+    "and the wheel goes on pulling: up to {most}.",
+    "moved_detents": "The hand turns a knob from {low} to {high} through detents that the host sets "
+    "while it turns: the motor pushes with up to {most} to the nearest.",
+    "flywheel": "The hand pushes a flywheel by a spring, and then holds the lever: the wheel swings "
+    "through and pulls with up to {most}.",
+    "pendulum": "The hand lifts a pendulum by a spring and lets go: lever and pendulum swing between "
+    "{low} and {high}, driven by up to {most}.",
+    "collision": "The hand moves a puck that runs into another one: it feels the blow, up to {most}, "
+    "and the other puck flies off.",
+}
+# Devices of several axes.
+OF_AXES = {
+    "pantograph": "A hand leads the pen of two cranks over {way_mm} mm; where it meets "
+    "something, both motors together push back with up to {force}.",
+    "two_levers": "The hand turns a lever by {first}, another one follows by {second}, and what that "
+    "one meets is felt: up to {most}.",
 }
 MOVED = "The lever moves between {low} and {high}, and the motor puts up to {most} on it."
 STILL = "The lever stands still, and the motor puts up to {most} on it."
@@ -67,6 +107,22 @@ REPLAYED = (
     "A recording moves the lever between {low} and {high}. The core asks for up to {most}, but "
     "nothing feels it: a recording cannot give way."
 )
+
+
+def of_axes(summary, csv):
+    """The sentence of a device of several axes."""
+
+    def turned(n):
+        return degrees(np.degrees(np.ptp(csv[f"theta_rad.{n}"])))
+
+    words = {"first": turned(0), "second": turned(1)}
+    if "hand_nm" in csv:
+        words["most"] = f"{np.abs(csv['hand_nm']).max():.2f} Nm"
+    if "pen_x_m" in csv:
+        way = np.hypot(np.ptp(csv["pen_x_m"]), np.ptp(csv["pen_y_m"]))
+        words["way_mm"] = f"{1e3 * way:.0f}"
+        words["force"] = f"{np.hypot(csv['hand_x_n'], csv['hand_y_n']).max():.1f} N"
+    return OF_AXES[summary["device"]].format(**words)
 
 
 def degrees(value):

@@ -31,6 +31,14 @@ TEST_CASE("an interval contains the exact result of every operation") {
   }
 }
 
+TEST_CASE("what has no bound has none after any sum") {
+  const double endless = std::numeric_limits<double>::infinity();
+  const Interval none(endless, endless);
+  CHECK((none + Interval(1.0)).upper() == endless);
+  CHECK((Interval(0.5) * (Interval(2.0) + none)).upper() == endless);
+  CHECK((Interval(1.0) - none).lower() == -endless);
+}
+
 TEST_CASE("the gain of one pole is the sum of its powers") {
   for (const double pole : {0.0, 0.5, 0.9995, -0.7, 1 - 5e-6}) {
     Quad sum = 0, power = 1;

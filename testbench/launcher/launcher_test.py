@@ -136,9 +136,10 @@ class Presets(Machine):
         self.installed(*BUILD_PACKAGES)
         self.assertEqual(self.built("rates", "wall"), [["feltgate_lever_law"]])
 
-    def test_the_demo_has_a_scene_with_a_law(self):
+    def test_the_demo_has_scenes_with_laws(self):
         self.installed(*BUILD_PACKAGES)
-        self.assertEqual(self.built("demo"), [["feltgate", "feltgate_lever_law"]])
+        engines = [f"feltgate_{name}_law" for name in ("lever", "pantograph", "two_levers")]
+        self.assertEqual(self.built("demo"), [["feltgate", *engines]])
 
 
 class Tests(Machine):

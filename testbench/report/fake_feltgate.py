@@ -121,6 +121,43 @@ def run(options):
     return data, steps
 
 
+def axes_run(options, device):
+    """CSV columns and JSON of a device of several axes: both move, and the hand is pushed."""
+    dt = 1e-6 * options.every
+    time = np.arange(dt, 0.1 + dt / 2, dt)
+    rise = np.clip(time / 0.1, 0, 1)
+    data = {"time_s": time}
+    for n in (0, 1):
+        data |= {f"theta_rad.{n}": 0.5 + (0.3 - 0.2 * n) * rise}
+        data |= {f"motor_torque_nm.{n}": (0.1 - 0.2 * n) * rise}
+    if device == "pantograph":
+        data |= {"pen_x_m": 0.02 * rise, "pen_y_m": 0.1 + 0.01 * rise**2}
+        data |= {"hand_x_n": 0 * rise, "hand_y_n": -2 * rise}
+    else:
+        data |= {"hand_nm": 0.3 * rise}
+    axis = {"asked_peak_nm": 0.11, "motor_peak_nm": 0.1, "limits": {}, "faults": {}}
+    axis["law_nm"] = {"max_error": 2.6e-3, "rms_error": 1e-3, "ticks": 90000, "bound": 8.2e-3}
+    mismatches = int(os.environ.get("FAKE_MISMATCHES", "0"))
+    broken = ["mismatches = 1 is outside its bounds"] if mismatches else []
+    return data, {
+        "schema": "feltgate-axes-run/1",
+        "version": "0.0.0-fake",
+        "scene": options.subject,
+        "device": device,
+        "design": options.design,
+        "simulated_s": 0.1,
+        "clocks": 5_000_000,
+        "mismatches": mismatches,
+        "axes": [axis, axis],
+        "expectations": {"checked": 7, "broken": broken},
+    }
+
+
+def device_of(scene):
+    path = ROOT / "vectors" / "scenes" / f"{scene}.toml"
+    return tomllib.loads(path.read_text()).get("device") if path.exists() else None
+
+
 def replay(options):
     path = Path(options.subject)
     if not path.exists() or path.stat().st_size < 10:
@@ -228,11 +265,15 @@ def main():
     parser.add_argument("--set", action="append", default=[], type=lambda s: s.split("=", 1))
     parser.add_argument("--quiet", action="store_true")
     options = parser.parse_args()
-    if options.command == "run":
+    device = device_of(options.subject) if options.command == "run" else None
+    if device:
+        data, result = axes_run(options, device)
+    elif options.command == "run":
         data, steps = run(options)
+        result = summary(options, data, steps)
     else:
-        data, steps = replay(options), []
-    result = summary(options, data, steps)
+        data = replay(options)
+        result = summary(options, data, [])
     table = np.column_stack(list(data.values()))
     np.savetxt(options.csv, table, fmt="%.9g", delimiter=",", header=",".join(data), comments="")
     Path(options.json).write_text(json.dumps(result))

@@ -16,6 +16,7 @@ from bench import SCRIPTS, Bench  # isort: skip (puts scripts/ on the path)
 import numpy as np
 from markup import Markup
 from reporting import (
+    axes_card,
     card,
     demo_page,
     glossary,
@@ -151,9 +152,25 @@ class Cards(Recorded):
             with self.subTest(path.stem):
                 self.assertIn(path.stem, sentences.TITLES)
                 summary, csv = self.run_of(path.stem)
-                said = sentences.said(summary, moments.of_run(summary, csv))
+                if "device" in summary:
+                    said = sentences.of_axes(summary, csv)
+                else:
+                    said = sentences.said(summary, moments.of_run(summary, csv))
                 self.assertRegex(said, r"^[A-Z].*\d.*\.$")
                 self.assertNotIn("{", said)
+
+    def test_a_device_of_several_axes(self):
+        summary, csv = self.run_of("pantograph_floor")
+        found = Markup(axes_card.html("card", summary, csv))
+        self.assertIn("over 22 mm", found.text)
+        self.assertIn("up to 2.0 N", found.text)
+        self.assertIn("proven bound 8,200", found.text)
+        curves = [a["d"] for a in found.classes("curve")]
+        self.assertEqual(len(curves), 4)  # joints and motors of both axes
+        self.assertEqual(len(set(curves)), 4)
+        # The legend's, the joint's, its motor's and the pen's.
+        self.assertEqual(len(found.classes("angle")), 4)
+        self.assertFalse(axes_card.has_way(csv | {"pen_x_m": 0 * csv["time_s"]}))
 
     def test_a_scene_of_ones_own(self):
         summary, csv = self.run_of("wall", scene="mine {most} %s")
@@ -239,9 +256,8 @@ class Room(Recorded):
             summary, csv = self.replay_of(steps)
             recording = SimpleNamespace(title=f"mouse {steps}", expected=None, sure=False)
             job = SimpleNamespace(name=f"replay-{steps}", recording=recording)
-            runs[job.name] = SimpleNamespace(
-                job=job, summary=summary, csv=csv, ran=True, mismatches=0, design="lever"
-            )
+            told = {"summary": summary, "csv": csv, "ran": True, "mismatches": 0}
+            runs[job.name] = SimpleNamespace(job=job, design="lever", of_axes=False, **told)
         demo = demo_page.Demo(runs, [], list(runs), {n: demo_page.draw(r) for n, r in runs.items()})
         found = Markup(demo_page.runs_section(demo))
         (line,) = found.classes("line")

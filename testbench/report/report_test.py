@@ -15,6 +15,7 @@ import time
 import unittest
 
 from bench import ROOT, SCRIPTS, Bench  # isort: skip (puts scripts/ on the path)
+import demo
 from markup import Markup, width_px
 from reporting import glossary
 
@@ -103,11 +104,11 @@ class Figures(Bench):
 class Demo(Bench):
     SCENES = {"damper", "torque_step", "wall"}
 
-    def root(self):
-        """A repository with two scenes, to be quick."""
-        root = self.folder / "root"
+    def root(self, scenes=()):
+        """A repository with few scenes, to be quick."""
+        root, scenes = self.folder / "root", self.SCENES | set(scenes)
         (root / "vectors" / "scenes").mkdir(parents=True, exist_ok=True)
-        for name in ("rtl", "vectors/plants", *(f"vectors/scenes/{s}.toml" for s in self.SCENES)):
+        for name in ("rtl", "vectors/plants", *(f"vectors/scenes/{s}.toml" for s in scenes)):
             if not (root / name).exists():
                 (root / name).symlink_to(ROOT / name)
         return str(root)
@@ -153,6 +154,25 @@ class Demo(Bench):
         self.assertGreaterEqual(len(found.tables), 5)
         for table in found.tables:
             self.assertLess(width_px(table), 1200 - 60, table[0])
+
+    def test_a_card_for_each_device_and_all_on_demand(self):
+        self.root(("detent", "end_stops", "end_stops_thrown", "pantograph_floor"))
+        _, summary, page = self.demo("--no-figures")
+        self.assert_self_contained(page)
+        found = Markup(page)
+        cards = ["wall-lever", "detent-lever_law", "end_stops-lever_law"]
+        cards = [f"card-{name}" for name in (*cards, "pantograph_floor-pantograph_law")]
+        self.assertEqual([a["id"] for a in found.classes("card")], cards)
+        self.assertIn("Devices of several axes: 1 run in closed loop, 0 mismatches", found.text)
+        self.assertNotIn("end_stops_thrown-lever_law", summary["runs"])
+        done, summary, page = self.demo("--no-figures", "--all", FAKE_MISMATCHES="1")
+        self.assertIn("end_stops_thrown-lever_law", summary["runs"])
+        self.assertIn("card-end_stops_thrown-lever_law", page)
+        self.assertIn("pantograph_floor, pantograph_law: 1 mismatches", done.stderr)
+
+    def test_what_is_left_out_is_there(self):
+        for name in demo.ALL_ONLY:
+            self.assertTrue((ROOT / "vectors" / "scenes" / f"{name}.toml").is_file(), name)
 
     def test_mismatches_end_with_1_and_a_list(self):
         done, summary, page = self.demo("--no-figures", FAKE_MISMATCHES="2")

@@ -61,11 +61,14 @@ AxesScene read_axes_scene(const std::string& path,
         fmt::format("{}:{}: step_nm is for scenes of one lever; leave it out", path, e.line));
   }
   const Scenario& s = scene.scenario;
-  const int line = s.tracker ? s.tracker->line : s.feed_hz > 0 ? s.feed_line : s.rest_line;
+  const int line = s.tracker         ? s.tracker->line
+                   : s.feed_hz > 0   ? s.feed_line
+                   : s.rest_line > 0 ? s.rest_line
+                                     : s.drag_line;
   if (line > 0) {
     throw config::ConfigError(fmt::format(
-        "{}:{}: [tracker], [feed] and [rest] are for scenes of one lever; leave them out", path,
-        line));
+        "{}:{}: [tracker], [feed], [rest] and [drag] are for scenes of one lever; leave them out",
+        path, line));
   }
   std::visit([&](const auto& setup) { resolve_effects(scene.scenario, setup.parameters.effects); },
              scene.device);

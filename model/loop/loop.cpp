@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "config/toml_reader.hpp"
+#include "loop/drag.hpp"
 #include "loop/ensemble.hpp"
 #include "loop/expectations.hpp"
 #include "loop/host_feed.hpp"
@@ -63,6 +64,7 @@ class ScenarioRun {
         feed_(scenario, options.law, core_.design().clock_hz) {
     last_.theta_rad = plant_.observables().theta_rad;
     if (scenario.rest_from_s) rest_.from_clock = clock_of(*scenario.rest_from_s);
+    if (scenario.drag_from_s) drag_.from_clock = clock_of(*scenario.drag_from_s);
   }
 
   RunResult run() {
@@ -200,6 +202,9 @@ class ScenarioRun {
     if (options_.plant_step) options_.plant_step(clocks, o);
     mean_.add(clocks, o.motor_torque_mean_nm);
     felt_.step(dt_s_, o.hand_torque_nm, o.omega_rad_s);
+    if (plant_.now() > drag_.from_clock) {
+      drag_.step(dt_s_, o.hand_torque_nm, before_.omega_rad_s, o.omega_rad_s);
+    }
     const auto& events = plant_.events();
     if (options_.inputs != nullptr) {
       auto& edges = options_.inputs->edges;
@@ -311,6 +316,7 @@ class ScenarioRun {
     f["hand_energy_j"] = out.felt.energy.net_from_hand_j();
     f["energy_absorbed_j"] = absorbed_j_;
     if (s_.rest_from_s) rest_.tell(f);
+    if (s_.drag_from_s) drag_.tell(f);
     std::map<std::string, int> told;
     for (const RunEvent& e : out.events) {
       const int n = told[e.name]++;
@@ -358,6 +364,7 @@ class ScenarioRun {
   std::int32_t position_ = 0;  ///< counts, as the core showed it last
   HostFeed feed_;
   Rest rest_;
+  Drag drag_;
   Row last_;
   std::unique_ptr<StepRecord> step_;  ///< under way
   std::vector<StepFigures> steps_;

@@ -145,6 +145,12 @@ Scenario read(const toml::table& root, const std::string& path,
     s.rest_from_s = rest.number("from_s", {0, s.duration_s});
     rest.finish();
   }
+  if (top.has("drag")) {
+    config::TomlReader drag = top.section("drag");
+    s.drag_line = drag.line("from_s");
+    s.drag_from_s = drag.number("from_s", {0, s.duration_s});
+    drag.finish();
+  }
   if (top.has("effects")) s.effects_set = read_effects_set(top.section("effects"));
   const auto expectations = top.sections("expect");
   for (std::size_t i = 0; i < expectations.size(); ++i) {

@@ -73,6 +73,8 @@ struct Scenario {
   std::optional<TrackerSettings> tracker;
   std::optional<double> rest_from_s;  ///< from then on the lever should rest
   int rest_line = 0;
+  std::optional<double> drag_from_s;  ///< from then on a hand swings the lever
+  int drag_line = 0;
   std::vector<EffectSetting> effects_set;  ///< by the scene
   plant::Effects effects;                  ///< of the plant, as the scene overrides them
   plant::Hand hand;

@@ -22,6 +22,7 @@ void make_room(Scenario& scene) {
   if (scene.arm_s >= 0.05) return;
   scene.duration_s += kTest_s;
   for (Event& e : scene.events) e.at_s += kTest_s;
+  if (scene.drag_from_s) *scene.drag_from_s += kTest_s;
   plant::HandPhase before;
   before.kind = plant::HandPhase::Kind::kLocked;
   before.duration_s = kTest_s;

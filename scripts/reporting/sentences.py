@@ -15,6 +15,8 @@ TITLES = {
     "spring_tension": "Spring that is pulled",
     "wall": "Wall",
     "damper": "Damper",
+    "free_lever": "Free lever",
+    "damped_lever": "Free lever with a damper",
     "charge_attract": "Charges that attract",
     "charge_repel": "Charges that repel",
     "torque_step": "Steps of torque",

@@ -46,9 +46,12 @@ def set_values(scene, name):
     return np.array([event["set"][name] for _, _, event in steps(scene)])
 
 
+RAMPED_S = 0.11  # from arming to the end of the torque's ramp, and some more
+
+
 def arm_time(scene):
     """When the torque of a scene stands: armed, and the ramp of the torque over."""
-    return scene_file(scene)["core"].get("arm_s", 0.0) + 0.11
+    return scene_file(scene)["core"].get("arm_s", 0.0) + RAMPED_S
 
 
 def ideal_torque(scene, design_name, theta, omega):
@@ -85,7 +88,8 @@ def membrane(theta, lower, upper, torque):
 
 def charge(x, strength, core):
     """Repulsion c/x^2; inside the core, where there is one, a straight line."""
-    outside = np.sign(x) * strength / np.maximum(x * x, 1e-12)
+    side = np.where(x < 0, -1.0, 1.0)  # on the charge itself as above it
+    outside = side * strength / np.maximum(x * x, 1e-12)
     if core <= 0:
         return outside
     return np.where(np.abs(x) < core, strength * x / core**3, outside)

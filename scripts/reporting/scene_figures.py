@@ -11,15 +11,17 @@ import numpy as np
 
 from reporting import objects, plots
 from reporting.paper_figure import PaperFigure
-from reporting.runs import scene_job
+from reporting.runs import ROOT, Job, read_toml, scene_job
+
+MOTIONS = ROOT / "vectors" / "figures"
 
 ZOOM_S = 0.03
 
 
 def zoom_window(v):
-    """The time in which the ideal torque first reaches half its largest size: where it moves."""
-    size = np.abs(v.ideal)
-    middle = v.time[int(np.argmax(size >= 0.5 * size.max()))]
+    """The time in which the ideal torque first passes half its largest size: where it moves."""
+    large = np.abs(v.ideal) >= 0.5 * np.abs(v.ideal).max()
+    middle = v.time[int(np.argmax(large != large[0]))]
     return middle - ZOOM_S / 2, middle + ZOOM_S / 2
 
 
@@ -53,10 +55,11 @@ def draw_zoom(axis, csv, v):
     axis.set_xlabel(f"zoom: time from {begin:.3f} s, ms")
 
 
-def picture(number, run, scene, mirrored, png):
-    csv, v = run.csv, objects.view(run, scene)
+def picture(number, run, v, mirrored, caption, png):
+    csv, scene = run.csv, v.scene
     heights = [0.75, 1.05, 1.05, 1.25] if scene != "damper" else [0.75, 0.75, 1.05, 1.05, 1.25]
-    title = f"{scene.replace('_', ' ').capitalize()}, design {v.design}"
+    moved = ", the paper's motion" if v.of_motion else ""
+    title = f"{scene.replace('_', ' ').capitalize()}, design {v.design}{moved}"
     figure, axes = plots.stacked(title, heights, apart=1)
     draw_overview(axes[:-1], csv, v)
     draw_zoom(axes[-1], csv, v)
@@ -69,7 +72,18 @@ def picture(number, run, scene, mirrored, png):
     for axis in axes:
         plots.legend(axis)
     figure.align_ylabels(axes)
-    return plots.finish(figure, f"figure-{number}-{v.design}", png=png)
+    name = f"figure-{number}-{v.column.replace('_', '-')}"
+    return plots.finish(figure, name, caption, png)
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The paper's own motion, as far as its words go; the rest of the scene file is ours."""
+
+    start: str
+    begins: str
+    end: str
+    caption: str
 
 
 @dataclass(frozen=True)
@@ -80,6 +94,7 @@ class Spec:
     said: str
     fill: object
     mirrored: bool = False
+    motion: Motion | None = None  # where the shipped scene has another
 
 
 SPECS = (
@@ -98,6 +113,13 @@ SPECS = (
         "touched at 0.5 rad, fully compressed at 0, where the force is greatest; a small vibration "
         "in the zoom, perhaps from the experimental setup.",
         objects.spring_compression,
+        motion=Motion(
+            "about 3",
+            "1",
+            "0",
+            "From about 3 rad after 1 s to 0, as in the paper. It gives no speed; 3 rad/s are "
+            "ours. Until 0.6 s the lever is carried to its start, disarmed.",
+        ),
     ),
     Spec(
         17,
@@ -106,6 +128,12 @@ SPECS = (
         "pulled from 0 to about 3 rad; the torque reaches its limit of 0.5 Nm at 1 rad; a small "
         "vibration, not perceptible.",
         objects.spring_tension,
+        motion=Motion(
+            "0",
+            "",
+            "about 3",
+            "From 0 to about 3 rad, as in the paper. It gives no time; 2.5 rad/s are ours.",
+        ),
     ),
     Spec(
         19,
@@ -114,6 +142,13 @@ SPECS = (
         "moved fast from 0 to about 0.1 rad; the torque rises to 0.13 Nm in proportion to the "
         "velocity.",
         objects.damper,
+        motion=Motion(
+            "0",
+            "0.6",
+            "about 0.1",
+            "At rest to 0.6 s, then fast to 0.1 rad with 0.13 Nm at most, as in the paper. It "
+            "gives neither damping nor speed; with our 0.03 Nm s/rad this takes 42.5 ms.",
+        ),
     ),
     Spec(
         21,
@@ -122,6 +157,13 @@ SPECS = (
         "from 4.5 rad towards 0 the torque grows “exponentially in a positive direction”.",
         objects.attract,
         True,
+        Motion(
+            "4.5",
+            "",
+            "0",
+            "From 4.5 rad to 0 at a constant speed, as in the paper; 4.5 rad/s are ours. Until "
+            "0.65 s the lever is carried to its start, disarmed.",
+        ),
     ),
     Spec(
         22,
@@ -131,29 +173,71 @@ SPECS = (
         "moves away; vibrations small enough for the classroom.",
         objects.repel,
         True,
+        Motion(
+            "0",
+            "about 1.2",
+            "",
+            "At 0 rad until 1.2 s, then outward, as in the paper. It gives neither speed nor end: "
+            "4.5 rad/s to 4.5 rad are ours, and so is arming at 0.4 s.",
+        ),
     ),
 )
 
 
+def motion_file(spec):
+    return MOTIONS / f"figure_{spec.number}.toml"
+
+
+def motion_job(spec, design_name):
+    """A run of the paper's own motion."""
+    path = motion_file(spec)
+    arguments = ("run", str(path), "--design", design_name)
+    seconds = float(read_toml(path)["duration_s"])
+    return Job(f"figure_{spec.number}-{design_name}", arguments, seconds, every=50)
+
+
 def jobs(designs, quick=False):
-    return [
+    """Quick: of the objects on paper only the one that shows its border, and our own motions."""
+    found = [
         scene_job(spec.scene, d, every=50)
         for spec in SPECS
         for d in designs
         if d == "lever" or spec.scene == "spring_compression" or not quick
     ]
+    if not quick:
+        found += [motion_job(spec, d) for spec in SPECS if spec.motion for d in designs]
+    return found
+
+
+def views_of(spec, runs, designs):
+    """[(run, its view)], for each design our own motion and then the paper's; what did not run is
+    left out."""
+    found = []
+    for d in designs:
+        if run := runs.get(scene_job(spec.scene, d).name):
+            found.append((run, objects.view(run, spec.scene)))
+        if spec.motion and (run := runs.get(f"figure_{spec.number}-{d}")):
+            arm_s = read_toml(motion_file(spec))["core"]["arm_s"]
+            found.append((run, objects.view(run, spec.scene, f"{d}_motion", arm_s)))
+    return found
 
 
 def figure(spec, runs, designs, png=False):
-    found = PaperFigure(spec.number, spec.title, spec.said, [(d, d) for d in designs])
-    there = [runs[n] for d in designs if (n := scene_job(spec.scene, d).name) in runs]
-    found.pictures = [picture(spec.number, run, spec.scene, spec.mirrored, png) for run in there]
-    views = [objects.view(run, spec.scene) for run in there]
+    columns = [(d, d) for d in designs] + [(f"{d}_motion", f"{d}, its motion") for d in designs]
+    found = PaperFigure(spec.number, spec.title, spec.said, columns)
+    there = views_of(spec, runs, designs)
+    for run, v in there:
+        ours = "Our own motion." if spec.motion else ""
+        caption = spec.motion.caption if v.of_motion else ours
+        found.pictures.append(picture(spec.number, run, v, spec.mirrored, caption, png))
+    views = [v for _, v in there]
+    if spec.motion:
+        objects.motion(found, views, spec.motion)
     spec.fill(found, views)
     for name, key in (("tau_hat_nm", "observed torque"), ("torque_nm", "commanded torque")):
         errors = {
-            r.design: 1e6 * e["max_error"]
-            for r in there
+            v.column: 1e6 * e["max_error"]
+            for r, v in there
             if (e := r.summary["engines"].get("rtl", {}).get(name))
         }
         stem = name.removesuffix("_nm")

@@ -36,6 +36,11 @@ def profile(segments, time, start):
     return theta
 
 
+def scene_path(subject):
+    """A scene's name, or the path of its file, as the program takes them."""
+    return Path(subject) if subject.endswith(".toml") else ROOT / f"vectors/scenes/{subject}.toml"
+
+
 def scene_torque(scene, x, omega):
     if scene == "membrane":
         return np.where((x > 0.5) & (x < 0.7), 0.5, 0.0)
@@ -59,7 +64,7 @@ def low_pass(x, dt, pole):
 
 def run(options):
     """CSV columns and step responses of a scene."""
-    scene_file = ROOT / "vectors" / "scenes" / f"{options.subject}.toml"
+    scene_file = scene_path(options.subject)
     if not scene_file.exists():
         raise SystemExit(f"{options.subject}: no such scene; see vectors/scenes")
     scene = tomllib.loads(scene_file.read_text())
@@ -154,7 +159,7 @@ def axes_run(options, device):
 
 
 def device_of(scene):
-    path = ROOT / "vectors" / "scenes" / f"{scene}.toml"
+    path = scene_path(scene)
     return tomllib.loads(path.read_text()).get("device") if path.exists() else None
 
 
@@ -177,7 +182,7 @@ def replay(options):
 
 def expectations(options):
     """Each as the scene's file has it, and kept: its bound is what came out."""
-    scene = tomllib.loads((ROOT / "vectors" / "scenes" / f"{options.subject}.toml").read_text())
+    scene = tomllib.loads(scene_path(options.subject).read_text())
     return [
         {k: e[k] for k in ("figure", "low", "high") if k in e}
         | {"value": e.get("high", e.get("low")), "line": 1, "kept": True}

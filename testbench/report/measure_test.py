@@ -37,7 +37,7 @@ class Laws(unittest.TestCase):
         repel = measure.ideal_torque("charge_repel", "lever", theta, 0 * theta)
         np.testing.assert_allclose(repel, [0.02, 0.5, 0.25, 0, -0.02])
         attract = measure.ideal_torque("charge_attract", "paper", theta, 0 * theta)
-        np.testing.assert_allclose(attract, [-0.02, -0.5, -0.5, 0, 0.02])
+        np.testing.assert_allclose(attract, [-0.02, -0.5, -0.5, -0.5, 0.02])
 
     def test_pole_of_the_observer(self):
         self.assertAlmostEqual(measure.observer_pole("paper"), 391.68, places=6)

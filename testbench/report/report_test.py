@@ -92,6 +92,21 @@ class Figures(Bench):
         self.assertLess(numbers[10]["error_at_0.1_nm_pct"]["unit"], 0)
         self.assertGreater(numbers[10]["error_at_0.2_nm_pct"]["unit"], 0)
         self.assertAlmostEqual(numbers[16]["stiffness_nm_rad"]["lever"], 1.0, places=2)
+        # The paper's own motions, beside ours.
+        self.assertEqual(numbers[16]["begins_s"]["published"], "1")
+        for number, start, begins, end in (
+            (16, 3, 1, 0),
+            (17, 0, 0.3, 3),
+            (19, 0, 0.6, 0.1),
+            (21, 4.5, 0.8, 0),
+            (22, 0, 1.2, 4.5),
+        ):
+            for design in ("lever_motion", "paper_motion"):
+                self.assertAlmostEqual(numbers[number]["start_rad"][design], start, places=3)
+                self.assertAlmostEqual(numbers[number]["begins_s"][design], begins, places=2)
+                self.assertAlmostEqual(numbers[number]["end_rad"][design], end, places=2)
+        self.assertAlmostEqual(numbers[19]["largest_torque_nm"]["lever_motion"], 0.13, places=2)
+        self.assertEqual(numbers[14].get("start_rad"), None)
         self.assertAlmostEqual(numbers[17]["saturates_rad"]["lever"], 1.0, places=2)
         self.assertAlmostEqual(numbers[21]["exponent"]["paper"], -2.0, places=2)
 

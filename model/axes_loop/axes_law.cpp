@@ -23,13 +23,10 @@ namespace feltgate {
 
 namespace {
 
-/// Parameters as set by the host, in order: number and SI value as rounded to the word.
-using Changes = std::vector<LawChange>;
-
 template <class N>
 class RealAxesLaw : public AxesLawRider {
  public:
-  RealAxesLaw(const law::Compiled& law, const DesignInfo& design, const Changes& changes)
+  RealAxesLaw(const law::Compiled& law, const DesignInfo& design, const LawChanges& changes)
       : law_(law), design_(design), changes_(changes), evaluation_(law.law) {}
 
   void enter() override {
@@ -37,8 +34,9 @@ class RealAxesLaw : public AxesLawRider {
     runs_.clear();
   }
   void change() override {
-    const LawChange& c = changes_.at(next_++);
-    evaluation_.set_parameter(c.parameter, rounded<N>(law_, c));
+    for (const LawChange& c : changes_.at(next_++)) {
+      evaluation_.set_parameter(c.parameter, rounded<N>(law_, c));
+    }
   }
   const Torques* torques_nm(const AxesSnapshot& s) override {
     if (!s[0].law_known) return nullptr;
@@ -80,7 +78,7 @@ class RealAxesLaw : public AxesLawRider {
 
   const law::Compiled& law_;
   const DesignInfo& design_;
-  const Changes& changes_;
+  const LawChanges& changes_;
   std::size_t next_ = 0;
   law::Evaluation<N> evaluation_;
   std::vector<N> inputs_;
@@ -91,17 +89,18 @@ class CompiledAxesLaw : public AxesLaw {
  public:
   CompiledAxesLaw(law::Compiled law, DesignInfo design)
       : law_(std::move(law)), design_(std::move(design)), host_(make_scene_law(law_, design_)) {
+    changes_.emplace_back();
     for (std::size_t n = 0; n < law_.law.parameters.size(); ++n) {
       const law::Parameter& p = law_.law.parameters[n];
       if (p.derived < 0 && host_->has(p.name)) note(n);
     }
-    initial_ = changes_.size();
   }
   const SceneLaw& host() const override { return *host_; }
-  SceneLaw::Writes set(const std::string& parameter, double value) override {
-    SceneLaw::Writes writes = host_->set({{parameter, value}});
+  SceneLaw::Writes set(const std::map<std::string, double>& values) override {
+    SceneLaw::Writes writes = host_->set(values);
+    changes_.emplace_back();
     for (std::size_t n = 0; n < law_.law.parameters.size(); ++n) {
-      if (law_.law.parameters[n].name == parameter) note(n);
+      if (values.count(law_.law.parameters[n].name) != 0) note(n);
     }
     return writes;
   }
@@ -124,7 +123,7 @@ class CompiledAxesLaw : public AxesLaw {
     } else {
       made = std::make_unique<RealAxesLaw<double>>(law_, design_, changes_);
     }
-    for (std::size_t n = 0; n < initial_; ++n) made->change();
+    made->change();
     return made;
   }
 
@@ -132,14 +131,13 @@ class CompiledAxesLaw : public AxesLaw {
   /// The value in force, as rounded to its word.
   void note(std::size_t parameter) {
     const law::Parameter& p = law_.law.parameters[parameter];
-    changes_.push_back({parameter, host_->value(p.name) * p.to_si});
+    changes_.back().push_back({parameter, host_->value(p.name) * p.to_si});
   }
 
   law::Compiled law_;
   DesignInfo design_;
   std::unique_ptr<SceneLaw> host_;
-  Changes changes_;
-  std::size_t initial_ = 0;
+  LawChanges changes_;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -35,7 +36,7 @@ class AxesLaw {
   /// What the host loads, and the ranges of its parameters.
   virtual const SceneLaw& host() const = 0;
   /// SceneLaw::set().
-  virtual SceneLaw::Writes set(const std::string& parameter, double value) = 0;
+  virtual SceneLaw::Writes set(const std::map<std::string, double>& values) = 0;
   /// Axes that it gives torques for.
   virtual int axes() const = 0;
   virtual double rate_hz() const = 0;

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <type_traits>
@@ -74,7 +75,7 @@ class AxesRun : plant::AxesDevice<Plant> {
     const auto began = std::chrono::steady_clock::now();
     home();
     for (const auto& [address, data] : options_.law->host().load()) cores_->write(address, data);
-    for (const auto& [name, value] : s_.parameters) set_parameter(name, value);
+    set_parameters(s_.parameters);
     control(false);
     plant::AxesLoop<Plant> loop(plant_, *this, most_clocks);
     const Clock end = clock_of(s_.duration_s);
@@ -172,16 +173,21 @@ class AxesRun : plant::AxesDevice<Plant> {
       cores_->write(n * axes_stride + address, data);
     }
   }
-  void set_parameter(const std::string& name, double value) {
-    if (options_.law->host().has(name)) {
-      for (const auto& [address, data] : options_.law->set(name, value)) {
-        cores_->write(address, data);
+  /// Those of the law come into force together.
+  template <class Settings>
+  void set_parameters(const Settings& settings) {
+    std::map<std::string, double> of_law;
+    for (const auto& [name, value] : settings) {
+      if (options_.law->host().has(name)) {
+        of_law[name] = value;
+        continue;
       }
-      return;
+      const ParameterInfo* info = design_.find(name);
+      if (info == nullptr) throw std::invalid_argument(design_.unknown(name));
+      write_all(info->address, static_cast<std::uint32_t>(quantise_parameter(*info, value)));
     }
-    const ParameterInfo* info = design_.find(name);
-    if (info == nullptr) throw std::invalid_argument(design_.unknown(name));
-    write_all(info->address, static_cast<std::uint32_t>(quantise_parameter(*info, value)));
+    if (of_law.empty()) return;
+    for (const auto& [address, data] : options_.law->set(of_law)) cores_->write(address, data);
   }
   void control(bool arm) {
     armed_ = arm;
@@ -193,7 +199,7 @@ class AxesRun : plant::AxesDevice<Plant> {
     write_all(design_.control_address, word);
   }
   void apply(const Event& e) {
-    for (const auto& [name, value] : e.set) set_parameter(name, value);
+    set_parameters(e.set);
     if (e.stop) cores_->stop(*e.stop);
     if (!e.scene && !e.mode && !e.arm) return;
     if (e.scene) scene_ = scene_number(design_, *e.scene);

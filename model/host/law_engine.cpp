@@ -272,11 +272,12 @@ double LawEngine::get(const std::string& name) {
 
 std::vector<double> LawEngine::set(const std::vector<std::pair<std::string, double>>& values) {
   if (image_ == nullptr) throw std::invalid_argument("no law of this host is on the board");
-  for (const auto& [name, value] : values) parameters_->check(bare(name), value);
+  if (values.empty()) return {};
+  std::map<std::string, double> all;
+  for (const auto& [name, value] : values) all[bare(name)] = value;
+  for (const auto& [name, value] : all) parameters_->check(name, value);
   refresh();
-  std::vector<law::HostWord> writes;
-  for (const auto& [name, value] : values) writes = parameters_->set(bare(name), value);
-  if (writes.empty()) return {};
+  std::vector<law::HostWord> writes = parameters_->set(all);
   writes.pop_back();  // commit() writes that
   try {
     commit(writes);

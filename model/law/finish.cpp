@@ -53,6 +53,9 @@ class Finish {
     each_root(law_, [&](NodeId& id) {
       if (id != kNone) on_device_[index(id)] = true;
     });
+    for (const Requirement& r : law_.requirements) {
+      on_host_[index(r.smaller)] = on_host_[index(r.larger)] = true;
+    }
     for (std::size_t i = count_; i-- > 0;) {
       if (on_device_[i] && is_derived(i)) on_host_[i] = true;
       for (const NodeId a : law_.nodes[i].arguments) {
@@ -65,6 +68,10 @@ class Finish {
     each_root(law_, [&](NodeId& id) {
       if (id != kNone) id = device_[index(id)];
     });
+    for (Requirement& r : law_.requirements) {
+      r.smaller = host_[index(r.smaller)];
+      r.larger = host_[index(r.larger)];
+    }
     name_derived();
   }
 

@@ -4,6 +4,8 @@
 // Postfix formulas of words that follow from parameters. Documentation: docs/law-compiler.md
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -57,6 +59,18 @@ double evaluate_formula(const std::string& formula, const ValueOf& value_of) {
   const double result = take();
   if (!stack.empty()) throw std::invalid_argument("formula leaves values over");
   return result;
+}
+
+template <class ValueOf>
+std::string broken_requirement(const Image& image, const ValueOf& value_of) {
+  for (const ImageRequirement& r : image.requirements) {
+    const double a = evaluate_formula(r.smaller, value_of);
+    const double b = evaluate_formula(r.larger, value_of);
+    if (r.strict ? a < b : a <= b) continue;
+    return fmt::format("{} {} {}, which are {:g} and {:g}", r.smaller_name,
+                       r.strict ? "<" : "<=", r.larger_name, a, b);
+  }
+  return {};
 }
 
 }  // namespace feltgate::law

@@ -356,9 +356,10 @@ const auto event = begin<S::event>("event") > name[put_name] >
                    -('(' > expression[put_value] > close) > when_
                    > expression[Put<&Statement::condition>()];
 const auto rate = begin<S::rate>("rate") > defined;
+const auto require = begin<S::require>("require") > expression[Put<&Statement::condition>()];
 
 const auto statement_def = param | mailbox | state | phase | let | var | set | next | table |
-                           array | line | loop | out | event | rate;
+                           array | line | loop | out | event | rate | require;
 BOOST_SPIRIT_DEFINE(statement)
 
 }  // namespace

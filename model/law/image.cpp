@@ -81,6 +81,19 @@ ImageWord read_word(Line& line) {
   return w;
 }
 
+ImageRequirement read_requirement(Line& line) {
+  ImageRequirement r;
+  r.smaller_name = line.take<std::string>("name");
+  r.strict = line.take<std::string>("comparison") == "<";
+  r.larger_name = line.take<std::string>("name");
+  const std::string both = line.rest();
+  const std::size_t bar = both.find(" | ");
+  if (bar == std::string::npos) line.fail("\"|\" is missing between two formulas");
+  r.smaller = both.substr(0, bar);
+  r.larger = both.substr(bar + 3);
+  return r;
+}
+
 void read_line(Image& image, std::uint32_t& stored, Line& line) {
   const auto key = line.take<std::string>("key");
   if (key == "name") {
@@ -114,6 +127,8 @@ void read_line(Image& image, std::uint32_t& stored, Line& line) {
     e.name = line.take<std::string>("name");
     e.scale = std::strtod(line.take<std::string>("scale").c_str(), nullptr);
     image.events.push_back(e);
+  } else if (key == "require") {
+    image.requirements.push_back(read_requirement(line));
   } else if (key == "p") {
     const auto n = line.index("address", 512);
     image.program[n] = line.hex("program word", 36);
@@ -171,6 +186,10 @@ std::string text(const Image& image) {
   for (const ImageOutput& o : image.outputs) s += fmt::format("output {} {}\n", o.axis, o.name);
   for (const ImageEvent& e : image.events) {
     s += fmt::format("event {} {} {:.17g}\n", e.number, e.name, e.scale);
+  }
+  for (const ImageRequirement& r : image.requirements) {
+    s += fmt::format("require {} {} {} {} | {}\n", r.smaller_name,
+                     r.strict ? "<" : "<=", r.larger_name, r.smaller, r.larger);
   }
   for (std::size_t i = 0; i < 512; ++i) {
     if (image.program[i] != 0) s += fmt::format("p {} {:09x}\n", i, image.program[i]);

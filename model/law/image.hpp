@@ -42,6 +42,14 @@ struct ImageEvent {
   double scale = 1;
 };
 
+/// What a host holds of the parameters: smaller <= larger, or smaller < larger. Formulas as
+/// ImageWord::formula; names for messages, without blanks.
+struct ImageRequirement {
+  std::string smaller_name, larger_name;
+  std::string smaller, larger;
+  bool strict = false;
+};
+
 struct ImageThread {
   bool used = false;
   int divider = 1;  ///< ticks from start to start
@@ -62,6 +70,7 @@ struct Image {
   std::vector<ImageWord> words;
   std::vector<ImageOutput> outputs;
   std::vector<ImageEvent> events;
+  std::vector<ImageRequirement> requirements;
 
   static constexpr int parameter_base = 320, lower_base = 384, upper_base = 416,
                        constant_base = 448;
@@ -82,6 +91,11 @@ Image read_image(const std::string& text);
 /// std::invalid_argument where the formula is malformed.
 template <class ValueOf>
 double evaluate_formula(const std::string& formula, const ValueOf& value_of);
+
+/// What the image requires and these values break, as "dynamic <= static, which are 0.5 and 0.4";
+/// empty: nothing. `value_of` gives the SI value of a parameter by name.
+template <class ValueOf>
+std::string broken_requirement(const Image& image, const ValueOf& value_of);
 
 /// Words of all parameters for values in SI: `values` in the order of the words that are parameters
 /// themselves; formulas are computed from what these words stand for. Clamped into each word's

@@ -156,6 +156,13 @@ struct Event {
   Place place;
 };
 
+/// What must hold of parameters, whenever the host sets some: smaller <= larger.
+struct Requirement {
+  NodeId smaller = -1, larger = -1;  ///< constants and parameters only; mailboxes are none
+  bool strict = false;               ///< smaller < larger
+  Place place;
+};
+
 /// Parsed, its units checked, its loops unrolled, equal nodes merged, constants folded.
 struct Law {
   std::string name;
@@ -169,6 +176,7 @@ struct Law {
   std::vector<Line> lines;
   std::vector<Output> outputs;
   std::vector<Event> events;
+  std::vector<Requirement> requirements;
   std::vector<Node> nodes;
 };
 

@@ -147,6 +147,22 @@ void LoadedParameters::check(const std::string& name, double value) const {
   (void)rounded_si(name, value);
 }
 
+/// All values in SI with these among them.
+std::map<std::string, double> LoadedParameters::with(
+    const std::map<std::string, double>& values) const {
+  std::map<std::string, double> all = si_;
+  for (const auto& [name, value] : values) all[name] = rounded_si(name, value);
+  const std::string broken =
+      broken_requirement(image_, [&](const std::string& name) { return all.at(name); });
+  if (broken.empty()) return all;
+  throw std::invalid_argument(
+      fmt::format("law {} requires {}; set both to values that fit", image_.name, broken));
+}
+
+void LoadedParameters::check(const std::map<std::string, double>& values) const {
+  (void)with(values);
+}
+
 double LoadedParameters::within(const std::string& name, double value) const {
   const ImageWord* word = find(name);
   if (word == nullptr) return value;
@@ -160,7 +176,7 @@ std::vector<HostWord> LoadedParameters::set(const std::string& name, double valu
 }
 
 std::vector<HostWord> LoadedParameters::set(const std::map<std::string, double>& values) {
-  for (const auto& [name, value] : values) si_[name] = rounded_si(name, value);
+  si_ = with(values);
   std::vector<double> all;
   for (const ImageWord& w : image_.words) {
     if (w.formula.empty()) all.push_back(si_.at(w.name));

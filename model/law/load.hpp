@@ -49,19 +49,23 @@ class LoadedParameters {
   const ImageWord* find(const std::string& name) const;
   /// Value in the unit of the law's file; the writes that bring it and all that follows from it
   /// into force together. Errors: std::invalid_argument, for an unknown name with what there is,
-  /// for a value out of its range with the range.
+  /// for a value out of its range with the range, for a requirement that would not hold; nothing
+  /// is set then.
   std::vector<HostWord> set(const std::string& name, double value);
   /// The same of several, by one commit; of none: the words that stand.
   std::vector<HostWord> set(const std::map<std::string, double>& values);
   /// The nearest value that the parameter takes; of an unknown name the value itself.
   double within(const std::string& name, double value) const;
-  /// Only the errors of set().
+  /// Only the errors of set(), without those of what the law requires.
   void check(const std::string& name, double value) const;
+  /// Only the errors of set().
+  void check(const std::map<std::string, double>& values) const;
   /// As rounded to its word, in the unit of the file.
   double value(const std::string& name) const;
 
  private:
   double rounded_si(const std::string& name, double value) const;
+  std::map<std::string, double> with(const std::map<std::string, double>& values) const;
 
   const Image& image_;
   std::map<std::string, double> si_;

@@ -44,6 +44,10 @@ class Lowering {
   void out(const Statement& s);
   void event(const Statement& s);
   void rate(const Statement& s);
+  // require.cpp
+  void require(const Statement& s);
+  void require(NodeId condition, bool holds, std::size_t offset);
+  // statements.cpp
   void refuse_changing(NodeId body, const Statement& s);
   void note_unused(const std::map<std::string, Symbol>& symbols);
   void check_ends(const Statement* last);

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "law/compile.hpp"
+#include "law/finish.hpp"
 
 namespace feltgate::law {
 
@@ -85,6 +86,7 @@ class ImageMaker {
       for (std::size_t i = 0; i < t.words.size(); ++i) image_.table[at(t.base) + i] = t.words[i];
     }
     words();
+    requirements();
     for (const Output& o : law_.outputs) image_.outputs.push_back({o.name, o.axis});
     for (const Event& e : law_.events) {
       double scale = 1;
@@ -173,6 +175,22 @@ class ImageMaker {
       image_.data[at(Image::parameter_base + 32 + w.word)] = w.initial;
       image_.data[at(Image::lower_base + w.word)] = w.lower;
       image_.data[at(Image::upper_base + w.word)] = w.upper;
+    }
+  }
+
+  void requirements() {
+    const auto name = [&](NodeId id) {
+      std::string s = formula(law_, id);
+      s.erase(std::remove(s.begin(), s.end(), ' '), s.end());
+      return s;
+    };
+    for (const Requirement& r : law_.requirements) {
+      image_.requirements.push_back({name(r.smaller), name(r.larger), postfix(law_, r.smaller),
+                                     postfix(law_, r.larger), r.strict});
+      const std::string broken = broken_requirement(
+          image_, [&](const std::string& parameter) { return value_of(parameter); });
+      if (broken.empty()) continue;
+      throw Refused(r.place, "the law requires " + broken, "give the parameters other values");
     }
   }
 

@@ -38,6 +38,7 @@ constexpr std::pair<const char*, const char*> kForms[] = {
     {"out", "out torque = EXPRESSION"},
     {"event", "event NAME(VALUE) when CONDITION"},
     {"rate", "rate = 40 kHz"},
+    {"require", "require SMALLER <= LARGER"},
 };
 
 constexpr const char* kOther[] = {"in", "then", "else",    "if",    "when",     "on",   "and",

@@ -19,7 +19,7 @@ constexpr int kMostAxes = 3;
 
 bool is_definition(Kind kind) {
   return kind != Kind::set && kind != Kind::next && kind != Kind::loop && kind != Kind::out &&
-         kind != Kind::event && kind != Kind::rate;
+         kind != Kind::event && kind != Kind::rate && kind != Kind::require;
 }
 
 std::string quoted(const std::string& name) { return "\"" + name + "\""; }
@@ -83,6 +83,8 @@ void Lowering::statement(const Statement& s) {
       return event(s);
     case Kind::rate:
       return rate(s);
+    case Kind::require:
+      return require(s);
   }
 }
 

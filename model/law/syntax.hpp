@@ -57,6 +57,7 @@ struct Statement {
     out,
     event,
     rate,
+    require,
   };
   Kind kind = Kind::let;
   std::size_t offset = 0, name_offset = 0;
@@ -65,7 +66,7 @@ struct Statement {
   ExpressionPtr value;   ///< what stands behind "=", or an event's value
   ExpressionPtr lower, upper;
   ExpressionPtr age;        ///< of a mailbox
-  ExpressionPtr condition;  ///< of an event
+  ExpressionPtr condition;  ///< of an event or a requirement
   ExpressionPtr index;      ///< out torque[index]; line NAME[length]
   ExpressionPtr segments;   ///< of a table
   bool whole = false;

@@ -51,6 +51,9 @@ class CompiledSceneLaw : public SceneLaw {
   void check(const std::string& parameter, double value) const override {
     parameters_.check(parameter, value);
   }
+  void check(const std::map<std::string, double>& values) const override {
+    parameters_.check(values);
+  }
   double value(const std::string& parameter) const override { return parameters_.value(parameter); }
   bool is_mailbox(const std::string& parameter) const override {
     const auto& all = law_.law.parameters;

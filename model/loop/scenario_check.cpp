@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
 #include <stdexcept>
 
 #include "config/toml_reader.hpp"
@@ -43,6 +45,36 @@ void check_parameter(const std::string& place, const std::string& name, double v
     throw config::ConfigError(at + error.what());
   }
 }
+
+/// Holds what the law requires of its parameters, after each set of the scene.
+class Requirements {
+ public:
+  Requirements(const Scenario& s, const SceneLaw* law) : s_(s), law_(law) {}
+  void add(const std::string& name, double value, int line) {
+    if (law_ == nullptr || !law_->has(name)) return;
+    all_[name] = value;
+    lines_[name] = line;
+  }
+  void check() const {
+    if (law_ == nullptr) return;
+    try {
+      law_->check(all_);
+    } catch (const std::invalid_argument& error) {
+      const std::string what = error.what();
+      int last = 0;  // of the lines that set what it names
+      for (const auto& [name, line] : lines_) {
+        if (what.find(name) != std::string::npos) last = std::max(last, line);
+      }
+      throw config::ConfigError(last == 0 ? what : fmt::format("{}:{}: {}", s_.path, last, what));
+    }
+  }
+
+ private:
+  const Scenario& s_;
+  const SceneLaw* law_;
+  std::map<std::string, double> all_;
+  std::map<std::string, int> lines_;
+};
 
 /// The host can only feed what the law of the scene keeps as a mailbox.
 void check_mailbox(const Scenario& s, const SceneLaw* law) {
@@ -101,18 +133,23 @@ int scene_number(const DesignInfo& design, const std::string& name) {
 
 void check_asked(const Scenario& s, const DesignInfo& design, const SceneLaw* law) {
   check_scene(s, s.scene_line, s.scene, design);
+  Requirements requirements(s, law);
   for (const auto& [name, value] : s.parameters) {
     const auto line = s.parameter_lines.find(name);
     const bool of_file = line != s.parameter_lines.end();
     check_parameter(of_file ? fmt::format("{}:{}", s.path, line->second) : "", name, value, design,
                     law);
+    requirements.add(name, value, of_file ? line->second : 0);
   }
+  requirements.check();
   for (const Event& e : s.events) {
     if (e.scene) check_scene(s, e.line, *e.scene, design);
     for (const auto& [name, value] : e.set) {
       check_parameter(e.line == 0 ? "" : fmt::format("{}:{}", s.path, e.line), name, value, design,
                       law);
+      requirements.add(name, value, e.line);
     }
+    requirements.check();
   }
   check_mailbox(s, law);
   check_held(s, design);

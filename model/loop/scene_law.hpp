@@ -70,8 +70,10 @@ class SceneLaw {
   /// Into an engine as it is after configuration.
   virtual Writes load() const = 0;
   virtual bool has(const std::string& parameter) const = 0;
-  /// Only the errors of set().
+  /// Only the errors of set(), without those of what the law requires of several.
   virtual void check(const std::string& parameter, double value) const = 0;
+  /// Only the errors of set().
+  virtual void check(const std::map<std::string, double>& values) const = 0;
   /// As rounded to its word, in the unit of the law's file.
   virtual double value(const std::string& parameter) const = 0;
   /// Values in the units of the law's file, which come into force together; none: what stands is

@@ -108,6 +108,9 @@ const Bad kGrammar[] = {
     {"}" OUT,
      "1:1: \"}\" where a statement begins or an expression goes on; statements begin with param, "
      "let, state, next, out, ..."},
+    {"require" OUT,
+     "1:8: expected an expression before the end of the line; the form is: require SMALLER <= "
+     "LARGER"},
     {"let a = 1 # (\nlet b = 2 # )\nlet c = a +* b",
      "3:12: expected an expression, found \"*\"; the form is: let NAME = EXPRESSION"},
     {"let a = \xb5\x01",

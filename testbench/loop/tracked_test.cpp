@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "catch.hpp"
+#include "config/toml_reader.hpp"
 #include "law_loop/scene_law.hpp"
 #include "loop/event_lines.hpp"
 #include "loop/tracker.hpp"
@@ -94,6 +95,38 @@ TEST_CASE("a tracker's mailbox is one of the law") {
                       Catch::Contains("wall_tracked.toml:19: law wall_tracked has no mailbox \"" +
                                       std::string(name) + "\"; name one that it has"));
   }
+}
+
+TEST_CASE("what a law requires of its parameters holds at the start and after each event") {
+  const auto told = [](auto change) {
+    Scenario s = shipped_scene("material_stone");
+    change(s);
+    const auto law = make_scene_law(std::string(FELTGATE_ROOT) + "/rtl/laws/material.law",
+                                    design_named("lever_law"));
+    RunOptions options;
+    options.design = "lever_law";
+    options.engine = "twin";
+    options.law = law.get();
+    try {
+      (void)run_on_p24(s, options);
+    } catch (const config::ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  Event e;
+  e.at_s = 0.05;
+  e.line = 40;
+  CHECK_THAT(told([](Scenario& s) { s.parameters["dynamic"] = 0.4; }),
+             Catch::Contains("material_stone.toml:19: law material requires dynamic <= static, "
+                             "which are 0.4 and 0.3"));
+  e.set = {{"static", 0.1}};
+  CHECK_THAT(told([&](Scenario& s) { s.events.push_back(e); }),
+             Catch::Contains("material_stone.toml:40: law material requires"));
+  CHECK_THAT(told([&](Scenario& s) { s.parameters["damping"] = -1; }),
+             Catch::Contains("damping = -1 mNm*s/rad is out of its range"));
+  e.set = {{"static", 0.1}, {"dynamic", 0.1}};
+  CHECK(told([&](Scenario& s) { s.events.push_back(e); }) == "");
 }
 
 TEST_CASE("a tracker: rate, filter, step, latency, and no noise where none is asked for") {

@@ -44,6 +44,11 @@ TITLES = {
     "coupled_levers": "Two levers coupled",
     "coupled_levers_drag": "Two levers coupled by their positions",
     "coupled_levers_free": "Two levers coupled, the other one free",
+    "material_fields": "The fields of a material, one by one",
+    "material_stick_slip": "Stick and slip",
+    "material_stone": "Stone",
+    "material_fabric": "Fabric",
+    "material_water": "Water",
 }
 
 SAID = {
@@ -95,6 +100,16 @@ SAID = {
     "{low} and {high}, driven by up to {most}.",
     "collision": "The hand moves a puck that runs into another one: it feels the blow, up to {most}, "
     "and the other puck flies off.",
+    "material_fields": "The hand goes into a material eight times, and each time another of its "
+    "fields acts alone, with up to {most}.",
+    "material_stick_slip": "A soft hand draws the lever over a surface: it sticks, tears off at "
+    "{most}, overshoots and sticks again.",
+    "material_stone": "The hand leans into stone: hard, smooth, with a fine vibration; the motor "
+    "pushes back with up to {most}.",
+    "material_fabric": "The hand leans into fabric: soft, rough, with a coarse vibration; the "
+    "motor gives up to {most}.",
+    "material_water": "The hand goes into water and out: it hardly pushes back, and slows both "
+    "ways with up to {most}.",
 }
 # Devices of several axes.
 OF_AXES = {

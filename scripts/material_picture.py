@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Draws docs/images/material_fields.svg, each field of a material alone, and
+docs/images/material_stick_slip.svg, from the rows of the two scenes.
+
+  feltgate run material_fields --engine twin --csv fields.csv --every 20
+  feltgate run material_stick_slip --engine twin --csv slip.csv --every 50
+  scripts/material_picture.py fields.csv slip.csv
+"""
+
+import csv
+import sys
+import tomllib
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("svg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+ROOT = Path(__file__).resolve().parents[1]
+BLUE, RED, GREY = "#1f6fb4", "#c0392b", "#888888"
+FIELDS = ("hardness: a spring", "damping: on the way in", "giving way at 0.1 Nm", "viscosity",
+          "spring to an anchor", "constant", "friction: sticks, slips", "vibration, 200 Hz")
+
+
+def columns(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    names = ("time_s", "theta_rad", "omega_rad_s", "tau_ref_nm", "hand_torque_nm")
+    return {name: [float(row[name]) for row in rows] for name in names}
+
+
+def scene(name):
+    return tomllib.loads((ROOT / f"vectors/scenes/{name}.toml").read_text(encoding="utf-8"))
+
+
+def save(figure, name):
+    figure.savefig(ROOT / f"docs/images/{name}.svg", metadata={"Date": None, "Creator": None})
+
+
+def fields(run):
+    at = scene("material_fields")
+    # Each pass begins a moment before the event that chooses its field, the first with the scene.
+    begins = [0.0] + [event["at_s"] for event in at["event"]] + [at["duration_s"]]
+    face = at["parameters"]["face"]
+    figure, panels = plt.subplots(2, 4, figsize=(10, 5), sharex=True, sharey=True,
+                                  layout="constrained")
+    for n, axes in enumerate(panels.flat):
+        rows = [i for i, t in enumerate(run["time_s"]) if begins[n] <= t < begins[n + 1]]
+        deepest = max(rows, key=lambda i: run["theta_rad"][i])
+        for color, label, part in ((BLUE, "in", [i for i in rows if i <= deepest]),
+                                   (RED, "out", [i for i in rows if i > deepest])):
+            axes.plot([1e3 * (run["theta_rad"][i] - face) for i in part],
+                      [1e3 * run["tau_ref_nm"][i] for i in part], color=color, lw=1.1, label=label)
+        axes.axvline(0, color=GREY, lw=0.6)
+        axes.axhline(0, color=GREY, lw=0.6)
+        axes.set_title(FIELDS[n], fontsize=9)
+        axes.grid(alpha=0.3)
+        axes.set_xlim(-25, 65)
+    panels[0][0].legend(fontsize=8, frameon=False)
+    figure.supxlabel("depth behind the face, mrad", fontsize=9)
+    figure.supylabel("law's torque, mNm", fontsize=9)
+    save(figure, "material_fields")
+
+
+def stick_slip(run):
+    times = [1e3 * t for t in run["time_s"]]
+    figure, (torque, place) = plt.subplots(2, 1, figsize=(7, 4.4), sharex=True,
+                                           layout="constrained")
+    torque.plot(times, [-1e3 * t for t in run["tau_ref_nm"]], color=BLUE, lw=1.1,
+                label="friction")
+    torque.plot(times, [1e3 * t for t in run["hand_torque_nm"]], color=RED, lw=1.1,
+                label="hand's pull")
+    for level, name in ((200, "static"), (150, "dynamic")):
+        torque.axhline(level, color=GREY, lw=0.7, ls="--")
+        torque.text(2, level + 3, name, fontsize=8, color=GREY)
+    torque.set(ylabel="torque, mNm")
+    torque.legend(fontsize=8, frameon=False, loc="lower right")
+    place.plot(times, run["theta_rad"], color=BLUE, lw=1.2, label="lever")
+    place.plot(times, [4 * max(t - 10, 0) / 1e3 for t in times], color=GREY, lw=0.9, ls="--",
+               label="where the hand wants it: 4 rad/s")
+    place.set(xlabel="time, ms", ylabel="angle, rad")
+    place.legend(fontsize=8, frameon=False)
+    for axes in (torque, place):
+        axes.grid(alpha=0.3)
+    save(figure, "material_stick_slip")
+
+
+def main():
+    if len(sys.argv) != 3 or sys.argv[1] in ("-h", "--help"):
+        print(__doc__.strip())
+        return 0 if sys.argv[1:] in (["-h"], ["--help"]) else 2
+    plt.rcParams.update({"svg.hashsalt": "feltgate", "svg.fonttype": "none", "font.size": 9})
+    fields(columns(sys.argv[1]))
+    stick_slip(columns(sys.argv[2]))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

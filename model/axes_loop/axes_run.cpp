@@ -173,9 +173,7 @@ class AxesRun : plant::AxesDevice<Plant> {
       cores_->write(n * axes_stride + address, data);
     }
   }
-  /// Those of the law come into force together.
-  template <class Settings>
-  void set_parameters(const Settings& settings) {
+  void set_parameters(const std::map<std::string, double>& settings) {
     std::map<std::string, double> of_law;
     for (const auto& [name, value] : settings) {
       if (options_.law->host().has(name)) {

@@ -10,11 +10,14 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <type_traits>
 
 #include "axes_loop/axes_engines.hpp"
 #include "axes_loop/device_signals.hpp"
+#include "axes_loop/homing.hpp"
+#include "axes_loop/plane_host.hpp"
 #include "axes_loop/signal_record.hpp"
 #include "config/toml_reader.hpp"
 #include "feltgate/axes_ports.hpp"
@@ -30,7 +33,7 @@ namespace {
 std::string of_axis(const char* name, std::size_t axis) { return fmt::format("{}.{}", name, axis); }
 
 template <class Plant>
-std::vector<std::string> columns_of() {
+std::vector<std::string> columns_of(const AxesScene& scene) {
   std::vector<std::string> all{"time_s"};
   for (std::size_t n = 0; n < Plant::axes; ++n) {
     for (const char* name : {"theta_rad", "position_rad", "velocity_rad_s", "tau_ref_nm",
@@ -40,6 +43,9 @@ std::vector<std::string> columns_of() {
   }
   const auto own = DeviceSignals<Plant>::names();
   all.insert(all.end(), own.begin(), own.end());
+  if (scene.plane) {
+    for (const std::string& name : PlaneHost::names()) all.push_back(name);
+  }
   return all;
 }
 
@@ -58,11 +64,14 @@ class AxesRun : plant::AxesDevice<Plant> {
         plant_(plant),
         cores_(make_cores()),
         design_(cores_->design()),
-        columns_(columns_of<Plant>()),
+        columns_(columns_of<Plant>(scene)),
         scene_(scene_number(design_, s_.scene)),
         mode_(s_.mode) {
     for (const std::string& kind : choice_.riders) {
       riders_.push_back({kind, options.law->rider(kind), nullptr});
+    }
+    if constexpr (std::is_same_v<Plant, plant::Pantograph>) {
+      if (scene.plane) plane_.emplace(*scene.plane, plant.parameters().linkage, design_.clock_hz);
     }
     ticks_to_come_ = clock_of(s_.duration_s) / design_.clocks_per_tick;
     for (std::size_t k = 1; k < columns_.size(); ++k) records_.emplace_back(ticks_to_come_);
@@ -73,7 +82,11 @@ class AxesRun : plant::AxesDevice<Plant> {
 
   AxesResult run() {
     const auto began = std::chrono::steady_clock::now();
-    home();
+    if (!options_.fst.empty()) cores_->trace(options_.fst, options_.fst_from, options_.fst_to);
+    homed_ = home(*cores_, plant_, options_.seed, design_.pwm_period);
+    for (std::size_t n = 0; n < axes; ++n) {
+      position_rad_[n] = static_cast<double>(plant_.encoder(n).count()) * design_.count_rad;
+    }
     for (const auto& [address, data] : options_.law->host().load()) cores_->write(address, data);
     set_parameters(s_.parameters);
     control(false);
@@ -91,6 +104,10 @@ class AxesRun : plant::AxesDevice<Plant> {
         apply(s_.events[next++]);
       }
       Clock until = end;
+      if (plane_) {
+        set_parameters(plane_->act(now, {position_rad_[0], position_rad_[1]}));
+        until = std::min(until, plane_->next());
+      }
       if (!arm_done_) until = std::min(until, arm_at);
       if (next < s_.events.size()) until = std::min(until, clock_of(s_.events[next].at_s));
       loop.run(until, [this](const Plant& p) { stepped(p); });
@@ -107,8 +124,6 @@ class AxesRun : plant::AxesDevice<Plant> {
   static constexpr Clock most_clocks = 250;
   /// A duty that is new in a period of the PWM is in force so many clocks after its beginning.
   static constexpr Clock duty_clocks = 25;
-  /// Of a count on the way from 0 to where the device stands: slower than any overspeed.
-  static constexpr Clock homing_clocks = 400;
 
   struct Rider {
     std::string kind;
@@ -136,36 +151,6 @@ class AxesRun : plant::AxesDevice<Plant> {
 
   Clock clock_of(double seconds) const {
     return std::llround(std::min(seconds * static_cast<double>(design_.clock_hz), 0x1p62));
-  }
-
-  /// The cores count from where their joints are zeroed: motors off, each joint goes from its
-  /// angle 0 to where the device stands.
-  void home() {
-    AxesCores::Pins pins{};
-    std::array<plant::Encoder, axes> encoders = zeroed(std::make_index_sequence<axes>{});
-    std::int64_t most = 0;
-    for (std::size_t n = 0; n < axes; ++n) {
-      pins[n] = encoders[n].pins();
-      most = std::max(most, std::abs(plant_.encoder(n).count()));
-    }
-    if (!options_.fst.empty()) cores_->trace(options_.fst, options_.fst_from, options_.fst_to);
-    cores_->reset(options_.seed, pins);
-    if (most == 0) return;
-    homed_ = most * homing_clocks;
-    homed_ += design_.pwm_period - homed_ % design_.pwm_period;
-    for (std::size_t n = 0; n < axes; ++n) {
-      std::vector<EncoderEvent> edges;
-      const double to_rad =
-          (static_cast<double>(plant_.encoder(n).count()) + 0.5) * plant_.encoder(n).count_rad();
-      encoders[n].advance(to_rad, 0, homed_ - 1, edges);
-      for (const EncoderEvent& e : edges) cores_->edge(n, e);
-    }
-    cores_->advance(homed_);
-  }
-  template <std::size_t... I>
-  std::array<plant::Encoder, axes> zeroed(std::index_sequence<I...> /*all*/) const {
-    const plant::EncoderParameters p = plant_.parameters().encoder;
-    return {((void)I, plant::Encoder(p, false, 0.5 * plant_.encoder(I).count_rad()))...};
   }
 
   void write_all(int address, std::uint32_t data) {
@@ -283,7 +268,11 @@ class AxesRun : plant::AxesDevice<Plant> {
                    asked_nm, nm(s[n].tau_hat), motor_nm, kept_nm_[n],
                    static_cast<double>(s[n].limits), static_cast<double>(s[n].faults)});
     }
+    for (std::size_t n = 0; n < axes; ++n) position_rad_[n] = s[n].position * design_.count_rad;
     DeviceSignals<Plant>::add(plant_, row_);
+    if constexpr (std::is_same_v<Plant, plant::Pantograph>) {
+      if (plane_) plane_->add(plant_.now(), plant_.seen().pen_m, row_);
+    }
     for (std::size_t k = 1; k < row_.size(); ++k) records_[k - 1].add(row_[k]);
     if (options_.row && ticks_ % options_.row_every == 0) options_.row(row_);
     ++ticks_;
@@ -329,6 +318,7 @@ class AxesRun : plant::AxesDevice<Plant> {
 
   void fill_figures(AxesResult& out) const {
     auto& f = out.figures;
+    if (plane_) plane_->add_figures(f);
     f["mismatches"] = static_cast<double>(out.mismatches);
     f["faults"] = faults_;
     f["hand_energy_j"] = work_j_;
@@ -344,6 +334,8 @@ class AxesRun : plant::AxesDevice<Plant> {
   }
 
   const Scenario& s_;
+  std::optional<PlaneHost> plane_;
+  std::array<double, axes> position_rad_ = {};  ///< as the cores counted last
   const AxesRunOptions& options_;
   AxesEngines choice_;
   Plant& plant_;
@@ -382,7 +374,7 @@ AxesResult run_on(const AxesScene& scene, const Setup& setup, const AxesRunOptio
 }  // namespace
 
 std::vector<std::string> axes_columns(const AxesScene& scene) {
-  return std::visit([](const auto& setup) { return columns_of<PlantOf<decltype(setup)>>(); },
+  return std::visit([&](const auto& setup) { return columns_of<PlantOf<decltype(setup)>>(scene); },
                     scene.device);
 }
 

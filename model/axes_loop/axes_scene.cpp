@@ -54,6 +54,11 @@ AxesScene read_axes_scene(const std::string& path,
   scene.scenario = read_device_scene(path, [&](config::TomlReader& top) {
     scene.device_path = find(top.text("device"));
     scene.device = setup_of(scene.device_path, top);
+    if (!top.has("plane")) return;
+    if (!std::holds_alternative<PantographSetup>(scene.device)) {
+      top.fail("plane", "a plane without a pen", "take device = \"pantograph\", or leave it out");
+    }
+    scene.plane = read_plane_host(top.section("plane"));
   });
   for (const Event& e : scene.scenario.events) {
     if (!e.step_nm) continue;

@@ -7,9 +7,11 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <variant>
 
+#include "axes_loop/plane_host.hpp"
 #include "loop/scenario.hpp"
 #include "plant/pantograph/pantograph_parameters.hpp"
 #include "plant/pantograph/pen_hand.hpp"
@@ -35,6 +37,7 @@ struct AxesScene {
   Scenario scenario;  ///< its hand is empty
   DeviceSetup device;
   std::string device_path;
+  std::optional<PlaneHostSettings> plane;  ///< of a pantograph
 };
 
 /// Reads a scene and the device that it names; `find` makes a path of that name.

@@ -74,6 +74,7 @@ int run_axes_scene(const AxesArguments& a) {
   const DesignInfo design = made->info();
   const std::unique_ptr<AxesLaw> law = law_of(scene, design);
   check_asked(scene.scenario, design, &law->host());
+  if (scene.plane) PlaneHost::check(*scene.plane, a.scene_path, law->host());
   if (a.every > 0 && a.csv.empty()) {
     throw std::invalid_argument("--every thins out the rows of --csv; add --csv FILE");
   }

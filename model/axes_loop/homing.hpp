@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Where the joints of a device are counted from. Documentation: docs/devices.md
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+#include "engines/axes_cores.hpp"
+#include "feltgate/encoder_source.hpp"
+#include "plant/encoder.hpp"
+
+namespace feltgate {
+
+/// Of a count on the way from 0 to where the device stands: slower than any overspeed.
+constexpr Clock homing_clocks_per_count = 400;
+
+template <class Plant, std::size_t... I>
+std::array<plant::Encoder, Plant::axes> zeroed(const Plant& device,
+                                               std::index_sequence<I...> /*all*/) {
+  const plant::EncoderParameters p = device.parameters().encoder;
+  return {((void)I, plant::Encoder(p, false, 0.5 * device.encoder(I).count_rad()))...};
+}
+
+/// Resets the cores. They count from where their joints are zeroed: motors off, each joint goes
+/// from its angle 0 to where the device stands. Returns the clocks that it took, whole periods.
+template <class Plant>
+Clock home(AxesCores& cores, const Plant& device, std::uint64_t seed, Clock period_clocks) {
+  constexpr std::size_t axes = Plant::axes;
+  AxesCores::Pins pins{};
+  auto encoders = zeroed(device, std::make_index_sequence<axes>{});
+  std::int64_t most = 0;
+  for (std::size_t n = 0; n < axes; ++n) {
+    pins[n] = encoders[n].pins();
+    most = std::max(most, std::abs(device.encoder(n).count()));
+  }
+  cores.reset(seed, pins);
+  if (most == 0) return 0;
+  Clock clocks = most * homing_clocks_per_count;
+  clocks += period_clocks - clocks % period_clocks;
+  for (std::size_t n = 0; n < axes; ++n) {
+    std::vector<EncoderEvent> edges;
+    const double to_rad =
+        (static_cast<double>(device.encoder(n).count()) + 0.5) * device.encoder(n).count_rad();
+    encoders[n].advance(to_rad, 0, clocks - 1, edges);
+    for (const EncoderEvent& e : edges) cores.edge(n, e);
+  }
+  cores.advance(clocks);
+  return clocks;
+}
+
+}  // namespace feltgate

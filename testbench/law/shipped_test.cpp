@@ -27,6 +27,8 @@ TEST_CASE("every shipped law has a summary and a torque, and is tested here") {
       "turn_switch", "graded_membrane", "end_stops", "scroll_wheel", "moved_detents",
       // virtual_objects_test.cpp
       "flywheel", "pendulum", "collision",
+      // local_plane_law_test.cpp
+      "local_plane", "sent_force",
       // material_test.cpp
       "material",
       // drums_test.cpp

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Writes one HTML file in which the twin runs: a lever to drag with a mouse, without a network.
+"""Writes one HTML file in which the twin runs: devices to feel with a mouse, without a network.
 
 Documentation: docs/page.md
 """
@@ -31,7 +31,8 @@ EPILOG = """examples:
 It compiles for a minute or two. Exit code: 0 written or current, 1 --check found the page stale,
 2 a design or a tool cannot be used."""
 DESIGNS = ("lever", "paper", "fast", "lever_law")
-SCRIPTS = ("core.js", "objects.js", "device.js", "curves.js", "law.js", "page.js")
+LEVER_SCRIPTS = ("core.js", "objects.js", "device.js", "curves.js", "law.js")
+SCRIPTS = (*LEVER_SCRIPTS, "pen.js", "game.js", "drums.js", "page.js")
 COMMITTED = "docs/page.html"
 STAMP = re.compile(r'<meta name="feltgate-sources" content="(\w+)">')
 

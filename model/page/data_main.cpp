@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // What the page compares itself with: recorded pins and register writes of scenes with the hash of
-// the native twin over them, and a closed loop as it went here. Documentation: docs/page.md
+// the native twin over them, and a closed loop as it went here; and the compiled laws that it runs
+// without a core. Documentation: docs/page.md
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -10,11 +12,13 @@
 #include <string>
 #include <vector>
 
+#include "law/compile.hpp"
 #include "law_loop/scene_law.hpp"
 #include "loop/scenario.hpp"
 #include "page/live_loop.hpp"
 #include "page/recorded_inputs.hpp"
 #include "plant/plant_file.hpp"
+#include "shape/shape_law.hpp"
 
 namespace {
 
@@ -63,6 +67,54 @@ json closed_loop(const std::string& design) {
   return {{"design", design}, {"scene", "wall"}, {"rows", rows}};
 }
 
+/// Seven shapes as the study had them, and four squares side by side for training.
+const std::vector<std::string> shapes = {"duck",      "bell",     "banana", "fish",
+                                         "horseshoe", "mushroom", "square"};
+constexpr double training_m = 0.036;
+const std::vector<feltgate::shape::Point> training_centres_m = {
+    {-0.032, 0.142}, {0.032, 0.142}, {-0.032, 0.088}, {0.032, 0.088}};
+constexpr double corner_m = 2e-3;
+constexpr int vertices = 40;
+
+/// The image of a shape's law, and its outline in 10 um.
+json hidden(const std::string& name, const feltgate::shape::Placing& placing) {
+  namespace shape = feltgate::shape;
+  const auto outline = shape::placed(shape::read_svg(vectors + "shapes/" + name + ".svg"), placing);
+  const shape::Polygon polygon = shape::sampled(shape::rounded(outline, corner_m), vertices);
+  shape::LawRequest request;
+  request.summary = name;
+  const auto law =
+      feltgate::law::compile_text(shape::law_text(polygon, request), name + ".law",
+                                  feltgate::law::target_of(feltgate::design_named("lever")));
+  json places = json::array();
+  for (const shape::Point& p : polygon.at) {
+    places.push_back({std::lround(1e5 * p.x), std::lround(1e5 * p.y)});
+  }
+  return {{"name", name}, {"image", feltgate::law::text(law.image)}, {"outline", places}};
+}
+
+std::string drums() {
+  const auto target = feltgate::law::target_of(feltgate::design_named("lever"));
+  return feltgate::law::text(feltgate::law::compile_file(laws + "drums.law", target).image);
+}
+
+json hidden_shapes() {
+  json all = json::array();
+  for (const std::string& name : shapes) all.push_back(hidden(name, {}));
+  return all;
+}
+
+json training_squares() {
+  json all = json::array();
+  for (const feltgate::shape::Point& centre : training_centres_m) {
+    feltgate::shape::Placing placing;
+    placing.size_m = training_m;
+    placing.centre_m = centre;
+    all.push_back(hidden("square", placing));
+  }
+  return all;
+}
+
 }  // namespace
 
 int main(int count, char** argv) {
@@ -71,7 +123,11 @@ int main(int count, char** argv) {
     return 2;
   }
   try {
-    json out = {{"recorded", json::array()}, {"closed", json::array()}};
+    json out = {{"recorded", json::array()},
+                {"closed", json::array()},
+                {"shapes", hidden_shapes()},
+                {"training", training_squares()},
+                {"drums", drums()}};
     for (int i = 1; i < count; ++i) {
       const std::string design = argv[i];
       if (feltgate::design_named(design).scene_number("law") >= 0) {

@@ -11,7 +11,6 @@ namespace feltgate::shape {
 
 namespace {
 
-constexpr double link_m = 0.1;
 /// Runs in which a law that looks along the whole outline has found its place.
 constexpr int settling = 300;
 
@@ -33,21 +32,6 @@ std::vector<Point> path_inside(const Curve& curve, double depth_m, double step_m
 }
 
 }  // namespace
-
-std::array<double, 2> cranks(Point p) {
-  const double middle = std::atan2(p.y, p.x);
-  const double half = std::acos(std::min(1.0, length(p) / (2 * link_m)));
-  return {middle - half, middle + half};
-}
-
-Point force_at(Point p, const std::array<double, 2>& torque) {
-  const auto [a, b] = cranks(p);
-  // torque = L (c F_y - s F_x) for each crank, solved for F.
-  const double c1 = std::cos(a), s1 = std::sin(a), c5 = std::cos(b), s5 = std::sin(b);
-  const double determinant = link_m * (c1 * s5 - s1 * c5);
-  return {(c5 * torque[0] - c1 * torque[1]) / determinant,
-          (s5 * torque[0] - s1 * torque[1]) / determinant};
-}
 
 Point Pen::at(Point p, int runs) {
   const auto angle = cranks(p);

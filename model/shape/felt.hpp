@@ -10,16 +10,10 @@
 #include <vector>
 
 #include "law/evaluate.hpp"
+#include "shape/rhombus.hpp"
 #include "shape/rounded.hpp"
 
 namespace feltgate::shape {
-
-/// Angles of the two cranks, rad, with which the pen of the rhombus (four links of 0.1 m, motors at
-/// the origin) is at p; the second is the larger.
-std::array<double, 2> cranks(Point pen_m);
-
-/// The force at the pen, N, that two torques are.
-Point force_at(Point pen_m, const std::array<double, 2>& torque_nm);
 
 /// A law of two axes under a pen that is led.
 class Pen {

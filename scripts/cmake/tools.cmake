@@ -48,7 +48,8 @@ target_link_libraries(feltgate_calibrate PRIVATE nlohmann_json::nlohmann_json)
 feltgate_library(feltgate_identify host/identify feltgate_calibrate)
 target_link_libraries(feltgate_identify PRIVATE nlohmann_json::nlohmann_json)
 # The page for a browser: what runs natively of it; scripts/page.py compiles it for the browser.
-feltgate_library(feltgate_page page EXCEPT "/page_api" feltgate_loop feltgate_design feltgate_law_loop)
+feltgate_library(feltgate_page page EXCEPT "/page_api" feltgate_loop feltgate_design feltgate_law_loop
+  feltgate_shape)
 foreach(design fast lever_law)
   feltgate_type_of(${design} type)
   feltgate_for_design(design_twin.cpp.in "${PROJECT_BINARY_DIR}/engines/${design}_twin.cpp")

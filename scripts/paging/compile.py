@@ -29,6 +29,7 @@ FILES = (
     "loop/ensemble.cpp",
     "loop/engine_choice.cpp",
     "loop/step_plan.cpp",
+    "shape/rhombus.cpp",
     "stability/linear_loop.cpp",
 )
 PLANTS = ("p24", "p48", "linear")

@@ -2,7 +2,7 @@
 "use strict";
 
 const $ = (id) => document.getElementById(id);
-const page = { scene: "wall", values: {}, devices: [], own: null, grip: 1, speed: 0, frames: [], errors: [] };
+const page = { tab: "lever", scene: "wall", values: {}, devices: [], own: null, grip: 1, speed: 0, frames: [], errors: [] };
 window.feltgate = page; // for whoever wants to look inside
 
 const option = (value, text) => Object.assign(document.createElement("option"), { value, textContent: text });
@@ -162,7 +162,7 @@ function build_controls() {
     devices((d) => d.loop.stop(pressed));
   };
   document.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.altKey || event.metaKey || /INPUT|SELECT|TEXTAREA/.test(event.target.tagName)) return;
+    if (page.tab !== "lever" || event.ctrlKey || event.altKey || event.metaKey || /INPUT|SELECT|TEXTAREA/.test(event.target.tagName)) return;
     const button = { a: "arm", s: "stop", c: "clear" }[event.key.toLowerCase()];
     if (button) $(button).click();
   });
@@ -221,6 +221,44 @@ async function compare_bits() {
   page.done = true;
 }
 
+/** Simulated over computing time goes into the speed that the page shows. */
+function run_timed(passed, act) {
+  const begin = performance.now();
+  act();
+  const used = (performance.now() - begin) / 1000;
+  if (used > 0) page.speed += (page.speed ? 0.05 : 1) * (passed / used - page.speed);
+}
+
+/** The others stand still; a tab's device is made when it is first opened. */
+function select_tab(name) {
+  page.tab = name;
+  for (const tab of document.querySelectorAll("[role=tab]")) {
+    const chosen = tab.id === `tab-${name}`;
+    tab.setAttribute("aria-selected", chosen);
+    tab.tabIndex = chosen ? 0 : -1;
+    $(tab.getAttribute("aria-controls")).hidden = !chosen;
+  }
+  if (name === "pantograph") page.pantograph ??= new PenTab(page.core, page.numbers);
+  if (name === "drums") page.drums ??= new DrumsTab(page.core, page.numbers);
+  page.speed = 0;
+}
+
+function build_tabs() {
+  const tabs = [...document.querySelectorAll("[role=tab]")];
+  tabs.forEach((tab, n) => {
+    const name = tab.getAttribute("aria-controls");
+    tab.onclick = () => select_tab(name);
+    tab.onkeydown = (event) => {
+      const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+      if (!step) return;
+      const next = tabs[(n + step + tabs.length) % tabs.length];
+      next.focus();
+      next.click();
+    };
+  });
+  select_tab("lever");
+}
+
 function frame(time) {
   requestAnimationFrame(frame);
   const passed = Math.min((time - (page.last || time)) / 1000, 0.05);
@@ -228,16 +266,15 @@ function frame(time) {
   if (passed <= 0) return;
   page.frames.push(time);
   if (page.frames.length > 600) page.frames.shift();
-  const begin = performance.now();
-  for (const d of page.devices) {
-    const error = d.advance(Math.round(passed * d.info.tick_hz));
-    if (error) { say(error); d.loop.arm(false); }
-  }
-  const used = (performance.now() - begin) / 1000;
-  if (used > 0) page.speed += 0.05 * (passed / used - page.speed);
-  devices((d) => d.draw(page.values));
-  draw_curves(page.devices);
-  if (page.scene === "law") draw_turn(page.devices[0]);
+  if (page.tab === "lever") {
+    run_timed(passed, () => devices((d) => {
+      const error = d.advance(Math.round(passed * d.info.tick_hz));
+      if (error) { say(error); d.loop.arm(false); }
+    }));
+    devices((d) => d.draw(page.values));
+    draw_curves(page.devices);
+    if (page.scene === "law") draw_turn(page.devices[0]);
+  } else page[page.tab].frame(passed);
   if (page.frames.length % 15 === 0) $("speed").textContent = `${fixed(page.speed, 1)}× real time`;
 }
 
@@ -246,6 +283,7 @@ function frame(time) {
   $("version").textContent = page.numbers.version;
   page.law = page.numbers.laws.detent;
   page.editor = new LawEditor(page.numbers.laws, page.worker, take_law);
+  build_tabs();
   build_controls();
   build_sliders();
   place_devices();

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Documentation: docs/page.md
+#include "page/image_law.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "engines/engine.hpp"
+
+namespace feltgate::page {
+
+namespace {
+
+/// The nearest word of `width` bits.
+std::int32_t word_of(double value, int fraction, int width) {
+  const double top = std::ldexp(1.0, width - 1);
+  const double word = std::nearbyint(std::ldexp(value, fraction));
+  return static_cast<std::int32_t>(std::clamp(word, -top, top - 1));
+}
+
+}  // namespace
+
+ImageLaw::ImageLaw(const std::string& image_text)
+    : image_(law::read_image(image_text)),
+      design_(design_named(image_.design)),
+      values_(image_),
+      machine_(law::memory(image_)),
+      period_s_(image_.threads[0].divider / static_cast<double>(design_.tick_hz)) {
+  machine_.enter();
+}
+
+void ImageLaw::set(const std::string& parameter, double value) {
+  constexpr int first = EngineMap::H::data + law::Image::parameter_base;
+  for (const law::HostWord& w : values_.set(parameter, value)) {
+    if (w.address == EngineMap::H::commit) {
+      machine_.commit();
+    } else {
+      machine_.set_parameter(w.address - first, static_cast<std::int32_t>(w.data));
+    }
+  }
+}
+
+void ImageLaw::joint(int axis, double angle_rad, double speed_rad_s) {
+  const auto first = static_cast<std::size_t>(3 * axis);
+  inputs_[first] = static_cast<std::int32_t>(std::floor(angle_rad / design_.count_rad));
+  const Format f = design_.velocity;
+  inputs_[first + 1] = word_of(speed_rad_s, f.fraction, f.width());
+}
+
+void ImageLaw::run() {
+  run_ = &machine_.run(0, inputs_);
+  if (!run_->ended) throw std::runtime_error(fmt::format("law {} does not end", image_.name));
+}
+
+double ImageLaw::torque_nm(int axis) const {
+  const Format f = design_.torque;
+  const std::int32_t top = static_cast<std::int32_t>((std::int64_t{1} << (f.width() - 1)) - 1);
+  const std::int32_t word = run_->outputs[static_cast<std::size_t>(axis)];
+  return std::ldexp(std::clamp(word, -top - 1, top), -f.fraction);
+}
+
+}  // namespace feltgate::page

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A compiled law that a page carries: its program words in the interpreter, run by run, without a
+// core around them. Documentation: docs/page.md
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "engine/machine.hpp"
+#include "feltgate/design_info.hpp"
+#include "law/image.hpp"
+#include "law/load.hpp"
+
+namespace feltgate::page {
+
+class ImageLaw {
+ public:
+  /// The text of an image for a design that is built in. Errors: std::invalid_argument.
+  explicit ImageLaw(const std::string& image_text);
+  ImageLaw(const ImageLaw&) = delete;
+  ImageLaw& operator=(const ImageLaw&) = delete;
+
+  const std::string& name() const { return image_.name; }
+  double period_s() const { return period_s_; }
+  /// A parameter or a mailbox, in its unit. Errors: std::invalid_argument, unknown or out of range.
+  void set(const std::string& parameter, double value);
+  double value(const std::string& parameter) const { return values_.value(parameter); }
+  /// Joint `axis` (0 to 2) of the next run: an absolute angle, of which the counts that are below
+  /// it are left, and a speed, rounded to the design's word.
+  void joint(int axis, double angle_rad, double speed_rad_s);
+  /// Counts of the joint, as the next run gets them.
+  std::int32_t counts(int axis) const { return inputs_[static_cast<std::size_t>(3 * axis)]; }
+  /// One run of the law. Errors: std::runtime_error, of a program that does not end.
+  void run();
+  /// What the last run asks of a joint, Nm, within the design's torque word.
+  double torque_nm(int axis) const;
+  /// Events of the last run: numbers and words.
+  const std::vector<law::MachineEvent>& events() const { return run_->events; }
+  const std::vector<law::ImageEvent>& event_names() const { return image_.events; }
+
+ private:
+  law::Image image_;
+  DesignInfo design_;
+  law::LoadedParameters values_;
+  law::Machine machine_;
+  double period_s_;
+  law::MachineInputs inputs_{};
+  const law::MachineRun* run_ = nullptr;
+};
+
+}  // namespace feltgate::page

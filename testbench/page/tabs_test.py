@@ -1,0 +1,219 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""The page's pantograph, its guessing game, and its drums, in Debian's Chromium.
+
+tabs_test.py --pictures FOLDER keeps screenshots.
+Documentation: docs/page.md
+"""
+
+import csv
+import io
+import sys
+import time
+import unittest
+from pathlib import Path
+from urllib.parse import unquote
+
+from browsing import ActionChains, By, Keys, PageTest, opened
+
+
+class Pantograph(PageTest):
+    def open_pantograph(self, mode="try"):
+        self.driver.find_element(By.ID, "tab-pantograph").click()
+        self.until("return !!feltgate.pantograph")
+        self.driver.find_element(By.CSS_SELECTOR, f"#pen-modes input[value={mode}]").click()
+
+    def pen(self):
+        return self.js("return feltgate.pantograph.stage.seen")
+
+    def settled(self, seconds=1.5):
+        """The pen's state when the hand's swinging, e^(-5.8 t), is over."""
+        begin = self.pen()["time"]
+        self.until("return feltgate.pantograph.stage.seen.time > arguments[0]", begin + seconds)
+        return self.pen()
+
+    def point(self, *places):
+        """The mouse goes to these places, m, as the stage draws them."""
+        stage = self.driver.find_element(By.CSS_SELECTOR, "#pen-stage svg")
+        actions = ActionChains(self.driver, duration=50)
+        for place in places:
+            at = self.js(
+                "const b = arguments[0].getBoundingClientRect(),"
+                "size = Math.min(b.width / STAGE.width, b.height / STAGE.height);"
+                "const [x, y] = to_stage(...arguments[1]);"
+                "return [(x - STAGE.width / 2) * size, (y - STAGE.height / 2) * size]",
+                stage,
+                place,
+            )
+            actions.move_to_element_with_offset(stage, round(at[0]), round(at[1]))
+        actions.perform()
+
+    def assert_held(self, face_m, sign, stiffness):
+        """The force of a face at x against the hand: K d = 135 N/m (lead - d), to a count."""
+        lead = sign * (face_m - self.js("return feltgate.pantograph.stage.lead[0]"))
+        depth = lead * 135 / (135 + stiffness)
+        self.assertGreater(lead, 0.004)
+        seen = self.settled()
+        count_n = stiffness * 160e-6
+        self.assertAlmostEqual(sign * (face_m - seen["x"]), depth, delta=160e-6)
+        self.assertAlmostEqual(sign * seen["force_x"], stiffness * depth, delta=count_n)
+        self.assertAlmostEqual(seen["force_y"], 0, delta=count_n)
+
+    def test_the_pen_goes_into_a_square(self):
+        self.open_pantograph()
+        self.assertFalse(self.driver.find_element(By.ID, "lever").is_displayed())
+        self.js("feltgate.pantograph.stage.place(0.05, 0.12)")
+        self.point((0.05, 0.12), (0.04, 0.12), (0.02, 0.12))
+        self.assert_held(0.03, 1, 50)
+        self.js("const s = document.getElementById('pen-stiffness'); s.value = 200; s.oninput()")
+        self.assert_held(0.03, 1, 200)
+        caption = self.driver.find_element(By.CSS_SELECTOR, "#pen-stage .equation").text
+        self.assertRegex(caption, r"F = 0\.[78]\d N .* 76\.9 kHz")
+        outlines = "return document.querySelectorAll('#pen-stage .outline').length"
+        self.assertEqual(self.js(outlines), 1)
+        self.driver.find_element(By.ID, "pen-outline").click()
+        self.until("return document.querySelectorAll('#pen-stage .outline').length === 0")
+        stage = self.driver.find_element(By.CSS_SELECTOR, "#pen-stage svg")
+        before = self.js("return feltgate.pantograph.stage.lead")
+        stage.send_keys(Keys.ARROW_LEFT * 3 + Keys.ARROW_UP)
+        after = self.js("return feltgate.pantograph.stage.lead")
+        self.assertAlmostEqual(after[0] - before[0], -0.003)
+        self.assertAlmostEqual(after[1] - before[1], 0.001)
+        # The lever goes on where it was.
+        self.driver.find_element(By.ID, "tab-lever").click()
+        begin = self.js("return feltgate.devices[0].now.time")
+        self.until("return feltgate.devices[0].now.time > arguments[0]", begin + 0.1)
+
+    def test_training_squares(self):
+        self.open_pantograph("training")
+        labels = self.js(
+            "return [...document.querySelectorAll('#pen-stage .label')].map(t => t.textContent)"
+        )
+        self.assertEqual(labels.count("high stiffness"), 2)
+        self.assertEqual(labels.count("low damping"), 2)
+        places = ((-1, 0.142, 50), (1, 0.142, 50), (-1, 0.088, 30), (1, 0.088, 30))
+        for sign, y, stiffness in places:
+            self.js("feltgate.pantograph.stage.place(...arguments[0])", [sign * 0.07, y])
+            self.settled(0.1)
+            self.js("feltgate.pantograph.stage.aim(...arguments[0])", [sign * 0.042, y])
+            self.assert_held(sign * 0.05, sign, stiffness)
+
+    def guess(self, name):
+        for button in self.driver.find_elements(By.CSS_SELECTOR, "#game-names button"):
+            if button.text == name:
+                button.click()
+
+    def test_a_guess_is_counted_and_exported(self):
+        self.js("localStorage.clear()")
+        self.open_pantograph("game")
+        shapes = self.js("return feltgate.pantograph.game.names")
+        self.assertEqual(len(shapes), 7)
+        shown = "return document.querySelectorAll('#pen-stage .outline').length"
+        self.settled(0.1)
+        self.assertEqual(self.js(shown), 0)
+        first = self.js("return feltgate.pantograph.game.shape")
+        self.js("feltgate.pantograph.stage.aim(0.02, 0.1)")
+        self.guess(first)
+        self.until(f"{shown} === 1")
+        self.assertIn("Right", self.driver.find_element(By.ID, "game-said").text)
+        for cue in ("cue-stiffness", "cue-damping"):
+            self.driver.find_element(By.ID, cue).click()
+        self.driver.find_element(By.ID, "game-next").click()
+        second = self.js("return feltgate.pantograph.game.shape")
+        self.assertNotEqual(second, first)
+        wrong = next(name for name in shapes if name != second)
+        self.guess(wrong)
+        self.guess(second)  # too late
+        shares = self.driver.find_element(By.ID, "game-shares").text
+        self.assertIn("none 1 100.0 %", shares)
+        self.assertIn("both 1 0.0 %", shares)
+        self.assertIn("all of yours 2 50.0 %", shares)
+        self.assertIn("people at the device 70 74.3 %", shares)
+        self.assertIn("chance 14.3 %", shares)
+        cell = (
+            "return document.getElementById('game-confusion')"
+            ".rows[arguments[0] + 1].cells[arguments[1] + 1].textContent"
+        )
+        self.assertEqual(self.js(cell, shapes.index(second), shapes.index(wrong)), "1")
+        self.assertEqual(self.js(cell, shapes.index(first), shapes.index(first)), "1")
+        link = self.driver.find_element(By.ID, "game-export").get_attribute("href")
+        kind, _, text = link.partition(",")
+        self.assertEqual(kind, "data:text/csv;charset=utf-8")
+        rows = list(csv.DictReader(io.StringIO(unquote(text))))
+        self.assertEqual([r["shape"] for r in rows], [first, second])
+        self.assertEqual([r["right"] for r in rows], ["true", "false"])
+        self.assertEqual(rows[1]["guess"], wrong)
+        self.assertEqual([r["stiffness_cue"] for r in rows], ["false", "true"])
+        # Kept, until they are forgotten; without a place to keep them it says so and goes on.
+        self.setUp()
+        self.open_pantograph("game")
+        kept = "return feltgate.pantograph.game.guesses.length"
+        self.assertEqual(self.js(kept), 2)
+        self.driver.find_element(By.ID, "game-forget").click()
+        self.assertEqual(self.js(kept), 0)
+        self.js("Storage.prototype.setItem = () => { throw new Error('full'); }")
+        self.guess(wrong)
+        self.assertEqual(self.js(kept), 1)
+        self.assertIn("keeps nothing", self.driver.find_element(By.ID, "game-kept").text)
+
+
+class Drums(PageTest):
+    def test_drums_are_hit_and_heard(self):
+        self.driver.find_element(By.ID, "tab-drums").click()
+        self.until("return !!feltgate.drums")
+        self.driver.find_element(By.ID, "drums-sound").click()
+        self.until("return feltgate.drums.audio.state === 'running'")
+        stage = self.driver.find_element(By.CSS_SELECTOR, "#drums-stage svg")
+        for drum, across in ((1, -0.36), (2, 0.06), (3, 0.3)):
+            self.js("feltgate.drums.aim(arguments[0], 0.3)", across)
+            self.until("return feltgate.drums.seen.theta > 0.2")
+            hits = self.js("return feltgate.drums.hits.length")
+            stage.send_keys(" ")
+            self.until("return feltgate.drums.hits.length > arguments[0]", hits)
+            hit = self.js("return feltgate.drums.hits[arguments[0]]", hits)
+            self.assertEqual(hit["drum"], drum)
+            self.assertAlmostEqual(hit["place"], abs(across - 0.3 * (drum - 2)) / 0.12, delta=0.01)
+            self.assertGreater(hit["speed"], 0.3)  # m/s; the stick falls by 0.3 rad in the hand
+            self.assertLess(hit["speed"], 3)
+        self.assertEqual(
+            self.js("return feltgate.drums.played"), self.js("return feltgate.drums.hits.length")
+        )
+        said = self.driver.find_element(By.ID, "drums-hits").text
+        self.assertIn("drum 3", said.splitlines()[0])
+        # Loudness goes with the speed, the sustain with the distance from the middle.
+        peak = "return Math.max(...drum_samples(2, arguments[0], 0, 44100))"
+        self.assertAlmostEqual(self.js(peak, 3) / self.js(peak, 1), 3, places=4)
+        length = "return drum_samples(2, 1, arguments[0], 44100).length / 44100"
+        self.assertAlmostEqual(self.js(length, 0) - self.js(length, 0.5), 0.2, places=3)
+        self.driver.find_element(By.ID, "drums-sound").click()
+        self.until("return feltgate.drums.audio.state === 'suspended'")
+
+
+def pictures(folder):
+    """A square pressed, the training screen, and a round of the game in the dark; drums."""
+    driver = opened()
+    views = {
+        "pen": "document.getElementById('tab-pantograph').click();"
+        "feltgate.pantograph.stage.place(0.05, 0.12); feltgate.pantograph.stage.aim(0.02, 0.125)",
+        "pen_training": "document.querySelector('#pen-modes input[value=training]').click();"
+        "feltgate.pantograph.stage.place(0.07, 0.1); feltgate.pantograph.stage.aim(0.03, 0.1)",
+        "pen_game": "document.querySelector('#pen-modes input[value=game]').click();"
+        "document.getElementById('theme').click();"
+        "feltgate.pantograph.stage.aim(0.01, 0.105)",
+        "pen_guessed": "document.querySelector('#game-names button').click()",
+        "drums": "document.getElementById('theme').click();"
+        "document.getElementById('tab-drums').click(); feltgate.drums.aim(0.05, -0.2)",
+    }
+    for name, script in views.items():
+        driver.execute_script(script)
+        time.sleep(4)
+        driver.save_screenshot(str(folder / f"{name}.png"))
+    driver.quit()
+
+
+if __name__ == "__main__":
+    if "--pictures" in sys.argv:
+        pictures(Path(sys.argv[sys.argv.index("--pictures") + 1]))
+    else:
+        unittest.main()

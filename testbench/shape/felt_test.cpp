@@ -178,3 +178,15 @@ TEST_CASE("outside there is no force, wherever the pen comes from") {
     }
   }
 }
+
+TEST_CASE("the seven shapes as the page has them: felt all around, without a jump") {
+  for (const char* name : {"duck", "bell", "banana", "fish", "horseshoe", "mushroom", "square"}) {
+    const Curve curve = curve_of(name, 2e-3);
+    CHECK_FALSE(crosses_itself(sampled(curve, 40).at));
+    const law::Law law = law_of(curve, Kind::proxy, 40);
+    const Felt felt = around(law, curve, 50, 1e-3, 0.153e-3);
+    INFO(name << ": rms error " << felt.rms_error << ", step " << felt.most_step);
+    CHECK(felt.jumps == 0);
+    CHECK(felt.rms_error < 0.153);  // of 1 mm: less than a count moves the pen
+  }
+}

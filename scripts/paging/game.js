@@ -44,14 +44,21 @@ class Game {
     }
   }
 
-  /** What the stage shows of the round: nothing, or after a guess the outline. */
-  show() {
-    this.tab.stage.shown = this.shape && !this.open ? [[this.tab.named(this.shape)]] : [];
-    if (!this.shape) this.next(true);
+  /** The first round, or the one that was left. */
+  enter() {
+    if (!this.shape) this.next();
+    else this.load();
+  }
+
+  /** The law of the round's shape, and its outline once it is guessed. */
+  load() {
+    const shape = this.tab.named(this.shape), material = MATERIALS[this.shape];
+    this.tab.stage.load(shape, this.cues[0] ? material[0] : HARD, this.cues[1] ? material[1] : SLIPPERY);
+    this.tab.stage.shown = this.open ? [] : [[shape]];
   }
 
   /** All shapes once in random order, then again. */
-  next(first = false) {
+  next() {
     if (!this.bag.length) {
       this.bag = [...this.names];
       for (let n = this.bag.length - 1; n > 0; --n) {
@@ -61,16 +68,13 @@ class Game {
     }
     this.shape = this.bag.pop();
     this.cues = [$("cue-stiffness").checked, $("cue-damping").checked];
-    const material = MATERIALS[this.shape];
-    this.tab.stage.place(0, 0.06);
-    this.tab.stage.load(this.tab.named(this.shape), this.cues[0] ? material[0] : HARD, this.cues[1] ? material[1] : SLIPPERY);
     this.open = true;
+    this.tab.stage.place(0, 0.06);
+    this.load();
     this.began = null;
     this.seconds = 0;
     this.buttons(true);
-    this.tab.stage.shown = [];
     $("game-said").textContent = "A shape is hidden. The clock starts when the pen moves.";
-    if (!first) this.tab.stage.svg.focus();
   }
 
   touched() {
@@ -98,7 +102,7 @@ class Game {
     });
     this.keep();
     $("game-said").textContent = right ? `Right: ${name}.` : `It is the ${this.shape}, not the ${name}.`;
-    this.show();
+    this.tab.stage.shown = [[this.tab.named(this.shape)]];
     this.report();
   }
 

@@ -38,6 +38,7 @@ class PenStage {
   /** Another law under the same pen: a shape with a stiffness in N/m and a damping in Ns/m. */
   load(shape, stiffness, damping) {
     say(this.pen.load(shape.image));
+    this.loaded = shape;
     this.material(stiffness, damping);
   }
 
@@ -131,13 +132,12 @@ class PenTab {
       $("pen-stiffness-shown").textContent = `${fixed(stiffness, 0)} N/m`;
       $("pen-damping-shown").textContent = `${fixed(damping, 3)} Ns/m`;
       this.stage.shown = $("pen-outline").checked ? [[shape]] : [];
-      if (entered || this.loaded !== shape) this.stage.load(shape, stiffness, damping);
+      if (this.stage.loaded !== shape) this.stage.load(shape, stiffness, damping);
       else this.stage.material(stiffness, damping);
-      this.loaded = shape;
     } else if (mode === "training") {
       this.stage.shown = this.squares.map((s) => [s.shape, s.label]);
       this.near = null;
-    } else if (entered) this.game.show();
+    } else if (entered) this.game.enter();
   }
 
   arrow() {

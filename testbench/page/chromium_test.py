@@ -214,6 +214,11 @@ def measure():
     gaps = sorted(b - a for a, b in zip(frames, frames[1:], strict=False))
     speed = driver.execute_script("return feltgate.speed")
     print(f"median {1000 / gaps[len(gaps) // 2]:.0f} frames a second, {speed:.1f} times real time")
+    for tab in ("pantograph", "drums"):
+        driver.find_element(By.ID, f"tab-{tab}").click()
+        time.sleep(5)
+        speed = driver.execute_script("return feltgate.speed")
+        print(f"{tab}: {speed:.1f} times real time")
     driver.quit()
 
 

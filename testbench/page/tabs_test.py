@@ -121,6 +121,13 @@ class Pantograph(PageTest):
             self.driver.find_element(By.ID, cue).click()
         self.driver.find_element(By.ID, "game-next").click()
         second = self.js("return feltgate.pantograph.game.shape")
+        self.assertEqual(self.js(shown), 0)
+        # Something else in between does not change what is hidden.
+        for mode in ("training", "game"):
+            self.driver.find_element(By.CSS_SELECTOR, f"#pen-modes input[value={mode}]").click()
+            self.settled(0.1)
+        self.assertEqual(self.js("return feltgate.pantograph.stage.loaded.name"), second)
+        self.assertEqual(self.js(shown), 0)
         self.assertNotEqual(second, first)
         wrong = next(name for name in shapes if name != second)
         self.guess(wrong)

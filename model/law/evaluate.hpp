@@ -41,6 +41,11 @@ class Evaluation {
   /// As the next run will find it.
   N state(std::size_t index) const { return states_[index]; }
   void set_state(std::size_t index, N si) { states_[index] = si; }
+  /// What a line's next run reads with this index, 1 to its length.
+  void set_line(std::size_t line, std::size_t runs_ago, N si) {
+    std::vector<N>& ring = lines_[line];
+    ring[(line_at_[line] + ring.size() - runs_ago) % ring.size()] = si;
+  }
   /// Any node of the last run, but those of a table's body. Truth values are 0 and 1.
   N value(NodeId id) const { return values_[at(id)]; }
   /// A table at x, as runs see it.

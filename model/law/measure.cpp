@@ -66,10 +66,9 @@ class Meter {
       values.push_back(w * scale(input));
     }
     for (std::size_t k = 0; k < c_.law.states.size() && started_ && !free_running; ++k) {
-      const int address =
-          c_.target.thread * EngineMap::private_words + c_.assembled.state_address[k];
-      law_.set_state(k, machine_.memory().data_at(address) * c_.program.states[k].scale);
+      law_.set_state(k, state_word(k) * c_.program.states[k].scale);
     }
+    for (std::size_t i = 0; i < c_.law.lines.size() && started_ && !free_running; ++i) take_line(i);
     started_ = true;
     law_.run(values);
     const MachineRun& run = machine_.run(c_.target.thread, inputs);
@@ -88,6 +87,21 @@ class Meter {
   Measured result() const { return result_; }
 
  private:
+  std::int32_t state_word(std::size_t k) const {
+    const int first = c_.target.thread * EngineMap::private_words;
+    return machine_.memory().data_at(first + c_.assembled.state_address[k]);
+  }
+  /// A line is what the words of its ring say, from that which is written next on.
+  void take_line(std::size_t i) {
+    const LineUse& use = c_.program.lines[i];
+    const int length = c_.law.lines[i].length, base = c_.program.tables[at(use.table)].base,
+              next = state_word(at(use.pointer)) / 4096;
+    for (int ago = 1; ago <= length; ++ago) {
+      const int word = base + (next + length - ago) % length;
+      law_.set_line(i, at(ago),
+                    static_cast<std::int32_t>(machine_.memory().table_at(word)) * use.scale);
+    }
+  }
   double scale(const Input& input) const {
     return input.source == Source::position   ? c_.target.count_rad()
            : input.source == Source::velocity ? std::ldexp(1.0, -c_.target.velocity.fraction)

@@ -19,8 +19,9 @@ struct Measured {
   bool all_inputs = false;     ///< every value of the only input, with the parameters' defaults
 };
 
-/// Random inputs and parameters, corners among them. States of the law are set to what the words
-/// say before each run, unless `free`: then both run on by themselves for 1000 runs at a time.
+/// Random inputs and parameters, corners among them. States and lines of the law are set to what
+/// the words say before each run, unless `free`: then both run on by themselves for 1000 runs at a
+/// time.
 Measured measure(const Compiled& compiled, std::uint64_t seed, std::int64_t runs,
                  bool free_running = false);
 

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "engine/law_runner.hpp"
@@ -51,15 +52,13 @@ class RealLaw : public LawRider {
   std::vector<N> inputs_;
 };
 
-/// The image: compiled C++ where the law is a shipped one, else its words in the interpreter.
-class FixedLaw : public LawRider {
+/// The words of an image's parameters as the host changes them.
+class ChangedWords {
  public:
-  FixedLaw(const law::Compiled& law, const DesignInfo& design, const LawChanges& changes)
-      : law_(law),
-        torque_(design.torque),
-        changes_(changes),
-        runner_(law::make_law_runner(law::memory(law.image), law::crc(law.image))) {}
-  void change() override {
+  ChangedWords(const law::Compiled& law, const LawChanges& changes)
+      : law_(law), changes_(changes) {}
+  /// After the next change.
+  std::vector<std::int32_t> next() {
     for (const LawChange& c : changes_.at(next_++)) {
       values_[law_.law.parameters[c.parameter].name] = c.si;
     }
@@ -69,21 +68,44 @@ class FixedLaw : public LawRider {
       const auto known = values_.find(w.name);
       values.push_back(known == values_.end() ? w.initial * w.scale : known->second);
     }
-    const std::vector<std::int32_t> words = law::parameter_words(law_.image, values);
-    for (std::size_t n = 0; n < words.size(); ++n) {
-      runner_->set_parameter(static_cast<int>(n), words[n]);
-    }
-    runner_->commit();
+    return law::parameter_words(law_.image, values);
   }
+
+ private:
+  const law::Compiled& law_;
+  const LawChanges& changes_;
+  std::size_t next_ = 0;
+  std::map<std::string, double> values_;  ///< SI
+};
+
+/// For a Machine or a LawRunner.
+template <class Runner>
+void commit(Runner& runner, const std::vector<std::int32_t>& words) {
+  for (std::size_t n = 0; n < words.size(); ++n) {
+    runner.set_parameter(static_cast<int>(n), words[n]);
+  }
+  runner.commit();
+}
+
+law::MachineInputs inputs_of(const Snapshot& s, std::int64_t velocity, std::int32_t tau_hat) {
+  return {s.position, static_cast<std::int32_t>(velocity), tau_hat, 0, 0, 0, 0, 0,
+          0,          static_cast<std::int32_t>(s.tick)};
+}
+
+/// The image: compiled C++ where the law is a shipped one, else its words in the interpreter.
+class FixedLaw : public LawRider {
+ public:
+  FixedLaw(const law::Compiled& law, const DesignInfo& design, const LawChanges& changes)
+      : words_(law, changes),
+        torque_(design.torque),
+        runner_(law::make_law_runner(law::memory(law.image), law::crc(law.image))) {}
+  void change() override { commit(*runner_, words_.next()); }
 
  private:
   void reset() override { runner_->enter(); }
   double run(const Snapshot& s, const RealChain& chain) override {
     const ChainRaw& raw = *chain.raw();
-    const auto tick = static_cast<std::int32_t>(s.tick);
-    const law::MachineInputs in{
-        s.position, static_cast<std::int32_t>(raw.velocity), raw.tau_hat, 0, 0, 0, 0, 0, 0, tick};
-    const std::int32_t word = runner_->run(in).outputs[0];
+    const std::int32_t word = runner_->run(inputs_of(s, raw.velocity, raw.tau_hat)).outputs[0];
     return std::ldexp(static_cast<double>(saturate(torque_, word)), -torque_.fraction);
   }
   static std::int64_t saturate(Format f, std::int32_t word) {
@@ -91,12 +113,42 @@ class FixedLaw : public LawRider {
     return word >= end ? end - 1 : word < -end ? -end : word;
   }
 
-  const law::Compiled& law_;
+  ChangedWords words_;
   Format torque_;
-  const LawChanges& changes_;
-  std::size_t next_ = 0;
-  std::map<std::string, double> values_;  ///< SI
   std::unique_ptr<law::LawRunner> runner_;
+};
+
+/// The image in the interpreter, whose words can be seen.
+class StateWatch : public LawWatch {
+ public:
+  StateWatch(const law::Compiled& law, const DesignInfo& design, const LawChanges& changes,
+             SceneLaw::Told told)
+      : law_(law),
+        tick_s_(1 / static_cast<double>(design.tick_hz)),
+        words_(law, changes),
+        machine_(law::memory(law.image)),
+        told_(std::move(told)),
+        states_(law.law.states.size()) {}
+  void enter() override { machine_.enter(); }
+  void change() override { commit(machine_, words_.next()); }
+  void run(const Snapshot& s) override {
+    machine_.run(law_.target.thread,
+                 inputs_of(s, s.velocity, static_cast<std::int32_t>(s.tau_hat)));
+    const int first = law_.target.thread * EngineMap::private_words;
+    for (std::size_t k = 0; k < states_.size(); ++k) {
+      const int address = first + law_.assembled.state_address[k];
+      states_[k] = machine_.memory().data_at(address) * law_.program.states[k].scale;
+    }
+    told_(s.tick * tick_s_, states_);
+  }
+
+ private:
+  const law::Compiled& law_;
+  double tick_s_;
+  ChangedWords words_;
+  law::Machine machine_;
+  SceneLaw::Told told_;
+  std::vector<double> states_;
 };
 
 }  // namespace
@@ -106,6 +158,11 @@ std::unique_ptr<LawRider> make_law_rider(const law::Compiled& law, const DesignI
   if (kind == "fixed") return std::make_unique<FixedLaw>(law, design, changes);
   if (kind == "quad") return std::make_unique<RealLaw<Quad>>(law, design, changes);
   return std::make_unique<RealLaw<double>>(law, design, changes);
+}
+
+std::unique_ptr<LawWatch> make_law_watch(const law::Compiled& law, const DesignInfo& design,
+                                         const LawChanges& changes, SceneLaw::Told told) {
+  return std::make_unique<StateWatch>(law, design, changes, std::move(told));
 }
 
 }  // namespace feltgate

@@ -85,6 +85,16 @@ class CompiledSceneLaw : public SceneLaw {
     made->change();
     return made;
   }
+  std::vector<std::string> states() const override {
+    std::vector<std::string> names;
+    for (const law::State& s : law_.law.states) names.push_back(s.name);
+    return names;
+  }
+  std::unique_ptr<LawWatch> watch(Told told) const override {
+    auto made = make_law_watch(law_, design_, changes_, std::move(told));
+    made->change();
+    return made;
+  }
 
  private:
   void note(std::size_t parameter) {

@@ -44,5 +44,8 @@ N rounded(const law::Compiled& law, const LawChange& c) {
 using LawChanges = std::vector<std::vector<LawChange>>;
 std::unique_ptr<LawRider> make_law_rider(const law::Compiled& law, const DesignInfo& design,
                                          const std::string& kind, const LawChanges& changes);
+/// Runs the image too, and tells its states.
+std::unique_ptr<LawWatch> make_law_watch(const law::Compiled& law, const DesignInfo& design,
+                                         const LawChanges& changes, SceneLaw::Told told);
 
 }  // namespace feltgate

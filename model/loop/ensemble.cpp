@@ -95,7 +95,7 @@ void Ensemble::ride(const Snapshot& s) {
   }
   lead_figures_.saturations += (s.limits & ~(limit::ramp | limits_of_core)) != 0 ? 1 : 0;
   const bool restart = host_.restart(s.armed, s.scene);
-  if (riders_.empty() && passenger_ == nullptr) return;
+  if (riders_.empty() && passenger_ == nullptr && watch_ == nullptr) return;
   const ChainIn in{s.position, s.travel,           s.armed, s.scene, host_.mode(),
                    restart,    relief_of(s.limits)};
   watch_velocity(s.travel);
@@ -103,6 +103,7 @@ void Ensemble::ride(const Snapshot& s) {
   const bool in_law = law_ != nullptr && s.armed && design().scene_number("law") == s.scene;
   if (in_law && !law_entered_) {
     for (Rider& r : riders_) r.law->enter();
+    if (watch_ != nullptr) watch_->enter();
   }
   law_entered_ = in_law;
   for (Rider& r : riders_) {
@@ -111,6 +112,10 @@ void Ensemble::ride(const Snapshot& s) {
       r.chain->tick(in);
       if (r.law != nullptr) follow_law(r, s);
     });
+  }
+  if (watch_ != nullptr) {
+    for (std::int64_t n = law_changes_; n < s.law_changes; ++n) watch_->change();
+    if (s.law_begins) watch_->run(s);
   }
   law_changes_ = std::max(law_changes_, s.law_changes);
   if (reference_ == nullptr) return;

@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bounds/coverage.hpp"
@@ -38,6 +39,8 @@ class Ensemble {
   /// Loads a law into the engine of laws, and has the riders run it; once, before the first
   /// advance(). It must outlive this.
   void run_law(SceneLaw& law);
+  /// Looks into the law that run_law() has loaded; nullptr: nobody does.
+  void watch_law(std::unique_ptr<LawWatch> watch) { watch_ = std::move(watch); }
   /// A parameter of the law or of the design in its unit, for every engine; takes effect with the
   /// same tick in all.
   /// Throws std::invalid_argument for an unknown name or a value that does not fit.
@@ -140,6 +143,7 @@ class Ensemble {
   std::deque<std::int16_t> window_;  ///< travel of the last m1 ticks
   int largest_counts_ = 0;
   SceneLaw* law_ = nullptr;
+  std::unique_ptr<LawWatch> watch_;
   std::int64_t law_changes_ = 1;  ///< sets of parameters that the riders know; the first loads
   bool law_entered_ = false;
   std::deque<HostWrite> pending_;

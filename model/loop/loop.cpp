@@ -77,6 +77,7 @@ class ScenarioRun {
     }
     core_.cover(options_.coverage);
     if (options_.law != nullptr) core_.run_law(*options_.law);
+    if (options_.law_states) watch_states();
     core_.carry(options_.passenger);
     if (options_.inputs != nullptr) {
       *options_.inputs = {end, plant_.encoder().pins(), {}, {}};
@@ -128,6 +129,14 @@ class ScenarioRun {
   Clock clock_of(double seconds) const {
     constexpr double never = 0x1p62;  // and no sum with it overflows
     return std::llround(std::min(seconds * static_cast<double>(core_.design().clock_hz), never));
+  }
+
+  void watch_states() {
+    if (choice_.lead == "rtl") {
+      throw std::invalid_argument(
+          "the RTL alone does not show when a law runs; for its states add the twin: --engine all");
+    }
+    core_.watch_law(options_.law->watch(options_.law_states));
   }
 
   void request_arm() {

@@ -112,6 +112,9 @@ struct RunOptions {
   RunInputs* inputs = nullptr;     ///< filled when given; a scene that uses the stop pin throws
   std::function<void(const Row&)> row;  ///< called for every row_every-th tick; may be empty
   int row_every = 1;
+  /// called after each run of the law: time of its samples and its states, SI; may be empty. Throws
+  /// std::invalid_argument where the RTL leads alone, which does not show when a run begins.
+  std::function<void(double at_s, const std::vector<double>& states)> law_states;
   /// called after each step of the plant, which took `clocks`; may be empty
   std::function<void(Clock clocks, const plant::Observables&)> plant_step;
   std::function<void(double done)> progress;  ///< called now and then with 0..1; may be empty

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -56,6 +57,18 @@ class LawRider {
   std::deque<Torque> torques_;
 };
 
+/// The words of a law once more, run beside the engine's for who wants to look into them.
+class LawWatch {
+ public:
+  virtual ~LawWatch() = default;
+  /// As after arming and entry into the scene.
+  virtual void enter() = 0;
+  /// The next values that the host has set come into force.
+  virtual void change() = 0;
+  /// The run that began with the samples of this tick.
+  virtual void run(const Snapshot& s) = 0;
+};
+
 /// A law for one design: what the host writes (address of the register port, word), and riders.
 class SceneLaw {
  public:
@@ -89,6 +102,11 @@ class SceneLaw {
   virtual std::pair<std::string, double> event(const LawEvent& told) const = 0;
   /// Kinds as make_real_chain(). With the values of before the first set(); change() is the next.
   virtual std::unique_ptr<LawRider> rider(const std::string& kind) const = 0;
+  /// Names of its states, those of low-passes among them.
+  virtual std::vector<std::string> states() const = 0;
+  /// After each run `told` gets the time of its samples and what the words leave in the states, SI.
+  using Told = std::function<void(double at_s, const std::vector<double>& states)>;
+  virtual std::unique_ptr<LawWatch> watch(Told told) const = 0;
 };
 
 }  // namespace feltgate

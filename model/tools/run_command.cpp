@@ -3,6 +3,7 @@
 //
 // feltgate run. Documentation: docs/scenes.md, docs/json.md
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -31,7 +32,7 @@ namespace fs = std::filesystem;
 
 struct RunArguments {
   std::string scene, design = "lever", plant, engine = "all", report, json, csv, fst, record,
-                     events;
+                     events, states;
   std::vector<std::string> set;
   std::uint64_t seed = 1;
   int every = 0;  ///< 0: sane_every()
@@ -80,6 +81,14 @@ std::unique_ptr<SceneLaw> law_of(const Scenario& s, const DesignInfo& design) {
   return make_scene_law(law_file(s), design);
 }
 
+/// A row for each run of the law.
+void write_states(files::OutputFile& to, const SceneLaw& law, RunOptions& options) {
+  to.write(fmt::format("time_s,{}\n", fmt::join(law.states(), ",")));
+  options.law_states = [&to](double at_s, const std::vector<double>& states) {
+    to.write(fmt::format("{:.9g},{:.9g}\n", at_s, fmt::join(states, ",")));
+  };
+}
+
 int run(const RunArguments& a) {
   if (a.columns) {
     fmt::print("{}", columns_markdown());
@@ -88,8 +97,11 @@ int run(const RunArguments& a) {
   if (a.scene.empty()) throw std::invalid_argument("run: SCENE is missing; feltgate run --help");
   const std::string scene_path = find_file(a.scene, "vectors/scenes");
   if (names_device(scene_path)) {
-    for (const auto& [option, value] :
-         {std::pair{"--plant", a.plant}, {"--report", a.report}, {"--record", a.record}}) {
+    for (const auto& [option, value] : {std::pair{"--plant", a.plant},
+                                        {"--report", a.report},
+                                        {"--record", a.record},
+                                        {"--events", a.events},
+                                        {"--states", a.states}}) {
       if (value.empty()) continue;
       throw std::invalid_argument(fmt::format(
           "{} is for scenes of one lever, and {} names a device; leave it out", option, a.scene));
@@ -127,12 +139,14 @@ int run(const RunArguments& a) {
   files::OutputFile* fst = outputs.open("--fst", a.fst);
   files::OutputFile* record = outputs.open("--record", a.record);
   files::OutputFile* events = outputs.open("--events", a.events);
-  if (events != nullptr && law == nullptr) {
-    throw std::invalid_argument(
-        fmt::format("{}:{}: --events writes what a law tells, and the scene runs none; name one: "
-                    "law = \"drums\"",
-                    scene_path, scenario.scene_line));
+  files::OutputFile* states = outputs.open("--states", a.states);
+  if (law == nullptr && (events != nullptr || states != nullptr)) {
+    throw std::invalid_argument(fmt::format(
+        "{}:{}: {}, and the scene runs none; name one: law = \"drums\"", scene_path,
+        scenario.scene_line,
+        events != nullptr ? "--events writes what a law tells" : "--states writes those of a law"));
   }
+  if (states != nullptr) write_states(*states, *law, options);
   if (fst != nullptr) options.fst = fst->named();
   if (record != nullptr) options.record = record->handle();
   const design::Elaborated elaborated = elaborated_design(a.design);
@@ -253,6 +267,9 @@ void add_run(CLI::App& app, int* exit_code) {
       ->type_name("FILE");
   sub->add_option("--events", a->events,
                   "events of the scene's law as lines for Pure Data (docs/devices/drums.md)")
+      ->type_name("FILE");
+  sub->add_option("--states", a->states,
+                  "states of the scene's law after each of its runs, CSV, SI (docs/laws.md)")
       ->type_name("FILE");
   sub->add_flag("--quiet", a->quiet, "print only what went wrong");
   sub->callback([a, exit_code] {

@@ -52,6 +52,7 @@ TITLES = {
     "plane_circle": "A disc by its tangents, 1000 a second",
     "plane_circle_slow": "A disc by its tangents, 50 a second",
     "plane_floor": "A floor by its plane",
+    "bowed_string": "Bow on a string",
 }
 
 SAID = {
@@ -85,6 +86,8 @@ SAID = {
     "on by the encoder: the motor pushes back with up to {most}.",
     "drums": "A stick strikes the drums beneath it one after the other: a skin pushes back with up "
     "to {most}, and the program tells how hard and where it was hit.",
+    "bowed_string": "The hand draws a bow across a string, which sticks to it and tears itself off "
+    "196 times a second: the motor pulls back with up to {most}.",
     "turn_switch": "The hand moves a stalk between {low} and {high}: it springs back with up to "
     "{most} until it falls into a latch, which then holds it.",
     "graded_membrane": "The hand goes through a skin that grows stronger on the way, up to {most}; "

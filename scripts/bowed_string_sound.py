@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Writes what the bridge of a bowed string hears, from `feltgate run bowed_string --states FILE`, as
+a WAV file of 40 kHz. A law that runs slower holds each of its values, as a converter would.
+
+Documentation: docs/devices/bowed_string.md
+"""
+
+import argparse
+import csv
+import sys
+import wave
+
+import numpy as np
+
+RATE_HZ = 40_000
+LOUDEST_M_S = 2.5  # what is full scale; more is cut
+
+
+class StatesError(Exception):
+    """A file without the string's states; the message is for the user."""
+
+
+def read_states(path):
+    """Times in s and what is heard in m/s, of every run of the law."""
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = list(csv.reader(file))
+    mend = "; write it with feltgate run bowed_string --states FILE"
+    if not rows or rows[0][:1] != ["time_s"] or "heard" not in rows[0]:
+        raise StatesError(f'{path}:1: no columns "time_s" and "heard"{mend}')
+    column = rows[0].index("heard")
+    times, heard = [], []
+    for number, row in enumerate(rows[1:], 2):
+        try:
+            times.append(float(row[0]))
+            heard.append(float(row[column]))
+        except (ValueError, IndexError):
+            raise StatesError(f"{path}:{number}: no row of states{mend}") from None
+        if not np.isfinite([times[-1], heard[-1]]).all() or times[-2:] != sorted(times[-2:]):
+            raise StatesError(f"{path}:{number}: time goes back, or a value is none{mend}")
+    if len(times) < 2:
+        raise StatesError(f"{path}: fewer than two runs of the law{mend}")
+    return np.array(times), np.array(heard)
+
+
+def sound(times, heard):
+    """Samples at RATE_HZ, full scale 1; each value holds until the next run."""
+    at = times[0] + np.arange(int((times[-1] - times[0]) * RATE_HZ) + 1) / RATE_HZ
+    # Half a sample on, so that rounding does not take the value of a run before.
+    last = np.searchsorted(times, at + 0.5 / RATE_HZ, side="right") - 1
+    return np.clip(heard[last] / LOUDEST_M_S, -1.0, 1.0)
+
+
+def write_wav(path, samples):
+    with wave.open(str(path), "wb") as out:
+        out.setnchannels(1)
+        out.setsampwidth(2)
+        out.setframerate(RATE_HZ)
+        out.writeframes((samples * 32767).astype("<i2").tobytes())
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
+    parser.add_argument("states", metavar="FILE", help="CSV of feltgate run bowed_string --states")
+    parser.add_argument("-o", "--output", required=True, metavar="FILE", help="WAV, 40 kHz")
+    arguments = parser.parse_args()
+    try:
+        samples = sound(*read_states(arguments.states))
+        write_wav(arguments.output, samples)
+    except (StatesError, OSError, UnicodeDecodeError) as error:
+        print(f"bowed_string_sound: {error}", file=sys.stderr)
+        return 2
+    print(f"{arguments.output}: {len(samples) / RATE_HZ:.2f} s")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

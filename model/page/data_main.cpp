@@ -93,9 +93,21 @@ json hidden(const std::string& name, const feltgate::shape::Placing& placing) {
   return {{"name", name}, {"image", feltgate::law::text(law.image)}, {"outline", places}};
 }
 
-std::string drums() {
+std::string image_of(const std::string& law) {
   const auto target = feltgate::law::target_of(feltgate::design_named("lever"));
-  return feltgate::law::text(feltgate::law::compile_file(laws + "drums.law", target).image);
+  return feltgate::law::text(feltgate::law::compile_file(laws + law + ".law", target).image);
+}
+
+/// The presets of the law `material` are scenes.
+json materials() {
+  json all = json::array();
+  for (const char* name : {"stone", "fabric", "water"}) {
+    const auto scenario = feltgate::read_scenario(vectors + "scenes/material_" + name + ".toml");
+    json values = json::object();
+    for (const auto& [parameter, value] : scenario.parameters) values[parameter] = value;
+    all.push_back({{"name", name}, {"parameters", values}});
+  }
+  return all;
 }
 
 json hidden_shapes() {
@@ -123,11 +135,10 @@ int main(int count, char** argv) {
     return 2;
   }
   try {
-    json out = {{"recorded", json::array()},
-                {"closed", json::array()},
-                {"shapes", hidden_shapes()},
-                {"training", training_squares()},
-                {"drums", drums()}};
+    json out = {{"recorded", json::array()},  {"closed", json::array()},
+                {"shapes", hidden_shapes()},  {"training", training_squares()},
+                {"drums", image_of("drums")}, {"material", image_of("material")},
+                {"materials", materials()}};
     for (int i = 1; i < count; ++i) {
       const std::string design = argv[i];
       if (feltgate::design_named(design).scene_number("law") >= 0) {

@@ -188,7 +188,7 @@ class Lever(PageTest):
 
     def test_labels_and_dark(self):
         self.assertEqual(self.driver.find_element(By.CSS_SELECTOR, ".badge").text, "simulated")
-        for tab in ("tab-pantograph", "tab-drums"):
+        for tab in ("tab-pantograph", "tab-drums", "tab-materials"):
             self.driver.find_element(By.ID, tab).click()
         unnamed = self.js(
             "return [...document.querySelectorAll('input, select, canvas, svg[tabindex], button')]"
@@ -214,7 +214,7 @@ def measure():
     gaps = sorted(b - a for a, b in zip(frames, frames[1:], strict=False))
     speed = driver.execute_script("return feltgate.speed")
     print(f"median {1000 / gaps[len(gaps) // 2]:.0f} frames a second, {speed:.1f} times real time")
-    for tab in ("pantograph", "drums"):
+    for tab in ("pantograph", "drums", "materials"):
         driver.find_element(By.ID, f"tab-{tab}").click()
         time.sleep(5)
         speed = driver.execute_script("return feltgate.speed")

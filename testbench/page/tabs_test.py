@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The page's pantograph, its guessing game, and its drums, in Debian's Chromium.
+"""The page's pantograph, its guessing game, its drums and materials, in Debian's Chromium.
 
 tabs_test.py --pictures FOLDER keeps screenshots.
 Documentation: docs/page.md
@@ -165,6 +165,45 @@ class Pantograph(PageTest):
         self.assertIn("keeps nothing", self.driver.find_element(By.ID, "game-kept").text)
 
 
+class Materials(PageTest):
+    def test_a_hand_rests_in_two_materials(self):
+        self.driver.find_element(By.ID, "tab-materials").click()
+        self.until("return !!feltgate.materials")
+        stage = self.driver.find_element(By.CSS_SELECTOR, "#materials-stages svg")
+        stage.send_keys(Keys.ARROW_RIGHT)
+        self.assertAlmostEqual(self.js("return feltgate.materials.lead"), 0.02)
+        for left, right in (("stone", "fabric"), ("water", "stone")):
+            for n, name in enumerate((left, right)):
+                self.js(
+                    "const s = document.getElementById(arguments[0]);"
+                    "s.value = arguments[1]; s.oninput()",
+                    f"material-{n}",
+                    name,
+                )
+            self.js("feltgate.materials.aim(0.55)")
+            self.until("return feltgate.materials.stages.every(s => s.seen.time > 2.5)")
+            for n in (0, 1):
+                self.assert_rests(n)
+
+    def assert_rests(self, n):
+        """Hand, 1.35 Nm/rad, push, and what friction and vibration may add, to a count."""
+        values, depth, trace = self.js(
+            "const s = feltgate.materials.stages[arguments[0]];"
+            "return [s.values, s.seen.theta - FACE_RAD, s.trace.slice(-300)]",
+            n,
+        )
+        stiffness = 1.35 + 4 * values["hardness"]
+        vibration = values.get("vibration", 0)
+        most_nm = values.get("load", 0) * values.get("static", 0) + vibration
+        self.assertGreater(depth, (1.35 * 0.15 - most_nm) / stiffness - 0.0016, values)
+        self.assertLess(depth, (1.35 * 0.15 + most_nm) / stiffness + 0.0016, values)
+        tremble = max(trace) - min(trace)
+        if vibration:
+            self.assertGreater(tremble, 1.5 * vibration)
+        else:
+            self.assertLess(tremble, 0.01)
+
+
 class Drums(PageTest):
     def test_drums_are_hit_and_heard(self):
         self.driver.find_element(By.ID, "tab-drums").click()
@@ -211,6 +250,8 @@ def pictures(folder):
         "pen_guessed": "document.querySelector('#game-names button').click()",
         "drums": "document.getElementById('theme').click();"
         "document.getElementById('tab-drums').click(); feltgate.drums.aim(0.05, -0.2)",
+        "materials": "document.getElementById('tab-materials').click();"
+        "feltgate.materials.aim(0.55)",
     }
     for name, script in views.items():
         driver.execute_script(script)

@@ -1,0 +1,130 @@
+// Two materials side by side: one hand's wish leads both levers into them.
+"use strict";
+
+const FACE_RAD = 0.4; // where both materials begin
+const MOST_RAD = 0.6;
+const SAMPLE_S = 0.001, TRACE = 1000; // torques that the curve keeps: 1 s
+
+class MaterialStage {
+  constructor(tab, place, name) {
+    this.tab = tab;
+    this.figure = document.createElement("figure");
+    this.figure.innerHTML = `<svg viewBox="0 0 500 400" tabindex="0" role="slider" aria-label="Lever in a material: the hand's angle in rad" aria-valuemin="${-MOST_RAD}" aria-valuemax="${MOST_RAD}" aria-valuenow="0"></svg>
+      <figcaption><span class="name"></span><div class="equation"></div></figcaption>`;
+    this.svg = this.figure.querySelector("svg");
+    place.append(this.figure);
+    this.svg.addEventListener("pointerdown", (event) => this.svg.setPointerCapture(event.pointerId));
+    for (const kind of ["pointerdown", "pointermove"]) this.svg.addEventListener(kind, (event) => this.point(event));
+    this.svg.addEventListener("keydown", (event) => {
+      const step = { ArrowLeft: -0.02, ArrowRight: 0.02 }[event.key];
+      if (!step) return;
+      event.preventDefault();
+      tab.aim(tab.lead + step);
+    });
+    this.choose(name);
+  }
+
+  /** A fresh lever in the material of a shipped scene. */
+  choose(name) {
+    if (this.stick) this.stick.delete();
+    this.name = name;
+    this.values = this.tab.materials.find((m) => m.name === name).parameters;
+    this.stick = new this.tab.core.Stick(this.tab.image);
+    // Static friction first: the dynamic one may not be above it.
+    const order = Object.keys(this.values).sort((a, b) => (b === "static") - (a === "static"));
+    for (const key of order) say(this.stick.set(key, this.values[key]));
+    say(this.stick.set("face", FACE_RAD));
+    this.seen = this.stick.state();
+    this.trace = [];
+    this.figure.querySelector(".name").textContent = name;
+  }
+
+  point(event) {
+    const box = this.svg.getBoundingClientRect(), size = Math.min(box.width / 500, box.height / 400);
+    const x = (event.clientX - box.left - (box.width - 500 * size) / 2) / size - CENTRE[0];
+    const y = CENTRE[1] - (event.clientY - box.top - (box.height - 400 * size) / 2) / size;
+    this.tab.aim(Math.atan2(x, Math.max(y, 1)));
+  }
+
+  /** In slices, so that a vibration of 200 Hz is seen. */
+  advance(seconds, from, to) {
+    const slices = Math.max(1, Math.round(seconds / SAMPLE_S));
+    for (let n = 1; n <= slices; ++n) {
+      this.stick.lead(from + ((to - from) * n) / slices);
+      say(this.stick.advance(seconds / slices));
+      this.seen = this.stick.state();
+      this.trace.push(this.seen.torque);
+    }
+    if (this.trace.length > TRACE) this.trace.splice(0, this.trace.length - TRACE);
+  }
+
+  draw() {
+    const s = this.seen, [hx, hy] = at(s.theta, LENGTH), [gx, gy] = at(s.hand, LENGTH), newton = s.torque / RADIUS_M;
+    const reach = Math.max(-90, Math.min(90, newton * 18)), head = Math.sign(reach) * Math.min(12, Math.abs(reach));
+    const along = (far, aside) => [hx + far * Math.cos(s.theta) + aside * Math.sin(s.theta), hy + far * Math.sin(s.theta) - aside * Math.cos(s.theta)];
+    let text = `<path class="solid" d="${sector(Math.max(FACE_RAD, s.theta), 1.2, 60, 225)}"/><path class="object" d="${ray(FACE_RAD, 60, 225)}"/>`;
+    text += `<path class="lever" d="${ray(s.theta, 0, LENGTH)}"/><circle class="hub" cx="${CENTRE[0]}" cy="${CENTRE[1]}" r="16"/><circle class="knob" cx="${hx}" cy="${hy}" r="12"/>`;
+    text += `<path class="handline" d="${path([[hx, hy], [gx, gy]])}"/><circle class="handring" cx="${gx}" cy="${gy}" r="19"/>`;
+    if (Math.abs(reach) > 1) text += `<path class="force" d="${path([[hx, hy], along(reach - head, 0)])}"/><path class="forcehead" d="${path([along(reach, 0), along(reach - head, 7), along(reach - head, -7)])}Z"/>`;
+    this.svg.innerHTML = text;
+    this.svg.setAttribute("aria-valuenow", this.tab.lead.toFixed(2));
+    this.figure.querySelector(".equation").textContent = `${fixed(s.torque)} Nm, ${fixed(Math.max(0, s.theta - FACE_RAD))} rad deep\n` +
+      Object.entries(this.values).filter(([key]) => key !== "face").map(([key, value]) => `${key} ${value}`).join(", ");
+  }
+}
+
+class MaterialsTab {
+  constructor(core, numbers) {
+    this.core = core;
+    this.image = numbers.material;
+    this.materials = numbers.materials;
+    this.lead = this.led = 0.3;
+    this.stages = [0, 1].map((n) => new MaterialStage(this, $("materials-stages"), this.materials[n].name));
+    this.stages.forEach((stage, n) => {
+      const select = $(`material-${n}`);
+      for (const { name } of this.materials) select.append(option(name, name));
+      select.value = stage.name;
+      select.oninput = () => stage.choose(select.value);
+    });
+    this.aim(0);
+  }
+
+  aim(lead) {
+    this.lead = Math.max(-MOST_RAD, Math.min(MOST_RAD, lead));
+  }
+
+  frame(passed) {
+    run_timed(passed, () => this.stages.forEach((stage) => stage.advance(passed, this.led, this.lead)));
+    this.led = this.lead;
+    this.stages.forEach((stage) => stage.draw());
+    this.draw_torques();
+  }
+
+  draw_torques() {
+    const canvas = $("materials-torque"), ratio = window.devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
+    if (canvas.width !== Math.round(width * ratio)) {
+      canvas.width = Math.round(width * ratio);
+      canvas.height = Math.round(height * ratio);
+    }
+    const style = getComputedStyle(document.documentElement), colour = (name) => style.getPropertyValue(name).trim(), pen = canvas.getContext("2d");
+    const most = Math.max(0.05, ...this.stages.flatMap((stage) => stage.trace.map(Math.abs))), left = 46, top = 24, bottom = height - 8;
+    const x = (n) => left + (n / TRACE) * (width - left - 8), y = (nm) => (top + bottom) / 2 - (nm / most) * ((bottom - top) / 2);
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    pen.clearRect(0, 0, width, height);
+    pen.font = "11px system-ui";
+    pen.strokeStyle = colour("--line");
+    pen.fillStyle = colour("--faint");
+    pen.fillText("torque, Nm, the last second", left + 6, 15);
+    for (const nm of [-most, 0, most]) {
+      pen.beginPath(); pen.moveTo(left, y(nm)); pen.lineTo(width - 8, y(nm)); pen.stroke();
+      pen.fillText(nm.toFixed(2), 4, y(nm) + 4);
+    }
+    this.stages.forEach((stage, n) => {
+      pen.strokeStyle = pen.fillStyle = colour(n ? "--red" : "--blue");
+      pen.fillText(`${n ? "right" : "left"}: ${stage.name}`, left + 190 + 130 * n, 15);
+      pen.beginPath();
+      stage.trace.forEach((nm, i) => (i ? pen.lineTo(x(i), y(nm)) : pen.moveTo(x(i), y(nm))));
+      pen.stroke();
+    });
+  }
+}

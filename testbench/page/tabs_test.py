@@ -9,6 +9,7 @@ Documentation: docs/page.md
 
 import csv
 import io
+import math
 import sys
 import time
 import unittest
@@ -204,6 +205,16 @@ class Materials(PageTest):
             self.assertLess(tremble, 0.01)
 
 
+def fastest_m_s():
+    """Of the tip, in a hand that wants to be 0.6 rad lower at once; later is slower."""
+    damping, stiffness, mass = 6.45, 135, 0.554
+    a = damping / mass / 2
+    w = math.sqrt(stiffness / mass - a * a)
+    times = [k * 1e-4 for k in range(2000)]
+    left = [math.exp(-a * t) * (math.cos(w * t) - a / w * math.sin(w * t)) for t in times]
+    return 0.3 * 0.6 * max((p - q) / 1e-4 for p, q in zip(left, left[1:], strict=False))
+
+
 class Drums(PageTest):
     def test_drums_are_hit_and_heard(self):
         self.driver.find_element(By.ID, "tab-drums").click()
@@ -213,15 +224,16 @@ class Drums(PageTest):
         stage = self.driver.find_element(By.CSS_SELECTOR, "#drums-stage svg")
         for drum, across in ((1, -0.36), (2, 0.06), (3, 0.3)):
             self.js("feltgate.drums.aim(arguments[0], 0.3)", across)
-            self.until("return feltgate.drums.seen.theta > 0.2")
+            begin = self.js("return feltgate.drums.seen.time")
+            self.until("return feltgate.drums.seen.time > arguments[0]", begin + 1.5)  # at rest
             hits = self.js("return feltgate.drums.hits.length")
             stage.send_keys(" ")
             self.until("return feltgate.drums.hits.length > arguments[0]", hits)
             hit = self.js("return feltgate.drums.hits[arguments[0]]", hits)
             self.assertEqual(hit["drum"], drum)
             self.assertAlmostEqual(hit["place"], abs(across - 0.3 * (drum - 2)) / 0.12, delta=0.01)
-            self.assertGreater(hit["speed"], 0.3)  # m/s; the stick falls by 0.3 rad in the hand
-            self.assertLess(hit["speed"], 3)
+            self.assertGreater(hit["speed"], 0.3)
+            self.assertLess(hit["speed"], 1.01 * fastest_m_s())
         self.assertEqual(
             self.js("return feltgate.drums.played"), self.js("return feltgate.drums.hits.length")
         )

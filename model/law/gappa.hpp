@@ -26,6 +26,8 @@ struct GappaLemma {
 struct TableProof {
   std::vector<double> error;     ///< of each segment: largest |line - function| at its 4096 words
   std::vector<double> gradient;  ///< of each segment: largest |function'|, words per word
+  std::vector<double> between;   ///< as error, between words too; may be infinite
+  std::vector<double> rise;      ///< of each segment's line: |slope|, words per word
   std::vector<Span> values;      ///< of each segment's line
 };
 

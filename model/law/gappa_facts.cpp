@@ -43,16 +43,32 @@ void Cutter::table() {
   };
   const double to = t.wraps ? last : segment(x.hi);
   const double reach = t.wraps ? last : std::ceil(e / 4096);
+  const auto beside = [&](const std::vector<double>& of, double i) {
+    double most = 0;
+    for (double k = std::max(0.0, i - reach); k <= std::min(last, i + reach); ++k) {
+      most = std::max(most, of[static_cast<std::size_t>(k)]);
+    }
+    return most;
+  };
+  const double first = segment(x.lo);
   double apart = 0;
   Span values{infinity, -infinity};
-  for (double i = segment(x.lo); i <= to; ++i) {
-    // |line(x) - f(X)| <= |line(x) - f(x)| + |f'| |x - X|, x a word, f' also of what lies beside.
-    double gradient = 0;
-    for (double k = std::max(0.0, i - reach); e > 0 && k <= std::min(last, i + reach); ++k) {
-      gradient = std::max(gradient, proof.gradient[static_cast<std::size_t>(k)]);
-    }
-    apart = std::max(apart, up(proof.error[static_cast<std::size_t>(i)] + up(gradient * e)));
+  for (double i = first; i <= to; ++i) {
+    // |line(x) - f(X)| <= |line(x) - f(x)| + |f'| |x - X|, x a word in i, f' also of what is
+    // beside.
+    const double moved = e > 0 ? up(beside(proof.gradient, i) * e) : 0;
+    apart = std::max(apart, up(proof.error[static_cast<std::size_t>(i)] + moved));
     values = hull(values, proof.values[static_cast<std::size_t>(i)]);
+  }
+  if (e > 0) {
+    // Or <= |line(x) - line(X)| + |line(X) - f(X)|, X in i: a line may rise less than its function.
+    // Lines may jump at seams.
+    double too = 0;
+    for (double i = std::max(0.0, first - reach); i <= std::min(last, to + reach); ++i) {
+      too = std::max(
+          too, up(proof.between[static_cast<std::size_t>(i)] + up(beside(proof.rise, i) * e)));
+    }
+    apart = std::min(apart, up(too + up(t.jump * (1 + std::floor(e / 4096)))));
   }
   definitions_ += fmt::format("t{0} = near(m);\n", n_);
   give(fmt::format("m {} /\\ m - T{} {}", within(values), n_, within(apart)));

@@ -85,6 +85,10 @@ TableProof table_proof(const Compiled& c, int step) {
     const Span part = both_of({first * word, (first + 4096) * word}, domain);
     const double gradient = part.empty() ? 0 : function(part).d1.size() * word / s.scale;
     proof.gradient.push_back(up(up(gradient)));
+    // Between two words a curve leaves its chord by |f''| h^2 / 8 at most.
+    const double bend = part.empty() ? 0 : function(part).d2.size() * word * word / 8 / s.scale;
+    proof.between.push_back(up(error + up(up(bend))));
+    proof.rise.push_back(std::fabs(slope) / 4096);
   }
   return proof;
 }

@@ -21,6 +21,8 @@ class Pen {
   explicit Pen(const law::Law& law) : law_(law), run_(law) {}
   /// The force after `runs` runs at p, at rest.
   Point at(Point pen_m, int runs = 1);
+  /// A parameter of the law, by its place in Law::parameters.
+  void set_parameter(std::size_t index, double si) { run_.set_parameter(index, si); }
   const law::Evaluation<double>& evaluation() const { return run_; }
 
  private:

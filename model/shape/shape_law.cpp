@@ -140,6 +140,58 @@ next place = clamp(if nearer and not inside then probe else walked, 0, {0})
          (texture ? ripples : depth) + force;
 }
 
+/// All outlines in the same two tables, each with the vertex before its first and the two behind
+/// its last; the direction is that from half an edge before to half an edge behind.
+std::string resident(const std::vector<Polygon>& shapes) {
+  const std::size_t n = shapes.front().size(), count = shapes.size();
+  const std::size_t words = resident_words(static_cast<int>(n));
+  std::vector<double> xs, ys;
+  double most = 0;
+  for (const Polygon& p : shapes) {
+    most = std::max(most, longest(p));
+    for (std::size_t i = 0; i < words; ++i) {
+      xs.push_back(p.at[(i + n - 1) % n].x);
+      ys.push_back(p.at[(i + n - 1) % n].y);
+    }
+  }
+  const std::string form = fmt::format("table {{}}(q) on [0, {}] through", xs.size() - 1);
+  std::string s = "# Corners of all shapes, one behind the other.\n";
+  s += list(fmt::format(form, "shape_x"), xs, "m") + list(fmt::format(form, "shape_y"), ys, "m");
+  return s + pen +
+         fmt::format(R"(
+# Another shape than a run before: nothing is felt until its outline has been looked along.
+state shown = 0 in 0 .. {4} whole
+next shown = shape
+let same = not (shown < shape or shown > shape)
+let first = {5} * shape + 1
+
+# The proxy walks along the outline to where the pen is square to it, half an edge a run at most.
+state place = 0 in 0 .. {0}
+let at = first + place
+let ax = x - shape_x(at)
+let ay = y - shape_y(at)
+let gx = clamp(shape_x(at + 0.5) - shape_x(at - 0.5), -{3:.6g} m, {3:.6g} m)
+let gy = clamp(shape_y(at + 0.5) - shape_y(at - 0.5), -{3:.6g} m, {3:.6g} m)
+let reached = place + clamp((ax * gx + ay * gy) / {6:.6g} m^2, -0.5, 0.5)
+let walked = if reached < 0 then reached + {0} else if reached < {0} then reached else reached - {0}
+let behind = ax * gy - ay * gx < 0
+
+# While the pen is outside, and once around at first, half an edge further every run, looks for a
+# nearer place.
+state probe = 0 in 0 .. {1}
+next probe = clamp(if same and probe < {2} then probe + 0.5 else 0, 0, {1})
+state looked = 0 in 0 .. 1 whole
+next looked = if same then (if probe >= {2} then 1 else looked) else 0
+let inside = behind and looked > 0.5 and same
+let qx = x - shape_x(first + probe)
+let qy = y - shape_y(first + probe)
+let nearer = qx * qx + qy * qy < ax * ax + ay * ay
+next place = clamp(if nearer and not inside then probe else walked, 0, {0})
+)",
+                     n, static_cast<double>(n) - 0.5, n - 1, most, count - 1, words, most * most) +
+         depth + force;
+}
+
 std::string simple(const Polygon& p) {
   const std::size_t n = p.size();
   std::string s = "# Corners, and 1 / length of the edge behind each.\n";
@@ -215,12 +267,26 @@ next t = clamp(if found then 0 else moved, 0, 1)
 
 }  // namespace
 
+namespace {
+
+std::string head(const LawRequest& r) {
+  return "# " + r.summary + "\n" +
+         fmt::format(
+             "param stiffness = {:.9g} N/m in 0 .. {:.9g} N/m\n"
+             "param damping = {:.9g} N s/m in 0 .. {:.9g} N s/m\n",
+             r.stiffness_n_per_m, most_stiffness_n_per_m, r.damping_ns_per_m,
+             most_damping_ns_per_m);
+}
+
+}  // namespace
+
+std::string law_text(const std::vector<Polygon>& shapes, const LawRequest& r) {
+  return head(r) + fmt::format("param shape = 0 in 0 .. {} whole\n\n", shapes.size() - 1) +
+         resident(shapes);
+}
+
 std::string law_text(const Polygon& polygon, const LawRequest& r) {
-  std::string s = "# " + r.summary + "\n";
-  s += fmt::format(
-      "param stiffness = {:.9g} N/m in 0 .. {:.9g} N/m\n"
-      "param damping = {:.9g} N s/m in 0 .. {:.9g} N s/m\n\n",
-      r.stiffness_n_per_m, most_stiffness_n_per_m, r.damping_ns_per_m, most_damping_ns_per_m);
+  std::string s = head(r) + "\n";
   if (r.texture) {
     s += "param ripple = 0.2 mm in 0 .. 1 mm         # height of the texture\n"
          "param ripples = 80 in 0 .. 200 whole       # of them around the outline\n\n";

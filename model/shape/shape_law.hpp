@@ -6,6 +6,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "shape/rounded.hpp"
 
@@ -28,7 +29,18 @@ struct LawRequest {
 constexpr double most_stiffness_n_per_m = 200, most_damping_ns_per_m = 0.2;
 constexpr int fewest_vertices = 8, most_vertices = 100, most_textured_vertices = 80;
 
+/// Shapes that a law holds at once; words of table memory for each, in each of two tables, and most
+/// of them together.
+constexpr int most_shapes = 7, most_resident_words = 214;
+constexpr std::size_t resident_words(int vertices) {
+  return static_cast<std::size_t>(vertices) + 3;
+}
+
 /// The text of the law (docs/laws.md), lines of at most 100 columns.
 std::string law_text(const Polygon& polygon, const LawRequest& request);
+
+/// A law with several shapes of as many vertices each, of which the parameter `shape` chooses; a
+/// proxy without texture. They fit where their words are at most `most_resident_words`.
+std::string law_text(const std::vector<Polygon>& shapes, const LawRequest& request);
 
 }  // namespace feltgate::shape

@@ -21,7 +21,8 @@ namespace feltgate {
 namespace {
 
 struct ShapeArguments {
-  std::string svg, out, path, law = "proxy", design = "lever";
+  std::vector<std::string> svgs;
+  std::string out, path, law = "proxy", design = "lever";
   int vertices = 100;
   double radius_m = 5e-3, stiffness = 50, damping = 0;
   std::array<double, 2> centre_m{0.0, 0.12};
@@ -81,36 +82,89 @@ std::string path_of(const shape::Felt& f) {
   return s;
 }
 
-int run(const ShapeArguments& a) {
-  if (a.texture && (a.law != "proxy" || a.table)) {
-    throw std::invalid_argument("--texture is for --law proxy, without --table; leave one away");
+shape::Polygon polygon_of(const std::string& svg, const shape::Curve& curve, int vertices) {
+  return of_file(svg, [&] {
+    shape::Polygon p = shape::sampled(curve, vertices);
+    if (shape::crosses_itself(p.at)) {
+      throw std::invalid_argument(fmt::format(
+          "with {} vertices the outline crosses itself; take more --vertices", vertices));
+    }
+    return p;
+  });
+}
+
+/// Options that exclude each other. Throws std::invalid_argument "what; mend".
+void check(const ShapeArguments& a) {
+  const bool several = a.svgs.size() > 1;
+  if (a.texture && (a.law != "proxy" || a.table || several)) {
+    throw std::invalid_argument(
+        "--texture is for one shape with --law proxy, without --table; leave one away");
+  }
+  if (several && (a.law != "proxy" || a.table || !a.path.empty())) {
+    throw std::invalid_argument(
+        "--law, --table and --path are of one shape; give one file, or leave them away");
   }
   if (a.texture && a.vertices > shape::most_textured_vertices) {
     throw std::invalid_argument(
         fmt::format("--texture takes table memory from {} vertices; say --vertices {}", a.vertices,
                     shape::most_textured_vertices));
   }
+  const int room = shape::most_resident_words / static_cast<int>(a.svgs.size()) - 3;
+  if (several && a.vertices > room) {
+    throw std::invalid_argument(
+        fmt::format("{} shapes of {} vertices do not fit into table memory; say --vertices {}",
+                    a.svgs.size(), a.vertices, room));
+  }
+}
+
+/// Several shapes in a law.
+int run_several(const ShapeArguments& a, const shape::Placing& placing) {
   files::Outputs outputs;
-  outputs.reads(a.svg);
+  for (const std::string& svg : a.svgs) outputs.reads(svg);
   files::OutputFile* file = outputs.open("--output", a.out);
-  files::OutputFile* path_file = outputs.open("--path", a.path);
+  std::vector<shape::Polygon> polygons;
+  std::string names, said;
+  for (const std::string& svg : a.svgs) {
+    const shape::Outline read = shape::read_svg(svg);
+    const shape::Curve curve =
+        of_file(svg, [&] { return shape::rounded(shape::placed(read, placing), a.radius_m); });
+    polygons.push_back(polygon_of(svg, curve, a.vertices));
+    said += fmt::format("shape {}: {}, {} corners in the file, {:.1f} mm around\n",
+                        polygons.size() - 1, svg, read.size(), 1e3 * curve.length_m);
+    names += (names.empty() ? "" : ", ") + std::filesystem::path(svg).stem().string();
+  }
+  shape::LawRequest r;
+  r.summary = fmt::format("{}: {} vertices each, corners of {:.3g} mm", names, a.vertices,
+                          1e3 * a.radius_m);
+  r.stiffness_n_per_m = a.stiffness;
+  r.damping_ns_per_m = a.damping;
+  const std::string text = shape::law_text(polygons, r);
+  const law::Compiled c =
+      law::compile_text(text, a.out.empty() ? "shapes.law" : a.out, target(a.design));
+  said += "\n" + law::report(c, law::measure(c, 1, 20000));
+  if (file != nullptr) file->write(text);
+  if (!a.quiet) outputs.say(said);
+  outputs.commit();
+  return exit_ok;
+}
+
+int run(const ShapeArguments& a) {
+  check(a);
   shape::Placing placing;
   placing.size_m = a.size_m;
   placing.centre_m = {a.centre_m[0], a.centre_m[1]};
-  const shape::Outline read = shape::read_svg(a.svg);
+  if (a.svgs.size() > 1) return run_several(a, placing);
+  const std::string& svg = a.svgs.front();
+  files::Outputs outputs;
+  outputs.reads(svg);
+  files::OutputFile* file = outputs.open("--output", a.out);
+  files::OutputFile* path_file = outputs.open("--path", a.path);
+  const shape::Outline read = shape::read_svg(svg);
   const shape::Curve curve =
-      of_file(a.svg, [&] { return shape::rounded(shape::placed(read, placing), a.radius_m); });
+      of_file(svg, [&] { return shape::rounded(shape::placed(read, placing), a.radius_m); });
   const law::Target design = target(a.design);
-  const std::string stem = std::filesystem::path(a.svg).stem().string();
+  const std::string stem = std::filesystem::path(svg).stem().string();
   const auto text_of = [&](shape::Kind kind, int vertices) {
-    const shape::Polygon polygon = of_file(a.svg, [&] {
-      shape::Polygon p = shape::sampled(curve, vertices);
-      if (shape::crosses_itself(p.at)) {
-        throw std::invalid_argument(fmt::format(
-            "with {} vertices the outline crosses itself; take more --vertices", vertices));
-      }
-      return p;
-    });
     shape::LawRequest r;
     r.summary = fmt::format("{}: {} vertices, corners of {:.3g} mm, {}", stem, vertices,
                             1e3 * a.radius_m, name_of(kind));
@@ -118,12 +172,12 @@ int run(const ShapeArguments& a) {
     r.texture = a.texture;
     r.stiffness_n_per_m = a.stiffness;
     r.damping_ns_per_m = a.damping;
-    return shape::law_text(polygon, r);
+    return shape::law_text(polygon_of(svg, curve, vertices), r);
   };
   const std::string text = text_of(kinds.at(a.law), a.vertices);
   const law::Compiled c = law::compile_text(text, a.out.empty() ? stem + ".law" : a.out, design);
-  std::string said = fmt::format("{}: {} corners in the file, {:.1f} mm around, {} vertices\n",
-                                 a.svg, read.size(), 1e3 * curve.length_m, a.vertices);
+  std::string said = fmt::format("{}: {} corners in the file, {:.1f} mm around, {} vertices\n", svg,
+                                 read.size(), 1e3 * curve.length_m, a.vertices);
   if (a.table) {
     said +=
         fmt::format("\n{:<8} {:>8} {:>12} {:>8} {:>10} {:>12} {:>12} {:>6}\n", "law", "vertices",
@@ -165,13 +219,16 @@ void add_shape(CLI::App& app, int* exit_code) {
       "  feltgate shape vectors/shapes/square.svg\n"
       "  feltgate shape vectors/shapes/fish.svg -o fish.law --vertices 40 --radius 3mm\n"
       "  feltgate shape vectors/shapes/fish.svg --radius 3mm --table\n"
+      "  feltgate shape square.svg fish.svg bell.svg --vertices 27 -o three.law\n"
+      "Of several shapes the law's parameter `shape` chooses one, 0 the first, while it is felt.\n"
       "  feltgate law ./fish.law\n"
       "Exit code: 0 all well, 2 unusable input: no path, several, an open one, one that crosses\n"
       "itself, out of reach, an edge too short for the radius; nothing is written then.");
   const std::map<std::string, double> lengths{{"mm", 1e-3}, {"m", 1.0}};
-  sub->add_option("svg", a->svg, "an SVG file with one closed outline")
+  sub->add_option("svg", a->svgs, "SVG files with one closed outline each; up to seven in one law")
       ->required()
-      ->type_name("FILE");
+      ->expected(1, shape::most_shapes)
+      ->type_name("FILE...");
   sub->add_option("-o,--output", a->out, "the law file")->type_name("FILE");
   sub->add_option("--law", a->law, "proxy, simple (nearest edge), walk (edge by edge)")
       ->check(CLI::IsMember({"proxy", "simple", "walk"}))

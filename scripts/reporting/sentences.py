@@ -39,6 +39,7 @@ TITLES = {
     "pendulum": "Pendulum behind a spring",
     "collision": "Collision of two",
     "pantograph_floor": "A floor under a pen",
+    "hidden_shapes": "Seven hidden shapes, changed under the pen",
     "pantograph_wall": "A floor of 50 N/m at 1 kHz",
     "pantograph_wall_filtered": "The same floor behind filters",
     "coupled_levers": "Two levers coupled",

@@ -51,6 +51,22 @@ class Shape(unittest.TestCase):
             self.assertEqual(law.returncode, 0, law.stderr)
             self.assertIn('"unproven": 0', (self.folder / "fish.json").read_text())
 
+    def test_seven_shapes_are_the_shipped_law(self):
+        """rtl/laws/hidden_shapes.law is what the command of its page writes."""
+        names = ("square", "bell", "banana", "fish", "horseshoe", "mushroom", "duck")
+        files = [SHAPES / f"{name}.svg" for name in names]
+        options = ("--radius", "2mm", "--vertices", 27, "-o", "hidden_shapes.law")
+        done = self.run_it("shape", *files, *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        written = (self.folder / "hidden_shapes.law").read_text()
+        self.assertEqual(written, (ROOT / "rtl/laws/hidden_shapes.law").read_text())
+        self.assertIn("shape 4: ", done.stdout)
+        self.refused("say --vertices 27", *files, "--radius", "2mm", "--vertices", 28)
+        self.refused("bell.svg:1: ", *files, "--vertices", 27)
+        for option in (("--texture",), ("--table",), ("--law", "walk"), ("--path", "way.csv")):
+            self.refused("one", *files, "--vertices", 27, *option)
+        self.refused("svg", *files, files[0])
+
     def test_table(self):
         """The proxy's force never steps by more than 6 %, the others' by their edges."""
         done = self.run_it("shape", SHAPES / "square.svg", "--table")

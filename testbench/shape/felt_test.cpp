@@ -136,6 +136,49 @@ TEST_CASE("a thin tail pushed through: the proxy holds on to the side it came fr
   }
 }
 
+TEST_CASE(
+    "seven shapes in a law: each is felt as it was drawn, nothing while one is looked along") {
+  const std::vector<const char*> names{"square",    "bell",     "banana", "fish",
+                                       "horseshoe", "mushroom", "duck"};
+  constexpr int vertices = 27;
+  std::vector<Polygon> polygons;
+  for (const char* name : names) polygons.push_back(sampled(curve_of(name, 2e-3), vertices));
+  const law::Law law = law::read_law_text(law_text(polygons, LawRequest{}), "shapes.law", 50e3);
+  REQUIRE(law.parameters[2].name == "shape");
+  Pen pen(law);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const Curve c = curve_of(names[k], 2e-3);
+    // Outside, then 2 mm inside, beside the middle of each long enough piece of the outline.
+    int felt = 0;
+    double worst = 0;
+    for (const Piece& p : c.pieces) {
+      if (p.length_m < 5e-3) continue;
+      Piece half = p;
+      half.length_m /= 2;
+      const Point along = end_heading(half), outward{along.y, -along.x};
+      // A part of less than 8 mm has another side as near.
+      if (length(nearest(c, end(half) - outward * 4e-3).at - end(half)) > 1e-4) continue;
+      const Point out = end(half) + outward * 1.5e-3, in = end(half) - outward * 2e-3;
+      pen.set_parameter(2, 0);
+      pen.at(out, settle);
+      pen.set_parameter(2, static_cast<double>(k));
+      pen.at(out, settle);
+      const Point force = pen.at(in, settle), wanted = (nearest(c, in).at - in) * 50;
+      INFO(names[k] << " at " << end(half).x << ", " << end(half).y << ": " << force.x << ", "
+                    << force.y << " N instead of " << wanted.x << ", " << wanted.y);
+      worst = std::max(worst, length(force - wanted));
+      ++felt;
+      // Another shape under the pen: first nothing, then what it has there.
+      pen.set_parameter(2, k == 0 ? 5 : 0);
+      CHECK(length(pen.at(in, 1)) == 0);
+      CHECK(length(pen.at(in, 2 * vertices - 3)) == 0);
+    }
+    INFO(names[k] << ": off by up to " << worst << " N in " << felt << " places");
+    CHECK(felt >= 2);
+    CHECK(worst < 0.015);  // of 0.1, with 27 vertices
+  }
+}
+
 TEST_CASE("outside there is no force, wherever the pen comes from") {
   for (const char* name : {"square", "fish", "bell"}) {
     const Curve c = curve_of(name, 2e-3);

@@ -64,7 +64,7 @@ class Demo:
 
     @property
     def clocks(self):
-        return sum(run.summary.get("clocks", 0) for run in self.runs.values())
+        return sum(run.compared_clocks for run in self.runs.values())
 
     @property
     def simulated_s(self):

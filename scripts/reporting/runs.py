@@ -137,6 +137,11 @@ class Run:
         return self.summary.get("schema", "").startswith("feltgate-axes-run/")
 
     @property
+    def compared_clocks(self):
+        """In which RTL and twin were compared: none where only one of them ran."""
+        return self.summary.get("clocks", 0) if "mismatches" in self.summary else 0
+
+    @property
     def mismatches(self):
         return self.summary.get("mismatches", 0)
 
@@ -192,7 +197,8 @@ def start(job, folder, children):
     json_path, csv_path = folder / f"{job.name}.json", folder / f"{job.name}.csv"
     for path in (json_path, csv_path):
         path.unlink(missing_ok=True)
-    command = [str(program(job.design)), *job.arguments, "--engine", "all", "--quiet"]
+    engines = () if "--engine" in job.arguments else ("--engine", "all")
+    command = [str(program(job.design)), *job.arguments, *engines, "--quiet"]
     command += ["--json", str(json_path), "--csv", str(csv_path), "--every", str(job.every)]
     began = time.monotonic()
     child = children.start(command)

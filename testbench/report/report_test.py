@@ -78,6 +78,14 @@ class Figures(Bench):
         self.assert_self_contained((out / "figures.html").read_text())
         summary = json.loads((out / "figures.json").read_text())
         self.assertEqual(summary["schema"], "feltgate-figures/1")
+        # Clocks count where RTL and twin were compared: not in the paper's four long motions.
+        compared = whole = 0
+        for path in (out / "data").glob("*.json"):
+            run = json.loads(path.read_text())
+            whole += run["clocks"]
+            compared += run["clocks"] if "mismatches" in run else 0
+        self.assertEqual(summary["clocks"], compared)
+        self.assertLess(compared, whole)
         numbers = {f["figure"]: f["numbers"] for f in summary["figures"]}
         self.assertEqual(list(numbers), [7, 10, 11, 14, 16, 17, 19, 21, 22])
         for figure in summary["figures"]:

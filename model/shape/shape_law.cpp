@@ -177,7 +177,7 @@ let walked = if reached < 0 then reached + {0} else if reached < {0} then reache
 let behind = ax * gy - ay * gx < 0
 
 # While the pen is outside, and once around at first, half an edge further every run, looks for a
-# nearer place.
+# place that is nearer, by a thousandth so that it is another one.
 state probe = 0 in 0 .. {1}
 next probe = clamp(if same and probe < {2} then probe + 0.5 else 0, 0, {1})
 state looked = 0 in 0 .. 1 whole
@@ -185,7 +185,7 @@ next looked = if same then (if probe >= {2} then 1 else looked) else 0
 let inside = behind and looked > 0.5 and same
 let qx = x - shape_x(first + probe)
 let qy = y - shape_y(first + probe)
-let nearer = qx * qx + qy * qy < ax * ax + ay * ay
+let nearer = qx * qx + qy * qy < 0.998 * (ax * ax + ay * ay)
 next place = clamp(if nearer and not inside then probe else walked, 0, {0})
 )",
                      n, static_cast<double>(n) - 0.5, n - 1, most, count - 1, words, most * most) +

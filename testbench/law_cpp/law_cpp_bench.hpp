@@ -58,7 +58,8 @@ class Stimulus {
       const std::int64_t word = corner == 0   ? w.lower
                                 : corner == 1 ? w.upper
                                               : w.lower + random_.below(width + 1);
-      all.push_back(static_cast<double>(word) * w.scale);
+      const double value = static_cast<double>(word) * w.scale;
+      all.push_back(w.whole ? std::floor(value) : value);
     }
     return all;
   }

@@ -96,6 +96,10 @@ shape::Polygon polygon_of(const std::string& svg, const shape::Curve& curve, int
 /// Options that exclude each other. Throws std::invalid_argument "what; mend".
 void check(const ShapeArguments& a) {
   const bool several = a.svgs.size() > 1;
+  if (a.svgs.size() > shape::most_shapes) {
+    throw std::invalid_argument(fmt::format("{} SVG files; a law holds {} shapes, leave some away",
+                                            a.svgs.size(), shape::most_shapes));
+  }
   if (a.texture && (a.law != "proxy" || a.table || several)) {
     throw std::invalid_argument(
         "--texture is for one shape with --law proxy, without --table; leave one away");
@@ -219,7 +223,8 @@ void add_shape(CLI::App& app, int* exit_code) {
       "  feltgate shape vectors/shapes/square.svg\n"
       "  feltgate shape vectors/shapes/fish.svg -o fish.law --vertices 40 --radius 3mm\n"
       "  feltgate shape vectors/shapes/fish.svg --radius 3mm --table\n"
-      "  feltgate shape square.svg fish.svg bell.svg --vertices 27 -o three.law\n"
+      "  feltgate shape vectors/shapes/square.svg vectors/shapes/fish.svg --vertices 40 -o "
+      "two.law\n"
       "Of several shapes the law's parameter `shape` chooses one, 0 the first, while it is felt.\n"
       "  feltgate law ./fish.law\n"
       "Exit code: 0 all well, 2 unusable input: no path, several, an open one, one that crosses\n"
@@ -227,7 +232,7 @@ void add_shape(CLI::App& app, int* exit_code) {
   const std::map<std::string, double> lengths{{"mm", 1e-3}, {"m", 1.0}};
   sub->add_option("svg", a->svgs, "SVG files with one closed outline each; up to seven in one law")
       ->required()
-      ->expected(1, shape::most_shapes)
+      ->expected(-1)
       ->type_name("FILE...");
   sub->add_option("-o,--output", a->out, "the law file")->type_name("FILE");
   sub->add_option("--law", a->law, "proxy, simple (nearest edge), walk (edge by edge)")

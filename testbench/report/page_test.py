@@ -257,7 +257,8 @@ class Room(Recorded):
             recording = SimpleNamespace(title=f"mouse {steps}", expected=None, sure=False)
             job = SimpleNamespace(name=f"replay-{steps}", recording=recording)
             told = {"summary": summary, "csv": csv, "ran": True, "mismatches": 0}
-            runs[job.name] = SimpleNamespace(job=job, design="lever", of_axes=False, **told)
+            told |= {"of_axes": False, "compared_clocks": summary["clocks"]}
+            runs[job.name] = SimpleNamespace(job=job, design="lever", **told)
         demo = demo_page.Demo(runs, [], list(runs), {n: demo_page.draw(r) for n, r in runs.items()})
         found = Markup(demo_page.runs_section(demo))
         (line,) = found.classes("line")

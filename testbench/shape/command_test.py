@@ -65,7 +65,7 @@ class Shape(unittest.TestCase):
         self.refused("bell.svg:1: ", *files, "--vertices", 27)
         for option in (("--texture",), ("--table",), ("--law", "walk"), ("--path", "way.csv")):
             self.refused("one", *files, "--vertices", 27, *option)
-        self.refused("svg", *files, files[0])
+        self.refused("holds 7", *files, files[0])
 
     def test_table(self):
         """The proxy's force never steps by more than 6 %, the others' by their edges."""

@@ -21,7 +21,7 @@ matplotlib.use("svg")
 import matplotlib.pyplot as plt  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[1]
-BLUE, RED, GREY = "#1f6fb4", "#c0392b", "#888888"
+BLUE, RED = "#1f6fb4", "#c0392b"
 FROM_MS, TO_MS = 250, 285
 
 

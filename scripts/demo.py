@@ -39,7 +39,7 @@ REPLAY_SCENE = "damper"
 ALL_ONLY = (
     *("wall_tracked", "ceiling_tracked", "end_stops_thrown", "material_fabric", "material_water"),
     *("coupled_levers_drag", "coupled_levers_free"),
-    *("pantograph_wall", "pantograph_wall_filtered"),
+    *("pantograph_wall", "pantograph_wall_filtered"),  # over a minute each
 )
 
 

@@ -64,5 +64,6 @@ def main(free, lever, paper, felt):
 
 if __name__ == "__main__":
     if len(sys.argv) != 5:
-        sys.exit(__doc__)
+        print(__doc__, file=sys.stderr)
+        sys.exit(0 if "--help" in sys.argv else 2)
     main(*sys.argv[1:])

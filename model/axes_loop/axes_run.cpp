@@ -105,7 +105,10 @@ class AxesRun : plant::AxesDevice<Plant> {
       }
       Clock until = end;
       if (plane_) {
-        set_parameters(plane_->act(now, {position_rad_[0], position_rad_[1]}));
+        auto words = plane_->act(now, {position_rad_[0], position_rad_[1]});
+        // As far as the law's ranges go.
+        for (auto& [name, value] : words) value = options_.law->host().within(name, value);
+        set_parameters(words);
         until = std::min(until, plane_->next());
       }
       if (!arm_done_) until = std::min(until, arm_at);

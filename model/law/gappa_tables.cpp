@@ -85,9 +85,20 @@ TableProof table_proof(const Compiled& c, int step) {
     const Span part = both_of({first * word, (first + 4096) * word}, domain);
     const double gradient = part.empty() ? 0 : function(part).d1.size() * word / s.scale;
     proof.gradient.push_back(up(up(gradient)));
-    // Between two words a curve leaves its chord by |f''| h^2 / 8 at most.
+    // At all words of the segment's part of the domain, its end too: what the law reads need be
+    // none of the argument's words. Between two of them a curve leaves its chord by |f''| h^2 / 8
+    // at most.
+    double everywhere = error;
+    const double from = std::max(0.0, std::floor(domain.lo / word) - first);
+    const double to = std::min(4096.0, std::ceil(domain.hi / word) - first);
+    for (double f = from; f <= to; ++f) {
+      const double x = std::clamp((first + f) * word, domain.lo, domain.hi);
+      const Span exact = function({x, x}).v * (1 / s.scale);
+      const double there = value + slope * f / 4096;
+      everywhere = std::max({everywhere, up(there - exact.lo), up(exact.hi - there)});
+    }
     const double bend = part.empty() ? 0 : function(part).d2.size() * word * word / 8 / s.scale;
-    proof.between.push_back(up(error + up(up(bend))));
+    proof.between.push_back(up(everywhere + up(up(bend))));
     proof.rise.push_back(std::fabs(slope) / 4096);
   }
   return proof;

@@ -136,6 +136,7 @@ class ScenarioRun {
       throw std::invalid_argument(
           "the RTL alone does not show when a law runs; for its states add the twin: --engine all");
     }
+    if (options_.law == nullptr) throw std::invalid_argument("the scene has no law with states");
     core_.watch_law(options_.law->watch(options_.law_states));
   }
 

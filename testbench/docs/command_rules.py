@@ -29,7 +29,8 @@ RULES = (
     Rule(r"feltgate run torque_step --set voltage_gain=0\.6", "WHOLE", status=(2,)),
     # The launcher gives these a design with an engine.
     Rule(r"feltgate run (?:detent|my_scene\.toml --set amplitude\S*)", "BY", "scene.detent.lever_law"),
-    Rule(r"feltgate run plane_(?:circle|floor).*", "BY", "local_plane_test"),
+    Rule(r"feltgate run plane_floor.*", "BY", "scene.plane_floor.pantograph_law"),
+    Rule(r"feltgate run plane_circle.*", "BY", "local_plane_test"),
     Rule(r"feltgate run (?:pantograph_floor|hidden_shapes).*", "BY", "axes_run_test"),
     Rule(r"feltgate run pantograph_wall.*", "BY", "pantograph_wall_test"),
     Rule(r"feltgate run coupled_levers.*", "BY", "coupled_levers_test"),

@@ -40,7 +40,8 @@ class Scripts(Bench):
         self.pids = self.path("pids")
         self.pids.mkdir()
         self.path("bin").mkdir()
-        for name in ("feltgate", "feltgate_lever_law", "bin/yosys", "bin/nextpnr-ecp5"):
+        engines = [f"feltgate_{name}_law" for name in ("lever", "pantograph", "two_levers")]
+        for name in ("feltgate", *engines, "bin/yosys", "bin/nextpnr-ecp5"):
             self.path(name).write_text(STAND_IN)
             self.path(name).chmod(0o755)
         self.path("sleeper.py").write_text(SLEEPER)

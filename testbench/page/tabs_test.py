@@ -88,8 +88,10 @@ class Pantograph(PageTest):
 
     def test_training_squares(self):
         self.open_pantograph("training")
-        labels = self.js(
-            "return [...document.querySelectorAll('#pen-stage .label')].map(t => t.textContent)"
+        # Drawn with the next frame.
+        labels = self.until(
+            "const all = [...document.querySelectorAll('#pen-stage .label')].map(t => t.textContent);"
+            "return all.length === 8 && all"
         )
         self.assertEqual(labels.count("high stiffness"), 2)
         self.assertEqual(labels.count("low damping"), 2)
@@ -112,7 +114,7 @@ class Pantograph(PageTest):
         self.assertEqual(len(shapes), 7)
         shown = "return document.querySelectorAll('#pen-stage .outline').length"
         self.settled(0.1)
-        self.assertEqual(self.js(shown), 0)
+        self.until(f"{shown} === 0")
         first = self.js("return feltgate.pantograph.game.shape")
         self.js("feltgate.pantograph.stage.aim(0.02, 0.1)")
         self.guess(first)
@@ -122,13 +124,13 @@ class Pantograph(PageTest):
             self.driver.find_element(By.ID, cue).click()
         self.driver.find_element(By.ID, "game-next").click()
         second = self.js("return feltgate.pantograph.game.shape")
-        self.assertEqual(self.js(shown), 0)
+        self.until(f"{shown} === 0")
         # Something else in between does not change what is hidden.
         for mode in ("training", "game"):
             self.driver.find_element(By.CSS_SELECTOR, f"#pen-modes input[value={mode}]").click()
             self.settled(0.1)
         self.assertEqual(self.js("return feltgate.pantograph.stage.loaded.name"), second)
-        self.assertEqual(self.js(shown), 0)
+        self.until(f"{shown} === 0")
         self.assertNotEqual(second, first)
         wrong = next(name for name in shapes if name != second)
         self.guess(wrong)

@@ -233,7 +233,7 @@ void add_shape(CLI::App& app, int* exit_code) {
   sub->add_option("svg", a->svgs, "SVG files with one closed outline each; up to seven in one law")
       ->required()
       ->expected(-1)
-      ->type_name("FILE...");
+      ->type_name("FILE");
   sub->add_option("-o,--output", a->out, "the law file")->type_name("FILE");
   sub->add_option("--law", a->law, "proxy, simple (nearest edge), walk (edge by edge)")
       ->check(CLI::IsMember({"proxy", "simple", "walk"}))

@@ -84,7 +84,11 @@ ImageWord read_word(Line& line) {
 ImageRequirement read_requirement(Line& line) {
   ImageRequirement r;
   r.smaller_name = line.take<std::string>("name");
-  r.strict = line.take<std::string>("comparison") == "<";
+  const auto comparison = line.take<std::string>("comparison");
+  r.strict = comparison == "<";
+  if (!r.strict && comparison != "<=") {
+    line.fail(fmt::format("comparison \"{}\" is neither < nor <=", comparison));
+  }
   r.larger_name = line.take<std::string>("name");
   const std::string both = line.rest();
   const std::size_t bar = both.find(" | ");

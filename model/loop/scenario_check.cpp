@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <stdexcept>
+#include <vector>
 
 #include "config/toml_reader.hpp"
 #include "feltgate/while_armed.hpp"
@@ -62,14 +64,30 @@ class Requirements {
     } catch (const std::invalid_argument& error) {
       const std::string what = error.what();
       int last = 0;  // of the lines that set what it names
-      for (const auto& [name, line] : lines_) {
-        if (what.find(name) != std::string::npos) last = std::max(last, line);
+      for (const std::string& name : names_in(what)) {
+        const auto line = lines_.find(name);
+        if (line != lines_.end()) last = std::max(last, line->second);
       }
       throw config::ConfigError(last == 0 ? what : fmt::format("{}:{}: {}", s_.path, last, what));
     }
   }
 
  private:
+  /// Words of what is required: "... requires A <= B, which are ...".
+  static std::vector<std::string> names_in(const std::string& what) {
+    const std::size_t from = what.find(" requires "), to = what.find(", which are");
+    std::vector<std::string> names(1);
+    for (std::size_t i = from; i < std::min(to, what.size()); ++i) {
+      const auto c = static_cast<unsigned char>(what[i]);
+      if (std::isalnum(c) != 0 || c == '_') {
+        names.back() += what[i];
+      } else if (!names.back().empty()) {
+        names.emplace_back();
+      }
+    }
+    return names;
+  }
+
   const Scenario& s_;
   const SceneLaw* law_;
   std::map<std::string, double> all_;

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "engines/engine.hpp"
+#include "law/host_machine.hpp"
 
 namespace feltgate::page {
 
@@ -35,14 +36,7 @@ ImageLaw::ImageLaw(const std::string& image_text)
 }
 
 void ImageLaw::set(const std::string& parameter, double value) {
-  constexpr int first = EngineMap::H::data + law::Image::parameter_base;
-  for (const law::HostWord& w : values_.set(parameter, value)) {
-    if (w.address == EngineMap::H::commit) {
-      machine_.commit();
-    } else {
-      machine_.set_parameter(w.address - first, static_cast<std::int32_t>(w.data));
-    }
-  }
+  law::write(machine_, values_.set(parameter, value));
 }
 
 void ImageLaw::joint(int axis, double angle_rad, double speed_rad_s) {

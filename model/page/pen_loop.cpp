@@ -26,7 +26,14 @@ void PenLoop::place(Point at) {
 Point PenLoop::within_reach(Point p) {
   p.y = std::max(p.y, front_m);
   const double r = std::hypot(p.x, p.y);
-  return p * (std::clamp(r, nearest_m, farthest_m) / r);
+  p = p * (std::clamp(r, nearest_m, farthest_m) / r);
+  if (p.y >= front_m) return p;
+  // Drawn in from far beside the motors.
+  return {std::copysign(std::sqrt(farthest_m * farthest_m - front_m * front_m), p.x), front_m};
+}
+
+void PenLoop::lead(Point to) {
+  if (std::isfinite(to.x) && std::isfinite(to.y)) wanted_m_ = within_reach(to);
 }
 
 void PenLoop::advance(double seconds) {

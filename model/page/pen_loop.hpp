@@ -27,9 +27,9 @@ class PenLoop {
   void set(const std::string& parameter, double value) { law_->set(parameter, value); }
   /// Pen and hand at rest there.
   void place(shape::Point at_m);
-  /// Where the hand wants to be when the next advance() ends; it moves there evenly. The nearest
-  /// place within reach.
-  void lead(shape::Point to_m) { wanted_m_ = within_reach(to_m); }
+  /// Where the hand wants to be when the next advance() ends; it moves there evenly. Drawn into
+  /// reach; what is no place is not followed.
+  void lead(shape::Point to_m);
   /// Runs the law as often as fits, at its own rate; the rest of the time waits for the next call.
   void advance(double seconds);
 

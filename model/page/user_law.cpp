@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "law/host_machine.hpp"
 #include "law/listing.hpp"
 #include "law/measure.hpp"
 #include "law_loop/scene_law.hpp"
@@ -41,14 +42,7 @@ std::string UserLaw::report(int runs) const {
 }
 
 void UserLaw::set(const std::string& name, double value) {
-  constexpr int first = EngineMap::H::data + law::Image::parameter_base;
-  for (const law::HostWord& w : values_.set(name, value)) {
-    if (w.address == EngineMap::H::commit) {
-      machine_.commit();
-    } else {
-      machine_.set_parameter(w.address - first, static_cast<std::int32_t>(w.data));
-    }
-  }
+  law::write(machine_, values_.set(name, value));
 }
 
 std::vector<LawParameter> UserLaw::parameters() const {

@@ -61,6 +61,15 @@ out torque[0] = L * (c1 * fy - s1 * fx)
 out torque[1] = L * (c5 * fy - s5 * fx)
 )";
 
+std::string head(const LawRequest& r) {
+  return "# " + r.summary + "\n" +
+         fmt::format(
+             "param stiffness = {:.9g} N/m in 0 .. {:.9g} N/m\n"
+             "param damping = {:.9g} N s/m in 0 .. {:.9g} N s/m\n",
+             r.stiffness_n_per_m, most_stiffness_n_per_m, r.damping_ns_per_m,
+             most_damping_ns_per_m);
+}
+
 /// Corners, the first one again at the end.
 std::string corners(const Polygon& p, const char* form) {
   const std::size_t n = p.size();
@@ -263,19 +272,6 @@ next t = clamp(if found then 0 else moved, 0, 1)
 )",
                      n - 1, longest(p)) +
          depth + force;
-}
-
-}  // namespace
-
-namespace {
-
-std::string head(const LawRequest& r) {
-  return "# " + r.summary + "\n" +
-         fmt::format(
-             "param stiffness = {:.9g} N/m in 0 .. {:.9g} N/m\n"
-             "param damping = {:.9g} N s/m in 0 .. {:.9g} N s/m\n",
-             r.stiffness_n_per_m, most_stiffness_n_per_m, r.damping_ns_per_m,
-             most_damping_ns_per_m);
 }
 
 }  // namespace

@@ -93,6 +93,31 @@ shape::Polygon polygon_of(const std::string& svg, const shape::Curve& curve, int
   });
 }
 
+/// An SVG file as a curve within the pen's reach.
+struct Drawn {
+  shape::Outline read;
+  shape::Curve curve;
+};
+
+Drawn drawn(const ShapeArguments& a, const std::string& svg) {
+  shape::Placing placing;
+  placing.size_m = a.size_m;
+  placing.centre_m = {a.centre_m[0], a.centre_m[1]};
+  Drawn d{shape::read_svg(svg), {}};
+  d.curve =
+      of_file(svg, [&] { return shape::rounded(shape::placed(d.read, placing), a.radius_m); });
+  return d;
+}
+
+shape::LawRequest request(const ShapeArguments& a, const std::string& summary) {
+  shape::LawRequest r;
+  r.summary = summary;
+  r.texture = a.texture;
+  r.stiffness_n_per_m = a.stiffness;
+  r.damping_ns_per_m = a.damping;
+  return r;
+}
+
 /// Options that exclude each other. Throws std::invalid_argument "what; mend".
 void check(const ShapeArguments& a) {
   const bool several = a.svgs.size() > 1;
@@ -122,27 +147,22 @@ void check(const ShapeArguments& a) {
 }
 
 /// Several shapes in a law.
-int run_several(const ShapeArguments& a, const shape::Placing& placing) {
+int run_several(const ShapeArguments& a) {
   files::Outputs outputs;
   for (const std::string& svg : a.svgs) outputs.reads(svg);
   files::OutputFile* file = outputs.open("--output", a.out);
   std::vector<shape::Polygon> polygons;
   std::string names, said;
   for (const std::string& svg : a.svgs) {
-    const shape::Outline read = shape::read_svg(svg);
-    const shape::Curve curve =
-        of_file(svg, [&] { return shape::rounded(shape::placed(read, placing), a.radius_m); });
+    const auto [read, curve] = drawn(a, svg);
     polygons.push_back(polygon_of(svg, curve, a.vertices));
     said += fmt::format("shape {}: {}, {} corners in the file, {:.1f} mm around\n",
                         polygons.size() - 1, svg, read.size(), 1e3 * curve.length_m);
     names += (names.empty() ? "" : ", ") + std::filesystem::path(svg).stem().string();
   }
-  shape::LawRequest r;
-  r.summary = fmt::format("{}: {} vertices each, corners of {:.3g} mm", names, a.vertices,
-                          1e3 * a.radius_m);
-  r.stiffness_n_per_m = a.stiffness;
-  r.damping_ns_per_m = a.damping;
-  const std::string text = shape::law_text(polygons, r);
+  const std::string text =
+      shape::law_text(polygons, request(a, fmt::format("{}: {} vertices each, corners of {:.3g} mm",
+                                                       names, a.vertices, 1e3 * a.radius_m)));
   const law::Compiled c =
       law::compile_text(text, a.out.empty() ? "shapes.law" : a.out, target(a.design));
   said += "\n" + law::report(c, law::measure(c, 1, 20000));
@@ -154,34 +174,26 @@ int run_several(const ShapeArguments& a, const shape::Placing& placing) {
 
 int run(const ShapeArguments& a) {
   check(a);
-  shape::Placing placing;
-  placing.size_m = a.size_m;
-  placing.centre_m = {a.centre_m[0], a.centre_m[1]};
-  if (a.svgs.size() > 1) return run_several(a, placing);
+  if (a.svgs.size() > 1) return run_several(a);
   const std::string& svg = a.svgs.front();
   files::Outputs outputs;
   outputs.reads(svg);
   files::OutputFile* file = outputs.open("--output", a.out);
   files::OutputFile* path_file = outputs.open("--path", a.path);
-  const shape::Outline read = shape::read_svg(svg);
-  const shape::Curve curve =
-      of_file(svg, [&] { return shape::rounded(shape::placed(read, placing), a.radius_m); });
+  const Drawn d = drawn(a, svg);
+  const shape::Curve& curve = d.curve;
   const law::Target design = target(a.design);
   const std::string stem = std::filesystem::path(svg).stem().string();
   const auto text_of = [&](shape::Kind kind, int vertices) {
-    shape::LawRequest r;
-    r.summary = fmt::format("{}: {} vertices, corners of {:.3g} mm, {}", stem, vertices,
-                            1e3 * a.radius_m, name_of(kind));
+    shape::LawRequest r = request(a, fmt::format("{}: {} vertices, corners of {:.3g} mm, {}", stem,
+                                                 vertices, 1e3 * a.radius_m, name_of(kind)));
     r.kind = kind;
-    r.texture = a.texture;
-    r.stiffness_n_per_m = a.stiffness;
-    r.damping_ns_per_m = a.damping;
     return shape::law_text(polygon_of(svg, curve, vertices), r);
   };
   const std::string text = text_of(kinds.at(a.law), a.vertices);
   const law::Compiled c = law::compile_text(text, a.out.empty() ? stem + ".law" : a.out, design);
   std::string said = fmt::format("{}: {} corners in the file, {:.1f} mm around, {} vertices\n", svg,
-                                 read.size(), 1e3 * curve.length_m, a.vertices);
+                                 d.read.size(), 1e3 * curve.length_m, a.vertices);
   if (a.table) {
     said +=
         fmt::format("\n{:<8} {:>8} {:>12} {:>8} {:>10} {:>12} {:>12} {:>6}\n", "law", "vertices",
@@ -225,8 +237,8 @@ void add_shape(CLI::App& app, int* exit_code) {
       "  feltgate shape vectors/shapes/fish.svg --radius 3mm --table\n"
       "  feltgate shape vectors/shapes/square.svg vectors/shapes/fish.svg --vertices 40 -o "
       "two.law\n"
-      "Of several shapes the law's parameter `shape` chooses one, 0 the first, while it is felt.\n"
       "  feltgate law ./fish.law\n"
+      "Of several shapes the law's parameter `shape` chooses one, 0 the first, while it is felt.\n"
       "Exit code: 0 all well, 2 unusable input: no path, several, an open one, one that crosses\n"
       "itself, out of reach, an edge too short for the radius; nothing is written then.");
   const std::map<std::string, double> lengths{{"mm", 1e-3}, {"m", 1.0}};

@@ -4,6 +4,7 @@
 // Scenes of several axes by name, run by the program's own loop. docs/devices.md
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -40,5 +41,26 @@ inline AxesResult run_scene(const AxesScene& scene, const std::string& engine,
   options.row_every = row_every;
   return run_axes(scene, options);
 }
+
+/// Rows of a run with the columns by name.
+class Rows {
+ public:
+  explicit Rows(const AxesScene& scene, int every = 1, const std::string& engine = "twin")
+      : names_(axes_columns(scene)) {
+    result_ = run_scene(
+        scene, engine, [this](const std::vector<double>& row) { rows_.push_back(row); }, every);
+  }
+  std::size_t size() const { return rows_.size(); }
+  double of(std::size_t row, const std::string& name) const {
+    const auto at = std::find(names_.begin(), names_.end(), name) - names_.begin();
+    return rows_[row].at(static_cast<std::size_t>(at));
+  }
+  const AxesResult& result() const { return result_; }
+
+ private:
+  std::vector<std::string> names_;
+  std::vector<std::vector<double>> rows_;
+  AxesResult result_;
+};
 
 }  // namespace feltgate::test

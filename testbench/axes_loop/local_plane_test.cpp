@@ -25,26 +25,6 @@ constexpr double kRadius_m = 0.03, kPath_m = 0.028, kTurn_rad_s = 7.14, kMoves_s
 /// Half a count of both cranks, seen from the middle of the disc.
 constexpr double kCount_rad = 0.006;
 
-/// Rows of a run of the twin with the columns by name.
-class Rows {
- public:
-  explicit Rows(const AxesScene& scene, int every = 1) : names_(axes_columns(scene)) {
-    result_ = run_scene(
-        scene, "twin", [this](const std::vector<double>& row) { rows_.push_back(row); }, every);
-  }
-  std::size_t size() const { return rows_.size(); }
-  double of(std::size_t row, const std::string& name) const {
-    const auto at = std::find(names_.begin(), names_.end(), name) - names_.begin();
-    return rows_[row].at(static_cast<std::size_t>(at));
-  }
-  const AxesResult& result() const { return result_; }
-
- private:
-  std::vector<std::string> names_;
-  std::vector<std::vector<double>> rows_;
-  AxesResult result_;
-};
-
 plant::Vec2 asked_force(const Rows& rows, std::size_t row, const plant::Linkage& linkage) {
   const plant::LinkagePose pose =
       linkage.pose({rows.of(row, "theta_rad.0"), rows.of(row, "theta_rad.1")});

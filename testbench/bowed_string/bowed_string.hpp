@@ -16,6 +16,7 @@
 
 #include "engine/machine.hpp"
 #include "law/compile.hpp"
+#include "law/host_machine.hpp"
 #include "law/load.hpp"
 #include "law/read_law.hpp"
 
@@ -34,33 +35,23 @@ class BowedString {
         law::Target{});
   }
   /// The law must outlive this.
-  explicit BowedString(const law::Compiled& law) : c_(law), machine_(law::memory(law.image)) {
-    for (const law::ImageWord& w : c_.image.words) {
-      if (w.formula.empty()) values_[w.name] = w.initial * w.scale;
-    }
+  explicit BowedString(const law::Compiled& law)
+      : c_(law), values_(law.image), machine_(law::memory(law.image)) {
     machine_.enter();
   }
   double rate_hz() const { return c_.rate_hz; }
 
-  /// SI; in force with the next run.
-  void set(const std::map<std::string, double>& values) {
-    for (const auto& [name, value] : values) values_.at(name) = value;
-    std::vector<double> all;
-    for (const law::ImageWord& w : c_.image.words) {
-      if (w.formula.empty()) all.push_back(values_.at(w.name));
-    }
-    const std::vector<std::int32_t> words = law::parameter_words(c_.image, all);
-    for (std::size_t n = 0; n < words.size(); ++n) {
-      machine_.set_parameter(static_cast<int>(n), words[n]);
-    }
-    machine_.commit();
+  /// In the file's units, which are SI, as far as the ranges go; in force with the next run.
+  void set(std::map<std::string, double> values) {
+    for (auto& [name, value] : values) value = values_.within(name, value);
+    law::write(machine_, values_.set(values));
   }
-  double value(const std::string& name) const { return values_.at(name); }
+  double value(const std::string& name) const { return values_.value(name); }
 
   /// A run with the bow at this speed; the torque, Nm.
   double run(double bow_m_s) {
     law::MachineInputs inputs{};
-    const double lever_rad_s = bow_m_s / values_.at("reach");
+    const double lever_rad_s = bow_m_s / values_.value("reach");
     inputs[1] = static_cast<std::int32_t>(
         std::lround(std::ldexp(lever_rad_s, c_.target.velocity.fraction)));
     const law::MachineRun& r = machine_.run(c_.target.thread, inputs);
@@ -83,8 +74,8 @@ class BowedString {
 
  private:
   const law::Compiled& c_;
+  law::LoadedParameters values_;
   law::Machine machine_;
-  std::map<std::string, double> values_;
   bool slipped_ = false;
   double since_s_ = 0;
 };

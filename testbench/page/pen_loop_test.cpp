@@ -112,13 +112,20 @@ TEST_CASE("page: another law takes the pen where it is, and it stays within reac
   loop.load(left);
   loop.advance(0.5);
   CHECK(std::hypot(loop.force_n().x, loop.force_n().y) == 0);
-  for (const shape::Point p : {shape::Point{1, 1}, {-1, 0.1}, {0, 0}, {0, -1}, {0.001, 0.03}}) {
+  for (const shape::Point p : {shape::Point{1, 1},
+                               {-1, 0.1},
+                               {0, 0},
+                               {0, -1},
+                               {0.001, 0.03},
+                               {NAN, 0.1},
+                               {0.1, INFINITY}}) {
     loop.lead(p);
     loop.advance(0.3);
     const double r = std::hypot(loop.pen_m().x, loop.pen_m().y);
     CHECK(std::isfinite(r));
     CHECK(r >= PenLoop::nearest_m - 1e-9);
     CHECK(r <= PenLoop::farthest_m + 1e-9);
+    CHECK(loop.pen_m().y >= PenLoop::front_m - 1e-9);
   }
   CHECK_THROWS_AS(loop.load("nonsense"), std::invalid_argument);
 }

@@ -7,29 +7,13 @@
   sed 's/^rate = 40 kHz/rate = 1 kHz/' rtl/laws/bowed_string.law > slow.law
   sed 's/"bowed_string"/"slow.law"/; /^.\[expect/,$d' vectors/scenes/bowed_string.toml > slow.toml
   ./feltgate run slow.toml --engine twin --csv slow.csv --every 25 --states slow_states.csv
-  build/testbench/bowed_string/bowed_string_test "[.diagram]" > diagram.csv
+  build/testbench/bowed_string/bowed_string_test "[.diagram]" | grep , > diagram.csv
   scripts/bowed_string_picture.py fast slow diagram.csv
 """
 
-import csv
-import sys
-from pathlib import Path
+from docs_picture import BLUE, RED, columns, files, plt, save
 
-import matplotlib
-
-matplotlib.use("svg")
-import matplotlib.pyplot as plt  # noqa: E402
-
-ROOT = Path(__file__).resolve().parents[1]
-BLUE, RED = "#1f6fb4", "#c0392b"
 FROM_MS, TO_MS = 250, 285
-
-
-def columns(path, *names):
-    with open(path, newline="", encoding="utf-8") as file:
-        lines = [line for line in file if line.count(",") >= len(names) - 1]
-    rows = list(csv.DictReader(lines))
-    return [[float(row[name]) for row in rows] for name in names]
 
 
 def over_time(axes, begin, column, scale, suffix=""):
@@ -37,15 +21,15 @@ def over_time(axes, begin, column, scale, suffix=""):
         (f"{begin[1]}{suffix}.csv", RED, 1.0, "1 kHz"),
         (f"{begin[0]}{suffix}.csv", BLUE, 0.9, "40 kHz"),
     ):
-        time_s, values = columns(name, "time_s", column)
-        axes.step([1e3 * t for t in time_s], [scale * v for v in values], where="post",
-                  color=colour, lw=width, label=label)
+        rows = columns(name, ("time_s", column))
+        axes.step([1e3 * t for t in rows["time_s"]], [scale * v for v in rows[column]],
+                  where="post", color=colour, lw=width, label=label)
     axes.set(xlim=(FROM_MS, TO_MS))
 
 
 def diagram(axes, path):
-    place, force, least, most, helmholtz = columns(
-        path, "place", "force_n", "least_n", "most_n", "helmholtz")
+    names = ("place", "force_n", "least_n", "most_n", "helmholtz")
+    place, force, least, most, helmholtz = columns(path, names).values()
     for is_one, colour, size, label in (
         (1, BLUE, 14, "one slip a period"), (0, "#cccccc", 5, "something else")):
         at = [i for i, h in enumerate(helmholtz) if h == is_one]
@@ -65,11 +49,7 @@ def diagram(axes, path):
 
 
 def main():
-    if len(sys.argv) != 4:
-        print(__doc__, file=sys.stderr)
-        return 2
-    begin = sys.argv[1:3]
-    plt.rcParams.update({"svg.hashsalt": "feltgate", "font.size": 9, "svg.fonttype": "none"})
+    *begin, points = files(3, __doc__)
     figure = plt.figure(figsize=(9.5, 4.2))
     grid = figure.add_gridspec(2, 2, width_ratios=(1.35, 1))
     torque, heard = figure.add_subplot(grid[0, 0]), figure.add_subplot(grid[1, 0])
@@ -79,14 +59,13 @@ def main():
     torque.legend(fontsize=8, loc="upper right", ncols=2, frameon=False)
     over_time(heard, begin, "heard", 1, "_states")
     heard.set(ylabel="at the bridge, m/s", xlabel="time, ms")
-    diagram(figure.add_subplot(grid[:, 1]), sys.argv[3])
+    diagram(figure.add_subplot(grid[:, 1]), points)
     for axes in (torque, heard):
         axes.grid(alpha=0.3)
         axes.spines[["top", "right"]].set_visible(False)
     figure.tight_layout()
-    figure.savefig(ROOT / "docs/images/bowed_string.svg", metadata={"Date": None})
-    return 0
+    save(figure, "bowed_string")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

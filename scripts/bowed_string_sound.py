@@ -10,9 +10,9 @@ Documentation: docs/devices/bowed_string.md
 import argparse
 import csv
 import sys
-import wave
 
 import numpy as np
+from wav_file import write_wav
 
 RATE_HZ = 40_000
 LOUDEST_M_S = 2.5  # what is full scale; more is cut
@@ -52,14 +52,6 @@ def sound(times, heard):
     return np.clip(heard[last] / LOUDEST_M_S, -1.0, 1.0)
 
 
-def write_wav(path, samples):
-    with wave.open(str(path), "wb") as out:
-        out.setnchannels(1)
-        out.setsampwidth(2)
-        out.setframerate(RATE_HZ)
-        out.writeframes((samples * 32767).astype("<i2").tobytes())
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.add_argument("states", metavar="FILE", help="CSV of feltgate run bowed_string --states")
@@ -67,7 +59,7 @@ def main():
     arguments = parser.parse_args()
     try:
         samples = sound(*read_states(arguments.states))
-        write_wav(arguments.output, samples)
+        write_wav(arguments.output, samples, RATE_HZ)
     except (StatesError, OSError, UnicodeDecodeError) as error:
         print(f"bowed_string_sound: {error}", file=sys.stderr)
         return 2

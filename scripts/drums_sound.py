@@ -11,10 +11,10 @@ Documentation: docs/devices/drums.md
 import argparse
 import re
 import sys
-import wave
 from pathlib import Path
 
 import numpy as np
+from wav_file import write_wav
 
 RATE_HZ = 44_100
 # Zeros of Bessel functions over the first, 2.405: modes of an ideal round membrane.
@@ -66,14 +66,6 @@ def mixed(hits):
     return np.clip(samples, -1.0, 1.0)
 
 
-def write_wav(path, samples):
-    with wave.open(str(path), "wb") as out:
-        out.setnchannels(1)
-        out.setsampwidth(2)
-        out.setframerate(RATE_HZ)
-        out.writeframes((samples * 32767).astype("<i2").tobytes())
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("events", metavar="FILE", help="hits, of feltgate run drums --events")
@@ -81,7 +73,7 @@ def main():
     arguments = parser.parse_args()
     try:
         hits = read_hits(arguments.events)
-        write_wav(arguments.output, mixed(hits))
+        write_wav(arguments.output, mixed(hits), RATE_HZ)
     except (EventError, OSError) as error:
         print(f"drums_sound: {error}", file=sys.stderr)
         return 2

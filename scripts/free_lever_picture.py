@@ -11,25 +11,18 @@ rows of three runs, and what is felt over the damper that is asked for, from the
   scripts/free_lever_picture.py free.csv lever.csv paper.csv table.md
 """
 
-import csv
-import sys
 from pathlib import Path
 
-import matplotlib
+from docs_picture import BLUE, GREY, RED, columns, files, plt, save
 
-matplotlib.use("svg")
-import matplotlib.pyplot as plt  # noqa: E402
-
-ROOT = Path(__file__).resolve().parents[1]
-BLUE, RED, GREY = "#1f6fb4", "#c0392b", "#888888"
 COLOURS = {"lever": BLUE, "paper": RED}
 
 
 def swing(axes, path, color, label):
-    with open(path, newline="", encoding="utf-8") as file:
-        rows = [row for row in csv.DictReader(file) if float(row["time_s"]) > 0.02]
-    axes.plot([float(r["omega_rad_s"]) for r in rows],
-              [1e3 * float(r["hand_torque_nm"]) for r in rows], color=color, lw=1.0, label=label)
+    run = columns(path, ("time_s", "omega_rad_s", "hand_torque_nm"))
+    rows = [i for i, t in enumerate(run["time_s"]) if t > 0.02]
+    axes.plot([run["omega_rad_s"][i] for i in rows],
+              [1e3 * run["hand_torque_nm"][i] for i in rows], color=color, lw=1.0, label=label)
 
 
 def table(path):
@@ -42,9 +35,9 @@ def table(path):
     return found
 
 
-def main(free, lever, paper, felt):
-    plt.rcParams.update({"svg.hashsalt": "feltgate", "font.size": 8})
-    figure, (left, right) = plt.subplots(1, 2, figsize=(7.6, 3.0), layout="constrained")
+def main():
+    free, lever, paper, felt = files(4, __doc__)
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.4), layout="constrained")
     swing(left, paper, RED, "damper of 0.03 Nm s/rad, paper")
     swing(left, lever, BLUE, "the same, lever")
     swing(left, free, GREY, "free, lever")
@@ -58,12 +51,8 @@ def main(free, lever, paper, felt):
     right.legend(loc="upper left", frameon=False)
     for axes in (left, right):
         axes.grid(alpha=0.3)
-    nobody = {"Date": None, "Creator": None}
-    figure.savefig(ROOT / "docs/images/free_lever.svg", metadata=nobody)
+    save(figure, "free_lever")
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 5:
-        print(__doc__, file=sys.stderr)
-        sys.exit(0 if "--help" in sys.argv else 2)
-    main(*sys.argv[1:])
+    main()

@@ -8,25 +8,11 @@ against the angle, from the columns of its run.
   scripts/lever_device_picture.py end_stops end_stops.csv
 """
 
-import csv
-import sys
 import tomllib
-from pathlib import Path
 
-import matplotlib
+from docs_picture import BLUE, GREY, RED, ROOT, columns, files, plt, save
 
-matplotlib.use("svg")
-import matplotlib.pyplot as plt  # noqa: E402
-
-ROOT = Path(__file__).resolve().parents[1]
-BLUE, RED, GREY = "#1f6fb4", "#c0392b", "#888888"
-
-
-def columns(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    return {name: [float(row[name]) for row in rows] for name in
-            ("time_s", "theta_rad", "tau_ref_nm", "motor_torque_nm")}
+NAMES = ("time_s", "theta_rad", "tau_ref_nm", "motor_torque_nm")
 
 
 def over_time(axes, run, title):
@@ -58,18 +44,14 @@ def over_angle(axes, run):
 
 
 def main():
-    if len(sys.argv) != 3 or sys.argv[1] in ("-h", "--help"):
-        print(__doc__.strip())
-        return 0 if sys.argv[1:] in (["-h"], ["--help"]) else 2
-    name, run = sys.argv[1], columns(sys.argv[2])
+    name, path = files(2, __doc__)
+    run = columns(path, NAMES)
     scene = tomllib.loads((ROOT / f"vectors/scenes/{name}.toml").read_text(encoding="utf-8"))
-    plt.rcParams.update({"svg.hashsalt": "feltgate", "svg.fonttype": "none", "font.size": 9})
     figure, axes = plt.subplots(1, 2, figsize=(9.2, 3.8), layout="constrained")
     over_time(axes[0], run, scene["title"])
     over_angle(axes[1], run)
-    figure.savefig(ROOT / f"docs/images/{name}.svg", metadata={"Date": None, "Creator": None})
-    return 0
+    save(figure, name)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -9,27 +9,13 @@ the two scenes.
   scripts/local_plane_picture.py slow.csv fast.csv
 """
 
-import csv
 import math
-import sys
 import tomllib
-from pathlib import Path
 
-import matplotlib
+from docs_picture import BLUE, GREY, RED, ROOT, columns, files, plt, save
 
-matplotlib.use("svg")
-import matplotlib.pyplot as plt  # noqa: E402
-
-ROOT = Path(__file__).resolve().parents[1]
-BLUE, RED, GREY = "#1f6fb4", "#c0392b", "#888888"
 NAMES = ("time_s", "pen_x_m", "pen_y_m", "plane_normal_x", "plane_normal_y", "plane_tilt_rad",
          "plane_step_n")
-
-
-def columns(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return {name: values for name, values in zip(NAMES, zip(*[
-            tuple(float(row[name]) for name in NAMES) for row in csv.DictReader(file)]))}
 
 
 def world(axes, slow, x, y, radius):
@@ -69,20 +55,15 @@ def over_time(axes, run, title, thinned):
 
 
 def main():
-    if len(sys.argv) != 3 or sys.argv[1] in ("-h", "--help"):
-        print(__doc__.strip())
-        return 0 if sys.argv[1:] in (["-h"], ["--help"]) else 2
-    slow, fast = columns(sys.argv[1]), columns(sys.argv[2])
+    slow, fast = (columns(path, NAMES) for path in files(2, __doc__))
     file = ROOT / "vectors/scenes/plane_circle_slow.toml"
     scene = tomllib.loads(file.read_text(encoding="utf-8"))
-    plt.rcParams.update({"svg.hashsalt": "feltgate", "svg.fonttype": "none", "font.size": 9})
     figure, panels = plt.subplot_mosaic("ab\nac", figsize=(10, 4.4), layout="constrained")
     world(panels["a"], slow, *scene["plane"]["circle_m"])
     over_time(panels["b"], slow, "50 Hz", 200)
     over_time(panels["c"], fast, "1 kHz", 50)
-    figure.savefig(ROOT / "docs/images/local_plane.svg", metadata={"Date": None, "Creator": None})
-    return 0
+    save(figure, "local_plane")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

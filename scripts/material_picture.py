@@ -9,35 +9,17 @@ docs/images/material_stick_slip.svg, from the rows of the two scenes.
   scripts/material_picture.py fields.csv slip.csv
 """
 
-import csv
-import sys
 import tomllib
-from pathlib import Path
 
-import matplotlib
+from docs_picture import BLUE, GREY, RED, ROOT, columns, files, plt, save
 
-matplotlib.use("svg")
-import matplotlib.pyplot as plt  # noqa: E402
-
-ROOT = Path(__file__).resolve().parents[1]
-BLUE, RED, GREY = "#1f6fb4", "#c0392b", "#888888"
+NAMES = ("time_s", "theta_rad", "omega_rad_s", "tau_ref_nm", "hand_torque_nm")
 FIELDS = ("hardness: a spring", "damping: on the way in", "giving way at 0.1 Nm", "viscosity",
           "spring to an anchor", "constant", "friction: sticks, slips", "vibration, 200 Hz")
 
 
-def columns(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    names = ("time_s", "theta_rad", "omega_rad_s", "tau_ref_nm", "hand_torque_nm")
-    return {name: [float(row[name]) for row in rows] for name in names}
-
-
 def scene(name):
     return tomllib.loads((ROOT / f"vectors/scenes/{name}.toml").read_text(encoding="utf-8"))
-
-
-def save(figure, name):
-    figure.savefig(ROOT / f"docs/images/{name}.svg", metadata={"Date": None, "Creator": None})
 
 
 def fields(run):
@@ -89,14 +71,10 @@ def stick_slip(run):
 
 
 def main():
-    if len(sys.argv) != 3 or sys.argv[1] in ("-h", "--help"):
-        print(__doc__.strip())
-        return 0 if sys.argv[1:] in (["-h"], ["--help"]) else 2
-    plt.rcParams.update({"svg.hashsalt": "feltgate", "svg.fonttype": "none", "font.size": 9})
-    fields(columns(sys.argv[1]))
-    stick_slip(columns(sys.argv[2]))
-    return 0
+    of_fields, of_slip = (columns(path, NAMES) for path in files(2, __doc__))
+    fields(of_fields)
+    stick_slip(of_slip)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -112,7 +112,7 @@ def arguments_of(argv):
     parser = argparse.ArgumentParser(
         allow_abbrev=False,
         prog="feltgate demo",
-        description="Every object in closed loop and every recording whole, through RTL and twin in\n"
+        description="Every object in closed loop, every recording whole, through RTL and twin in\n"
         "lock-step; one HTML report. About ten minutes on two cores.",
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -153,8 +153,8 @@ def main(argv=None):
         total = sum(job.seconds for job in jobs)
         print(
             f"demo: {len(scenes) + len(devices)} scenes, {len(replays)} recordings in {where}, "
-            f"{len(jobs) - len(scenes) - len(devices) - len(replays)} more runs for the figures; {total:.0f} s of "
-            "device time",
+            f"{len(jobs) - len(scenes) - len(devices) - len(replays)} more runs for the figures; "
+            f"{total:.0f} s of device time",
             file=sys.stderr,
         )
         with contextlib.ExitStack() as beside:

@@ -10,18 +10,8 @@ const PANELS = [
 ];
 
 function draw_curves(devices) {
-  const style = getComputedStyle(document.documentElement), colour = (name) => style.getPropertyValue(name).trim();
   for (const panel of PANELS) {
-    const canvas = document.getElementById(panel.id), ratio = window.devicePixelRatio || 1;
-    const width = canvas.clientWidth, height = canvas.clientHeight;
-    if (canvas.width !== Math.round(width * ratio)) {
-      canvas.width = Math.round(width * ratio);
-      canvas.height = Math.round(height * ratio);
-    }
-    const pen = canvas.getContext("2d");
-    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-    pen.clearRect(0, 0, width, height);
-    pen.font = "11px system-ui";
+    const { pen, width, height, colour } = cleared(document.getElementById(panel.id));
     const now = Math.max(...devices.map((d) => d.now.time)), left = 46, bottom = height - 16, columns = Math.max(10, Math.floor(width - left - 6));
     const traces = devices.flatMap((d, n) => panel.lines.map(([name, tint, label]) => ({ ...extremes(d.history, name, now, columns), tint, label: devices.length > 1 ? `${label} (${d.name})` : label, dash: n > 0 })));
     let low = -panel.least, high = panel.least;

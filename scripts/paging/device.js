@@ -67,10 +67,8 @@ class Device {
   }
 
   point(event) {
-    const box = this.svg.getBoundingClientRect(), size = Math.min(box.width / 500, box.height / 400);
-    const x = (event.clientX - box.left - (box.width - 500 * size) / 2) / size - CENTRE[0];
-    const y = CENTRE[1] - ((event.clientY - box.top - (box.height - 400 * size) / 2) / size);
-    this.aim(Math.atan2(x, Math.max(y, -40)));
+    const [x, y] = pointed(event, this.svg);
+    this.aim(Math.atan2(x - CENTRE[0], Math.max(CENTRE[1] - y, -40)));
   }
 
   aim(theta) {

@@ -72,9 +72,7 @@ class DrumsTab {
   }
 
   point(event) {
-    const box = this.svg.getBoundingClientRect(), size = Math.min(box.width / HALL.width, box.height / HALL.height);
-    const x = (event.clientX - box.left - (box.width - HALL.width * size) / 2) / size;
-    const y = (event.clientY - box.top - (box.height - HALL.height * size) / 2) / size;
+    const [x, y] = pointed(event, this.svg);
     const level = in_hall(0, STICK_M, 0)[1];
     this.aim((x - HALL.x) / HALL.across, Math.asin(Math.max(-1, Math.min(1, (level - y) / HALL.up / STICK_M))));
   }

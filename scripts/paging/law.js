@@ -71,20 +71,11 @@ class LawEditor {
 
 /** Torque against position over a turn, as the words of the program say it, and where the lever is. */
 function draw_turn(device) {
-  const canvas = $("turn"), ratio = window.devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
-  if (!width) return;
-  if (canvas.width !== Math.round(width * ratio)) {
-    canvas.width = Math.round(width * ratio);
-    canvas.height = Math.round(height * ratio);
-  }
+  const { pen, width, height, colour } = cleared($("turn"));
   device.turn ??= device.loop.lawCurve(TURN_POINTS);
-  const style = getComputedStyle(document.documentElement), colour = (name) => style.getPropertyValue(name).trim();
-  const pen = canvas.getContext("2d"), left = 46, right = width - 8, top = 24, bottom = height - 18;
+  const left = 46, right = width - 8, top = 24, bottom = height - 18;
   const most = Math.max(0.01, Math.abs(device.now.tau_ref), ...device.turn.map(Math.abs));
   const x = (rad) => left + ((rad + Math.PI) / (2 * Math.PI)) * (right - left), y = (nm) => (top + bottom) / 2 - (nm / most) * ((bottom - top) / 2);
-  pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-  pen.clearRect(0, 0, width, height);
-  pen.font = "11px system-ui";
   pen.strokeStyle = colour("--line");
   pen.fillStyle = colour("--faint");
   pen.fillText("torque over a turn at rest, Nm", left + 6, 15);

@@ -30,20 +30,19 @@ class MaterialStage {
     this.name = name;
     this.values = this.tab.materials.find((m) => m.name === name).parameters;
     this.stick = new this.tab.core.Stick(this.tab.image);
-    // Static friction first: the dynamic one may not be above it.
-    const order = Object.keys(this.values).sort((a, b) => (b === "static") - (a === "static"));
-    for (const key of order) say(this.stick.set(key, this.values[key]));
-    say(this.stick.set("face", FACE_RAD));
+    // One at a time, and the dynamic friction may never be above the static one.
+    const { static: held, dynamic, ...others } = this.values;
+    for (const [key, value] of [["dynamic", 0], ["static", held], ["dynamic", dynamic], ...Object.entries(others), ["face", FACE_RAD]]) {
+      if (value !== undefined) say(this.stick.set(key, value));
+    }
     this.seen = this.stick.state();
     this.trace = [];
     this.figure.querySelector(".name").textContent = name;
   }
 
   point(event) {
-    const box = this.svg.getBoundingClientRect(), size = Math.min(box.width / 500, box.height / 400);
-    const x = (event.clientX - box.left - (box.width - 500 * size) / 2) / size - CENTRE[0];
-    const y = CENTRE[1] - (event.clientY - box.top - (box.height - 400 * size) / 2) / size;
-    this.tab.aim(Math.atan2(x, Math.max(y, 1)));
+    const [x, y] = pointed(event, this.svg);
+    this.tab.aim(Math.atan2(x - CENTRE[0], Math.max(CENTRE[1] - y, 1)));
   }
 
   /** In slices, so that a vibration of 200 Hz is seen. */
@@ -101,17 +100,9 @@ class MaterialsTab {
   }
 
   draw_torques() {
-    const canvas = $("materials-torque"), ratio = window.devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
-    if (canvas.width !== Math.round(width * ratio)) {
-      canvas.width = Math.round(width * ratio);
-      canvas.height = Math.round(height * ratio);
-    }
-    const style = getComputedStyle(document.documentElement), colour = (name) => style.getPropertyValue(name).trim(), pen = canvas.getContext("2d");
+    const { pen, width, height, colour } = cleared($("materials-torque"));
     const most = Math.max(0.05, ...this.stages.flatMap((stage) => stage.trace.map(Math.abs))), left = 46, top = 24, bottom = height - 8;
     const x = (n) => left + (n / TRACE) * (width - left - 8), y = (nm) => (top + bottom) / 2 - (nm / most) * ((bottom - top) / 2);
-    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-    pen.clearRect(0, 0, width, height);
-    pen.font = "11px system-ui";
     pen.strokeStyle = colour("--line");
     pen.fillStyle = colour("--faint");
     pen.fillText("torque, Nm, the last second", left + 6, 15);

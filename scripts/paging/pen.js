@@ -48,9 +48,7 @@ class PenStage {
   }
 
   point(event) {
-    const box = this.svg.getBoundingClientRect(), size = Math.min(box.width / STAGE.width, box.height / STAGE.height);
-    const x = (event.clientX - box.left - (box.width - STAGE.width * size) / 2) / size;
-    const y = (event.clientY - box.top - (box.height - STAGE.height * size) / 2) / size;
+    const [x, y] = pointed(event, this.svg);
     this.aim((x - STAGE.x) / STAGE.per_m, (STAGE.y - y) / STAGE.per_m);
   }
 

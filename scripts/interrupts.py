@@ -5,13 +5,17 @@
 Documentation: docs/json.md
 """
 
+import os
 import signal
 import subprocess
 import sys
 import threading
+import time
 
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 PATIENCE_S = 10
+NUDGE = signal.SIGURG  # ignored where nobody expects it
+NUDGES_S = (0.05, 0.2, 1)
 
 
 class Interrupted(KeyboardInterrupt):
@@ -52,6 +56,25 @@ def end_on_signals():
     for number in ENDING:
         if signal.getsignal(number) != signal.SIG_IGN:
             signal.signal(number, interrupt)
+    wake_what_waits()
+
+
+def wake_what_waits():
+    """Python sees a signal that comes just before a call that waits only when that call ends, which
+    may take as long as the program that it waits for. So another thread breaks the call off."""
+    heard, tell_of = os.pipe()
+    os.set_blocking(tell_of, False)
+    signal.signal(NUDGE, lambda *_: None)
+    signal.set_wakeup_fd(tell_of, warn_on_full_buffer=False)
+    main = threading.main_thread().ident
+
+    def nudge():
+        while number := os.read(heard, 1):
+            for pause_s in NUDGES_S if number[0] in ENDING else ():
+                time.sleep(pause_s)
+                signal.pthread_kill(main, NUDGE)
+
+    threading.Thread(target=nudge, daemon=True).start()
 
 
 def leave_signals_to_the_parent():

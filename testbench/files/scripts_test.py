@@ -32,6 +32,25 @@ import interrupts
 def evaluate(point, workdir, route=False):
     interrupts.run([os.environ["FELTGATE_PROGRAM"]])
 """
+# The signal comes in another thread, so it breaks off nothing in this one.
+WAITS = """import signal
+import sys
+import threading
+import time
+
+import interrupts
+
+def hear():
+    time.sleep(0.2)
+    signal.pthread_kill(threading.get_ident(), signal.SIGTERM)
+
+interrupts.end_on_signals()
+threading.Thread(target=hear, daemon=True).start()
+try:
+    threading.Event().wait()
+except KeyboardInterrupt as error:
+    sys.exit(interrupts.tell("waits", error))
+"""
 
 
 class Scripts(Bench):
@@ -45,6 +64,7 @@ class Scripts(Bench):
             self.path(name).write_text(STAND_IN)
             self.path(name).chmod(0o755)
         self.path("sleeper.py").write_text(SLEEPER)
+        self.path("waits.py").write_text(WAITS)
 
     def script(self, name, *words, **more):
         kept = {k: v for k, v in os.environ.items() if not k.startswith("FELTGATE_")}
@@ -110,6 +130,11 @@ class Scripts(Bench):
                 self.assertEqual(list(self.folder.rglob("*.tmp")), [])
                 for path in self.pids.iterdir():
                     path.unlink()
+
+    def test_a_signal_that_the_waiting_call_does_not_see(self):
+        process = self.script(self.path("waits.py"), PYTHONPATH=str(ROOT / "scripts"))
+        self.assertEqual(process.communicate(timeout=WAIT_S)[1], "waits: interrupted\n")
+        self.assertEqual(process.returncode, 128 + signal.SIGTERM)
 
     def test_synth(self):
         path = f"{self.path('bin')}{os.pathsep}{os.environ['PATH']}"

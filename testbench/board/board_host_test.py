@@ -88,6 +88,19 @@ class Verbs(BoardTest):
             self.assertEqual(board.end()[0], 0)
             self.assertFalse(port.is_symlink())
 
+    def test_the_example_in_python(self):
+        python = BUILD / "venv-neighbours/bin/python3"
+        if not python.exists():
+            self.skipTest("no pyserial; ./feltgate test fetches it")
+        with Board(self.folder, "--hand", "swing") as board:
+            self.assertNotEqual(self.value(board.port, "position"), 0)
+            done = subprocess.run([python, ROOT / "docs/examples/link.py", board.port],
+                                  capture_output=True, text=True, check=False)  # fmt: skip
+            self.assertEqual(done.returncode, 0, done.stderr)
+            crc = re.search(r"CRC 0x(\w+)", self.host(board.port, "info"))[1]
+            self.assertIn(f"design {crc}, 1000000 ticks/s", done.stdout)
+            self.assertIn("status after set_zero: 0x", done.stdout)
+
     def test_calibrate_finds_dead_zone_and_slope(self):
         noise = random.Random(5)
         volts = (1.5, 2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5)

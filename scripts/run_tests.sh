@@ -73,6 +73,9 @@ run_tests() {
     # Without a network its test is skipped, but not in CI.
     (need_venv slang) || [[ ${CI-} != true ]] || die "slang cannot be fetched"
   fi
+  if [[ ! $name || $found == *ulx3s.bitstream* ]]; then
+    (need_venv synth) || [[ ${CI-} != true ]] || die "Yosys and nextpnr cannot be fetched"
+  fi
   if [[ ! $name || $found == *mutate.twin* ]]; then
     (need_venv mutate) || [[ ${CI-} != true ]] || die "tree-sitter cannot be fetched"
   fi

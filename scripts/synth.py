@@ -86,8 +86,7 @@ def chosen(root, blocks):
     rows = synth_measure.targets(root)
     if not blocks:
         return rows
-    rows += synth_measure.link_targets(root) + synth_measure.axes_targets()
-    rows += synth_measure.engine_targets(root)
+    rows += synth_measure.beside_targets(root)
     wanted = {synth_measure.CORE if block == "core" else block for block in blocks}
     unknown = wanted - {row.module for row in rows}
     if unknown:

@@ -14,6 +14,7 @@ import synth_path
 
 CORE = rtl_sources.CORE
 AXES = "feltgate_axes"
+LINKED = "feltgate_linked"
 CELL_WRAPPER = rtl_sources.CELL_WRAPPERS[0]
 SCENE_ROW = "core without read-back, registered"
 # On a board nobody looks at these: they are there for simulation, or repeat what the register port
@@ -79,19 +80,21 @@ def targets(root):
     return rows
 
 
-def link_sources(root):
-    """Files of the host's link in rtl/, after the core's."""
-    return rtl_sources.folder_files(root, "link")
+def beside_sources(root):
+    """Files of the blocks beside the core in rtl/: link, buses, axes and engine, in order."""
+    files = [path for folder in rtl_sources.FOLDERS for path in rtl_sources.folder_files(root, folder)]
+    return list(dict.fromkeys(files))  # the link needs the axes, too
 
 
-def link_targets(root):
-    """The link's blocks and the core with it: rows that are measured where they are asked for."""
-    names = [Path(path).stem for path in link_sources(root) if "_pkg" not in path]
-    return [Target(name, name, registered=name == "feltgate_linked") for name in names]
+def beside_targets(root):
+    """The blocks beside the core, each a row that is measured where it is asked for."""
+    names = [Path(path).stem for path in beside_sources(root) if "_pkg" not in path]
+    blocks = [Target(name, name, registered=name == LINKED) for name in names if name != AXES]
+    return blocks + axes_targets()
 
 
 def axes_targets():
-    """One to three axes, beside a core with read-back: measured where they are asked for."""
+    """One to three axes, beside a core with read-back."""
     return [
         Target(
             f"{count} {'axis' if count == 1 else 'axes'}, {which}",
@@ -106,17 +109,6 @@ def axes_targets():
     ]
 
 
-def engine_sources(root):
-    """Files of the engine for laws in rtl/."""
-    return rtl_sources.folder_files(root, "engine")
-
-
-def engine_targets(root):
-    """The engine and its parts: rows that are measured where they are asked for."""
-    names = [Path(path).stem for path in engine_sources(root) if "_pkg" not in path]
-    return [Target(name, name) for name in names]
-
-
 def scene_target(root):
     """The row that scene sets are compared by: the core as a product without a host."""
     return next(row for row in targets(root) if row.name == SCENE_ROW)
@@ -129,9 +121,7 @@ def copy_sources(root, design, folder):
     """
     is_path = isinstance(design, Path)
     package = design if is_path else root / f"rtl/generated/{design}/feltgate_pkg.sv"
-    beside = rtl_sources.folder_files(root, "axes")  # and the engine, which they need
-    listed = [f"{CELL_WRAPPER}.sv", *core_sources(root), *link_sources(root), *beside]
-    names = list(dict.fromkeys(listed))  # the link needs the axes, too
+    names = [f"{CELL_WRAPPER}.sv", *core_sources(root), *beside_sources(root)]
     shutil.copy(package, folder / "feltgate_pkg.sv")
     for name in names:
         shutil.copy(root / "rtl" / name, folder)

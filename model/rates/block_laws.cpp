@@ -45,7 +45,7 @@ std::vector<BlockLaw> make() {
                                  {"upper", v.at("membrane_upper") * q},
                                  {"strength", v.at("membrane_torque")}};
                  },
-                 "45 LUT4 eq"});
+                 "36 LUT4 eq"});
   all.push_back(
       {"spring_compression",
        "",
@@ -74,19 +74,19 @@ std::vector<BlockLaw> make() {
                  [](const Values& v, double) {
                    return Values{{"damping", v.at("damper_damping")}};
                  },
-                 "107 LUT4 eq, wall too"});
+                 "101 LUT4 eq, wall too"});
   all.push_back({"charge_attract",
                  "charge_far",
                  "",
                  {"attract_centre", "attract_strength", "attract_core", "attract_core_slope"},
                  [](const Values& v, double q) { return charge(v, "attract", 1, q); },
-                 "198 LUT4 eq, both charges"});
+                 "202 LUT4 eq, both charges"});
   all.push_back({"charge_repel",
                  "charge_far",
                  "",
                  {"repel_centre", "repel_strength", "repel_core", "repel_core_slope"},
                  [](const Values& v, double q) { return charge(v, "repel", -1, q); },
-                 "198 LUT4 eq, both charges"});
+                 "202 LUT4 eq, both charges"});
   all.push_back({"wall",
                  "wall",
                  "",
@@ -96,7 +96,7 @@ std::vector<BlockLaw> make() {
                                  {"stiffness", v.at("wall_stiffness") / q},
                                  {"damping", v.at("wall_damping")}};
                  },
-                 "107 LUT4 eq, damper too"});
+                 "101 LUT4 eq, damper too"});
   return all;
 }
 

@@ -9,6 +9,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import tomllib
 import unittest
 from pathlib import Path
 
@@ -48,6 +49,25 @@ class Rates(unittest.TestCase):
             text=True,
             check=False,
         )
+
+    def test_gates_are_those_of_the_budget(self):
+        budget = tomllib.loads((ROOT / "scripts/synth_budget.toml").read_text(encoding="utf-8"))
+        sets = {name: row["lut4_equivalents"] for name, row in budget["scene_sets"]["lever"].items()}
+        page = (ROOT / "docs/rates.md").read_text(encoding="utf-8")
+        engine = budget["figures"]["lever"]["axes_engine"]["lut4_equivalents"]
+        source = "".join(p.read_text(encoding="utf-8") for p in (ROOT / "model/rates").glob("*.cpp"))
+        for text, name in (
+            ("{} LUT4 eq, both charges", "charge_attract, charge_repel"),
+            ("{} LUT4 eq, wall too", "wall, damper"),
+            ("{} LUT4 eq, damper too", "wall, damper"),
+            ("{} LUT4 eq", "membrane"),
+        ):
+            with self.subTest(name):
+                wanted = text.format(sets[name] - sets["setpoint"])
+                self.assertIn(f'"{wanted}"', source)
+                self.assertIn(f"block {wanted}", page)
+        self.assertIn(f"engine {engine} LUT4 eq", source)
+        self.assertIn(f"engine {engine} LUT4 eq", page)
 
     def test_everything_is_written(self):
         done = self.call(

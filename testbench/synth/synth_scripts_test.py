@@ -118,7 +118,7 @@ class Wrapper(unittest.TestCase):
 class Report(unittest.TestCase):
     def test_goals_say_what_is_missed(self):
         name = "core without read-back, registered"
-        rows = {name: ROW | {"lut4_equivalents": 2090, "fmax_mhz": 131.0}}
+        rows = {name: ROW | {"lut4_equivalents": 2640, "fmax_mhz": 111.0}}
         verdicts = [row[-1] for row in synth_report.goal_rows("lever", rows)]
         self.assertEqual(verdicts[0], "**missed** by 10%")
         self.assertEqual(verdicts[3], "met")

@@ -74,7 +74,7 @@ def arguments(argv):
     parser.add_argument(
         "--update",
         action="store_true",
-        help="write the table of docs/proofs.md, after a run of everything",
+        help="write the table of docs/proofs.md: of all blocks, or of those named here",
     )
     parser.add_argument(
         "--check-page",
@@ -91,8 +91,9 @@ def arguments(argv):
         parser.error(f"argument --keep: {options.keep} is not an empty folder; name a new one")
     if options.jobs < 1:
         parser.error("argument --jobs: at least 1")
-    if options.update and (options.proof or options.fast or options.no_defects):
-        parser.error("--update takes a run of everything")
+    partly = any("." in name for name in options.proof) or options.fast or options.no_defects
+    if options.update and partly:
+        parser.error("--update takes whole blocks, with all designs and defects")
     return options
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import rtl_sources
 
 KEYS = {"name", "title", "depth", "cover_depth", "defect_depth", "designs", "assumes", "show",
-        "sources", "defines", "abstract", "fast", "property", "cover"}
+        "sources", "defines", "cut", "abstract", "fast", "property", "cover"}
 ASSERTION = re.compile(r"\b(\w+):\s*assert\b")
 COVER = re.compile(r"\b(\w+):\s*cover\b")
 INCLUDE = re.compile(r'^ *`include "(\w+\.svh)"\n', re.M)
@@ -47,6 +47,7 @@ class Proof:
     show: tuple  # signals printed for a failed step
     sources: tuple  # modules beside those that the wrapper instantiates
     defines: tuple
+    cut: tuple  # blocks of which only the ports are read: their outputs may be anything
     abstract: tuple  # selections of cells whose outputs may be anything
     fast: bool  # a test of every run
     properties: tuple
@@ -134,6 +135,7 @@ def read_proof(root, block, path, table):
         show=tuple(table.get("show", [])),
         sources=tuple(table.get("sources", [])),
         defines=tuple(table.get("defines", [])),
+        cut=tuple(table.get("cut", [])),
         abstract=tuple(table.get("abstract", [])),
         fast=table.get("fast", False),
         properties=tuple(properties),

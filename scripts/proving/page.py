@@ -2,6 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Tables of feltgate prove: on the terminal, and the generated part of docs/proofs.md."""
 
+import re
 import sys
 
 import block_results
@@ -42,25 +43,35 @@ def text_table(rows):
     return "\n".join(lines)
 
 
-def generated(result, proofs):
-    """The part between the markers: one table per block."""
+def sections(text):
+    """{block: its part} of what stands between the markers."""
+    parts = re.split(r"^### (\w+)\n", text, flags=re.M)[1:]
+    return {name: f"### {name}\n{part.rstrip()}\n" for name, part in zip(parts[::2], parts[1::2])}
+
+
+def generated(result, proofs, before=""):
+    """The part between the markers: a table per block; of one without a result as it was before."""
     said = {p.key: p for p in proofs}
     blocks = {}
     for entry in result["proofs"]:
         blocks.setdefault(entry["proof"].partition(".")[0], []).append(entry)
+    found = sections(before)
+    for block, entries in blocks.items():
+        lines = [f"### {block}", ""]
+        for key in dict.fromkeys(entry["proof"] for entry in entries):
+            lines += proof_lines(said[key], [e for e in entries if e["proof"] == key])
+        found[block] = "\n".join(lines)
     count = sum(len(p.properties) for p in proofs)
     tools = result["tools"]
+    names = [name for name in dict.fromkeys(p.block for p in proofs) if name in found]
     lines = [
         BEGIN,
         "",
-        f"{count} properties in {len(proofs)} proofs of {len(blocks)} blocks; {tools['yosys']}, "
+        f"{count} properties in {len(proofs)} proofs of {len(names)} blocks; {tools['yosys']}, "
         f"{tools['z3']}.",
         "",
+        *(found[name] for name in names),
     ]
-    for block, entries in blocks.items():
-        lines += [f"### {block}", ""]
-        for key in dict.fromkeys(entry["proof"] for entry in entries):
-            lines += proof_lines(said[key], [e for e in entries if e["proof"] == key])
     return "\n".join([*lines, END, ""])
 
 
@@ -99,10 +110,15 @@ def write(root, result):
 
     path = root / PAGE
     before, rest = path.read_text(encoding="utf-8").split(BEGIN, 1)
-    after = rest.split(END, 1)[1].lstrip("\n")
-    text = before + generated(result, catalog.read(root)) + ("\n" + after if after else "")
+    old, after = rest.split(END, 1)
+    after = after.lstrip("\n")
+    proofs = catalog.read(root)
+    text = before + generated(result, proofs, old) + ("\n" + after if after else "")
     outputs.write_whole(path, text)
-    block_results.write(root, "proofs", "./feltgate prove --update", per_block(result))
+    run = {entry["proof"] for entry in result["proofs"]}
+    of_all = all(p.key in run for p in proofs)
+    put = block_results.write if of_all else block_results.merge
+    put(root, "proofs", "./feltgate prove --update", per_block(result))
 
 
 def per_block(result):

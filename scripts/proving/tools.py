@@ -64,17 +64,24 @@ class Tools:
         }
 
 
-def closure(root, names):
-    """Modules that these need, in reading order."""
+def closure(root, names, cut=()):
+    """Modules that these need, in reading order; a cut one needs none."""
     ordered, _ = rtl_sources.modules(root)
     needed, left = set(), list(names)
     while left:
         name = left.pop()
         if name not in needed:
             needed.add(name)
+            if name in cut:
+                continue
             text = (root / "rtl" / ordered[name]).read_text(encoding="utf-8")
             left += rtl_sources.instantiated(text, ordered.keys())
     return [name for name in ordered if name in needed]
+
+
+def ports_only(text):
+    """A module without what is in it: nothing drives its outputs, so they are free."""
+    return text[: text.index("\n);") + 3] + "\nendmodule\n`default_nettype wire\n"
 
 
 def split_design(text):
@@ -87,7 +94,11 @@ def copy_sources(root, proof, design, patch, folder):
     """Writes what the proof reads into the folder; returns the names, in order."""
     text = catalog.wrapper_text(root, proof.wrapper)
     known = rtl_sources.modules(root)[0]
-    names = closure(root, [*rtl_sources.instantiated(text, known.keys()), *proof.sources])
+    wanted = [*rtl_sources.instantiated(text, known.keys()), *proof.sources]
+    names = closure(root, wanted, proof.cut)
+    strange = [name for name in proof.cut if name not in names]
+    if strange:
+        raise Broken(f"{proof.key}: cut {', '.join(strange)}, which it does not read")
     design, constants, _ = split_design(design)
     package = f"rtl/generated/{design}/feltgate_pkg.sv"
     paths = [package, "rtl/generated/feltgate_map_pkg.sv"]
@@ -103,7 +114,10 @@ def copy_sources(root, proof, design, patch, folder):
         for constant in constants if path == package else ():
             name, value = constant.split("=")
             source = re.sub(rf"(localparam int {name} = )\d+;", rf"\g<1>{value};", source)
+        if Path(path).stem in proof.cut:
+            source = ports_only(source)
         (folder / Path(path).name).write_text(source, encoding="utf-8")
+    shutil.copy(root / f"rtl/generated/{design}/parameters.mem", folder)  # the core's ParameterFile
     (folder / "proof.sv").write_text(text, encoding="utf-8")
     return [*(Path(path).name for path in paths), "proof.sv"]
 
@@ -115,7 +129,8 @@ def elaborate(tools, root, proof, design, folder, patch=None, alone=None):
     names = copy_sources(root, proof, design, patch, folder)
     defines = "".join(f" -D {name}" for name in [*proof.defines, *split_design(design)[2]])
     script = [
-        f"read_verilog -sv -formal{defines} {' '.join(names)}",
+        # Of the whole core no module is elaborated with parameters that it does not have there.
+        f"read_verilog -sv -formal{' -defer' if proof.cut else ''}{defines} {' '.join(names)}",
         f"prep -top {proof.top} -flatten",
         "select -assert-none w:* a:hierconn %i",  # a name inside that is not there would be free
         *(f"delete {cells}" for cells in proof.abstract),

@@ -15,7 +15,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 import prove  # noqa: E402
-from proving import catalog, tasks, tools, trace  # noqa: E402
+from proving import catalog, page, tasks, tools, trace  # noqa: E402
 
 TOML = """
 [[proof]]
@@ -168,6 +168,26 @@ class Verdicts(unittest.TestCase):
         self.assertEqual([line.split() for line in text.splitlines()], [["clock", "0", "1"], ["x", "1", "-8"]])
 
 
+class Page(unittest.TestCase):
+    def test_blocks_without_a_run_stay_as_they_were(self):
+        proofs = [type("P", (), {"block": name, "key": f"{name}.p", "name": "p", "title": "t", "assumes": (),
+                                 "covers": {}, "properties": ()}) for name in ("a", "b")]
+        entry = {"proof": "b.p", "design": "d", "k": 2, "base_seconds": 1.0, "induction_seconds": 1.0,
+                 "covers": {}, "properties": []}
+        result = {"tools": {"yosys": "y", "z3": "z"}, "proofs": [entry]}
+        text = page.generated(result, proofs, "stale counts\n\n### a\n\nof a\n\n### b\n\nstale b\n\n")
+        self.assertEqual(list(page.sections(text)), ["a", "b"])
+        self.assertIn("0 properties in 2 proofs of 2 blocks", text)
+        self.assertIn("\n### a\n\nof a\n\n### b\n\n[`b.p`]", text)
+        self.assertNotIn("stale", text)
+
+
+class Reading(unittest.TestCase):
+    def test_a_block_that_is_cut_has_ports_only(self):
+        self.assertEqual(tools.ports_only("module a (\n  output logic y_o\n);\n  assign y_o = 1'b1;\nendmodule\n"),
+                         "module a (\n  output logic y_o\n);\nendmodule\n`default_nettype wire\n")
+
+
 class Command(unittest.TestCase):
     def status(self, *words):
         out, err = io.StringIO(), io.StringIO()
@@ -184,7 +204,7 @@ class Command(unittest.TestCase):
         self.assertIn("limiter.clamp", out)
 
     def test_wrong_words(self):
-        for words in (["nothing"], ["--jobs", "0"], ["--json", "/nowhere/x"], ["--update", "limiter"]):
+        for words in (["nothing"], ["--jobs", "0"], ["--json", "/nowhere/x"], ["--update", "limiter.clamp"], ["--update", "--fast"]):
             with self.subTest(words):
                 status, _, err = self.status(*words)
                 self.assertEqual(status, 2, err)

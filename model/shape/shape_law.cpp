@@ -8,25 +8,13 @@
 
 #include <cmath>
 
+#include "law/number_list.hpp"
+
 namespace feltgate::shape {
 
 namespace {
 
-/// "begin [a, b, ...] unit", broken into lines.
-std::string list(const std::string& begin, const std::vector<double>& values,
-                 const std::string& unit) {
-  std::string s, line = begin + " [";
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const std::string number =
-        fmt::format("{:.9g}{}", values[i], i + 1 < values.size() ? "," : "]");
-    if (line.size() + number.size() + 1 > 98) {
-      s += line + "\n";
-      line = "   ";
-    }
-    line += (line.back() == '[' ? "" : " ") + number;
-  }
-  return s + line + " " + unit + "\n";
-}
+using law::number_list;
 
 template <class Of>
 std::vector<double> each(std::size_t count, const Of& of) {
@@ -74,17 +62,17 @@ std::string head(const LawRequest& r) {
 std::string corners(const Polygon& p, const char* form) {
   const std::size_t n = p.size();
   const auto at = [&](std::size_t i) { return p.at[i % n]; };
-  return list(fmt::format(form, "shape_x"), each(n + 1, [&](std::size_t i) { return at(i).x; }),
-              "m") +
-         list(fmt::format(form, "shape_y"), each(n + 1, [&](std::size_t i) { return at(i).y; }),
-              "m");
+  return number_list(fmt::format(form, "shape_x"),
+                     each(n + 1, [&](std::size_t i) { return at(i).x; }), "m") +
+         number_list(fmt::format(form, "shape_y"),
+                     each(n + 1, [&](std::size_t i) { return at(i).y; }), "m");
 }
 
 /// Of the edge behind each corner: 1 / length, or its square.
 std::string reciprocals(const Polygon& p, const char* name, int power) {
-  return list(fmt::format("array {} =", name),
-              each(p.size(), [&](auto i) { return std::pow(p.edge_m(i), -power); }),
-              fmt::format("m^-{}", power));
+  return number_list(fmt::format("array {} =", name),
+                     each(p.size(), [&](auto i) { return std::pow(p.edge_m(i), -power); }),
+                     fmt::format("m^-{}", power));
 }
 
 /// Longest step along an axis from corner to corner, with room for rounding.
@@ -100,7 +88,7 @@ std::string shares(const Polygon& p, const char* form) {
   for (std::size_t i = 0; i < p.size(); ++i) so_far.push_back(so_far.back() + p.edge_m(i));
   const double around = so_far.back();
   for (double& s : so_far) s /= around;
-  return list(fmt::format(form, "share"), so_far, "");
+  return number_list(fmt::format(form, "share"), so_far, "");
 }
 
 /// Ripples that go with the way along the outline: a whole number of them, so that they close.
@@ -115,10 +103,10 @@ std::string proxy(const Polygon& p, bool texture) {
   const std::string form = fmt::format("table {{}}(q) on [0, {}] through", n);
   std::string s = "# Corners, and the outline's direction there.\n";
   s += corners(p, form.c_str());
-  s +=
-      list(fmt::format(form, "along_x"), each(n + 1, [&](auto i) { return p.along[i % n].x; }), "");
-  s +=
-      list(fmt::format(form, "along_y"), each(n + 1, [&](auto i) { return p.along[i % n].y; }), "");
+  s += number_list(fmt::format(form, "along_x"),
+                   each(n + 1, [&](auto i) { return p.along[i % n].x; }), "");
+  s += number_list(fmt::format(form, "along_y"),
+                   each(n + 1, [&](auto i) { return p.along[i % n].y; }), "");
   if (texture) s += shares(p, form.c_str());
   s += pen;
   return s +
@@ -165,7 +153,8 @@ std::string resident(const std::vector<Polygon>& shapes) {
   }
   const std::string form = fmt::format("table {{}}(q) on [0, {}] through", xs.size() - 1);
   std::string s = "# Corners of all shapes, one behind the other.\n";
-  s += list(fmt::format(form, "shape_x"), xs, "m") + list(fmt::format(form, "shape_y"), ys, "m");
+  s += number_list(fmt::format(form, "shape_x"), xs, "m") +
+       number_list(fmt::format(form, "shape_y"), ys, "m");
   return s + pen +
          fmt::format(R"(
 # Another shape than a run before: nothing is felt until its outline has been looked along.

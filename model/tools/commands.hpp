@@ -29,6 +29,7 @@ void add_trim(CLI::App& app, int* exit_code);
 void add_budget(CLI::App& app, int* exit_code);
 void add_law(CLI::App& app, int* exit_code);
 void add_shape(CLI::App& app, int* exit_code);
+void add_texture(CLI::App& app, int* exit_code);
 /// demo, figures, explore and synth are orchestration: Python scripts that call this program.
 void add_scripts(CLI::App& app, int* exit_code);
 

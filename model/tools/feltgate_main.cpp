@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   add_budget(app, &exit_code);
   add_law(app, &exit_code);
   add_shape(app, &exit_code);
+  add_texture(app, &exit_code);
   add_trim(app, &exit_code);
   add_stability(app, &exit_code);
   add_rates(app, &exit_code);

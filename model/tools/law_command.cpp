@@ -20,6 +20,7 @@
 #include "law/gappa.hpp"
 #include "law/listing.hpp"
 #include "tools/commands.hpp"
+#include "tools/law_target.hpp"
 
 namespace feltgate {
 
@@ -34,19 +35,6 @@ struct LawArguments {
   int cells = 4;
   bool listing = false, quiet = false;
 };
-
-law::Target target(const std::string& design) {
-  const auto e = design::elaborate(design::read_design(find_file(design, "rtl/designs")),
-                                   design::read_registers(repository() + "/rtl/registers.toml"));
-  law::Target t;
-  t.design = e.design.name;
-  t.tick_hz = e.design.tick_hz;
-  t.clocks_per_tick = e.design.clocks_per_tick();
-  t.counts_per_turn = 4 * e.design.lines;
-  t.velocity = e.design.velocity;
-  t.torque = e.design.torque;
-  return t;
-}
 
 std::string json(const Compiled& c, const Measured& m, const law::GappaCount* g) {
   Json j{{"schema", "feltgate-law/1"}, {"version", FELTGATE_VERSION}};
@@ -154,7 +142,7 @@ int run(const LawArguments& a) {
   files::OutputFile* cpp_file = outputs.open("--cpp", a.cpp);
   outputs.folder("--gappa", a.gappa);
   outputs.folder("--memories", a.memories);
-  const Compiled c = law::compile_file(path, target(a.design));
+  const Compiled c = law::compile_file(path, law_target(a.design));
   Measured m = law::measure_all(c);
   if (!m.all_inputs) m = law::measure(c, 1, 50000);
   law::GappaCount again;

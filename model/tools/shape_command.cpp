@@ -15,6 +15,7 @@
 #include "shape/felt.hpp"
 #include "shape/shape_law.hpp"
 #include "tools/commands.hpp"
+#include "tools/law_target.hpp"
 
 namespace feltgate {
 
@@ -38,19 +39,6 @@ std::string name_of(shape::Kind kind) {
     if (k == kind) return name;
   }
   return {};
-}
-
-law::Target target(const std::string& design) {
-  const auto e = design::elaborate(design::read_design(find_file(design, "rtl/designs")),
-                                   design::read_registers(repository() + "/rtl/registers.toml"));
-  law::Target t;
-  t.design = e.design.name;
-  t.tick_hz = e.design.tick_hz;
-  t.clocks_per_tick = e.design.clocks_per_tick();
-  t.counts_per_turn = 4 * e.design.lines;
-  t.velocity = e.design.velocity;
-  t.torque = e.design.torque;
-  return t;
 }
 
 /// What is wrong with an outline is told with its file.
@@ -164,7 +152,7 @@ int run_several(const ShapeArguments& a) {
       shape::law_text(polygons, request(a, fmt::format("{}: {} vertices each, corners of {:.3g} mm",
                                                        names, a.vertices, 1e3 * a.radius_m)));
   const law::Compiled c =
-      law::compile_text(text, a.out.empty() ? "shapes.law" : a.out, target(a.design));
+      law::compile_text(text, a.out.empty() ? "shapes.law" : a.out, law_target(a.design));
   said += "\n" + law::report(c, law::measure(c, 1, 20000));
   if (file != nullptr) file->write(text);
   if (!a.quiet) outputs.say(said);
@@ -182,7 +170,7 @@ int run(const ShapeArguments& a) {
   files::OutputFile* path_file = outputs.open("--path", a.path);
   const Drawn d = drawn(a, svg);
   const shape::Curve& curve = d.curve;
-  const law::Target design = target(a.design);
+  const law::Target design = law_target(a.design);
   const std::string stem = std::filesystem::path(svg).stem().string();
   const auto text_of = [&](shape::Kind kind, int vertices) {
     shape::LawRequest r = request(a, fmt::format("{}: {} vertices, corners of {:.3g} mm, {}", stem,

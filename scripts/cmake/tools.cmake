@@ -63,6 +63,9 @@ target_link_libraries(feltgate_page_data PRIVATE feltgate_page nlohmann_json::nl
 
 # Outlines for the pantograph. SVG++ is a Boost library of headers.
 feltgate_library(feltgate_shape shape feltgate_law Boost::headers)
+# Height fields from images.
+find_package(PNG REQUIRED)
+feltgate_library(feltgate_texture texture feltgate_shape PNG::PNG)
 
 feltgate_program(feltgate_generate generate_main.cpp feltgate_design)
 
@@ -70,7 +73,7 @@ file(GLOB tool_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/tools"
   "${FELTGATE_ROOT}/model/tools/*.cpp")
 list(FILTER tool_sources EXCLUDE REGEX "_main\\.cpp$")
 feltgate_program(feltgate "feltgate_main.cpp;${tool_sources}"
-  feltgate_rtl feltgate_files feltgate_budget feltgate_law feltgate_shape feltgate_axes_loop feltgate_law_loop feltgate_loop feltgate_stability feltgate_rates feltgate_trim feltgate_design
+  feltgate_rtl feltgate_files feltgate_budget feltgate_law feltgate_shape feltgate_texture feltgate_axes_loop feltgate_law_loop feltgate_loop feltgate_stability feltgate_rates feltgate_trim feltgate_design
   nlohmann_json::nlohmann_json CLI11::CLI11)
 
 include(presets)

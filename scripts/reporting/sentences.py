@@ -50,6 +50,7 @@ TITLES = {
     "material_stone": "Stone",
     "material_fabric": "Fabric",
     "material_water": "Water",
+    "texture": "A row of an image under the pen",
     "plane_circle": "A disc by its tangents, 1000 a second",
     "plane_circle_slow": "A disc by its tangents, 50 a second",
     "plane_floor": "A floor by its plane",

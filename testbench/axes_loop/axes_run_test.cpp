@@ -104,6 +104,19 @@ TEST_CASE("another shape under the pen: torques ramp, step by step") {
   }
 }
 
+TEST_CASE("a texture under the pen: the same outputs in every clock") {
+  AxesScene scene = scene_named("texture");
+  scene.scenario.duration_s = 0.05;  // down on a slope, and half way along
+  scene.scenario.expectations.clear();
+  const AxesResult both = run_scene(scene, "all");
+  CHECK(both.lock_step);
+  INFO(both.first_mismatch);
+  CHECK(both.mismatches == 0);
+  CHECK(both.broken.empty());
+  CHECK(both.figures.at("tau_ref_nm.0.max") > 0.05);
+  CHECK(both.axes[0].law_error_nm.max() < both.axes[0].bound_nm);
+}
+
 TEST_CASE("what the host sets in the middle reaches engine and law in real numbers alike") {
   AxesScene scene = scene_named("pantograph_floor");
   scene.scenario.expectations.clear();

@@ -29,6 +29,8 @@ RULES = (
     Rule(r"feltgate run torque_step --set voltage_gain=0\.6", "WHOLE", status=(2,)),
     # The launcher gives these a design with an engine.
     Rule(r"feltgate run (?:detent|my_scene\.toml --set amplitude\S*)", "BY", "scene.detent.lever_law"),
+    Rule(r"feltgate run texture.*", "BY", "scene.texture.pantograph_law"),
+    Rule(r"feltgate texture .*--table", "BY", "texture.command"),
     Rule(r"feltgate run plane_floor.*", "BY", "scene.plane_floor.pantograph_law"),
     Rule(r"feltgate run plane_circle.*", "BY", "local_plane_test"),
     Rule(r"feltgate run (?:pantograph_floor|hidden_shapes).*", "BY", "axes_run_test"),
@@ -53,7 +55,7 @@ RULES = (
     Rule(r"feltgate run (?:bowed_string|slow\.toml).*--states", "BY", "bowed_string.sound"),
     Rule(r"feltgate run bowed_string", "BY", "scene.bowed_string.lever_law"),
     Rule(r"feltgate run (?:wall|ceiling)_tracked", "BY", "tracked_test"),
-    Rule(r"feltgate (?:run|replay|import|budget|design|law|shape)", "WHOLE"),
+    Rule(r"feltgate (?:run|replay|import|budget|design|law|shape|texture)", "WHOLE"),
     Rule(r"feltgate generate", "WHOLE"),
     # 1: of a scene of milliseconds there may be nothing to leave out.
     Rule(r"feltgate trim", "MORE", "--unseen 1 --jobs 1", status=(0, 1)),
@@ -118,6 +120,7 @@ PLACEHOLDERS = {
     "law NAME": "wall",
     "law ./fish.law": "wall",
     "shape FILE.svg": "vectors/shapes/square.svg",
+    "texture FILE.png": "vectors/textures/ripples.png",
     "run SCENE": "wall",
     "budget SCENE": "wall",
     "point FILE": "my_design.toml",

@@ -33,6 +33,8 @@ TEST_CASE("every shipped law has a summary and a torque, and is tested here") {
       "material",
       // testbench/shape
       "hidden_shapes",
+      // testbench/texture
+      "texture",
       // drums_test.cpp
       "ceiling", "wall_tracked", "ceiling_tracked", "drums",
       // testbench/bowed_string

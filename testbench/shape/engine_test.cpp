@@ -3,12 +3,10 @@
 //
 // Shapes as words: the law compiled and proven, the interpreter, the engine's twin and its RTL bit
 // for bit. Documentation: docs/devices/shapes.md
-#include <algorithm>
 #include <cmath>
 
 #include "catch.hpp"
-#include "engine/machine.hpp"
-#include "engine_device.hpp"
+#include "law_same_bits.hpp"
 #include "shape_case.hpp"
 
 using namespace feltgate;
@@ -21,15 +19,6 @@ law::Compiled compiled(const shape::Curve& curve, shape::Kind kind, int vertices
   return law::compile_text(shape::text_of(curve, kind, vertices), "shape.law", law::Target{});
 }
 
-EngineMemory memory_of(const law::Image& image) {
-  EngineMemory m;
-  m.program = image.program;
-  m.data = image.data;
-  m.table = image.table;
-  m.line_base = image.line_base;
-  return m;
-}
-
 constexpr int steps = 400;
 
 /// Counts of the cranks with the pen on a way that goes in and out of the shape, all around it.
@@ -40,62 +29,14 @@ std::array<std::int32_t, 2> counts(const law::Target& target, int step) {
           static_cast<std::int32_t>(std::lround(a[1] / target.count_rad()))};
 }
 
-/// Interpreter, twin and RTL of the engine through the same runs.
+/// Interpreter, twin and RTL of the engine along that way.
 void same_bits(const law::Compiled& c) {
-  const EngineMemory memory = memory_of(c.image);
-  LoadedDevice device(memory);
-  law::Machine machine(memory);
-  for (const law::ImageWord& w : c.image.words) {
-    const std::int32_t value = memory.data_at(EngineMap::D::parameter + w.word);
-    machine.set_parameter(w.word, value);
-  }
-  machine.commit();
-  device.write(H::max_age, 400);
-  device.write(H::divider0, 1);
-  device.write(H::crc, image_crc(memory));
-  device.in.crc_start = true;
-  device.clock();
-  while (device.out().busy) device.clock();
-  CHECK(device.out().crc_good);
-  device.write(H::commit, 1);
-  device.clock(2000);
-  device.in.armed = true;
-  device.since = -1000;  // no tick before the first run
-  device.write(H::run, 1);
-  machine.enter();
-  int felt = 0, same = 0;
-  for (int step = 0; step < steps; ++step) {
+  const int felt = test::same_bits(c, steps, [&](int step) {
     const auto n = counts(c.target, step);
-    device.in.position = {n[0], n[1], 3 * step};
-    device.in.velocity = {1000 * (step % 7 - 3), 900 * (step % 5 - 2), 0};
-    law::MachineInputs inputs{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      inputs[3 * axis] = device.in.position[axis];
-      inputs[3 * axis + 1] = device.in.velocity[axis];
-    }
-    inputs[9] = static_cast<std::int32_t>(device.in.tick_count + 1);
-    const law::MachineRun& run = machine.run(c.target.thread, inputs);
-    REQUIRE(run.ended);
-    // A tick, and none amid the run.
-    device.since = kTick - 1;
-    device.clock();
-    for (int k = 0; k < 6 * (run.instructions + 8); ++k) {
-      device.since = 1;
-      device.clock();
-    }
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      same += run.outputs[axis] == device.out().torque[axis] ? 1 : 0;
-    }
-    felt += run.outputs[0] != 0 ? 1 : 0;
-    // What programs write; the bank of parameters that is not in force is the host's.
-    for (int k = 0; k < EngineMap::D::parameter; ++k) {
-      if (device.twin.memory().data_at(k) != machine.memory().data_at(k)) FAIL("word " << k);
-    }
-  }
-  CHECK(same == 3 * steps);
+    return std::array<std::int32_t, 3>{n[0], n[1], 3 * step};
+  });
   CHECK(felt > 30);
   CHECK(felt < steps - 50);
-  device.play();
 }
 
 }  // namespace

@@ -103,6 +103,31 @@ TEST_CASE("texture: the same under three axes, with facets and with interpolated
   CHECK(f[1] == Approx(0.48).margin(1e-9));
 }
 
+TEST_CASE("texture: a twisted texel, of two triangles or in between") {
+  Image twisted;
+  twisted.width = twisted.height = 2;
+  twisted.share = {0, 1, 0.5, 0.25};
+  LawRequest r = ramp_request();
+  r.surface_m = 0;
+  r.texel_m = 4e-3;
+  r.depth_m = 1e-3;
+  // At a share `height` of 1 mm, slopes of `x` and `y` mm in 4 mm, pen at black.
+  const auto at = [&](Normals normals, double a, double b, double height, double x, double y) {
+    r.normals = normals;
+    const law::Law law = law::read_law_text(field_law(twisted, r), "twisted.law", 50e3);
+    const auto f = field_force(law, {(a - 0.5) * 4e-3, (b - 0.5) * 4e-3, 0});
+    const double n = height / std::sqrt(1 + (x * x + y * y) / 16);
+    CHECK(f[0] == Approx(-n * x / 4).margin(1e-9));
+    CHECK(f[1] == Approx(-n * y / 4).margin(1e-9));
+    CHECK(f[2] == Approx(n).margin(1e-9));
+  };
+  at(Normals::facets, 0.25, 0.25, 0.375, 1, 0.5);
+  at(Normals::facets, 0.75, 0.75, 0.5, -0.25, -0.75);
+  // The four heights and half differences, a share of 9/16, 3/16, 3/16, 1/16 each.
+  at(Normals::interpolated, 0.25, 0.25, (3 * 1 + 3 * 0.5 + 0.25) / 16, (3 * 1 - 0.25) / 8,
+     (3 * 0.5 - 0.75) / 8);
+}
+
 TEST_CASE("texture: a sine of 0.5 mm and 2 mm, at 0.25 mm: 0.35355 mm high, slope 1.11072") {
   for (const int per_period : {16, 60}) {
     const std::vector<double> row = sine(per_period, 3 * per_period + 1);

@@ -53,6 +53,37 @@ std::uint32_t bits_of(const std::vector<design::Cause>& causes, std::string list
   return bits;
 }
 
+Trigger event_trigger(const Device& device, const LawEngine* laws, const std::string& name,
+                      const std::string& text) {
+  if (laws == nullptr) {
+    throw Refused(
+        fmt::format("this board's design {} has no engine, so no law tells events; "
+                    "trigger on a word of the tick, such as velocity>5",
+                    device.design().design.name));
+  }
+  if (name.empty()) return {Trigger::Mode::event, 0, M::any_event, text};
+  if (laws->image() == nullptr) {
+    throw Refused(
+        fmt::format("the law that this board runs is not known here, so \"{}\" means no "
+                    "event; give the file with --law, or trigger on any \"event\"",
+                    name));
+  }
+  std::vector<std::string> names;
+  for (const law::ImageEvent& e : laws->image()->events) names.push_back(e.name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw std::invalid_argument(
+        names.empty()
+            ? fmt::format("the law {} tells no events; trigger on a word of the tick, such as "
+                          "velocity>5",
+                          laws->image()->name)
+            : fmt::format("the law {} has no event \"{}\"; {}choose from {}", laws->image()->name,
+                          name, config::did_you_mean(name, names), fmt::join(names, ", ")));
+  }
+  const law::ImageEvent& e = laws->image()->events[static_cast<std::size_t>(found - names.begin())];
+  return {Trigger::Mode::event, 0, static_cast<std::uint32_t>(e.number), text};
+}
+
 Trigger bit_trigger(const Quantity& q, std::uint32_t bits, const std::string& text) {
   return {Trigger::Mode::bit, q.word, bits << q.bit, text};
 }
@@ -66,7 +97,7 @@ void check_range(const char* what, std::int64_t value, std::int64_t low, std::in
 
 }  // namespace
 
-Trigger parse_trigger(const Device& device, const std::string& text) {
+Trigger parse_trigger(const Device& device, const LawEngine* laws, const std::string& text) {
   const Quantities& q = device.quantities();
   const design::RegisterMap& map = device.design().registers;
   if (text == "now") return {Trigger::Mode::by_hand, 0, 0, text};
@@ -79,12 +110,14 @@ Trigger parse_trigger(const Device& device, const std::string& text) {
   if (head == "limit") {
     return bit_trigger(q.find("status.limits"), bits_of(map.limits, list, "limit"), text);
   }
+  if (means_event(text)) return event_trigger(device, laws, list, text);
   const std::size_t at = text.find_first_of("<>");
   if (at == std::string::npos || at == 0) {
-    throw std::invalid_argument(fmt::format(
-        "\"{}\" is no trigger; write such as velocity>5, angle<-10deg, fault, limit:current, armed "
-        "or now",
-        text));
+    throw std::invalid_argument(
+        fmt::format("\"{}\" is no trigger; write such as velocity>5, angle<-10deg, fault, "
+                    "limit:current, armed, "
+                    "event:NAME or now",
+                    text));
   }
   const Quantity& of = q.streamed(text.substr(0, at));
   if (of.kind != Quantity::Kind::snapshot || of.unit.empty()) {
@@ -99,6 +132,8 @@ Trigger parse_trigger(const Device& device, const std::string& text) {
   return {text[at] == '>' ? Trigger::Mode::rises : Trigger::Mode::falls, of.word,
           static_cast<std::uint32_t>(static_cast<std::int64_t>(level) & 0xffffffff), text};
 }
+
+bool means_event(const std::string& text) { return text.substr(0, text.find(':')) == "event"; }
 
 std::uint16_t mask_of(const Quantities& quantities, const std::vector<std::string>& names) {
   unsigned mask = 0;

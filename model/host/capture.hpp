@@ -12,22 +12,28 @@
 #include <vector>
 
 #include "host/device.hpp"
+#include "host/law_engine.hpp"
 
 namespace feltgate::host {
 
 /// When the capture is triggered.
 struct Trigger {
-  enum class Mode : std::uint8_t { by_hand = 0, rises = 1, falls = 2, bit = 3 };
+  enum class Mode : std::uint8_t { by_hand = 0, rises = 1, falls = 2, bit = 3, event = 4 };
   Mode mode = Mode::by_hand;
   int word = 0;             ///< number of the word in masks
-  std::uint32_t level = 0;  ///< in steps of the word, or the mask of bits
+  std::uint32_t level = 0;  ///< in steps of the word, the mask of bits, or the event's number
   std::string text;         ///< as it was asked for
 };
 
 /// "velocity>5", "angle<-0.2", "angle>10deg": rises to the value or above, falls below it, in the
 /// quantity's unit. "fault", "fault:speed,stop": one of the faults comes. "limit:current": the
-/// limit begins to hold. "armed": the motor is armed. "now": at once. Throws std::invalid_argument.
-Trigger parse_trigger(const Device& device, const std::string& text);
+/// limit begins to hold. "armed": the motor is armed. "now": at once. "event": any event of a law,
+/// "event:right": that of the law of `laws`, which is for events alone and nullptr on a board
+/// without an engine. Throws std::invalid_argument; Refused for events without an engine, or by
+/// name where the law is not known.
+Trigger parse_trigger(const Device& device, const LawEngine* laws, const std::string& text);
+/// Whether such a text means an event of a law.
+bool means_event(const std::string& text);
 
 /// What is captured. Rows are period ticks apart; the board has BoardInfo::capture_rows of them.
 struct CaptureSetup {

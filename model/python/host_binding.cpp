@@ -235,7 +235,9 @@ class PyDevice {
                    double wait_s) {
     host::CaptureSetup setup;
     setup.quantities = names;
-    setup.trigger = host::parse_trigger(device(), trigger);
+    setup.trigger = unlocked([&] {
+      return host::parse_trigger(device(), host::means_event(trigger) ? laws() : nullptr, trigger);
+    });
     const int rows = device().board().capture_rows;
     setup.rows_before = std::clamp(static_cast<int>(before * rows), 0, rows - 1);
     if (span_s > 0) {

@@ -27,6 +27,8 @@ package feltgate_link_pkg;
   localparam int MEMORY = 'h2000;  // first address of the capture memory: 8 words of a row, then the next row
   localparam int ROWS_LOG2 = 'ha;  // log2 of the rows of the capture memory
   localparam int COLUMNS = 'h8;  // words of a row
+  localparam int TRIGGER_EVENT = 'h4;  // trigger_mode: an event of a law
+  localparam int ANY_EVENT = 'h200;  // set in trigger_level: an event of any number; below it the number
   localparam int ENGINE = 'h4000;  // first address of the engine's words, where features.engine is set
 
   // The CRC-32 of a frame: reflected polynomial, register after a whole frame.

@@ -65,6 +65,8 @@ module feltgate_linked #(
   logic        word_valid;
   logic [ 5:0] word_slot;
   logic [31:0] word_data;
+  logic        event_valid;
+  logic [ 8:0] event_number;
 
   /* verilator lint_off PINCONNECTEMPTY */  // the host reads these as words
   generate
@@ -84,7 +86,7 @@ module feltgate_linked #(
         .reg_addr_i(reg_addr), .reg_wdata_i(reg_wdata), .reg_write_i(reg_write),
         .reg_read_i(reg_write && !reg_busy),
         .reg_busy_o(reg_busy), .reg_rdata_o(reg_rdata),
-        .event_valid_o(), .event_number_o(), .event_value_o(),
+        .event_valid_o(event_valid), .event_number_o(event_number), .event_value_o(),
         .snapshot_valid_o(snapshot_valid_o),
         .tick_count_o(), .velocity_o(), .tau_hat_o(), .tau_ref_o(),
         .current_ref_o(), .voltage_o(), .duty_o(), .duty_active_o(),
@@ -113,6 +115,8 @@ module feltgate_linked #(
         .faults_o(faults_o), .first_fault_o(first_fault_o),
         .armed_o(armed_o), .gates_enable_o(gates_enable_o)
     );
+    assign event_valid  = 1'b0;
+    assign event_number = '0;
     logic unused;
     assign unused = ^reg_addr[15:12];
   end
@@ -168,6 +172,7 @@ module feltgate_linked #(
   link_capture u_link_capture (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .word_valid_i(word_valid), .word_slot_i(word_slot), .word_data_i(word_data),
+      .event_valid_i(event_valid), .event_number_i(event_number),
       .addr_i(link_addr), .wdata_i(link_wdata), .write_i(link_write), .rdata_o(capture_rdata)
   );
 

@@ -7,7 +7,8 @@
 `default_nettype none
 
 module link_capture #(
-    parameter int Rows = 1 << feltgate_link_pkg::ROWS_LOG2  // a power of two
+    parameter int Rows = 1 << feltgate_link_pkg::ROWS_LOG2,  // a power of two
+    parameter int Events = feltgate_pkg::ENGINE              // 1: an event of a law may trigger
 ) (
     input  logic        clk_i,
     input  logic        rst_ni,
@@ -16,6 +17,12 @@ module link_capture #(
     input  logic        word_valid_i,
     input  logic [ 5:0] word_slot_i,
     input  logic [31:0] word_data_i,
+
+    // Events of a law, as they go into the engine's queue
+    /* verilator lint_off UNUSEDSIGNAL */  // without Events
+    input  logic        event_valid_i,
+    input  logic [ 8:0] event_number_i,
+    /* verilator lint_on UNUSEDSIGNAL */
 
     // Registers and memory: rdata_o follows addr_i by 3 clocks, 0 where the address is another's
     input  logic [15:0] addr_i,
@@ -56,7 +63,7 @@ module link_capture #(
   logic [   RowBits-1:0] pre_q, pre;
   logic [PeriodBits-1:0] period_q, period;
   logic [           3:0] trigger_word_q;
-  logic [           1:0] trigger_mode_q;
+  logic [           2:0] trigger_mode_q;
   logic [          31:0] level_q;
   logic                  control, starts, aborts, triggers, configures;
   assign control    = write_i && addr_i == feltgate_link_pkg::A_CAPTURE_CONTROL;
@@ -82,7 +89,7 @@ module link_capture #(
         feltgate_link_pkg::A_CAPTURE_PRE:    if (!runs) pre_q <= pre;
         feltgate_link_pkg::A_CAPTURE_PERIOD: if (!runs) period_q <= period;
         feltgate_link_pkg::A_TRIGGER_WORD:   trigger_word_q <= (wdata_i[31:4] != '0) ? '1 : wdata_i[3:0];
-        feltgate_link_pkg::A_TRIGGER_MODE:   trigger_mode_q <= wdata_i[1:0];
+        feltgate_link_pkg::A_TRIGGER_MODE:   trigger_mode_q <= {Events != 0 && wdata_i[2], wdata_i[1:0]};
         feltgate_link_pkg::A_TRIGGER_LEVEL:  level_q <= wdata_i;
         default: ;
       endcase
@@ -110,12 +117,22 @@ module link_capture #(
     end else if (at_trigger) begin
       known_q <= 1'b1;
       case (trigger_mode_q)
-        2'd1:    hit_q <= known_q && high && !high_q;
-        2'd2:    hit_q <= known_q && !high && high_q;
-        2'd3:    hit_q <= known_q && (word_data_i & ~before_q & level_q) != '0;
+        3'd1:    hit_q <= known_q && high && !high_q;
+        3'd2:    hit_q <= known_q && !high && high_q;
+        3'd3:    hit_q <= known_q && (word_data_i & ~before_q & level_q) != '0;
         default: hit_q <= 1'b0;
       endcase
     end
+  end
+
+  // An event since the last tick ended, so of the tick whose last word is to come.
+  logic event_hit, event_q;
+  assign event_hit = event_valid_i && Events != 0 && trigger_mode_q == 3'(feltgate_link_pkg::TRIGGER_EVENT) &&
+                     ((level_q & 32'(feltgate_link_pkg::ANY_EVENT)) != '0 || event_number_i == level_q[8:0]);
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) event_q <= 1'b0;
+    else if (configures || starts) event_q <= 1'b0;
+    else event_q <= Events != 0 && (event_hit || (event_q && !ends_q));
   end
 
   // Rows.
@@ -131,7 +148,7 @@ module link_capture #(
   assign column = first ? '0 : column_q;
   assign stores = word_valid_i && runs && takes && number != '1 && 1'(words_q >> number) && !column[ColumnBits];
   assign whole  = ends_q && runs && taking_q;
-  assign fires  = ends_q && state_q == Wait && seen_q && (hit_q || hand_q);
+  assign fires  = ends_q && state_q == Wait && seen_q && (hit_q || hand_q || event_q);
   assign rest   = FULL - (RowBits + 1)'(pre_q) - (RowBits + 1)'(taking_q);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -38,11 +38,13 @@ class Life {
   LinkedIn in;
 
   const LinkedOut& out() const { return twin_->out(); }
+  std::vector<int> event_clocks;  ///< of the tick
   void clocks(std::int64_t count) {
     for (; count > 0; --count) {
       in.uart_rx = line_.level();
       line_.clock(twin_->out().uart_tx);
       inputs_.push_back(in);
+      if (twin_->device().event_valid()) event_clocks.push_back(twin_->device().clock_of_tick());
       twin_->clock(in);
     }
   }
@@ -220,6 +222,44 @@ TEST_CASE("feltgate_linked: a law is loaded, verified, felt, changed, and tells 
   // Locked while armed.
   s.write(static_cast<std::uint32_t>(EngineMap::port_first + H::program), 0);
   CHECK(s.engine(H::program)[0] == low[0]);
+  s.play();
+}
+
+TEST_CASE("feltgate_linked: an event of the law triggers the capture in its tick") {
+  using A = LinkMap::A;
+  Life s;
+  s.clocks(5000);
+  s.write_engine(law::load_into_zeros(image()));
+  s.arm();
+  constexpr std::uint32_t before = 3;
+  for (const std::uint32_t level : {511U, 0U, std::uint32_t{LinkMap::any_event}}) {
+    // Below where the event comes, and it is forgotten.
+    for (int k = 0; k < 9; ++k) s.step(false);
+    while (s.engine(H::event_count)[0] > 0) {
+      s.write(static_cast<std::uint32_t>(EngineMap::port_first + H::event_tick), 0);
+    }
+    s.write(A::capture_words, 1U << LinkMap::N::tick);
+    s.write(A::capture_pre, before);
+    s.write(A::trigger_mode, LinkMap::trigger_event);
+    s.write(A::trigger_level, level);
+    s.write(A::capture_control, 1U << LinkMap::B::capture_control_start);
+    s.ticks(10);
+    for (int k = 0; k < 9; ++k) s.step(true);
+    const auto event = s.engine(H::event_count, 4);
+    REQUIRE(event[0] == 1);
+    s.ticks(1 << LinkMap::rows_log2);
+    const auto state = s.read(A::capture_state, 1)[0];
+    if (level == 511U) {  // another's
+      CHECK(state == 2);
+      continue;
+    }
+    REQUIRE(state == 4);
+    const std::uint32_t first = s.read(A::capture_first, 1)[0];
+    const std::uint32_t row = (first + before) % (1U << LinkMap::rows_log2);
+    CHECK(s.read(LinkMap::memory + 8 * row, 1)[0] == event[3]);
+  }
+  REQUIRE(s.event_clocks.size() >= 3);
+  std::printf("events in clock %d of a tick\n", s.event_clocks.back());
   s.play();
 }
 

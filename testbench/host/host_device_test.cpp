@@ -159,7 +159,7 @@ TEST_CASE("host device: a capture is triggered in units, and brings each row") {
   s.quantities = {"angle", "velocity", "tick"};
   s.rows_before = 200;
   s.period = 20;
-  s.trigger = host::parse_trigger(b.device, "angle>0.1rad");
+  s.trigger = host::parse_trigger(b.device, nullptr, "angle>0.1rad");
   host::start_capture(b.device, s);
   const auto end = host::within(5);
   while (host::capture_state(b.device) != 4) REQUIRE(host::HostClock::now() < end);
@@ -189,15 +189,16 @@ TEST_CASE("host device: what a capture cannot do is said before it starts") {
   CHECK(told([&] { host::start_capture(b.device, s); }).find("is no word of a tick") !=
         std::string::npos);
   const auto trigger = [&](const char* text) {
-    return told([&] { host::parse_trigger(b.device, text); });
+    return told([&] { host::parse_trigger(b.device, nullptr, text); });
   };
   CHECK(trigger("velocty>5").find("did you mean \"velocity\"?") != std::string::npos);
   CHECK(trigger("velocity>5V").find("give it in rad/s") != std::string::npos);
   CHECK(trigger("fault:spead").find("did you mean \"speed\"?") != std::string::npos);
   CHECK(trigger("status>5").find("made of bits") != std::string::npos);
   CHECK(trigger("sometime").find("is no trigger") != std::string::npos);
-  CHECK(host::parse_trigger(b.device, "fault:speed,stop").level == (1u << 2 | 1u << 6));
-  CHECK(host::parse_trigger(b.device, "limit:current").level == 1u << 2);
+  CHECK(trigger("event:hit").find("has no engine") != std::string::npos);
+  CHECK(host::parse_trigger(b.device, nullptr, "fault:speed,stop").level == (1u << 2 | 1u << 6));
+  CHECK(host::parse_trigger(b.device, nullptr, "limit:current").level == 1u << 2);
 }
 
 TEST_CASE("host device: positions become edges that give the core the same positions") {

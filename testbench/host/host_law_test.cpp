@@ -5,6 +5,8 @@
 // felt, told.
 #include "catch.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -15,6 +17,7 @@
 #include "board_in_process.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/lever_law.hpp"
+#include "host/capture.hpp"
 #include "host/law_engine.hpp"
 #include "law/compile.hpp"
 
@@ -240,6 +243,64 @@ TEST_CASE("host law: events by name, each once, whatever is lost on the way") {
   for (int n = 0; n < 10; ++n) swing(-20), swing(20);
   (void)b.engine.event();
   CHECK(b.engine.events_lost() == 4);
+}
+
+TEST_CASE(
+    "host law: an event of a name triggers the capture in its tick, wherever in it it comes") {
+  // Events that never come make the run longer: the one that counts comes in another clock of a
+  // tick, and from some number on two ticks or more after the inputs.
+  OnBoard b;
+  for (const int longer : {0, 1, 2, 3, 5, 9}) {
+    std::string text = "event beyond(position) when position > 0.01\n";
+    for (int k = 0; k < longer; ++k)
+      text += fmt::format("event never{0}(position) when position > {1}\n", k, 100 + k);
+    const law::Image image = compiled(
+        text + "event below(velocity) when position < -0.01\nout torque = -0.1 * position\n");
+    b.device.disarm();
+    b.engine.load(image);
+    b.arm();
+    const auto swing = [&](int counts) {
+      for (int n = 0; n < std::abs(counts); ++n) b.wire->step(counts > 0);
+    };
+    swing(10), swing(-10);
+    while (b.engine.event()) continue;
+    for (const char* trigger : {"event:below", "event"}) {
+      host::CaptureSetup s;
+      s.quantities = {"tick", "angle"};
+      s.rows_before = 5;
+      s.trigger = host::parse_trigger(b.device, &b.engine, trigger);
+      host::start_capture(b.device, s);
+      const bool any = s.trigger.text == "event";
+      swing(10);
+      CHECK((host::capture_state(b.device) != 2) == any);
+      swing(-20), swing(10);
+      b.settle();
+      REQUIRE(host::capture_state(b.device) == 4);
+      const host::Captured c = host::read_capture(b.device, s);
+      const auto beyond = b.engine.event(), below = b.engine.event();
+      REQUIRE(below);
+      CHECK(below->name == "below");
+      INFO(longer << " longer, " << trigger);
+      const std::uint32_t tick = c.rows[5].word(*c.columns[0]);
+      CHECK(tick == (any ? beyond : below)->tick);
+      CHECK_FALSE(b.engine.event());
+    }
+  }
+}
+
+TEST_CASE("host law: what is no event, and what law is meant, is said") {
+  OnBoard b;
+  const auto trigger = [&](const char* text) {
+    return told([&] { host::parse_trigger(b.device, &b.engine, text); });
+  };
+  CHECK(trigger("event:beyond").find("is not known here") != std::string::npos);
+  CHECK(trigger("event") == "nothing");
+  b.engine.load(spring());
+  CHECK(trigger("event:beyond") == "nothing");
+  CHECK(trigger("event:beyon").find("did you mean \"beyond\"? choose from beyond, below") !=
+        std::string::npos);
+  b.engine.load(damper());
+  CHECK(trigger("event:beyond").find("damper tells no events") != std::string::npos);
 }
 
 TEST_CASE("host law: a law is known again when the port is opened again") {

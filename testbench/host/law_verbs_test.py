@@ -118,6 +118,7 @@ class Laws(ProgramTest):
         self.assertIn("design lever has no engine", said)
         self.assertIn("lever_law", said)
         self.assertIn("no engine", self.host("events", status=1))
+        self.assertIn("no engine", self.host("capture", "--trigger", "event:a", status=1))
         self.assertIn("did you mean", self.host("set", "torque_limt=3", status=2))
 
     def test_events(self):
@@ -144,6 +145,32 @@ class Laws(ProgramTest):
             self.assertEqual(float(value) > 0.25, name == "right")
         self.assertTrue(shown.endswith(over_wire))
         self.assertIn("disarmed", self.host("info"))
+
+    def test_a_capture_by_an_event(self):
+        self.board("--design", "lever_law", "--hand", "swing")
+        self.assertIn("means no event", self.host("capture", "--trigger", "event:left", status=1))
+        self.host("law", self.law(SPRING))
+        self.host("set", "watchdog_ticks=20000000", "self_test_pulse=0")
+        unknown = self.host("capture", "--trigger", "event:lef", status=2)
+        self.assertIn('no event "lef"; did you mean "left"? choose from right, left', unknown)
+        self.assertIn("did not come", self.capture("fault", "--wait", "0.1", status=1))
+        for trigger in ("event:left", "event"):
+            path = self.folder / "rows.csv"
+            said = self.capture(trigger, "--csv", path)
+            self.assertIn("1024 rows, 0.001024 s from 0.000256 s before the trigger on", said)
+            rows = [line.split(",") for line in path.read_text(encoding="utf-8").splitlines()]
+            self.assertEqual(rows[0][:2], ["time_s", "tick"])
+            tick = next(row[1] for row in rows[1:] if float(row[0]) == 0)
+            # The events stay for the host; the capture is around one of them.
+            shown = self.host("events", "--for", "0.5")
+            told = [line.split(" ") for line in shown.splitlines() if re.match(r"\d+ ", line)]
+            names = {event[0]: event[1] for event in told}
+            self.assertIn(tick, names)
+            self.assertTrue(trigger == "event" or names[tick] == "left")
+
+    def capture(self, trigger, *words, status=0):
+        words = ("tick", "angle", "--arm", "law", "--trigger", trigger, *words)
+        return self.host("capture", *words, status=status)
 
     def test_a_load_that_is_killed(self):
         self.board("--design", "lever_law")

@@ -20,10 +20,11 @@
 namespace feltgate::test {
 
 constexpr int kRows = ROWS;
+constexpr bool kEvents = EVENTS != 0;
 constexpr int kTickClocks = 28;  ///< word k is in clock 2 k + 2
 constexpr int kLastWordClock = 24;
 
-using CaptureTwin = LinkCapture<kRows>;
+using CaptureTwin = LinkCapture<kRows, kEvents>;
 using A = LinkMap::A;
 using N = LinkMap::N;
 constexpr std::uint32_t kStart = 1u << LinkMap::B::capture_control_start;
@@ -38,6 +39,8 @@ struct CaptureAdapter {
     rtl.addr_i = in.addr;
     rtl.wdata_i = in.wdata;
     rtl.write_i = in.write;
+    rtl.event_valid_i = in.event_valid;
+    rtl.event_number_i = static_cast<std::uint16_t>(in.event_number);
   }
   template <class Check>
   static void compare(Check& check, const Vlink_capture& rtl, const CaptureTwin::Out& out) {
@@ -80,6 +83,12 @@ class CaptureSession {
   }
   CaptureSession& at(std::size_t tick, int clock, std::uint16_t addr, std::uint32_t data) {
     write(list_.at(kLead + tick * kTickClocks + static_cast<std::size_t>(clock)), addr, data);
+    return *this;
+  }
+  CaptureSession& event(std::size_t tick, int clock, int number) {
+    auto& in = list_.at(kLead + tick * kTickClocks + static_cast<std::size_t>(clock));
+    in.event_valid = true;
+    in.event_number = number;
     return *this;
   }
 

@@ -11,6 +11,7 @@ using namespace feltgate::test;
 namespace {
 
 constexpr auto kDone = static_cast<std::uint32_t>(CaptureTwin::State::done);
+constexpr auto kWaits = static_cast<std::uint32_t>(CaptureTwin::State::wait);
 constexpr auto kIdle = static_cast<std::uint32_t>(CaptureTwin::State::idle);
 constexpr std::uint32_t kTick = 1u << N::tick;
 
@@ -51,6 +52,8 @@ struct Stimulus {
     in.word_valid = word.valid;
     in.word_slot = word.slot;
     in.word_data = word.data;
+    in.event_valid = random.one_in(40);
+    in.event_number = static_cast<int>(random.coin() ? random.below(16) : random.below(512));
     in.addr = static_cast<std::uint16_t>(A::capture_control + random.below(11));
     if (random.coin())
       in.addr = static_cast<std::uint16_t>(LinkMap::memory + random.below(kRows * 8));
@@ -61,6 +64,7 @@ struct Stimulus {
     in.wdata = random.below(16) - (random.one_in(4) ? 8 : 0);
     if (in.addr == A::capture_words || random.one_in(20))
       in.wdata = static_cast<std::uint32_t>(random.bits());
+    if (in.addr == A::trigger_mode && random.coin()) in.wdata = LinkMap::trigger_event;
     if (in.addr == A::trigger_word && random.coin()) in.wdata = random.below(12);
     if (in.addr == A::capture_period)
       in.wdata = random.one_in(30) ? 0x10000u << random.below(16) : random.below(4);
@@ -80,8 +84,22 @@ struct Stimulus {
 
 TEST_CASE("link_capture: random hosts, words and resets") {
   std::array<std::int64_t, 5> ends{};
-  const auto count = [&ends](const CaptureTwin::In&, const Vlink_capture&, const CaptureTwin& twin,
-                             bool) -> const char* {
+  std::int64_t by_event = 0;
+  bool hand = false;
+  std::uint32_t mode = 0;
+  auto before = CaptureTwin::State::idle;
+  const auto count = [&](const CaptureTwin::In& in, const Vlink_capture&, const CaptureTwin& twin,
+                         bool) -> const char* {
+    using State = CaptureTwin::State;
+    const bool fired = before == State::wait && (twin.state() == State::rest);
+    by_event += fired && mode == LinkMap::trigger_event && !hand;
+    if (in.write && in.addr == A::capture_control) {
+      hand = (in.wdata & kTrigger) != 0 || (hand && (in.wdata & kStart) == 0);
+    } else if (fired) {
+      hand = false;
+    }
+    if (in.write && in.addr == A::trigger_mode) mode = in.wdata & 7;
+    before = twin.state();
     ++ends[static_cast<std::size_t>(twin.state())];
     return nullptr;
   };
@@ -90,6 +108,7 @@ TEST_CASE("link_capture: random hosts, words and resets") {
   bench.run(Stimulus{Random(2), TickWords(3)}, clocks, {60'000}, count);
   bench.run(Stimulus{Random(4), TickWords(5, false, true)}, clocks / 2, {60'000}, count);
   for (std::size_t k = 0; k < ends.size() - (kRows > 16); ++k) REQUIRE(ends[k] > clocks / 100);
+  if (kEvents && kRows == 16) REQUIRE(by_event > 10);
 }
 
 TEST_CASE("link_capture: a rise to the level, with every number of rows before it") {
@@ -153,6 +172,78 @@ TEST_CASE("link_capture: levels are signed, reached is enough to rise and not to
     INFO("mode " << t.mode << ", level " << t.level << ", " << t.before << " to " << t.after);
     REQUIRE((c.state == kDone) == t.fires);
     if (t.fires) s.check(c, kTick, tick - 4);
+  }
+}
+
+TEST_CASE("link_capture: an event triggers in its tick, whichever clock it comes in") {
+  if (!kEvents) return;
+  for (int clock = 0; clock < kTickClocks; ++clock) {
+    const std::uint32_t tick = 9 + (clock > kLastWordClock ? 1u : 0u);
+    auto s = session({kTick, 4}, 9 + kRows + 9, tick_word);
+    const auto c = s.trigger(0, LinkMap::trigger_event, 3)
+                       .set(A::capture_control, kStart)
+                       .event(9, clock, 3)
+                       .play();
+    INFO("clock " << clock);
+    REQUIRE(c.state == kDone);
+    s.check(c, kTick, tick - 4);
+  }
+}
+
+TEST_CASE("link_capture: an event of the number, or of any") {
+  constexpr std::uint32_t any = LinkMap::any_event;
+  struct Case {
+    std::uint32_t mode, level;
+    int number;
+    bool fires;
+  };
+  for (const Case& t : {Case{4, 0, 0, true},
+                        {4, 0, 1, false},
+                        {4, 0, 256, false},
+                        {4, 511, 511, true},
+                        {4, 511, 510, false},
+                        {4, 256, 256, true},
+                        {4, 256, 0, false},
+                        {4, any, 0, true},
+                        {4, any, 511, true},
+                        {4, any | 7, 300, true},
+                        {4, 0xfffffc00u | 5, 5, true},
+                        {4, 0xfffffc00u | 5, 4, false},
+                        {12, 5, 5, true},
+                        {0, 0, 0, false},
+                        {1, 0, 0, false},
+                        {2, 0, 0, false},
+                        {3, 0, 0, false},
+                        {5, 0, 0, false},
+                        {6, 0, 0, false},
+                        {7, 0, 0, false}}) {
+    // Nothing else that could trigger: the word of the trigger is the status, which stays 0.
+    auto s = session({kTick, 4}, 11 + kRows + 3, with(N::status, [](std::uint32_t) { return 0; }));
+    const auto c = s.trigger(N::status, static_cast<int>(t.mode), t.level)
+                       .set(A::capture_control, kStart)
+                       .event(11, 6, t.number)
+                       .play();
+    INFO("mode " << t.mode << ", level " << t.level << ", number " << t.number);
+    REQUIRE((c.state == kDone) == (t.fires && kEvents));
+    if (c.state == kDone) s.check(c, kTick, 7);
+  }
+}
+
+TEST_CASE("link_capture: an event that came before it was asked for is none") {
+  // Before the rows before it are there; before the start; before another number was set.
+  for (const int clock : {0, 1, 2, 13, kLastWordClock, kLastWordClock + 1, kTickClocks - 1}) {
+    auto fill = session({kTick, 6}, 30, tick_word);
+    fill.trigger(0, LinkMap::trigger_event, 3).set(A::capture_control, kStart);
+    for (std::size_t tick = 0; tick < 5; ++tick) fill.event(tick, clock, 3);
+    if (clock <= kLastWordClock) fill.event(5, clock, 3);
+    REQUIRE(fill.play().state == kWaits);
+    auto start = session({kTick, 0}, 30, tick_word);
+    start.trigger(0, LinkMap::trigger_event, 3).event(5, std::max(clock - 1, 0), 3);
+    REQUIRE(start.at(5, clock, A::capture_control, kStart).play().state == kWaits);
+    auto other = session({kTick, 0}, 30, tick_word);
+    other.trigger(0, LinkMap::trigger_event, 3).set(A::capture_control, kStart);
+    other.at(5, clock, A::trigger_level, 4).event(5, clock, 3);
+    REQUIRE(other.play().state == kWaits);
   }
 }
 
@@ -328,7 +419,7 @@ TEST_CASE("link_capture: what is written is read back, as much of it as there is
                         {A::capture_period, 0x10000, 0xffff},
                         {A::trigger_word, 11, 11},
                         {A::trigger_word, 0x100, 15},
-                        {A::trigger_mode, 7, 3},
+                        {A::trigger_mode, 15, kEvents ? 7 : 3},
                         {A::trigger_level, 0x87654321u, 0x87654321u},
                         {A::capture_state, 3, 0},
                         {A::capture_control, 0, 0},
@@ -351,14 +442,14 @@ TEST_CASE("link_capture: the twin's whole ticks at once are its clocks") {
     Random random(seed);
     CaptureTwin by_clock, by_tick;
     const auto both = [&](std::uint16_t addr, std::uint32_t data) {
-      const CaptureTwin::In in{false, 0, 0, addr, data, true};
+      const CaptureTwin::In in{false, 0, 0, addr, data, true, false, 0};
       by_clock.clock(in), by_tick.clock(in);
     };
     both(A::capture_words, static_cast<std::uint32_t>(random.bits()));
     both(A::capture_pre, random.below(kRows));
     both(A::capture_period, random.below(3));
     both(A::trigger_word, random.below(12));
-    both(A::trigger_mode, 1 + random.below(3));
+    both(A::trigger_mode, 1 + random.below(4));
     both(A::trigger_level, 3);
     both(A::capture_control, kStart);
     for (int t = 0; t < 4 * kRows; ++t) {
@@ -366,19 +457,27 @@ TEST_CASE("link_capture: the twin's whole ticks at once are its clocks") {
       for (int k = 0; k < LinkMap::snapshot_words; ++k) {
         const auto at = static_cast<std::size_t>(k);
         words[at] = random.below(7);
-        by_clock.clock(
-            {true, static_cast<std::uint8_t>(LinkMap::slots[k]), words[at], 0, 0, false});
+        CaptureTwin::In in;
+        in.word_valid = true;
+        in.word_slot = static_cast<std::uint8_t>(LinkMap::slots[k]);
+        in.word_data = words[at];
+        in.event_valid = random.one_in(100);
+        in.event_number = static_cast<int>(random.below(6));
+        by_clock.clock(in);
+        if (in.event_valid) by_tick.event(in.event_number);
       }
       by_clock.clock({});
       by_tick.tick(words);
       REQUIRE(by_clock.state() == by_tick.state());
       ++ticks[static_cast<std::size_t>(by_tick.state())];
-      if (random.one_in(std::max(60, 2 * kRows))) both(A::capture_control, random.coin() ? kStart : kAbort);
+      if (random.one_in(std::max(60, 2 * kRows)))
+        both(A::capture_control, random.coin() ? kStart : kAbort);
     }
     both(A::capture_control, kAbort);
     for (unsigned k = 0; k < kRows * 8 + 24; ++k) {
       const auto at = k < 24 ? A::capture_control + k : LinkMap::memory + k - 24;
-      const CaptureTwin::In in{false, 0, 0, static_cast<std::uint16_t>(at), 0, false};
+      CaptureTwin::In in;
+      in.addr = static_cast<std::uint16_t>(at);
       by_clock.clock(in), by_tick.clock(in);
       REQUIRE((k < 3 || by_clock.out().rdata == by_tick.out().rdata));
       words_read += k >= 24 && by_clock.out().rdata != 0;

@@ -42,8 +42,10 @@ class NoAxesEngine {
   void torques(int, std::array<CoreIn, N>&) const {}
   template <class Cores>
   void tick(int, const Cores&) {}
-  template <class Cores>
-  void advance(int, const Cores&) {}
+  template <class Cores, class OnEvent>
+  void advance(int, const Cores&, OnEvent&&) {}
+  bool event_valid() const { return false; }
+  int event_number() const { return 0; }
 };
 
 /// The engine, the check of its programs at each arming, and when a torque may jump.
@@ -181,11 +183,15 @@ class AxesEngine {
     for (std::size_t n = 0; n < N; ++n) tau_hat[n] = cores[n].out().tau_hat;
     runs_.tick(ahead, positions(cores), velocities(cores), tau_hat);
   }
-  template <class Cores>
-  void advance(int clocks, const Cores& cores) {
-    runs_.advance(clocks, positions(cores), velocities(cores));
+  template <class Cores, class OnEvent>
+  void advance(int clocks, const Cores& cores, OnEvent&& on_event) {
+    runs_.advance(clocks, positions(cores), velocities(cores), on_event);
     runs_.show(&out_);
   }
+
+  /// In the clock to come.
+  bool event_valid() const { return out_.event_valid; }
+  int event_number() const { return out_.event_number; }
 
   void show(const AxesIn<N>& in, AxesOut<N>& out) const {
     out.reg_rdata |= state_.rdata;

@@ -121,8 +121,15 @@ class EngineRuns {
     watch_.in_force = watch_.ended;
     return state_.torque;
   }
-  /// Clocks have passed, after which the axes show these.
-  void advance(int clocks, const Axes& position, const Axes& velocity) {
+  /// Clocks have passed, after which the axes show these. `on_event(clock, number)` is called for
+  /// each event in them; clock 0 is the first.
+  template <class OnEvent>
+  void advance(int clocks, const Axes& position, const Axes& velocity, OnEvent&& on_event) {
+    auto event = untold_.begin();
+    for (; event != untold_.end() && event->clock < now_ + clocks; ++event) {
+      on_event(static_cast<int>(event->clock - now_), event->number);
+    }
+    untold_.erase(untold_.begin(), event);
     now_ += clocks;
     ticks_.show(position, velocity);
     settle(now_);
@@ -267,6 +274,7 @@ class EngineRuns {
       }
       if (i.dst == static_cast<int>(EngineTarget::event)) {
         events_.push_back({n + stages * count + 8, i.d, s.acc});
+        untold_.push_back(events_.back());
       }
       goes_on = !i.last;
       pc = branch ? i.b : (pc + 1) % EngineMap::program_words;
@@ -321,6 +329,7 @@ class EngineRuns {
   RunTicks<Axes> ticks_;       ///< since base_, and the one before
   RunWrites writes_;           ///< since base_; marked at last_
   std::vector<Event> events_;  ///< since base_
+  std::vector<Event> untold_;  ///< from now_ on
   RunProgram program_;
 };
 

@@ -38,6 +38,7 @@ bool EngineRuns<AxisCount, TorqueW>::enter(const In& in, int clock_of_tick) {
   program_.begin(thread_, engine_.commit_.bank);
   writes_.clear();
   events_.clear();
+  untold_.clear();
   coming_ = 0;
   begins_at_ = fresh_at_ = start_ = never;
   endless_ = loading_ = false;

@@ -46,15 +46,23 @@ class FeltgateAxes {
 
   /// `clocks` clocks with the inputs held; reg_write and the axes' set_zero must be low. The same
   /// as so many calls of clock(), from event to event where no axis may tell the others anything.
-  /// `on_snapshot()` is called whenever out() holds a valid snapshot.
+  /// `on_snapshot()` is called whenever out() holds a valid snapshot, `on_event(clock, number)` for
+  /// each event of a program; clock 0 is the first of these.
   template <class OnSnapshot>
   void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
-    while (clocks > 0) {
+    run(in, clocks, on_snapshot, [](std::int64_t, int) {});
+  }
+  template <class OnSnapshot, class OnEvent>
+  void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot, OnEvent&& on_event) {
+    std::int64_t at = 0;
+    while (at < clocks) {
       std::array<CoreIn, N> each = inputs(in);
       bool snapshot = false;
-      int step = pass(in, each, clocks, &snapshot);
+      int step = pass(in, each, clocks - at, &snapshot,
+                      [&](int clock, int number) { on_event(at + clock, number); });
       if (step == 0) {
         step = 1;
+        if (glue_.event_valid()) on_event(at, glue_.event_number());
         glue_.clock(in, cores_, each);
         for (std::size_t n = 0; n < N; ++n) {
           cores_[n].clock(each[n]);
@@ -63,7 +71,7 @@ class FeltgateAxes {
         snapshot = out_.axis[0].snapshot_valid;
       }
       if (snapshot) on_snapshot();
-      clocks -= step;
+      at += step;
     }
     show(in);
   }
@@ -100,7 +108,9 @@ class FeltgateAxes {
 
   /// At most `clocks` clocks from event to event, at most to the end of the tick; 0 where the next
   /// one is not to be passed.
-  int pass(const In& in, std::array<CoreIn, N>& each, std::int64_t clocks, bool* snapshot) {
+  template <class OnEvent>
+  int pass(const In& in, std::array<CoreIn, N>& each, std::int64_t clocks, bool* snapshot,
+           OnEvent&& on_event) {
     constexpr int tick = D::clocks_per_tick;
     const int from = clock_of_tick();
     int to = static_cast<int>(std::min<std::int64_t>(tick, from + clocks));
@@ -125,7 +135,7 @@ class FeltgateAxes {
       });
     }
     if (measures) glue_.tick(kMeasured - from, cores_);
-    glue_.advance(to - from, cores_);
+    glue_.advance(to - from, cores_, on_event);
     return to - from;
   }
 

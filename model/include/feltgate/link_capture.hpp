@@ -14,8 +14,8 @@
 
 namespace feltgate {
 
-/// Rows of the ring, a power of two.
-template <int Rows = 1 << LinkMap::rows_log2>
+/// Rows of the ring, a power of two; with Events an event of a law may trigger.
+template <int Rows = 1 << LinkMap::rows_log2, bool Events = true>
 class LinkCapture {
  public:
   struct In {
@@ -25,6 +25,8 @@ class LinkCapture {
     std::uint16_t addr = 0;
     std::uint32_t wdata = 0;
     bool write = false;
+    bool event_valid = false;
+    int event_number = 0;
   };
   struct Out {
     std::uint32_t rdata = 0;
@@ -48,8 +50,16 @@ class LinkCapture {
     read_back(in.addr);
     if (ends_) end_of_tick();
     ends_ = false;
+    if (in.event_valid) event(in.event_number);
     if (in.word_valid) word(in.word_slot, in.word_data);
     if (in.write) write(in.addr, in.wdata);
+  }
+
+  /// An event in the last clock, or in one since then in which nothing else came.
+  void event(int number) {
+    const auto word = static_cast<std::uint32_t>(number);
+    event_ |= Events && mode_ == LinkMap::trigger_event &&
+              ((level_ & LinkMap::any_event) != 0 || word == (level_ & 0x1ffu));
   }
 
   /// A whole tick at once: its words in the order of their numbers, nothing written or read
@@ -119,9 +129,11 @@ class LinkCapture {
   }
 
   void end_of_tick() {
+    const bool event = event_;
+    event_ = false;
     if (!runs()) return;
     const State before = state_;
-    const bool fires = before == State::wait && seen_ && (hit_ || hand_);
+    const bool fires = before == State::wait && seen_ && (hit_ || hand_ || event);
     const std::uint32_t rest = kRows - pre_ - (taking_ ? 1u : 0u);
     if (taking_) {
       taking_ = false;
@@ -155,7 +167,7 @@ class LinkCapture {
         trigger_word_ = at_most(data, kNone);
         break;
       case A::trigger_mode:
-        mode_ = data & 3u;
+        mode_ = data & (Events ? 7u : 3u);
         break;
       case A::trigger_level:
         level_ = data;
@@ -163,7 +175,7 @@ class LinkCapture {
       default:
         return;
     }
-    known_ = hit_ = false;  // what was there before was compared with something else
+    known_ = hit_ = event_ = false;  // what was there before was compared with something else
   }
 
   void control(std::uint32_t data) {
@@ -175,7 +187,7 @@ class LinkCapture {
       taking_ = false;
     } else if (bit(B::capture_control_start)) {
       state_ = pre_ == 0 ? State::wait : State::fill;
-      seen_ = taking_ = false;
+      seen_ = taking_ = event_ = false;
       hand_ = trigger;
       ticks_ = row_ = rows_ = 0;
       left_ = pre_;
@@ -228,7 +240,8 @@ class LinkCapture {
   std::uint32_t ticks_ = 0, left_ = 0;  ///< before the next row; rows to come in this state
   std::uint32_t row_ = 0, rows_ = 0, column_ = 0, columns_ = 0;
   bool known_ = false, hit_ = false, hand_ = false, seen_ = false, taking_ = false, ends_ = false;
-  bool ran_ = false;  ///< before this clock
+  bool event_ = false;  ///< since the end of the last tick
+  bool ran_ = false;    ///< before this clock
   std::uint16_t addr_1_ = 0, addr_2_ = 0;
   std::uint32_t memory_2_ = 0;
   Out out_;

@@ -24,16 +24,21 @@ class LinkedAxis {
     axes_.clock(to_axes(in));
     show();
   }
-  template <class OnSnapshot>
-  void run(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
-    axes_.run(to_axes(in), clocks, [&] {
+  /// `on_event(clock, number)` for each event of the law; clock 0 is the first of these.
+  template <class OnSnapshot, class OnEvent>
+  void run(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot, OnEvent&& on_event) {
+    const auto shown = [&] {
       show();
       on_snapshot();
-    });
+    };
+    axes_.run(to_axes(in), clocks, shown, on_event);
     show();
   }
 
   const CoreOut& out() const { return out_; }
+  /// An event of the law in the clock to come.
+  bool event_valid() const { return axes_.glue().event_valid(); }
+  int event_number() const { return axes_.glue().event_number(); }
   /// Whether what is at this address would not take a write in the clock to come.
   bool busy(std::uint16_t address) const {
     if (address >> 12 == axes_engine >> 12) return engine_busy_;

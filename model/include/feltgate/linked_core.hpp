@@ -79,8 +79,13 @@ class LinkedCore {
     const CoreOut& tap = core_.out();
     stream_.clock({tap.word_valid, tap.word_slot, tap.word_data, does.addr, does.wdata, does.write,
                    sent.stream_ready});
-    capture_.clock(
-        {tap.word_valid, tap.word_slot, tap.word_data, does.addr, does.wdata, does.write});
+    typename Capture::In captures{tap.word_valid, tap.word_slot, tap.word_data, does.addr,
+                                  does.wdata,     does.write,    false,         0};
+    if constexpr (D::engine != 0) {
+      captures.event_valid = core_.event_valid();
+      captures.event_number = core_.event_number();
+    }
+    capture_.clock(captures);
     rx_.clock({in.uart_rx});
     receiver_.clock({byte.byte, byte.valid, byte.error, does.taken});
     port_.clock(port);
@@ -127,6 +132,10 @@ class LinkedCore {
   }
 
  private:
+  using Capture = LinkCapture<1 << LinkMap::rows_log2, D::engine != 0>;
+  struct Event {
+    int clock, number;  ///< of the tick
+  };
   static constexpr std::uint32_t kFeatures =
       1U << LinkMap::B::features_capture | 1U << LinkMap::B::features_stream |
       (D::engine != 0 ? 1U : 0U) << LinkMap::B::features_engine |
@@ -207,22 +216,37 @@ class LinkedCore {
       for (std::size_t k = 0; k < words.size(); ++k) words[k] = core_.word(LinkMap::slots[k]);
     };
     bool all = false;
-    core_.run(core_in(in, port), clocks, [&] {
+    const auto at_snapshot = [&] {
       if (--ticks <= 0) take(), all = true;
       show();
       on_snapshot();
-    });
+    };
+    events_.clear();
+    if constexpr (D::engine != 0) {
+      // Where no capture runs there may be many ticks, and nobody asks for events.
+      core_.run(core_in(in, port), clocks, at_snapshot, [&](std::int64_t clock, int number) {
+        if (capture_.runs()) events_.push_back({from + static_cast<int>(clock), number});
+      });
+    } else {
+      core_.run(core_in(in, port), clocks, at_snapshot);
+    }
     if (!all && to < kTick) take();
     feed(from, to, words, before, port.addr);
   }
 
-  /// The words that stream and capture see in the clocks [from, to) of a tick.
+  /// The words and events_ that stream and capture see in the clocks [from, to) of a tick.
   void feed(int from, int to, const std::array<std::uint32_t, LinkMap::snapshot_words>& words,
             const CoreOut& before, std::uint16_t addr) {
     const auto idle = [&](int clocks) {
       for (int k = 0; k < std::min(clocks, 3); ++k) {
         stream_.clock({false, 0, 0, addr, 0, false, false});
-        capture_.clock({false, 0, 0, addr, 0, false});
+        capture_.clock({false, 0, 0, addr, 0, false, false, 0});
+      }
+    };
+    std::size_t told = 0;
+    const auto tell = [&](int before_clock) {
+      for (; told < events_.size() && events_[told].clock < before_clock; ++told) {
+        capture_.event(events_[told].number);
       }
     };
     int at = from;
@@ -233,11 +257,14 @@ class LinkedCore {
       const std::uint32_t word =
           seen == from ? before.word_data : words[static_cast<std::size_t>(k)];
       idle(seen - at);
+      tell(seen);
       stream_.clock({true, slot, word, addr, 0, false, false});
-      capture_.clock({true, slot, word, addr, 0, false});
+      capture_.clock({true, slot, word, addr, 0, false, false, 0});
+      tell(seen + 1);
       at = seen + 1;
     }
     idle(to - at);
+    tell(to);
   }
 
   static FeltgateCore<D>& core_of(FeltgateCore<D>& core) { return core; }
@@ -257,11 +284,12 @@ class LinkedCore {
   LinkReceiver receiver_;
   LinkPort<D> port_;
   LinkStream stream_;
-  LinkCapture<> capture_;
+  Capture capture_;
   LinkTransmitter transmitter_;
   UartTx tx_;
   UartLine line_;
   LinkedOut out_;
+  std::vector<Event> events_;  ///< of a stretch while a capture runs
 };
 
 }  // namespace feltgate

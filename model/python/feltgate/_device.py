@@ -139,7 +139,8 @@ class Device:
         """1024 rows around a trigger, a tick a row or stretched over span_s; time_s is 0 at the
         trigger.
 
-        trigger  "velocity>5", "angle<-10deg", "fault", "fault:speed", "limit:current", "armed", "now"
+        trigger  "velocity>5", "angle<-10deg", "fault", "fault:speed", "limit:current", "armed",
+                 "event:hit" of the law, "now"
         before   share of the rows before it
         """
         return Columns(self._core.capture(list(names), trigger, before, span_s, wait_s))

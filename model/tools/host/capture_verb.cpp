@@ -30,14 +30,16 @@ struct CaptureArguments {
   double before = 0.25, span_s = 0, wait_s = 10;
 };
 
-CaptureSetup setup_of(Device& device, const CaptureArguments& a) {
+CaptureSetup setup_of(Session& session, const CaptureArguments& a) {
+  Device& device = session.device();
   CaptureSetup s;
   s.quantities = a.names;
   if (!a.vector.empty() && std::find(a.names.begin(), a.names.end(), "position") == a.names.end()) {
     s.quantities.emplace_back("position");
   }
   const int rows = device.board().capture_rows;
-  s.trigger = parse_trigger(device, a.trigger);
+  s.trigger =
+      parse_trigger(device, means_event(a.trigger) ? session.laws_if_any() : nullptr, a.trigger);
   s.rows_before = std::min(rows - 1, static_cast<int>(a.before * rows));
   if (a.span_s > 0) {
     const double ticks = std::ceil(a.span_s * device.board().tick_hz() / rows);
@@ -126,7 +128,7 @@ int capture(Session& session, const CaptureArguments& a) {
   if (!a.xy.empty() && a.picture.empty())
     throw std::invalid_argument("--xy is for --picture FILE; add it");
   Device& device = session.device();
-  const CaptureSetup setup = setup_of(device, a);
+  const CaptureSetup setup = setup_of(session, a);
   files::Outputs outputs;
   files::OutputFile* csv = outputs.open("--csv", a.csv);
   files::OutputFile* vector = outputs.open("--vector", a.vector);
@@ -178,13 +180,15 @@ Run add_capture(CLI::App& sub) {
       "  feltgate host /dev/ttyUSB0 capture angle tau_ref --span 0.5 --csv push.csv --picture "
       "push.png --xy angle,tau_ref\n"
       "  feltgate host /dev/ttyUSB0 capture --trigger fault --wait 3600 --csv fault.csv\n"
+      "  feltgate host /dev/ttyUSB0 capture tick angle tau_ref --arm law --trigger event:hit\n"
       "  feltgate host /dev/ttyUSB0 capture position velocity --vector moved.vec\n"
       "Triggers: 'velocity>5' rises to the value or above, 'angle<-10deg' falls below; 'fault',\n"
-      "'fault:speed,stop', 'limit:current', 'armed'; 'now'. The memory is the board's: 1024 rows "
-      "of\n"
-      "8 words, one row a tick unless --span asks for longer. The CSV has its time in seconds from "
-      "the\n"
-      "trigger on, for PlotJuggler and spreadsheets.\n"
+      "'fault:speed,stop', 'limit:current', 'armed'; 'event:hit', an event of the board's law, "
+      "'event' any;\n"
+      "'now'. The memory is the board's: 1024 rows of 8 words, one row a tick unless --span asks "
+      "for\n"
+      "longer. The CSV has its time in seconds from the trigger on, for PlotJuggler and "
+      "spreadsheets.\n"
       "Exit code: 0 captured, 1 the trigger did not come or the motor went off, 2 unusable input "
       "or port, 3 the link "
       "broke down.");

@@ -548,9 +548,9 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 
 #define FELTGATE_LINK_TRIGGER_WORD 0x1025u  /* which word triggers, as the number of its bit in the mask */
 
-#define FELTGATE_LINK_TRIGGER_MODE 0x1026u  /* 0 only by hand, 1 rises to the level or above, signed, 2 falls below it, 3 a bit of the level becomes 1 */
+#define FELTGATE_LINK_TRIGGER_MODE 0x1026u  /* 0 only by hand, 1 rises to the level or above, signed, 2 falls below it, 3 a bit of the level becomes 1, 4 a law tells the event of that number; without an engine 0 to 3 only */
 
-#define FELTGATE_LINK_TRIGGER_LEVEL 0x1027u  /* the level, or the mask of bits */
+#define FELTGATE_LINK_TRIGGER_LEVEL 0x1027u  /* the level, the mask of bits, or the number of the event; for any event the constant any_event */
 
 #define FELTGATE_LINK_CAPTURE_FIRST 0x1028u  /* row of the oldest tick */
 
@@ -705,6 +705,8 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_LINK_FORMAT_MEMORY 8192  /* first address of the capture memory: 8 words of a row, then the next row */
 #define FELTGATE_LINK_FORMAT_ROWS_LOG2 10  /* log2 of the rows of the capture memory */
 #define FELTGATE_LINK_FORMAT_COLUMNS 8  /* words of a row */
+#define FELTGATE_LINK_FORMAT_TRIGGER_EVENT 4  /* trigger_mode: an event of a law */
+#define FELTGATE_LINK_FORMAT_ANY_EVENT 512  /* set in trigger_level: an event of any number; below it the number */
 #define FELTGATE_LINK_FORMAT_ENGINE 16384  /* first address of the engine's words, where features.engine is set */
 
 #endif

@@ -10,6 +10,8 @@ module ring_proof (
     input logic        word_valid_i,
     input logic [ 5:0] word_slot_i,
     input logic [31:0] word_data_i,
+    input logic        event_valid_i,
+    input logic [ 8:0] event_number_i,
     input logic [15:0] addr_i,
     input logic [31:0] wdata_i,
     input logic        write_i
@@ -24,12 +26,14 @@ module ring_proof (
   always_comb if (!past_ok_q) assume (!rst_ni);
 
   logic [31:0] rdata;
-  link_capture u_dut (
+  link_capture #(.Events(1)) u_dut (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
       .word_valid_i(word_valid_i),
       .word_slot_i(word_slot_i),
       .word_data_i(word_data_i),
+      .event_valid_i(event_valid_i),
+      .event_number_i(event_number_i),
       .addr_i(addr_i),
       .wdata_i(wdata_i),
       .write_i(write_i),
@@ -44,6 +48,7 @@ module ring_proof (
   (* hierconn *) wire \u_dut.ends_q ;
   (* hierconn *) wire \u_dut.hit_q ;
   (* hierconn *) wire \u_dut.hand_q ;
+  (* hierconn *) wire \u_dut.event_q ;
   (* hierconn *) wire \u_dut.seen_q ;
   (* hierconn *) wire \u_dut.holds_q ;
   (* hierconn *) wire [3:0] \u_dut.number_q ;
@@ -116,6 +121,13 @@ module ring_proof (
   logic [8:0] columns;
   assign columns = (9'd1 << among(words, came_q)) - 9'd1;
 
+  // An event since the last tick ended.
+  logic event_came_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) event_came_q <= 1'b0;
+    else event_came_q <= event_valid_i || (event_came_q && !\u_dut.ends_q );
+  end
+
   logic [2:0] state_then_q;
   logic fired_q, started_q, after_q, runs_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -140,9 +152,10 @@ module ring_proof (
                                (state != 3'd3 || left != '0));
       rest_by_a_trigger: assert (!after_q || state != 3'd3 || state_then_q == 3'd3 || (state_then_q == 3'd2 && fired_q));
       trigger_in_wait: assert (!fires || (state == 3'd2 && rows + (RowBits + 1)'(taking) >= {1'b0, pre} &&
-                                          \u_dut.seen_q && (\u_dut.hit_q || \u_dut.hand_q )));
+                                          \u_dut.seen_q && (\u_dut.hit_q || \u_dut.hand_q || \u_dut.event_q )));
       no_row_while_it_runs: assert (!after_q || !\u_dut.holds_q || !runs_q);
       stores_in_a_run: assert (!stores || runs);
+      event_of_its_tick: assert (!\u_dut.event_q || event_came_q);
       inside_state: assert (state <= 3'd4);
       inside_rest: assert (state != 3'd3 || ({1'b0, since} + left == (RowBits + 1)'(Rows) && since >= before_q &&
                                              rows >= {1'b0, since}));
@@ -152,6 +165,7 @@ module ring_proof (
       inside_column: assert (!taking || !runs || (column_q == among(words, came_q) && came_q != '0 &&
                                                   {1'b0, written_q} == columns));
       triggers: cover (fires && taking);
+      triggers_by_event: cover (fires && taking && \u_dut.event_q );
       fills: cover (state == 3'd1 && rows != '0);
     end
   end

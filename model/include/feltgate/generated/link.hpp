@@ -38,6 +38,8 @@ struct LinkMap {
   static constexpr std::uint32_t memory = 0x2000;  ///< first address of the capture memory: 8 words of a row, then the next row
   static constexpr std::uint32_t rows_log2 = 0xa;  ///< log2 of the rows of the capture memory
   static constexpr std::uint32_t columns = 0x8;  ///< words of a row
+  static constexpr std::uint32_t trigger_event = 0x4;  ///< trigger_mode: an event of a law
+  static constexpr std::uint32_t any_event = 0x200;  ///< set in trigger_level: an event of any number; below it the number
   static constexpr std::uint32_t engine = 0x4000;  ///< first address of the engine's words, where features.engine is set
 
   /// Addresses.

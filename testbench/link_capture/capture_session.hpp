@@ -161,4 +161,33 @@ class CaptureSession {
   Content content_;
 };
 
+constexpr auto kDone = static_cast<std::uint32_t>(CaptureTwin::State::done);
+constexpr auto kWaits = static_cast<std::uint32_t>(CaptureTwin::State::wait);
+constexpr auto kIdle = static_cast<std::uint32_t>(CaptureTwin::State::idle);
+constexpr std::uint32_t kTick = 1u << N::tick;
+
+/// The word k is `value(tick)`, the others are as they are.
+template <class Value>
+Content with(int word, const Value& value) {
+  return [word, value](std::uint32_t tick, int k) {
+    return k == word ? static_cast<std::uint32_t>(value(tick)) : tick_word(tick, k);
+  };
+}
+/// Below zero before the tick, above from it on.
+inline Content rises_in(std::uint32_t tick, int word = N::position) {
+  return with(
+      word, [tick](std::uint32_t t) { return (static_cast<std::int32_t>(t - tick) + 1) * 5 - 3; });
+}
+
+struct Plan {
+  std::uint32_t mask = kTick | 1u << N::position, pre = 3, period = 0;
+};
+inline CaptureSession session(const Plan& plan, std::size_t ticks, const Content& content) {
+  CaptureSession s(ticks, content);
+  s.set(A::capture_words, plan.mask)
+      .set(A::capture_pre, plan.pre)
+      .set(A::capture_period, plan.period);
+  return s;
+}
+
 }  // namespace feltgate::test

@@ -46,29 +46,31 @@ class FeltgateAxes {
 
   /// `clocks` clocks with the inputs held; reg_write and the axes' set_zero must be low. The same
   /// as so many calls of clock(), from event to event where no axis may tell the others anything.
-  /// `on_snapshot()` is called whenever out() holds a valid snapshot, `on_event(clock, number)` for
-  /// each event of a program; clock 0 is the first of these.
+  /// `on_snapshot()` is called whenever out() holds a valid snapshot; of a watcher `event(clock,
+  /// number)` for each event of a program, clock 0 the first of these, and `words()` where core(0)
+  /// has all words of a tick.
   template <class OnSnapshot>
   void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
-    run(in, clocks, on_snapshot, [](std::int64_t, int) {});
+    NoWatcher none;
+    run(in, clocks, on_snapshot, none);
   }
-  template <class OnSnapshot, class OnEvent>
-  void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot, OnEvent&& on_event) {
+  template <class OnSnapshot, class Watcher>
+  void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot, Watcher& watcher) {
     std::int64_t at = 0;
     while (at < clocks) {
       std::array<CoreIn, N> each = inputs(in);
       bool snapshot = false;
-      int step = pass(in, each, clocks - at, &snapshot,
-                      [&](int clock, int number) { on_event(at + clock, number); });
+      int step = pass(in, each, at, clocks, &snapshot, watcher);
       if (step == 0) {
         step = 1;
-        if (glue_.event_valid()) on_event(at, glue_.event_number());
+        if (glue_.event_valid()) watcher.event(at, glue_.event_number());
         glue_.clock(in, cores_, each);
         for (std::size_t n = 0; n < N; ++n) {
           cores_[n].clock(each[n]);
           out_.axis[n] = cores_[n].out();
         }
         snapshot = out_.axis[0].snapshot_valid;
+        if (snapshot) watcher.words();
       }
       if (snapshot) on_snapshot();
       at += step;
@@ -106,14 +108,19 @@ class FeltgateAxes {
   static constexpr int kMeasured = core_steps::clock_of(Map::T::tau_hat) + 1;
   static_assert(kMeasured == core_steps::clock_of(Map::T::law_torque) + 1);
 
-  /// At most `clocks` clocks from event to event, at most to the end of the tick; 0 where the next
-  /// one is not to be passed.
-  template <class OnEvent>
-  int pass(const In& in, std::array<CoreIn, N>& each, std::int64_t clocks, bool* snapshot,
-           OnEvent&& on_event) {
+  struct NoWatcher {
+    void event(std::int64_t, int) {}
+    void words() {}
+  };
+
+  /// Up to clock `clocks` of run(), of which this is clock `at`, from event to event, at most to
+  /// the end of the tick; 0 where the next one is not to be passed.
+  template <class Watcher>
+  int pass(const In& in, std::array<CoreIn, N>& each, std::int64_t at, std::int64_t clocks,
+           bool* snapshot, Watcher& watcher) {
     constexpr int tick = D::clocks_per_tick;
     const int from = clock_of_tick();
-    int to = static_cast<int>(std::min<std::int64_t>(tick, from + clocks));
+    int to = static_cast<int>(std::min<std::int64_t>(tick, from + clocks - at));
     if (WithEngine) {
       if (!glue_.by_runs(in, cores_, each)) return 0;
       for (const Core& core : cores_) {
@@ -132,10 +139,12 @@ class FeltgateAxes {
       cores_[n].run(each[n], to - from, [&, n] {
         out_.axis[n] = cores_[n].out();
         *snapshot = true;
+        if (n == 0) watcher.words();  // when the tick is over they are those of the next
       });
     }
     if (measures) glue_.tick(kMeasured - from, cores_);
-    glue_.advance(to - from, cores_, on_event);
+    glue_.advance(to - from, cores_,
+                  [&](int clock, int number) { watcher.event(at + clock, number); });
     return to - from;
   }
 

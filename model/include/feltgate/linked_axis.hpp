@@ -5,9 +5,12 @@
 // one axis, as the link sees it. Documentation: docs/blocks/feltgate_linked.md
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "feltgate/feltgate_axes.hpp"
+#include "feltgate/generated/link.hpp"
 
 namespace feltgate {
 
@@ -24,14 +27,25 @@ class LinkedAxis {
     axes_.clock(to_axes(in));
     show();
   }
-  /// `on_event(clock, number)` for each event of the law; clock 0 is the first of these.
+  /// Also calls `on_event(clock, number)` for each event of the law; clock 0 is the first of these.
   template <class OnSnapshot, class OnEvent>
   void run(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot, OnEvent&& on_event) {
     const auto shown = [&] {
       show();
+      at_snapshot_ = true;
       on_snapshot();
+      at_snapshot_ = false;
     };
-    axes_.run(to_axes(in), clocks, shown, on_event);
+    struct Watcher {
+      LinkedAxis& axis;
+      OnEvent& on_event;
+      void event(std::int64_t clock, int number) { on_event(clock, number); }
+      void words() {
+        for (const int slot : LinkMap::slots)
+          axis.whole_[static_cast<std::size_t>(slot)] = axis.core().word(slot);
+      }
+    } watcher{*this, on_event};
+    axes_.run(to_axes(in), clocks, shown, watcher);
     show();
   }
 
@@ -44,7 +58,10 @@ class LinkedAxis {
     if (address >> 12 == axes_engine >> 12) return engine_busy_;
     return address < axes_stride && axes_.core(0).out().reg_busy;
   }
-  std::uint32_t word(int slot) const { return axes_.core(0).word(slot); }
+  /// Of the running tick; in on_snapshot() all of them.
+  std::uint32_t word(int slot) const {
+    return at_snapshot_ ? whole_[static_cast<std::size_t>(slot)] : axes_.core(0).word(slot);
+  }
   int clock_of_tick() const { return axes_.clock_of_tick(); }
   FeltgateCore<D>& core() { return axes_.core(0); }
   const FeltgateCore<D>& core() const { return axes_.core(0); }
@@ -65,7 +82,8 @@ class LinkedAxis {
 
   FeltgateAxes<D, 1, true, true> axes_;
   CoreOut out_;
-  bool engine_busy_ = false;
+  std::array<std::uint32_t, 64> whole_{};  ///< by slot: of the last tick whose snapshot came
+  bool engine_busy_ = false, at_snapshot_ = false;
 };
 
 }  // namespace feltgate

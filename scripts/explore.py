@@ -60,6 +60,12 @@ def find_space(name):
     spaces = root() / "vectors/spaces"
     if "/" not in name and (spaces / f"{name}.toml").is_file():
         return spaces / f"{name}.toml"
+    scene = root() / "vectors/scenes" / f"{Path(name).stem}.toml"
+    if scene.is_file() and (name == scene.stem or Path(name).resolve() == scene.resolve()):
+        raise plans.PlanError(
+            f"{name} is a scene, and explore takes a space of design points; what its rate costs a "
+            f"one-lever scene's torque is in: ./feltgate rates {scene.stem}"
+        )
     if not Path(name).exists():
         known = ", ".join(sorted(path.stem for path in spaces.glob("*.toml")))
         raise plans.PlanError(

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "files/output_file.hpp"
@@ -16,6 +17,8 @@
 namespace feltgate {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 struct StabilityArguments {
   std::string design = "lever", linear = "linear", plant = "p24", json, plot;
@@ -38,6 +41,21 @@ int verdict(const stability::Study& study, const files::Outputs& outputs) {
     ++off;
   }
   return off == 0 ? exit_ok : exit_failed;
+}
+
+/// The border is that of a wall on a design; how far a scene's own torque is from it, `rates` says.
+void refuse_scene(const std::string& name) {
+  const fs::path path(name), scenes = fs::path(repository()) / "vectors/scenes";
+  const fs::path scene = scenes / (path.stem().string() + ".toml");
+  std::error_code error;
+  const bool is_design = fs::exists(fs::path(repository()) / "rtl/designs" / (name + ".toml"));
+  if (is_design || !fs::exists(scene)) return;
+  if (path.has_parent_path() && !fs::equivalent(path, scene, error)) return;
+  throw std::invalid_argument(
+      fmt::format("{0} is a scene, and stability takes a design, whose walls it looks at; the "
+                  "margin of a one-lever "
+                  "scene's own torque, by the same eigenvalues, is in: ./feltgate rates {0}",
+                  path.stem().string()));
 }
 
 int run(const StabilityArguments& a) {
@@ -118,6 +136,7 @@ void add_stability(CLI::App& app, int* exit_code) {
   sub->add_option("--plot", a->plot, "draw the K-B plot and the eigenvalue locus into this folder")
       ->type_name("DIR");
   sub->callback([a, exit_code] {
+    refuse_scene(a->design);
     a->design = built_design(a->design);
     *exit_code = run(*a);
   });

@@ -264,6 +264,7 @@ class Outputs(Bench):
             words = ("--json", "a.json", "--save", same)
             self.refused("faults.py", *words, said="is also that of --json")
         self.refused("explore.py", "bogus", said="bogus is neither a verb")
+        self.refused("explore.py", "detent", said="is in: ./feltgate rates detent")
         self.assert_only()
 
 

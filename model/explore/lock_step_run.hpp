@@ -108,7 +108,8 @@ class LockStepRun {
     write(D::A::nominal_current_squared, 0);
     play(motion, clocks);
     if (core_.twin().out().first_fault != static_cast<unsigned>(Fault::i2t)) {
-      note("the motor did not get too hot: the I2t budget is out of reach");
+      note(fmt::format("the motor did not get too hot: the first fault is {}",
+                       core_.twin().out().first_fault));
     }
     write(D::A::i2t_budget, 0xffffffff);
     control(0, Mode::closed_loop, false);
@@ -132,8 +133,11 @@ class LockStepRun {
     const double t_s = motion.window_s + static_cast<double>(clock) / D::clock_hz;
     return static_cast<std::int64_t>(std::floor(motion.angle_rad(t_s) / D::count_rad));
   }
+  /// As fast as the encoder may, but where both channels would then have changed at every tick's
+  /// end: encoder_monitor takes them for shorted.
+  static constexpr int slew_clocks = D::clocks_per_tick / 2 % 4 == 2 ? 3 : 2;
   void step_towards(std::int64_t target) {
-    if (++since_step_ < 2 || count_ == target) return;
+    if (++since_step_ < slew_clocks || count_ == target) return;
     since_step_ = 0;
     count_ += count_ < target ? 1 : -1;
     const bool a = (count_ & 2) != 0;

@@ -62,8 +62,8 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_VELOCITY_A1 0x004u  /* low-pass coefficient of the velocity estimator, 1-exp(-cutoff*T) [1] */
 #define FELTGATE_VELOCITY_A1_VALUE(word) feltgate_value((word), 17, 0, 134217728.0)
 #define FELTGATE_VELOCITY_A1_WORD(value) feltgate_word((value), 134217728.0, 0.0, 131071.0)
-#define FELTGATE_VELOCITY_A1_DEFAULT 0.00069975505715666388
-#define FELTGATE_VELOCITY_A1_RESET 0x00016ee0u
+#define FELTGATE_VELOCITY_A1_DEFAULT 0.00094954889286190207
+#define FELTGATE_VELOCITY_A1_RESET 0x0001f1d6u
 
 #define FELTGATE_INVERSE_RESISTANCE 0x005u  /* 1/R of the estimated motor current (V - Ke*w)/R [1/ohm] */
 #define FELTGATE_INVERSE_RESISTANCE_VALUE(word) feltgate_value((word), 17, 0, 32768.0)
@@ -120,10 +120,10 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_POLARITY_SPEED_RESET 0x00c00000u
 
 #define FELTGATE_POLARITY_CURRENT 0x014u  /* wrong-polarity check: current reference above which a direction is meant [A] */
-#define FELTGATE_POLARITY_CURRENT_VALUE(word) feltgate_value((word), 24, 1, 262144.0)
-#define FELTGATE_POLARITY_CURRENT_WORD(value) feltgate_word((value), 262144.0, -8388608.0, 8388607.0)
+#define FELTGATE_POLARITY_CURRENT_VALUE(word) feltgate_value((word), 22, 1, 65536.0)
+#define FELTGATE_POLARITY_CURRENT_WORD(value) feltgate_word((value), 65536.0, -2097152.0, 2097151.0)
 #define FELTGATE_POLARITY_CURRENT_DEFAULT 6.0
-#define FELTGATE_POLARITY_CURRENT_RESET 0x00180000u
+#define FELTGATE_POLARITY_CURRENT_RESET 0x00060000u
 
 #define FELTGATE_POLARITY_TICKS 0x015u  /* wrong-polarity check: length of a window [tick] */
 #define FELTGATE_POLARITY_TICKS_VALUE(word) feltgate_value((word), 31, 0, 1.0)
@@ -144,10 +144,10 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_OBSERVER_GAIN_RESET 0x00000000u
 
 #define FELTGATE_TORQUE_LIMIT 0x018u  /* largest torque reference [Nm] */
-#define FELTGATE_TORQUE_LIMIT_VALUE(word) feltgate_value((word), 23, 1, 262144.0)
-#define FELTGATE_TORQUE_LIMIT_WORD(value) feltgate_word((value), 262144.0, -4194304.0, 4194303.0)
+#define FELTGATE_TORQUE_LIMIT_VALUE(word) feltgate_value((word), 21, 1, 65536.0)
+#define FELTGATE_TORQUE_LIMIT_WORD(value) feltgate_word((value), 65536.0, -1048576.0, 1048575.0)
 #define FELTGATE_TORQUE_LIMIT_DEFAULT 0.5
-#define FELTGATE_TORQUE_LIMIT_RESET 0x00020000u
+#define FELTGATE_TORQUE_LIMIT_RESET 0x00008000u
 
 #define FELTGATE_RAMP_STEP 0x019u  /* torque change per tick while ramping [Nm/tick] */
 #define FELTGATE_RAMP_STEP_VALUE(word) feltgate_value((word), 29, 1, 16777216.0)
@@ -174,28 +174,28 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_DEAD_VOLTAGE_SLOPE_RESET 0x00018600u
 
 #define FELTGATE_REGION_TORQUE 0x01eu  /* border between the two regions of the voltage gain; at the border the low one holds [Nm] */
-#define FELTGATE_REGION_TORQUE_VALUE(word) feltgate_value((word), 23, 1, 262144.0)
-#define FELTGATE_REGION_TORQUE_WORD(value) feltgate_word((value), 262144.0, -4194304.0, 4194303.0)
+#define FELTGATE_REGION_TORQUE_VALUE(word) feltgate_value((word), 21, 1, 65536.0)
+#define FELTGATE_REGION_TORQUE_WORD(value) feltgate_word((value), 65536.0, -1048576.0, 1048575.0)
 #define FELTGATE_REGION_TORQUE_DEFAULT 0.5
-#define FELTGATE_REGION_TORQUE_RESET 0x00020000u
+#define FELTGATE_REGION_TORQUE_RESET 0x00008000u
 
 #define FELTGATE_VOLTAGE_SETPOINT 0x01fu  /* direct voltage mode: the voltage that it ramps to [V] */
-#define FELTGATE_VOLTAGE_SETPOINT_VALUE(word) feltgate_value((word), 22, 1, 65536.0)
-#define FELTGATE_VOLTAGE_SETPOINT_WORD(value) feltgate_word((value), 65536.0, -2097152.0, 2097151.0)
+#define FELTGATE_VOLTAGE_SETPOINT_VALUE(word) feltgate_value((word), 20, 1, 16384.0)
+#define FELTGATE_VOLTAGE_SETPOINT_WORD(value) feltgate_word((value), 16384.0, -524288.0, 524287.0)
 #define FELTGATE_VOLTAGE_SETPOINT_DEFAULT 0.0
 #define FELTGATE_VOLTAGE_SETPOINT_RESET 0x00000000u
 
 #define FELTGATE_VOLTAGE_STEP 0x020u  /* direct voltage mode: voltage change per tick [V/tick] */
-#define FELTGATE_VOLTAGE_STEP_VALUE(word) feltgate_value((word), 22, 1, 65536.0)
-#define FELTGATE_VOLTAGE_STEP_WORD(value) feltgate_word((value), 65536.0, -2097152.0, 2097151.0)
-#define FELTGATE_VOLTAGE_STEP_DEFAULT 0.0023956298828125
-#define FELTGATE_VOLTAGE_STEP_RESET 0x0000009du
+#define FELTGATE_VOLTAGE_STEP_VALUE(word) feltgate_value((word), 20, 1, 16384.0)
+#define FELTGATE_VOLTAGE_STEP_WORD(value) feltgate_word((value), 16384.0, -524288.0, 524287.0)
+#define FELTGATE_VOLTAGE_STEP_DEFAULT 0.00238037109375
+#define FELTGATE_VOLTAGE_STEP_RESET 0x00000027u
 
 #define FELTGATE_CURRENT_LIMIT 0x021u  /* largest current reference [A] */
-#define FELTGATE_CURRENT_LIMIT_VALUE(word) feltgate_value((word), 24, 1, 262144.0)
-#define FELTGATE_CURRENT_LIMIT_WORD(value) feltgate_word((value), 262144.0, -8388608.0, 8388607.0)
+#define FELTGATE_CURRENT_LIMIT_VALUE(word) feltgate_value((word), 22, 1, 65536.0)
+#define FELTGATE_CURRENT_LIMIT_WORD(value) feltgate_word((value), 65536.0, -2097152.0, 2097151.0)
 #define FELTGATE_CURRENT_LIMIT_DEFAULT 16.600000000000001
-#define FELTGATE_CURRENT_LIMIT_RESET 0x00426666u
+#define FELTGATE_CURRENT_LIMIT_RESET 0x0010999au
 
 #define FELTGATE_VOLTAGE_GAIN 0x022u  /* Kv of the low-torque region times 1 ohm, or the resistance [ohm] */
 #define FELTGATE_VOLTAGE_GAIN_VALUE(word) feltgate_value((word), 17, 0, 262144.0)
@@ -204,16 +204,16 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_VOLTAGE_GAIN_RESET 0x0001ae14u
 
 #define FELTGATE_DEAD_VOLTAGE 0x023u  /* dead voltage of brushes and bridge [V] */
-#define FELTGATE_DEAD_VOLTAGE_VALUE(word) feltgate_value((word), 22, 1, 65536.0)
-#define FELTGATE_DEAD_VOLTAGE_WORD(value) feltgate_word((value), 65536.0, -2097152.0, 2097151.0)
+#define FELTGATE_DEAD_VOLTAGE_VALUE(word) feltgate_value((word), 20, 1, 16384.0)
+#define FELTGATE_DEAD_VOLTAGE_WORD(value) feltgate_word((value), 16384.0, -524288.0, 524287.0)
 #define FELTGATE_DEAD_VOLTAGE_DEFAULT 0.97500000000000009
-#define FELTGATE_DEAD_VOLTAGE_RESET 0x0000f99au
+#define FELTGATE_DEAD_VOLTAGE_RESET 0x00003e66u
 
 #define FELTGATE_HOLD_TORQUE 0x024u  /* a torque reference above it without a count may be held for hold_time only [Nm] */
-#define FELTGATE_HOLD_TORQUE_VALUE(word) feltgate_value((word), 23, 1, 262144.0)
-#define FELTGATE_HOLD_TORQUE_WORD(value) feltgate_word((value), 262144.0, -4194304.0, 4194303.0)
+#define FELTGATE_HOLD_TORQUE_VALUE(word) feltgate_value((word), 21, 1, 65536.0)
+#define FELTGATE_HOLD_TORQUE_WORD(value) feltgate_word((value), 65536.0, -1048576.0, 1048575.0)
 #define FELTGATE_HOLD_TORQUE_DEFAULT 0.25
-#define FELTGATE_HOLD_TORQUE_RESET 0x00010000u
+#define FELTGATE_HOLD_TORQUE_RESET 0x00004000u
 
 #define FELTGATE_SELF_TEST_QUIET 0x025u  /* self-test: so long no count before the pulse, 8 bits [128 ticks] */
 #define FELTGATE_SELF_TEST_QUIET_VALUE(word) feltgate_value((word), 31, 0, 1.0)
@@ -228,10 +228,10 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_SELF_TEST_PULSE_RESET 0x00000000u
 
 #define FELTGATE_VOLTAGE_WINDOW 0x027u  /* how far the voltage may be from the back-EMF: R*Imax + dead voltage, at most the supply [V] */
-#define FELTGATE_VOLTAGE_WINDOW_VALUE(word) feltgate_value((word), 22, 1, 65536.0)
-#define FELTGATE_VOLTAGE_WINDOW_WORD(value) feltgate_word((value), 65536.0, -2097152.0, 2097151.0)
+#define FELTGATE_VOLTAGE_WINDOW_VALUE(word) feltgate_value((word), 20, 1, 16384.0)
+#define FELTGATE_VOLTAGE_WINDOW_WORD(value) feltgate_word((value), 16384.0, -524288.0, 524287.0)
 #define FELTGATE_VOLTAGE_WINDOW_DEFAULT 8.1150000000000002
-#define FELTGATE_VOLTAGE_WINDOW_RESET 0x00081d71u
+#define FELTGATE_VOLTAGE_WINDOW_RESET 0x0002075cu
 
 #define FELTGATE_DUTY_GAIN 0x028u  /* PWM clocks per volt: period over supply voltage [clock/V] */
 #define FELTGATE_DUTY_GAIN_VALUE(word) feltgate_value((word), 17, 0, 2048.0)
@@ -270,20 +270,20 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_VOLTAGE_GAIN_HIGH_RESET 0x0001ae14u
 
 #define FELTGATE_SELF_TEST_TORQUE 0x033u  /* torque of the self-test's pulse; on the bus at slot 24, as the limit, while it lasts [Nm] */
-#define FELTGATE_SELF_TEST_TORQUE_VALUE(word) feltgate_value((word), 23, 1, 262144.0)
-#define FELTGATE_SELF_TEST_TORQUE_WORD(value) feltgate_word((value), 262144.0, -4194304.0, 4194303.0)
+#define FELTGATE_SELF_TEST_TORQUE_VALUE(word) feltgate_value((word), 21, 1, 65536.0)
+#define FELTGATE_SELF_TEST_TORQUE_WORD(value) feltgate_word((value), 65536.0, -1048576.0, 1048575.0)
 #define FELTGATE_SELF_TEST_TORQUE_DEFAULT 0.050000000000000003
-#define FELTGATE_SELF_TEST_TORQUE_RESET 0x00003333u
+#define FELTGATE_SELF_TEST_TORQUE_RESET 0x00000ccdu
 
 #define FELTGATE_HOLD_LIMIT 0x038u  /* torque limit after that, until a count comes; on the bus at slot 24 then [Nm] */
-#define FELTGATE_HOLD_LIMIT_VALUE(word) feltgate_value((word), 23, 1, 262144.0)
-#define FELTGATE_HOLD_LIMIT_WORD(value) feltgate_word((value), 262144.0, -4194304.0, 4194303.0)
+#define FELTGATE_HOLD_LIMIT_VALUE(word) feltgate_value((word), 21, 1, 65536.0)
+#define FELTGATE_HOLD_LIMIT_WORD(value) feltgate_word((value), 65536.0, -1048576.0, 1048575.0)
 #define FELTGATE_HOLD_LIMIT_DEFAULT 0.125
-#define FELTGATE_HOLD_LIMIT_RESET 0x00008000u
+#define FELTGATE_HOLD_LIMIT_RESET 0x00002000u
 
 #define FELTGATE_SETPOINT_TORQUE 0x04au  /* constant torque [Nm] */
-#define FELTGATE_SETPOINT_TORQUE_VALUE(word) feltgate_value((word), 23, 1, 262144.0)
-#define FELTGATE_SETPOINT_TORQUE_WORD(value) feltgate_word((value), 262144.0, -4194304.0, 4194303.0)
+#define FELTGATE_SETPOINT_TORQUE_VALUE(word) feltgate_value((word), 21, 1, 65536.0)
+#define FELTGATE_SETPOINT_TORQUE_WORD(value) feltgate_word((value), 65536.0, -1048576.0, 1048575.0)
 #define FELTGATE_SETPOINT_TORQUE_DEFAULT 0.0
 #define FELTGATE_SETPOINT_TORQUE_RESET 0x00000000u
 
@@ -300,10 +300,10 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_MEMBRANE_UPPER_RESET 0x0001c854u
 
 #define FELTGATE_MEMBRANE_TORQUE 0x06au  /* torque inside, against the side of entry [Nm] */
-#define FELTGATE_MEMBRANE_TORQUE_VALUE(word) feltgate_value((word), 23, 1, 262144.0)
-#define FELTGATE_MEMBRANE_TORQUE_WORD(value) feltgate_word((value), 262144.0, -4194304.0, 4194303.0)
+#define FELTGATE_MEMBRANE_TORQUE_VALUE(word) feltgate_value((word), 21, 1, 65536.0)
+#define FELTGATE_MEMBRANE_TORQUE_WORD(value) feltgate_word((value), 65536.0, -1048576.0, 1048575.0)
 #define FELTGATE_MEMBRANE_TORQUE_DEFAULT 0.5
-#define FELTGATE_MEMBRANE_TORQUE_RESET 0x00020000u
+#define FELTGATE_MEMBRANE_TORQUE_RESET 0x00008000u
 
 #define FELTGATE_COMPRESSION_CONTACT 0x081u  /* where the lever meets the spring; it pushes back below [count] */
 #define FELTGATE_COMPRESSION_CONTACT_VALUE(word) feltgate_value((word), 26, 1, 256.0)
@@ -468,7 +468,7 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_ENCODER 0x30eu  /* encoder error count [15:0], rejected pulses [31:16] */
 
 #define FELTGATE_TAU_HAT 0x317u  /* observed torque [Nm] */
-#define FELTGATE_TAU_HAT_VALUE(word) feltgate_value((word), 23, 1, 262144.0)
+#define FELTGATE_TAU_HAT_VALUE(word) feltgate_value((word), 21, 1, 65536.0)
 
 #define FELTGATE_FAULTS 0x31au  /* what closed the gates */
 #define FELTGATE_FAULTS_SEEN_BIT 0  /* faults that were seen, by their bit */
@@ -477,13 +477,13 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_FAULTS_FIRST_MASK 0x001f0000u
 
 #define FELTGATE_TAU_REF 0x31cu  /* torque reference [Nm] */
-#define FELTGATE_TAU_REF_VALUE(word) feltgate_value((word), 23, 1, 262144.0)
+#define FELTGATE_TAU_REF_VALUE(word) feltgate_value((word), 21, 1, 65536.0)
 
 #define FELTGATE_CURRENT_REF 0x322u  /* current reference, saturated [A] */
-#define FELTGATE_CURRENT_REF_VALUE(word) feltgate_value((word), 24, 1, 262144.0)
+#define FELTGATE_CURRENT_REF_VALUE(word) feltgate_value((word), 22, 1, 65536.0)
 
 #define FELTGATE_VOLTAGE 0x328u  /* voltage, saturated [V] */
-#define FELTGATE_VOLTAGE_VALUE(word) feltgate_value((word), 22, 1, 65536.0)
+#define FELTGATE_VOLTAGE_VALUE(word) feltgate_value((word), 20, 1, 16384.0)
 
 #define FELTGATE_DUTY 0x32eu  /* duty [clock] [clock] */
 #define FELTGATE_DUTY_VALUE(word) feltgate_value((word), 13, 1, 1.0)

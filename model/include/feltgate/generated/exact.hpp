@@ -15,7 +15,7 @@
 
 namespace feltgate {
 
-/// 1.52 ms of delay, 3.4 uNm rms torque error, 2323 LUT4, 3 MULT18; gives up 0.61 ms, 94 LUT4 and 1 MULT18 against fast.
+/// 1.52 ms of delay, 3.3 uNm rms torque error, 2570 LUT4, 3 MULT18; gives up 0.61 ms, 68 LUT4 and 1 MULT18 against fast.
 struct Exact {
   static constexpr const char* name = "exact";
   static constexpr std::int64_t clock_hz = 50000000;

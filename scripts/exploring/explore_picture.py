@@ -46,10 +46,16 @@ def draw_axes(axes, rows, across, factor, label):
                 label=name if is_front else "_nolegend_",
                 zorder=3 if is_front else 2,
             )
-    for name, row in presets.choose(rows).items():
+    for level, (name, row) in enumerate(presets.choose(rows).items()):
         place = (factor * row["result"][across], 1e6 * row["result"]["torque_error_rms_nm"])
         axes.annotate(
-            name, place, xytext=(5, 5), textcoords="offset points", fontsize=8, fontweight="bold"
+            name,
+            place,
+            xytext=(6, 9 + 22 * level),  # dots of two may be beside each other
+            textcoords="offset points",
+            fontsize=8,
+            fontweight="bold",
+            arrowprops={"arrowstyle": "-", "linewidth": 0.6},
         )
     axes.set_yscale("log")
     axes.set_xlabel(label)

@@ -82,8 +82,8 @@ def targets(root):
 
 def beside_sources(root):
     """Files of the blocks beside the core in rtl/: link, buses, axes and engine, in order."""
-    files = [path for folder in rtl_sources.FOLDERS for path in rtl_sources.folder_files(root, folder)]
-    return list(dict.fromkeys(files))  # the link needs the axes, too
+    folders = [rtl_sources.folder_files(root, folder) for folder in rtl_sources.FOLDERS]
+    return list(dict.fromkeys(sum(folders, [])))  # the link needs the axes, too
 
 
 def beside_targets(root):

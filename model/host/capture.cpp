@@ -104,6 +104,10 @@ Trigger parse_trigger(const Device& device, const LawEngine* laws, const std::st
   if (text == "armed") return bit_trigger(q.find("status.armed"), 1, text);
   const std::string head = text.substr(0, text.find(':'));
   const std::string list = head.size() < text.size() ? text.substr(head.size() + 1) : "";
+  if (head.size() < text.size() && list.empty()) {
+    throw std::invalid_argument(
+        fmt::format("\"{}\" has no name behind its colon; leave the colon away for any", text));
+  }
   if (head == "fault") {
     return bit_trigger(q.find("faults.seen"), bits_of(map.faults, list, "fault"), text);
   }

@@ -32,11 +32,14 @@ constexpr int most_commands = 2000, curve_steps = 24;
 /// with several, with one that is open or has more than `most_commands` parts, or that is broken.
 Outline read_svg(const std::string& path);
 
+/// Reach of the pantograph's pen, from its motors.
+constexpr double nearest_pen_m = 0.04, farthest_pen_m = 0.19;
+
 struct Placing {
-  double size_m = 0.06;          ///< larger side of what surrounds it
-  Point centre_m = {0.0, 0.12};  ///< middle of what surrounds it
-  double nearest_m = 0.04;       ///< reach of the pen around the motors
-  double farthest_m = 0.19;
+  double size_m = 0.06;              ///< larger side of what surrounds it
+  Point centre_m = {0.0, 0.12};      ///< middle of what surrounds it
+  double nearest_m = nearest_pen_m;  ///< reach of the pen around the motors
+  double farthest_m = farthest_pen_m;
 };
 
 /// Scaled and placed, counter-clockwise, without edges shorter than 1 um and corners that the

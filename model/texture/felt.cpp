@@ -4,8 +4,11 @@
 // Documentation: docs/devices/texture.md
 #include "texture/felt.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "law/load.hpp"
 
@@ -55,6 +58,15 @@ PenForce pen_force(Words& words, shape::Point pen_m) {
   return {at, shape::force_at(at, {torque[0], torque[1]})};
 }
 
+void check_reach(const LawRequest& r, double half_m, double below_m) {
+  const double low_m = r.surface_m - below_m;
+  if (low_m >= nearest_pen_m && std::hypot(half_m, r.surface_m) <= farthest_pen_m) return;
+  throw std::invalid_argument(fmt::format(
+      "the pen reaches {:.0f} to {:.0f} mm from the motors, and a way of {:.4g} mm at "
+      "{:.4g} mm leaves that; choose another --surface, or leave --path and --table away",
+      1e3 * nearest_pen_m, 1e3 * farthest_pen_m, 2e3 * half_m, 1e3 * r.surface_m));
+}
+
 shape::Point plane_force(const std::vector<double>& row, const LawRequest& r, double x_m,
                          double below_m) {
   const auto last = static_cast<int>(row.size()) - 2;
@@ -74,6 +86,7 @@ Firmness firmness(const law::Compiled& c, const std::vector<double>& row, const 
   const double half_m = std::min(0.05, 0.5 * r.texel_m * (static_cast<double>(row.size()) - 1));
   const double middle_m = 0.5 * r.texel_m * (static_cast<double>(row.size()) - 1);
   constexpr int places = 101;
+  check_reach(r, half_m, firmness_depth_m);
   Words words(c);
   Firmness f;
   for (int i = 0; i < places; ++i) {

@@ -39,6 +39,10 @@ struct PenForce {
 };
 PenForce pen_force(Words& words, shape::Point pen_m);
 
+/// Throws std::invalid_argument where a way of +-`half_m` along the row, from black to `below_m`
+/// under it, leaves what the pen of the pantograph reaches.
+void check_reach(const LawRequest& r, double half_m, double below_m);
+
 /// The plane through two pixels alone, as wide as its texel: force along its normal with the depth
 /// along it, which ends where it leaves the texel. `x_m` from the first pixel, `below_m` black.
 shape::Point plane_force(const std::vector<double>& row, const LawRequest& r, double x_m,

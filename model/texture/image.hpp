@@ -23,7 +23,7 @@ constexpr int most_side = 4096;
 
 /// Reads a PNG of 8 bits a channel or less; colours become their luminance, what is transparent
 /// black. Throws std::invalid_argument "file:1: what; mend" for what is no PNG, is broken off, has
-/// 16 bits, or sides below 2 or above `most_side`.
+/// 16 bits, less than 2 pixels across, or sides above `most_side`.
 Image read_png(const std::string& path);
 
 }  // namespace feltgate::texture

@@ -50,7 +50,8 @@ void refuse_scene(const std::string& name) {
   std::error_code error;
   const bool is_design = fs::exists(fs::path(repository()) / "rtl/designs" / (name + ".toml"));
   if (is_design || !fs::exists(scene)) return;
-  if (path.has_parent_path() && !fs::equivalent(path, scene, error)) return;
+  const bool is_file = path.has_parent_path() || path.extension() == ".toml";
+  if (is_file && !fs::equivalent(path, scene, error)) return;
   throw std::invalid_argument(
       fmt::format("{0} is a scene, and stability takes a design, whose walls it looks at; the "
                   "margin of a one-lever "

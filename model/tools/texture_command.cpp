@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 
@@ -25,7 +26,7 @@ struct TextureArguments {
   std::string png, out, path, design = "lever", normals = "interpolated";
   int row = -1;
   double texel_m = 1e-3, depth_m = 2e-3, stiffness = 500, damping = 0;
-  double surface_m = 0.08;
+  double surface_m = std::nan("");  ///< none told
   bool field = false, table = false, quiet = false;
 };
 
@@ -35,7 +36,8 @@ texture::LawRequest request(const TextureArguments& a) {
   r.depth_m = a.depth_m;
   r.stiffness_n_per_m = a.stiffness;
   r.damping_ns_per_m = a.damping;
-  r.surface_m = a.field ? 0 : a.surface_m;
+  if (!std::isnan(a.surface_m)) r.surface_m = a.surface_m;
+  if (a.field) r.surface_m = 0;
   r.normals = a.normals == "facets" ? texture::Normals::facets : texture::Normals::interpolated;
   return r;
 }
@@ -64,11 +66,12 @@ std::string firmness_table(const std::vector<double>& row, texture::LawRequest r
 std::string path_of(const law::Compiled& c, const std::vector<double>& row,
                     const texture::LawRequest& r) {
   const double middle = 0.5 * (static_cast<double>(row.size()) - 1);
-  const double half_m = std::min(0.05, middle * r.texel_m);
+  const double half_m = std::min(0.05, middle * r.texel_m), below_m = 1e-3;
+  texture::check_reach(r, half_m, below_m);
   texture::Words words(c);
   std::string s = "pen_x_m,pen_y_m,height_m,force_x_n,force_y_n\n";
   for (double x = -half_m; x <= half_m; x += std::min(0.25e-3, r.texel_m)) {
-    const auto f = texture::pen_force(words, {x, r.surface_m - 1e-3});
+    const auto f = texture::pen_force(words, {x, r.surface_m - below_m});
     const double q = std::clamp(f.at_m.x / r.texel_m + middle, 0.0, 2 * middle);
     const auto i = std::min(static_cast<std::size_t>(q), row.size() - 2);
     const double share = row[i] + (q - static_cast<double>(i)) * (row[i + 1] - row[i]);
@@ -79,9 +82,10 @@ std::string path_of(const law::Compiled& c, const std::vector<double>& row,
 }
 
 int run(const TextureArguments& a) {
-  if (a.field && (a.table || a.row >= 0 || !a.path.empty())) {
+  if (a.field && (a.table || a.row >= 0 || !a.path.empty() || !std::isnan(a.surface_m))) {
     throw std::invalid_argument(
-        "--field takes the whole image; leave away --row, --table and --path");
+        "--field takes the whole image, black at 0; leave away --row, --table, --path and "
+        "--surface");
   }
   if (a.table && a.depth_m > a.texel_m) {
     throw std::invalid_argument(

@@ -52,10 +52,12 @@ class Rates(unittest.TestCase):
 
     def test_gates_are_those_of_the_budget(self):
         budget = tomllib.loads((ROOT / "scripts/synth_budget.toml").read_text(encoding="utf-8"))
-        sets = {name: row["lut4_equivalents"] for name, row in budget["scene_sets"]["lever"].items()}
+        rows = budget["scene_sets"]["lever"]
+        sets = {name: row["lut4_equivalents"] for name, row in rows.items()}
         page = (ROOT / "docs/rates.md").read_text(encoding="utf-8")
         engine = budget["figures"]["lever"]["axes_engine"]["lut4_equivalents"]
-        source = "".join(p.read_text(encoding="utf-8") for p in (ROOT / "model/rates").glob("*.cpp"))
+        files = (ROOT / "model/rates").glob("*.cpp")
+        source = "".join(path.read_text(encoding="utf-8") for path in files)
         for text, name in (
             ("{} LUT4 eq, both charges", "charge_attract, charge_repel"),
             ("{} LUT4 eq, wall too", "wall, damper"),

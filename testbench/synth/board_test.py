@@ -3,7 +3,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """`feltgate synth --board`, with stand-ins for the tools: what it prints, refuses and writes.
 
-board_test.py VENV SEEDS: with the tools of the venv, ULX3S to a bitstream, within the budget. docs/boards/ulx3s.md
+board_test.py VENV SEEDS: with the tools of the venv, ULX3S to a bitstream, within the budget.
+Documentation: docs/boards/ulx3s.md
 """
 
 import json
@@ -159,7 +160,8 @@ class Bitstream(unittest.TestCase):
             )
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             count = SEEDS.count(",") + 1
-            self.assertIn(f"of {count} seeds, the design's clock 50 MHz: timing closes", done.stdout)
+            said = f"of {count} seeds, the design's clock 50 MHz: timing closes"
+            self.assertIn(said, done.stdout)
             self.assertIn("synth: within the budget", done.stdout)
             data = Path(folder, "u.bit").read_bytes()
             self.assertTrue(re.search(rb"Part: LFE5U-85F-6CABGA381", data[:200]))

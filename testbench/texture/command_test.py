@@ -113,6 +113,11 @@ class Texture(unittest.TestCase):
         self.refused("no row 8", IMAGES / "ripples.png", "--row", "8")
         self.refused("--texel", IMAGES / "ripples.png", "--texel", "1")
         self.refused("--stiffness", IMAGES / "ripples.png", "--stiffness", "-1")
+        self.refused("--surface", IMAGES / "valley.png", "--field", "--surface", "10mm")
+        far = (IMAGES / "ripples.png", "--depth", "1mm", "--surface")
+        self.refused("the pen reaches 40 to 190 mm", *far, "200mm", "--path", "way.csv")
+        self.refused("the pen reaches 40 to 190 mm", *far, "42mm", "--table")
+        self.assertFalse((self.folder / "way.csv").exists())
 
 
 if __name__ == "__main__":

@@ -49,6 +49,9 @@ module ring_proof (
   (* hierconn *) wire \u_dut.hit_q ;
   (* hierconn *) wire \u_dut.hand_q ;
   (* hierconn *) wire \u_dut.event_q ;
+  (* hierconn *) wire \u_dut.configures ;
+  (* hierconn *) wire [2:0] \u_dut.trigger_mode_q ;
+  (* hierconn *) wire [31:0] \u_dut.level_q ;
   (* hierconn *) wire \u_dut.seen_q ;
   (* hierconn *) wire \u_dut.holds_q ;
   (* hierconn *) wire [3:0] \u_dut.number_q ;
@@ -121,11 +124,14 @@ module ring_proof (
   logic [8:0] columns;
   assign columns = (9'd1 << among(words, came_q)) - 9'd1;
 
-  // An event since the last tick ended.
-  logic event_came_q;
+  // The event asked for has come since the last tick ended, and was asked for before it came.
+  logic asked, event_came_q;
+  assign asked = \u_dut.trigger_mode_q == 3'd4 &&
+                 (\u_dut.level_q [9] || event_number_i == \u_dut.level_q [8:0]);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) event_came_q <= 1'b0;
-    else event_came_q <= event_valid_i || (event_came_q && !\u_dut.ends_q );
+    else if (\u_dut.configures || starts) event_came_q <= 1'b0;
+    else event_came_q <= (event_valid_i && asked) || (event_came_q && !\u_dut.ends_q );
   end
 
   logic [2:0] state_then_q;
@@ -155,7 +161,7 @@ module ring_proof (
                                           \u_dut.seen_q && (\u_dut.hit_q || \u_dut.hand_q || \u_dut.event_q )));
       no_row_while_it_runs: assert (!after_q || !\u_dut.holds_q || !runs_q);
       stores_in_a_run: assert (!stores || runs);
-      event_of_its_tick: assert (!\u_dut.event_q || event_came_q);
+      event_of_its_tick: assert (\u_dut.event_q == event_came_q);
       inside_state: assert (state <= 3'd4);
       inside_rest: assert (state != 3'd3 || ({1'b0, since} + left == (RowBits + 1)'(Rows) && since >= before_q &&
                                              rows >= {1'b0, since}));

@@ -60,11 +60,12 @@ PenForce pen_force(Words& words, shape::Point pen_m) {
 
 void check_reach(const LawRequest& r, double half_m, double below_m) {
   const double low_m = r.surface_m - below_m;
-  if (low_m >= nearest_pen_m && std::hypot(half_m, r.surface_m) <= farthest_pen_m) return;
+  if (low_m >= shape::nearest_pen_m && std::hypot(half_m, r.surface_m) <= shape::farthest_pen_m)
+    return;
   throw std::invalid_argument(fmt::format(
       "the pen reaches {:.0f} to {:.0f} mm from the motors, and a way of {:.4g} mm at "
       "{:.4g} mm leaves that; choose another --surface, or leave --path and --table away",
-      1e3 * nearest_pen_m, 1e3 * farthest_pen_m, 2e3 * half_m, 1e3 * r.surface_m));
+      1e3 * shape::nearest_pen_m, 1e3 * shape::farthest_pen_m, 2e3 * half_m, 1e3 * r.surface_m));
 }
 
 shape::Point plane_force(const std::vector<double>& row, const LawRequest& r, double x_m,

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "config/nearest.hpp"
+#include "feltgate/generated/engine.hpp"
 #include "feltgate/generated/link.hpp"
 
 namespace feltgate::host {
@@ -20,7 +21,8 @@ namespace {
 
 using M = LinkMap;
 
-constexpr int memory_row = 8;  ///< words of a row in the address space
+constexpr int memory_row = M::columns;
+static_assert(M::any_event == 1u << EngineMap::event_bits, "above every event's number");
 
 int words_in(unsigned mask) {
   int n = 0;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "feltgate/generated/link.hpp"
 #include "host/device.hpp"
 #include "host/law_engine.hpp"
 
@@ -18,7 +19,13 @@ namespace feltgate::host {
 
 /// When the capture is triggered.
 struct Trigger {
-  enum class Mode : std::uint8_t { by_hand = 0, rises = 1, falls = 2, bit = 3, event = 4 };
+  enum class Mode : std::uint32_t {
+    by_hand = 0,
+    rises = LinkMap::trigger_rises,
+    falls = LinkMap::trigger_falls,
+    bit = LinkMap::trigger_bit,
+    event = LinkMap::trigger_event
+  };
   Mode mode = Mode::by_hand;
   int word = 0;             ///< number of the word in masks
   std::uint32_t level = 0;  ///< in steps of the word, the mask of bits, or the event's number

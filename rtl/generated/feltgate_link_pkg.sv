@@ -27,8 +27,12 @@ package feltgate_link_pkg;
   localparam int MEMORY = 'h2000;  // first address of the capture memory: 8 words of a row, then the next row
   localparam int ROWS_LOG2 = 'ha;  // log2 of the rows of the capture memory
   localparam int COLUMNS = 'h8;  // words of a row
-  localparam int TRIGGER_EVENT = 'h4;  // trigger_mode: an event of a law
-  localparam int ANY_EVENT = 'h200;  // set in trigger_level: an event of any number; below it the number
+  localparam int TRIGGER_MODE_BITS = 'h3;  // bits of trigger_mode
+  localparam int TRIGGER_RISES = 'h1;  // trigger_mode: the word rises to the level or above, signed
+  localparam int TRIGGER_FALLS = 'h2;  // trigger_mode: the word falls below the level
+  localparam int TRIGGER_BIT = 'h3;  // trigger_mode: a bit of the level becomes 1
+  localparam int TRIGGER_EVENT = 'h4;  // trigger_mode: an event of a law; a bit of its own, which stays 0 without an engine
+  localparam int ANY_EVENT = 'h200;  // set in trigger_level: an event of any number; the bits below it are the number
   localparam int ENGINE = 'h4000;  // first address of the engine's words, where features.engine is set
 
   // The CRC-32 of a frame: reflected polynomial, register after a whole frame.

@@ -34,6 +34,8 @@ module link_capture #(
   localparam int RowBits = $clog2(Rows);
   localparam int ColumnBits = $clog2(feltgate_link_pkg::COLUMNS);
   localparam int PeriodBits = 16;
+  localparam int ModeBits = feltgate_link_pkg::TRIGGER_MODE_BITS;
+  localparam int EventBits = $clog2(feltgate_link_pkg::ANY_EVENT);
   localparam logic [RowBits:0] FULL = (RowBits + 1)'(Rows);
 
   generate
@@ -63,7 +65,7 @@ module link_capture #(
   logic [   RowBits-1:0] pre_q, pre;
   logic [PeriodBits-1:0] period_q, period;
   logic [           3:0] trigger_word_q;
-  logic [           2:0] trigger_mode_q;
+  logic [  ModeBits-1:0] trigger_mode_q, mode;
   logic [          31:0] level_q;
   logic                  control, starts, aborts, triggers, configures;
   assign control    = write_i && addr_i == feltgate_link_pkg::A_CAPTURE_CONTROL;
@@ -72,6 +74,7 @@ module link_capture #(
   assign triggers   = control && wdata_i[feltgate_link_pkg::B_CAPTURE_CONTROL_TRIGGER];
   assign pre        = (wdata_i[31:RowBits] != '0) ? '1 : wdata_i[RowBits-1:0];
   assign period     = (wdata_i[31:PeriodBits] != '0) ? '1 : wdata_i[PeriodBits-1:0];
+  assign mode       = wdata_i[ModeBits-1:0] & ~((Events != 0) ? '0 : ModeBits'(feltgate_link_pkg::TRIGGER_EVENT));
   assign configures = write_i && (addr_i == feltgate_link_pkg::A_TRIGGER_WORD ||
                                   addr_i == feltgate_link_pkg::A_TRIGGER_MODE ||
                                   addr_i == feltgate_link_pkg::A_TRIGGER_LEVEL);
@@ -89,7 +92,7 @@ module link_capture #(
         feltgate_link_pkg::A_CAPTURE_PRE:    if (!runs) pre_q <= pre;
         feltgate_link_pkg::A_CAPTURE_PERIOD: if (!runs) period_q <= period;
         feltgate_link_pkg::A_TRIGGER_WORD:   trigger_word_q <= (wdata_i[31:4] != '0) ? '1 : wdata_i[3:0];
-        feltgate_link_pkg::A_TRIGGER_MODE:   trigger_mode_q <= {Events != 0 && wdata_i[2], wdata_i[1:0]};
+        feltgate_link_pkg::A_TRIGGER_MODE:   trigger_mode_q <= mode;
         feltgate_link_pkg::A_TRIGGER_LEVEL:  level_q <= wdata_i;
         default: ;
       endcase
@@ -117,9 +120,9 @@ module link_capture #(
     end else if (at_trigger) begin
       known_q <= 1'b1;
       case (trigger_mode_q)
-        3'd1:    hit_q <= known_q && high && !high_q;
-        3'd2:    hit_q <= known_q && !high && high_q;
-        3'd3:    hit_q <= known_q && (word_data_i & ~before_q & level_q) != '0;
+        ModeBits'(feltgate_link_pkg::TRIGGER_RISES): hit_q <= known_q && high && !high_q;
+        ModeBits'(feltgate_link_pkg::TRIGGER_FALLS): hit_q <= known_q && !high && high_q;
+        ModeBits'(feltgate_link_pkg::TRIGGER_BIT): hit_q <= known_q && (word_data_i & ~before_q & level_q) != '0;
         default: hit_q <= 1'b0;
       endcase
     end
@@ -127,8 +130,8 @@ module link_capture #(
 
   // An event since the last tick ended, so of the tick whose last word is to come.
   logic event_hit, event_q;
-  assign event_hit = event_valid_i && Events != 0 && trigger_mode_q == 3'(feltgate_link_pkg::TRIGGER_EVENT) &&
-                     ((level_q & 32'(feltgate_link_pkg::ANY_EVENT)) != '0 || event_number_i == level_q[8:0]);
+  assign event_hit = event_valid_i && Events != 0 && trigger_mode_q == ModeBits'(feltgate_link_pkg::TRIGGER_EVENT) &&
+                     ((level_q & 32'(feltgate_link_pkg::ANY_EVENT)) != '0 || event_number_i == level_q[EventBits-1:0]);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) event_q <= 1'b0;
     else if (configures || starts) event_q <= 1'b0;

@@ -59,7 +59,7 @@ class LinkCapture {
   void event(int number) {
     const auto word = static_cast<std::uint32_t>(number);
     event_ |= Events && mode_ == LinkMap::trigger_event &&
-              ((level_ & LinkMap::any_event) != 0 || word == (level_ & 0x1ffu));
+              ((level_ & LinkMap::any_event) != 0 || word == (level_ & (LinkMap::any_event - 1)));
   }
 
   /// A whole tick at once: its words in the order of their numbers, nothing written or read
@@ -80,6 +80,7 @@ class LinkCapture {
   static constexpr unsigned kColumns = LinkMap::columns;
   static constexpr std::uint32_t kRows = Rows;
   static constexpr std::uint32_t kLongest = 0xffff;
+  static constexpr std::uint32_t kModes = (1u << LinkMap::trigger_mode_bits) - 1;
   static_assert(Rows >= 4 && Rows <= 1024 && (Rows & (Rows - 1)) == 0, "see link_capture.sv");
 
   static std::uint32_t at_most(std::uint32_t word, std::uint32_t limit) {
@@ -122,8 +123,9 @@ class LinkCapture {
   /// What the trigger's word says against what it said a tick ago.
   void look(std::uint32_t data) {
     const bool high = at_or_above(data, level_), was = at_or_above(before_, level_);
-    hit_ = known_ && ((mode_ == 1 && high && !was) || (mode_ == 2 && !high && was) ||
-                      (mode_ == 3 && (data & ~before_ & level_) != 0));
+    hit_ = known_ && ((mode_ == LinkMap::trigger_rises && high && !was) ||
+                      (mode_ == LinkMap::trigger_falls && !high && was) ||
+                      (mode_ == LinkMap::trigger_bit && (data & ~before_ & level_) != 0));
     before_ = data;
     known_ = true;
   }
@@ -167,7 +169,7 @@ class LinkCapture {
         trigger_word_ = at_most(data, kNone);
         break;
       case A::trigger_mode:
-        mode_ = data & (Events ? 7u : 3u);
+        mode_ = data & kModes & ~(Events ? 0u : LinkMap::trigger_event);
         break;
       case A::trigger_level:
         level_ = data;

@@ -82,7 +82,8 @@ class LinkedAxis {
 
   FeltgateAxes<D, 1, true, true> axes_;
   CoreOut out_;
-  std::array<std::uint32_t, 64> whole_{};  ///< by slot: of the last tick whose snapshot came
+  static constexpr std::size_t kSlots = LinkMap::slots[LinkMap::snapshot_words - 1] + 1;
+  std::array<std::uint32_t, kSlots> whole_{};  ///< by slot: of the last tick whose snapshot came
   bool engine_busy_ = false, at_snapshot_ = false;
 };
 

@@ -705,8 +705,12 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_LINK_FORMAT_MEMORY 8192  /* first address of the capture memory: 8 words of a row, then the next row */
 #define FELTGATE_LINK_FORMAT_ROWS_LOG2 10  /* log2 of the rows of the capture memory */
 #define FELTGATE_LINK_FORMAT_COLUMNS 8  /* words of a row */
-#define FELTGATE_LINK_FORMAT_TRIGGER_EVENT 4  /* trigger_mode: an event of a law */
-#define FELTGATE_LINK_FORMAT_ANY_EVENT 512  /* set in trigger_level: an event of any number; below it the number */
+#define FELTGATE_LINK_FORMAT_TRIGGER_MODE_BITS 3  /* bits of trigger_mode */
+#define FELTGATE_LINK_FORMAT_TRIGGER_RISES 1  /* trigger_mode: the word rises to the level or above, signed */
+#define FELTGATE_LINK_FORMAT_TRIGGER_FALLS 2  /* trigger_mode: the word falls below the level */
+#define FELTGATE_LINK_FORMAT_TRIGGER_BIT 3  /* trigger_mode: a bit of the level becomes 1 */
+#define FELTGATE_LINK_FORMAT_TRIGGER_EVENT 4  /* trigger_mode: an event of a law; a bit of its own, which stays 0 without an engine */
+#define FELTGATE_LINK_FORMAT_ANY_EVENT 512  /* set in trigger_level: an event of any number; the bits below it are the number */
 #define FELTGATE_LINK_FORMAT_ENGINE 16384  /* first address of the engine's words, where features.engine is set */
 
 #endif

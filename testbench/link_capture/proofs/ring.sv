@@ -126,8 +126,9 @@ module ring_proof (
 
   // The event asked for has come since the last tick ended, and was asked for before it came.
   logic asked, event_came_q;
-  assign asked = \u_dut.trigger_mode_q == 3'd4 &&
-                 (\u_dut.level_q [9] || event_number_i == \u_dut.level_q [8:0]);
+  assign asked = \u_dut.trigger_mode_q == 3'(feltgate_link_pkg::TRIGGER_EVENT) &&
+                 ((\u_dut.level_q & 32'(feltgate_link_pkg::ANY_EVENT)) != '0 ||
+                  event_number_i == \u_dut.level_q [8:0]);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) event_came_q <= 1'b0;
     else if (\u_dut.configures || starts) event_came_q <= 1'b0;

@@ -33,17 +33,6 @@ bool bit(std::uint32_t word, int n) { return (word >> n & 1U) != 0; }
 
 }  // namespace
 
-law::Target law_target(const design::Elaborated& design) {
-  law::Target t;
-  t.design = design.design.name;
-  t.tick_hz = design.design.tick_hz;
-  t.clocks_per_tick = design.design.clocks_per_tick();
-  t.counts_per_turn = 4 * design.design.lines;
-  t.velocity = design.design.velocity;
-  t.torque = design.design.torque;
-  return t;
-}
-
 LawEngine::LawEngine(Device& device) : device_(device) {
   if (device.board().has_engine) return;
   throw Refused(fmt::format(

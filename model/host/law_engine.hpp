@@ -17,7 +17,6 @@
 #include "host/device.hpp"
 #include "law/image.hpp"
 #include "law/load.hpp"
-#include "law/target.hpp"
 
 namespace feltgate::host {
 
@@ -47,9 +46,6 @@ struct LoadReport {
   int written = 0;  ///< that it did not hold before
   int rounds = 0;   ///< of writing: more than one where the line lost some
 };
-
-/// What a law's compiler must know of a board's design.
-law::Target law_target(const design::Elaborated& design);
 
 /// The engine of one board. One thread, one request at a time.
 class LawEngine {

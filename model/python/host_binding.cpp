@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 
+#include "design/law_target.hpp"
 #include "host/capture.hpp"
 #include "host/keep_alive.hpp"
 #include "host/law_engine.hpp"
@@ -98,7 +99,7 @@ class PyDevice {
   py::dict law(const std::string& path) {
     host::LawEngine& engine = engine_of_laws();
     const host::LoadReport r = unlocked([&] {
-      const law::Image image = law::compile_file(path, host::law_target(device().design())).image;
+      const law::Image image = law::compile_file(path, design::law_target(device().design())).image;
       const host::LoadReport report = engine.load(image);
       host::keep_law(host::laws_folder(), image);
       return report;

@@ -4,21 +4,15 @@
 // Documentation: docs/law-compiler.md
 #include "tools/law_target.hpp"
 
+#include "design/law_target.hpp"
 #include "tools/commands.hpp"
 
 namespace feltgate {
 
 law::Target law_target(const std::string& design) {
-  const auto e = design::elaborate(design::read_design(find_file(design, "rtl/designs")),
-                                   design::read_registers(repository() + "/rtl/registers.toml"));
-  law::Target t;
-  t.design = e.design.name;
-  t.tick_hz = e.design.tick_hz;
-  t.clocks_per_tick = e.design.clocks_per_tick();
-  t.counts_per_turn = 4 * e.design.lines;
-  t.velocity = e.design.velocity;
-  t.torque = e.design.torque;
-  return t;
+  return design::law_target(
+      design::elaborate(design::read_design(find_file(design, "rtl/designs")),
+                        design::read_registers(repository() + "/rtl/registers.toml")));
 }
 
 }  // namespace feltgate

@@ -15,6 +15,7 @@
 #include <string>
 
 #include "board_in_process.hpp"
+#include "design/law_target.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/lever_law.hpp"
 #include "host/capture.hpp"
@@ -34,7 +35,7 @@ const design::Elaborated& design_of() {
 }
 
 law::Image compiled(const std::string& text, const std::string& name = "test") {
-  return law::compile_text(text, name, host::law_target(design_of<LeverLaw>())).image;
+  return law::compile_text(text, name, design::law_target(design_of<LeverLaw>())).image;
 }
 
 const law::Image& spring() {

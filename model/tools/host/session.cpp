@@ -13,6 +13,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "design/law_target.hpp"
 #include "law/compile.hpp"
 #include "tools/commands.hpp"
 
@@ -84,7 +85,7 @@ Device& Session::device() {
 law::Image Session::image_of(const std::string& law) {
   const std::string path = std::filesystem::path(law).extension() == ".img" ? law : find_law(law);
   if (std::filesystem::path(path).extension() != ".img") {
-    return law::compile_file(path, law_target(design().design)).image;
+    return law::compile_file(path, design::law_target(design().design)).image;
   }
   std::ifstream in(path);
   std::ostringstream text;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "shape/outline.hpp"
 
@@ -22,5 +23,10 @@ Point force_at(Point pen_m, const std::array<double, 2>& torque_nm);
 
 /// Speeds of the two cranks, rad/s, with which the pen at p has this velocity, m/s.
 std::array<double, 2> crank_speeds(Point pen_m, Point velocity_m_s);
+
+/// The same in a law: its length L, sines and cosines s1, c1, s5, c5 of the cranks; and the torques
+/// of the force fx, fy.
+std::string law_cranks();
+std::string law_torques();
 
 }  // namespace feltgate::shape

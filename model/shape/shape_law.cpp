@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "law/number_list.hpp"
+#include "shape/rhombus.hpp"
 
 namespace feltgate::shape {
 
@@ -23,31 +24,26 @@ std::vector<double> each(std::size_t count, const Of& of) {
   return values;
 }
 
-constexpr const char* pen = R"(
-# The pen of the rhombus, and its velocity.
-let L = 0.1 m
-let s1 = sin(position[0])
-let c1 = cos(position[0])
-let s5 = sin(position[1])
-let c5 = cos(position[1])
-let x = L * (c1 + c5)
+std::string pen() {
+  return "\n# The pen of the rhombus, and its velocity.\n" + law_cranks() + R"(let x = L * (c1 + c5)
 let y = L * (s1 + s5)
 let vx = clamp(-L * (s1 * velocity[0] + s5 * velocity[1]), -0.5 m/s, 0.5 m/s)
 let vy = clamp(L * (c1 * velocity[0] + c5 * velocity[1]), -0.5 m/s, 0.5 m/s)
 )";
+}
 
 constexpr const char* depth = R"(
 let dx = clamp(ax, -0.03 m, 0.03 m)
 let dy = clamp(ay, -0.03 m, 0.03 m)
 )";
 
-constexpr const char* force = R"(
+std::string force() {
+  return R"(
 # A spring from the pen to that place, as long as the pen is inside; its torques on the cranks.
 let fx = if inside then -stiffness * dx - damping * vx else 0
 let fy = if inside then -stiffness * dy - damping * vy else 0
-out torque[0] = L * (c1 * fy - s1 * fx)
-out torque[1] = L * (c5 * fy - s5 * fx)
-)";
+)" + law_torques();
+}
 
 std::string head(const LawRequest& r) {
   return "# " + r.summary + "\n" +
@@ -108,7 +104,7 @@ std::string proxy(const Polygon& p, bool texture) {
   s += number_list(fmt::format(form, "along_y"),
                    each(n + 1, [&](auto i) { return p.along[i % n].y; }), "");
   if (texture) s += shares(p, form.c_str());
-  s += pen;
+  s += pen();
   return s +
          fmt::format(R"(
 # The proxy walks along the outline to where the pen is square to it, half an edge a run at most.
@@ -134,7 +130,7 @@ let nearer = qx * qx + qy * qy < ax * ax + ay * ay
 next place = clamp(if nearer and not inside then probe else walked, 0, {0})
 )",
                      n, static_cast<double>(n) - 0.5, n - 1, longest(p)) +
-         (texture ? ripples : depth) + force;
+         (texture ? ripples : depth) + force();
 }
 
 /// All outlines in the same two tables, each with the vertex before its first and the two behind
@@ -155,7 +151,7 @@ std::string resident(const std::vector<Polygon>& shapes) {
   std::string s = "# Corners of all shapes, one behind the other.\n";
   s += number_list(fmt::format(form, "shape_x"), xs, "m") +
        number_list(fmt::format(form, "shape_y"), ys, "m");
-  return s + pen +
+  return s + pen() +
          fmt::format(R"(
 # Another shape than a run before: nothing is felt until its outline has been looked along.
 state shown = 0 in 0 .. {4} whole
@@ -187,13 +183,13 @@ let nearer = qx * qx + qy * qy < 0.998 * (ax * ax + ay * ay)
 next place = clamp(if nearer and not inside then probe else walked, 0, {0})
 )",
                      n, static_cast<double>(n) - 0.5, n - 1, most, count - 1, words, most * most) +
-         depth + force;
+         depth + force();
 }
 
 std::string simple(const Polygon& p) {
   const std::size_t n = p.size();
   std::string s = "# Corners, and 1 / length of the edge behind each.\n";
-  s += corners(p, "array {} =") + reciprocals(p, "per_length", 1) + pen;
+  s += corners(p, "array {} =") + reciprocals(p, "per_length", 1) + pen();
   s += fmt::format(R"(
 # The nearest edge so far, and one a run that may be nearer; where on each is nearest to the pen.
 state edge = 0 in 0 .. {0} whole
@@ -222,13 +218,13 @@ let ax = edge_ax
 let ay = edge_ay
 let inside = edge_uy * ax - edge_ux * ay < 0
 )" + depth +
-         force;
+         force();
 }
 
 std::string walk(const Polygon& p) {
   const std::size_t n = p.size();
   std::string s = "# Corners, and 1 / length^2 of the edge behind each.\n";
-  s += corners(p, "array {} =") + reciprocals(p, "per_square", 2) + pen;
+  s += corners(p, "array {} =") + reciprocals(p, "per_square", 2) + pen();
   return s +
          fmt::format(R"(
 # The proxy is at t of an edge, and goes at most half of it a run; at its ends to the neighbour.
@@ -260,7 +256,7 @@ let moved = if reached >= 1 then 0 else if reached <= 0 then 1 else reached
 next t = clamp(if found then 0 else moved, 0, 1)
 )",
                      n - 1, longest(p)) +
-         depth + force;
+         depth + force();
 }
 
 }  // namespace

@@ -16,15 +16,6 @@ namespace feltgate::texture {
 
 Words::Words(const law::Compiled& c)
     : machine_(law::memory(c.image)), thread_(c.target.thread), count_rad_(c.target.count_rad()) {
-  std::vector<double> values;
-  for (const law::ImageWord& w : c.image.words) {
-    if (w.formula.empty()) values.push_back(static_cast<double>(w.initial) * w.scale);
-  }
-  const std::vector<std::int32_t> words = law::parameter_words(c.image, values);
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    machine_.set_parameter(static_cast<int>(i), words[i]);
-  }
-  machine_.commit();
   machine_.enter();
   for (const law::Output& o : c.law.outputs) {
     lsb_nm_[static_cast<std::size_t>(o.axis)] = std::ldexp(1.0, -c.target.torque.fraction);

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "law/number_list.hpp"
+#include "shape/rhombus.hpp"
 
 namespace feltgate::texture {
 
@@ -77,26 +78,22 @@ let below = deep - within
                      height_of_pen, 1e3 * most_pen_m);
 }
 
-constexpr const char* row_pen = R"(
-# The pen of the pantograph.
-let L = 0.1 m
-let s1 = sin(position[0])
-let c1 = cos(position[0])
-let s5 = sin(position[1])
-let c5 = cos(position[1])
-let vy = clamp(L * (c1 * velocity[0] + c5 * velocity[1]), -2 m/s, 2 m/s)
+std::string row_pen() {
+  return "\n# The pen of the pantograph.\n" + shape::law_cranks() +
+         R"(let vy = clamp(L * (c1 * velocity[0] + c5 * velocity[1]), -2 m/s, 2 m/s)
 )";
+}
 
-constexpr const char* row_force = R"(
+std::string row_force() {
+  return R"(
 # The normal is (-slope, 1) of length 1.
 table upright(t) on [0, 2] = 1 / sqrt(1 + t * t) with 64 segments
 let nz = upright(abs(slope))
 let spring = stiffness * (within * nz + below)
 let fy = clamp(spring - damping * vy, 0, 2 * spring)
 let fx = -stiffness * within * slope * nz
-out torque[0] = L * (c1 * fy - s1 * fx)
-out torque[1] = L * (c5 * fy - s5 * fx)
-)";
+)" + shape::law_torques();
+}
 
 constexpr const char* field_force = R"(
 # The normal is (-slope_x, -slope_y, 1) of length 1.
@@ -187,7 +184,7 @@ std::string row_law(const std::vector<double>& row, const LawRequest& r) {
                       1e3 * r.surface_m, 1e3 * r.texel_m);
   s += law::number_list(fmt::format("table height(q) on [0, {}] through", n - 1), row, "");
   if (facets) s += places(n);
-  s += row_pen;
+  s += row_pen();
   s += fmt::format("\nlet q = clamp((L * (c1 + c5) - middle) / texel + {:.9g}, -1, {})\n",
                    (n - 1) / 2.0, n);
   s += "let top = depth * height(q)\n";
@@ -201,7 +198,7 @@ std::string row_law(const std::vector<double>& row, const LawRequest& r) {
     s += "let rise = 0.5 * (height(q + 1) - height(q - 1))\n";
   }
   s += "let slope = clamp(depth / texel * rise, -2, 2)\n";
-  return s + split("L * (s1 + s5)") + row_force;
+  return s + split("L * (s1 + s5)") + row_force();
 }
 
 std::string field_law(const Image& f, const LawRequest& r) {

@@ -16,6 +16,7 @@
 #include "shape/shape_law.hpp"
 #include "tools/commands.hpp"
 #include "tools/law_target.hpp"
+#include "tools/made_law.hpp"
 
 namespace feltgate {
 
@@ -39,16 +40,6 @@ std::string name_of(shape::Kind kind) {
     if (k == kind) return name;
   }
   return {};
-}
-
-/// What is wrong with an outline is told with its file.
-template <class Make>
-auto of_file(const std::string& file, const Make& make) {
-  try {
-    return make();
-  } catch (const std::invalid_argument& e) {
-    throw std::invalid_argument(fmt::format("{}:1: {}", file, e.what()));
-  }
 }
 
 constexpr double depth_m = 2e-3, step_m = 0.153e-3;
@@ -229,7 +220,6 @@ void add_shape(CLI::App& app, int* exit_code) {
       "Of several shapes the law's parameter `shape` chooses one, 0 the first, while it is felt.\n"
       "Exit code: 0 all well, 2 unusable input: no path, several, an open one, one that crosses\n"
       "itself, out of reach, an edge too short for the radius; nothing is written then.");
-  const std::map<std::string, double> lengths{{"mm", 1e-3}, {"m", 1.0}};
   sub->add_option("svg", a->svgs, "SVG files with one closed outline each; up to seven in one law")
       ->required()
       ->expected(-1)
@@ -243,12 +233,8 @@ void add_shape(CLI::App& app, int* exit_code) {
       ->type_name("N")
       ->check(CLI::Range(shape::fewest_vertices, shape::most_vertices))
       ->capture_default_str();
-  sub->add_option("--radius", a->radius_m, "of every corner, 5mm; 0mm: as drawn")
-      ->type_name("LENGTH")
-      ->transform(CLI::AsNumberWithUnit(lengths, CLI::AsNumberWithUnit::UNIT_REQUIRED));
-  sub->add_option("--size", a->size_m, "larger side of the shape, 60mm")
-      ->type_name("LENGTH")
-      ->transform(CLI::AsNumberWithUnit(lengths, CLI::AsNumberWithUnit::UNIT_REQUIRED));
+  add_length(*sub, "--radius", &a->radius_m, "of every corner, 5mm; 0mm: as drawn");
+  add_length(*sub, "--size", &a->size_m, "larger side of the shape, 60mm");
   sub->add_option("--centre", a->centre_m, "its middle, m, motors at 0 0")
       ->type_name("X Y")
       ->capture_default_str();

@@ -17,6 +17,7 @@
 #include "texture/texture_law.hpp"
 #include "tools/commands.hpp"
 #include "tools/law_target.hpp"
+#include "tools/made_law.hpp"
 
 namespace feltgate {
 
@@ -26,8 +27,8 @@ struct TextureArguments {
   std::string png, out, path, design = "lever", normals = "interpolated";
   int row = -1;
   double texel_m = 1e-3, depth_m = 2e-3, stiffness = 500, damping = 0;
-  double surface_m = std::nan("");  ///< none told
-  bool field = false, table = false, quiet = false;
+  double surface_m = texture::LawRequest{}.surface_m;
+  bool surface_told = false, field = false, table = false, quiet = false;
 };
 
 texture::LawRequest request(const TextureArguments& a) {
@@ -36,8 +37,7 @@ texture::LawRequest request(const TextureArguments& a) {
   r.depth_m = a.depth_m;
   r.stiffness_n_per_m = a.stiffness;
   r.damping_ns_per_m = a.damping;
-  if (!std::isnan(a.surface_m)) r.surface_m = a.surface_m;
-  if (a.field) r.surface_m = 0;
+  r.surface_m = a.field ? 0 : a.surface_m;
   r.normals = a.normals == "facets" ? texture::Normals::facets : texture::Normals::interpolated;
   return r;
 }
@@ -82,7 +82,7 @@ std::string path_of(const law::Compiled& c, const std::vector<double>& row,
 }
 
 int run(const TextureArguments& a) {
-  if (a.field && (a.table || a.row >= 0 || !a.path.empty() || !std::isnan(a.surface_m))) {
+  if (a.field && (a.table || a.row >= 0 || !a.path.empty() || a.surface_told)) {
     throw std::invalid_argument(
         "--field takes the whole image, black at 0; leave away --row, --table, --path and "
         "--surface");
@@ -110,21 +110,14 @@ int run(const TextureArguments& a) {
                       : fmt::format("{}: {} texels of {:.4g} mm, under the pen of a pantograph",
                                     stem, image.width, 1e3 * a.texel_m);
   const std::vector<double> shares = texture::row_of(image, row);
-  const auto made = [&](const auto& make) {
-    try {
-      return make();
-    } catch (const std::invalid_argument& e) {
-      throw std::invalid_argument(fmt::format("{}:1: {}", a.png, e.what()));
-    }
-  };
-  const std::string text =
-      made([&] { return a.field ? texture::field_law(image, r) : texture::row_law(shares, r); });
+  const std::string text = of_file(
+      a.png, [&] { return a.field ? texture::field_law(image, r) : texture::row_law(shares, r); });
   const law::Target design = law_target(a.design);
   const law::Compiled c = law::compile_text(text, a.out.empty() ? stem + ".law" : a.out, design);
   std::string said = fmt::format("{}: {} x {} pixels, ", a.png, image.width, image.height);
   said += a.field ? std::string("all of them\n") : fmt::format("row {}\n", row);
   if (a.table) {
-    said += made([&] { return firmness_table(shares, r, design); });
+    said += of_file(a.png, [&] { return firmness_table(shares, r, design); });
   } else {
     said += "\n" + law::report(c, law::measure(c, 1, 20000));
   }
@@ -157,23 +150,19 @@ void add_texture(CLI::App& app, int* exit_code) {
       "Stiffness, damping, depth and place stay parameters that the host may change.\n"
       "Exit code: 0 all well, 2 unusable input: no PNG, a broken one, 16 bits, 1 x 1 pixels, more\n"
       "than the law holds, too steep; nothing is written then.");
-  const std::map<std::string, double> lengths{{"mm", 1e-3}, {"m", 1.0}};
-  const auto length = [&](const std::string& option, double* value, double low, double high,
-                          const std::string& what) {
-    sub->add_option(option, *value, what)
-        ->type_name("LENGTH")
-        ->transform(CLI::AsNumberWithUnit(lengths, CLI::AsNumberWithUnit::UNIT_REQUIRED))
-        ->check(CLI::Range(low, high));
-  };
   sub->add_option("png", a->png, "the image")->required()->type_name("FILE");
   sub->add_option("-o,--output", a->out, "the law file")->type_name("FILE");
   sub->add_option("--row", a->row, "which row, 0 the upper one; the middle one unless told")
       ->type_name("N")
       ->check(CLI::Range(0, texture::most_side - 1));
   sub->add_flag("--field", a->field, "the whole image, for three axes");
-  length("--texel", &a->texel_m, 0.05e-3, 20e-3, "from pixel to pixel, 1mm");
-  length("--depth", &a->depth_m, 0.01e-3, texture::most_depth_m, "from black to white, 2mm");
-  length("--surface", &a->surface_m, -0.2, 0.2, "height of black over the motors, 80mm");
+  add_length(*sub, "--texel", &a->texel_m, "from pixel to pixel, 1mm")
+      ->check(CLI::Range(0.05e-3, 20e-3));
+  add_length(*sub, "--depth", &a->depth_m, "from black to white, 2mm")
+      ->check(CLI::Range(0.01e-3, texture::most_depth_m));
+  CLI::Option* surface =
+      add_length(*sub, "--surface", &a->surface_m, "height of black over the motors, 80mm")
+          ->check(CLI::Range(-0.2, 0.2));
   sub->add_option("--stiffness", a->stiffness, "N/m at first; the host may change it")
       ->type_name("N/m")
       ->check(CLI::Range(0.0, texture::most_stiffness_n_per_m))
@@ -194,7 +183,10 @@ void add_texture(CLI::App& app, int* exit_code) {
   sub->add_flag("--table", a->table,
                 "firmness with texels of 10 mm to 0.1 mm, with and without the split of the depth");
   sub->add_flag("--quiet", a->quiet, "print nothing");
-  sub->callback([a, exit_code] { *exit_code = run(*a); });
+  sub->callback([a, surface, exit_code] {
+    a->surface_told = surface->count() > 0;
+    *exit_code = run(*a);
+  });
 }
 
 }  // namespace feltgate

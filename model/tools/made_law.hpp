@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What the commands have in common that make a law of a drawing or an image. Documentation:
+// docs/devices/shapes.md, docs/devices/texture.md
+#pragma once
+
+#include <fmt/format.h>
+
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "tools/commands.hpp"
+
+namespace feltgate {
+
+/// What make() returns; what it finds wrong is told with the file it comes from.
+template <class Make>
+auto of_file(const std::string& file, const Make& make) {
+  try {
+    return make();
+  } catch (const std::invalid_argument& e) {
+    throw std::invalid_argument(fmt::format("{}:1: {}", file, e.what()));
+  }
+}
+
+/// An option that takes a length with its unit, mm or m; `value` is in m.
+inline CLI::Option* add_length(CLI::App& to, const std::string& name, double* value,
+                               const std::string& what) {
+  static const std::map<std::string, double> units{{"mm", 1e-3}, {"m", 1.0}};
+  return to.add_option(name, *value, what)
+      ->type_name("LENGTH")
+      ->transform(CLI::AsNumberWithUnit(units, CLI::AsNumberWithUnit::UNIT_REQUIRED));
+}
+
+}  // namespace feltgate

@@ -69,24 +69,22 @@ run_tests() {
   fi
   if [[ $name ]]; then mapfile -t targets < <(tests_say targets "${chosen[@]}"); fi
   if [[ ${targets[*]} ]]; then build ON "${targets[@]}"; fi
-  if [[ ! $name || $found == *lint.* ]]; then
-    # Without a network its test is skipped, but not in CI.
-    (need_venv slang) || [[ ${CI-} != true ]] || die "slang cannot be fetched"
-  fi
-  if [[ ! $name || $found == *ulx3s.bitstream* ]]; then
-    (need_venv synth) || [[ ${CI-} != true ]] || die "Yosys and nextpnr cannot be fetched"
-  fi
-  if [[ ! $name || $found == *mutate.twin* ]]; then
-    (need_venv mutate) || [[ ${CI-} != true ]] || die "tree-sitter cannot be fetched"
-  fi
-  if [[ ! $name || $found == *register_files* || $found == *neighbours.* ]]; then
-    (need_venv neighbours) || [[ ${CI-} != true ]] || die "FuseSoC and LiteX cannot be fetched"
-  fi
+  fetch_for_tests slang slang 'lint\.'
+  fetch_for_tests synth "Yosys and nextpnr" 'ulx3s\.bitstream'
+  fetch_for_tests mutate tree-sitter 'mutate\.twin'
+  fetch_for_tests neighbours "FuseSoC and LiteX" 'register_files|neighbours\.|board\.host'
   rm -f "$results"
   ctest --test-dir "$BUILD" --output-on-failure --no-tests=error -j "$(nproc)" \
     --output-junit "$results" "${options[@]}" || status=$?
   if [[ ! $name && -f $results ]]; then tests_say minutes "${chosen[@]}" --results "$results"; fi
   report_tests "$status" "$results" "$name"
+}
+
+# fetch_for_tests VENV WHAT TESTS: the venv of tests whose names match TESTS, where one of them is
+# to run. Without a network they are skipped, but not in CI.
+fetch_for_tests() {
+  [[ ! $name || $found =~ $3 ]] || return 0
+  (need_venv "$1") || [[ ${CI-} != true ]] || die "$2 cannot be fetched"
 }
 
 # Prints the counts as the last line; returns 1 when anything failed. CTest's own totals are of no

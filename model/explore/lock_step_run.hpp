@@ -17,6 +17,7 @@
 #include "explore/measurement.hpp"
 #include "explore/stimulus.hpp"
 #include "feltgate/feltgate_core.hpp"
+#include "feltgate/generated/causes.hpp"
 #include "feltgate/while_armed.hpp"
 #include "reference/control_chain.hpp"
 
@@ -109,7 +110,7 @@ class LockStepRun {
     play(motion, clocks);
     if (core_.twin().out().first_fault != static_cast<unsigned>(Fault::i2t)) {
       note(fmt::format("the motor did not get too hot: the first fault is {}",
-                       core_.twin().out().first_fault));
+                       fault_names.at(core_.twin().out().first_fault)));
     }
     write(D::A::i2t_budget, 0xffffffff);
     control(0, Mode::closed_loop, false);

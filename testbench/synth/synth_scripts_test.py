@@ -120,9 +120,11 @@ class Report(unittest.TestCase):
         name = "core without read-back, registered"
         rows = {name: ROW | {"lut4_equivalents": 2640, "fmax_mhz": 111.0}}
         verdicts = [row[-1] for row in synth_report.goal_rows("lever", rows)]
-        self.assertEqual(verdicts[0], "**missed** by 10%")
-        self.assertEqual(verdicts[3], "met")
-        self.assertEqual(verdicts[1], "not measured")
+        self.assertEqual(verdicts[0], "**missed** by 39%")
+        self.assertEqual(verdicts[1], "**missed** by 11%")
+        self.assertEqual(verdicts[2], "not measured")
+        self.assertEqual(verdicts[4], "**missed** by 15%")
+        self.assertEqual(verdicts[5], "met")
 
     def test_page_without_markers_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -13,6 +13,7 @@ module reads_proof (
 );
   `include "reset.svh"
   `include "core.svh"
+  `include "inside.svh"
 
   feltgate_core #(.ParameterFile("parameters.mem")) u_other (
       .clk_i(clk_i), .rst_ni(rst_ni),
@@ -25,59 +26,25 @@ module reads_proof (
       .reg_write_i(reg_write_i)
   );
 
-  (* hierconn *) wire \u_core.u_registers.to_parameter_q ;
-  (* hierconn *) wire \u_core.u_registers.to_control_q ;
-  (* hierconn *) wire \u_core.u_registers.to_command_q ;
-  (* hierconn *) wire \u_core.u_registers.disarm_o ;
-  (* hierconn *) wire \u_core.u_registers.stop_o ;
-  (* hierconn *) wire \u_core.u_registers.zero_q ;
   (* hierconn *) wire \u_core.u_registers.refused_o ;
   (* hierconn *) wire \u_core.u_registers.held_check_q ;
-  (* hierconn *) wire \u_core.u_registers.warm_q ;
   (* hierconn *) wire \u_core.u_registers.written_q ;
   (* hierconn *) wire \u_core.u_registers.written_q2 ;
   (* hierconn *) wire \u_core.u_registers.word_error_o ;
   (* hierconn *) wire \u_core.u_registers.g_read.write_bank_q ;
   (* hierconn *) wire \u_core.u_registers.g_read.frozen_q ;
-  (* hierconn *) wire [8:0] \u_core.u_registers.address_q ;
-  (* hierconn *) wire [31:0] \u_core.u_registers.data_q ;
   (* hierconn *) wire [feltgate_map_pkg::W_CONTROL-1:0] \u_core.u_registers.control_o ;
   (* hierconn *) wire [31:0] \u_core.u_registers.param_o ;
   (* hierconn *) wire [3:0] \u_core.u_registers.check_q ;
-  (* hierconn *) wire \u_core.u_registers.lands ;
-  (* hierconn *) wire [35:0] \u_core.u_registers.written ;
   (* hierconn *) wire \u_core.u_registers.snap_valid_i ;
   (* hierconn *) wire [5:0] \u_core.u_registers.snap_slot_i ;
   (* hierconn *) wire [31:0] \u_core.u_registers.snap_data_i ;
-  (* hierconn *) wire [35:0] \u_core.u_registers.fetch_q ;
-  (* hierconn *) wire [8:0] \u_core.u_registers.fetch_address ;
   (* hierconn *) wire \u_core.reg_busy_o ;
   (* hierconn *) wire \u_core.u_sequencer.tick_o ;
   (* hierconn *) wire \u_core.u_sequencer.scene_slot_fetch_o ;
   (* hierconn *) wire [L-1:0] \u_core.u_sequencer.wave_o ;
   (* hierconn *) wire [31:0] \u_core.u_sequencer.tick_count_o ;
   (* hierconn *) wire \u_core.u_supervisor.tick_i ;
-  (* hierconn *) wire \u_core.u_supervisor.clear_faults_i ;
-  (* hierconn *) wire \u_core.u_supervisor.kick_i ;
-  (* hierconn *) wire [3:0] \u_core.u_quad_decoder.filter_i ;
-  (* hierconn *) wire \u_core.u_quad_decoder.polarity_i ;
-  (* hierconn *) wire \u_core.u_quad_decoder.set_zero_i ;
-  (* hierconn *) wire \u_core.u_quad_decoder.clear_error_i ;
-  (* hierconn *) wire \u_core.u_encoder_monitor.set_zero_i ;
-  (* hierconn *) wire \u_core.u_pwm.mode_i ;
-  (* hierconn *) wire \u_core.u_pwm.polarity_i ;
-  (* hierconn *) wire [1:0] \u_core.u_torque_control.mode_i ;
-  (* hierconn *) wire \u_core.u_self_test.direct_i ;
-  (* hierconn *) wire [3:0] \u_core.u_scenes.scene_i ;
-  (* hierconn *) wire [3:0] \u_core.u_ramp.scene_i ;
-  (* hierconn *) wire [31:0] \u_core.u_scenes.param_i ;
-  (* hierconn *) wire [31:0] \u_core.u_ramp.param_i ;
-  (* hierconn *) wire [31:0] \u_core.u_limiter.param_i ;
-  (* hierconn *) wire [31:0] \u_core.u_torque_control.param_i ;
-  (* hierconn *) wire [31:0] \u_core.u_supervisor.param_i ;
-  (* hierconn *) wire [31:0] \u_core.u_self_test.param_i ;
-  (* hierconn *) wire [31:0] \u_core.u_hold_timer.param_i ;
-  (* hierconn *) wire [31:0] \u_core.u_multipliers.param_i ;
   (* hierconn *) wire [L-1:0] \u_core.u_scenes.wave_i ;
   (* hierconn *) wire [L-1:0] \u_core.u_ramp.wave_i ;
   (* hierconn *) wire [L-1:0] \u_core.u_torque_control.wave_i ;
@@ -96,9 +63,6 @@ module reads_proof (
   (* hierconn *) wire \u_core.refused ;
   (* hierconn *) wire [3:0] \u_core.scene_q ;
   (* hierconn *) wire \u_core.armed_o ;
-  (* hierconn *) wire \u_core.region_high ;
-  (* hierconn *) wire \u_core.eased ;
-  (* hierconn *) wire \u_core.testing ;
   (* hierconn *) wire \u_core.word_valid_o ;
   (* hierconn *) wire [5:0] \u_core.word_slot_o ;
   (* hierconn *) wire [31:0] \u_core.word_data_o ;

@@ -1,40 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""feltgate shape: a law that feltgate law proves; bad input is one line, code 2, nothing written."""
+"""feltgate shape: laws that feltgate law proves; bad input is one line, code 2, nothing written."""
 
-import os
-import subprocess
-import tempfile
+import sys
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-PROGRAM = str(Path(os.environ.get("FELTGATE_BUILD", ROOT / "build")) / "feltgate")
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "law"))
+from law_making import ROOT, LawMaking  # noqa: E402
+
 SHAPES = ROOT / "vectors/shapes"
 
 
-class Shape(unittest.TestCase):
-    """In a scratch folder."""
-
-    def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = Path(scratch.name)
-
-    def run_it(self, *words):
-        """The program with these words."""
-        return subprocess.run(
-            [PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, text=True, check=False
-        )
-
-    def refused(self, said, *words):
-        """One line with what is wrong and what to do, and no file."""
-        before = sorted(os.listdir(self.folder))
-        done = self.run_it("shape", *words, "-o", "out.law")
-        self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
-        self.assertIn(said, done.stderr)
-        self.assertEqual(sorted(os.listdir(self.folder)), before)
+class Shape(LawMaking):
+    COMMAND = "shape"
 
     def drawing(self, name, text):
         """An SVG file in the folder."""

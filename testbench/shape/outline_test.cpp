@@ -3,7 +3,11 @@
 //
 // From SVG to vertices: reading, placing, rounding, and what is refused.
 // Documentation: docs/devices/shapes.md
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
@@ -18,9 +22,14 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 
 Outline read_text(const std::string& text) {
-  const std::string path = "outline_test.svg";
+  const std::filesystem::path path = std::filesystem::temp_directory_path() /
+                                     fmt::format("feltgate-{}-outline_test.svg", ::getpid());
   std::ofstream(path) << text;
-  return read_svg(path);
+  struct Gone {
+    const std::filesystem::path& path;
+    ~Gone() { std::filesystem::remove(path); }
+  } gone{path};
+  return read_svg(path.string());
 }
 
 std::string drawing(const std::string& inside) {

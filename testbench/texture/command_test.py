@@ -2,45 +2,21 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """feltgate texture: what it writes is proven; bad input is one line, code 2, nothing written."""
 
-import os
 import subprocess
-import tempfile
+import sys
 import unittest
 from pathlib import Path
 
 from PIL import Image
 
-ROOT = Path(__file__).resolve().parents[2]
-PROGRAM = str(Path(os.environ.get("FELTGATE_BUILD", ROOT / "build")) / "feltgate")
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "law"))
+from law_making import ROOT, LawMaking  # noqa: E402
+
 IMAGES = ROOT / "vectors/textures"
 
 
-class Texture(unittest.TestCase):
-    """In a scratch folder."""
-
-    def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = Path(scratch.name)
-
-    def run_it(self, *words):
-        """The program with these words."""
-        return subprocess.run(
-            [PROGRAM, *map(str, words)],
-            cwd=self.folder,
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-
-    def refused(self, said, *words):
-        """One line with what is wrong and what to do, and no file."""
-        before = sorted(os.listdir(self.folder))
-        done = self.run_it("texture", *words, "-o", "out.law")
-        self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
-        self.assertIn(said, done.stderr)
-        self.assertEqual(sorted(os.listdir(self.folder)), before)
+class Texture(LawMaking):
+    COMMAND = "texture"
 
     def image(self, name, size, mode="L", pixel=None):
         """A PNG in the folder, whose pixels are `pixel(i)`."""
@@ -48,6 +24,17 @@ class Texture(unittest.TestCase):
         made.putdata([(pixel or (lambda i: 40 * i % 256))(i) for i in range(size[0] * size[1])])
         made.save(self.folder / name)
         return name
+
+    def test_the_images_are_of_their_script(self):
+        """scripts/texture_images.py draws every image of vectors/textures, pixel by pixel."""
+        script = ROOT / "scripts/texture_images.py"
+        subprocess.run([sys.executable, "-B", script, "--to", self.folder], check=True)
+        drawn, kept = ({p.name: p for p in f.glob("*.png")} for f in (self.folder, IMAGES))
+        self.assertEqual(drawn.keys(), kept.keys())
+        for name, path in drawn.items():
+            with Image.open(path) as new, Image.open(kept[name]) as old:
+                self.assertEqual((new.mode, new.size), (old.mode, old.size), name)
+                self.assertEqual(new.tobytes(), old.tobytes(), name)
 
     def test_the_shipped_law(self):
         """rtl/laws/texture.law is what the command of its page writes."""

@@ -62,7 +62,8 @@ TEST_CASE("texture: 0.8 mm high, 0.5 mm below, normal (0.6, 0.8), 1000 N/m: (0.4
   CHECK(within.y == Approx(0.40).margin(1e-9));
   const shape::Point above = shape::Pen(law).at({kAtRamp_m, r.surface_m + 0.81e-3});
   CHECK(std::abs(above.x) + std::abs(above.y) < 1e-12);
-  // In the engine's words, at the counts next to that place: within the law's bound.
+  // In the engine's words, at the counts next to that place: within a tenth of the law's bound,
+  // which is of all parameters anywhere in their ranges.
   const law::Compiled c = law::compile_text(row_law(kRamp, r), "ramp.law", law::Target{});
   Words words(c);
   const PenForce w = pen_force(words, {kAtRamp_m, r.surface_m - 0.5e-3});

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""What the tests of the commands that write a law share: a folder in which they run, a refusal."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = str(Path(os.environ.get("FELTGATE_BUILD", ROOT / "build")) / "feltgate")
+
+
+class LawMaking(unittest.TestCase):
+    """In a scratch folder; a test of `feltgate COMMAND`."""
+
+    COMMAND = ""
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+
+    def run_it(self, *words):
+        """The program with these words."""
+        return subprocess.run(
+            [PROGRAM, *map(str, words)],
+            cwd=self.folder,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+
+    def refused(self, said, *words):
+        """One line with what is wrong and what to do, and no file."""
+        before = sorted(os.listdir(self.folder))
+        done = self.run_it(self.COMMAND, *words, "-o", "out.law")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertIn(said, done.stderr)
+        self.assertEqual(sorted(os.listdir(self.folder)), before)

@@ -77,7 +77,8 @@ class CheckBlocks(unittest.TestCase):
         self.add_block("beta", "testbench/beta/beta_test.cpp")
         (self.root / "rtl/link").mkdir()
         (self.root / "rtl/beta.sv").rename(self.root / "rtl/link/beta.sv")
-        page = PAGE.format("beta", "testbench/beta/beta_test.cpp").replace("rtl/beta", "rtl/link/beta")
+        page = PAGE.format("beta", "testbench/beta/beta_test.cpp")
+        page = page.replace("rtl/beta", "rtl/link/beta")
         self.put("docs/blocks/beta.md", page)
         self.put("rtl/generated/feltgate_link_pkg.sv", "package feltgate_link_pkg;\nendpackage\n")
         self.expect("rtl/feltgate_linked.f: stale")
@@ -93,7 +94,8 @@ class CheckBlocks(unittest.TestCase):
         self.assertIn("../../link/beta.sv", qsf.read_text(encoding="utf-8"))
 
     def test_results(self):
-        results = {"alpha": {"line": [3, 4], "toggle": [9, 9], "seconds": 1.6}, "whole core": {"seconds": 2}}
+        results = {"alpha": {"line": [3, 4], "toggle": [9, 9], "seconds": 1.6},
+                   "whole core": {"seconds": 2}}
         block_results.write(self.root, "coverage", "measured", results)
         self.expect("docs/blocks.md: stale")
         self.assertEqual(check_blocks.check(self.root, write=True), [])
@@ -110,11 +112,13 @@ class CheckBlocks(unittest.TestCase):
         block_results.merge(**write, rows={"alpha": {"rtl": [2, 2], "seconds": 1.0}})
         blocks = block_results.read(self.root, "mutants")["blocks"]
         self.assertEqual(blocks["alpha"].pop("sources").keys(), {"rtl", "twin"})
-        self.assertEqual(blocks["alpha"], {"rtl": [2, 2], "twin": [3, 4], "seconds": 1.0, "dates": {"twin": "2020-01-02"}})
+        self.assertEqual(blocks["alpha"], {"rtl": [2, 2], "twin": [3, 4], "seconds": 1.0,
+                                           "dates": {"twin": "2020-01-02"}})
         self.assertEqual(blocks["scene_spring"]["dates"], {"rtl": "2020-01-02"})
         lines = block_results.table(self.root, ["alpha", "scene_spring"])
         self.assertIn(f"- mutants: `measured`, 2020-01-02 to {block_results.today()}", lines[-1])
-        block_results.merge(**write, rows={"alpha": {"twin": [4, 4]}, "scene_spring": {"rtl": [4, 5]}})
+        block_results.merge(**write,
+                            rows={"alpha": {"twin": [4, 4]}, "scene_spring": {"rtl": [4, 5]}})
         self.assertNotIn("dates", json.dumps(block_results.read(self.root, "mutants")))
 
     def test_results_of_an_earlier_source_are_marked(self):
@@ -124,7 +128,8 @@ class CheckBlocks(unittest.TestCase):
         text = rtl.read_text(encoding="utf-8")
         rtl.write_text(text.replace(";", "; // the same code", 1), encoding="utf-8")
         self.assertNotIn("*", block_results.table(self.root, ["alpha"])[2])
-        rtl.write_text(text.replace("module", "module extra; endmodule module", 1), encoding="utf-8")
+        rtl.write_text(text.replace("module", "module extra; endmodule module", 1),
+                       encoding="utf-8")
         lines = block_results.table(self.root, ["alpha"])
         self.assertIn("| 1 of 2* | 3 of 4 |", lines[2])
         self.assertIn(r"\* measured before the last change of the block's own source.", lines)

@@ -11,40 +11,23 @@ two free levers after a push, below and above the border, from the rows of four 
   scripts/coupled_levers_picture.py position.csv observer.csv below.csv above.csv
 """
 
-import csv
-import sys
-from pathlib import Path
-
-import matplotlib
-
-matplotlib.use("svg")
-import matplotlib.pyplot as plt  # noqa: E402
-
-ROOT = Path(__file__).resolve().parents[1]
-BLUE, RED, GREY = "#1f6fb4", "#c0392b", "#888888"
-
-
-def rows_of(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
+from docs_picture import BLUE, GREY, RED, columns, files, plt, save
 
 
 def felt(axes, path, color, label):
-    rows = rows_of(path)
-    axes.plot([r["theta_rad.0"] for r in rows], [-r["tau_ref_nm.0"] for r in rows], color=color,
-              lw=1.0, label=label)
+    angle, torque = columns(path, ("theta_rad.0", "tau_ref_nm.0")).values()
+    axes.plot(angle, [-t for t in torque], color=color, lw=1.0, label=label)
 
 
 def apart(axes, path, color, label):
-    rows = rows_of(path)
-    axes.plot([1e3 * r["time_s"] for r in rows],
-              [1e3 * (r["theta_rad.0"] - r["theta_rad.1"]) for r in rows], color=color, lw=0.9,
-              label=label)
+    times, one, other = columns(path, ("time_s", "theta_rad.0", "theta_rad.1")).values()
+    axes.plot([1e3 * t for t in times], [1e3 * (a - b) for a, b in zip(one, other)], color=color,
+              lw=0.9, label=label)
 
 
-def main(position, observer, below, above):
-    plt.rcParams.update({"svg.hashsalt": "feltgate", "font.size": 8})
-    figure, (left, right) = plt.subplots(1, 2, figsize=(7.6, 2.8), layout="constrained")
+def main():
+    position, observer, below, above = files(4, __doc__)
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.2), layout="constrained")
     left.plot([0, 0.3], [0, 0.3], color=GREY, lw=0.8, ls="--", label="the spring, 1 Nm/rad")
     felt(left, position, BLUE, "position to position, 4 Nm/rad")
     felt(left, observer, RED, "the observer's torque")
@@ -54,11 +37,8 @@ def main(position, observer, below, above):
     apart(right, below, BLUE, "11 Nm/rad")
     right.set(xlabel="time [ms]", ylabel="apart [mrad]", title="pushed apart, border 12.4 Nm/rad")
     right.legend(loc="upper left", frameon=False)
-    nobody = {"Date": None, "Creator": None}
-    figure.savefig(ROOT / "docs/images/coupled_levers.svg", metadata=nobody)
+    save(figure, "coupled_levers")
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 5:
-        sys.exit(__doc__)
-    main(*sys.argv[1:])
+    main()

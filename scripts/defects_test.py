@@ -66,7 +66,8 @@ class Defects(unittest.TestCase):
         patch = self.patch("<= a_i", "<= ~a_i")
         for line in ("  always_ff @(negedge clk_i) y_o <= a_i;  // late", ");\n\n"):
             with self.subTest(line):
-                old = "  always_ff @(posedge clk_i) y_o <= a_i;  // late" if "neg" in line else ");\n"
+                late = "  always_ff @(posedge clk_i) y_o <= a_i;  // late"
+                old = late if "neg" in line else ");\n"
                 (self.root / "rtl/child.sv").write_text(CHILD.replace(old, line))
                 self.refused(patch, "does not apply", "rtl/child.sv")
 

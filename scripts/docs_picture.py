@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""What the pictures that are drawn from a run's rows share: the rows, the look, the file."""
+"""What the pictures of docs/images that one script draws share: the look, the rows, the file."""
 
 import csv
 import sys
@@ -13,6 +13,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[1]
 BLUE, RED, GREY = "#1f6fb4", "#c0392b", "#888888"
+
+plt.rcParams.update({"svg.hashsalt": "feltgate", "svg.fonttype": "none", "font.size": 9})
 
 
 def columns(path, names):
@@ -31,7 +33,6 @@ def files(count, what):
     """The files that the command line names; ends with `what` where they are not so many."""
     given = sys.argv[1:]
     if len(given) == count and not given[0].startswith("-"):
-        plt.rcParams.update({"svg.hashsalt": "feltgate", "svg.fonttype": "none", "font.size": 9})
         return given
     print(what.strip())
     sys.exit(0 if given in (["-h"], ["--help"]) else 2)

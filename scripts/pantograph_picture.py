@@ -10,17 +10,9 @@ motors can push there, and a drop of its cranks against a stop, from the table t
 
 import csv
 import math
-import sys
 import tomllib
-from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("svg")
-import matplotlib.pyplot as plt  # noqa: E402
-
-ROOT = Path(__file__).resolve().parents[1]
-BLUE, RED, GREY = "#1f6fb4", "#c0392b", "#888888"
+from docs_picture import BLUE, GREY, RED, ROOT, files, plt, save
 
 
 def drop_of(path):
@@ -79,20 +71,16 @@ def drop(axes, plant, table):
 
 
 def main():
-    if len(sys.argv) != 2 or sys.argv[1] in ("-h", "--help"):
-        print(__doc__.strip())
-        return 0 if sys.argv[1:] in (["-h"], ["--help"]) else 2
+    (table,) = files(1, __doc__)
     plant = tomllib.loads((ROOT / "vectors/devices/pantograph.toml").read_text(encoding="utf-8"))
     ratio = plant["joint"]["drum_radius_m"] / plant["joint"]["pulley_radius_m"]
     # 1 A in each motor.
     torque = ratio * plant["motor"]["torque_constant_nm_a"]
-    plt.rcParams.update({"svg.hashsalt": "feltgate", "svg.fonttype": "none", "font.size": 9})
     figure, axes = plt.subplots(1, 2, figsize=(9.2, 4.2), layout="constrained")
     workspace(axes[0], plant, torque)
-    drop(axes[1], plant, drop_of(sys.argv[1]))
-    figure.savefig(ROOT / "docs/images/pantograph.svg", metadata={"Date": None, "Creator": None})
-    return 0
+    drop(axes[1], plant, drop_of(table))
+    save(figure, "pantograph")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

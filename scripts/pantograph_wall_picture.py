@@ -9,29 +9,18 @@ behind them, from the rows of two runs.
   scripts/pantograph_wall_picture.py as_it_is.csv filtered.csv
 """
 
-import csv
-import sys
-from pathlib import Path
-
-import matplotlib
-
-matplotlib.use("svg")
-import matplotlib.pyplot as plt  # noqa: E402
-
-ROOT = Path(__file__).resolve().parents[1]
-BLUE, RED, GREY = "#1f6fb4", "#c0392b", "#888888"
+from docs_picture import BLUE, GREY, RED, columns, files, plt, save
 
 
 def pen_of(path):
     """Times in s, heights in mm."""
-    with open(path, newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    return [float(r["time_s"]) for r in rows], [1e3 * float(r["pen_y_m"]) for r in rows]
+    time_s, height_m = columns(path, ("time_s", "pen_y_m")).values()
+    return time_s, [1e3 * y for y in height_m]
 
 
-def main(as_it_is, filtered):
-    plt.rcParams.update({"svg.hashsalt": "feltgate", "font.size": 8})
-    figure, axes = plt.subplots(figsize=(7.0, 2.6), constrained_layout=True)
+def main():
+    as_it_is, filtered = files(2, __doc__)
+    figure, axes = plt.subplots(figsize=(7.9, 2.9), layout="constrained")
     axes.axhline(110, color=GREY, lw=0.8, ls="--")
     axes.text(1.4, 110.2, "floor", color=GREY, ha="right")
     axes.plot(*pen_of(as_it_is), color=BLUE, lw=1.0, label="speed and force as they are")
@@ -40,10 +29,8 @@ def main(as_it_is, filtered):
     axes.axvline(0.4, color=GREY, lw=0.6, ls=":")
     axes.set(xlabel="time [s]", ylabel="pen [mm]", xlim=(0, 1.4))
     axes.legend(loc="lower left", frameon=False)
-    figure.savefig(ROOT / "docs/images/pantograph_wall.svg", metadata={"Date": None})
+    save(figure, "pantograph_wall")
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    main(*sys.argv[1:])
+    main()

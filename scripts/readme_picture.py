@@ -13,13 +13,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("svg")
-import matplotlib.pyplot as plt  # noqa: E402
-
-ROOT = Path(__file__).resolve().parents[1]
-BLUE, RED, GREY = "#1f6fb4", "#c0392b", "#888888"
+from docs_picture import BLUE, GREY, RED, ROOT, plt, save
 
 
 def run(scene, design, every, folder):
@@ -59,7 +53,6 @@ def step(axes, lever, paper):
 
 
 def main():
-    plt.rcParams.update({"svg.hashsalt": "feltgate", "svg.fonttype": "none", "font.size": 9})
     with tempfile.TemporaryDirectory() as folder:
         crossing = run("membrane", "lever", 500, folder)
         steps = [run("torque_step", design, 25, folder) for design in ("lever", "paper")]
@@ -70,7 +63,7 @@ def main():
         axis.set_ylabel("torque on the lever, Nm")
         axis.grid(alpha=0.3)
         axis.legend(fontsize=8, frameon=False)
-    figure.savefig(ROOT / "docs/images/felt.svg", metadata={"Date": None, "Creator": None})
+    save(figure, "felt")
     return 0
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Draws docs/images/shapes.svg: a pen led around inside a fish, the proxy and the force; and how the
-force's direction turns on the way, for the three laws, from ways that `feltgate shape` prints.
+"""Draws docs/images/shapes.svg: a pen led around inside a fish, the proxy and the force; and how
+the force's direction turns on the way, for the three laws, from ways that `feltgate shape` prints.
 
   for law in proxy walk simple; do
     ./feltgate shape vectors/shapes/fish.svg --radius 3mm --vertices 40 --law $law --path $law.csv
@@ -12,16 +12,11 @@ force's direction turns on the way, for the three laws, from ways that `feltgate
 
 import csv
 import math
-import sys
 from pathlib import Path
 
-import matplotlib
+from docs_picture import BLUE, GREY, RED, files, plt, save
 
-matplotlib.use("svg")
-import matplotlib.pyplot as plt  # noqa: E402
-
-ROOT = Path(__file__).resolve().parents[1]
-COLOURS = {"proxy": "#1f6fb4", "walk": "#c0392b", "simple": "#888888"}
+COLOURS = {"proxy": BLUE, "walk": RED, "simple": GREY}
 STIFFNESS_N_PER_M = 50.0
 
 
@@ -67,18 +62,19 @@ def turning(axes, name, rows):
 
 def main():
     """The picture from the files that are named."""
+    ways = files(3, __doc__)
     figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4), layout="constrained")
-    for path in sys.argv[1:]:
+    for path in ways:
         rows = way_of(path)
         name = Path(path).stem
         if name == "proxy":
             shape(left, rows)
         turning(right, name, rows)
-    right.set(xlim=(15, 60), ylim=(170, 330), xlabel="way of the pen, mm", ylabel="direction of the force, degrees")
+    right.set(xlim=(15, 60), ylim=(170, 330), xlabel="way of the pen, mm",
+              ylabel="direction of the force, degrees")
     right.legend(fontsize=8)
     right.grid(alpha=0.3)
-    plt.rcParams["svg.hashsalt"] = "shapes"
-    figure.savefig(ROOT / "docs/images/shapes.svg", metadata={"Date": None})
+    save(figure, "shapes")
 
 
 if __name__ == "__main__":

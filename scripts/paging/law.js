@@ -72,6 +72,7 @@ class LawEditor {
 /** Torque against position over a turn, as the words of the program say it, and where the lever is. */
 function draw_turn(device) {
   const { pen, width, height, colour } = cleared($("turn"));
+  if (!width) return;
   device.turn ??= device.loop.lawCurve(TURN_POINTS);
   const left = 46, right = width - 8, top = 24, bottom = height - 18;
   const most = Math.max(0.01, Math.abs(device.now.tau_ref), ...device.turn.map(Math.abs));

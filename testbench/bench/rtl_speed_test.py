@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Two versions of the RTL against each other: ratio, equal bits, one that differs, what is refused."""
+"""Two versions of the RTL against each other: ratio, equal bits, one that differs, what is
+refused."""
 
 import contextlib
 import io

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The board without hardware behind its pseudo-terminal: the host's verbs with a motor that moves, bad
-lines, hosts that vanish, two at once, recordings that run again, on the twin and on the RTL."""
+"""The board without hardware behind its pseudo-terminal: the host's verbs with a motor that moves,
+bad lines, hosts that vanish, two at once, recordings that run again, on the twin and on the RTL."""
 
 import json
 import os

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""docs/boards/first-hour.md against the register map and the design first_power, which differs from lever in
-what it has to and in nothing else.
+"""docs/boards/first-hour.md against the register map and the design first_power, which differs
+from lever in what it has to and in nothing else.
 """
 
 import re
@@ -111,7 +111,8 @@ class Page(unittest.TestCase):
             ("wall", ("wall_nm_rad", "wall_contact_rad")),
         ):
             for key in keys:
-                self.assertRegex(by_name[scene], rf"(?<![\d.]){first[f'scenes.{key}']:g}(?![\d.])", key)
+                self.assertRegex(by_name[scene], rf"(?<![\d.]){first[f'scenes.{key}']:g}(?![\d.])",
+                                 key)
         for key in ("tension_rest_rad", "charge_centre_rad"):
             self.assertEqual(first[f"scenes.{key}"], 0.0)
 

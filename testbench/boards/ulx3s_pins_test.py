@@ -3,10 +3,11 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Checks ulx3s.lpf against the board's sites, the ports of ulx3s.sv and the wiring page.
 
-nextpnr places what it is told: a wrong site is no error there. So: each port one site, no site twice, each
-site one that at least two public files agree on, IO standard and pull on every pin, nothing driven that is an
-input on the board, pulls on the safe side, and the table of the page. The second half breaks a copy in each
-of these ways and wants to see it found. Documentation: docs/boards/ulx3s.md
+nextpnr places what it is told: a wrong site is no error there. So: each port one site, no site
+twice, each site one that at least two public files agree on, IO standard and pull on every pin,
+nothing driven that is an input on the board, pulls on the safe side, and the table of the page. The
+second half breaks a copy in each of these ways and wants to see it found.
+Documentation: docs/boards/ulx3s.md
 """
 
 import csv
@@ -127,19 +128,26 @@ class SeededMistakes(unittest.TestCase):
     def test_all(self):
         gate = 'IOBUF PORT "gate_a_hi" PULLMODE=DOWN'
         for name, old, new, words in (
-            ("lpf", 'LOCATE COMP "enc_a" SITE "B11"', 'LOCATE COMP "enc_a" SITE "A10"', "site A10 is used 2"),
-            ("lpf", 'LOCATE COMP "enc_a" SITE "B11"', 'LOCATE COMP "enc_b" SITE "B11"', "port enc_b is used 2"),
-            ("lpf", 'LOCATE COMP "enc_a" SITE "B11"', 'LOCATE COMP "enc_a" SITE "Z99"', "Z99, which is not in"),
+            ("lpf", 'LOCATE COMP "enc_a" SITE "B11"', 'LOCATE COMP "enc_a" SITE "A10"',
+             "site A10 is used 2"),
+            ("lpf", 'LOCATE COMP "enc_a" SITE "B11"', 'LOCATE COMP "enc_b" SITE "B11"',
+             "port enc_b is used 2"),
+            ("lpf", 'LOCATE COMP "enc_a" SITE "B11"', 'LOCATE COMP "enc_a" SITE "Z99"',
+             "Z99, which is not in"),
             ("lpf", 'LOCATE COMP "gate_a_hi"', 'LOCATE COMP "gate_c_hi"', "gate_c_hi is no port"),
             ("lpf", 'SITE "B15"', 'SITE "V1"', "is an output, btn[4] is not"),
             ("lpf", 'SITE "B11"', 'SITE "U1"', "use a header"),
-            ("lpf", 'LOCATE COMP "sw[0]" SITE "E8"', 'LOCATE COMP "sw[0]" SITE "C6"', "the board has it at E8"),
+            ("lpf", 'LOCATE COMP "sw[0]" SITE "E8"', 'LOCATE COMP "sw[0]" SITE "C6"',
+             "the board has it at E8"),
             ("lpf", gate, gate.replace("DOWN", "UP"), "not pulled down"),
-            ("lpf", 'IOBUF PORT "estop" PULLMODE=UP', 'IOBUF PORT "estop" PULLMODE=DOWN', "no stop"),
+            ("lpf", 'IOBUF PORT "estop" PULLMODE=UP', 'IOBUF PORT "estop" PULLMODE=DOWN',
+             "no stop"),
             ("lpf", f"{gate} IO_TYPE=LVCMOS33", f"{gate} IO_TYPE=LVCMOS25", "IO_TYPE LVCMOS25"),
             ("lpf", "25 MHZ", "50 MHZ", "not its 25 MHz"),
-            ("pins", "gp[0],B11,J1 pin 5+,inout,A B C", "gp[0],B11,J1 pin 5+,inout,A", "two are needed"),
-            ("sv", "output logic       gate_b_lo\n", "output logic gate_b_lo, input logic new\n", "port new"),
+            ("pins", "gp[0],B11,J1 pin 5+,inout,A B C", "gp[0],B11,J1 pin 5+,inout,A",
+             "two are needed"),
+            ("sv", "output logic       gate_b_lo\n", "output logic gate_b_lo, input logic new\n",
+             "port new"),
             ("doc", "| `enc_b` | gp[1] | A10 |", "| `enc_b` | gp[1] | A11 |", "doc: no row"),
         ):
             with self.subTest(words):

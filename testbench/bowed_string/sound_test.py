@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The bowed string as a WAV: the string's pitch from the law at 40 kHz, another pitch from the same at 1 kHz.
+"""The bowed string as a WAV: the string's pitch from the law at 40 kHz, another pitch from the same
+at 1 kHz.
 
 Documentation: docs/devices/bowed_string.md
 """

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The parts of `feltgate coverage` that need no simulation: data, waivers, the change of Verilator's code, verdicts."""
+"""The parts of `feltgate coverage` that need no simulation: data, waivers, the change of
+Verilator's code, verdicts."""
 
 import contextlib
 import io
@@ -48,7 +49,8 @@ class Data(Folder):
         self.assertEqual({p.name: n for p, n in points.items()}, {"x[0]": 9, "x[1]": 0})
 
     def test_instances_add_up_but_for_the_core(self):
-        counts = [self.read(entry("line", "block", 0, where="TOP.c.u1"), entry("line", "block", 2, where="TOP.c.u2"))]
+        counts = [self.read(entry("line", "block", 0, where="TOP.c.u1"),
+                            entry("line", "block", 2, where="TOP.c.u2"))]
         self.assertEqual(list(data.merged(counts).values()), [2])
         self.assertEqual(sorted(data.instances(counts).values()), [0, 2])
 
@@ -60,10 +62,11 @@ class Data(Folder):
     def test_cover_points(self):
         file = "testbench/coverage/b_cover.sv"
         where = "TOP.b.g__BRA__7__KET__.u_cover.g_x__BRA__2__KET__.hit"
-        counts = self.read(entry("user", "hit", 1, where=where, file=file), entry("toggle", "y", 0, file=file),
-                           entry("user", "hit", 0))
+        counts = self.read(entry("user", "hit", 1, where=where, file=file),
+                           entry("toggle", "y", 0, file=file), entry("user", "hit", 0))
         (point,) = data.merged([counts])
-        self.assertEqual((point.block, point.kind, point.name, point.where), ("b", "cover", "hit[2]", f"{file}:3"))
+        self.assertEqual((point.block, point.kind, point.name, point.where),
+                         ("b", "cover", "hit[2]", f"{file}:3"))
 
     def test_no_data(self):
         for text in ("", "C 'x' 1\n", HEAD + "D\n"):
@@ -72,11 +75,13 @@ class Data(Folder):
 
 
 class Waivers(Folder):
-    GOOD = {"block": "b", "kind": "toggle", "points": "x\\\\[1\\\\]", "most": 1, "reason": "its bit is never set, by the format"}
+    GOOD = {"block": "b", "kind": "toggle", "points": "x\\\\[1\\\\]", "most": 1,
+            "reason": "its bit is never set, by the format"}
 
     def write(self, *tables):
-        lines = [f'[[waiver]]\n{"".join(f"{k} = {chr(34)}{v}{chr(34)}{chr(10)}" if isinstance(v, str) else f"{k} = {v}{chr(10)}" for k, v in t.items())}' for t in tables]
-        self.put(waivers.FILE, "\n".join(lines))
+        quoted = [{k: f'"{v}"' if isinstance(v, str) else v for k, v in t.items()} for t in tables]
+        lines = [["[[waiver]]", *(f"{k} = {v}" for k, v in t.items()), ""] for t in quoted]
+        self.put(waivers.FILE, "\n".join(line for table in lines for line in table))
         return waivers.read(self.folder)
 
     def test_fits_the_whole_name_of_its_block_and_kind(self):
@@ -109,7 +114,8 @@ class Waivers(Folder):
 
 class Report(unittest.TestCase):
     def made(self, counts, waived=()):
-        points = {data.Point("b", kind, "rtl/b.sv", n, 1, "p"): count for n, (kind, count) in enumerate(counts)}
+        points = {data.Point("b", kind, "rtl/b.sv", n, 1, "p"): count
+                  for n, (kind, count) in enumerate(counts)}
         return report.make(points, {}, {"b": 1.5}, list(waived), ["b"])
 
     def test_targets(self):
@@ -142,10 +148,13 @@ class Report(unittest.TestCase):
 
 class Instrument(unittest.TestCase):
     FILES = {
-        "Vb.cpp": "Vb::Vb() : rst_ni{x} {}\nvoid Vb::eval_step() {\n    if (VL_UNLIKELY(!vlSymsp->__Vm_didInit)) {\n    }\n}\n",
+        "Vb.cpp": "Vb::Vb() : rst_ni{x} {}\nvoid Vb::eval_step() {\n"
+                  "    if (VL_UNLIKELY(!vlSymsp->__Vm_didInit)) {\n    }\n}\n",
         "Vb__Syms.h": "    std::atomic<uint32_t> __Vcoverage[2];\n",
-        "Vb_1.cpp": 'a->__vlCoverInsert(&(vlSymsp->__Vcoverage[0]), first, "b.sv", 1, 2, ".b", "v_toggle/b", "x", "");\n'
-                    'a->__vlCoverInsert(&(vlSymsp->__Vcoverage[1]), first, "b.sv", 1, 2, ".b", "v_line/b", "block", "");\n'
+        "Vb_1.cpp": 'a->__vlCoverInsert(&(vlSymsp->__Vcoverage[0]), first, "b.sv", 1, 2, ".b", '
+                    '"v_toggle/b", "x", "");\n'
+                    'a->__vlCoverInsert(&(vlSymsp->__Vcoverage[1]), first, "b.sv", 1, 2, ".b", '
+                    '"v_line/b", "block", "");\n'
                     "vlSymsp->__Vcoverage[0].fetch_add(1, std::memory_order_relaxed);\n"
                     "vlSymsp->__Vcoverage[1].fetch_add(1, std::memory_order_relaxed);\n",
     }
@@ -159,7 +168,8 @@ class Instrument(unittest.TestCase):
 
     def test_another_verilator(self):
         for file, old, new in (("Vb.cpp", "eval_step", "step"), ("Vb_1.cpp", "(1,", "(2,"),
-                               ("Vb__Syms.h", "__Vcoverage", "counts"), ("Vb_1.cpp", "v_toggle", "v_bit")):
+                               ("Vb__Syms.h", "__Vcoverage", "counts"),
+                               ("Vb_1.cpp", "v_toggle", "v_bit")):
             with self.subTest(file), self.assertRaises(instrument.InstrumentError):
                 instrument.changed(self.FILES | {file: self.FILES[file].replace(old, new)}, "Vb")
 
@@ -182,7 +192,8 @@ class Command(Folder):
         self.put(programs.LIST, f"b b {path}\n")
 
     def counting(self, count):
-        self.put("data", (HEAD + entry("line", "block", count)).replace("/r/", f"{self.folder.resolve()}/"))
+        self.put("data",
+                 (HEAD + entry("line", "block", count)).replace("/r/", f"{self.folder.resolve()}/"))
         self.program_is(f'cp "{self.folder}/data" "$FELTGATE_COVERAGE"')
 
     def status(self, *words):
@@ -210,13 +221,16 @@ class Command(Folder):
 
     def test_a_waiver_of_no_use(self):
         self.counting(1)
-        self.put(waivers.FILE, '[[waiver]]\nblock="b"\nkind="line"\npoints="x"\nmost=1\nreason="a line that is not there"\n')
+        self.put(waivers.FILE,
+                 '[[waiver]]\nblock="b"\nkind="line"\npoints="x"\nmost=1\n'
+                 'reason="a line that is not there"\n')
         status, out, _ = self.status()
         self.assertEqual(status, 1)
         self.assertIn("waives nothing; delete it", out)
 
     def test_tests_that_fail(self):
-        for lines, said in ((["echo a difference", "exit 3"], "a difference"), (["exit 0"], "wrote no coverage data")):
+        for lines, said in ((["echo a difference", "exit 3"], "a difference"),
+                            (["exit 0"], "wrote no coverage data")):
             with self.subTest(said):
                 self.program_is(*lines)
                 status, _, err = self.status()
@@ -224,8 +238,10 @@ class Command(Folder):
                 self.assertIn(said, err)
 
     def test_wrong_words(self):
-        for words, said in ((["c"], "no test of c; there are those of b"), (["--jobs", "0"], "at least 1"),
-                            (["--update", "b"], "a run of everything"), (["--json", "/nowhere/x"], "no folder")):
+        for words, said in ((["c"], "no test of c; there are those of b"),
+                            (["--jobs", "0"], "at least 1"),
+                            (["--update", "b"], "a run of everything"),
+                            (["--json", "/nowhere/x"], "no folder")):
             with self.subTest(said):
                 status, _, err = self.status(*words)
                 self.assertEqual(status, 2)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Every file of cover points fits its block: the signals that it names are there. Builds nothing."""
+"""Every file of cover points fits its block: the signals it names are there. Builds nothing."""
 
 import subprocess
 import sys
@@ -35,7 +35,8 @@ class Points(unittest.TestCase):
         for points in files:
             for design in DESIGNS:
                 with self.subTest(points.name, design=design):
-                    self.assertTrue((ROOT / f"rtl/{points.stem.removesuffix('_cover')}.sv").is_file())
+                    block = points.stem.removesuffix("_cover")
+                    self.assertTrue((ROOT / f"rtl/{block}.sv").is_file())
                     self.assertEqual(complaints(points, design), "")
 
 

@@ -28,7 +28,11 @@ RULES = (
     # 2: what the page says of this line is that it is refused.
     Rule(r"feltgate run torque_step --set voltage_gain=0\.6", "WHOLE", status=(2,)),
     # The launcher gives these a design with an engine.
-    Rule(r"feltgate run (?:detent|my_scene\.toml --set amplitude\S*)", "BY", "scene.detent.lever_law"),
+    Rule(
+        r"feltgate run (?:detent|my_scene\.toml --set amplitude\S*)",
+        "BY",
+        "scene.detent.lever_law",
+    ),
     Rule(r"feltgate run texture.*", "BY", "scene.texture.pantograph_law"),
     Rule(r"feltgate texture .*--table", "BY", "texture.command"),
     Rule(r"feltgate run plane_floor.*", "BY", "scene.plane_floor.pantograph_law"),
@@ -127,7 +131,10 @@ PLACEHOLDERS = {
 }
 # Engines that the launcher builds when a line names them; here they are not there.
 BUILT_ON_DEMAND = {"stability mine": "lever"}
-BUILT_ON_DEMAND |= {f"--design {name}": "lever" for name in ("fast", "balanced", "exact", "first_power", "lever_law", "mine")}
+BUILT_ON_DEMAND |= {
+    f"--design {name}": "lever"
+    for name in ("fast", "balanced", "exact", "first_power", "lever_law", "mine")
+}
 
 
 def rule_of(words):

@@ -20,13 +20,15 @@ from faulting import campaign, results  # noqa: E402
 
 
 def state(register, kind="masked", safety=True, peak=0.0):
-    return {"point": "state", "register": register, "bit": 0, "group": "pwm", "safety": safety, "act": "wall",
-            "tick": 1, "clock": 2, "class": kind, "peak_nm": peak, "integral_nm_s": peak / 1000, "motor_peak_nm": 0}
+    return {"point": "state", "register": register, "bit": 0, "group": "pwm", "safety": safety,
+            "act": "wall", "tick": 1, "clock": 2, "class": kind, "peak_nm": peak,
+            "integral_nm_s": peak / 1000, "motor_peak_nm": 0}
 
 
 def pin(kind, group="channel dead", changed=True):
-    return {"point": "pins", "group": group, "seed": 1, "what": "", "must_flag": True, "class": kind,
-            "peak_nm": 0, "integral_nm_s": 0, "motor_peak_nm": 0, "count_changed": changed}
+    return {"point": "pins", "group": group, "seed": 1, "what": "", "must_flag": True,
+            "class": kind, "peak_nm": 0, "integral_nm_s": 0, "motor_peak_nm": 0,
+            "count_changed": changed}
 
 
 class Results(unittest.TestCase):
@@ -44,13 +46,16 @@ class Results(unittest.TestCase):
     def test_silent_flips_of_the_safety_state_may_be_one_in_a_hundred(self):
         some = [state("a") for _ in range(99)]
         self.assertTrue(results.promises([*some, state("b", "silent")])[1][3])
-        self.assertFalse(results.promises([*some, state("b", "silent"), state("c", "silent")])[1][3])
+        two = [state("b", "silent"), state("c", "silent")]
+        self.assertFalse(results.promises([*some, *two])[1][3])
         self.assertTrue(results.promises([*some, *[state("i", "silent", safety=False)] * 50])[1][3])
 
     def test_what_must_be_flagged_is(self):
         many = [pin("detected")] * 198
-        shorted = [pin("silent", "channels shorted", False)] * 9  # the count stands, and has nothing to be found by
-        self.assertTrue(all(good for *_, good in results.promises([*many, pin("silent"), *shorted])))
+        # The count stands, and has nothing to be found by.
+        shorted = [pin("silent", "channels shorted", False)] * 9
+        promises = results.promises([*many, pin("silent"), *shorted])
+        self.assertTrue(all(good for *_, good in promises))
         self.assertFalse(results.promises([*many, *[pin("silent", changed=False)] * 3])[1][3])
         self.assertFalse(results.promises([*many, *[pin("silent")] * 3])[1][3])
 
@@ -63,7 +68,8 @@ class Results(unittest.TestCase):
             self.assertEqual(results.block_of(state(register), blocks), block)
 
     def test_per_block_counts_safety_state_only(self):
-        found = results.per_block([state("u_dob.a", "silent"), state("u_dob.b", safety=False), pin("silent")], {"dob"})
+        found = results.per_block([state("u_dob.a", "silent"), state("u_dob.b", safety=False),
+                                   pin("silent")], {"dob"})
         self.assertEqual(found, {"dob": {"unsafe": [0, 1], "silent": [1, 1]}})
 
     def test_table_has_a_row_per_group(self):
@@ -86,7 +92,8 @@ class Command(unittest.TestCase):
     def test_lines_of_an_earlier_run(self):
         with tempfile.TemporaryDirectory() as folder:
             lines, found = Path(folder, "l.jsonl"), Path(folder, "f.json")
-            lines.write_text("".join(json.dumps(f) + "\n" for f in [state("a"), pin("detected"), {"mismatches": 0}]))
+            lines.write_text("".join(json.dumps(f) + "\n"
+                                     for f in [state("a"), pin("detected"), {"mismatches": 0}]))
             code, out, _ = self.run_main("--lines", lines, "--json", found)
             self.assertEqual(code, 0)
             self.assertIn("0 of 2, 0 (< 78 %)", out)
@@ -98,13 +105,18 @@ class Command(unittest.TestCase):
             self.assertIn("NOT KEPT", out)
 
     def test_refusals(self):
-        for words, what in ((("--long",), "--clean"), (("--jobs", "0"), "at least 1"), (("--flips", "-1"), "0 or more"),
-                            (("--picture", "x.bmp"), ".svg or .png"), (("--clean", "--replay", "x"), "exclude"),
+        for words, what in ((("--long",), "--clean"), (("--jobs", "0"), "at least 1"),
+                            (("--flips", "-1"), "0 or more"),
+                            (("--picture", "x.bmp"), ".svg or .png"),
+                            (("--clean", "--replay", "x"), "exclude"),
                             (("--update", "--only", "x"), "all registers"),
                             (("--update", "--flips", "0"), "all registers"),
                             (("--clean", "--save", "x"), "tell of a campaign"),
-                            (("--lines", "x", "--json", "y", "--save", "y"), "is also that of --json"),
-                            (("--lines", __file__, "--json", __file__), "is read by the same command"), (("--lines", "/no/such"), "/no/such")):
+                            (("--lines", "x", "--json", "y", "--save", "y"),
+                             "is also that of --json"),
+                            (("--lines", __file__, "--json", __file__),
+                             "is read by the same command"),
+                            (("--lines", "/no/such"), "/no/such")):
             code, _, err = self.run_main(*words)
             self.assertEqual(code, 2, words)
             self.assertIn(what, err)
@@ -118,12 +130,13 @@ class Command(unittest.TestCase):
         program.chmod(0o755)
         before = os.environ.get("FELTGATE_BUILD")
         os.environ["FELTGATE_BUILD"] = scratch.name
-        self.addCleanup(os.environ.update if before else os.environ.pop, *([{"FELTGATE_BUILD": before}] if before else
-                                                                           ["FELTGATE_BUILD"]))
+        self.addCleanup(os.environ.update if before else os.environ.pop,
+                        *([{"FELTGATE_BUILD": before}] if before else ["FELTGATE_BUILD"]))
         return Path(scratch.name)
 
     def test_a_program_that_fails_is_told(self):
-        for script, said in (("echo oh >&2; exit 3", "ended with status 3: oh"), ("echo nothing", "no line of JSON"),
+        for script, said in (("echo oh >&2; exit 3", "ended with status 3: oh"),
+                             ("echo nothing", "no line of JSON"),
                              ("echo 3", "no object"), ("kill -SEGV $$", "killed by SIGSEGV"),
                              ("exit 0", "parts said nothing")):
             with self.subTest(script):
@@ -133,7 +146,8 @@ class Command(unittest.TestCase):
                 self.assertIn(said, err)
 
     def test_false_alarms(self):
-        line = {"clean_s": 300, "scenes_s": 100, "recordings_s": 100, "dither_s": 100, "alarms": 0, "first": ""}
+        line = {"clean_s": 300, "scenes_s": 100, "recordings_s": 100, "dither_s": 100, "alarms": 0,
+                "first": ""}
         folder = self.says(f"""echo '{{"done": 0.5}}'; echo '{json.dumps(line)}'""")
         code, out, _ = self.run_main("--clean", "--jobs", "2", "--json", folder / "f.json")
         self.assertEqual(code, 0)
@@ -152,7 +166,8 @@ class Command(unittest.TestCase):
         code, out, _ = self.run_main("--replay", cases, "--json", found)
         self.assertEqual(code, 1)
         self.assertIn("listed as latent, now silent", out)
-        self.assertEqual(json.loads(found.read_text())["replay"]["differing"], [{"listed": listed, "now": "silent"}])
+        self.assertEqual(json.loads(found.read_text())["replay"]["differing"],
+                         [{"listed": listed, "now": "silent"}])
         cases.write_text(json.dumps(now) + "\n", encoding="utf-8")
         self.assertEqual(self.run_main("--replay", cases)[0], 0)
         cases.write_text("# no case\n", encoding="utf-8")

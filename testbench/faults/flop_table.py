@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Every flip-flop of the core, and where the Verilated model keeps it: Yosys names the flip-flops, with all
-names that each has in the hierarchy, and one of these is a member of the model.
+"""Every flip-flop of the core, and where the Verilated model keeps it: Yosys names the flip-flops,
+with all names that each has in the hierarchy, and one of these is a member of the model.
 
-  flop_table.py --root R --design lever --header Vfaults___024root.h --model Vfaults --output flops.hpp
+  flop_table.py --root R --design lever --header Vfaults___024root.h --model Vfaults
+                --output flops.hpp
 """
 
 import argparse
@@ -20,7 +21,8 @@ TOP = "feltgate_core"
 
 def sources(root, design):
     listed = (root / "rtl/feltgate_core.f").read_text(encoding="utf-8").split("\n")
-    names = [f"generated/{design}/feltgate_pkg.sv", *(n for n in listed if n and not n.startswith("//"))]
+    names = [f"generated/{design}/feltgate_pkg.sv",
+             *(n for n in listed if n and not n.startswith("//"))]
     return [root / "rtl" / name for name in names]
 
 
@@ -28,9 +30,12 @@ def netlist(yosys, files):
     """The core, word by word: flip-flops are still those of the source."""
     with tempfile.TemporaryDirectory() as folder:
         read = "read_verilog -sv " + " ".join(f'"{f}"' for f in files)
-        # Not every command of Yosys takes a path with a blank, and YoWASP's sees /tmp as a folder of its own.
-        script = f"{read}; hierarchy -top {TOP}; proc; flatten; opt_expr; opt_clean; write_json core.json"
-        run = subprocess.run([yosys, "-q", "-p", script], cwd=folder, capture_output=True, text=True, check=False)
+        # Not every command of Yosys takes a path with a blank, and YoWASP's sees /tmp as a folder
+        # of its own.
+        script = (f"{read}; hierarchy -top {TOP}; proc; flatten; opt_expr; opt_clean; "
+                  "write_json core.json")
+        run = subprocess.run([yosys, "-q", "-p", script], cwd=folder, capture_output=True,
+                             text=True, check=False)
         if run.returncode:
             raise SystemExit(f"yosys: {run.stdout}{run.stderr}")
         return json.loads((Path(folder) / "core.json").read_text(encoding="utf-8"))["modules"][TOP]
@@ -60,7 +65,7 @@ def rank(name):
 
 
 def flops(module, members):
-    """[(name, member, first bit, width)], and the names of flip-flops that the model does not keep."""
+    """[(name, member, first bit, width)], and names of flip-flops that the model does not keep."""
     nets = names_by_bits(module)
     whole = {}  # bit: (bits of its net)
     for bits in nets:
@@ -68,9 +73,10 @@ def flops(module, members):
             whole.setdefault(bit, []).append(bits)
     found, lost = {}, []
     for cell in module["cells"].values():
-        if "latch" in cell["type"] or ("dff" in cell["type"] and cell["type"] not in ("$dff", "$adff")):
-            raise SystemExit(f"flop_table: what is a {cell['type']}?")
-        if cell["type"] not in ("$dff", "$adff"):
+        kind = cell["type"]
+        if "latch" in kind or ("dff" in kind and kind not in ("$dff", "$adff")):
+            raise SystemExit(f"flop_table: what is a {kind}?")
+        if kind not in ("$dff", "$adff"):
             continue
         for bit in cell["connections"]["Q"]:
             choices = sorted((rank(n), n, bits) for bits in whole[bit] for n in nets[bits])
@@ -94,7 +100,8 @@ def main():
     parser.add_argument("--output", type=Path, required=True)
     options = parser.parse_args()
     text = options.header.read_text(encoding="utf-8")
-    members = set(re.findall(r"(?:[CSIQ]Data|VlWide<\d+>)(?:/\*[0-9:]+\*/)? (\w+);|VL_(?:IN|OUT)\w*\((\w+),", text))
+    members = set(re.findall(r"(?:[CSIQ]Data|VlWide<\d+>)(?:/\*[0-9:]+\*/)? (\w+);|"
+                             r"VL_(?:IN|OUT)\w*\((\w+),", text))
     members = {name for pair in members for name in pair if name}
     module = netlist(options.yosys, sources(options.root, options.design))
     found, lost = flops(module, members)
@@ -108,7 +115,8 @@ def main():
         f"#include <{root}.h>",
         "struct Flop {", "  const char* name;", "  int bit;", "  int place, place_bit;", "};",
         "inline constexpr Flop kFlops[] = {",
-        *(f'    {{"{name}", {bit}, {places.index(where)}, {at}}},' for (name, bit), (where, at) in sorted(found.items())),
+        *(f'    {{"{name}", {bit}, {places.index(where)}, {at}}},'
+          for (name, bit), (where, at) in sorted(found.items())),
         "};",
         f"inline void* flop_place({root}& r, int n) {{", "  switch (n) {",
         *(f"    case {n}: return &r.{where};" for n, where in enumerate(places)),

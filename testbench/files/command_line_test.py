@@ -95,7 +95,9 @@ class CommandLine(Bench):
                 self.refused(*words, said=(said,))
 
     def test_options_that_would_do_nothing(self):
-        self.refused("run", "membrane", "--every", "2", said=("--every thins out the rows of --csv",))
+        self.refused(
+            "run", "membrane", "--every", "2", said=("--every thins out the rows of --csv",)
+        )
         self.refused("replay", "x.vec", "--every", "2", said=("--every thins out the rows",))
         self.refused("import", "x.vec", "a.vec", "-o", "b.vec", said=("two files to write",))
 

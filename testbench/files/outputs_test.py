@@ -136,7 +136,8 @@ class InPlace(Bench):
         )
 
     def test_process_substitution(self):
-        script = 'exec 3> >(cat >told; touch whole); "$0" run short.toml --engine twin --json /dev/fd/3'
+        script = "exec 3> >(cat >told; touch whole); "
+        script += '"$0" run short.toml --engine twin --json /dev/fd/3'
         script += '; status=$?; exec 3>&-; until [[ -e whole ]]; do :; done; exit "$status"'
         done = subprocess.run(
             ["bash", "-c", script, *self.words()], cwd=self.folder, capture_output=True, check=False

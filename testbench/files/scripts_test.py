@@ -144,7 +144,13 @@ class Scripts(Bench):
     def test_programs_side_by_side(self):
         """prove, mutate, coverage, faults: what threads have started ends with the command."""
         path = f"{self.path('bin')}{os.pathsep}{os.environ['PATH']}"
-        for name in ("bin/yosys-smtbmc", "bin/z3", "build/feltgate_faults", "build/testbench/b/b_mutants", "b_cover"):
+        for name in (
+            "bin/yosys-smtbmc",
+            "bin/z3",
+            "build/feltgate_faults",
+            "build/testbench/b/b_mutants",
+            "b_cover",
+        ):
             self.path(name).parent.mkdir(parents=True, exist_ok=True)
             self.path(name).write_text(STAND_IN)
             self.path(name).chmod(0o755)
@@ -154,11 +160,16 @@ class Scripts(Bench):
         (folder / "mutants.json").write_text('{"seed": 1, "database": 1, "mutants": []}')
         self.path("build/coverage").mkdir()
         self.path("build/coverage/programs.txt").write_text(f"b b {self.path('b_cover')}\n")
-        for command, words, count in (("prove", ("mult", "--jobs", "2"), 2), ("mutate", ("--no-build",), 1),
-                                      ("coverage", ("--no-build",), 1), ("faults", ("--jobs", "2"), 2)):
+        for command, words, count in (
+            ("prove", ("mult", "--jobs", "2"), 2),
+            ("mutate", ("--no-build",), 1),
+            ("coverage", ("--no-build",), 1),
+            ("faults", ("--jobs", "2"), 2),
+        ):
             for number in (signal.SIGINT, signal.SIGTERM):
                 with self.subTest(command, number=number):
-                    process = self.script(f"{command}.py", *words, PATH=path, TMPDIR=str(self.path("pids")))
+                    pids = str(self.path("pids"))
+                    process = self.script(f"{command}.py", *words, PATH=path, TMPDIR=pids)
                     self.ends(process, number, f"{command}: interrupted", count=count)
                     self.assertEqual([p.name for p in self.pids.iterdir() if p.is_dir()], [])
                     for child in self.pids.iterdir():
@@ -233,9 +244,12 @@ class Outputs(Bench):
         self.assert_only("target", "link", "fresh")
 
     def test_stdout_is_for_the_json_alone(self):
-        self.path("lines").write_text('{"point": "pins", "group": "glitch", "class": "detected", "peak_nm": 0, '
-                                      '"integral_nm_s": 0}\n')
-        command = [sys.executable, "-B", ROOT / "scripts/faults.py", "--lines", self.path("lines"), "--json"]
+        self.path("lines").write_text(
+            '{"point": "pins", "group": "glitch", "class": "detected", "peak_nm": 0, '
+            '"integral_nm_s": 0}\n'
+        )
+        script = ROOT / "scripts/faults.py"
+        command = [sys.executable, "-B", script, "--lines", self.path("lines"), "--json"]
         for name in ("-", "/dev/stdout"):
             done = subprocess.run([*command, name], capture_output=True, text=True, check=False)
             self.assertEqual(json.loads(done.stdout)["faults"], 1)

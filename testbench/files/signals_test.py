@@ -94,7 +94,9 @@ class Signals(Bench):
     def test_the_program_that_draws_is_ended_too(self):
         """A stand-in for Python notes its number and waits; it must not outlive the run."""
         python = self.path("python")
-        python.write_text('#!/bin/sh\necho $$ >pid.new; mv pid.new pid\nexec sleep 30 >/dev/null 2>&1\n')
+        python.write_text(
+            "#!/bin/sh\necho $$ >pid.new; mv pid.new pid\nexec sleep 30 >/dev/null 2>&1\n"
+        )
         python.chmod(0o755)
         env = os.environ | {"FELTGATE_PYTHON": str(python)}
         process = self.start(

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""What the tests of the host's programs share: a folder of their own in which they run, and how lines
-are compared whose numbers differ from run to run."""
+"""What the tests of the host's programs share: a folder of their own in which they run, and how
+lines are compared whose numbers differ from run to run."""
 
 import os
 import re
@@ -21,8 +21,8 @@ def pattern_of(line):
 
 
 def patterns_of(text):
-    """Its lines without what differs from run to run; of several alike in a row, one. A machine that
-    is busy answers late, and then the host asks again, and says so."""
+    """Its lines without what differs from run to run; of several alike in a row, one. A machine
+    that is busy answers late, and then the host asks again, and says so."""
     patterns = [pattern_of(line) for line in text.splitlines() if not line.startswith("link: ")]
     return [p for n, p in enumerate(patterns) if n == 0 or p != patterns[n - 1]]
 

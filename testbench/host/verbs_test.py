@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Every verb of feltgate host on a pseudo-terminal: a board in software, with and without noise, and
-the session of docs/host.md."""
+"""Every verb of feltgate host on a pseudo-terminal: a board in software, with and without noise,
+and the session of docs/host.md."""
 
 import csv
 import json
@@ -127,7 +127,13 @@ class Verbs(VerbTest):
     def test_values(self):
         with Board() as board:
             said = self.host(board.port, "get", "--all", "--json", self.path("all.json"))
-            for name in ("torque_limit", "velocity", "status.refused", "control.filter", "frames_bad"):
+            for name in (
+                "torque_limit",
+                "velocity",
+                "status.refused",
+                "control.filter",
+                "frames_bad",
+            ):
                 self.assertRegex(said, rf"(?m)^{name} ")
             found = json.loads(self.path("all.json").read_text(encoding="utf-8"))
             self.assertEqual(found["values"]["torque_limit"], {"value": 0.5, "unit": "Nm"})
@@ -202,8 +208,9 @@ class Verbs(VerbTest):
     def test_capture_csv_picture_and_vector(self):
         with Board() as board:
             self.host(
-                board.port, "capture", "angle", "velocity", "--trigger", "angle<-5deg", "--span", 0.1,
-                "--csv", "c.csv", "--picture", "c.svg", "--vector", "c.vec", "--arm", "wall",
+                board.port, "capture", "angle", "velocity", "--trigger", "angle<-5deg",
+                "--span", 0.1, "--csv", "c.csv", "--picture", "c.svg", "--vector", "c.vec",
+                "--arm", "wall",
             )  # fmt: skip
             with open(self.path("c.csv"), encoding="utf-8") as file:
                 rows = list(csv.DictReader(file))
@@ -214,7 +221,8 @@ class Verbs(VerbTest):
             self.assertLess(float(rows[256]["angle_rad"]), -0.086)
             self.assertIn("SIMULATED", self.path("c.svg").read_text(encoding="utf-8"))
             vector = self.path("c.vec").read_text(encoding="utf-8").splitlines()
-            self.assertTrue(vector[0].startswith("feltgate-vector 1 design=lever clock_hz=50000000"))
+            head = "feltgate-vector 1 design=lever clock_hz=50000000"
+            self.assertTrue(vector[0].startswith(head))
             self.assertEqual(board.order("armed?"), "0")
             self.host(
                 board.port, "capture", "angle", "tau_ref", "--csv", "xy.csv",
@@ -248,7 +256,8 @@ class Verbs(VerbTest):
             self.assertIn("0.25 Nm", said)
             said = self.host(board.port, "--patience", 20, "capture", "angle", "--csv", "noisy.csv")
             self.assertIn("requests repeated", said)
-            self.assertEqual(len(self.path("noisy.csv").read_text(encoding="utf-8").splitlines()), 1025)
+            rows = self.path("noisy.csv").read_text(encoding="utf-8").splitlines()
+            self.assertEqual(len(rows), 1025)
 
 
 class Trouble(VerbTest):
@@ -265,7 +274,8 @@ class Trouble(VerbTest):
             self.host(board.port, "info")
 
     def test_the_cable_is_pulled(self):
-        for verb in (("arm", "wall", "--hold"), ("watch",), ("capture", "--trigger", "velocity>99")):
+        capture = ("capture", "--trigger", "velocity>99")
+        for verb in (("arm", "wall", "--hold"), ("watch",), capture):
             with Board() as board, self.subTest(verb[0]):
                 running = self.start(board.port, "--patience", 0.5, *verb)
                 time.sleep(0.6)

@@ -39,7 +39,9 @@ shift 3
 for package in "$@"; do
   case $package in -*) continue ;; esac
   echo "$package" >>"$MACHINE/installed"
-  if [ -d "$MACHINE/archive/$package" ]; then cp "$MACHINE/archive/$package"/* "$MACHINE/usr/bin/"; fi
+  if [ -d "$MACHINE/archive/$package" ]; then
+    cp "$MACHINE/archive/$package"/* "$MACHINE/usr/bin/"
+  fi
 done
 echo changed >"$MACHINE/var/lib/dpkg/status" """,
     "sudo": """

@@ -37,7 +37,7 @@ SCHEMA = re.compile(r"feltgate-[a-z]+(?:-[a-z]+)*([-/])[0-9]+\b")
 
 
 def options(text):
-    """(name, type) of each option in a help text; a type that argparse or CLI11 made up as it is."""
+    """(name, type) of each option in a help text; one that argparse or CLI11 made up as it is."""
     for line in text.splitlines():
         found = re.match(r" +(?:-\w[ ,]+)?(?:[A-Z]+, )?(--[a-z-]+)(?:[ =]([^ =:]+))?", line)
         if found:

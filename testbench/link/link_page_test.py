@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The frames that docs/link.md shows, computed again; what docs/examples/link.py sends and takes."""
+"""The frames that docs/link.md shows, computed again; what docs/examples/link.py sends and
+takes."""
 
 import os
 import re
@@ -70,7 +71,8 @@ class Page(unittest.TestCase):
 
     def test_numbers(self):
         numbers = {c["name"]: c["value"] for c in MAP["link_constant"]}
-        self.assertEqual(link.END + link.ESCAPE, bytes([numbers["frame_end"], numbers["frame_escape"]]))
+        self.assertEqual(link.END + link.ESCAPE,
+                         bytes([numbers["frame_end"], numbers["frame_escape"]]))
         self.assertEqual((link.READ, link.WRITE), (numbers["kind_read"], numbers["kind_write"]))
         self.assertEqual(link.REPLY, numbers["kind_reply"])
 

@@ -22,8 +22,8 @@ IN_A_MODULE = (
     ("generate\nif (1) begin\nend\nendgenerate", 2, "without a name"),
     ("generate\nif (1) begin : g\nend else begin\nend\nendgenerate", 3, "without a name"),
     ("generate\nfor (genvar i = 0; i < 2; i = i + 1) begin : g\nend\nendgenerate", 2, "genvar"),
-    ("generate\ncase (1)\n1: begin : g\nend\nendcase\nendgenerate\ncase (1) 1: begin : h end endcase",
-     7, "outside generate"),
+    ("generate\ncase (1)\n1: begin : g\nend\nendcase\nendgenerate\n"
+     "case (1) 1: begin : h end endcase", 7, "outside generate"),
     ("import p::*;", 1, "import"),
     ("enum {A, B} state;", 1, "enumeration without a type"),
     ("enum logic [1:0] {A = 1, B} state;", 1, "without a width"),
@@ -113,7 +113,8 @@ class Quartus(unittest.TestCase):
         self.assertEqual(self.said([GOOD]), (0, [[]]))
 
     def test_bad(self):
-        cases = [(f"module m;\n{text}\nendmodule", line + 1, said) for text, line, said in IN_A_MODULE]
+        cases = [(f"module m;\n{text}\nendmodule", line + 1, said)
+                 for text, line, said in IN_A_MODULE]
         cases += ELSEWHERE
         status, answers = self.said([text for text, _, _ in cases])
         self.assertEqual(status, 1)

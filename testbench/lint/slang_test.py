@@ -63,7 +63,8 @@ class Slang(unittest.TestCase):
         self.assertIn("PARALLEL_MULTIPLIERS = 0;", text)
         with tempfile.TemporaryDirectory() as folder:
             parallel = Path(folder, "feltgate_pkg.sv")
-            parallel.write_text(text.replace("PARALLEL_MULTIPLIERS = 0;", "PARALLEL_MULTIPLIERS = 1;"))
+            parallel.write_text(text.replace("PARALLEL_MULTIPLIERS = 0;",
+                                             "PARALLEL_MULTIPLIERS = 1;"))
             self.assertEqual(lint("feltgate_core", parallel, *core()), "")
 
     def test_every_board(self):

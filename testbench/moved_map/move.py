@@ -3,11 +3,13 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """A test-only root for feltgate_generate, in which words have other slots than in the shipped map.
 
-  move.py ROOT FOLDER WORD=SLOT... [product:NAME=SLOT] [read:WORD=SLOT] [step:NAME=CLOCK] [wave=CLOCKS]
+  move.py ROOT FOLDER WORD=SLOT... [product:NAME=SLOT] [read:WORD=SLOT] [step:NAME=CLOCK]
+          [wave=CLOCKS]
 
 FOLDER/rtl/registers.toml and schedule.toml are those of ROOT with other slots for these parameters,
-squares and snapshot words, other clocks for steps that follow nothing, and another length of the wave.
-all+=CLOCKS moves every word and square that is not named. The caller puts designs beside them.
+squares and snapshot words, other clocks for steps that follow nothing, and another length of the
+wave. all+=CLOCKS moves every word and square that is not named. The caller puts designs beside
+them.
 """
 
 import re

@@ -25,7 +25,8 @@ def has_parser():
     return True
 
 
-@unittest.skipUnless(has_parser() or os.environ.get("CI"), "no tree-sitter; ./feltgate test fetches it")
+@unittest.skipUnless(has_parser() or os.environ.get("CI"),
+                     "no tree-sitter; ./feltgate test fetches it")
 class Share(unittest.TestCase):
     def test_share(self):
         os.environ["FELTGATE_BUILD"] = BUILD

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Mutants of C++ headers: what is offered, and that each does what its name says. docs/verification.md
+"""Mutants of C++ headers: what is offered, and that each does what its name says.
 
 twin_test.py VENV: the folder into which scripts/build.sh has fetched tree-sitter.
+Documentation: docs/verification.md
 """
 
 import contextlib
@@ -17,10 +18,13 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(os.environ.get("FELTGATE_ROOT") or Path(__file__).resolve().parents[2])
-VENV = Path(sys.argv.pop(1)) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else Path("none")
+VENV = Path("none")
+if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
+    VENV = Path(sys.argv.pop(1))
 sys.path.insert(0, str(ROOT / "scripts"))
 import block_results  # noqa: E402
-from mutating import twin, twin_parser, twin_places, twin_results, twin_runs, twin_source  # noqa: E402
+from mutating import twin, twin_parser, twin_places, twin_results  # noqa: E402
+from mutating import twin_runs, twin_source  # noqa: E402
 
 try:
     LANGUAGE = twin_parser.cpp_language(VENV)
@@ -38,7 +42,8 @@ def names(text):
     return [m.name for m in header(text).mutants]
 
 
-@unittest.skipIf(LANGUAGE is None and not os.environ.get("CI"), "no tree-sitter; ./feltgate mutate --twin fetches it")
+@unittest.skipIf(LANGUAGE is None and not os.environ.get("CI"),
+                 "no tree-sitter; ./feltgate mutate --twin fetches it")
 class Offered(unittest.TestCase):
     def test_operators(self):
         found = names("int f(int a, int b) { return a < b ? a + b : a << b; }")
@@ -48,16 +53,18 @@ class Offered(unittest.TestCase):
     def test_a_chain_loses_one_condition_at_a_time(self):
         found = names("bool f(bool a, bool b, bool c) { return a && b && c; }")
         self.assertEqual(found, ["f: a && b && c -> its opposite", "f: a -> left out of &&",
-                                 "f: b -> left out of &&", "f: c -> left out of &&", "f: && b -> || b",
-                                 "f: && c -> || c"])
+                                 "f: b -> left out of &&", "f: c -> left out of &&",
+                                 "f: && b -> || b", "f: && c -> || c"])
 
     def test_statements(self):
         found = names("void f(int& a) { a = 3; if (a > 2) return; g(a); a += 1, a = 0; }")
-        for wanted in ("f: a = 3 -> removed", "f: return -> removed", "f: g(a) -> removed", "f: a = 0 -> removed"):
+        for wanted in ("f: a = 3 -> removed", "f: return -> removed", "f: g(a) -> removed",
+                       "f: a = 0 -> removed"):
             self.assertIn(wanted, found)
 
     def test_constants(self):
-        self.assertEqual(names("int f() { return 7; }"), ["f: 7 in return 7 -> 7 + 1", "f: 7 in return 7 -> 7 - 1"])
+        self.assertEqual(names("int f() { return 7; }"),
+                         ["f: 7 in return 7 -> 7 + 1", "f: 7 in return 7 -> 7 - 1"])
         self.assertEqual(names("bool f() { return true; }"), ["f: true in return true -> false"])
 
     def test_rounding(self):
@@ -67,12 +74,15 @@ class Offered(unittest.TestCase):
         self.assertIn("Overflow::wrap", found[1])
 
     def test_the_second_of_the_same_has_its_number(self):
-        self.assertIn("f: a + b -> a - b #2", names("int f(int a, int b) { return (a + b) * (a + b); }"))
+        self.assertIn("f: a + b -> a - b #2",
+                      names("int f(int a, int b) { return (a + b) * (a + b); }"))
 
     def test_what_only_the_compiler_sees_stays(self):
-        for text in ("constexpr int k = 3 + 2;", "static_assert(3 + 2 == 5);", "template <int N = 3 + 2> struct S;",
+        for text in ("constexpr int k = 3 + 2;", "static_assert(3 + 2 == 5);",
+                     "template <int N = 3 + 2> struct S;",
                      "enum E { a = 1 + 1 };", "struct In { int a = 3; };", "int a[3 + 1];",
-                     "void f() { if constexpr (A + 1 == 2) { } }", "void f(int a) { switch (a) { case 1 + 1: default: } }"):
+                     "void f() { if constexpr (A + 1 == 2) { } }",
+                     "void f(int a) { switch (a) { case 1 + 1: default: } }"):
             self.assertEqual(names(text), [], text)
 
     def test_functions_of_the_compiler_may_be_named(self):
@@ -97,7 +107,8 @@ class Offered(unittest.TestCase):
         for found in twin.parse(catalogue, ROOT, list(catalogue.tests), {}, LANGUAGE):
             every = {m.name for m in found.mutants}
             listed = {name for h, name in catalogue.survivors if h == found.name}
-            self.assertEqual(listed - every, set(), f"testbench/mutate/twin.toml: {found.name} has no such mutant")
+            self.assertEqual(listed - every, set(),
+                             f"testbench/mutate/twin.toml: {found.name} has no such mutant")
 
 
 @unittest.skipIf(LANGUAGE is None and not os.environ.get("CI"), "no tree-sitter")
@@ -108,20 +119,22 @@ class Compiled(unittest.TestCase):
             folder = Path(folder)
             found = header(body)
             main = folder / "main.cpp"
+            printed = f'std::printf("{"%d " * len(calls)}", {", ".join(calls)});'
             main.write_text('#include "mutant.hpp"\n#include <cstdio>\n' + found.result +
-                            f'\nint main() {{ std::printf("{"%d " * len(calls)}", {", ".join(calls)}); }}\n',
-                            encoding="utf-8")
-            subprocess.run(["c++", "-std=c++17", "-w", f"-I{MUTANT}", f"-DFELTGATE_MUTANTS={len(found.mutants)}", main,
-                            MUTANT / "mutant.cpp", "-o", folder / "p"], check=True)
+                            f"\nint main() {{ {printed} }}\n", encoding="utf-8")
+            subprocess.run(["c++", "-std=c++17", "-w", f"-I{MUTANT}",
+                            f"-DFELTGATE_MUTANTS={len(found.mutants)}", main, MUTANT / "mutant.cpp",
+                            "-o", folder / "p"], check=True)
 
             def run(**more):
-                done = subprocess.run([folder / "p"], env=more, capture_output=True, text=True, check=True)
+                done = subprocess.run([folder / "p"], env=more, capture_output=True, text=True,
+                                      check=True)
                 return [int(word) for word in done.stdout.split()]
 
             self.assertEqual(run(), expected)
             run(FELTGATE_MUTANTS_REACHED=str(folder / "reached"))
-            self.reached = {int(line) for line in (folder / "reached").read_text(encoding="ascii").splitlines()
-                            if not line.endswith("exact")}
+            reached = (folder / "reached").read_text(encoding="ascii").splitlines()
+            self.reached = {int(line) for line in reached if not line.endswith("exact")}
             return {m.name: run(FELTGATE_MUTANT=str(m.number)) for m in found.mutants}
 
     def test_each_does_what_its_name_says(self):
@@ -145,7 +158,8 @@ struct Other {};
 inline int mixed(int a, Other) { return a; }
 inline int keeps() { return mixed(7, Other()); }
 """
-        calls = ["clamp(7, 5)", "clamp(5, 5)", "clamp(7, -1)", "odd(3)", "count(3)", "half", "swaps()", "keeps()"]
+        calls = ["clamp(7, 5)", "clamp(5, 5)", "clamp(7, -1)", "odd(3)", "count(3)", "half",
+                 "swaps()", "keeps()"]
         got = self.results(body, calls, [5, 5, 7, 1, 3, 5, 3, 7])
         self.assertEqual(got["clamp: x > limit -> x <= limit"][0], 7)
         self.assertEqual(got["clamp: limit >= 0 -> left out of &&"][2], -1)
@@ -163,15 +177,19 @@ class Verdicts(unittest.TestCase):
     def row(self, hows, survivors):
         mutants = [twin_places.Mutant(n, "h", 1, "k", f"m{n}") for n in range(len(hows))]
         catalogue = twin_results.Catalogue({"h": ["t"]}, {}, survivors)
-        return twin_results.Row("h", 9, [twin_runs.Verdict(m, how) for m, how in zip(mutants, hows)], catalogue)
+        verdicts = [twin_runs.Verdict(m, how) for m, how in zip(mutants, hows)]
+        return twin_results.Row("h", 9, verdicts, catalogue)
 
     def test_equivalent_ones_do_not_count(self):
-        row = self.row(["killed", "hangs", "survives", "unreached"], {("h", "m2"): ("equivalent", "w")})
+        row = self.row(["killed", "hangs", "survives", "unreached"],
+                       {("h", "m2"): ("equivalent", "w")})
         self.assertAlmostEqual(row.share(), 2 / 3)
-        self.assertEqual((len(row.left("equivalent")), len(row.left("gap")), len(row.left(None))), (1, 0, 1))
+        self.assertEqual((len(row.left("equivalent")), len(row.left("gap")), len(row.left(None))),
+                         (1, 0, 1))
 
     def test_a_gap_counts(self):
-        self.assertAlmostEqual(self.row(["killed", "survives"], {("h", "m1"): ("gap", "w")}).share(), 1 / 2)
+        row = self.row(["killed", "survives"], {("h", "m1"): ("gap", "w")})
+        self.assertAlmostEqual(row.share(), 1 / 2)
 
     def test_the_choice_is_the_seeds(self):
         mutants = [twin_places.Mutant(n, "h", 1, "k", str(n)) for n in range(50)]
@@ -185,14 +203,17 @@ class Verdicts(unittest.TestCase):
             place = Path(folder) / "mutants/twin/h"
             (place / "include/feltgate").mkdir(parents=True)
             (place / "include/feltgate/h.hpp").write_text(
-                "x\n(::feltgate_mutant::on(0) ? f(b, a) : ::feltgate_mutant::plus<1>(a, b))\n", encoding="utf-8")
+                "x\n(::feltgate_mutant::on(0) ? f(b, a) : ::feltgate_mutant::plus<1>(a, b))\n",
+                encoding="utf-8")
             one = type("H", (), {"name": "h", "mutants": [
-                twin_places.Mutant(0, "h", 2, "arguments", "swap"), twin_places.Mutant(1, "h", 2, "arithmetic", "add")]})
+                twin_places.Mutant(0, "h", 2, "arguments", "swap"),
+                twin_places.Mutant(1, "h", 2, "arithmetic", "add")]})
             said = "a/mutants/twin/h/include/feltgate/h.hpp:2:7: error: no match\n"
             self.assertEqual(twin.refused([one], place, said), {("h", "swap")})
 
     def test_results_become_rows_of_the_blocks(self):
-        row = self.row(["killed", "hangs", "survives", "unreached"], {("h", "m2"): ("equivalent", "w")})
+        row = self.row(["killed", "hangs", "survives", "unreached"],
+                       {("h", "m2"): ("equivalent", "w")})
         row.catalogue.blocks["h"] = "twin of the core"
         with tempfile.TemporaryDirectory() as folder:
             folder = Path(folder)
@@ -231,7 +252,8 @@ class Verdicts(unittest.TestCase):
         catalogue = twin_results.read_catalogue(ROOT)
         for header in catalogue.tests:
             row = catalogue.blocks.get(header, header)
-            self.assertTrue(row in block_results.EXTRA or (ROOT / f"rtl/{row}.sv").is_file(), header)
+            self.assertTrue(row in block_results.EXTRA or (ROOT / f"rtl/{row}.sv").is_file(),
+                            header)
 
     def test_a_catalogue_that_cannot_be_used(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -240,9 +262,11 @@ class Verdicts(unittest.TestCase):
             good = '[tests]\nh = ["t"]\n[block]\nh = "b"\n[[survivor]]\nheader = "h"\n' \
                    'kind = "gap"\nwhy = "w"\nmutants = ["m"]\n'
             path.write_text(good, encoding="utf-8")
-            self.assertEqual(twin_results.read_catalogue(Path(folder)).survivors, {("h", "m"): ("gap", "w")})
-            for was, becomes in (('"gap"', '"luck"'), ('"w"', '""'), ('why = "w"\n', ""), ("why", "reason"),
-                                 ('h = "b"', 'h = ["b"]'), ('h = "b"', 'other = "b"'), ("[tests]", "[tests")):
+            self.assertEqual(twin_results.read_catalogue(Path(folder)).survivors,
+                             {("h", "m"): ("gap", "w")})
+            for was, becomes in (('"gap"', '"luck"'), ('"w"', '""'), ('why = "w"\n', ""),
+                                 ("why", "reason"), ('h = "b"', 'h = ["b"]'),
+                                 ('h = "b"', 'other = "b"'), ("[tests]", "[tests")):
                 path.write_text(good.replace(was, becomes), encoding="utf-8")
                 with self.subTest(becomes), self.assertRaises(twin_results.TwinError):
                     twin_results.read_catalogue(Path(folder))

@@ -90,7 +90,8 @@ class Pantograph(PageTest):
         self.open_pantograph("training")
         # Drawn with the next frame.
         labels = self.until(
-            "const all = [...document.querySelectorAll('#pen-stage .label')].map(t => t.textContent);"
+            "const all = [...document.querySelectorAll('#pen-stage .label')]"
+            ".map(t => t.textContent);"
             "return all.length === 8 && all"
         )
         self.assertEqual(labels.count("high stiffness"), 2)

@@ -98,7 +98,8 @@ class Product(unittest.TestCase):
 
     def test_board_of_a_design_of_ones_own(self):
         own = (ROOT / "rtl/designs/lever.toml").read_text()
-        (self.folder / "own.toml").write_text(own.replace("torque_limit_nm = 0.5", "torque_limit_nm = 0.25"))
+        own = own.replace("torque_limit_nm = 0.5", "torque_limit_nm = 0.25")
+        (self.folder / "own.toml").write_text(own)
         self.board("--design", "own.toml")
         made = self.folder / "de0_nano_own"
         settings = (made / "de0_nano.qsf").read_text()
@@ -132,7 +133,8 @@ class Product(unittest.TestCase):
 
     def test_board_refused(self):
         own = (ROOT / "rtl/designs/lever.toml").read_text()
-        (self.folder / "fast.toml").write_text(own.replace("clock_hz = 50_000_000", "clock_hz = 100_000_000"))
+        fast = own.replace("clock_hz = 50_000_000", "clock_hz = 100_000_000")
+        (self.folder / "fast.toml").write_text(fast)
         (self.folder / "mine").mkdir()
         (self.folder / "mine/thesis.txt").write_text("x")
         for words, said in (

@@ -30,7 +30,13 @@ ports = "x_i y_o"
 c = "reached"
 """
 WRAPPER = "module p_proof; always_comb begin a: assert (1); c: cover (1); end endmodule\n"
-RTL = "module b (\n  input logic clk_i,\n  input logic [3:0] x_i,\n  output logic y_o\n);\nendmodule\n"
+RTL = """module b (
+  input logic clk_i,
+  input logic [3:0] x_i,
+  output logic y_o
+);
+endmodule
+"""
 
 
 class Catalogue(unittest.TestCase):
@@ -63,7 +69,8 @@ class Catalogue(unittest.TestCase):
         self.write("rtl/c.sv", RTL.replace("module b", "module c"))
         toml = "testbench/b/proofs/proofs.toml"
         self.write(toml, TOML.replace("y_o", "y_o c.x_i"))
-        self.assertEqual(catalog.open_ports(self.root, catalog.read(self.root)), {"b": [], "c": ["y_o"]})
+        self.assertEqual(catalog.open_ports(self.root, catalog.read(self.root)),
+                         {"b": [], "c": ["y_o"]})
         for port, said in (("c.q_o", "no port q_o"), ("d.x_i", "no block d")):
             self.write(toml, TOML.replace("y_o", f"y_o {port}"))
             with self.assertRaisesRegex(catalog.CatalogError, said):
@@ -100,7 +107,8 @@ class Catalogue(unittest.TestCase):
         wrapper = "module p_proof;\n  `include \"own.svh\"\nendmodule\n"
         self.write("testbench/b/proofs/p.sv", wrapper)
         self.refused("p.sv", "no own.svh beside it or in testbench/prove")
-        self.write("testbench/prove/shared.svh", "always_comb begin a: assert (1); c: cover (1); end\n")
+        self.write("testbench/prove/shared.svh",
+                   "always_comb begin a: assert (1); c: cover (1); end\n")
         self.write("testbench/b/proofs/own.svh", "`include \"shared.svh\"\n")
         (proof,) = catalog.read(self.root)
         text = catalog.wrapper_text(self.root, proof.wrapper)
@@ -108,9 +116,11 @@ class Catalogue(unittest.TestCase):
         self.assertNotIn("include", text)
 
     def test_an_assertion_that_nothing_is_said_of(self):
-        self.write("testbench/b/proofs/p.sv", WRAPPER.replace("a: assert (1);", "a: assert (1); b: assert (1);"))
+        self.write("testbench/b/proofs/p.sv",
+                   WRAPPER.replace("a: assert (1);", "a: assert (1); b: assert (1);"))
         self.refused("p.sv asserts b")
-        self.write("testbench/b/proofs/p.sv", WRAPPER.replace("a: assert (1);", "a: assert (1); inside_b: assert (1);"))
+        self.write("testbench/b/proofs/p.sv",
+                   WRAPPER.replace("a: assert (1);", "a: assert (1); inside_b: assert (1);"))
         self.assertEqual(len(catalog.read(self.root)), 1)
 
     def test_without_a_cover(self):
@@ -124,11 +134,13 @@ class Product(unittest.TestCase):
         self.proofs = catalog.read(ROOT)
 
     def test_every_port_is_in_a_property(self):
-        # The whole core is the sum of its blocks; of the vendor's multiplier and of the checks at elaboration
-        # nothing is proven, nor of what joins an engine and axes.
-        without = {"feltgate_core", "feltgate_axes", "axes_engine", "feltgate_checks", "mult18_ecp5"}
+        # The whole core is the sum of its blocks; of the vendor's multiplier and of the checks at
+        # elaboration nothing is proven, nor of what joins an engine and axes.
+        without = {"feltgate_core", "feltgate_axes", "axes_engine", "feltgate_checks",
+                   "mult18_ecp5"}
         for block, names in catalog.open_ports(ROOT, self.proofs).items():
-            # Of the engine's parts only what programs may write, both ages and what is cleared are proven.
+            # Of the engine's parts only what programs may write, both ages and what is cleared are
+            # proven.
             if block not in without and not re.match(r"engine(_|$)", block):
                 self.assertEqual(names, [], block)
 
@@ -165,17 +177,20 @@ class Verdicts(unittest.TestCase):
                "#0\nb0001 n0\nb1111 n1\n#5\n#10\nb1000 n0\n#15\n#20\n")
         step, text = trace.table(trace.read(vcd), ())
         self.assertEqual(step, 1)
-        self.assertEqual([line.split() for line in text.splitlines()], [["clock", "0", "1"], ["x", "1", "-8"]])
+        self.assertEqual([line.split() for line in text.splitlines()],
+                         [["clock", "0", "1"], ["x", "1", "-8"]])
 
 
 class Page(unittest.TestCase):
     def test_blocks_without_a_run_stay_as_they_were(self):
-        proofs = [type("P", (), {"block": name, "key": f"{name}.p", "name": "p", "title": "t", "assumes": (),
-                                 "covers": {}, "properties": ()}) for name in ("a", "b")]
-        entry = {"proof": "b.p", "design": "d", "k": 2, "base_seconds": 1.0, "induction_seconds": 1.0,
-                 "covers": {}, "properties": []}
+        proofs = [type("P", (), {"block": name, "key": f"{name}.p", "name": "p", "title": "t",
+                                 "assumes": (), "covers": {}, "properties": ()})
+                  for name in ("a", "b")]
+        entry = {"proof": "b.p", "design": "d", "k": 2, "base_seconds": 1.0,
+                 "induction_seconds": 1.0, "covers": {}, "properties": []}
         result = {"tools": {"yosys": "y", "z3": "z"}, "proofs": [entry]}
-        text = page.generated(result, proofs, "stale counts\n\n### a\n\nof a\n\n### b\n\nstale b\n\n")
+        text = page.generated(result, proofs,
+                              "stale counts\n\n### a\n\nof a\n\n### b\n\nstale b\n\n")
         self.assertEqual(list(page.sections(text)), ["a", "b"])
         self.assertIn("0 properties in 2 proofs of 2 blocks", text)
         self.assertIn("\n### a\n\nof a\n\n### b\n\n[`b.p`]", text)
@@ -184,8 +199,9 @@ class Page(unittest.TestCase):
 
 class Reading(unittest.TestCase):
     def test_a_block_that_is_cut_has_ports_only(self):
-        self.assertEqual(tools.ports_only("module a (\n  output logic y_o\n);\n  assign y_o = 1'b1;\nendmodule\n"),
-                         "module a (\n  output logic y_o\n);\nendmodule\n`default_nettype wire\n")
+        head = "module a (\n  output logic y_o\n);\n"
+        self.assertEqual(tools.ports_only(f"{head}  assign y_o = 1'b1;\nendmodule\n"),
+                         f"{head}endmodule\n`default_nettype wire\n")
 
 
 class Command(unittest.TestCase):
@@ -204,7 +220,8 @@ class Command(unittest.TestCase):
         self.assertIn("limiter.clamp", out)
 
     def test_wrong_words(self):
-        for words in (["nothing"], ["--jobs", "0"], ["--json", "/nowhere/x"], ["--update", "limiter.clamp"], ["--update", "--fast"]):
+        for words in (["nothing"], ["--jobs", "0"], ["--json", "/nowhere/x"],
+                      ["--update", "limiter.clamp"], ["--update", "--fast"]):
             with self.subTest(words):
                 status, _, err = self.status(*words)
                 self.assertEqual(status, 2, err)

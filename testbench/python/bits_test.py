@@ -71,9 +71,11 @@ class Bits(unittest.TestCase):
 
     def test_a_recording(self):
         path = ROOT / "vectors/traces/damper.vec"
-        columns = printed("replay", path, "--scene", "damper", "--engine", ENGINES, "--every", "500")
+        columns = printed("replay", path, "--scene", "damper", "--engine", ENGINES,
+                          "--every", "500")
         for recording in (path, feltgate.Recording(path)):
-            self.same(feltgate.replay(recording, engine=ENGINES, scene="damper", every=500), columns)
+            self.same(feltgate.replay(recording, engine=ENGINES, scene="damper", every=500),
+                      columns)
 
     def test_twin_and_chain_agree_in_every_tick(self):
         rng = np.random.default_rng(1)

@@ -113,7 +113,8 @@ class Parts(unittest.TestCase):
         self.assertGreater(light.omega_rad_s[-1], 2 * heavy.omega_rad_s[-1])
         self.assertEqual(heavy.counts[-1], plant.counts)
         slow = feltgate.run(SCENE, engine="twin", plant=plant)
-        self.assertNotEqual(slow.theta_rad.max(), feltgate.run(SCENE, engine="twin").theta_rad.max())
+        self.assertNotEqual(slow.theta_rad.max(),
+                            feltgate.run(SCENE, engine="twin").theta_rad.max())
 
     def test_recording(self):
         recording = feltgate.Recording(ROOT / "vectors/traces/membrane.vec")
@@ -234,8 +235,8 @@ class Long(unittest.TestCase):
     def test_ctrl_c(self):
         code = ("import feltgate, sys\n"
                 "tell = lambda done: print(done, flush=True)\n"
-                "feltgate.run('membrane', engine='twin', hand=feltgate.Hand.free(), duration_s=3000,"
-                " every=10**6, progress=tell)\n")
+                "feltgate.run('membrane', engine='twin', hand=feltgate.Hand.free(),"
+                " duration_s=3000, every=10**6, progress=tell)\n")
         with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, text=True) as run:
             run.stdout.readline()

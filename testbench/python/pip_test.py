@@ -36,7 +36,8 @@ class Pip(unittest.TestCase):
             command = [python, "-m", "pip", "install", "--disable-pip-version-check", ROOT]
             if self.build_dir:
                 command.insert(4, f"--config-settings=build-dir={self.build_dir}")
-            clean = {k: v for k, v in os.environ.items() if not k.startswith(("FELTGATE", "PYTHON"))}
+            clean = {k: v for k, v in os.environ.items()
+                     if not k.startswith(("FELTGATE", "PYTHON"))}
             done = subprocess.run(command, env=clean, stdout=subprocess.PIPE,
                                   stderr=subprocess.STDOUT, text=True, check=False)
             if done.returncode and any(word in done.stdout for word in OFFLINE):

@@ -6,8 +6,8 @@
 
 The program runs the scene and writes no rows; Python runs it with every column of every tick in
 arrays (every=1) and with the default of about 20 000 rows. They take turns, and the best of each
-counts; the time is that of the processor, so that what else the machine does counts for little. What
-the program does besides (start, read files) is timed with it, as is all of the call in Python.
+counts; the time is that of the processor, so that what else the machine does counts for little.
+What the program does besides (start, read files) is timed with it, as is all of the call in Python.
 FELTGATE_BUILD: where the program is.
 """
 

@@ -59,7 +59,8 @@ class StandIns(unittest.TestCase):
     def run_board(self, *words, speeds=(90, 70, 80), clock=50, gates=4):
         with tempfile.TemporaryDirectory() as folder:
             config = "".join(f".tile R{n}\n{CELL}\n" for n in range(gates))
-            constants = f"SPEEDS = {dict(zip('123', speeds))}\nCLOCK = {clock}\nCONFIG = {config!r}\n"
+            constants = f"SPEEDS = {dict(zip('123', speeds))}\nCLOCK = {clock}\n"
+            constants += f"CONFIG = {config!r}\n"
             nextpnr = NEXTPNR.replace("import json, sys\n", "import json, sys\n" + constants)
             for name, text in (("yosys", YOSYS), ("nextpnr-ecp5", nextpnr), ("ecppack", PACK)):
                 path = Path(folder, "bin", f"yowasp-{name}")
@@ -135,7 +136,8 @@ class StandIns(unittest.TestCase):
     def test_a_cell_that_lacks_one_setting_is_none(self):
         self.assertEqual(synth_board.gate_cells(f".tile A\n{CELL}\n"), 1)
         for setting in synth_board.GATE_CELL:
-            text = f".tile A\n{CELL}\n".replace(f"enum: IOLOGICA.{setting}\n", "").replace(setting, "X")
+            text = f".tile A\n{CELL}\n".replace(f"enum: IOLOGICA.{setting}\n", "")
+            text = text.replace(setting, "X")
             self.assertEqual(synth_board.gate_cells(text), 0, setting)
 
     def test_both_boards_have_a_budget(self):

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The model of MULT18X18D elaborates with the options of rtl/mult18_ecp5.sv and with no others. docs/synthesis.md"""
+"""The model of MULT18X18D elaborates with the options of rtl/mult18_ecp5.sv and with no others.
+docs/synthesis.md"""
 
 import os
 import re

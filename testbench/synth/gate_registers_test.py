@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The gates in the ECP5 netlist of pwm: four flip-flops whose outputs go to the pins and nowhere else,
-with one asynchronous clear between them, so that they fit into the I/O cells. docs/blocks/pwm.md
+"""The gates in the ECP5 netlist of pwm: four flip-flops whose outputs go to the pins and nowhere
+else, with one asynchronous clear between them, so that they fit into the I/O cells.
+docs/blocks/pwm.md
 """
 
 import json

@@ -6,7 +6,7 @@ it, with the cells' models flattened in (neither Verilator nor Icarus reads Yosy
 pair.sv, which drives netlist and RTL alike. Called by testbench/synth/CMakeLists.txt.
 
   postsynth.py --root R --design lever --block dob --output DIR [--defect PATCH] [--parameter N=V]
-  postsynth.py --root R --design lever --board ulx3s --output DIR     the whole of a board, with its pins
+  postsynth.py --root R --design lever --board ulx3s --output DIR  the whole of a board, with pins
 """
 
 import argparse

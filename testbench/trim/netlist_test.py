@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""netlist_test.py YOSYS ROOT PACKAGE: Yosys elaborates the core with the package of a design for the
-membrane alone, and with lever's. The first has no module that only other scenes need; the second
-has them all, or the test would pass on anything. docs/designs.md
+"""netlist_test.py YOSYS ROOT PACKAGE: Yosys elaborates the core with the package of a design for
+the membrane alone, and with lever's. The first has no module that only other scenes need; the
+second has them all, or the test would pass on anything. docs/designs.md
 """
 
 import re

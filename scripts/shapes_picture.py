@@ -40,6 +40,7 @@ def shape(axes, rows):
                 label="force, 0.1 N")
     axes.set_aspect("equal")
     axes.set(xlabel="x, mm", ylabel="y, mm")
+    axes.margins(y=0.1)
     axes.legend(loc="center", bbox_to_anchor=(0.62, 0.5), fontsize=8)
 
 

@@ -20,42 +20,31 @@ struct LinkWord {
 /// Addresses, bits and numbers of the host's link.
 struct LinkMap {
   static constexpr std::uint32_t identity = 0x46454c54;  ///< what the word identity says
-  static constexpr std::uint32_t version = 0x10000;      ///< what the word version says
-  static constexpr std::uint32_t baud = 0xf4240;    ///< bits per second where nothing else is said
+  static constexpr std::uint32_t version = 0x10000;  ///< what the word version says
+  static constexpr std::uint32_t baud = 0xf4240;  ///< bits per second where nothing else is said
   static constexpr std::uint32_t frame_end = 0xc0;  ///< byte before and after a frame
   static constexpr std::uint32_t frame_escape = 0xdb;  ///< byte that changes the next one's meaning
-  static constexpr std::uint32_t escaped_end = 0xdc;   ///< after the escape: frame_end
+  static constexpr std::uint32_t escaped_end = 0xdc;  ///< after the escape: frame_end
   static constexpr std::uint32_t escaped_escape = 0xdd;  ///< after the escape: frame_escape
-  static constexpr std::uint32_t kind_read = 0x1;        ///< first byte of a request to read
-  static constexpr std::uint32_t kind_write = 0x2;       ///< first byte of a request to write
-  static constexpr std::uint32_t kind_stream =
-      0x40;  ///< first byte of a frame that nobody asked for
+  static constexpr std::uint32_t kind_read = 0x1;  ///< first byte of a request to read
+  static constexpr std::uint32_t kind_write = 0x2;  ///< first byte of a request to write
+  static constexpr std::uint32_t kind_stream = 0x40;  ///< first byte of a frame that nobody asked for
   static constexpr std::uint32_t kind_reply = 0x80;  ///< set in the first byte of a reply
-  static constexpr std::uint32_t request_bytes =
-      0xc;                                           ///< bytes of every request, its CRC among them
+  static constexpr std::uint32_t request_bytes = 0xc;  ///< bytes of every request, its CRC among them
   static constexpr std::uint32_t read_words = 0x40;  ///< most words of one read
-  static constexpr std::uint32_t map_bits =
-      0xe;  ///< bits of an address; a request beyond is bad. One more where features.engine is set
-  static constexpr std::uint32_t no_sequence =
-      0x100;  ///< last_write_sequence before the first write
-  static constexpr std::uint32_t words =
-      0x1000;  ///< first address of the link's words; below are the core's
-  static constexpr std::uint32_t memory =
-      0x2000;  ///< first address of the capture memory: 8 words of a row, then the next row
+  static constexpr std::uint32_t map_bits = 0xe;  ///< bits of an address; a request beyond is bad. One more where features.engine is set
+  static constexpr std::uint32_t no_sequence = 0x100;  ///< last_write_sequence before the first write
+  static constexpr std::uint32_t words = 0x1000;  ///< first address of the link's words; below are the core's
+  static constexpr std::uint32_t memory = 0x2000;  ///< first address of the capture memory: 8 words of a row, then the next row
   static constexpr std::uint32_t rows_log2 = 0xa;  ///< log2 of the rows of the capture memory
-  static constexpr std::uint32_t columns = 0x8;    ///< words of a row
+  static constexpr std::uint32_t columns = 0x8;  ///< words of a row
   static constexpr std::uint32_t trigger_mode_bits = 0x3;  ///< bits of trigger_mode
-  static constexpr std::uint32_t trigger_rises =
-      0x1;  ///< trigger_mode: the word rises to the level or above, signed
-  static constexpr std::uint32_t trigger_falls =
-      0x2;  ///< trigger_mode: the word falls below the level
+  static constexpr std::uint32_t trigger_rises = 0x1;  ///< trigger_mode: the word rises to the level or above, signed
+  static constexpr std::uint32_t trigger_falls = 0x2;  ///< trigger_mode: the word falls below the level
   static constexpr std::uint32_t trigger_bit = 0x3;  ///< trigger_mode: a bit of the level becomes 1
-  static constexpr std::uint32_t trigger_event =
-      0x4;  ///< trigger_mode: an event of a law; a bit of its own, which stays 0 without an engine
-  static constexpr std::uint32_t any_event =
-      0x200;  ///< set in trigger_level: an event of any number; the bits below it are the number
-  static constexpr std::uint32_t engine =
-      0x4000;  ///< first address of the engine's words, where features.engine is set
+  static constexpr std::uint32_t trigger_event = 0x4;  ///< trigger_mode: an event of a law; a bit of its own, which stays 0 without an engine
+  static constexpr std::uint32_t any_event = 0x200;  ///< set in trigger_level: an event of any number; the bits below it are the number
+  static constexpr std::uint32_t engine = 0x4000;  ///< first address of the engine's words, where features.engine is set
 
   /// Addresses.
   struct A {

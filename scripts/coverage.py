@@ -23,7 +23,6 @@ file or an argument is wrong or a test fails.
   feltgate coverage --list              which tests there are; builds nothing
 """
 
-import argparse
 import os
 import sys
 import tempfile
@@ -31,6 +30,7 @@ from pathlib import Path
 
 import block_results
 import building
+import command_options
 import interrupts
 import outputs
 from covering import data, programs, report, waivers
@@ -40,23 +40,12 @@ CORE = "feltgate_core"
 
 
 def arguments(argv):
-    parser = argparse.ArgumentParser(
-        allow_abbrev=False,
-        prog="feltgate coverage",
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_options.parser("coverage", __doc__)
     parser.add_argument(
         "block", nargs="*", metavar="BLOCK", help="run the tests of these; default: all"
     )
     parser.add_argument("--list", action="store_true", help="the tests of each block; runs nothing")
-    parser.add_argument(
-        "--jobs",
-        type=int,
-        default=os.cpu_count(),
-        metavar="N",
-        help="tests at the same time; default: one per core",
-    )
+    command_options.add_jobs(parser, "tests")
     parser.add_argument(
         "--limit",
         type=int,
@@ -64,7 +53,7 @@ def arguments(argv):
         metavar="N",
         help="list so many of the points that are not reached; default 40",
     )
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write the results here")
+    command_options.add_json(parser)
     parser.add_argument(
         "--keep",
         type=Path,

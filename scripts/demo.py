@@ -17,6 +17,7 @@ import time
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
+import command_options
 import interrupts
 import outputs
 from outputs import write_whole
@@ -109,13 +110,11 @@ def write(folder, demo):
 
 
 def arguments_of(argv):
-    parser = argparse.ArgumentParser(
-        allow_abbrev=False,
-        prog="feltgate demo",
-        description="Every object in closed loop, every recording whole, through RTL and twin in\n"
+    parser = command_options.parser(
+        "demo",
+        "Every object in closed loop, every recording whole, through RTL and twin in\n"
         "lock-step; one HTML report. About ten minutes on two cores.",
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        EPILOG,
     )
     parser.add_argument(
         "--traces", metavar="DIR", help="recordings; default: FELTGATE_TRACES, ../shared/traces"

@@ -13,6 +13,7 @@ import os
 import sys
 from pathlib import Path
 
+import command_options
 import interrupts
 from exploring import chunks, engines, explore_page, front, merge, meter, presets, routes, space
 from exploring import plan as plans
@@ -88,13 +89,7 @@ def add_engine(parser):
 
 
 def parser_of_verbs():
-    parser = argparse.ArgumentParser(
-        allow_abbrev=False,
-        prog="feltgate explore",
-        description=__doc__.splitlines()[0],
-        epilog=EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_options.parser("explore", __doc__.splitlines()[0], EXAMPLES)
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="SPACE.toml | VERB")
     everything = verbs.add_parser(
         "all", help="SPACE.toml alone: all of the below, one after another"

@@ -40,7 +40,6 @@ listed), 1 it is not, 2 when a program, a file or an argument is wrong.
   feltgate faults --replay vectors/faults/cases.jsonl
 """
 
-import argparse
 import datetime
 import json
 import os
@@ -48,6 +47,7 @@ import sys
 from pathlib import Path
 
 import block_results
+import command_options
 import interrupts
 import outputs
 from faulting import campaign, results
@@ -62,12 +62,7 @@ CASE = (
 
 
 def arguments(argv):
-    parser = argparse.ArgumentParser(
-        allow_abbrev=False,
-        prog="feltgate faults",
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_options.parser("faults", __doc__)
     parser.add_argument(
         "--flips", type=int, default=2, metavar="N", help="flips of each bit; default: 2"
     )
@@ -91,13 +86,7 @@ def arguments(argv):
     parser.add_argument(
         "--seed", type=int, default=1, metavar="N", help="of all that is drawn; default: 1"
     )
-    parser.add_argument(
-        "--jobs",
-        type=int,
-        default=os.cpu_count(),
-        metavar="N",
-        help="programs at the same time; default: one per core",
-    )
+    command_options.add_jobs(parser, "programs")
     parser.add_argument(
         "--clean", action="store_true", help="device time without a fault instead: false alarms"
     )
@@ -113,7 +102,7 @@ def arguments(argv):
         help="tell of the lines that --save kept; runs nothing",
     )
     parser.add_argument("--save", type=Path, metavar="FILE", help="a line of JSON for each fault")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write the results here")
+    command_options.add_json(parser)
     parser.add_argument(
         "--markdown", action="store_true", help="the table as it stands in docs/verification.md"
     )

@@ -13,6 +13,7 @@ import json
 import sys
 from pathlib import Path
 
+import command_options
 import interrupts
 import outputs
 from outputs import write_whole
@@ -77,12 +78,10 @@ def write(folder, drawn, found):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        allow_abbrev=False,
-        prog="feltgate figures",
-        description="Redraws the figures of the Haptic Lever paper from runs of the RTL.",
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+    parser = command_options.parser(
+        "figures",
+        "Redraws the figures of the Haptic Lever paper from runs of the RTL.",
+        EPILOG,
     )
     parser.add_argument(
         "-o", "--output", dest="out", type=Path, metavar="DIR", help="default: figures in build"

@@ -22,13 +22,13 @@ argument is wrong.
   feltgate mutate --twin                 the headers of the C++ twin instead
 """
 
-import argparse
 import os
 import sys
 from pathlib import Path
 
 import block_results
 import building
+import command_options
 import interrupts
 import outputs
 from mutating import netlist, rtl, rtl_table
@@ -39,12 +39,7 @@ REQUIRED = 0.99
 
 
 def arguments(argv):
-    parser = argparse.ArgumentParser(
-        allow_abbrev=False,
-        prog="feltgate mutate",
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_options.parser("mutate", __doc__)
     parser.add_argument(
         "name", nargs="*", metavar="BLOCK", help="a block, one of its tests, or BLOCK.TEST; default: all"
     )
@@ -75,15 +70,9 @@ def arguments(argv):
         metavar="S",
         help="for the proof that a survivor is equivalent, 0: none; default: 20",
     )
-    parser.add_argument(
-        "--jobs",
-        type=int,
-        default=os.cpu_count(),
-        metavar="N",
-        help="programs at the same time; default: one per core",
-    )
+    command_options.add_jobs(parser, "programs")
     parser.add_argument("--no-build", action="store_true", help="run the programs that are there")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write the results here")
+    command_options.add_json(parser)
     parser.add_argument(
         "--update",
         action="store_true",

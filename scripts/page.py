@@ -6,7 +6,6 @@
 Documentation: docs/page.md
 """
 
-import argparse
 import base64
 import gzip
 import hashlib
@@ -17,6 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+import command_options
 import interrupts
 import outputs
 from paging.compile import CompileError, compile_core
@@ -42,13 +42,7 @@ class PageError(Exception):
 
 
 def arguments_of(argv):
-    parser = argparse.ArgumentParser(
-        allow_abbrev=False,
-        prog="feltgate page",
-        description=__doc__.splitlines()[0],
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_options.parser("page", __doc__.splitlines()[0], EPILOG)
     parser.add_argument(
         "--design",
         action="append",

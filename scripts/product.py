@@ -6,13 +6,13 @@
 Documentation: docs/product.md, docs/boards/de0_nano.md
 """
 
-import argparse
 import os
 import re
 import sys
 import tempfile
 from pathlib import Path
 
+import command_options
 import design_package
 import interrupts
 import outputs
@@ -42,13 +42,7 @@ ATTRIBUTES = (
 
 
 def arguments_of(argv):
-    parser = argparse.ArgumentParser(
-        allow_abbrev=False,
-        prog="feltgate product",
-        description=__doc__.splitlines()[0],
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_options.parser("product", __doc__.splitlines()[0], EPILOG)
     parser.add_argument("kind", choices=("verilog", "board"), help="what to write")
     parser.add_argument(
         "--design", default="lever", help="a name in rtl/designs, or a file; default lever"

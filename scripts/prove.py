@@ -23,12 +23,12 @@ an argument is wrong.
   feltgate prove --list                  properties, defects and covers; runs nothing
 """
 
-import argparse
 import os
 import sys
 import tempfile
 from pathlib import Path
 
+import command_options
 import interrupts
 import outputs
 from proving import catalog, page, tasks
@@ -40,12 +40,7 @@ SCHEMA = "feltgate-prove/1"
 
 
 def arguments(argv):
-    parser = argparse.ArgumentParser(
-        allow_abbrev=False,
-        prog="feltgate prove",
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_options.parser("prove", __doc__)
     parser.add_argument(
         "proof", nargs="*", metavar="BLOCK[.NAME]", help="a block or one proof; default: all"
     )
@@ -60,14 +55,8 @@ def arguments(argv):
         help="only what every test run repeats: short proofs, on their first design",
     )
     parser.add_argument("--no-defects", action="store_true", help="base, induction and covers only")
-    parser.add_argument(
-        "--jobs",
-        type=int,
-        default=os.cpu_count(),
-        metavar="N",
-        help="runs at the same time; default: one per core",
-    )
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write the results here")
+    command_options.add_jobs(parser, "runs")
+    command_options.add_json(parser)
     parser.add_argument(
         "--keep", type=Path, metavar="DIR", help="keep SMT2, logs and VCD in this new folder"
     )

@@ -13,13 +13,13 @@ Exit code: 0 within the budget (scripts/synth_budget.toml), 1 when a figure has 
   feltgate synth --board de0_nano                  how full its chip would be
 """
 
-import argparse
 import os
 import re
 import sys
 import tempfile
 from pathlib import Path
 
+import command_options
 import interrupts
 import outputs
 import synth_board
@@ -32,12 +32,7 @@ SCHEMA = "feltgate-synth/1"
 
 
 def arguments():
-    parser = argparse.ArgumentParser(
-        allow_abbrev=False,
-        prog="feltgate synth",
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_options.parser("synth", __doc__)
     parser.add_argument(
         "--design",
         action="append",

@@ -21,7 +21,6 @@ file or an argument is wrong.
   feltgate mutate --twin ramp --again old.json   what survived then, after tests have changed
 """
 
-import argparse
 import json
 import os
 import random
@@ -34,6 +33,7 @@ from pathlib import Path
 
 import block_results
 import building
+import command_options
 import interrupts
 import outputs
 
@@ -224,12 +224,7 @@ def run(options, root, build):
 
 
 def arguments(argv):
-    parser = argparse.ArgumentParser(
-        prog="feltgate mutate --twin",
-        description=__doc__,
-        allow_abbrev=False,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_options.parser("mutate --twin", __doc__)
     parser.add_argument("name", nargs="*", metavar="HEADER", help="without .hpp; default: all")
     parser.add_argument("--list", action="store_true", help="what there is; runs nothing")
     parser.add_argument(
@@ -258,17 +253,11 @@ def arguments(argv):
     parser.add_argument(
         "--survivors", action="store_true", help="list also what survives for a known reason"
     )
-    parser.add_argument(
-        "--jobs",
-        type=int,
-        default=os.cpu_count(),
-        metavar="N",
-        help="programs at the same time; default: one per core",
-    )
+    command_options.add_jobs(parser, "programs")
     parser.add_argument(
         "--no-build", action="store_true", help="the test programs are built; look no further"
     )
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write the results here")
+    command_options.add_json(parser)
     parser.add_argument(
         "--update",
         action="store_true",

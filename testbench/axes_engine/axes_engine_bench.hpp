@@ -11,7 +11,6 @@
 
 #include "catch.hpp"
 #include "feltgate/axes_engine.hpp"
-#include "feltgate/crc32.hpp"
 #include "feltgate/generated/lever_law.hpp"
 #include "lock_step.hpp"
 #include "machine_programs.hpp"
@@ -162,17 +161,6 @@ inline EngineMemory counting_law() {
     m.set_data(EngineMap::D::upper + n, 1000);
   }
   return m;
-}
-
-inline std::uint32_t image_crc(const EngineMemory& m) {
-  std::vector<std::uint8_t> bytes;
-  const auto put = [&bytes](std::uint64_t word, int count) {
-    for (int n = 0; n < count; ++n) bytes.push_back(static_cast<std::uint8_t>(word >> (8 * n)));
-  };
-  for (int n = 0; n < 512; ++n) put(m.program_at(n), 5);
-  for (int n = 384; n < 512; ++n) put(static_cast<std::uint32_t>(m.data_at(n)), 4);
-  for (int n = 0; n < m.line_base; ++n) put(m.table_at(n), 5);
-  return crc32(bytes.data(), bytes.size());
 }
 
 /// The twin with ticks of 50 clocks and a host, and what it was given, for the RTL.

@@ -10,7 +10,6 @@
 #include "catch.hpp"
 
 #include "engine_bench.hpp"
-#include "feltgate/crc32.hpp"
 #include "machine_programs.hpp"
 
 namespace feltgate::test {
@@ -104,18 +103,6 @@ inline EngineMemory image(const std::function<void(EngineMemory&, int)>& make,
   EngineMemory m = with_parameters(parameters);
   make(m, 0);
   return m;
-}
-
-/// CRC-32 of an image as a loader computes it.
-inline std::uint32_t image_crc(const EngineMemory& m) {
-  std::vector<std::uint8_t> bytes;
-  const auto put = [&bytes](std::uint64_t word, int count) {
-    for (int n = 0; n < count; ++n) bytes.push_back(static_cast<std::uint8_t>(word >> (8 * n)));
-  };
-  for (int n = 0; n < 512; ++n) put(m.program_at(n), 5);
-  for (int n = 384; n < 512; ++n) put(static_cast<std::uint32_t>(m.data_at(n)), 4);
-  for (int n = 0; n < m.line_base; ++n) put(m.table_at(n), 5);
-  return crc32(bytes.data(), bytes.size());
 }
 
 }  // namespace feltgate::test

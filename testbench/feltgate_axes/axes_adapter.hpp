@@ -8,9 +8,8 @@
 #include <Vfeltgate_axes.h>
 
 #include <string>
-#include <type_traits>
 
-#include "engines/rtl_ports.hpp"
+#include "engines/rtl_axes_ports.hpp"
 #include "feltgate/feltgate_axes.hpp"
 #include "feltgate/generated/lever_law.hpp"
 #include "lock_step.hpp"
@@ -22,56 +21,17 @@ constexpr int kAxes = AXES;
 constexpr bool kEngine = ENGINE != 0;
 using AxesTwin = FeltgateAxes<Design, kAxes, true, kEngine>;
 
-/// Bits [first, first + width) of a port, however Verilator keeps it; width up to 33.
-template <class Port>
-std::uint64_t bits_of(const Port& port, int first, int width) {
-  std::uint64_t word = 0;
-  if constexpr (std::is_integral<Port>::value) {
-    word = static_cast<std::uint64_t>(port) >> first;
-  } else {
-    word = std::uint64_t{port[first / 32]} >> first % 32;
-    if (first % 32 + width > 32) {
-      word |= std::uint64_t{port[first / 32 + 1]} << (32 - first % 32);
-    }
-  }
-  return word & ((std::uint64_t{1} << width) - 1);
-}
-template <class Port>
-void set_bits(Port& port, int first, int width, std::uint64_t value) {
-  for (int k = 0; k < width; ++k) {
-    const int at = first + k;
-    const std::uint64_t bit = value >> k & 1u;
-    if constexpr (std::is_integral<Port>::value) {
-      const std::uint64_t mask = std::uint64_t{1} << at;
-      port = static_cast<Port>((static_cast<std::uint64_t>(port) & ~mask) | bit << at);
-    } else {
-      const std::uint32_t mask = 1u << at % 32;
-      port[at / 32] = (port[at / 32] & ~mask) | static_cast<std::uint32_t>(bit << at % 32);
-    }
-  }
-}
-
 struct AxesAdapter {
   static constexpr int kTorque = Design::f.torque.width();
 
   static void drive(Vfeltgate_axes& rtl, const AxesIn<kAxes>& in) {
+    drive_axes<Design>(rtl, in);
     for (int n = 0; n < kAxes; ++n) {
       const auto& axis = in.axis[static_cast<std::size_t>(n)];
-      set_bits(rtl.enc_a_i, n, 1, axis.encoder.a);
-      set_bits(rtl.enc_b_i, n, 1, axis.encoder.b);
-      set_bits(rtl.enc_z_i, n, 1, axis.encoder.z);
-      set_bits(rtl.set_zero_i, n, 1, axis.set_zero);
-      set_bits(rtl.scene_i, 4 * n, 4, axis.scene);
       set_bits(rtl.law_torque_i, kTorque * n, kTorque, static_cast<std::uint64_t>(axis.law_torque));
     }
-    rtl.arm_i = in.arm;
-    rtl.stop_i = in.stop;
     rtl.law_late_i = in.law_late;
     rtl.law_restart_i = in.law_restart;
-    rtl.reg_addr_i = in.reg_addr;
-    rtl.reg_wdata_i = in.reg_wdata;
-    rtl.reg_write_i = in.reg_write;
-    rtl.reg_read_i = in.reg_read;
   }
   static void at_edge(Vfeltgate_axes& rtl) { rtl.stop_i = 0; }
 

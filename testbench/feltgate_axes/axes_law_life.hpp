@@ -7,22 +7,10 @@
 
 #include "../machine/machine_programs.hpp"
 #include "axes_life.hpp"
-#include "feltgate/crc32.hpp"
 
 namespace feltgate::test {
 
 using H = EngineMap::H;
-
-inline std::uint32_t image_crc(const EngineMemory& m) {
-  std::vector<std::uint8_t> bytes;
-  const auto put = [&bytes](std::uint64_t word, int count) {
-    for (int n = 0; n < count; ++n) bytes.push_back(static_cast<std::uint8_t>(word >> (8 * n)));
-  };
-  for (int n = 0; n < 512; ++n) put(m.program_at(n), 5);
-  for (int n = 384; n < 512; ++n) put(static_cast<std::uint32_t>(m.data_at(n)), 4);
-  for (int n = 0; n < m.line_base; ++n) put(m.table_at(n), 5);
-  return crc32(bytes.data(), bytes.size());
-}
 
 /// Axes whose host loads a law.
 class LawLife : public Life {

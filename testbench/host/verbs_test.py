@@ -16,38 +16,13 @@ import sys
 import time
 import unittest
 
+from board_process import BoardProcess
 from host_program import BUILD, ROOT, ProgramTest, patterns_of
 
 PAGE = ROOT / "docs/host.md"
 # The picture needs Debian's matplotlib.
 PYTHON = "/usr/bin/python3" if os.access("/usr/bin/python3", os.X_OK) else sys.executable
 BANNER = "*** SIMULATED: no board, no motor; these values come from a model ***\n"
-
-
-class Board:
-    """The software board in a process of its own, with this noise."""
-
-    def __init__(self, *noise):
-        self.process = subprocess.Popen(
-            [BUILD / "feltgate_software_board", *map(str, noise)],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            text=True,
-        )
-        self.port = self.process.stdout.readline().strip()
-
-    def order(self, words):
-        self.process.stdin.write(words + "\n")
-        self.process.stdin.flush()
-        return self.process.stdout.readline().strip()
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.process.stdin.close()
-        self.process.wait()
-        self.process.stdout.close()
 
 
 class VerbTest(ProgramTest):
@@ -72,7 +47,7 @@ class Session(VerbTest):
         blocks = re.findall(r"```console\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.S)
         self.assertGreater(len(blocks), 4)
         lines = 0
-        with Board() as board:
+        with BoardProcess() as board:
             for block in blocks:
                 for part in re.split(r"^\$ ", block, flags=re.M)[1:]:
                     line, _, shown = part.partition("\n")
@@ -103,7 +78,7 @@ class Session(VerbTest):
 
 class Verbs(VerbTest):
     def test_info_is_json_too_and_a_fault_is_exit_code_1(self):
-        with Board() as board:
+        with BoardProcess() as board:
             self.host(board.port, "info", "--json", self.path("info.json"))
             found = json.loads(self.path("info.json").read_text(encoding="utf-8"))
             self.assertEqual(found["schema"], "feltgate-host-info/1")
@@ -113,19 +88,19 @@ class Verbs(VerbTest):
             self.assertIn("fault speed (the first): |w| above the limit", said)
 
     def test_another_design(self):
-        with Board() as board:
+        with BoardProcess() as board:
             board.order("crc 7")
             self.assertIn("design    unknown", self.host(board.port, "info"))
             said = self.host(board.port, "get", "angle", status=2)
             self.assertIn("give its file: --design FILE", said)
             said = self.host(board.port, "--design", "lever", "get", "angle", status=2)
             self.assertIn("the board's 0x00000007", said)
-        with Board() as board:
+        with BoardProcess() as board:
             said = self.host(board.port, "get", "angle", "--design", "paper", status=2)
             self.assertIn("which is lever: leave --design out", said)
 
     def test_values(self):
-        with Board() as board:
+        with BoardProcess() as board:
             said = self.host(board.port, "get", "--all", "--json", self.path("all.json"))
             for name in (
                 "torque_limit",
@@ -154,7 +129,7 @@ class Verbs(VerbTest):
 
     def test_holding_kicks_and_every_way_out_disarms(self):
         for end in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            with Board() as board, self.subTest(end):
+            with BoardProcess() as board, self.subTest(end):
                 held = self.start(board.port, "arm", "wall", "--hold")
                 self.assertEqual(held.stdout.readline(), BANNER)
                 self.assertIn("armed", held.stdout.readline())
@@ -167,7 +142,7 @@ class Verbs(VerbTest):
                 self.assertEqual(board.order("armed?"), "0")
 
     def test_a_fault_ends_a_hold(self):
-        with Board() as board:
+        with BoardProcess() as board:
             held = self.start(board.port, "arm", "wall", "--hold")
             held.stdout.readline(), held.stdout.readline()
             board.order("fault 2")
@@ -176,7 +151,7 @@ class Verbs(VerbTest):
             self.assertIn("the motor is off\n  fault speed (the first)", err)
 
     def test_watch_adopts_what_the_host_armed(self):
-        with Board() as board:
+        with BoardProcess() as board:
             self.host(board.port, "arm", "wall")
             kicks = int(board.order("kicks?"))
             self.host(board.port, "watch", "--for", 0.3)
@@ -185,7 +160,7 @@ class Verbs(VerbTest):
             self.assertEqual(board.order("word 0x1011"), "0")  # the stream is off again
 
     def test_watch_on_a_terminal_and_for_teleplot(self):
-        with Board() as board:
+        with BoardProcess() as board:
             said = self.host(board.port, "watch", "angle", "--teleplot", "--for", 1)
             self.assertRegex(said, r"(?m)^>angle:\d+\.\d{3}:-?[\d.e-]+§rad$")
             self.assertGreaterEqual(said.count("§rad"), 3)
@@ -201,12 +176,12 @@ class Verbs(VerbTest):
             self.assertRegex(shown, "[▁▂▃▄▅▆▇█]{5}")
 
     def test_too_fast_for_the_wire(self):
-        with Board() as board:
+        with BoardProcess() as board:
             said = self.host(board.port, "watch", "--every", 1e-5, status=2)
             self.assertIn("use capture", said)
 
     def test_capture_csv_picture_and_vector(self):
-        with Board() as board:
+        with BoardProcess() as board:
             self.host(
                 board.port, "capture", "angle", "velocity", "--trigger", "angle<-5deg",
                 "--span", 0.1, "--csv", "c.csv", "--picture", "c.svg", "--vector", "c.vec",
@@ -249,7 +224,7 @@ class Verbs(VerbTest):
             self.assertFalse(self.path("n.csv").exists())
 
     def test_noise_costs_time_and_nothing_else(self):
-        with Board("drop", 0.002, "flip", 0.002, "halve", 0.02, "junk", 0.05) as board:
+        with BoardProcess("drop", 0.002, "flip", 0.002, "halve", 0.02, "junk", 0.05) as board:
             self.host(board.port, "set", "torque_limit=0.25", "wall_contact=12")
             self.assertEqual(board.order("word 0x18"), str(1 << 14))
             said = self.host(board.port, "get", "torque_limit")
@@ -266,7 +241,7 @@ class Trouble(VerbTest):
         self.assertIn("there is no such port; ", said)
 
     def test_silence(self):
-        with Board() as board:
+        with BoardProcess() as board:
             board.order("silent")
             said = self.host(board.port, "--patience", 0.5, "info", status=3)
             self.assertIn("no answer for 0.5 s", said)
@@ -276,7 +251,7 @@ class Trouble(VerbTest):
     def test_the_cable_is_pulled(self):
         capture = ("capture", "--trigger", "velocity>99")
         for verb in (("arm", "wall", "--hold"), ("watch",), capture):
-            with Board() as board, self.subTest(verb[0]):
+            with BoardProcess() as board, self.subTest(verb[0]):
                 running = self.start(board.port, "--patience", 0.5, *verb)
                 time.sleep(0.6)
                 board.order("unplug")
@@ -285,7 +260,7 @@ class Trouble(VerbTest):
                 self.assertRegex(err, "the port went away|no answer")
 
     def test_two_hosts_on_one_port(self):
-        with Board() as board:
+        with BoardProcess() as board:
             first = self.start(board.port, "watch", "--for", 5)
             self.assertEqual(first.stdout.readline(), BANNER)
             said = self.host(board.port, "info", status=2)

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
+#include <vector>
 
+#include "feltgate/crc32.hpp"
 #include "feltgate/engine_memory.hpp"
 #include "feltgate/engine_ops.hpp"
 
@@ -79,6 +81,18 @@ inline void membrane(EngineMemory& m, int thread) {
            to(0, Op::sel, kParameter + 2, 0), word(Op::cmp, 0, kParameter + 1, kPosition),
            to(0, Op::sel, kParameter + 3, 0), word(Op::cmp, 1, kPosition, kParameter),
            out(0, Op::sel, kConstant, 0)});
+}
+
+/// CRC-32 of an image as a loader computes it.
+inline std::uint32_t image_crc(const EngineMemory& m) {
+  std::vector<std::uint8_t> bytes;
+  const auto put = [&bytes](std::uint64_t word, int count) {
+    for (int n = 0; n < count; ++n) bytes.push_back(static_cast<std::uint8_t>(word >> (8 * n)));
+  };
+  for (int n = 0; n < 512; ++n) put(m.program_at(n), 5);
+  for (int n = 384; n < 512; ++n) put(static_cast<std::uint32_t>(m.data_at(n)), 4);
+  for (int n = 0; n < m.line_base; ++n) put(m.table_at(n), 5);
+  return crc32(bytes.data(), bytes.size());
 }
 
 /// A charge at parameter 0: its force stands over the amount of the distance, and takes the sign of

@@ -4,14 +4,18 @@
 
 import os
 import signal
+import sys
 import threading
 import time
 import unittest
+from pathlib import Path
 
 import numpy as np
 
 import feltgate
-from board_process import BoardProcess
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "host"))
+from board_process import BoardProcess  # noqa: E402
 
 
 class DeviceTest(unittest.TestCase):

@@ -12,7 +12,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from board_process import BoardProcess
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "host"))
+from board_process import BoardProcess  # noqa: E402
 
 ROOT = Path(os.environ["FELTGATE_ROOT"])
 BLOCK = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)

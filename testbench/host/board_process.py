@@ -8,11 +8,11 @@ from pathlib import Path
 
 
 class BoardProcess:
-    """with BoardProcess() as board: board.port, board.order("fault 2")."""
+    """with BoardProcess() as board: board.port, board.order("fault 2"). Of its line this noise."""
 
-    def __init__(self):
+    def __init__(self, *noise):
         self.process = subprocess.Popen(
-            [Path(os.environ["FELTGATE_BUILD"]) / "feltgate_software_board"],
+            [Path(os.environ["FELTGATE_BUILD"]) / "feltgate_software_board", *map(str, noise)],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,

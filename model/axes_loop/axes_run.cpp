@@ -277,7 +277,15 @@ class AxesRun : plant::AxesDevice<Plant> {
       if (plane_) plane_->add(plant_.now(), plant_.seen().pen_m, row_);
     }
     for (std::size_t k = 1; k < row_.size(); ++k) records_[k - 1].add(row_[k]);
-    if (options_.row && ticks_ % options_.row_every == 0) options_.row(row_);
+    if (ticks_ % options_.row_every == 0) {
+      if (options_.row) options_.row(row_);
+      if constexpr (std::is_same_v<Plant, plant::Pantograph>) {
+        if (options_.lead) {
+          const PenLead lead = options_.lead(row_);
+          plant_.steer(lead.target_m, lead.rate_m_s);
+        }
+      }
+    }
     ++ticks_;
   }
 

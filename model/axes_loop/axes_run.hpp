@@ -44,6 +44,11 @@ struct AxesResult {
   std::vector<std::string> broken;  ///< expectations and bounds that do not hold, one line each
 };
 
+/// Where the end of a hand's own spring is to be, and how fast it goes on from there.
+struct PenLead {
+  plant::Vec2 target_m, rate_m_s;
+};
+
 struct AxesRunOptions {
   std::string design;
   std::string engine = "all";  ///< comma list of rtl, twin, double, quad; rtl brings the twin
@@ -54,6 +59,9 @@ struct AxesRunOptions {
   /// Called for every row_every-th tick with the values of axes_columns(); may be empty.
   std::function<void(const std::vector<double>&)> row;
   int row_every = 1;
+  /// Leads an impedance hand on the pen of a pantograph instead of its profiles: asked with every
+  /// such row; may be empty.
+  std::function<PenLead(const std::vector<double>&)> lead;
   std::function<void(double done)> progress;  ///< called now and then with 0..1; may be empty
 };
 

@@ -23,10 +23,11 @@ inline AxesScene scene_named(const std::string& name) {
                          device_file);
 }
 
-/// On the device's own design; `row` as in AxesRunOptions.
+/// On the device's own design; `row` and `lead` as in AxesRunOptions.
 inline AxesResult run_scene(const AxesScene& scene, const std::string& engine,
                             std::function<void(const std::vector<double>&)> row = nullptr,
-                            int row_every = 1) {
+                            int row_every = 1,
+                            std::function<PenLead(const std::vector<double>&)> lead = nullptr) {
   const std::string design = device_of(scene) + "_law";
   const AxesDesignMakers* made = find_axes_design(design);
   REQUIRE(made != nullptr);
@@ -39,6 +40,7 @@ inline AxesResult run_scene(const AxesScene& scene, const std::string& engine,
   options.law = law.get();
   options.row = std::move(row);
   options.row_every = row_every;
+  options.lead = std::move(lead);
   return run_axes(scene, options);
 }
 

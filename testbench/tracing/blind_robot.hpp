@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A robot that holds the pen of the pantograph and sees nothing: it knows where its pen is by the
+// encoders and what it feels by the torques, and follows the outline of what it meets.
+// Documentation: docs/devices/shapes.md
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "axes_loop/axes_run.hpp"
+#include "shape/rhombus.hpp"
+
+namespace feltgate::test {
+
+using shape::Point;
+
+/// A millisecond of contact.
+struct Touch {
+  double time_s = 0;
+  Point pen_m, force_n;
+};
+
+/// What is left of a walk around a shape.
+struct Trace {
+  std::vector<Touch> probed;   ///< of pressing straight in, before the walk
+  std::vector<Touch> touches;  ///< of the walk
+  bool closed = false;         ///< came back to where it began
+  double seconds = 0;          ///< until then, or until it gave up
+};
+
+/// What pressing in and letting go tells of the shape.
+struct Material {
+  double stiffness_n_m = 0, damping_ns_m = 0;
+};
+Material felt_material(const Trace& trace);
+
+/// Leads the hand of a scene, one decision a millisecond.
+class BlindRobot {
+ public:
+  /// `columns` of the rows that it will be shown; the pen starts here.
+  BlindRobot(const std::vector<std::string>& columns, Point start_m);
+  PenLead lead(const std::vector<double>& row);
+  bool done() const { return trace_.closed || trace_.seconds >= patience_s; }
+  const Trace& trace() const { return trace_; }
+
+ private:
+  static constexpr double patience_s = 9;
+
+  Point way(const Touch& now);
+  void remember(const Touch& now);
+
+  std::size_t position_[2], torque_[2];
+  Point end_m_;       ///< of its spring
+  Point normal_;      ///< of what it touched last, outward, smoothed
+  Point heading_;     ///< while it looks for what it lost
+  bool met_ = false;  ///< has felt something
+  int probes_ = 0;    ///< milliseconds of pressing in
+  double walked_m_ = 0;
+  Trace trace_;
+};
+
+/// The hidden shape of this number with a material under the robot's pen, the twin from pins to
+/// pins in closed loop with the plant.
+Trace traced(int shape, double stiffness_n_m, double damping_ns_m, Point start_m);
+
+}  // namespace feltgate::test

@@ -272,20 +272,17 @@ class AxesRun : plant::AxesDevice<Plant> {
                    static_cast<double>(s[n].limits), static_cast<double>(s[n].faults)});
     }
     for (std::size_t n = 0; n < axes; ++n) position_rad_[n] = s[n].position * design_.count_rad;
+    const bool told = ticks_ % options_.row_every == 0;
     DeviceSignals<Plant>::add(plant_, row_);
     if constexpr (std::is_same_v<Plant, plant::Pantograph>) {
       if (plane_) plane_->add(plant_.now(), plant_.seen().pen_m, row_);
-    }
-    for (std::size_t k = 1; k < row_.size(); ++k) records_[k - 1].add(row_[k]);
-    if (ticks_ % options_.row_every == 0) {
-      if (options_.row) options_.row(row_);
-      if constexpr (std::is_same_v<Plant, plant::Pantograph>) {
-        if (options_.lead) {
-          const PenLead lead = options_.lead(row_);
-          plant_.steer(lead.target_m, lead.rate_m_s);
-        }
+      if (options_.lead && told) {
+        const PenLead to = options_.lead(row_);
+        plant_.steer(to.target_m, to.rate_m_s);
       }
     }
+    for (std::size_t k = 1; k < row_.size(); ++k) records_[k - 1].add(row_[k]);
+    if (options_.row && told) options_.row(row_);
     ++ticks_;
   }
 

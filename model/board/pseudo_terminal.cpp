@@ -45,7 +45,12 @@ void refuse_to_replace(const std::string& link) {
 PseudoTerminal::PseudoTerminal(const std::string& link) {
   if (!link.empty()) refuse_to_replace(link);
   master_ = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
-  if (master_ < 0) fail("posix_openpt");
+  if (master_ < 0) {
+    throw std::runtime_error(
+        fmt::format("no pseudo-terminal can be opened: {}; in a container, mount devpts: mount -t "
+                    "devpts devpts /dev/pts",
+                    std::strerror(errno)));
+  }
   char name[128];
   if (grantpt(master_) != 0 || unlockpt(master_) != 0 ||
       ptsname_r(master_, name, sizeof name) != 0) {

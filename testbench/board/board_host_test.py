@@ -16,6 +16,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "host"))
+from board_process import need_terminals  # noqa: E402
 from host_program import BUILD, ROOT, ProgramTest  # noqa: E402
 
 SLOPE, DEAD = 0.0302 / 0.42, 0.34 + 0.635  # of p24 at 50 kHz
@@ -25,6 +26,7 @@ class Board:
     """feltgate board in a process of its own."""
 
     def __init__(self, folder, *words, program="feltgate_board"):
+        need_terminals()
         self.process = subprocess.Popen(
             [BUILD / program, *map(str, words)],
             env=os.environ | {"FELTGATE_ROOT": str(ROOT)},

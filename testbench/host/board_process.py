@@ -4,13 +4,24 @@
 
 import os
 import subprocess
+import unittest
 from pathlib import Path
+
+
+def need_terminals():
+    """Skips the test on a machine without pseudo-terminals."""
+    try:
+        for descriptor in os.openpty():
+            os.close(descriptor)
+    except OSError as error:
+        raise unittest.SkipTest(f"no pseudo-terminals, {error}: mount devpts at /dev/pts") from None
 
 
 class BoardProcess:
     """with BoardProcess() as board: board.port, board.order("fault 2"). Of its line this noise."""
 
     def __init__(self, *noise):
+        need_terminals()
         self.process = subprocess.Popen(
             [Path(os.environ["FELTGATE_BUILD"]) / "feltgate_software_board", *map(str, noise)],
             stdin=subprocess.PIPE,

@@ -26,6 +26,7 @@ PACKAGES=(
   "plots|python3-matplotlib|draws the figures of the report"
   "test|catch2|the unit test framework"
   "test|patch|seeds the defects that the tests must find"
+  "test|make|FuseSoC runs simulators with it"
   "test|libsystemc-dev|sc_fixed, the independent oracle of the fixed-point type"
   "test|iverilog|second simulator, with unknown values (X)"
   "test|python3-distributed|a sweep over two dask workers, one of them killed"

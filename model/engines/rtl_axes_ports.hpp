@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "feltgate/axes_ports.hpp"
+#include "feltgate/generated/map.hpp"
 #include "rtl_ports.hpp"
 
 namespace feltgate {

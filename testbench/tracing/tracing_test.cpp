@@ -5,7 +5,10 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <map>
+#include <regex>
 #include <tuple>
 
 #include "catch.hpp"
@@ -50,7 +53,29 @@ Confusion lives(const Guesser& guesser, Traces& traces, const Cues& cues, const 
   return guesses;
 }
 
+std::string paging_script(const std::string& name) {
+  std::ifstream in(FELTGATE_SOURCE_DIR "/scripts/paging/" + name);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 }  // namespace
+
+TEST_CASE("tracing: the shapes' materials are those of the page's game") {
+  const std::string pen = paging_script("pen.js"), game = paging_script("game.js");
+  const auto value = [&](const std::string& name) {
+    std::smatch found;
+    REQUIRE(std::regex_search(pen, found, std::regex("\\b" + name + " = ([0-9.]+)")));
+    return std::stod(found[1]);
+  };
+  for (const Shape& shape : kShapes) {
+    INFO(shape.name);
+    std::smatch found;
+    const std::regex entry(std::string(shape.name) + R"(: \[(\w+), (\w+)\])");
+    REQUIRE(std::regex_search(game, found, entry));
+    CHECK(value(found[1]) == shape.stiffness_n_m);
+    CHECK(value(found[2]) == shape.damping_ns_m);
+  }
+}
 
 TEST_CASE("tracing: every shape is walked around and named, its material felt") {
   const Guesser guesser;

@@ -44,7 +44,7 @@ std::vector<std::string> columns_of(const AxesScene& scene) {
   const auto own = DeviceSignals<Plant>::names();
   all.insert(all.end(), own.begin(), own.end());
   if (scene.plane) {
-    for (const std::string& name : PlaneHost::names()) all.push_back(name);
+    for (const std::string& name : PlaneHost::names(scene.plane->axes)) all.push_back(name);
   }
   return all;
 }
@@ -70,9 +70,7 @@ class AxesRun : plant::AxesDevice<Plant> {
     for (const std::string& kind : choice_.riders) {
       riders_.push_back({kind, options.law->rider(kind), nullptr});
     }
-    if constexpr (std::is_same_v<Plant, plant::Pantograph>) {
-      if (scene.plane) plane_.emplace(*scene.plane, plant.parameters().linkage, design_.clock_hz);
-    }
+    if (scene.plane) plane_.emplace(*scene.plane, design_.clock_hz);
     ticks_to_come_ = clock_of(s_.duration_s) / design_.clocks_per_tick;
     for (std::size_t k = 1; k < columns_.size(); ++k) records_.emplace_back(ticks_to_come_);
     for (std::size_t n = 0; n < axes; ++n) {
@@ -104,12 +102,14 @@ class AxesRun : plant::AxesDevice<Plant> {
         apply(s_.events[next++]);
       }
       Clock until = end;
-      if (plane_) {
-        auto words = plane_->act(now, {position_rad_[0], position_rad_[1]});
-        // As far as the law's ranges go.
-        for (auto& [name, value] : words) value = options_.law->host().within(name, value);
-        set_parameters(words);
-        until = std::min(until, plane_->next());
+      if constexpr (DeviceSignals<Plant>::has_pen) {
+        if (plane_) {
+          auto words = plane_->act(now, DeviceSignals<Plant>::counted(plant_, position_rad_));
+          // As far as the law's ranges go.
+          for (auto& [name, value] : words) value = options_.law->host().within(name, value);
+          set_parameters(words);
+          until = std::min(until, plane_->next());
+        }
       }
       if (!arm_done_) until = std::min(until, arm_at);
       if (next < s_.events.size()) until = std::min(until, clock_of(s_.events[next].at_s));
@@ -274,8 +274,10 @@ class AxesRun : plant::AxesDevice<Plant> {
     for (std::size_t n = 0; n < axes; ++n) position_rad_[n] = s[n].position * design_.count_rad;
     const bool told = ticks_ % options_.row_every == 0;
     DeviceSignals<Plant>::add(plant_, row_);
+    if constexpr (DeviceSignals<Plant>::has_pen) {
+      if (plane_) plane_->add(plant_.now(), DeviceSignals<Plant>::pen(plant_), row_);
+    }
     if constexpr (std::is_same_v<Plant, plant::Pantograph>) {
-      if (plane_) plane_->add(plant_.now(), plant_.seen().pen_m, row_);
       if (options_.lead && told) {
         const PenLead to = options_.lead(row_);
         plant_.steer(to.target_m, to.rate_m_s);
@@ -368,29 +370,27 @@ class AxesRun : plant::AxesDevice<Plant> {
 };
 
 template <class Setup>
-using PlantOf = std::conditional_t<std::is_same_v<std::decay_t<Setup>, PantographSetup>,
-                                   plant::Pantograph, plant::TwoLevers>;
-
-template <class Plant, class Setup>
 AxesResult run_on(const AxesScene& scene, const Setup& setup, const AxesRunOptions& options) {
   const AxesDesignMakers* d = find_axes_design(options.design);
   const plant::Drive drive = d == nullptr ? plant::Drive{} : plant::drive_of(d->info());
-  Plant plant(setup.parameters, scene.scenario.effects, drive, setup.hand);
-  return AxesRun<Plant>(scene, plant, options).run();
+  typename Setup::Plant plant(setup.parameters, scene.scenario.effects, drive, setup.hand);
+  return AxesRun<typename Setup::Plant>(scene, plant, options).run();
 }
 
 }  // namespace
 
 std::vector<std::string> axes_columns(const AxesScene& scene) {
-  return std::visit([&](const auto& setup) { return columns_of<PlantOf<decltype(setup)>>(scene); },
-                    scene.device);
+  return std::visit(
+      [&](const auto& setup) {
+        return columns_of<typename std::decay_t<decltype(setup)>::Plant>(scene);
+      },
+      scene.device);
 }
 
 AxesResult run_axes(const AxesScene& scene, const AxesRunOptions& options) {
   try {
-    return std::visit(
-        [&](const auto& setup) { return run_on<PlantOf<decltype(setup)>>(scene, setup, options); },
-        scene.device);
+    return std::visit([&](const auto& setup) { return run_on(scene, setup, options); },
+                      scene.device);
   } catch (const plant::MotionError& error) {
     throw config::ConfigError(scene.scenario.path + ": " + error.what());
   }

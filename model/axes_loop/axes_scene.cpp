@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <type_traits>
 
 #include "config/toml_reader.hpp"
-#include "plant/pantograph/pantograph.hpp"
 #include "plant/pantograph/pantograph_file.hpp"
 #include "plant/plant_file.hpp"
 #include "plant/plant_table.hpp"
@@ -18,9 +18,14 @@ namespace feltgate {
 
 namespace {
 
+void take_lever(plant::LeverSetParameters& p) {
+  p.encoder = p.lever.encoder;
+  p.effects = p.lever.effects;
+}
+
 /// Which device a file describes, by the table that only it has.
 DeviceSetup setup_of(const std::string& path, config::TomlReader& top) {
-  const toml::table file = config::parse_toml_file(path);
+  toml::table file = config::parse_toml_file(path);
   if (file.contains("linkage")) {
     PantographSetup s{plant::read_pantograph_file(path), {}};
     if (top.has("hand")) s.hand = plant::read_pen_hand(top.section("hand"));
@@ -35,15 +40,30 @@ DeviceSetup setup_of(const std::string& path, config::TomlReader& top) {
     s.parameters.lever = plant::read_plant_file((folder / levers.text("plant")).string());
     levers.finish();
     device.finish();
-    s.parameters.encoder = s.parameters.lever.encoder;
-    s.parameters.effects = s.parameters.lever.effects;
+    take_lever(s.parameters);
     if (top.has("hand")) s.hand[0] = plant::read_hand(top.section("hand"));
     if (top.has("met")) s.hand[1] = plant::read_hand(top.section("met"));
     return s;
   }
+  if (file.contains("slides")) {
+    config::TomlReader device(file, path, "the file");
+    config::TomlReader slides = device.section("slides");
+    slides.integer("count", 3, 3);
+    slides.finish();
+    // What is left describes one of them.
+    file.erase("slides");
+    StylusSetup s;
+    s.parameters.lever = plant::read_plant(file, path);
+    s.parameters.name = s.parameters.lever.name;
+    take_lever(s.parameters);
+    if (top.has("hand")) {
+      s.hand = plant::read_stylus_hand(top.section("hand"), s.parameters.lever.lever.radius_m);
+    }
+    return s;
+  }
   throw config::ConfigError(path +
                             ":1: no device that `feltgate run` knows; it takes one with the "
-                            "table [linkage], a pantograph, or [levers]");
+                            "table [linkage], a pantograph, [levers], or [slides], a stylus");
 }
 
 }  // namespace
@@ -55,10 +75,11 @@ AxesScene read_axes_scene(const std::string& path,
     scene.device_path = find(top.text("device"));
     scene.device = setup_of(scene.device_path, top);
     if (!top.has("plane")) return;
-    if (!std::holds_alternative<PantographSetup>(scene.device)) {
-      top.fail("plane", "a plane without a pen", "take device = \"pantograph\", or leave it out");
+    if (std::holds_alternative<TwoLeversSetup>(scene.device)) {
+      top.fail("plane", "a plane without a pen",
+               "take device = \"pantograph\" or \"stylus\", or leave it out");
     }
-    scene.plane = read_plane_host(top.section("plane"));
+    scene.plane = read_plane_host(top.section("plane"), axes_of(scene));
   });
   for (const Event& e : scene.scenario.events) {
     if (!e.step_nm) continue;
@@ -81,7 +102,11 @@ AxesScene read_axes_scene(const std::string& path,
 }
 
 int axes_of(const AxesScene& scene) {
-  return std::visit([](const auto& setup) { return setup.axes; }, scene.device);
+  return std::visit(
+      [](const auto& setup) {
+        return static_cast<int>(std::decay_t<decltype(setup)>::Plant::axes);
+      },
+      scene.device);
 }
 
 const std::string& device_of(const AxesScene& scene) {

@@ -13,31 +13,36 @@
 
 #include "axes_loop/plane_host.hpp"
 #include "loop/scenario.hpp"
-#include "plant/pantograph/pantograph_parameters.hpp"
-#include "plant/pantograph/pen_hand.hpp"
-#include "plant/two_levers/two_levers.hpp"
+#include "plant/lever_set.hpp"
+#include "plant/pantograph/pantograph.hpp"
 
 namespace feltgate {
 
 struct PantographSetup {
-  static constexpr int axes = 2;
+  using Plant = plant::Pantograph;
   plant::PantographParameters parameters;
   plant::PenHand hand;
 };
 
 struct TwoLeversSetup {
-  static constexpr int axes = 2;
-  plant::TwoLeversParameters parameters;
+  using Plant = plant::TwoLevers;
+  plant::LeverSetParameters parameters;
   std::array<plant::Hand, 2> hand;  ///< on the first lever, and what the second one meets
 };
 
-using DeviceSetup = std::variant<PantographSetup, TwoLeversSetup>;
+struct StylusSetup {
+  using Plant = plant::Stylus;
+  plant::LeverSetParameters parameters;
+  std::array<plant::Hand, 3> hand;  ///< along x, y and z
+};
+
+using DeviceSetup = std::variant<PantographSetup, TwoLeversSetup, StylusSetup>;
 
 struct AxesScene {
   Scenario scenario;  ///< its hand is empty
   DeviceSetup device;
   std::string device_path;
-  std::optional<PlaneHostSettings> plane;  ///< of a pantograph
+  std::optional<PlaneHostSettings> plane;  ///< of a device with a pen
 };
 
 /// Reads a scene and the device that it names; `find` makes a path of that name.

@@ -87,7 +87,7 @@ void HandRun::begin_phase(const Shaft& lever) {
 
 void HandRun::find_corner(Clock now) {
   constexpr Clock never = Clock{1} << 62;
-  corner_ = last_ ? never : phase_end_;
+  corner_ = last_ ? never : std::max(now + 1, phase_end_);
   if (kind_ != Kind::kPrescribed && kind_ != Kind::kTorque && kind_ != Kind::kImpedance) return;
   const double begin_s = static_cast<double>(now - phase_begin_) * clock_s_;
   const double clocks = std::ceil(profile_.next_corner_s(begin_s) * clock_hz_);

@@ -5,6 +5,7 @@
 // need plant_file.hpp only, which knows nothing of TOML. Documentation: docs/plant.md
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "config/toml_reader.hpp"
@@ -34,6 +35,10 @@ Impedance read_impedance(config::TomlReader& table);
 /// Reads [hand] and [[hand.phase]] of a hand that holds a pen in the plane.
 /// Errors: config::ConfigError "file:line: what; mend".
 PenHand read_pen_hand(config::TomlReader table);
+
+/// The same of a hand that holds the pen of a stylus, as what it does to each axis: a lever whose
+/// capstan has this radius, m.
+std::array<Hand, 3> read_stylus_hand(config::TomlReader table, double capstan_m);
 
 /// Reads [hand] and [[hand.phase]]; files of traces are relative to the folder of the scene.
 /// Errors: config::ConfigError "file:line: what; mend".

@@ -10,10 +10,14 @@ import numpy as np
 
 from reporting import glossary, page, sentences, time_chart
 
-KINDS = ("angle", "hand")  # colours of the first joint and of the second
+KINDS = ("angle", "hand", "motor")  # colours of the joints
 PEN = (300, 260)  # the drawing of the pen's way
 LEAST_MM = 1.0  # a way that is narrower says nothing as a drawing
-NAMES = {"pantograph": ("left crank", "right crank"), "two_levers": ("lever", "the other lever")}
+NAMES = {
+    "pantograph": ("left crank", "right crank"),
+    "two_levers": ("lever", "the other lever"),
+    "stylus": ("x", "y", "z"),
+}
 
 
 def joints(csv):
@@ -83,7 +87,7 @@ def legend(summary):
     names = NAMES.get(summary["device"], ("first axis", "second axis"))
     parts = "".join(
         f'<span><i class="swatch {kind}"></i>{escape(name)}</span>'
-        for kind, name in zip(KINDS, names, strict=True)
+        for kind, name in zip(KINDS, names, strict=False)
     )
     return f'<p class="legend">{parts}</p>'
 
@@ -95,8 +99,9 @@ def facts(summary):
     off = f"the engine's torque is off by at most {page.number(1e6 * worst['max_error'])} µNm"
     proven = f", proven bound {page.number(1e6 * bound)}" if bound else ""
     checked = summary["expectations"]["checked"]
+    every = "both" if len(summary["axes"]) == 2 else "all"
     return (
-        f"{summary['clocks']:,} clocks of both axes, {summary['mismatches']:,} mismatches; {off}"
+        f"{summary['clocks']:,} clocks of {every} axes, {summary['mismatches']:,} mismatches; {off}"
         f"{proven}; {checked} expectations"
     )
 

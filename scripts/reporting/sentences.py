@@ -54,6 +54,9 @@ TITLES = {
     "plane_circle": "A disc by its tangents, 1000 a second",
     "plane_circle_slow": "A disc by its tangents, 50 a second",
     "plane_floor": "A floor by its plane",
+    "stylus_cube": "Over the edge of a cube",
+    "stylus_floor": "3.3 N on a floor of 206 N/m",
+    "stylus_sphere": "A sphere by its tangent planes",
     "bowed_string": "Bow on a string",
 }
 
@@ -123,6 +126,8 @@ SAID = {
 OF_AXES = {
     "pantograph": "A hand leads the pen of two cranks over {way_mm} mm; where it meets "
     "something, both motors together push back with up to {force}.",
+    "stylus": "A hand leads a stylus over {way_mm} mm through space; where it meets something, "
+    "three motors together push back with up to {force}.",
     "two_levers": "The hand turns a lever by {first}, another one follows by {second}, and what that "
     "one meets is felt: up to {most}.",
 }
@@ -144,9 +149,11 @@ def of_axes(summary, csv):
     if "hand_nm" in csv:
         words["most"] = f"{np.abs(csv['hand_nm']).max():.2f} Nm"
     if "pen_x_m" in csv:
-        way = np.hypot(np.ptp(csv["pen_x_m"]), np.ptp(csv["pen_y_m"]))
+        axes = [a for a in "xyz" if f"pen_{a}_m" in csv]
+        way = np.linalg.norm([np.ptp(csv[f"pen_{a}_m"]) for a in axes])
         words["way_mm"] = f"{1e3 * way:.0f}"
-        words["force"] = f"{np.hypot(csv['hand_x_n'], csv['hand_y_n']).max():.1f} N"
+        forces = np.linalg.norm([csv[f"hand_{a}_n"] for a in axes], axis=0)
+        words["force"] = f"{forces.max():.1f} N"
     return OF_AXES[summary["device"]].format(**words)
 
 

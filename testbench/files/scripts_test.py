@@ -59,7 +59,7 @@ class Scripts(Bench):
         self.pids = self.path("pids")
         self.pids.mkdir()
         self.path("bin").mkdir()
-        engines = [f"feltgate_{name}_law" for name in ("lever", "pantograph", "two_levers")]
+        engines = [f"feltgate_{name}_law" for name in ("lever", "pantograph", "two_levers", "stylus")]
         for name in ("feltgate", *engines, "bin/yosys", "bin/nextpnr-ecp5"):
             self.path(name).write_text(STAND_IN)
             self.path(name).chmod(0o755)

@@ -65,6 +65,48 @@ TEST_CASE("local_plane: spring, damping and friction of a plane, its cone exact"
   CHECK(slipping > 500);
 }
 
+TEST_CASE("local_space: spring, damping and friction of a plane under three slides") {
+  constexpr double kCapstan_m = 0.01;
+  Running<> law(shipped("local_space"));
+  feltgate::SplitMix64 random(6);
+  const char* const axes[] = {"x", "y", "z"};
+  int pressed = 0, slipping = 0;
+  for (int run = 0; run < 2000; ++run) {
+    double n[3], v[3], pen[3], length = 0, out_of = 0;
+    for (double& part : n) length += (part = random.between(-1, 1)) * part;
+    const double deep_m = random.between(-4e-3, 18e-3), k = random.between(50, 900),
+                 damping = random.between(0, 2), mu = random.between(0, 1);
+    for (int i = 0; i < 3; ++i) {
+      n[i] /= std::sqrt(length);
+      v[i] = random.between(-1, 1);
+      pen[i] = random.between(-0.2, 0.2);
+      out_of += n[i] * v[i];
+      law.set(std::string("normal_") + axes[i], n[i]);
+      law.set(std::string("point_") + axes[i], pen[i] + deep_m * n[i]);
+    }
+    law.set("stiffness", k);
+    law.set("damping", damping);
+    law.set("friction", mu);
+    law.torque({{"position", pen[0] / kCapstan_m},
+                {"position[1]", pen[1] / kCapstan_m},
+                {"position[2]", pen[2] / kCapstan_m},
+                {"velocity", v[0] / kCapstan_m},
+                {"velocity[1]", v[1] / kCapstan_m},
+                {"velocity[2]", v[2] / kCapstan_m}});
+    const double spring = k * std::max(deep_m, 0.0);
+    const double push = std::clamp(spring - damping * out_of, 0.0, 2 * spring);
+    pressed += push > 0 ? 1 : 0;
+    for (int i = 0; i < 3; ++i) {
+      const double across = v[i] - out_of * n[i];
+      const double drag = std::clamp(5 * across, -mu * push, mu * push);
+      slipping += std::abs(drag) < std::abs(5 * across) ? 1 : 0;
+      CHECK(law.output(i) == Approx(kCapstan_m * (n[i] * push - drag)).margin(1e-12));
+    }
+  }
+  CHECK(pressed > 1000);
+  CHECK(slipping > 500);
+}
+
 TEST_CASE("sent_force: as it is sent") {
   Running<> law(shipped("sent_force"));
   law.set("force_x", 3);

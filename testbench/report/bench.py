@@ -30,7 +30,7 @@ class Bench(unittest.TestCase):
         self.program = self.folder / "feltgate"
         self.program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -B "{FAKE}" "$@"\n')
         self.program.chmod(0o755)
-        for design in ("lever_law", "pantograph_law", "two_levers_law"):
+        for design in ("lever_law", "pantograph_law", "two_levers_law", "stylus_law"):
             self.program.with_name(f"feltgate_{design}").symlink_to(self.program)
 
     def environment(self, **more):

@@ -24,12 +24,19 @@ def joints(csv):
     return [int(name.rpartition(".")[2]) for name in csv if name.startswith("theta_rad.")]
 
 
+def seen_along(csv):
+    """The two directions in which a pen moved most."""
+    there = [a for a in "xyz" if f"pen_{a}_m" in csv]
+    return sorted(sorted(there, key=lambda a: -np.ptp(csv[f"pen_{a}_m"]))[:2])
+
+
 def pen(csv):
-    """The pen's way in the plane, to one scale, with the force at it as lines; SVG."""
-    x, y = 1e3 * csv["pen_x_m"], 1e3 * csv["pen_y_m"]
+    """The pen's way in a plane, to one scale, with the force at it as lines; SVG."""
+    along = seen_along(csv)
+    x, y = (1e3 * csv[f"pen_{a}_m"] for a in along)
     rows = np.unique(np.linspace(0, len(x) - 1, 240).round().astype(int))
     x, y = x[rows], y[rows]
-    forces = csv["hand_x_n"][rows], csv["hand_y_n"][rows]
+    forces = [csv[f"hand_{a}_n"][rows] for a in along]
     most = max(float(np.hypot(*forces).max()), 1e-9)
     span = max(float(np.ptp(x)), float(np.ptp(y)), 1.0)
     middle = 0.5 * (x.min() + x.max()), 0.5 * (y.min() + y.max())
@@ -49,14 +56,17 @@ def pen(csv):
         'aria-label="The way of the pen and the force on it">'
         f'<path class="motor" fill="none" stroke-width=".6" d="{pushes}"/>'
         f'<path class="angle" fill="none" stroke-width="1.7" d="M{way}"/></svg>'
-        f"<figcaption>the pen's way over {page.number(span)} mm, and the force that the hand feels, "
+        f"<figcaption>the pen's way along {' and '.join(along)} over {page.number(span)} mm, "
+        "and the force that the hand feels, "
         f"up to {page.number(most)} N</figcaption>"
     )
 
 
 def has_way(csv):
-    """Whether a pen moved in both directions."""
-    return "pen_x_m" in csv and all(1e3 * np.ptp(csv[f"pen_{a}_m"]) > LEAST_MM for a in "xy")
+    """Whether a pen moved in two directions."""
+    return "pen_x_m" in csv and all(
+        1e3 * np.ptp(csv[f"pen_{a}_m"]) > LEAST_MM for a in seen_along(csv)
+    )
 
 
 def chart(summary, csv):

@@ -73,7 +73,10 @@ TEST_CASE("local_space: spring, damping and friction of a plane under three slid
   int pressed = 0, slipping = 0;
   for (int run = 0; run < 2000; ++run) {
     double n[3], v[3], pen[3], length = 0, out_of = 0;
-    for (double& part : n) length += (part = random.between(-1, 1)) * part;
+    for (double& part : n) {
+      part = random.between(-1, 1);
+      length += part * part;
+    }
     const double deep_m = random.between(-4e-3, 18e-3), k = random.between(50, 900),
                  damping = random.between(0, 2), mu = random.between(0, 1);
     for (int i = 0; i < 3; ++i) {

@@ -127,17 +127,21 @@ def run(options):
 
 
 def axes_run(options, device):
-    """CSV columns and JSON of a device of several axes: both move, and the hand is pushed."""
+    """CSV columns and JSON of a device of several axes: all move, and the hand is pushed."""
     dt = 1e-6 * options.every
     time = np.arange(dt, 0.1 + dt / 2, dt)
     rise = np.clip(time / 0.1, 0, 1)
     data = {"time_s": time}
-    for n in (0, 1):
+    axes = 3 if device == "stylus" else 2
+    for n in range(axes):
         data |= {f"theta_rad.{n}": 0.5 + (0.3 - 0.2 * n) * rise}
         data |= {f"motor_torque_nm.{n}": (0.1 - 0.2 * n) * rise}
     if device == "pantograph":
         data |= {"pen_x_m": 0.02 * rise, "pen_y_m": 0.1 + 0.01 * rise**2}
         data |= {"hand_x_n": 0 * rise, "hand_y_n": -2 * rise}
+    elif device == "stylus":
+        data |= {"pen_x_m": 0.02 * rise, "pen_y_m": 0 * rise, "pen_z_m": 0.01 * rise**2}
+        data |= {"hand_x_n": 0 * rise, "hand_y_n": 0 * rise, "hand_z_n": -2 * rise}
     else:
         data |= {"hand_nm": 0.3 * rise}
     axis = {"asked_peak_nm": 0.11, "motor_peak_nm": 0.1, "limits": {}, "faults": {}}
@@ -153,7 +157,7 @@ def axes_run(options, device):
         "simulated_s": 0.1,
         "clocks": 5_000_000,
         "mismatches": mismatches,
-        "axes": [axis, axis],
+        "axes": [axis] * axes,
         "expectations": {"checked": 7, "broken": broken},
     }
 

@@ -172,6 +172,14 @@ class Cards(Recorded):
         self.assertEqual(len(found.classes("angle")), 4)
         self.assertFalse(axes_card.has_way(csv | {"pen_x_m": 0 * csv["time_s"]}))
 
+    def test_a_device_in_space_is_seen_where_it_moved(self):
+        summary, csv = self.run_of("stylus_sphere")
+        found = Markup(axes_card.html("card", summary, csv))
+        self.assertIn("over 22 mm through space", found.text)
+        self.assertIn("along x and z", found.text)
+        self.assertIn("clocks of all axes", found.text)
+        self.assertEqual(len(found.classes("curve")), 6)
+
     def test_a_scene_of_ones_own(self):
         summary, csv = self.run_of("wall", scene="mine {most} %s")
         said = sentences.said(summary, moments.of_run(summary, csv))

@@ -39,8 +39,15 @@ inline Span both_of(const Span& a, const Span& b) {
 }
 inline Span wider(const Span& a, double by) { return {down(a.lo - by), up(a.hi + by)}; }
 
-inline Span operator+(const Span& a, const Span& b) { return {down(a.lo + b.lo), up(a.hi + b.hi)}; }
-inline Span operator-(const Span& a, const Span& b) { return {down(a.lo - b.hi), up(a.hi - b.lo)}; }
+/// A sum of doubles that comes out as 0 is exactly 0: what cannot be negative stays so.
+inline double sum_down(double x) { return x == 0 ? 0 : down(x); }
+inline double sum_up(double x) { return x == 0 ? 0 : up(x); }
+inline Span operator+(const Span& a, const Span& b) {
+  return {sum_down(a.lo + b.lo), sum_up(a.hi + b.hi)};
+}
+inline Span operator-(const Span& a, const Span& b) {
+  return {sum_down(a.lo - b.hi), sum_up(a.hi - b.lo)};
+}
 inline Span operator-(const Span& a) { return {-a.hi, -a.lo}; }
 inline double bounded_product(double a, double b) { return a == 0 || b == 0 ? 0 : a * b; }
 inline Span operator*(const Span& a, const Span& b) {

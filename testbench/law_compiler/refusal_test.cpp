@@ -57,8 +57,8 @@ TEST_CASE("a root of what can be negative, a division by what can be zero") {
   CHECK_THAT(refusal("out torque = 0.1 Nm * sqrt(position)\n"), Contains("x.law:1:"));
   CHECK_THAT(refusal("out torque = 0.1 Nm / position\n"), Contains("x.law:1:"));
   // The length of an arrow is never the root of less than 0.
-  CHECK(refusal("let turn = clamp(position, -1, 1)\nlet twice = 2 * turn\n"
-                "out torque = 0.1 Nm * clamp(sqrt(turn^2 + twice^2), 0, 1)\n") == "compiled");
+  CHECK(refusal("let lean = clamp(position, -1, 1)\nlet twice = 2 * lean\n"
+                "out torque = 0.1 Nm * clamp(sqrt(lean^2 + twice^2), 0, 1)\n") == "compiled");
 }
 
 TEST_CASE("a delay line that can leave its range, or the table memory") {

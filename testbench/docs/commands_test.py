@@ -150,9 +150,11 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         folder = sandbox.make(Path(scratch).resolve() / "feltgate")
         for line in command_lines.all_lines():
-            if ARGUMENTS.text not in line.words or line.words in seen:
+            # ./feltgate is the launcher and its program alike: once is enough.
+            once = (line.names_only, line.words.removeprefix("./"))
+            if ARGUMENTS.text not in line.words or once in seen:
                 continue
-            seen.add(line.words)
+            seen.add(once)
             began = time.monotonic()
             wrong, spent = wrong_with(line, names, folder)
             total += spent

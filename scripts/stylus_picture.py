@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Draws docs/images/stylus.svg: a stylus over the edge of a cube and over a sphere, from the rows of
-the two scenes.
+"""Draws docs/images/stylus.svg: a stylus over the edge of a cube and over a sphere, from the rows
+of the two scenes.
 
   feltgate run stylus_cube --engine twin --csv cube.csv --every 20
   feltgate run stylus_sphere --engine twin --csv sphere.csv --every 20

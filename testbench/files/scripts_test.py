@@ -59,7 +59,8 @@ class Scripts(Bench):
         self.pids = self.path("pids")
         self.pids.mkdir()
         self.path("bin").mkdir()
-        engines = [f"feltgate_{name}_law" for name in ("lever", "pantograph", "two_levers", "stylus")]
+        devices = ("lever", "pantograph", "two_levers", "stylus")
+        engines = [f"feltgate_{name}_law" for name in devices]
         for name in ("feltgate", *engines, "bin/yosys", "bin/nextpnr-ecp5"):
             self.path(name).write_text(STAND_IN)
             self.path(name).chmod(0o755)

@@ -138,7 +138,8 @@ class Presets(Machine):
 
     def test_the_demo_has_scenes_with_laws(self):
         self.installed(*BUILD_PACKAGES)
-        engines = [f"feltgate_{name}_law" for name in ("lever", "pantograph", "two_levers", "stylus")]
+        devices = ("lever", "pantograph", "two_levers", "stylus")
+        engines = [f"feltgate_{name}_law" for name in devices]
         self.assertEqual(self.built("demo"), [["feltgate", *engines]])
 
 

@@ -13,6 +13,7 @@ import subprocess
 import time
 import unittest
 
+from board_process import need_terminals
 from host_program import ROOT, ProgramTest, patterns_of
 
 PAGE = ROOT / "docs/laws.md"
@@ -32,6 +33,7 @@ class Laws(ProgramTest):
         return super().environment() | {"XDG_CACHE_HOME": str(self.folder / self.cache)}
 
     def board(self, *words):
+        need_terminals()
         board = self.start_program("feltgate_board", *words, stderr=subprocess.STDOUT)
         self.port = board.stdout.readline().split(" -> ")[-1].strip()
 

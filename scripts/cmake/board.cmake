@@ -23,8 +23,7 @@ file(STRINGS "${FELTGATE_ROOT}/rtl/feltgate_linked.f" linked_sources REGEX "^[^/
 list(TRANSFORM linked_sources PREPEND "${FELTGATE_ROOT}/rtl/")
 feltgate_verilate(board_lever board_pins
   "${FELTGATE_ROOT}/rtl/generated/lever/feltgate_pkg.sv;${linked_sources};${FELTGATE_ROOT}/model/board/board_pins.sv"
-  CLASS Vboard_lever -O3)
-target_compile_options(board_lever PRIVATE ${FELTGATE_FASTEST_RTL})
+  CLASS Vboard_lever FASTEST)
 set(rtl_sources "${FELTGATE_ROOT}/model/board/rtl_cores.cpp"
   "${PROJECT_BINARY_DIR}/engines/lever_board_rtl.cpp")
 feltgate_for_design(design_board_rtl.cpp.in "${PROJECT_BINARY_DIR}/engines/lever_board_rtl.cpp")

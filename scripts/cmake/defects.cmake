@@ -85,7 +85,8 @@ function(feltgate_defect_program target)
     COMMENT "Seeding defects for ${target}" VERBATIM)
   add_executable(${target} ${arg_SOURCES} "${copies}/seeded_choice.hpp")
   target_include_directories(${target} BEFORE PRIVATE "${copies}/model/include" "${copies}/model")
-  target_compile_options(${target} PRIVATE -w -O0)
+  # As quick to compile as -O0, nearly, and several times as quick to run.
+  target_compile_options(${target} PRIVATE -w -O1)
   target_link_libraries(${target} PRIVATE
     feltgate_catch_main feltgate_model feltgate_chosen_defect ${arg_LIBRARIES})
 endfunction()

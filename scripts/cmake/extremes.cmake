@@ -29,7 +29,7 @@ add_custom_command(OUTPUT "${extremes_wide}/feltgate_pkg.sv" "${extremes_wide}/w
           "${FELTGATE_ROOT}/rtl/schedule.toml"
   COMMENT "Generating the design wide" VERBATIM)
 feltgate_verilate(extremes_wide_core feltgate_core
-  "${extremes_wide}/feltgate_pkg.sv;${FELTGATE_CORE_SOURCES}" CLASS Vextremes_wide -O3)
+  "${extremes_wide}/feltgate_pkg.sv;${FELTGATE_CORE_SOURCES}" CLASS Vextremes_wide FASTEST)
 
 file(GLOB extremes_sources CONFIGURE_DEPENDS "${extremes_folder}/*.cpp")
 list(FILTER extremes_sources EXCLUDE REGEX "_(main|test|defects)\\.cpp$")

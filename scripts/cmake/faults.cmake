@@ -16,8 +16,7 @@ find_package(Python3 3.11 COMPONENTS Interpreter REQUIRED)
 
 # Vfaults: the core of design lever, and which member of it is which flip-flop.
 feltgate_verilate(faults_core feltgate_core "${FELTGATE_LEVER_PACKAGE};${FELTGATE_CORE_SOURCES}" CLASS Vfaults
-  --no-trace -O3)
-target_compile_options(faults_core PRIVATE ${FELTGATE_FASTEST_RTL})
+  FASTEST --no-trace)
 set(faults_model "${CMAKE_CURRENT_BINARY_DIR}/faults_core.verilated")
 set(faults_flops "${PROJECT_BINARY_DIR}/faults/flops.hpp")
 add_custom_command(OUTPUT "${faults_flops}"

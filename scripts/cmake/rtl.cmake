@@ -31,8 +31,7 @@ foreach(design IN LISTS FELTGATE_DESIGNS)
   feltgate_core_of(${design} top sources)
   feltgate_verilate(core_${design} ${top}
     "${FELTGATE_ROOT}/rtl/generated/${design}/feltgate_pkg.sv;${sources}"
-    CLASS Vcore_${design} -O3)
-  target_compile_options(core_${design} PRIVATE ${FELTGATE_FASTEST_RTL})
+    CLASS Vcore_${design} FASTEST)
   feltgate_for_design(design_rtl.cpp.in "${PROJECT_BINARY_DIR}/engines/${design}_rtl.cpp")
   target_sources(feltgate_rtl PRIVATE "${PROJECT_BINARY_DIR}/engines/${design}_rtl.cpp")
   target_link_libraries(feltgate_rtl PUBLIC core_${design})

@@ -53,8 +53,12 @@ feltgate_library(feltgate_page page EXCEPT "/page_api" feltgate_loop feltgate_de
 foreach(design fast lever_law)
   feltgate_type_of(${design} type)
   feltgate_for_design(design_twin.cpp.in "${PROJECT_BINARY_DIR}/engines/${design}_twin.cpp")
+  # Objects: what registers the engine stays in every program that takes them.
+  add_library(twin_${design} OBJECT EXCLUDE_FROM_ALL "${PROJECT_BINARY_DIR}/engines/${design}_twin.cpp")
+  target_compile_options(twin_${design} PRIVATE ${FELTGATE_ENGINE_OPTIONS})
+  target_link_libraries(twin_${design} PRIVATE feltgate_engines fmt::fmt)
 endforeach()
-set(page_twins "${PROJECT_BINARY_DIR}/engines/fast_twin.cpp" "${PROJECT_BINARY_DIR}/engines/lever_law_twin.cpp")
+set(page_twins $<TARGET_OBJECTS:twin_fast> $<TARGET_OBJECTS:twin_lever_law>)
 add_executable(feltgate_page_data EXCLUDE_FROM_ALL
   "${FELTGATE_ROOT}/model/page/data_main.cpp" ${page_twins})
 target_compile_options(feltgate_page_data PRIVATE ${FELTGATE_WARNINGS})

@@ -54,7 +54,12 @@ def arguments(argv):
         action="store_true",
         help="only what every test run repeats: short proofs, on their first design",
     )
-    parser.add_argument("--no-defects", action="store_true", help="base, induction and covers only")
+    parser.add_argument(
+        "--defects",
+        type=int,
+        metavar="N",
+        help="only N defects of each proof, spread evenly; 0: base, induction and covers only",
+    )
     command_options.add_jobs(parser, "runs")
     command_options.add_json(parser)
     parser.add_argument(
@@ -80,7 +85,10 @@ def arguments(argv):
         parser.error(f"argument --keep: {options.keep} is not an empty folder; name a new one")
     if options.jobs < 1:
         parser.error("argument --jobs: at least 1")
-    partly = any("." in name for name in options.proof) or options.fast or options.no_defects
+    if options.defects is not None and options.defects < 0:
+        parser.error("argument --defects: 0 or more")
+    limited = options.fast or options.defects is not None
+    partly = any("." in name for name in options.proof) or limited
     if options.update and partly:
         parser.error("--update takes whole blocks, with all designs and defects")
     return options
@@ -120,7 +128,7 @@ def print_open(blocks):
 def run(options, root, proofs, folder):
     """Runs all tasks; returns the rows of the table."""
     tools = Tools(folder)
-    todo = tasks.plan(proofs, not options.no_defects, options.fast)
+    todo = tasks.plan(proofs, options.defects, options.fast)
     rows = tasks.rows(proofs, options.fast)
     with Steps("prove", len(todo)) as progress:
 
@@ -136,7 +144,7 @@ def run(options, root, proofs, folder):
 def report(options, root, rows, versions):
     """Prints and writes the rows; the exit code."""
     print(page.text_table(rows))
-    bad = [row for row in rows if not row.good(not options.no_defects)]
+    bad = [row for row in rows if not row.good(options.defects)]
     properties = sum(len(row.proof.properties) for row in rows if row.first)
     print(
         f"{properties} properties, {len(rows)} runs of proofs, {len(bad)} not good; "

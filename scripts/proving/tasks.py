@@ -68,14 +68,16 @@ class Row:
     results: dict = field(default_factory=dict)  # kind: Result
     caught: dict = field(default_factory=dict)  # property: Result
 
-    def good(self, with_defects):
-        """Whether all runs of the row ended as they must."""
+    def good(self, most_defects=None):
+        """Whether all runs of the row ended as they must, of so many defects; None: of all."""
         kinds = (BASE, INDUCTION, COVERS)
         if not all(kind in self.results and self.results[kind].passed for kind in kinds):
             return False
-        return not (with_defects and self.first) or all(
+        tried = chosen_defects(self.proof, most_defects) if self.first else ()
+        return all(
             entry.name in self.caught and not self.caught[entry.name].passed
             for entry in self.proof.properties
+            if entry.defect in tried
         )
 
     def as_json(self, root):
@@ -109,16 +111,23 @@ def designs(proof, first_only):
     return proof.designs[:1] if first_only else proof.designs
 
 
-def plan(proofs, with_defects, first_only):
+def chosen_defects(proof, most=None):
+    """So many of the proof's defects, spread evenly over its properties; None: all."""
+    patches = list(dict.fromkeys(entry.defect for entry in proof.properties))
+    if most is None or most >= len(patches):
+        return patches
+    return [patches[(2 * n + 1) * len(patches) // (2 * most)] for n in range(most)]
+
+
+def plan(proofs, most_defects, first_only):
     """The tasks, those that may take long first."""
     todo = []
     for proof in proofs:
         for number, design in enumerate(designs(proof, first_only)):
             todo += [Task(proof, design, kind) for kind in (INDUCTION, BASE, COVERS)]
             if number == 0:
-                for patch in dict.fromkeys(entry.defect for entry in proof.properties):
-                    if with_defects:
-                        todo.append(Task(proof, design, DEFECT, patch))
+                for patch in chosen_defects(proof, most_defects):
+                    todo.append(Task(proof, design, DEFECT, patch))
     return todo
 
 

@@ -159,17 +159,25 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(tools.reached_covers(text), {"one": 7, "two": 9})
 
     def test_a_row(self):
-        proof = type("P", (), {"properties": [type("E", (), {"name": "a"})]})
+        proof = type("P", (), {"properties": [type("E", (), {"name": "a", "defect": "d"})]})
         good = tools.Result(True, 1.0)
         row = tasks.Row(proof, "lever", True)
-        self.assertFalse(row.good(False))
+        self.assertFalse(row.good(0))
         row.results = {tasks.BASE: good, tasks.INDUCTION: good, tasks.COVERS: good}
-        self.assertTrue(row.good(False))
-        self.assertFalse(row.good(True))  # no defect was tried
+        self.assertTrue(row.good(0))
+        self.assertFalse(row.good())  # no defect was tried
         row.caught = {"a": good}
-        self.assertFalse(row.good(True))  # the assertion holds with its defect
+        self.assertFalse(row.good())  # the assertion holds with its defect
         row.caught = {"a": tools.Result(False, 1.0)}
-        self.assertTrue(row.good(True))
+        self.assertTrue(row.good())
+
+    def test_a_share_of_the_defects_is_spread(self):
+        proof = type("P", (), {})
+        proof.properties = [type("E", (), {"name": n, "defect": n}) for n in "abccdef"]
+        self.assertEqual(tasks.chosen_defects(proof), list("abcdef"))
+        self.assertEqual(tasks.chosen_defects(proof, 2), ["b", "e"])
+        self.assertEqual(tasks.chosen_defects(proof, 6), list("abcdef"))
+        self.assertEqual(tasks.chosen_defects(proof, 0), [])
 
     def test_the_trace_ends_with_the_failing_clock(self):
         vcd = ("$scope module top $end\n$var wire 4 n0 x $end\n$scope module in $end\n"

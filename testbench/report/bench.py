@@ -30,7 +30,8 @@ class Bench(unittest.TestCase):
         self.program = self.folder / "feltgate"
         self.program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -B "{FAKE}" "$@"\n')
         self.program.chmod(0o755)
-        for design in ("lever_law", "pantograph_law", "two_levers_law", "stylus_law"):
+        presets = (ROOT / "rtl/designs/presets.txt").read_text(encoding="utf-8").splitlines()
+        for design in (name for name in presets if name.endswith("_law")):
             self.program.with_name(f"feltgate_{design}").symlink_to(self.program)
 
     def environment(self, **more):

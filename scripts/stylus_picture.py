@@ -14,14 +14,19 @@ import tomllib
 
 from docs_picture import BLUE, GREY, RED, ROOT, columns, files, plt, save
 
-CAPSTAN_M = 0.01
 NAMES = ("time_s", "pen_x_m", "pen_y_m", "pen_z_m", "plane_tilt_rad", "tau_ref_nm.0",
          "tau_ref_nm.1", "tau_ref_nm.2")
 
 
+def table_of(path, name):
+    return tomllib.loads((ROOT / "vectors" / path).read_text(encoding="utf-8"))[name]
+
+
 def plane_of(scene):
-    file = ROOT / f"vectors/scenes/{scene}.toml"
-    return tomllib.loads(file.read_text(encoding="utf-8"))["plane"]
+    return table_of(f"scenes/{scene}.toml", "plane")
+
+
+CAPSTAN_M = table_of("devices/stylus.toml", "lever")["radius_m"]
 
 
 def over_the_edge(axes, run, half):

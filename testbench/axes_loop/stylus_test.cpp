@@ -129,6 +129,16 @@ TEST_CASE(
   CHECK(bad_tilts == 0);
 }
 
+TEST_CASE("stylus: law, fields of heights and device have one capstan") {
+  const auto text = [](const std::string& path) {
+    std::ifstream file(FELTGATE_ROOT + ("/" + path));
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  CHECK(texture::capstan_m == 10e-3);
+  CHECK(text("rtl/laws/local_space.law").find("\nlet R = 0.01 m\n") != std::string::npos);
+  CHECK(text("vectors/devices/stylus.toml").find("\nradius_m = 0.01 ") != std::string::npos);
+}
+
 TEST_CASE("stylus: a force of 3.3 N is 16.0 mm deep in 206 N/m, and the edge of a cube turns it") {
   const AxesResult floor = run_scene(scene_named("stylus_floor"), "twin,double");
   CHECK(floor.broken.empty());

@@ -6,12 +6,14 @@
 
 tests_usage() {
   cat <<TEXT
-Usage: ./feltgate test [NAME] [--long] [--list]
+Usage: ./feltgate test [NAME] [--whole | --long] [--list]
 
   NAME    only the tests whose name matches this regular expression, such as quad_decoder;
           only what they need is built
   --list  only lists the tests with their labels; builds nothing
-  --long  also the long runs (1e9 lock-step clocks of the core and more), and every random run
+  --whole also what a usual run tries a share of: recordings and scenes through the RTL to their end
+          on every design, every defect of the proofs; about half as long again
+  --long  the whole, the long runs (1e9 lock-step clocks of the core and more), and every random run
           ten times as long, or as many times as FELTGATE_LONG says
 
 The last line is "N passed, N failed", with ", N skipped" where tests could not run here; before it
@@ -40,7 +42,13 @@ run_tests() {
         return
         ;;
       --list) list=1 ;;
+      --whole)
+        export FELTGATE_WHOLE=1
+        chosen+=(--whole)
+        options+=(-C Whole)
+        ;;
       --long)
+        export FELTGATE_WHOLE=1
         export FELTGATE_LONG=${FELTGATE_LONG:-10}
         chosen+=(--long)
         groups+=" long"

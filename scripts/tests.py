@@ -36,11 +36,11 @@ class Test:
         return next((g for g in GROUPS if g in self.labels), "other")
 
 
-def listed(build, name="", long=False):
+def listed(build, name="", configuration=""):
     """What CTest would run."""
     command = ["ctest", "--test-dir", str(build), "--show-only=json-v1"]
     command += ["-R", name] if name else []
-    command += ["-C", "Long"] if long else []
+    command += ["-C", configuration] if configuration else []
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:
         raise ValueError(done.stderr.strip())
@@ -62,9 +62,9 @@ def commands(folder):
     return found
 
 
-def tests(build, name="", long=False):
+def tests(build, name="", configuration=""):
     known = commands(build)
-    for entry in listed(build, name, long):
+    for entry in listed(build, name, configuration):
         properties = {p["name"]: p["value"] for p in entry.get("properties", ())}
         yield Test(
             name=entry["name"],
@@ -156,12 +156,17 @@ def main():
     parser.add_argument("verb", choices=("list", "targets", "check", "minutes"))
     parser.add_argument("--build", type=Path, required=True, help="build folder")
     parser.add_argument("--name", default="", help="regular expression of the tests' names")
-    parser.add_argument("--long", action="store_true", help="the long ones too")
+    parser.add_argument(
+        "--long", dest="of", action="store_const", const="Long", help="the long ones too"
+    )
+    parser.add_argument(
+        "--whole", dest="of", action="store_const", const="Whole", help="not only their shares"
+    )
     parser.add_argument("--results", type=Path, help="minutes: JUnit file of the run")
     options = parser.parse_args()
     build = options.build.resolve()
     try:
-        chosen = list(tests(build, options.name, options.long))
+        chosen = list(tests(build, options.name, options.of))
         if options.verb == "minutes":
             return print_minutes(chosen, options.results)
         if options.verb == "list":

@@ -6,7 +6,7 @@
 include_guard(GLOBAL)
 
 set(FELTGATE_MUTANTS 400 CACHE STRING "mutants of each block")
-set(FELTGATE_MUTANTS_SHARE 24 CACHE STRING "mutants that every test run tries of each")
+set(FELTGATE_MUTANTS_SHARE 12 CACHE STRING "mutants that every test run tries of each")
 set(FELTGATE_MUTANT_SEED 1 CACHE STRING "which mutants these are")
 set(FELTGATE_WRITE_MUTANTS "${FELTGATE_ROOT}/scripts/mutants.py")
 find_program(FELTGATE_MUTANT_YOSYS yosys)

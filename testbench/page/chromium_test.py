@@ -8,12 +8,15 @@ chromium_test.py --pictures FOLDER keeps screenshots.
 Documentation: docs/page.md
 """
 
+import os
 import sys
 import time
 import unittest
 from pathlib import Path
 
 from browsing import ROOT, ActionChains, By, Keys, PageTest, opened
+
+WHOLE = "FELTGATE_WHOLE" in os.environ  # every scene and law, not a share of them
 
 
 class Lever(PageTest):
@@ -80,9 +83,9 @@ class Lever(PageTest):
         stage.send_keys("a")
         self.until("return feltgate.devices[0].status.armed")
 
-    def test_every_scene(self):
+    def test_scenes(self):
         radios = self.driver.find_elements(By.CSS_SELECTOR, "#scenes input")
-        for radio in radios:
+        for radio in radios if WHOLE else radios[::3]:
             # Held first: a free lever gets too fast under a torque that stands.
             self.js("feltgate.devices[0].take(true)")
             radio.click()
@@ -142,9 +145,10 @@ class Lever(PageTest):
         self.until("return feltgate.devices[0].info.name === 'lever'")
         self.assertFalse(self.driver.find_element(By.ID, "law").is_displayed())
 
-    def test_every_shipped_law(self):
+    def test_shipped_laws(self):
         self.driver.find_element(By.CSS_SELECTOR, "#scenes input[value=law]").click()
-        for name in self.js("return Object.keys(feltgate.numbers.laws)"):
+        names = self.js("return Object.keys(feltgate.numbers.laws)")
+        for name in names if WHOLE else names[::4]:
             self.js(
                 "const s = document.getElementById('shipped'); s.value = arguments[0]; s.oninput()",
                 name,

@@ -88,8 +88,8 @@ def exit_code(error):
 
 
 def tell(name, error, hint=""):
-    """Says it; the exit code."""
-    print(f"{name}: interrupted{hint}", file=sys.stderr)
+    """Says it; the exit code. In one piece: another thread may be saying something too."""
+    sys.stderr.write(f"{name}: interrupted{hint}\n")
     return exit_code(error)
 
 

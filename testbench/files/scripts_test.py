@@ -59,8 +59,8 @@ class Scripts(Bench):
         self.pids = self.path("pids")
         self.pids.mkdir()
         self.path("bin").mkdir()
-        devices = ("lever", "pantograph", "two_levers", "stylus")
-        engines = [f"feltgate_{name}_law" for name in devices]
+        presets = (ROOT / "rtl/designs/presets.txt").read_text(encoding="utf-8").splitlines()
+        engines = [f"feltgate_{name}" for name in presets if name.endswith("_law")]
         for name in ("feltgate", *engines, "bin/yosys", "bin/nextpnr-ecp5"):
             self.path(name).write_text(STAND_IN)
             self.path(name).chmod(0o755)

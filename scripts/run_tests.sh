@@ -45,10 +45,12 @@ run_tests() {
       --whole)
         export FELTGATE_WHOLE=1
         chosen+=(--whole)
+        targets=(all whole)
         options+=(-C Whole)
         ;;
       --long)
         export FELTGATE_WHOLE=1
+        targets=(all whole)
         export FELTGATE_LONG=${FELTGATE_LONG:-10}
         chosen+=(--long)
         groups+=" long"

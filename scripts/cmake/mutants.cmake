@@ -16,7 +16,7 @@ endif()
 
 # feltgate_mutants(<test> <block> <sources> <libraries> [-GName=value...]): <test>_mutants is the test's object
 # with the class V<block> of a netlist; the environment variable FELTGATE_MUTANT is the number of one. The CTest
-# mutate.<test> tries a share of them: in a usual run of a block's first test, of all with --whole.
+# mutate.<test> tries a share of them: in a usual run of a block's first test, all with --whole.
 function(feltgate_mutants test block sources libraries)
   # Axes are cores, whose mutants are the core's.
   if(NOT FELTGATE_MUTANT_YOSYS OR block STREQUAL feltgate_axes)
@@ -53,7 +53,8 @@ function(feltgate_mutants test block sources libraries)
   get_property(known GLOBAL PROPERTY FELTGATE_BLOCKS_WITH_MUTANTS)
   set_property(GLOBAL APPEND PROPERTY FELTGATE_BLOCKS_WITH_MUTANTS ${block})
   set(when "")
-  if(alone OR block IN_LIST known)
+  # What survives of the supervisor runs for minutes of its time.
+  if(alone OR block IN_LIST known OR block STREQUAL supervisor)
     set_target_properties(${target} ${target}_rtl PROPERTIES EXCLUDE_FROM_ALL ON)
     add_dependencies(whole ${target})
     set(when ${FELTGATE_WHOLE})

@@ -45,21 +45,18 @@ function(feltgate_mutants test block sources libraries)
   target_link_libraries(${target} PRIVATE feltgate_catch_main ${libraries} ${target}_rtl)
   feltgate_same_class(${target} ${block} ${test}_rtl ${target}_rtl)
 
-  # What survives of the core, or the engine, takes minutes each to prove equivalent; the command does it.
-  set(alone OFF)
-  if(block MATCHES "^(feltgate_core|feltgate_linked|engine|axes_engine)$")
-    set(alone ON)
-  endif()
+  # Not in a usual run: a block's further tests, and blocks whose survivors run, or are proven equivalent, for minutes.
   get_property(known GLOBAL PROPERTY FELTGATE_BLOCKS_WITH_MUTANTS)
   set_property(GLOBAL APPEND PROPERTY FELTGATE_BLOCKS_WITH_MUTANTS ${block})
+  set(proven_in_minutes feltgate_core feltgate_linked engine axes_engine)
   set(when "")
-  # What survives of the supervisor runs for minutes of its time.
-  if(alone OR block IN_LIST known OR block STREQUAL supervisor)
+  if(block IN_LIST known OR block IN_LIST proven_in_minutes OR block STREQUAL supervisor)
     set_target_properties(${target} ${target}_rtl PROPERTIES EXCLUDE_FROM_ALL ON)
     add_dependencies(whole ${target})
     set(when ${FELTGATE_WHOLE})
   endif()
-  if(alone)
+  # Those have no test: the command tries them.
+  if(block IN_LIST proven_in_minutes)
     return()
   endif()
   set(script "${FELTGATE_ROOT}/scripts/mutate.py")

@@ -12,7 +12,7 @@ Usage: ./feltgate test [NAME] [--whole | --long] [--list]
           only what they need is built
   --list  only lists the tests with their labels; builds nothing
   --whole also what a usual run tries a share of: recordings and scenes through the RTL to their end
-          on every design, every defect of the proofs; about half as long again
+          on every design, the defects of the proofs, all mutants; more than twice as long
   --long  the whole, the long runs (1e9 lock-step clocks of the core and more), and every random run
           ten times as long, or as many times as FELTGATE_LONG says
 

@@ -31,10 +31,9 @@ feltgate_for_design(design_board_rtl.cpp.in "${PROJECT_BINARY_DIR}/engines/lever
 target_include_directories(feltgate_board_parts PRIVATE "${PROJECT_BINARY_DIR}/engines")
 target_compile_options(feltgate_board_parts PRIVATE ${FELTGATE_ENGINE_OPTIONS})
 
-set(board_program board_main.cpp checks.cpp commands.cpp command_line.cpp)
-set(board_libraries feltgate_board_parts feltgate_files feltgate_design CLI11::CLI11)
-feltgate_program(feltgate_board "${board_program}" ${board_libraries})
-feltgate_program(feltgate_board_rtl "${board_program}" ${board_libraries} board_lever)
+set(board_libraries feltgate_command_line feltgate_board_parts feltgate_files feltgate_design)
+feltgate_program(feltgate_board board_main.cpp ${board_libraries})
+feltgate_program(feltgate_board_rtl board_main.cpp ${board_libraries} board_lever)
 target_sources(feltgate_board_rtl PRIVATE ${rtl_sources})
 target_include_directories(feltgate_board_rtl PRIVATE "${PROJECT_BINARY_DIR}/engines")
 set_source_files_properties(${rtl_sources} PROPERTIES COMPILE_OPTIONS "-O3;-fno-tree-slp-vectorize")

@@ -87,19 +87,24 @@ function(feltgate_defect_program target)
   target_include_directories(${target} BEFORE PRIVATE "${copies}/model/include" "${copies}/model")
   # As quick to compile as -O0, nearly, and several times as quick to run.
   target_compile_options(${target} PRIVATE -w -O1)
+  target_precompile_headers(${target} REUSE_FROM feltgate_catch_main)
   target_link_libraries(${target} PRIVATE
     feltgate_catch_main feltgate_model feltgate_chosen_defect ${arg_LIBRARIES})
 endfunction()
 
 # feltgate_defect_tests(<test> <program> PATCHES p... [CASES tag]): <test>.<patch> passes when an assertion
-# fails, <test>.none when the same program finds nothing in the copy without a defect.
+# fails, <test>.none when the same program finds nothing in the copy without a defect; in a usual run without
+# cases tagged [endurance]. A patch whose second line is "Caught by: CASE" is tried with that case alone.
 function(feltgate_defect_tests test program)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "CASES" "PATCHES")
   set(command "-DTEST=${CMAKE_CROSSCOMPILING_EMULATOR};$<TARGET_FILE:${program}>;${arg_CASES}")
   foreach(patch IN LISTS arg_PATCHES)
     get_filename_component(name "${patch}" NAME_WE)
+    file(STRINGS "${patch}" case LIMIT_COUNT 1 REGEX "^Caught by: ")
+    string(REGEX REPLACE "^Caught by: " "" case "${case}")
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${patch}")
     add_test(NAME ${test}.${name}
-      COMMAND ${CMAKE_COMMAND} "${command}" -P "${FELTGATE_EXPECT_FAILURE}")
+      COMMAND ${CMAKE_COMMAND} "${command};${case}" -P "${FELTGATE_EXPECT_FAILURE}")
     set_tests_properties(${test}.${name} PROPERTIES LABELS mutation TIMEOUT 3600
       ENVIRONMENT "FELTGATE_LONG=1;FELTGATE_DEFECT=${name};FELTGATE_MISMATCH_DIR=${PROJECT_BINARY_DIR}/mismatch/${name}")
   endforeach()

@@ -8,14 +8,12 @@ include_guard(GLOBAL)
 file(GLOB designs CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/designs/*.toml")
 # A new design gets its engines once its files are generated: then this list changes.
 file(GLOB generated CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/generated/*/feltgate_pkg.sv")
-# Presets are in programs of their own: presets.cmake. The Python package has the first three.
+# Presets are in programs of their own: presets.cmake, python.cmake.
 set(presets "${FELTGATE_ROOT}/rtl/designs/presets.txt")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${presets}")
 file(STRINGS "${presets}" FELTGATE_PRESETS REGEX "^[a-z]")
 foreach(preset IN LISTS FELTGATE_PRESETS)
-  if(NOT FELTGATE_PYTHON OR preset MATCHES "^(first_power|.*_law)$")
-    list(REMOVE_ITEM designs "${FELTGATE_ROOT}/rtl/designs/${preset}.toml")
-  endif()
+  list(REMOVE_ITEM designs "${FELTGATE_ROOT}/rtl/designs/${preset}.toml")
 endforeach()
 
 # feltgate_for_design(<template> <output>): the template filled for ${design} of C++ type ${type}.

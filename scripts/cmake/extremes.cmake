@@ -47,6 +47,6 @@ foreach(block IN LISTS extremes_blocks)
     "$<TARGET_PROPERTY:${block},INTERFACE_INCLUDE_DIRECTORIES>")
 endforeach()
 
-feltgate_program(feltgate_extremes "commands.cpp;command_line.cpp"
-  feltgate_files feltgate_extreme_cases ${extremes_blocks} CLI11::CLI11)
+feltgate_program(feltgate_extremes ""
+  feltgate_command_line feltgate_files feltgate_extreme_cases ${extremes_blocks})
 target_sources(feltgate_extremes PRIVATE "${extremes_folder}/extremes_main.cpp")

@@ -36,6 +36,6 @@ target_include_directories(feltgate_fault_campaign SYSTEM PUBLIC "${PROJECT_BINA
 target_link_libraries(feltgate_fault_campaign PUBLIC faults_core feltgate_engines feltgate_plant_files feltgate_traces
   PRIVATE nlohmann_json::nlohmann_json fmt::fmt)
 
-feltgate_program(feltgate_faults "commands.cpp;command_line.cpp"
-  feltgate_files feltgate_fault_campaign feltgate_design nlohmann_json::nlohmann_json CLI11::CLI11)
+feltgate_program(feltgate_faults ""
+  feltgate_command_line feltgate_files feltgate_fault_campaign feltgate_design nlohmann_json::nlohmann_json)
 target_sources(feltgate_faults PRIVATE "${faults_folder}/faults_main.cpp")

@@ -7,6 +7,8 @@ include_guard(GLOBAL)
 
 set(FELTGATE_MUTANTS 400 CACHE STRING "mutants of each block")
 set(FELTGATE_MUTANTS_SHARE 24 CACHE STRING "mutants that every test run tries of each")
+# Blocks of which these are tried; of the others with --whole.
+set(FELTGATE_MUTANT_BLOCKS dob limiter link_receiver ramp scene_wall sequencer velocity_jump)
 set(FELTGATE_MUTANT_SEED 1 CACHE STRING "which mutants these are")
 set(FELTGATE_WRITE_MUTANTS "${FELTGATE_ROOT}/scripts/mutants.py")
 find_program(FELTGATE_MUTANT_YOSYS yosys)
@@ -16,7 +18,7 @@ endif()
 
 # feltgate_mutants(<test> <block> <sources> <libraries> [-GName=value...]): <test>_mutants is the test's object
 # with the class V<block> of a netlist; the environment variable FELTGATE_MUTANT is the number of one. The CTest
-# mutate.<test> tries a share of them: in a usual run of a block's first test, all with --whole.
+# mutate.<test> tries a share of them: in a usual run of some blocks, with --whole of all.
 function(feltgate_mutants test block sources libraries)
   # Axes are cores, whose mutants are the core's.
   if(NOT FELTGATE_MUTANT_YOSYS OR block STREQUAL feltgate_axes)
@@ -45,18 +47,16 @@ function(feltgate_mutants test block sources libraries)
   target_link_libraries(${target} PRIVATE feltgate_catch_main ${libraries} ${target}_rtl)
   feltgate_same_class(${target} ${block} ${test}_rtl ${target}_rtl)
 
-  # Not in a usual run: a block's further tests, and blocks whose survivors run, or are proven equivalent, for minutes.
+  # A usual run: of a share of the blocks the first test.
   get_property(known GLOBAL PROPERTY FELTGATE_BLOCKS_WITH_MUTANTS)
   set_property(GLOBAL APPEND PROPERTY FELTGATE_BLOCKS_WITH_MUTANTS ${block})
-  set(proven_in_minutes feltgate_core feltgate_linked engine axes_engine)
   set(when "")
-  if(block IN_LIST known OR block IN_LIST proven_in_minutes OR block STREQUAL supervisor)
-    set_target_properties(${target} ${target}_rtl PROPERTIES EXCLUDE_FROM_ALL ON)
-    add_dependencies(whole ${target})
+  if(block IN_LIST known OR NOT block IN_LIST FELTGATE_MUTANT_BLOCKS)
+    feltgate_only_whole(${target} ${target}_rtl)
     set(when ${FELTGATE_WHOLE})
   endif()
-  # Those have no test: the command tries them.
-  if(block IN_LIST proven_in_minutes)
+  # Survivors that are proven equivalent for minutes have no test: the command tries them.
+  if(block MATCHES "^(feltgate_core|feltgate_linked|engine|axes_engine)$")
     return()
   endif()
   set(script "${FELTGATE_ROOT}/scripts/mutate.py")

@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
 # The Python package feltgate: the extension module, its Python files, and the scenes, plants and
-# designs that it reads, as component `python` of the installation. pyproject.toml, docs/python.md
+# designs that it reads, as component `python` of the installation. Alone for pip, and in a build
+# with tests, for them. pyproject.toml, docs/python.md
 include_guard(GLOBAL)
 
 find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter Development.Module)
@@ -29,6 +30,14 @@ if(NOT TARGET feltgate_generate)
 endif()
 set(extra_names "")
 set(extra_sources "")
+# Presets that are of use without RTL.
+foreach(design fast balanced exact)
+  feltgate_type_of(${design} type)
+  set(header "feltgate/generated/${design}.hpp")
+  feltgate_for_design(python_design.cpp.in "${PROJECT_BINARY_DIR}/designs/${design}_makers.cpp")
+  list(APPEND extra_sources "${PROJECT_BINARY_DIR}/designs/${design}_makers.cpp")
+  string(APPEND extra_names "FELTGATE_DESIGN(${design})\n")
+endforeach()
 foreach(path IN LISTS FELTGATE_EXTRA_DESIGNS ITEMS "${narrow}")
   get_filename_component(path "${path}" ABSOLUTE BASE_DIR "${FELTGATE_ROOT}")
   get_filename_component(design "${path}" NAME_WE)
@@ -38,10 +47,11 @@ foreach(path IN LISTS FELTGATE_EXTRA_DESIGNS ITEMS "${narrow}")
     COMMAND feltgate_generate "${FELTGATE_ROOT}" --design "${path}" --output "${folder}" --allow-coarse
     COMMAND ${CMAKE_COMMAND} -E touch "${folder}/${design}.hpp" "${folder}/feltgate_pkg.sv"
     DEPENDS feltgate_generate "${path}" "${FELTGATE_ROOT}/rtl/registers.toml" VERBATIM)
+  set(header "${design}.hpp")
   feltgate_for_design(python_design.cpp.in "${folder}/${design}_makers.cpp")
   list(APPEND extra_sources "${folder}/${design}_makers.cpp" "${folder}/${design}.hpp")
   string(APPEND extra_names "FELTGATE_DESIGN(${design})\n")
-  install(FILES "${path}" DESTINATION feltgate/data/rtl/designs COMPONENT python)
+  install(FILES "${path}" DESTINATION feltgate/data/rtl/designs COMPONENT python EXCLUDE_FROM_ALL)
 endforeach()
 file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/designs/extra_designs.inc" CONTENT "${extra_names}")
 
@@ -57,12 +67,13 @@ foreach(source IN LISTS extra_sources)
 endforeach()
 target_link_libraries(feltgate_python PRIVATE feltgate_loop feltgate_hostlink fmt::fmt)
 
-install(TARGETS feltgate_python LIBRARY DESTINATION feltgate COMPONENT python)
-install(DIRECTORY "${FELTGATE_ROOT}/model/python/feltgate" DESTINATION . COMPONENT python
+install(TARGETS feltgate_python LIBRARY DESTINATION feltgate COMPONENT python EXCLUDE_FROM_ALL)
+install(DIRECTORY "${FELTGATE_ROOT}/model/python/feltgate" DESTINATION . COMPONENT python EXCLUDE_FROM_ALL
   FILES_MATCHING PATTERN "*.py" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
 # The folders keep their places, so that FELTGATE_ROOT may name a repository instead.
 foreach(folder vectors/plants vectors/scenes vectors/traces rtl/designs rtl/laws)
   install(DIRECTORY "${FELTGATE_ROOT}/${folder}/" DESTINATION "feltgate/data/${folder}"
-    COMPONENT python)
+    COMPONENT python EXCLUDE_FROM_ALL)
 endforeach()
-install(FILES "${FELTGATE_ROOT}/rtl/registers.toml" DESTINATION feltgate/data/rtl COMPONENT python)
+install(FILES "${FELTGATE_ROOT}/rtl/registers.toml" DESTINATION feltgate/data/rtl COMPONENT python
+  EXCLUDE_FROM_ALL)

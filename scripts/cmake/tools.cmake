@@ -8,11 +8,20 @@ find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 
+# What the programs with commands share. CLI11 is headers: a program's words are read once, so that
+# -O1 does.
+add_library(feltgate_command_line STATIC "${FELTGATE_ROOT}/model/tools/checks.cpp"
+  "${FELTGATE_ROOT}/model/tools/commands.cpp" "${FELTGATE_ROOT}/model/tools/command_line.cpp")
+target_compile_options(feltgate_command_line PRIVATE ${FELTGATE_WARNINGS} -O1)
+target_compile_definitions(feltgate_command_line PRIVATE
+  FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}" FELTGATE_VERSION="${PROJECT_VERSION}")
+target_link_libraries(feltgate_command_line PUBLIC feltgate_files feltgate_design CLI11::CLI11 fmt::fmt)
+
 # feltgate_program(<name> <sources> [libraries...])
 function(feltgate_program name sources)
   list(TRANSFORM sources PREPEND "${FELTGATE_ROOT}/model/tools/")
   add_executable(${name} ${sources})
-  target_compile_options(${name} PRIVATE ${FELTGATE_WARNINGS})
+  target_compile_options(${name} PRIVATE ${FELTGATE_WARNINGS} -O1)
   target_compile_definitions(${name} PRIVATE
     FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}" FELTGATE_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${name} PRIVATE ${ARGN} fmt::fmt)
@@ -47,6 +56,9 @@ feltgate_library(feltgate_calibrate host/calibrate feltgate_design feltgate_trac
 target_link_libraries(feltgate_calibrate PRIVATE nlohmann_json::nlohmann_json)
 feltgate_library(feltgate_identify host/identify feltgate_calibrate)
 target_link_libraries(feltgate_identify PRIVATE nlohmann_json::nlohmann_json)
+# Eigen, of some hundred readings.
+target_compile_options(feltgate_calibrate PRIVATE -O1)
+target_compile_options(feltgate_identify PRIVATE -O1)
 # The page for a browser: what runs natively of it; scripts/page.py compiles it for the browser.
 feltgate_library(feltgate_page page EXCEPT "/page_api" feltgate_loop feltgate_design feltgate_law_loop
   feltgate_shape)
@@ -75,10 +87,10 @@ feltgate_program(feltgate_generate generate_main.cpp feltgate_design)
 
 file(GLOB tool_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/tools"
   "${FELTGATE_ROOT}/model/tools/*.cpp")
-list(FILTER tool_sources EXCLUDE REGEX "_main\\.cpp$")
+list(FILTER tool_sources EXCLUDE REGEX "_main\\.cpp$|^(checks|commands|command_line)\\.cpp$")
 feltgate_program(feltgate "feltgate_main.cpp;${tool_sources}"
   feltgate_rtl feltgate_files feltgate_budget feltgate_law feltgate_shape feltgate_texture feltgate_axes_loop feltgate_law_loop feltgate_loop feltgate_stability feltgate_rates feltgate_trim feltgate_design
-  nlohmann_json::nlohmann_json CLI11::CLI11)
+  feltgate_command_line nlohmann_json::nlohmann_json)
 
 include(presets)
 
@@ -91,14 +103,14 @@ add_dependencies(feltgate
 file(GLOB host_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/tools"
   "${FELTGATE_ROOT}/model/tools/host/*.cpp")
 feltgate_program(feltgate_host
-  "host_main.cpp;checks.cpp;commands.cpp;command_line.cpp;${host_sources}"
-  feltgate_files feltgate_engines feltgate_hostlink feltgate_identify feltgate_traces nlohmann_json::nlohmann_json CLI11::CLI11)
+  "host_main.cpp;${host_sources}"
+  feltgate_command_line feltgate_files feltgate_engines feltgate_hostlink feltgate_identify feltgate_traces nlohmann_json::nlohmann_json)
 
 # The benchmark links SystemC, which nothing else of the product needs: only built when asked for.
 feltgate_library(feltgate_bench_parts bench feltgate_rtl feltgate_loop feltgate_law feltgate_shipped_laws systemc)
 target_compile_definitions(feltgate_bench_parts PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
-feltgate_program(feltgate_bench "bench_main.cpp;checks.cpp;commands.cpp;command_line.cpp"
-  feltgate_files feltgate_bench_parts nlohmann_json::nlohmann_json CLI11::CLI11)
+feltgate_program(feltgate_bench bench_main.cpp
+  feltgate_command_line feltgate_files feltgate_bench_parts nlohmann_json::nlohmann_json)
 include(extremes)
 include(faults)
 include(board)

@@ -56,4 +56,6 @@ std::int64_t scaled_clocks(std::int64_t n) {
   return times > 1 ? n * times : n;
 }
 
+bool whole_run() { return std::getenv("FELTGATE_WHOLE") != nullptr; }
+
 }  // namespace feltgate::test

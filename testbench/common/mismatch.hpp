@@ -77,4 +77,7 @@ std::string mismatch_file(const char* block);
 /// n, or n * $FELTGATE_LONG for the long regression.
 std::int64_t scaled_clocks(std::int64_t n);
 
+/// Whether all is to be tried of what a usual run tries a share of: $FELTGATE_WHOLE.
+bool whole_run();
+
 }  // namespace feltgate::test

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
 # coverage.share, defined after all block tests, whose programs it runs.
-set(share pwm quad_decoder rounding hold_timer encoder_monitor)
+set(share quad_decoder rounding hold_timer)
 file(STRINGS "${FELTGATE_COVERAGE_PROGRAMS}" programs)
 set(paths "")
 set(targets "")

@@ -49,7 +49,7 @@ TEST_CASE("axes: each has its words at its own addresses, and nothing lies betwe
   for (int n = 0; n < kAxes; ++n) s.write(n, A::torque_limit, 1000u + static_cast<unsigned>(n));
   for (int n = 0; n < kAxes; ++n) {
     CHECK(s.read(n, A::torque_limit) == 1000u + static_cast<unsigned>(n));
-    s.axis(n).encoder = {(n + 1 & 2) != 0, (n + 1 & 1) != 0, false};
+    s.axis(n).encoder = {((n + 1) & 2) != 0, ((n + 1) & 1) != 0, false};
   }
   for (int n = 0; n < kAxes; ++n) {
     CHECK(s.read(n, 0x2ff) == 0);

@@ -84,7 +84,7 @@ struct AgainstMachine {
 
 TEST_CASE("C++ of laws: every word of the interpreter, parameters and entries in between") {
   std::map<std::string, Seen> seen;
-  visit_shipped(AgainstMachine{scaled_clocks(100'000), seen});
+  visit_shipped(AgainstMachine{scaled_clocks(whole_run() ? 100'000 : 30'000), seen});
   laws::visit_constructs(AgainstMachine{scaled_clocks(20'000), seen});
   for (const auto& [name, s] : seen) {
     INFO(name);
@@ -228,7 +228,7 @@ struct AgainstEngine {
 };
 
 TEST_CASE("C++ of laws: every torque and event of the engine's twin, clock by clock") {
-  visit_shipped(AgainstEngine{scaled_clocks(100'000)});
+  visit_shipped(AgainstEngine{scaled_clocks(whole_run() ? 100'000 : 30'000)});
   laws::visit_constructs(AgainstEngine{scaled_clocks(3'000)});
 }
 

@@ -10,6 +10,7 @@ import os
 import sys
 import unittest
 from pathlib import Path
+from unittest import mock
 
 ROOT = Path(os.environ["FELTGATE_ROOT"])
 sys.path.insert(0, str(ROOT / "scripts"))
@@ -19,8 +20,13 @@ import page  # noqa: E402
 
 
 class Current(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.numbers = page.numbers_of(ROOT, page.DESIGNS)  # most of a minute: once
+
     def test_committed(self):
-        self.assertEqual(page.stale(ROOT), "", "run feltgate page --update")
+        with mock.patch.object(page, "numbers_of", return_value=self.numbers):
+            self.assertEqual(page.stale(ROOT), "", "run feltgate page --update")
 
     def test_everything_is_inside(self):
         text = (ROOT / page.COMMITTED).read_text(encoding="utf-8")
@@ -30,9 +36,8 @@ class Current(unittest.TestCase):
         self.assertNotIn("/*{", text, "a part was not filled in")
 
     def test_a_change_is_seen(self):
-        numbers = page.numbers_of(ROOT, page.DESIGNS)
         script, wasm = b"script", b"wasm"
-        whole = page.assembled(ROOT, numbers, script, wasm)
+        whole = page.assembled(ROOT, self.numbers, script, wasm)
         self.assertEqual(page.STAMP.search(whole)[1], page.stamp_of(ROOT))
         self.assertEqual(page.unpacked(whole, "engine"), script)
         self.assertEqual(page.unpacked(whole, "wasm"), wasm)

@@ -81,7 +81,7 @@ TEST_CASE("supervisor: I2t trips when the closed form says") {
   }
 }
 
-TEST_CASE("supervisor: a window beyond the counter has 65536 ticks") {
+TEST_CASE("supervisor: a window beyond the counter has 65536 ticks", "[endurance]") {
   Script s;
   s.now.words.polarity_ticks = 0x7fffffff;
   s.now.current_ref = -10 * kAmpere;
@@ -95,7 +95,7 @@ TEST_CASE("supervisor: a window beyond the counter has 65536 ticks") {
   s.play();
 }
 
-TEST_CASE("supervisor: the I2t sum does not wrap at the largest budget") {
+TEST_CASE("supervisor: the I2t sum does not wrap at the largest budget", "[endurance]") {
   Script s;
   cool(s);
   s.now.words.nominal_current_squared = 0;

@@ -64,11 +64,7 @@ class FeltgateAxes {
       if (step == 0) {
         step = 1;
         if (glue_.event_valid()) watcher.event(at, glue_.event_number());
-        glue_.clock(in, cores_, each);
-        for (std::size_t n = 0; n < N; ++n) {
-          cores_[n].clock(each[n]);
-          out_.axis[n] = cores_[n].out();
-        }
+        one_clock(in, each);
         snapshot = out_.axis[0].snapshot_valid;
         if (snapshot) watcher.words();
       }
@@ -113,11 +109,21 @@ class FeltgateAxes {
     void words() {}
   };
 
+  // Out of line, as pass(): flattened into an engine's advance() it is compiled for a minute, and
+  // no faster.
+  [[gnu::noinline]] void one_clock(const In& in, std::array<CoreIn, N>& each) {
+    glue_.clock(in, cores_, each);
+    for (std::size_t n = 0; n < N; ++n) {
+      cores_[n].clock(each[n]);
+      out_.axis[n] = cores_[n].out();
+    }
+  }
+
   /// Up to clock `clocks` of run(), of which this is clock `at`, from event to event, at most to
   /// the end of the tick; 0 where the next one is not to be passed.
   template <class Watcher>
-  int pass(const In& in, std::array<CoreIn, N>& each, std::int64_t at, std::int64_t clocks,
-           bool* snapshot, Watcher& watcher) {
+  [[gnu::noinline]] int pass(const In& in, std::array<CoreIn, N>& each, std::int64_t at,
+                             std::int64_t clocks, bool* snapshot, Watcher& watcher) {
     constexpr int tick = D::clocks_per_tick;
     const int from = clock_of_tick();
     int to = static_cast<int>(std::min<std::int64_t>(tick, from + clocks - at));

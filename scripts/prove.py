@@ -31,7 +31,7 @@ from pathlib import Path
 import command_options
 import interrupts
 import outputs
-from proving import catalog, page, tasks
+from proving import catalog, page, record, tasks
 from proving.tools import Broken, Tools
 from reporting.progress import Steps
 from seeding.patches import DefectError
@@ -52,7 +52,17 @@ def arguments(argv):
     parser.add_argument(
         "--fast",
         action="store_true",
-        help="only what every test run repeats: short proofs, on their first design",
+        help="only what every test run looks after: short proofs, on their first design",
+    )
+    parser.add_argument(
+        "--changed",
+        action="store_true",
+        help=f"not those whose inputs are on record as proven, in {record.FILE}",
+    )
+    parser.add_argument(
+        "--record",
+        action="store_true",
+        help="enter the inputs of proofs that were good into that record",
     )
     parser.add_argument(
         "--defects",
@@ -128,6 +138,11 @@ def print_open(blocks):
 def run(options, root, proofs, folder):
     """Runs all tasks; returns the rows of the table."""
     tools = Tools(folder)
+    if options.changed:
+        known = record.known(root, proofs, tools.versions(), options.fast)
+        for proof in known:
+            print(f"{proof.key}: its inputs are on record as proven")
+        proofs = [proof for proof in proofs if proof not in known]
     todo = tasks.plan(proofs, options.defects, options.fast)
     rows = tasks.rows(proofs, options.fast)
     with Steps("prove", len(todo)) as progress:
@@ -153,6 +168,8 @@ def report(options, root, rows, versions):
     result = {"schema": SCHEMA, "tools": versions, "proofs": [row.as_json(root) for row in rows]}
     if options.json:
         outputs.write_json(options.json, result)
+    if options.record:
+        record.write(root, [row for row in rows if row not in bad], versions)
     if options.update and not bad:
         page.write(root, result)
         print(f"prove: wrote {page.PAGE}")

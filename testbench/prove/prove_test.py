@@ -7,6 +7,7 @@ import contextlib
 import io
 import os
 import re
+import shutil
 import sys
 import tempfile
 import unittest
@@ -15,7 +16,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 import prove  # noqa: E402
-from proving import catalog, page, tasks, tools, trace  # noqa: E402
+from proving import catalog, page, record, tasks, tools, trace  # noqa: E402
 
 TOML = """
 [[proof]]
@@ -210,6 +211,64 @@ class Reading(unittest.TestCase):
         head = "module a (\n  output logic y_o\n);\n"
         self.assertEqual(tools.ports_only(f"{head}  assign y_o = 1'b1;\nendmodule\n"),
                          f"{head}endmodule\n`default_nettype wire\n")
+
+
+class Recorded(unittest.TestCase):
+    """What is on record as proven is what the proof reads, and nothing else."""
+
+    VERSIONS = {"yosys": "1", "z3": "2"}
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name)
+        for name in ("rtl", "testbench/limiter", "testbench/prove"):
+            shutil.copytree(ROOT / name, self.root / name)
+        (self.root / "docs/verification").mkdir(parents=True)
+        rows = tasks.rows(self.proofs(), True)
+        record.write(self.root, rows, self.VERSIONS)
+
+    def proofs(self):
+        return [p for p in catalog.read(self.root) if p.block == "limiter"]
+
+    def known(self, versions=None):
+        return record.known(self.root, self.proofs(), versions or self.VERSIONS, True)
+
+    def change(self, name, old, new):
+        path = self.root / name
+        text = path.read_text(encoding="utf-8")
+        self.assertIn(old, text)
+        path.write_text(text.replace(old, new, 1), encoding="utf-8")
+
+    def test_the_same_inputs_are_known(self):
+        self.assertEqual(self.known(), self.proofs())
+        self.change("rtl/limiter.sv", "module limiter", "// a comment\nmodule   limiter")
+        self.assertEqual(self.known(), self.proofs())
+
+    def test_a_change_of_any_input_is_seen(self):
+        wrapper = self.proofs()[0].wrapper.relative_to(self.root)
+        for name, old, new in (
+            ("rtl/limiter.sv", "endmodule", "logic more;\nendmodule"),
+            ("rtl/generated/lever/feltgate_pkg.sv", "ROUNDING = 0", "ROUNDING = 1"),
+            (wrapper, "endmodule", "logic more;\nendmodule"),
+            ("testbench/limiter/proofs/proofs.toml", "depth = ", "depth = 1"),
+        ):
+            with self.subTest(name):
+                before = (self.root / name).read_text(encoding="utf-8")
+                self.change(name, old, new)
+                self.assertLess(len(self.known()), len(self.proofs()))
+                (self.root / name).write_text(before, encoding="utf-8")
+        self.assertEqual(self.known({**self.VERSIONS, "z3": "3"}), [])
+
+    def test_the_record_is_of_proofs_that_there_are(self):
+        names = {
+            record.name(proof, design)
+            for proof in catalog.read(ROOT)
+            for design in proof.designs
+        }
+        self.assertEqual(record.read(ROOT).keys() - names, set())
+        fast = {p.key for p in catalog.read(ROOT) if p.fast}
+        self.assertEqual(fast - {n.split()[0] for n in record.read(ROOT)}, set())
 
 
 class Command(unittest.TestCase):

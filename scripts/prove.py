@@ -97,7 +97,7 @@ def arguments(argv):
         parser.error("argument --jobs: at least 1")
     if options.defects is not None and options.defects < 0:
         parser.error("argument --defects: 0 or more")
-    limited = options.fast or options.defects is not None
+    limited = options.fast or options.changed or options.defects is not None
     partly = any("." in name for name in options.proof) or limited
     if options.update and partly:
         parser.error("--update takes whole blocks, with all designs and defects")

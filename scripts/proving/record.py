@@ -16,11 +16,10 @@ from pathlib import Path
 import outputs
 from seeding.patches import code_only
 
-from . import tasks, tools
+from . import catalog, tasks, tools
 
 SCHEMA = "feltgate-proven/1"
 FILE = "docs/verification/proven.json"
-HERE = Path(__file__).resolve().parent
 
 
 def name(proof, design):
@@ -43,9 +42,20 @@ def digest(root, proof, design, versions):
 
 
 def read(root):
-    """{proof and design: digits}; nothing where there is no record."""
+    """{proof and design: digits}; nothing where there is no record. CatalogError for a broken one."""
     path = Path(root, FILE)
-    return json.loads(path.read_text(encoding="utf-8"))["inputs"] if path.is_file() else {}
+    if not path.is_file():
+        return {}
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+        if found["schema"] != SCHEMA:
+            raise ValueError(f"its schema is {found['schema']}, not {SCHEMA}")
+        return dict(found["inputs"])
+    except (ValueError, KeyError, TypeError) as error:
+        raise catalog.CatalogError(
+            f"{FILE}: is no record of proofs ({error}); take that of git, or remove it and run "
+            "./feltgate prove --fast --record"
+        ) from error
 
 
 def known(root, proofs, versions, first_only):

@@ -260,6 +260,13 @@ class Recorded(unittest.TestCase):
                 (self.root / name).write_text(before, encoding="utf-8")
         self.assertEqual(self.known({**self.VERSIONS, "z3": "3"}), [])
 
+    def test_a_broken_record_is_refused_with_the_mend(self):
+        for text in ("", "{", "[]", '{"schema": "another", "inputs": {}}', '{"inputs": {}}'):
+            with self.subTest(text):
+                (self.root / record.FILE).write_text(text, encoding="utf-8")
+                with self.assertRaisesRegex(catalog.CatalogError, "proven.json.*--record"):
+                    self.known()
+
     def test_the_record_is_of_proofs_that_there_are(self):
         names = {
             record.name(proof, design)
@@ -288,7 +295,8 @@ class Command(unittest.TestCase):
 
     def test_wrong_words(self):
         for words in (["nothing"], ["--jobs", "0"], ["--json", "/nowhere/x"],
-                      ["--update", "limiter.clamp"], ["--update", "--fast"]):
+                      ["--update", "limiter.clamp"], ["--update", "--fast"],
+                      ["--update", "--changed"]):
             with self.subTest(words):
                 status, _, err = self.status(*words)
                 self.assertEqual(status, 2, err)

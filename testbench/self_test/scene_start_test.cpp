@@ -10,6 +10,7 @@
 
 #include "catch.hpp"
 #include "loop/loop.hpp"
+#include "mismatch.hpp"
 #include "plant/plant_file.hpp"
 
 using namespace feltgate;
@@ -51,7 +52,7 @@ TEST_CASE("self_test: a scene after the test is the scene") {
   }
   RunOptions options;
   options.design = design != nullptr ? design : "lever";
-  const bool whole = std::getenv("FELTGATE_WHOLE") != nullptr;
+  const bool whole = feltgate::test::whole_run();
   const bool beside_rtl = whole || name == nullptr || std::string(name) == "wall";
   options.engine = beside_rtl ? "rtl,twin" : "twin,double";
   bool too_soon = false;  // a torque before the lever was at rest for long enough

@@ -14,6 +14,7 @@
 
 #include "catch.hpp"
 #include "loop/replay.hpp"
+#include "mismatch.hpp"
 #include "traces/open.hpp"
 #include "traces/statistics.hpp"
 #include "traces/synthetic.hpp"
@@ -71,7 +72,7 @@ RunResult replayed(EncoderSource& source, const std::string& name, Clock most_cl
 /// A recording, opened anew for each run.
 RunResult recorded(const std::string& name, const fs::path& file, const traces::Options& how) {
   const auto whole = traces::open(file, how);
-  if (std::getenv("FELTGATE_WHOLE") != nullptr) return replayed(*whole, name);
+  if (feltgate::test::whole_run()) return replayed(*whole, name);
   const auto again = traces::open(file, how);
   FromFirstStep part(*again);
   const RunResult r = replayed(part, name + ", 0.4 s of it", kShare);

@@ -19,6 +19,12 @@ foreach(mode "" _truncate _convergent)  # half up, floor, convergent
     CLASS Vlowpass${mode} -GRounding=${rounding})
 endforeach()
 
+# An engine of one axis, as the design with one has it.
+file(GLOB extremes_engine_parts CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/engine/*.sv")
+feltgate_verilate(extremes_engine engine
+  "${FELTGATE_ROOT}/rtl/generated/lever_law/feltgate_pkg.sv;${FELTGATE_MAP_PACKAGE};${FELTGATE_ROOT}/rtl/generated/feltgate_engine_pkg.sv;${extremes_engine_parts}")
+list(APPEND extremes_blocks extremes_engine)
+
 # A core of its own, with gains wider than any design for use needs them.
 set(extremes_wide "${PROJECT_BINARY_DIR}/extremes_wide")
 set(extremes_wide_design "${extremes_folder}/designs/wide.toml")

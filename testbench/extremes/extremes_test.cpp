@@ -89,6 +89,11 @@ EXTREME(lever_monotone)
 EXTREME(wall_edge)
 EXTREME(clock_of_the_simulator)
 EXTREME(two_minutes)
+EXTREME(law_table_ends)
+EXTREME(law_age)
+EXTREME(law_events_full)
+EXTREME(law_program_512)
+EXTREME(law_threads_at_once)
 
 TEST_CASE("every short case is tested, and the page has no other", "[list]") {
   std::set<std::string> names;

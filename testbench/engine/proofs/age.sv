@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Whatever the programs do: without a fresh result for more than max_age ticks the outputs are late, and
-// stay so; and a torque changes only at the end of a run.
+// stay so; a torque changes only at the end of a run, and is within its format what was put out last.
 `default_nettype none
 
 module age_proof (
@@ -23,7 +23,8 @@ module age_proof (
   (* anyconst *) logic [15:0] max_age_i;
   always_comb assume (!clear_i || enter_i);  // both are a write of run
 
-  logic signed [2*feltgate_pkg::TORQUE_W-1:0] torque, torque_q;
+  localparam int W = feltgate_pkg::TORQUE_W;
+  logic signed [2*W-1:0] torque, torque_q;
   logic fresh, late, late_q, ended_q, ended2_q, cleared_q, zeroed_q, forgives_q;
   engine_outputs #(.AxisCount(2)) u_dut (
       .*,
@@ -33,6 +34,25 @@ module age_proof (
   );
   (* hierconn *) wire [15:0] \u_dut.age_q ;
   (* hierconn *) wire \u_dut.ends_q ;
+  (* hierconn *) wire [W-1:0] \u_dut.g_axis[1].next_q ;
+  (* hierconn *) wire \u_dut.g_axis[1].waits_q ;
+
+  // The second axis: its last output, the nearest that a torque can be.
+  localparam logic signed [31:0] MOST = 32'sd1 <<< (W - 1);
+  logic signed [W-1:0] second, second_q, said_q;
+  assign second = torque[2*W-1:W];
+  always_ff @(posedge clk_i) begin
+    if (output_i && number_i == 2'd1) begin
+      if (result_i >= MOST) said_q <= {1'b0, {(W - 1) {1'b1}}};
+      else if (result_i < -MOST) said_q <= {1'b1, {(W - 1) {1'b0}}};
+      else said_q <= W'(result_i);
+    end
+  end
+  logic signed [W-1:0] said2_q;
+  always_ff @(posedge clk_i) begin
+    second_q <= second;
+    said2_q  <= said_q;
+  end
 
   // Ticks since the last fresh result.
   logic [16:0] quiet_q;
@@ -65,9 +85,12 @@ module age_proof (
       late_stays: assert (!late_q || late || forgives_q);
       torque_at_an_end: assert (torque == torque_q || ended2_q || cleared_q);
       zero_without_mailbox: assert (!zeroed_q || torque == '0);
+      torque_of_output: assert (second == second_q || second == said2_q || cleared_q);
+      inside_said: assert (!\u_dut.g_axis[1].waits_q || \u_dut.g_axis[1].next_q == said_q);
       inside_ends: assert (\u_dut.ends_q == ended_q);
       inside_age: assert (late || fresh || quiet_q == {1'b0, \u_dut.age_q });
       becomes_late: cover (late && max_age_i == 16'd1);
+      beyond: cover (second != second_q && second == {1'b1, {(W - 1) {1'b0}}});
       renewed: cover (fresh && torque != '0);
     end
   end

@@ -37,12 +37,16 @@ let dx = clamp(ax, -0.03 m, 0.03 m)
 let dy = clamp(ay, -0.03 m, 0.03 m)
 )";
 
-std::string force() {
-  return R"(
-# A spring from the pen to that place, as long as the pen is inside; its torques on the cranks.
-let fx = if inside then -stiffness * dx - damping * vx else 0
-let fy = if inside then -stiffness * dy - damping * vy else 0
-)" + law_torques();
+std::string force(bool friction = false) {
+  const char* along = friction ? " - pull * g{0}" : "";
+  std::string s =
+      "\n# A spring from the pen to that place, as long as the pen is inside; its torques on the "
+      "cranks.\n";
+  for (const char* axis : {"x", "y"}) {
+    s += fmt::format("let f{0} = if inside then -stiffness * d{0} - damping * v{0}", axis) +
+         fmt::format(along, axis) + " else 0\n";
+  }
+  return s + law_torques();
 }
 
 std::string head(const LawRequest& r) {
@@ -78,12 +82,18 @@ double longest(const Polygon& p) {
   return most * 1.0001;
 }
 
+/// The way around.
+double perimeter_m(const Polygon& p) {
+  double way_m = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) way_m += p.edge_m(i);
+  return way_m;
+}
+
 /// The way from the first corner to each, as a share of the whole way around.
 std::string shares(const Polygon& p, const char* form) {
   std::vector<double> so_far{0};
   for (std::size_t i = 0; i < p.size(); ++i) so_far.push_back(so_far.back() + p.edge_m(i));
-  const double around = so_far.back();
-  for (double& s : so_far) s /= around;
+  for (double& s : so_far) s /= perimeter_m(p);
   return number_list(fmt::format(form, "share"), so_far, "");
 }
 
@@ -94,7 +104,24 @@ let dx = clamp(ax - height * gy, -0.03 m, 0.03 m)
 let dy = clamp(ay + height * gx, -0.03 m, 0.03 m)
 )";
 
-std::string proxy(const Polygon& p, bool texture) {
+/// Friction is anchored to a place of the outline: a spring along it, whose anchor slips where it
+/// would pull by more than friction times what presses.
+std::string friction(const Polygon& p) {
+  return fmt::format(R"(
+# Friction: what the proxy goes along the outline stretches a spring, up to what slips.
+state before = 0 in 0 .. {0}
+next before = place
+let gone = share(place) - share(before)
+let way = {1:.9g} m * (if gone > 0.5 then gone - 1 else if gone < -0.5 then gone + 1 else gone)
+let slips = friction * stiffness * clamp(ay * gx - ax * gy, 0, 0.03 m)
+state anchored = 0 N in -{2:.9g} N .. {2:.9g} N
+let pull = if inside then max(min(anchored + grip * way, slips), -slips) else 0
+next anchored = clamp(pull, -{2:.9g} N, {2:.9g} N)
+)",
+                     p.size(), perimeter_m(p), most_stiffness_n_per_m * 0.03);
+}
+
+std::string proxy(const Polygon& p, const LawRequest& r) {
   const std::size_t n = p.size();
   const std::string form = fmt::format("table {{}}(q) on [0, {}] through", n);
   std::string s = "# Corners, and the outline's direction there.\n";
@@ -103,7 +130,7 @@ std::string proxy(const Polygon& p, bool texture) {
                    each(n + 1, [&](auto i) { return p.along[i % n].x; }), "");
   s += number_list(fmt::format(form, "along_y"),
                    each(n + 1, [&](auto i) { return p.along[i % n].y; }), "");
-  if (texture) s += shares(p, form.c_str());
+  if (r.texture || r.friction) s += shares(p, form.c_str());
   s += pen();
   return s +
          fmt::format(R"(
@@ -130,7 +157,7 @@ let nearer = qx * qx + qy * qy < ax * ax + ay * ay
 next place = clamp(if nearer and not inside then probe else walked, 0, {0})
 )",
                      n, static_cast<double>(n) - 0.5, n - 1, longest(p)) +
-         (texture ? ripples : depth) + force();
+         (r.texture ? ripples : depth) + (r.friction ? friction(p) : "") + force(r.friction);
 }
 
 /// All outlines in the same two tables, each with the vertex before its first and the two behind
@@ -272,9 +299,13 @@ std::string law_text(const Polygon& polygon, const LawRequest& r) {
     s += "param ripple = 0.2 mm in 0 .. 1 mm         # height of the texture\n"
          "param ripples = 80 in 0 .. 200 whole       # of them around the outline\n\n";
   }
+  if (r.friction) {
+    s += "param friction = 0.3 in 0 .. 1             # what slips, of what presses\n"
+         "param grip = 200 N/m in 0 .. 500 N/m       # along the outline, before it slips\n\n";
+  }
   switch (r.kind) {
     case Kind::proxy:
-      return s + proxy(polygon, r.texture);
+      return s + proxy(polygon, r);
     case Kind::simple:
       return s + simple(polygon);
     case Kind::walk:

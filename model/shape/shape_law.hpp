@@ -22,12 +22,14 @@ struct LawRequest {
   std::string summary;  ///< first line of the file
   Kind kind = Kind::proxy;
   double stiffness_n_per_m = 50, damping_ns_per_m = 0;
-  bool texture = false;  ///< of a proxy: parameters ripple, m, and ripples around the outline
+  bool texture = false;   ///< of a proxy: parameters ripple, m, and ripples around the outline
+  bool friction = false;  ///< of a proxy: parameters friction and grip, N/m along the outline
 };
 
 /// Largest values that the law's parameters take, and fewest and most vertices.
 constexpr double most_stiffness_n_per_m = 200, most_damping_ns_per_m = 0.2;
-constexpr int fewest_vertices = 8, most_vertices = 100, most_textured_vertices = 80;
+constexpr int fewest_vertices = 8, most_vertices = 100;
+constexpr int most_measured_vertices = 80;  ///< of a law that knows the way along the outline
 
 /// Shapes that a law holds at once; words of table memory for each, in each of two tables, and most
 /// of them together.

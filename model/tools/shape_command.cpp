@@ -29,7 +29,7 @@ struct ShapeArguments {
   double radius_m = 5e-3, stiffness = 50, damping = 0;
   std::array<double, 2> centre_m{0.0, 0.12};
   double size_m = 0.06;
-  bool texture = false, table = false, quiet = false;
+  bool texture = false, friction = false, table = false, quiet = false;
 };
 
 const std::map<std::string, shape::Kind> kinds{
@@ -92,6 +92,7 @@ shape::LawRequest request(const ShapeArguments& a, const std::string& summary) {
   shape::LawRequest r;
   r.summary = summary;
   r.texture = a.texture;
+  r.friction = a.friction;
   r.stiffness_n_per_m = a.stiffness;
   r.damping_ns_per_m = a.damping;
   return r;
@@ -104,18 +105,19 @@ void check(const ShapeArguments& a) {
     throw std::invalid_argument(fmt::format("{} SVG files; a law holds {} shapes, leave some away",
                                             a.svgs.size(), shape::most_shapes));
   }
-  if (a.texture && (a.law != "proxy" || a.table || several)) {
-    throw std::invalid_argument(
-        "--texture is for one shape with --law proxy, without --table; leave one away");
+  const char* of_way = a.texture ? "--texture" : a.friction ? "--friction" : nullptr;
+  if (of_way != nullptr && (a.law != "proxy" || a.table || several)) {
+    throw std::invalid_argument(fmt::format(
+        "{} is for one shape with --law proxy, without --table; leave one away", of_way));
   }
   if (several && (a.law != "proxy" || a.table || !a.path.empty())) {
     throw std::invalid_argument(
         "--law, --table and --path are of one shape; give one file, or leave them away");
   }
-  if (a.texture && a.vertices > shape::most_textured_vertices) {
+  if (of_way != nullptr && a.vertices > shape::most_measured_vertices) {
     throw std::invalid_argument(
-        fmt::format("--texture takes table memory from {} vertices; say --vertices {}", a.vertices,
-                    shape::most_textured_vertices));
+        fmt::format("{} takes table memory from {} vertices; say --vertices {}", of_way, a.vertices,
+                    shape::most_measured_vertices));
   }
   const int room = shape::most_resident_words / static_cast<int>(a.svgs.size()) - 3;
   if (several && a.vertices > room) {
@@ -251,6 +253,8 @@ void add_shape(CLI::App& app, int* exit_code) {
       ->capture_default_str();
   sub->add_flag("--texture", a->texture,
                 "ripples along the outline: parameters ripple and ripples, at most 80 vertices");
+  sub->add_flag("--friction", a->friction,
+                "anchored by the way along the outline: parameters friction and grip, likewise");
   sub->add_option("--path", a->path, "a way around at 2 mm depth: pen and force, as CSV")
       ->type_name("FILE");
   sub->add_flag("--table", a->table, "three laws beside each other instead of the proof");

@@ -60,11 +60,12 @@ TEST_CASE("every law of a shape is proven, within its bound, and fits the memori
   }
 }
 
-TEST_CASE("a texture is proven too, beside 80 vertices") {
+TEST_CASE("a texture and friction are proven too, beside 80 vertices") {
   shape::LawRequest request;
   request.texture = true;
+  request.friction = true;
   const law::Compiled c = law::compile_text(
-      shape::law_text(shape::sampled(shape::curve_of("fish", 2e-3), shape::most_textured_vertices),
+      shape::law_text(shape::sampled(shape::curve_of("fish", 2e-3), shape::most_measured_vertices),
                       request),
       "shape.law", law::Target{});
   CHECK(c.bound.unproven.empty());
@@ -81,6 +82,10 @@ TEST_CASE("shapes in the interpreter, the engine's twin and its RTL: the same bi
     same_bits(law::compile_text(shape::text_of(fish, kind, vertices) + third, "shape.law",
                                 law::Target{}));
   }
+  shape::LawRequest rough;
+  rough.friction = true;
+  same_bits(law::compile_text(shape::law_text(shape::sampled(fish, 80), rough) + third, "shape.law",
+                              law::Target{}));
   std::vector<shape::Polygon> two;
   for (const char* name : {"horseshoe", "fish"}) {
     two.push_back(shape::sampled(shape::curve_of(name, 2e-3), 40));

@@ -118,6 +118,75 @@ TEST_CASE("a texture: a sine of the way along the outline, square to it") {
   CHECK(most == Approx(50 * 2.2e-3).epsilon(1e-2));
 }
 
+namespace {
+
+/// The square's proxy with friction, 50 N/m.
+law::Law rough(const Polygon& polygon) {
+  LawRequest request;
+  request.friction = true;
+  return law::read_law_text(law_text(polygon, request), "shape.law", 50e3);
+}
+constexpr std::size_t of_friction = 2, of_grip = 3;  // parameters
+
+}  // namespace
+
+TEST_CASE("friction: a spring along the outline that slips at its share of what presses") {
+  const law::Law law = rough(sampled(curve_of("square"), 80));
+  Pen pen(law);
+  pen.set_parameter(of_friction, 0.3);
+  pen.set_parameter(of_grip, 200);
+  pen.at({0.04, 0.11}, settle);
+  CHECK(length(pen.at({0.028, 0.11}, settle) - Point{0.1, 0}) < 1e-5);  // pressed, not drawn
+  // 0.1 N press: 0.03 N slip, which is a way of 0.15 mm.
+  double anchor = 0.11;
+  for (const auto& [from, to] : {std::pair{0.11, 0.112}, {0.112, 0.1115}, {0.1115, 0.113}}) {
+    const double step = to > from ? 0.02e-3 : -0.02e-3;
+    for (double y = from + step; (to - y) * step > 0; y += step) {
+      const Point f = pen.at({0.028, y}, settle);
+      anchor = std::min(std::max(anchor, y - 0.15e-3), y + 0.15e-3);
+      INFO("at " << y << ", anchor " << anchor);
+      REQUIRE(f.y == Approx(-200 * (y - anchor)).margin(2e-4));
+      REQUIRE(std::fabs(f.y) < 0.03 * 1.001);
+      REQUIRE(f.x == Approx(0.1).epsilon(1e-3));
+    }
+  }
+  // Let go: the anchor is forgotten.
+  CHECK(length(pen.at({0.04, 0.112}, settle)) < 1e-12);
+  CHECK(std::fabs(pen.at({0.028, 0.112}, settle).y) < 1e-5);
+}
+
+TEST_CASE("friction: anchored by the way along the outline, corners and first vertex included") {
+  const Polygon p = sampled(curve_of("square"), 80);
+  const law::Law law = rough(p);
+  Pen pen(law);
+  pen.set_parameter(of_friction, 1);
+  pen.set_parameter(of_grip, 0.5);  // 0.1 N press and slip after 200 mm, nearly all the way around
+  const auto inside = [&p](std::size_t edge, double t, double depth_m) {
+    const std::size_t next = (edge + 1) % p.size();
+    const Point along = p.along[edge] + (p.along[next] - p.along[edge]) * t;
+    const Point square = Point{-along.y, along.x} * (1 / length(along));
+    return p.at[edge] + (p.at[next] - p.at[edge]) * t + square * depth_m;
+  };
+  constexpr std::size_t start = 30;
+  pen.at(inside(start, 0, -12e-3), settle);
+  pen.at(inside(start, 0, 2e-3), settle);
+  double way_m = 0, most_n = 0;
+  for (std::size_t n = 0; n < p.size() + 20; ++n) {
+    const std::size_t edge = (start + n) % p.size();
+    for (int part = 0; part < 4; ++part) {
+      const Point f = pen.at(inside(edge, part / 4.0, 2e-3), settle);
+      const Point outward = inside(edge, part / 4.0, 0) - inside(edge, part / 4.0, 1);
+      const double pull_n = f.x * outward.y - f.y * outward.x;
+      INFO("edge " << edge << ", " << part << " of 4");
+      // Between vertices the direction is up to 1 % short.
+      REQUIRE(pull_n == Approx(std::min(0.5 * way_m, 0.1)).margin(2e-3));
+      most_n = std::max(most_n, pull_n);
+      way_m += p.edge_m(edge) / 4;
+    }
+  }
+  CHECK(most_n > 0.098);
+}
+
 TEST_CASE("a thin tail pushed through: the proxy holds on to the side it came from") {
   const Curve c = tail();
   const Point above{0.0, 0.124}, below{0.0, 0.1185};

@@ -135,6 +135,31 @@ TEST_CASE("link_receiver: frames of every kind, RTL against twin and page") {
   CHECK(bad > 3'000);
 }
 
+TEST_CASE(
+    "link_receiver: frames at the borders of what a request may be, RTL against twin and page") {
+  Stimulus stimulus(5, false);
+  const auto add = [&](const Bytes& frame) {
+    stimulus.wire.insert(stimulus.wire.end(), frame.begin(), frame.end());
+  };
+  for (int kind = 0; kind < 256; ++kind) add(request(kind, kind, 0x12, 1));
+  for (unsigned bit = 0; bit < 32; ++bit) add(request(1, 3, 0, 1U << bit));
+  for (unsigned words = 60; words <= 68; ++words) add(request(1, 4, 0x3f00, words));
+  for (unsigned from = 0; from < 64; ++from) {
+    for (const unsigned over : {0U, 1U}) {  // to the map's end, and one word further
+      add(request(1, 5, 0x3fc0 + from, 64 - from + over));
+    }
+  }
+  Bytes open = request(2, 6, 0x20, 7);  // sound but for what stands before its end
+  open.insert(open.end() - 1, 0xdb);
+  add(open);
+  const auto clocks = static_cast<std::int64_t>(40 * stimulus.wire.size());
+  auto reader = std::make_shared<WireReader>(reader_of_page());
+  Bench bench("link_receiver", 5);
+  bench.run(stimulus, clocks, {}, Page(reader));
+  CHECK(reader->good > 2 + 64);
+  CHECK(reader->bad > 254 + 24 + 64);
+}
+
 TEST_CASE("link_receiver: frames of random bytes are no requests, and each is counted") {
   Twin twin;
   WireReader reader = reader_of_page();

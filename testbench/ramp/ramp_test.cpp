@@ -39,7 +39,7 @@ struct RandomWaves {
     if (random.one_in(15)) wave.relief.frozen = random.one_in(3);
     if (random.one_in(20)) {
       wave.limit = any_word(random.below(80000));
-      wave.step = any_word(random.below(std::uint64_t{1} << random.below(25)));
+      wave.step = any_word(random.below(std::uint64_t{1} << random.below(29)));
     }
     if (random.one_in(12)) wave.rendered = any<Rendered>();
     if (random.one_in(6)) wave.rendered = random.between(-60000, 60000);

@@ -41,13 +41,14 @@ using Bench = LockStep<Vuart_tx, Twin, Adapter>;
 /// Bytes with and without gaps, held until they are taken.
 struct Bytes {
   Random random;
+  bool gaps = true;
   Twin::In in{};
   int gap = 0;
   Twin::In operator()(std::int64_t, const Twin::Out& out) {
     if (in.valid && out_ready) in.valid = false;
     if (!in.valid && gap-- <= 0) {
       in = {static_cast<std::uint8_t>(random.below(256)), true};
-      gap = !random.one_in(30) ? 0 : static_cast<int>(random.below(1500));
+      gap = !gaps || !random.one_in(30) ? 0 : static_cast<int>(random.below(1500));
     }
     out_ready = out.ready;
     return in;
@@ -63,6 +64,12 @@ TEST_CASE("uart_tx: bytes at random, RTL against twin; resets") {
     bench.run(Bytes{Random(seed)}, scaled_clocks(static_cast<std::int64_t>(4000 * kBitClocks)),
               {30'000});
   }
+}
+
+TEST_CASE("uart_tx: bytes without an end: the phase comes by every value before a bit's end") {
+  Bench bench("uart_tx", 9);
+  bench.run(Bytes{Random(9), false}, scaled_clocks(static_cast<std::int64_t>(5000 * kBitClocks)),
+            {});
 }
 
 TEST_CASE("uart_tx: edges less than a clock late, bytes without a gap") {

@@ -117,7 +117,7 @@ def update(root, rows):
     blocks = {}
     for row in rows:
         entry = blocks.setdefault(row.test.block, {"rtl": [0, 0], "seconds": 0.0})
-        entry["rtl"][0] += row.count(*rtl.DEAD)
+        entry["rtl"][0] += row.dead()
         entry["rtl"][1] += row.relevant()
         entry["seconds"] = round(entry["seconds"] + row.seconds, 1)
     block_results.merge(root, "mutants", "./feltgate mutate [--twin] --update", blocks)
@@ -129,7 +129,7 @@ def report(options, root, rows):
     print(rtl_table.table(rows))
     bad = [row.test.name for row in rows if row.share() < options.require]
     tried = sum(len(row.fates) for row in rows)
-    killed, relevant = sum(row.count(*rtl.DEAD) for row in rows), sum(
+    killed, relevant = sum(row.dead() for row in rows), sum(
         row.relevant() for row in rows
     )
     print(

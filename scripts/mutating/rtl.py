@@ -23,7 +23,7 @@ KILLED, CRASHES, HANGS, SURVIVES = "killed", "crashes", "hangs", "survives"
 DEAD = (KILLED, CRASHES, HANGS)
 PATTERNS = {"wire", "register", "pin"}  # of the whole name
 KEYS = {"line", *PATTERNS, "bits", "modes", "kind", "why"}
-ARGUED, GAP = "equivalent", "gap"
+ARGUED, BY_PROOF, GAP = "equivalent", "proof", "gap"
 LONGEST_S = 3600  # for a test without a mutant
 MODES = {
     "inv": "inverted",
@@ -122,12 +122,12 @@ class Listed:
         for entry in self.entries:
             if (
                 not entry.get("why")
-                or entry.get("kind") not in (ARGUED, GAP)
+                or entry.get("kind") not in (ARGUED, BY_PROOF, GAP)
                 or not entry.keys() <= KEYS
                 or len(entry) < 3
             ):
                 raise MutateError(
-                    f"{path}: an entry has 'why', the kind {ARGUED} or {GAP}, and some of "
+                    f"{path}: an entry has 'why', the kind {ARGUED}, {BY_PROOF} or {GAP}, and some of "
                     "line, wire, register, pin, bits, modes"
                 )
 
@@ -182,12 +182,16 @@ class Row:
         """Survivors of this kind; "": not listed."""
         return sum(self.listed.entry(m)[0] == kind for m in self.survivors())
 
+    def dead(self):
+        """Killed by the test, or by a property of the block that fails with it."""
+        return self.count(*DEAD) + self.of(BY_PROOF)
+
     def relevant(self):
         """All but those that are equivalent, by proof or by argument."""
         return len(self.fates) - self.equivalent() - self.of(ARGUED)
 
     def share(self):
-        return self.count(*DEAD) / self.relevant() if self.relevant() else 1.0
+        return self.dead() / self.relevant() if self.relevant() else 1.0
 
     def as_json(self):
         """Counts, and what survived."""
@@ -213,6 +217,7 @@ class Row:
             "crashes": self.count(CRASHES),
             "hangs": self.count(HANGS),
             "equivalent": self.equivalent(),
+            "by_proof": self.of(BY_PROOF),
             "argued": self.of(ARGUED),
             "gaps": self.of(GAP),
             "left": self.of(""),

@@ -26,7 +26,12 @@ struct Next {
     if (random.one_in(40)) write(memory);
     wave.law_torque = decode_word(kTorque, static_cast<std::uint32_t>(any_word(random)));
     wave.law_late = random.one_in(wave.law_late ? 4 : 30);
-    if (random.one_in(3)) {
+    if (random.one_in(12)) {  // on the reference, where a sign is that of 0, or beside it
+      const std::int64_t reference = memory.reference(wave.scene) >> 8;
+      const std::int64_t beside = random.between(-3, 3) * random.below(2);
+      wave.position = static_cast<std::int32_t>(
+          std::clamp(reference + beside, std::int64_t{-kEnd - 1}, std::int64_t{kEnd}));
+    } else if (random.one_in(3)) {
       wave.position = any_position(random, memory, wave.scene);
     } else {
       wave.position = std::clamp(wave.position + static_cast<std::int32_t>(random.between(-40, 40)),
@@ -39,17 +44,29 @@ struct Next {
   void write(Memory& memory) {
     memory.write(A::setpoint_torque, random.between(-60000, 60000));
     memory.write(A::membrane_torque, random.below(1u << (kTorque.width() - 1)) >> random.below(6));
+    if (random.one_in(16)) memory.write(A::membrane_torque, -1 - random.between(0, 60000));
+    if (random.one_in(4)) {  // the lever where it is, or a part of a count beside it
+      const std::int64_t part = random.coin() ? std::int64_t{1} << random.below(8) : 0;
+      memory.write(random.coin() ? A::membrane_lower : A::membrane_upper,
+                   std::int64_t{256} * wave.position + part);
+    }
     memory.write(A::tension_rest, random.between(-300000, 300000));
     memory.write(A::attract_centre, random.between(-300000, 300000));
     // Now and then so wide and steep that the core's torque is beyond any limit.
     const bool wide = random.one_in(4);
     for (const int core : {A::attract_core, A::repel_core}) {
-      memory.write(core, random.below(wide ? 100000 : 400));
+      memory.write(core, random.one_in(3)   ? 0
+                         : random.one_in(3) ? std::uint64_t{1} << random.below(21)
+                                            : random.below(wide ? 100000 : 400));
+    }
+    for (const int strength : {A::attract_strength, A::repel_strength}) {
+      memory.write(strength, random.coin() ? random.below(1u << 18) : any_word(random));
     }
     for (const int slope : {A::attract_core_slope, A::repel_core_slope}) {
       memory.write(slope, random.below(131072) >> (wide ? 0 : random.below(8)));
     }
     memory.write(A::damper_damping, random.below(131072));
+    memory.write(A::tension_stiffness, random.below(131072) >> random.below(8));
     memory.write(static_cast<int>(random.below(512)), any_word(random));
   }
 };

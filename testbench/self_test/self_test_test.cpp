@@ -262,6 +262,17 @@ TEST_CASE("self_test: two counts against the pulse trip at once, one is no answe
   }
 }
 
+TEST_CASE("self_test: an answer stays what it is, however far the lever runs on") {
+  for (const int way : {1, -1}) {
+    const auto runs = [way](std::int64_t, const Seen& before) { return way * before.pulse; };
+    const auto seen = play(start(runs, {1, 3, 1}), 9 * kUnit);
+    CHECK((trips(seen) == 0) == (way > 0));
+    // Against, it trips in every wave of both pulses from the second count on.
+    if (way < 0) CHECK(trips(seen) > 2 * kUnit);
+    if (way > 0) CHECK(seen.back().result == static_cast<unsigned>(SelfTestResult::right));
+  }
+}
+
 TEST_CASE("self_test: what moves with the second pulse only is no answer") {
   const auto seen = play(start(answers(-3, -1), {1, 3, 1}), 9 * kUnit);
   CHECK(trips(seen) == 0);

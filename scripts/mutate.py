@@ -17,11 +17,14 @@ argument is wrong.
   feltgate mutate                        all blocks
   feltgate mutate limiter ramp           two blocks
   feltgate mutate limiter --count 30     a share of the mutants, chosen by --seed
+  feltgate mutate limiter --again old.json
+                                         what survived then, after tests have been added
   feltgate mutate limiter --show 17      one mutant
   feltgate mutate --list                 what there is; runs nothing
   feltgate mutate --twin                 the headers of the C++ twin instead
 """
 
+import json
 import os
 import sys
 from pathlib import Path
@@ -70,6 +73,12 @@ def arguments(argv):
         metavar="S",
         help="for the proof that a survivor is equivalent, 0: none; default: 20",
     )
+    parser.add_argument(
+        "--again",
+        type=Path,
+        metavar="RESULTS",
+        help="only those that survived in these results of --json and are not listed",
+    )
     command_options.add_jobs(parser, "programs")
     parser.add_argument("--no-build", action="store_true", help="run the programs that are there")
     command_options.add_json(parser)
@@ -82,13 +91,15 @@ def arguments(argv):
         "--twin", action="store_true", help="mutants of the C++ twin; its options: --twin --help"
     )
     options = parser.parse_args(argv)
-    outputs.check(parser, json=options.json)
+    outputs.check(parser, [options.again], json=options.json)
     if options.jobs < 1:
         parser.error("argument --jobs: at least 1")
     if not 0 <= options.require <= 1:
         parser.error("argument --require: a share is from 0 to 1")
     if min(options.count, options.proof_seconds) < 0:
         parser.error("--count and --proof-seconds: 0 or more")
+    if options.again and options.count:
+        parser.error("--again tries what survived; leave --count away")
     if options.update and (options.count or not options.proof_seconds):
         parser.error("--update takes a run of all mutants, with proofs")
     return options
@@ -128,7 +139,7 @@ def report(options, root, rows):
     rtl_table.print_survivors(rows, options.survivors)
     print(rtl_table.table(rows))
     bad = [row.test.name for row in rows if row.share() < options.require]
-    tried = sum(len(row.fates) for row in rows)
+    tried = sum(row.tried() for row in rows)
     killed, relevant = sum(row.dead() for row in rows), sum(
         row.relevant() for row in rows
     )
@@ -150,6 +161,19 @@ def report(options, root, rows):
         update(root, rows)
         print(f"mutate: wrote {block_results.path_of(root, 'mutants')}")
     return 1 if bad else 0
+
+
+def earlier(path):
+    """Results of an earlier --json; MutateError where it has none."""
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+        if found["schema"] != SCHEMA:
+            raise ValueError(f"its schema is not {SCHEMA}")
+        return found
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise rtl.MutateError(
+            f"{path}: no results of 'feltgate mutate --json': {error}; give such a file"
+        ) from error
 
 
 def check_whole(everything, tests):
@@ -190,8 +214,9 @@ def main(argv=None):
                 raise rtl.MutateError(f"--show takes one test: {', '.join(t.name for t in tests)}")
             rtl.show(tests[0], options.show, root, options.proof_seconds)
             return 0
+        results = earlier(options.again) if options.again else None
         rows = rtl.run(
-            tests, root, options.count, options.seed, options.jobs, options.proof_seconds, say
+            tests, root, options.count, options.seed, options.jobs, options.proof_seconds, say, results
         )
         return report(options, root, rows)
     except (

@@ -162,9 +162,14 @@ class Row:
     fates: dict = field(default_factory=dict)  # number: KILLED ... SURVIVES
     proofs: dict = field(default_factory=dict)  # number: (verdict, what was said)
     seconds: float = 0.0
+    before: dict = field(default_factory=dict)  # results of the run whose survivors these are
+
+    def tried(self):
+        return self.before.get("mutants", len(self.fates))
 
     def count(self, *fates):
-        return sum(fate in fates for fate in self.fates.values())
+        earlier = sum(self.before.get(fate, 0) for fate in set(fates) - {SURVIVES})
+        return earlier + sum(fate in fates for fate in self.fates.values())
 
     def survivors(self):
         """Those that are not proven equivalent."""
@@ -176,7 +181,9 @@ class Row:
         ]
 
     def equivalent(self):
-        return sum(verdict == equivalence.EQUIVALENT for verdict, _ in self.proofs.values())
+        """Proven to be."""
+        now = sum(verdict == equivalence.EQUIVALENT for verdict, _ in self.proofs.values())
+        return now + self.before.get("equivalent", 0)
 
     def of(self, kind):
         """Survivors of this kind; "": not listed."""
@@ -188,7 +195,7 @@ class Row:
 
     def relevant(self):
         """All but those that are equivalent, by proof or by argument."""
-        return len(self.fates) - self.equivalent() - self.of(ARGUED)
+        return self.tried() - self.equivalent() - self.of(ARGUED)
 
     def share(self):
         return self.dead() / self.relevant() if self.relevant() else 1.0
@@ -212,7 +219,7 @@ class Row:
             "block": self.test.block,
             "seed": self.test.seed,
             "database": self.test.database,
-            "mutants": len(self.fates),
+            "mutants": self.tried(),
             "killed": self.count(*DEAD),
             "crashes": self.count(CRASHES),
             "hangs": self.count(HANGS),
@@ -260,10 +267,44 @@ def chosen(test, count, seed):
     )
 
 
-def run(wanted, root, count, seed, jobs, proof_seconds, say):
-    """The rows of these tests."""
+def of_run(results, test):
+    """What an earlier run of all mutants said of a test: {} with other mutants in it."""
+    for found in results["tests"]:
+        same = (test.seed, test.database, len(test.mutants))
+        if found["test"] == test.name and same == tuple(
+            found[key] for key in ("seed", "database", "mutants")
+        ):
+            return {
+                **found,
+                KILLED: found["killed"] - found[CRASHES] - found[HANGS],
+                "seconds": found["seconds"],
+            }
+    raise MutateError(
+        f"the results have no run of all mutants of {test.name} as they are now; run it without --again"
+    )
+
+
+def take_over(row, results):
+    """The survivors of an earlier run that are to be tried; the others stand as they were."""
+    row.before = of_run(results, row.test)
+    row.seconds = row.before["seconds"]
+    found = {s["number"]: s for s in row.before["survivors"]}
+    alive = [m for m in row.test.mutants if m["number"] in found]
+    known = [m for m in alive if row.listed.entry(m)[0]]
+    for mutant in known:
+        earlier = found[mutant["number"]]
+        row.fates[mutant["number"]] = SURVIVES
+        row.proofs[mutant["number"]] = (earlier["proof"], earlier["said"])
+    return [m for m in alive if m not in known]
+
+
+def run(wanted, root, count, seed, jobs, proof_seconds, say, results=None):
+    """The rows of these tests; with the results of an earlier run of what survived in it."""
     rows = [Row(test, Listed(root, test.block)) for test in wanted]
-    todo = [(row, mutant) for row in rows for mutant in chosen(row.test, count, seed)]
+    if results is None:
+        todo = [(row, mutant) for row in rows for mutant in chosen(row.test, count, seed)]
+    else:
+        todo = [(row, mutant) for row in rows for mutant in take_over(row, results)]
     crew, limits = Crew(), {}
 
     def first(row):
@@ -292,19 +333,30 @@ def run(wanted, root, count, seed, jobs, proof_seconds, say):
 
         crew.each(fate, todo, jobs, note)
     if proof_seconds:
-        say(f"{sum(row.count(SURVIVES) for row in rows)} survive; proving which are equivalent")
+        say(f"{sum(map(unproven, rows))} survive; proving which are equivalent")
         with tempfile.TemporaryDirectory(prefix="feltgate-mutate-") as work:
             prove(rows, crew, Path(work), jobs, proof_seconds)
     return rows
 
 
+def unproven(row):
+    """How many survivors nothing was tried of."""
+    return sum(fate == SURVIVES and n not in row.proofs for n, fate in row.fates.items())
+
+
 def prove(rows, crew, work, jobs, limit_s):
     """Enters the verdict on each survivor in its row."""
-    with Steps("mutate", sum(row.count(SURVIVES) for row in rows)) as progress:
+    with Steps("mutate", sum(map(unproven, rows))) as progress:
         todo = []
 
         def join(row):
-            alive = [m for m in row.test.mutants if row.fates.get(m["number"]) == SURVIVES]
+            alive = [
+                m
+                for m in row.test.mutants
+                if row.fates.get(m["number"]) == SURVIVES and m["number"] not in row.proofs
+            ]
+            if not alive:
+                return []
             found = equivalence.joined(
                 row.test.folder, row.test.block, alive, work / row.test.name, crew
             )

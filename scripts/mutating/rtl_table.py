@@ -29,7 +29,7 @@ def table(rows):
             (
                 row.test.name,
                 row.test.database,
-                len(row.fates),
+                row.tried(),
                 row.count(*rtl.DEAD),
                 row.of(rtl.BY_PROOF),
                 row.equivalent(),

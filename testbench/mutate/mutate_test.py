@@ -244,6 +244,29 @@ class Programs(unittest.TestCase):
         (entry,) = json.loads((self.build / "out.json").read_text())["tests"]
         self.assertEqual((entry["killed"], entry["crashes"]), (3, 1))
 
+    def test_what_survived_again(self):
+        results = self.build / "out.json"
+        self.call("--json", str(results))
+        self.assertIn("3 of 4 not", self.call("--again", str(results))[1])
+        # Only the survivor is tried: a program that kills nothing else now changes nothing else.
+        self.say('[ "$FELTGATE_MUTANT" != 4 ]')
+        code, out, _ = self.call("--again", str(results))
+        self.assertEqual(code, 0)
+        self.assertIn("4 of 4 not equivalent ones killed (100.0 %)", out)
+
+    def test_results_of_other_mutants_are_refused(self):
+        results = self.build / "out.json"
+        self.call("--json", str(results))
+        found = json.loads(results.read_text())
+        for change, says in (({"tests": []}, "no run of all mutants of b as they are now"),
+                             ({"tests": [found["tests"][0] | {"database": 99}]}, "no run of all"),
+                             ({"schema": "other/1"}, "its schema is not"),
+                             (None, "no results of")):
+            results.write_text(json.dumps(found | change if change else []))
+            code, _, err = self.call("--again", str(results))
+            self.assertEqual(code, 2)
+            self.assertIn(says, err)
+
     def test_the_required_share(self):
         self.assertEqual(self.call("--require", "0.7")[0], 0)
 
@@ -266,7 +289,8 @@ class Programs(unittest.TestCase):
     def test_options_that_mean_nothing(self):
         for words in (["--require", "99"], ["--require", "nan"], ["--count", "-1"],
                       ["--proof-seconds", "-1"], ["--update", "--count", "2"],
-                      ["--update", "--proof-seconds", "0"]):
+                      ["--update", "--proof-seconds", "0"],
+                      ["--again", str(Path(__file__)), "--count", "2"]):
             with self.subTest(words), self.assertRaises(SystemExit) as ended, \
                     contextlib.redirect_stderr(io.StringIO()):
                 mutate.arguments(words)

@@ -15,6 +15,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
+import block_results  # noqa: E402
 import coverage  # noqa: E402
 from covering import data, instrument, programs, report, waivers  # noqa: E402
 
@@ -240,12 +241,23 @@ class Command(Folder):
     def test_wrong_words(self):
         for words, said in ((["c"], "no test of c; there are those of b"),
                             (["--jobs", "0"], "at least 1"),
-                            (["--update", "b"], "a run of everything"),
                             (["--json", "/nowhere/x"], "no folder")):
             with self.subTest(said):
                 status, _, err = self.status(*words)
                 self.assertEqual(status, 2)
                 self.assertIn(said, err)
+
+    def test_rows_of_some_blocks_are_put_beside_the_others(self):
+        self.put("rtl/b.sv", "module b;\nendmodule\n")
+        self.put("rtl/c.sv", "module c;\nendmodule\n")
+        block_results.write(self.folder, "coverage", "earlier", {"c": {"line": [3, 3]}})
+        self.counting(0)
+        self.assertEqual(self.status("--update", "b")[0], 1)
+        self.assertEqual(list(block_results.read(self.folder, "coverage")["blocks"]), ["c"])
+        self.counting(1)
+        self.assertEqual(self.status("--update", "b")[0], 0)
+        found = block_results.read(self.folder, "coverage")["blocks"]
+        self.assertEqual((found["b"]["line"], found["c"]["line"]), ([1, 1], [3, 3]))
 
     def test_the_list(self):
         self.assertEqual(self.status("--list")[1].split(), ["b", "b"])

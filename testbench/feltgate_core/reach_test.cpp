@@ -143,3 +143,30 @@ TEST_CASE("core: scenes see positions up to both ends of 18 bits, and the end be
     s.play();
   }
 }
+
+TEST_CASE("core: every scene with a force comes to the torque limit, and no further") {
+  constexpr std::int32_t limit = 40;
+  for (const int scene :
+       {D::S::setpoint, D::S::membrane, D::S::spring_compression, D::S::spring_tension,
+        D::S::damper, D::S::charge_attract, D::S::charge_repel, D::S::wall}) {
+    Life s;
+    s.write(A::torque_limit, limit);
+    s.write(A::setpoint_torque, 5'000);
+    s.write(A::membrane_lower, low(-20 * 256));
+    s.write(A::membrane_upper, 20 * 256);
+    s.write(A::wall_contact, 0);
+    s.move(-60, kTick);
+    s.arm(scene);
+    int reached = 0;
+    for (int k = 0; k < 240; ++k) {
+      s.move(k < 120 ? 1 : -1, 150);
+      s.ticks(1);
+      INFO("scene " << scene << ", step " << k);
+      REQUIRE(std::abs(s.shown().tau_ref) <= limit);
+      reached += s.shown().limits >> Map::L::torque & 1;
+    }
+    INFO("scene " << scene);
+    CHECK(reached > 0);
+    s.play();
+  }
+}

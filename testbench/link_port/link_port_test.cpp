@@ -108,6 +108,49 @@ TEST_CASE("link_port: requests at random, RTL against twin") {
   }
 }
 
+TEST_CASE("link_port: a host in a hurry, and one that asks for all words at once") {
+  struct Hurry {
+    Stimulus host;
+    bool writes;
+    Twin::In operator()(std::int64_t clock) {
+      const bool before = host.in.request.valid;
+      if (host.gap > 60) host.gap = host.random.below(60);
+      Twin::In in = host(clock);
+      LinkRequest& r = host.in.request;
+      if (r.valid && !before) {  // each is another one, and replaces what still waits
+        r.write = writes;
+        ++r.sequence;
+        if (!writes) r.data = 1u << host.random.below(7);
+        if (host.random.coin())
+          r.address ^= static_cast<std::uint16_t>(1u << host.random.below(13));
+        in.request = r;
+      }
+      in.ready = host.random.one_in(writes ? 30 : 1);
+      return in;
+    }
+  };
+  for (const bool writes : {false, true}) {
+    Bench bench("link_port", 5);
+    bench.run(Hurry{Stimulus{Random(writes ? 5 : 6)}, writes}, scaled_clocks(800'000));
+  }
+}
+
+TEST_CASE("link_port: 2^17 frames, counted to the end of 16 bits and again") {
+  const auto stimulus = [](std::int64_t k) {
+    Twin::In in;
+    in.good = true;
+    in.bad = k % 2 == 0;
+    in.ready = true;
+    in.tick = k % 50 == 0;
+    const auto own = static_cast<std::uint16_t>(k / 400 % 2 == 0 ? LinkMap::A::frames_good
+                                                                 : LinkMap::A::frames_bad);
+    in.request = {k % 200 < 150, false, static_cast<std::uint8_t>(k / 200), own, 1};
+    return in;
+  };
+  Bench bench("link_port", 1);
+  bench.run(stimulus, (std::int64_t{1} << 17) + 1000);
+}
+
 TEST_CASE("link_port: a write is on the core's port until it is taken, and never again") {
   Twin twin;
   Twin::In in;

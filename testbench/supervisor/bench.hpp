@@ -177,6 +177,13 @@ class Watch {
       if (gates || armed || rtl.faults_o != 0) broken = "reset: gates off, no fault";
     } else {
       if (gates && rtl.faults_o != 0) broken = "no gates beside a fault";
+      // The pin is low again since the edge: what it set holds on.
+      if (in.stop && gates_ && rtl.gates_clear_o == 0)
+        broken = "a stop clears the gates until it is dealt with";
+      // A stop just before they open is a fault of what it armed, within some clocks.
+      on_ = gates ? on_ + 1 : 0;
+      stopped_ = in.stop ? 4 : stopped_ - (stopped_ > 0 ? 1 : 0);
+      if (on_ > 4 && stopped_ == 0 && rtl.gates_clear_o != 0) broken = "open gates are not cleared";
       if (gates && !gates_ && (!in.tick || !in.arm)) broken = "gates open on request at a tick";
       if (gates && !armed) broken = "gates only while armed";
       if (armed != armed_ && !in.tick) broken = "armed changes at ticks";
@@ -207,6 +214,8 @@ class Watch {
   bool armed_ = false;
   unsigned faults_ = 0;
   unsigned first_ = 0;
+  std::int64_t on_ = 0;  ///< clocks with the gates open
+  int stopped_ = 0;      ///< clocks in which a stop may not yet have closed the gates
 };
 
 }  // namespace feltgate::test

@@ -13,8 +13,9 @@ namespace feltgate::test {
 /// RandomScenario with stops and encoder errors at any clock.
 class RandomCore {
  public:
-  RandomCore(std::uint64_t seed, ResetPlan plan)
-      : random_(seed), scenarios_(seed), clock_(seed, plan), bus_(seed) {}
+  /// `near`: many words stand at the signals that they are compared with.
+  RandomCore(std::uint64_t seed, ResetPlan plan, bool near = false)
+      : random_(seed), scenarios_(seed, near), clock_(seed, plan), bus_(seed) {}
 
   Twin::In operator()(std::int64_t, const Twin::Out& out) {
     const auto& now = clock_.next();

@@ -14,7 +14,8 @@ namespace feltgate::test {
 /// limits.
 class RandomScenario {
  public:
-  explicit RandomScenario(std::uint64_t seed) : random_(seed), axes_(~seed) {
+  explicit RandomScenario(std::uint64_t seed, bool near = false)
+      : random_(seed), axes_(~seed), words_(seed + 1'000), near_(near) {
     s_.words.nominal_current_squared = (1U << 31) - 1;  // until the first limits: cold
   }
 
@@ -32,10 +33,29 @@ class RandomScenario {
       const std::int64_t v = std::int64_t{s_.velocity} + drift_;
       if (v == static_cast<std::int32_t>(v)) s_.velocity = static_cast<std::int32_t>(v);
     }
+    if (near_) come_near();
     return s_;
   }
 
  private:
+  /// Limits at the very signals, or one bit beside; currents of one bit, and of all below it.
+  void come_near() {
+    auto& words = s_.words;
+    if (drift_ != 0 && words_.one_in(10)) {  // against the speed that grows
+      const std::int32_t bit = 1 << words_.below(Design::f.current.width() - 1);
+      const std::int32_t size = words_.coin() ? bit : bit - 1;
+      s_.current_ref = drift_ < 0 ? size : -size;
+      words.polarity_current = static_cast<std::uint32_t>(size);
+      if (size > 0 && !words_.one_in(4)) --words.polarity_current;
+      words.polarity_speed = words_.below(1U << 10);
+    }
+    if (words_.one_in(200)) {  // a heat that falls and rises by much
+      words.inverse_resistance = 0x1ffff;
+      words.i2t_budget = static_cast<std::uint32_t>(words_.bits() & 0xffffffff) >> words_.below(12);
+      words.nominal_current_squared = 1U << words_.below(31);
+      if (words_.coin()) words.nominal_current_squared = words_.below(std::uint64_t{1} << 31);
+    }
+  }
   void limits() {
     auto& words = s_.words;
     words = Scenario::design_words();
@@ -78,7 +98,8 @@ class RandomScenario {
     if (!random_.one_in(4)) s_.current_ref = (i < 0) == (drift_ < 0) ? -(i + 1) : i;
   }
 
-  Random random_, axes_;
+  Random random_, axes_, words_;
+  bool near_;
   Scenario s_;
   std::int32_t drift_ = 0;  ///< of the velocity in a tick
 };

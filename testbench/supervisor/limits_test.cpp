@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// supervisor: every bit of what is compared with a limit, and of the counters that are.
+// Documentation: docs/blocks/supervisor.md
+#include <array>
+
+#include "bench.hpp"
+#include "catch.hpp"
+#include "random_core.hpp"
+
+using namespace feltgate::test;
+using feltgate::Fault;
+using feltgate::Map;
+
+namespace {
+
+constexpr std::uint64_t clock_of(int t) { return std::uint64_t{1} << t; }
+
+/// Ticks in each clock, as no core has them, with the watchdog's two clocks in each of them: armed,
+/// not yet kicked for 100 clocks at a limit of 3, then kicked once, at this limit.
+struct FastTicks {
+  std::uint32_t limit;
+  Twin::In operator()(std::int64_t k) const {
+    Twin::In in;
+    in.tick = true;
+    in.arm = k >= 20;
+    in.kick = k == 120;
+    // Not beside the kick, where both would look at the time before it.
+    if (k < 119 || k > 121) in.wave |= clock_of(Map::W::watchdog_ticks);
+    if (k < 119 || k > 122) in.wave |= clock_of(Map::T::watchdog);
+    in.param = k < 120 ? 3 : limit;
+    return in;
+  }
+  /// When it must trip, give or take the pipeline.
+  std::int64_t end() const { return 120 + std::int64_t{limit} + 4; }
+};
+
+}  // namespace
+
+TEST_CASE("supervisor: in each clock of fast ticks, the watchdog's limit to the tick") {
+  for (const std::uint32_t limit :
+       {1U, 2U, 3U, 4U, 5U, 100U, 127U, 128U, 0x5555U, 0xffffU, 0x155555U, 0x1aaaabU}) {
+    std::int64_t fell = 0;
+    const auto note = [&](const Twin::In&, const Vsupervisor& rtl, const Twin&,
+                          bool in_reset) -> const char* {
+      if (!in_reset) fell += rtl.gates_enable_o != 0 ? 1 : 0;
+      return nullptr;
+    };
+    const FastTicks ticks{limit};
+    SupervisorBench bench("supervisor", 1);
+    bench.run(ticks, ticks.end() + 50, {}, note);
+    INFO("limit " << limit << ", armed for " << fell);
+    CHECK(fell > 100 + static_cast<std::int64_t>(limit));
+    CHECK(fell < 110 + static_cast<std::int64_t>(limit));
+  }
+}
+
+TEST_CASE("supervisor: a watchdog's limit of one high bit is not a short one") {
+  for (int bit = 20; bit < 31; ++bit) {
+    const FastTicks ticks{1U << bit};
+    SupervisorBench bench("supervisor", 1);
+    bench.run(ticks, 2000);
+  }
+}
+
+TEST_CASE("supervisor: each bit of the nominal current's square cools") {
+  for (int bit = 12; bit < 31; ++bit) {
+    for (const std::uint32_t beside : {0U, 1U << 22, 1U << 27}) {
+      Script s;
+      const std::uint32_t square = 1U << bit | beside;
+      s.now.words.nominal_current_squared = square;
+      // Of the heat at power-up so much goes that some ticks cool it, or all, whatever is less.
+      const std::uint64_t goes = std::uint64_t{square} * 40;
+      const std::uint64_t start = Design::i2t_start;
+      s.now.words.i2t_budget = static_cast<std::uint32_t>(goes < start ? start - goes : 1);
+      for (int k = 0; k < 30; ++k) s.clear();
+      INFO("bit " << bit << ", beside " << beside);
+      CHECK(s.out().faults == 0);
+      s.play();
+    }
+  }
+}
+
+TEST_CASE("supervisor: anything at any time, words at the very signals") {
+  std::array<std::int64_t, 16> trips{};
+  std::int64_t armings = 0;
+  for (std::uint64_t seed = 101; seed <= 108; ++seed) {
+    SupervisorBench bench("supervisor", seed);
+    Watch watch(&trips, &armings);
+    bench.run(RandomCore(seed, {}, true), scaled_clocks(400'000), {}, watch);
+  }
+  for (const Fault cause : {Fault::polarity, Fault::i2t, Fault::watchdog}) {
+    INFO("polarity " << trips[3] << ", i2t " << trips[4] << ", watchdog " << trips[5]);
+    CHECK(trips[static_cast<std::size_t>(cause)] > 10);
+  }
+  CHECK(armings >= 100);
+}
+
+TEST_CASE("supervisor: 2^24 ticks, one after the other", "[endurance]") {
+  const FastTicks ticks{(1U << Map::kickless_bits) - 1};
+  SupervisorBench bench("supervisor", 1);
+  bench.run(ticks, ticks.end() + 50);
+}

@@ -216,7 +216,14 @@ def main(argv=None):
             return 0
         results = earlier(options.again) if options.again else None
         rows = rtl.run(
-            tests, root, options.count, options.seed, options.jobs, options.proof_seconds, say, results
+            tests,
+            root,
+            options.count,
+            options.seed,
+            options.jobs,
+            options.proof_seconds,
+            say,
+            results,
         )
         return report(options, root, rows)
     except (

@@ -127,7 +127,8 @@ class Listed:
                 or len(entry) < 3
             ):
                 raise MutateError(
-                    f"{path}: an entry has 'why', the kind {ARGUED}, {BY_PROOF} or {GAP}, and some of "
+                    f"{path}: an entry has 'why', the kind {ARGUED}, {BY_PROOF} or {GAP}, "
+                    "and some of "
                     "line, wire, register, pin, bits, modes"
                 )
 
@@ -280,7 +281,8 @@ def of_run(results, test):
                 "seconds": found["seconds"],
             }
     raise MutateError(
-        f"the results have no run of all mutants of {test.name} as they are now; run it without --again"
+        f"the results have no run of all mutants of {test.name} as they are now; "
+        "run it without --again"
     )
 
 

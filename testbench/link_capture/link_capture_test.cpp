@@ -262,44 +262,6 @@ TEST_CASE("link_capture: a row every so many ticks, triggers between them") {
   REQUIRE(c.rows == 1);
 }
 
-TEST_CASE("link_capture: a long period, counted in all its bits") {
-  for (const std::uint32_t period : {0x1555u, 0x0aabu}) {
-    auto s = session({kTick, 0, period}, 2 * period + 5, tick_word);
-    const auto c = s.set(A::capture_control, kStart | kTrigger)
-                       .at(2 * period + 4, 27, A::capture_control, kAbort)
-                       .play();
-    REQUIRE(c.rows == 3);
-    s.check(c, kTick, 0, period);
-  }
-}
-
-TEST_CASE("link_capture: each bit triggers where it rises, whatever the others do") {
-  for (int bit = 0; bit < 32; ++bit) {
-    for (const std::uint32_t others : {0u, 0xffffffffu, 0x5a5a5a5au}) {
-      const std::uint32_t one = 1u << bit, tick = 11;
-      auto s = session({kTick, 4}, tick + kRows + 3, with(N::tau_ref, [&](std::uint32_t t) {
-                         // Before its tick the others come and go beside it, then it does.
-                         const std::uint32_t all = t % 2 == 0 ? others : ~others;
-                         return t < tick ? all & ~one : all | one;
-                       }));
-      const auto c =
-          s.trigger(N::tau_ref, LinkMap::trigger_bit, one).set(A::capture_control, kStart).play();
-      INFO("bit " << bit << ", others " << others);
-      REQUIRE(c.state == kDone);
-      s.check(c, kTick, tick - 4);
-    }
-    // Set all along it never rises.
-    auto high = session({kTick, 4}, 20, with(N::tau_ref, [&](std::uint32_t t) {
-                          return t % 2 == 0 ? 0xffffffffu : 1u << bit;
-                        }));
-    const auto c = high.trigger(N::tau_ref, LinkMap::trigger_bit, 1u << bit)
-                       .set(A::capture_control, kStart)
-                       .play();
-    REQUIRE(c.state == kWaits);
-    if (kRows > 16) break;
-  }
-}
-
 TEST_CASE("link_capture: no word, one, eight, twelve of which the lowest eight") {
   for (const std::uint32_t mask : {0u, 1u, 0x800u, 0xffu, 0xff0u, 0xfffu, 0xfffffaaau}) {
     auto s = session({mask, 5}, kRows + 9, tick_word);
@@ -340,47 +302,6 @@ TEST_CASE("link_capture: another level, word or mode is no trigger of its own") 
                          .play();
       REQUIRE(c.state == static_cast<std::uint32_t>(CaptureTwin::State::wait));
     }
-  }
-}
-
-namespace {
-
-std::uint32_t read_back(std::uint16_t addr, std::uint32_t written) {
-  std::vector<CaptureTwin::In> list(20);
-  list[5].addr = addr;
-  list[5].wdata = written;
-  list[5].write = true;
-  for (std::size_t k = 6; k < list.size(); ++k) list[k].addr = addr;
-  CaptureBench bench("link_capture", 1);
-  return bench.run_list(list).out().rdata;
-}
-
-}  // namespace
-
-TEST_CASE("link_capture: what is written is read back, as much of it as there is") {
-  struct Case {
-    std::uint16_t addr;
-    std::uint32_t written, read;
-  };
-  for (const Case& t : {Case{A::capture_words, 0xffffffffu, 0xfff},
-                        {A::capture_pre, kRows - 1, kRows - 1},
-                        {A::capture_pre, kRows, kRows - 1},
-                        {A::capture_pre, 0x80000000u, kRows - 1},
-                        {A::capture_period, 0xffff, 0xffff},
-                        {A::capture_period, 0x10000, 0xffff},
-                        {A::trigger_word, 11, 11},
-                        {A::trigger_word, 0x100, 15},
-                        {A::trigger_mode, 15, kEvents ? 7 : 3},
-                        {A::trigger_level, 0x87654321u, 0x87654321u},
-                        {A::capture_state, 3, 0},
-                        {A::capture_control, 0, 0},
-                        {0x1010, 7, 0},
-                        {A::capture_first, 3, 0}}) {
-    REQUIRE(read_back(t.addr, t.written) == t.read);
-  }
-  for (int bit = 16; bit < 32; ++bit) {  // of one bit beyond what there is
-    REQUIRE(read_back(A::capture_pre, 1u << bit) == kRows - 1);
-    REQUIRE(read_back(A::capture_period, 1u << bit) == 0xffff);
   }
 }
 

@@ -18,6 +18,7 @@ from crew import Crew
 from reporting.progress import Steps
 
 from . import equivalence
+from .mutant import MutateError, pin, place, says, where
 
 KILLED, CRASHES, HANGS, SURVIVES = "killed", "crashes", "hangs", "survives"
 DEAD = (KILLED, CRASHES, HANGS)
@@ -25,17 +26,6 @@ PATTERNS = {"wire", "register", "pin"}  # of the whole name
 KEYS = {"line", *PATTERNS, "bits", "modes", "kind", "why"}
 ARGUED, BY_PROOF, GAP = "equivalent", "proof", "gap"
 LONGEST_S = 3600  # for a test without a mutant
-MODES = {
-    "inv": "inverted",
-    "const0": "stuck at 0",
-    "const1": "stuck at 1",
-    "cnot0": "inverted while another bit of the pin is 0",
-    "cnot1": "inverted while another bit of the pin is 1",
-}
-
-
-class MutateError(Exception):
-    """What is missing or wrong, for the user."""
 
 
 @dataclass
@@ -70,38 +60,6 @@ def tests(build):
         program = path.parent.parent / f"{entry['test']}_mutants"
         found.append(Test(entry["test"], entry["block"], path.parent, program))
     return found
-
-
-def place(root, source):
-    """rtl/x.sv:12.3-14.9 as (file, first line, its text)."""
-    path, _, span = source.rpartition(":")
-    line = int(span.split(".")[0])
-    full = Path(root, path)
-    lines = full.read_text(encoding="utf-8").splitlines() if full.exists() else []
-    return path, line, lines[line - 1].strip() if 0 < line <= len(lines) else ""
-
-
-def pin(mutant):
-    return f"{mutant['type']}.{mutant['port']}"
-
-
-def says(mutant):
-    """One line."""
-    register = (
-        f" of {mutant['register']}"
-        if mutant["port"] not in ("D", "Q") and "register" in mutant
-        else ""
-    )
-    wire = f"{register}, {mutant['wire']}[{mutant['wire_bit']}]" if "wire" in mutant else register
-    by = f" ({mutant['by_bit']})" if "by_bit" in mutant else ""
-    mode = MODES.get(mutant["mode"], mutant["mode"])
-    return f"bit {mutant['bit']} of {pin(mutant)}{wire} {mode}{by}"
-
-
-def where(root, mutant):
-    """The source lines, most precise first."""
-    found = sorted({place(root, source) for source in mutant["sources"]})
-    return [f"{path}:{line}: {text}" for path, line, text in found]
 
 
 class Listed:

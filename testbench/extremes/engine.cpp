@@ -54,6 +54,8 @@ Outcome law_table_ends(const Settings&) {
   at("first place: its value", 0, -value);
   at("last place of the first segment", 4095, std::round(-value - slope * most));
   at("last place of the table", 512 * 4096 - 1, std::round(value - 1 + (slope - 1) * most));
+  at("the fourth place of the last segment: 23.9993 rounded", 511 * 4096 + 3,
+     value - 1 + std::round((slope - 1) * 3.0 / 4096));
   at("one place further: the first word again", 512 * 4096, -value);
   at("one place before the first: the last word", -1, std::round(value - 1 + (slope - 1) * most));
   at("the largest word", INT32_MAX, std::round(value - 1 + (slope - 1) * most));
@@ -190,12 +192,14 @@ Outcome law_threads_at_once(const Settings&) {
   for (int n = 0; n < EngineMap::threads; ++n) {
     const int own = EngineMap::D::exchange + n * EngineMap::exchange_words;
     m.set_data(kConstant + 1 + n, 1 << (4 * n));
-    // Each tells its event and writes its word in the same turn of the round; all read all words.
+    // Each tells its event and writes its words in the same turn of the round; all read all words.
+    // The private one is addressed as if it were the last thread's, and is its own.
+    constexpr int shared = 3 * EngineMap::private_words + 5;
     const int last = EngineMap::D::exchange;
     program(m, n,
             {word(Op::add, 0, kConstant + 1 + n, kConstant, EngineTarget::event, n + 1),
-             to(own, Op::add, kConstant + 1 + n, kConstant), word(Op::add, 0, last, last + 16),
-             word(Op::add, 2, last + 32, 0),
+             to(shared, Op::add, kConstant + 1 + n, kConstant), to(own, Op::add, shared, kConstant),
+             word(Op::add, 0, last, last + 16), word(Op::add, 2, last + 32, 0),
              word(Op::add, 2, last + 48, 0, n == 0 ? EngineTarget::output : EngineTarget::none, 0,
                   true)});
   }

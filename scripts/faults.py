@@ -91,7 +91,7 @@ def arguments(argv):
         "--clean", action="store_true", help="device time without a fault instead: false alarms"
     )
     parser.add_argument(
-        "--long", action="store_true", help="with --clean: 24 hours, an hour or two of CPU time"
+        "--long", action="store_true", help="with --clean: 24 hours, two or three of CPU time"
     )
     parser.add_argument("--replay", type=Path, metavar="FILE", help="the listed cases instead")
     parser.add_argument(

@@ -169,10 +169,13 @@ def earlier(path):
         found = json.loads(path.read_text(encoding="utf-8"))
         if found["schema"] != SCHEMA:
             raise ValueError(f"its schema is not {SCHEMA}")
+        for test in found["tests"]:
+            rtl.check_earlier(test)
         return found
     except (OSError, ValueError, KeyError, TypeError) as error:
+        missing = "it has no " if isinstance(error, KeyError) else ""
         raise rtl.MutateError(
-            f"{path}: no results of 'feltgate mutate --json': {error}; give such a file"
+            f"{path}: no results of 'feltgate mutate --json': {missing}{error}; give such a file"
         ) from error
 
 

@@ -93,7 +93,8 @@ double perimeter_m(const Polygon& p) {
 std::string shares(const Polygon& p, const char* form) {
   std::vector<double> so_far{0};
   for (std::size_t i = 0; i < p.size(); ++i) so_far.push_back(so_far.back() + p.edge_m(i));
-  for (double& s : so_far) s /= perimeter_m(p);
+  const double around = so_far.back();
+  for (double& s : so_far) s /= around;
   return number_list(fmt::format(form, "share"), so_far, "");
 }
 
@@ -113,7 +114,7 @@ state before = 0 in 0 .. {0}
 next before = place
 let gone = share(place) - share(before)
 let way = {1:.9g} m * (if gone > 0.5 then gone - 1 else if gone < -0.5 then gone + 1 else gone)
-let slips = friction * stiffness * clamp(ay * gx - ax * gy, 0, 0.03 m)
+let slips = friction * stiffness * clamp(dy * gx - dx * gy, 0, 0.03 m)
 state anchored = 0 N in -{2:.9g} N .. {2:.9g} N
 let pull = if inside then max(min(anchored + grip * way, slips), -slips) else 0
 next anchored = clamp(pull, -{2:.9g} N, {2:.9g} N)

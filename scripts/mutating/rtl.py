@@ -4,6 +4,7 @@
 left."""
 
 import json
+import operator
 import os
 import random
 import re
@@ -226,6 +227,14 @@ def chosen(test, count, seed):
     )
 
 
+def check_earlier(found):
+    """KeyError where a test of an earlier run lacks what is taken over from it."""
+    counts = ("mutants", "killed", CRASHES, HANGS, "equivalent")
+    operator.itemgetter("test", "seed", "database", "seconds", *counts)(found)
+    for survivor in found["survivors"]:
+        operator.itemgetter("number", "proof", "said")(survivor)
+
+
 def of_run(results, test):
     """What an earlier run of all mutants said of a test: {} with other mutants in it."""
     for found in results["tests"]:
@@ -233,11 +242,7 @@ def of_run(results, test):
         if found["test"] == test.name and same == tuple(
             found[key] for key in ("seed", "database", "mutants")
         ):
-            return {
-                **found,
-                KILLED: found["killed"] - found[CRASHES] - found[HANGS],
-                "seconds": found["seconds"],
-            }
+            return {**found, KILLED: found["killed"] - found[CRASHES] - found[HANGS]}
     raise MutateError(
         f"the results have no run of all mutants of {test.name} as they are now; "
         "run it without --again"

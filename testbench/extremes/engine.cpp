@@ -18,6 +18,7 @@ namespace {
 using namespace test;
 using H = EngineMap::H;
 using Op = EngineOp;
+constexpr int clocks_per_tick = EnginePair::clocks_per_tick;  // of 1 us
 
 void add(Outcome* o, const std::string& what, const std::string& unit, const Expected& expected,
          const Both& found) {
@@ -46,7 +47,7 @@ Outcome law_table_ends(const Settings&) {
   pair.write(H::run, 1);
   const auto at = [&](const std::string& what, std::int32_t place, double expected) {
     pair.in.position[0] = place;
-    pair.clock(4 * EnginePair::clocks_per_tick);
+    pair.clock(4 * clocks_per_tick);
     add(&o, what, "LSB", exactly(expected), pair.torque());
   };
   // A segment is 4096 places; from its last place the slope is taken 4095/4096 of the way.
@@ -81,7 +82,8 @@ Outcome law_age(const Settings&) {
     pair.write(H::program, static_cast<std::uint32_t>(engine_encode(word(Op::brf, 1, 0, 0))));
     Both ticks{-1, -1};
     int count = 0;  // since the last result
-    for (std::int64_t k = 0; k < 50LL * (max_age + 10) && (ticks.rtl < 0 || ticks.twin < 0); ++k) {
+    for (std::int64_t k = 0;
+         k < clocks_per_tick * (max_age + 10) && (ticks.rtl < 0 || ticks.twin < 0); ++k) {
       pair.clock();
       count = pair.fresh() ? 0 : count + (pair.in.tick ? 1 : 0);
       if (ticks.rtl < 0 && pair.late().rtl > 0) ticks.rtl = count;
@@ -102,8 +104,8 @@ Outcome law_age(const Settings&) {
     pair.write(H::max_age, static_cast<std::uint32_t>(max_age));
     pair.write(H::divider0, 4095);
     pair.write(H::run, 1);
-    until_fresh(&pair, 5000 * 50);
-    until_fresh(&pair, 5000 * 50);
+    until_fresh(&pair, 5000 * clocks_per_tick);
+    until_fresh(&pair, 5000 * clocks_per_tick);
     add(&o, "late with a result every 4095 ticks, max_age " + number(max_age), "",
         exactly(max_age == 4094 ? 1 : 0), pair.late());
     pair.report(&o);
@@ -151,7 +153,8 @@ Outcome law_program_512(const Settings&) {
   for (int n = 0; n < 511; ++n) m.set_program(n, engine_encode(n == 0 ? first : more));
   m.set_program(511, engine_encode(out(0, Op::add, kConstant + 1, 0, 2)));
   EnginePair pair(m);
-  const int ticks = (engine_period(512, 1) + EnginePair::clocks_per_tick - 1) / 50;
+  const int ticks =
+      (engine_period(EngineMap::program_words, 1) + clocks_per_tick - 1) / clocks_per_tick;
   pair.write(H::divider0, static_cast<std::uint32_t>(ticks));
   pair.write(H::max_age, static_cast<std::uint32_t>(ticks));
   pair.write(H::run, 1);
@@ -162,9 +165,9 @@ Outcome law_program_512(const Settings&) {
     clocks.rtl += next.rtl / 3, clocks.twin += next.twin / 3;
   }
   add(&o, "result of 512 additions of 3", "LSB", exactly(512 * 3), pair.torque());
-  add(&o, "clocks from result to result", "", exactly(50.0 * ticks), clocks);
+  add(&o, "clocks from result to result", "", exactly(1.0 * clocks_per_tick * ticks), clocks);
   add(&o, "rate of the law", "kHz", near(1000.0 / ticks, 0.01),
-      {50e3 / clocks.rtl, 50e3 / clocks.twin});
+      {1000.0 * clocks_per_tick / clocks.rtl, 1000.0 * clocks_per_tick / clocks.twin});
   pair.clock(200'000);
   const auto overrun = [&] {
     const Both status = pair.read(H::status);
@@ -228,7 +231,7 @@ Outcome law_threads_at_once(const Settings&) {
   add(&o, "their tick, from the start", "", between(1, 2),
       {ticks[0].rtl - from, ticks[0].twin - from});
   pair.write(H::run, 15);
-  pair.clock(5 * EnginePair::clocks_per_tick);
+  pair.clock(5 * clocks_per_tick);
   add(&o, "sum of the words that all threads write at once", "LSB", exactly(0x1111), pair.torque());
   pair.report(&o);
   o.note = "Four threads that start with the same tick, the round of six clocks full but for two.";

@@ -260,6 +260,7 @@ class Programs(unittest.TestCase):
         found = json.loads(results.read_text())
         for change, says in (({"tests": []}, "no run of all mutants of b as they are now"),
                              ({"tests": [found["tests"][0] | {"database": 99}]}, "no run of all"),
+                             ({"tests": [{"test": "b"}]}, "it has no 'seed'; give such a file"),
                              ({"schema": "other/1"}, "its schema is not"),
                              (None, "no results of")):
             results.write_text(json.dumps(found | change if change else []))

@@ -155,6 +155,27 @@ TEST_CASE("friction: a spring along the outline that slips at its share of what 
   CHECK(std::fabs(pen.at({0.028, 0.112}, settle).y) < 1e-5);
 }
 
+TEST_CASE("friction on a texture: its share of what presses there, on crest and in trough") {
+  LawRequest request;
+  request.texture = request.friction = true;
+  const law::Law law =
+      law::read_law_text(law_text(sampled(curve_of("square"), 80), request), "shape.law", 50e3);
+  Pen pen(law);
+  pen.at({0.04, 0.11}, settle);
+  pen.at({0.028, 0.11}, settle);
+  double least = 1, most = 0;
+  for (double y = 0.11; y < 0.13; y += 0.05e-3) {
+    const Point f = pen.at({0.028, y}, settle);
+    if (y < 0.112) continue;  // until it slips all the time
+    INFO("at " << y);
+    REQUIRE(-f.y < 0.3 * f.x * (1 + 1e-6));
+    least = std::min(least, -f.y / f.x);
+    most = std::max(most, -f.y / f.x);
+  }
+  CHECK(most == Approx(0.3).epsilon(1e-3));
+  CHECK(least > 0.2);  // where the crest comes nearer it has not slipped so far
+}
+
 TEST_CASE("friction: anchored by the way along the outline, corners and first vertex included") {
   const Polygon p = sampled(curve_of("square"), 80);
   const law::Law law = rough(p);

@@ -4,6 +4,7 @@
 // feltgate shape. Documentation: docs/devices/shapes.md
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <map>
@@ -98,6 +99,17 @@ shape::LawRequest request(const ShapeArguments& a, const std::string& summary) {
   return r;
 }
 
+/// What a way along the outline takes table memory for: the option's name, nullptr of none.
+const char* of_way(const ShapeArguments& a) {
+  return a.texture ? "--texture" : a.friction ? "--friction" : nullptr;
+}
+
+/// The most vertices whose tables fit.
+int most_vertices(const ShapeArguments& a) {
+  if (a.svgs.size() > 1) return shape::most_resident_words / static_cast<int>(a.svgs.size()) - 3;
+  return of_way(a) != nullptr ? shape::most_measured_vertices : shape::most_vertices;
+}
+
 /// Options that exclude each other. Throws std::invalid_argument "what; mend".
 void check(const ShapeArguments& a) {
   const bool several = a.svgs.size() > 1;
@@ -105,25 +117,21 @@ void check(const ShapeArguments& a) {
     throw std::invalid_argument(fmt::format("{} SVG files; a law holds {} shapes, leave some away",
                                             a.svgs.size(), shape::most_shapes));
   }
-  const char* of_way = a.texture ? "--texture" : a.friction ? "--friction" : nullptr;
-  if (of_way != nullptr && (a.law != "proxy" || a.table || several)) {
-    throw std::invalid_argument(fmt::format(
-        "{} is for one shape with --law proxy, without --table; leave one away", of_way));
+  const char* way = of_way(a);
+  if (way != nullptr && (a.law != "proxy" || a.table || several)) {
+    throw std::invalid_argument(
+        fmt::format("{} is for one shape with --law proxy, without --table; leave one away", way));
   }
   if (several && (a.law != "proxy" || a.table || !a.path.empty())) {
     throw std::invalid_argument(
         "--law, --table and --path are of one shape; give one file, or leave them away");
   }
-  if (of_way != nullptr && a.vertices > shape::most_measured_vertices) {
-    throw std::invalid_argument(
-        fmt::format("{} takes table memory from {} vertices; say --vertices {}", of_way, a.vertices,
-                    shape::most_measured_vertices));
-  }
-  const int room = shape::most_resident_words / static_cast<int>(a.svgs.size()) - 3;
-  if (several && a.vertices > room) {
-    throw std::invalid_argument(
-        fmt::format("{} shapes of {} vertices do not fit into table memory; say --vertices {}",
-                    a.svgs.size(), a.vertices, room));
+  if (const int most = most_vertices(a); a.vertices > most) {
+    const std::string what =
+        several ? fmt::format("{} shapes of {} vertices do not fit into table memory",
+                              a.svgs.size(), a.vertices)
+                : fmt::format("{} takes table memory from {} vertices", way, a.vertices);
+    throw std::invalid_argument(fmt::format("{}; say --vertices {}", what, most));
   }
 }
 
@@ -231,10 +239,12 @@ void add_shape(CLI::App& app, int* exit_code) {
       ->check(CLI::IsMember({"proxy", "simple", "walk"}))
       ->type_name("LAW")
       ->capture_default_str();
-  sub->add_option("--vertices", a->vertices, "on the outline, more where it bends")
-      ->type_name("N")
-      ->check(CLI::Range(shape::fewest_vertices, shape::most_vertices))
-      ->capture_default_str();
+  const CLI::Option* vertices =
+      sub->add_option("--vertices", a->vertices,
+                      "on the outline, more where it bends, or what fits")
+          ->type_name("N")
+          ->check(CLI::Range(shape::fewest_vertices, shape::most_vertices))
+          ->capture_default_str();
   add_length(*sub, "--radius", &a->radius_m, "of every corner, 5mm; 0mm: as drawn");
   add_length(*sub, "--size", &a->size_m, "larger side of the shape, 60mm");
   sub->add_option("--centre", a->centre_m, "its middle, m, motors at 0 0")
@@ -259,7 +269,10 @@ void add_shape(CLI::App& app, int* exit_code) {
       ->type_name("FILE");
   sub->add_flag("--table", a->table, "three laws beside each other instead of the proof");
   sub->add_flag("--quiet", a->quiet, "print nothing");
-  sub->callback([a, exit_code] { *exit_code = run(*a); });
+  sub->callback([a, vertices, exit_code] {
+    if (vertices->count() == 0) a->vertices = std::min(a->vertices, most_vertices(*a));
+    *exit_code = run(*a);
+  });
 }
 
 }  // namespace feltgate

@@ -46,6 +46,13 @@ class Shape(LawMaking):
             self.refused("one", *files, "--vertices", 27, *option)
         self.refused("holds 7", *files, files[0])
 
+    def test_as_many_vertices_as_fit(self):
+        """Nobody who did not ask for a number of vertices is told that it is too large."""
+        for option in ("--friction", "--texture"):
+            done = self.run_it("shape", SHAPES / "square.svg", option)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("around, 80 vertices", done.stdout)
+
     def test_table(self):
         """The proxy's force never steps by more than 6 %, the others' by their edges."""
         done = self.run_it("shape", SHAPES / "square.svg", "--table")
@@ -69,7 +76,7 @@ class Shape(LawMaking):
         self.refused("no.svg", "no.svg")
         self.refused("--vertices", SHAPES / "fish.svg", "--vertices", "1000")
         self.refused("--radius", SHAPES / "fish.svg", "--radius", "5")
-        self.refused("say --vertices 80", SHAPES / "fish.svg", "--texture")
+        self.refused("say --vertices 80", SHAPES / "fish.svg", "--texture", "--vertices", 81)
         self.refused("out of the pen", SHAPES / "fish.svg", "--size", "300mm")
 
 

@@ -5,7 +5,7 @@ yosys-abc proves that it never does (scorr, pdr), or finds inputs for which it d
 
 All inputs are free in every clock, reset among them; registers start at 0, or at their value at
 power-up. A memory is cut out: what it reads is an input of both, its address, data and enable are
-compared.
+compared. In place of each of its pins stands a buffer, which is changed as the pin would be.
 """
 
 import re
@@ -25,14 +25,28 @@ MEMORY_OUTPUTS = {
 }
 
 
+def buffer_of(cell, pin):
+    """The cell that stands in place of a memory's pin."""
+    return "\\" + cell.lstrip("\\") + "." + pin
+
+
+def at_buffers(mutant):
+    """The mutant where memories are cut out."""
+    if mutant["type"] != "$mem_v2":
+        return mutant
+    pin = mutant["port"]
+    port = "Y" if pin in MEMORY_INPUTS else "A"
+    return mutant | {"cell": buffer_of(mutant["cell"], pin), "type": "$pos", "port": port}
+
+
 def without_memories(rtlil):
-    """The design with ports in place of the pins of its memories."""
+    """The design with ports in place of the pins of its memories, and a buffer behind each."""
     last_port = max(int(n) for n in re.findall(r"^  wire .*?(?:input|output) (\d+) ", rtlil, re.M))
     count = 0
 
     def ports(found):
         nonlocal last_port, count
-        body = found.group(0)
+        cell, body = found.groups()
         count += 1
         size = {k: int(v) for k, v in re.findall(r"parameter \\(\w+) (\d+)\n", body)}
         lines = []
@@ -43,14 +57,21 @@ def without_memories(rtlil):
                     continue
                 last_port += 1
                 name = rf"\memory_{count}_{pin}"
-                lines.append(
-                    f"  wire width {size[ports] * size[width]} {direction} {last_port} {name}"
-                )
-                pair = (signal.group(1), name) if direction == "input" else (name, signal.group(1))
-                lines.append(f"  connect {pair[0]} {pair[1]}")
+                total = size[ports] * size[width]
+                ends = (name, signal.group(1))
+                lines += [
+                    f"  wire width {total} {direction} {last_port} {name}",
+                    f"  cell $pos {buffer_of(cell, pin)}",
+                    "    parameter \\A_SIGNED 0",
+                    f"    parameter \\A_WIDTH {total}",
+                    f"    parameter \\Y_WIDTH {total}",
+                    f"    connect \\A {ends[direction == 'output']}",
+                    f"    connect \\Y {ends[direction == 'input']}",
+                    "  end",
+                ]
         return "\n".join([*lines, ""])
 
-    return re.sub(r"^  cell \$mem_v2 .*?^  end\n", ports, rtlil, flags=re.M | re.S)
+    return re.sub(r"^  cell \$mem_v2 (\S+)(.*?)^  end\n", ports, rtlil, flags=re.M | re.S)
 
 
 def join_script(block, mutants, width):
@@ -160,21 +181,9 @@ class Joined:
 
 
 def joined(folder, block, mutants, work, crew):
-    """{number: Joined}; the memories are cut out unless a mutant is at their pins."""
+    """The block with any of these mutants, beside itself, memories cut out."""
+    cut = work / "cut"
+    cut.mkdir(parents=True)
     text = (folder / "block.il").read_text(encoding="utf-8")
-    inside = [m for m in mutants if m["type"] == "$mem_v2"]
-    outside = [m for m in mutants if m["type"] != "$mem_v2"]
-    found = {}
-    if outside and "$mem_v2" in text:
-        cut = work / "cut"
-        cut.mkdir(parents=True)
-        (cut / "block.il").write_text(without_memories(text), encoding="utf-8")
-        together = Joined(cut, block, outside, work / "outside", crew)
-        found |= dict.fromkeys((m["number"] for m in outside), together)
-    elif outside:
-        together = Joined(folder, block, outside, work / "outside", crew)
-        found |= dict.fromkeys((m["number"] for m in outside), together)
-    if inside:
-        together = Joined(folder, block, inside, work / "inside", crew)
-        found |= dict.fromkeys((m["number"] for m in inside), together)
-    return found
+    (cut / "block.il").write_text(without_memories(text), encoding="utf-8")
+    return Joined(cut, block, [at_buffers(m) for m in mutants], work / "joined", crew)

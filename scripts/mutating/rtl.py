@@ -322,10 +322,10 @@ def prove(rows, crew, work, jobs, limit_s):
             ]
             if not alive:
                 return []
-            found = equivalence.joined(
+            design = equivalence.joined(
                 row.test.folder, row.test.block, alive, work / row.test.name, crew
             )
-            return [(row, mutant, found[mutant["number"]]) for mutant in alive]
+            return [(row, mutant, design) for mutant in alive]
 
         def verdict(item):
             _, mutant, design = item
@@ -355,9 +355,7 @@ def show(test, number, root, proof_seconds):
     print(f"{fate} in {seconds:.2f} s of CPU{f': {said.group(0)}' if said else ''}")
     if fate == SURVIVES and proof_seconds:
         with tempfile.TemporaryDirectory(prefix="feltgate-mutate-") as work:
-            design = equivalence.joined(test.folder, test.block, [mutant], Path(work, "one"), crew)[
-                number
-            ]
+            design = equivalence.joined(test.folder, test.block, [mutant], Path(work, "one"), crew)
             verdict, said, _ = design.prove(mutant, proof_seconds)
             print(f"{verdict}: {said}")
             if verdict == equivalence.DIFFERENT:

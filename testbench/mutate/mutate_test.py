@@ -7,6 +7,7 @@ import contextlib
 import io
 import json
 import os
+import re
 import shutil
 import sys
 import tempfile
@@ -82,8 +83,8 @@ class Netlist(unittest.TestCase):
 
     def verdicts(self, *mutants):
         with tempfile.TemporaryDirectory() as work:
-            designs = equivalence.joined(self.folder, "counter", list(mutants), Path(work), Crew())
-            return [designs[m["number"]].prove(m, 10)[0] for m in mutants]
+            design = equivalence.joined(self.folder, "counter", list(mutants), Path(work), Crew())
+            return [design.prove(m, 10)[0] for m in mutants]
 
     def test_at_most_60_percent_and_no_clocks(self):
         self.assertLessEqual(len(self.mutants), 0.6 * self.found["database"])
@@ -117,8 +118,7 @@ class Netlist(unittest.TestCase):
     def test_none_is_equivalent(self):
         count = dict(self.mutant(type="$adffe", port="Q"))
         with tempfile.TemporaryDirectory() as work:
-            made = equivalence.joined(self.folder, "counter", [count], Path(work), Crew())
-            design = made[count["number"]]
+            design = equivalence.joined(self.folder, "counter", [count], Path(work), Crew())
             design.numbers[count["number"]] = 0
             self.assertEqual(design.prove(count, 10)[0], equivalence.EQUIVALENT)
 
@@ -138,8 +138,23 @@ class Netlist(unittest.TestCase):
         self.assertIn(r"output 7 \memory_1_RD_ADDR", cut)
 
     def test_a_mutant_at_a_memory(self):
-        memory = self.mutant(type="$mem_v2", port="WR_DATA")
-        self.assertEqual(self.verdicts(memory), [equivalence.DIFFERENT])
+        read = self.mutant(type="$mem_v2", port="RD_DATA", mode="inv")
+        wrote = self.mutant(type="$mem_v2", port="WR_DATA")
+        count = self.mutant(type="$adffe", port="Q")
+        self.assertEqual(self.verdicts(read, count, wrote), 3 * [equivalence.DIFFERENT])
+
+    def test_a_pin_of_a_memory_stuck_where_it_is_constant_is_equivalent(self):
+        # The upper bit of what is written is made a constant 0.
+        text = (self.folder / "block.il").read_text(encoding="utf-8")
+        data = re.search(r"connect \\WR_DATA (\S+)", text).group(1)
+        (self.folder / "block.il").write_text(
+            text.replace(f"connect \\WR_DATA {data}", f"connect \\WR_DATA {{ 1'0 {data} [2:0] }}"),
+            encoding="utf-8")
+        self.addCleanup((self.folder / "block.il").write_text, text, encoding="utf-8")
+        wrote = self.mutant(type="$mem_v2", port="WR_DATA")
+        wrote = {k: v for k, v in wrote.items() if k != "by_bit"} | {"mode": "const0"}
+        verdicts = self.verdicts(wrote | {"bit": 3}, wrote | {"bit": 2, "number": 9999})
+        self.assertEqual(verdicts, [equivalence.EQUIVALENT, equivalence.DIFFERENT])
 
 
 class Reasons(unittest.TestCase):

@@ -52,6 +52,12 @@ quad error_bound(quad largest_difference, quad current, quad velocity) {
 
 }  // namespace
 
+TEST_CASE("dob: before the first tick nothing has saturated") {
+  const ObserverStep<Design, Fixed> step;
+  CHECK_FALSE(step.limit);
+  CHECK(step.tau_hat.raw() == 0);
+}
+
 TEST_CASE("dob: random currents, velocities, coefficients, arming and resets") {
   Tally tally;
   Bench bench("dob", 1);

@@ -44,6 +44,11 @@ constexpr Format state{1, 2, 3};  // 6 bits
 /// The operand when the multiplier lacks `given_up` bits.
 constexpr int operand(int given_up) { return Format{1, 3, 3 - given_up}.key(); }
 
+template <Round R, int Operand = operand(0), int A1 = Format{0, 0, 5}.key()>
+bool stays_between() {
+  return LowpassLaw<Fixed, state.key(), Operand, R>::stays_between(Format::from_key(A1));
+}
+
 template <Round R, int GivenUp, int A1Integer>
 void check(bool allowed) {
   constexpr int a1 = Format{0, A1Integer, 5 - A1Integer}.key();
@@ -68,6 +73,8 @@ TEST_CASE("bits that the operand gives up ask for a smaller coefficient") {
   check<Round::half_up, 1, -2>(true);
   check<Round::half_up, 2, -3>(true);
   check<Round::convergent, 2, -3>(true);
+  check<Round::half_up, 1, -1>(false);
+  check<Round::half_up, 1, 0>(false);
   check<Round::half_up, 2, -2>(false);
   check<Round::half_up, 2, 0>(false);
 }
@@ -80,4 +87,12 @@ TEST_CASE("a coefficient of 1 and more, or truncation, is not allowed") {
 TEST_CASE("where it is not allowed the state does leave") {
   CHECK(compare<Round::half_up, state.key(), operand(0), Format{0, 1, 4}.key()>().outside > 0);
   CHECK(compare<Round::half_up, state.key(), operand(2), Format{0, 0, 5}.key()>().outside > 0);
+}
+
+TEST_CASE(
+    "an operand that lacks range or has bits to spare, or a coefficient with a sign, is not") {
+  CHECK(stays_between<Round::half_up>());
+  CHECK_FALSE(stays_between<Round::half_up, Format{1, 2, 3}.key()>());
+  CHECK_FALSE(stays_between<Round::half_up, Format{1, 3, 4}.key()>());
+  CHECK_FALSE(stays_between<Round::half_up, operand(0), Format{1, 0, 5}.key()>());
 }

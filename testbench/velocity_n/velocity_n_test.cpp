@@ -46,6 +46,12 @@ quad error_bound(quad largest_difference) {
 
 }  // namespace
 
+TEST_CASE("velocity_n: before the first tick nothing has saturated") {
+  const EstimatorStep<Design, Fixed> step;
+  CHECK_FALSE(step.limit);
+  CHECK(step.velocity.raw() == 0);
+}
+
 TEST_CASE("velocity_n: random motion, gaps and resets") {
   Tally tally;
   Bench bench("velocity_n", 1);

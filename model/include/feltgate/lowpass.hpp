@@ -46,8 +46,8 @@ struct LowpassLaw {
   static constexpr bool stays_between(Format a1) {
     constexpr Format state = Format::from_key(StateKey), operand = Format::from_key(OperandKey);
     constexpr Format difference = growth::difference(state, state);
-    const int given_up = difference.fraction - operand.fraction;
-    const bool nearest = R == Round::half_up || R == Round::convergent;
+    constexpr int given_up = difference.fraction - operand.fraction;
+    constexpr bool nearest = R == Round::half_up || R == Round::convergent;
     const bool small = a1.sign == 0 && a1.integer <= (given_up > 0 ? -1 - given_up : 0);
     return nearest && small && given_up >= 0 && operand.integer >= difference.integer;
   }

@@ -4,6 +4,8 @@
 // The scenes' law by itself, where the block's lock-step does not come: self-test pulses, relief, a
 // program's torque, the ends of the scenes' numbers, and a charge in real arithmetic.
 // Documentation: docs/blocks/scenes.md
+#include <array>
+
 #include "catch.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/quad.hpp"
@@ -130,6 +132,19 @@ TEST_CASE("scenes: a part that no product's format holds saturates") {
   CHECK(part(Part::max_raw() + 1) == Part::max_raw());
   CHECK(part(Part::min_raw() - 1) == Part::min_raw());
   CHECK(part(Wide::max_raw()) == Part::max_raw());
+}
+
+TEST_CASE("scenes: the distance is from the position to the reference, exact") {
+  using Part = ScenePartLaw<Lever, Fixed>;
+  using Offset = Part::Offset;
+  const std::array<std::int64_t, 5> references{Offset::min_raw(), -1, 0, 384, Offset::max_raw()};
+  for (const std::int32_t position : {-131072, -5, 0, 7, 131071}) {
+    for (const std::int64_t reference : references) {
+      INFO(reference << "/256 from " << position);
+      const auto distance = Part::distance(position, Offset::from_raw(reference));
+      CHECK(distance.raw() == reference - std::int64_t{position} * 256);
+    }
+  }
 }
 
 TEST_CASE("scenes: a charge in real arithmetic") {

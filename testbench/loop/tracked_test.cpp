@@ -81,6 +81,15 @@ TEST_CASE("wall: 2 Nm/deg is quiet on the encoder at 490 Hz, 0.2 Nm/deg jitters 
   CHECK(filtered.theta_rad < 0.9 * raw.theta_rad);
 }
 
+TEST_CASE(
+    "ceiling: filtered it is quiet to a higher stiffness, and higher still with the encoder") {
+  CHECK(!rest("ceiling_tracked", kRaw, 2200).quiet());
+  const Rest filtered = rest("ceiling_tracked", kFiltered, 2900);
+  const Rest fused = rest("ceiling_tracked", kFused, 2900);
+  CHECK(filtered.quiet());
+  CHECK(fused.theta_rad < 0.97 * filtered.theta_rad);
+}
+
 TEST_CASE("a tracker's mailbox is one of the law") {
   for (const char* name : {"nowhere", "stiffness"}) {  // the latter is a parameter
     Scenario s = shipped_scene("wall_tracked");

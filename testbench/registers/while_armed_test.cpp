@@ -64,6 +64,12 @@ TEST_CASE("while armed: the control word's fields hold") {
   }
 }
 
+TEST_CASE("while armed: the mode has its bits and no others") {
+  const std::uint32_t others = ~mode((1U << C::control_mode_width) - 1);
+  CHECK(HostBeside(others).mode() == 0);
+  CHECK(HostBeside(others | mode(2)).mode() == 2);
+}
+
 TEST_CASE("while armed: before the first tick it is disarmed, free, and no ramp begins") {
   HostBeside host(0);
   CHECK_FALSE(host.restart(false, S::free));

@@ -94,7 +94,7 @@ def join_script(block, mutants, width):
         "setundef -zero",
         "opt -fast",
         "dfflegalize -cell $_DFF_P_ 01",
-        "abc -g AND",
+        "aigmap",
         "opt_clean",
         "write_blif joined.blif",
     ]

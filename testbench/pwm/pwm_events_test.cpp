@@ -103,6 +103,7 @@ TEST_CASE("gates of the core: nothing is said to be quiet before the first clock
   const CoreGates gates(1000, 25);
   CHECK_FALSE(gates.quiet_for(1, false));
   CHECK(gates.quiet_for(0, false));
+  CHECK(gates.clocks_to_duty() == Pwm(1000, 25).clocks_to_duty());
   CHECK(gates.bits() == 0);
   CHECK(gates.on_clocks() == std::array<std::int64_t, 4>{});
 }

@@ -182,6 +182,12 @@ TEST_CASE("runaway: before the first tick nothing is due, has grown or is strong
     grown.turn(-1, 1, 0, true);
   }
   CHECK_FALSE(grown.due());
+  Check strong;
+  for (int k = 0; k < kWindows; ++k) {
+    strong.compare_current(1, kNegative);
+    strong.turn(-1, 1, 0, true);
+  }
+  CHECK_FALSE(strong.due());
 }
 
 TEST_CASE("runaway: no window is longer than the counter's end") {

@@ -167,3 +167,65 @@ TEST_CASE("pwm: a steady period has few clocks that are not skipped") {
   for (int k = 0; k < 1500; ++k) pwm.clock(off);
   CHECK(pwm.quiet_clocks(off) > 400);
 }
+
+TEST_CASE("pwm: the duty is taken after as many clocks as it says") {
+  for (const Size& size : sizes) {
+    Pwm pwm(size.period, size.dead);
+    const Pwm::In in;
+    int left = pwm.clocks_to_duty();
+    for (int k = 0; k < 3 * size.period; ++k) {
+      pwm.clock(in);
+      if (pwm.out().period_start != (left == 0)) FAIL("period " << size.period << ", clock " << k);
+      left = left == 0 ? size.period - 1 : left - 1;
+      if (pwm.clocks_to_duty() != left) FAIL("period " << size.period << ", after clock " << k);
+    }
+  }
+}
+
+TEST_CASE("pwm: from reset on, a duty of 0 drives both legs alike") {
+  for (const Size& size : sizes) {
+    Pwm pwm(size.period, size.dead);
+    Pwm::In in;
+    in.enable = true;
+    int low = 0;
+    for (int k = 0; k < 3 * size.period + 64; ++k) {
+      pwm.clock(in);
+      const Pwm::Out& out = pwm.out();
+      if (out.gate_a_hi || out.gate_b_hi || out.gate_a_lo != out.gate_b_lo) FAIL("clock " << k);
+      low += out.gate_a_lo ? 1 : 0;
+    }
+    CHECK(low > 0);
+  }
+}
+
+TEST_CASE("pwm: the default is a period of 1000 and 25 dead clocks") {
+  Pwm as_it_is, said(1000, 25);
+  Pwm::In in;
+  in.enable = true;
+  in.duty = 300;
+  for (int k = 0; k < 3000; ++k) {
+    as_it_is.clock(in);
+    said.clock(in);
+    if (!(as_it_is.out() == said.out())) FAIL("clock " << k);
+  }
+}
+
+TEST_CASE("pwm: inputs and outputs are equal when every member is") {
+  const Pwm::In in{true, false, true, false, 7};
+  CHECK(in == Pwm::In{true, false, true, false, 7});
+  CHECK_FALSE(in == Pwm::In{false, false, true, false, 7});
+  CHECK_FALSE(in == Pwm::In{true, true, true, false, 7});
+  CHECK_FALSE(in == Pwm::In{true, false, false, false, 7});
+  CHECK_FALSE(in == Pwm::In{true, false, true, true, 7});
+  CHECK_FALSE(in == Pwm::In{true, false, true, false, 8});
+  CHECK_FALSE(in == Pwm::In{false, true, false, true, 7});
+  const Pwm::Out out{true, false, true, false, true, 7};
+  CHECK(out == Pwm::Out{true, false, true, false, true, 7});
+  CHECK_FALSE(out == Pwm::Out{false, false, true, false, true, 7});
+  CHECK_FALSE(out == Pwm::Out{true, true, true, false, true, 7});
+  CHECK_FALSE(out == Pwm::Out{true, false, false, false, true, 7});
+  CHECK_FALSE(out == Pwm::Out{true, false, true, true, true, 7});
+  CHECK_FALSE(out == Pwm::Out{true, false, true, false, false, 7});
+  CHECK_FALSE(out == Pwm::Out{true, false, true, false, true, 8});
+  CHECK_FALSE(out == Pwm::Out{false, true, false, true, false, 7});
+}

@@ -28,7 +28,7 @@ TEST_CASE("while armed: which parameters act at once, ramp, or are refused") {
   CHECK(while_armed(A::wall_stiffness, S::wall) == WhileArmed::ramps);
   CHECK(while_armed(A::wall_stiffness, S::damper) == WhileArmed::acts);
   CHECK(while_armed(A::setpoint_torque, S::setpoint) == WhileArmed::acts);
-  // Words of no scene are of none, though their number divided by 32 is that of one.
+  // Words below 64 belong to no scene, whatever number is in force.
   for (const int address : {57, 62, 63}) CHECK(while_armed(address, 1) == WhileArmed::acts);
 }
 
@@ -100,8 +100,8 @@ TEST_CASE("while armed: parameters that a chain is to take, and ramps that begin
   host.restart(false, S::wall);
   CHECK(host.write(A::torque_constant, 1));
   CHECK(host.write(511, 1));
-  CHECK_FALSE(host.write(512, 1));
   CHECK_FALSE(host.write(C::control, 0));
+  CHECK_FALSE(host.write(514, 1));  // neither a parameter nor control or command
 }
 
 TEST_CASE("while armed: a new zero begins a ramp, but where the torque is an input") {

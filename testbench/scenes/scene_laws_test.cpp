@@ -79,12 +79,14 @@ TEST_CASE("scenes: a pulse of the self-test stands instead of the scene, at once
 
 TEST_CASE("scenes: disarmed there is no torque, and no limit is told") {
   Device d;
-  d.words.set_raw(A::setpoint_torque, 0xffffff);
+  d.words.set_raw(A::setpoint_torque, (std::int64_t{1} << 20) - 1);
   CHECK(d.settled(S::setpoint, false) == 0);
   CHECK_FALSE(d.law.limit_torque());
   CHECK_FALSE(d.law.limit_ramp());
-  CHECK(d.tick(S::setpoint) != d.limit_word(A::torque_limit));
+  CHECK(d.tick(S::setpoint) == 0);  // ends the ramp, the reference follows with the next
+  CHECK(d.law.limit_torque());
   CHECK(d.law.limit_ramp());
+  CHECK(d.tick(S::setpoint) == d.limit_word(A::torque_limit));
   CHECK(d.settled(S::setpoint, false) == 0);
 }
 
@@ -122,7 +124,7 @@ TEST_CASE("scenes: a membrane's side can be given") {
   CHECK(d.settled(S::membrane) == -777);
 }
 
-TEST_CASE("scenes: a part that no product's format holds saturates") {
+TEST_CASE("scenes: a product too large for a part saturates, at both ends") {
   using Part = ScenePartLaw<Lever, Fixed>::Part;
   using Wide = fixed<1, Part::format.integer + 4, Part::format.fraction>;
   const auto part = [](std::int64_t raw) {
@@ -132,6 +134,7 @@ TEST_CASE("scenes: a part that no product's format holds saturates") {
   CHECK(part(Part::max_raw() + 1) == Part::max_raw());
   CHECK(part(Part::min_raw() - 1) == Part::min_raw());
   CHECK(part(Wide::max_raw()) == Part::max_raw());
+  CHECK(part(Wide::min_raw()) == Part::min_raw());
 }
 
 TEST_CASE("scenes: the distance is from the position to the reference, exact") {

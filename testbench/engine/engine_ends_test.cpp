@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// engine: ends that random lives seldom come to, RTL against twin. Documentation:
+// docs/blocks/engine.md
+#include <array>
+
+#include "catch.hpp"
+#include "engine_device.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+TEST_CASE("engine: a long divider counts all its ticks, and begins anew when run is written") {
+  LoadedDevice device(image(wall, {100, 20000, -60000}));
+  device.write(H::divider0, 300);
+  device.write(H::run, 1);
+  REQUIRE(device.until_fresh() > 0);
+  for (int k = 0; k < 2; ++k) {
+    const int clocks = device.until_fresh(301 * kTick);
+    CHECK(clocks > 300 * kTick - kTick / 2);
+    CHECK(clocks < 300 * kTick + kTick / 2);
+  }
+  device.clock(100 * kTick);  // 200 ticks are left
+  device.write(H::run, 0);
+  device.clock(5 * kTick);
+  device.write(H::run, 1);
+  CHECK(device.until_fresh(3 * kTick) > 0);
+  device.play();
+}
+
+TEST_CASE("engine: only the commit's own address commits") {
+  LoadedDevice device(image(wall, {100, 20000, -60000}));
+  device.write(H::data + kParameter, 7);
+  const bool bank = device.status(EngineMap::S::status_bank);
+  for (int bit = 0; bit < 9; ++bit) {
+    device.write(H::commit ^ (1 << bit), 1);
+    device.clock(5 * kTick);
+  }
+  CHECK(device.status(EngineMap::S::status_bank) == bank);
+  device.play();
+}
+
+TEST_CASE("engine: events go around all their places") {
+  EngineMemory m;
+  program(m, 0, {word(EngineOp::add, 0, EngineMap::input_tick, 63, EngineTarget::event, 7, true)});
+  LoadedDevice device(m);
+  device.write(H::divider0, 20);
+  device.write(H::run, 1);
+  std::uint32_t before = 0;
+  for (int round = 0; round < 4; ++round) {
+    device.clock(10 * 20 * kTick);
+    for (int n = 0; n < 10; ++n) {
+      const std::uint32_t value = device.read(H::event_value);
+      CHECK(value > before);
+      CHECK(device.read(H::event_tick) == value);
+      before = value;
+    }
+  }
+  CHECK(device.read(H::events_lost) == 0);
+  device.play();
+}
+
+TEST_CASE("engine: the status tells a CRC that holds") {
+  EngineMemory m = image(wall, {100, 20000, -60000});
+  LoadedDevice device(m);
+  const auto check = [&device] {
+    device.in.crc_start = true;
+    device.clock();
+    while (!device.out().crc_done) device.clock();
+    return device.status(EngineMap::S::status_crc_good);
+  };
+  device.write(H::crc, image_crc(device.twin.memory()));
+  CHECK(check());
+  device.write(H::crc, 1);
+  CHECK_FALSE(check());
+  device.play();
+}
+
+TEST_CASE("engine: products beyond every window saturate") {
+  EngineMemory m;
+  const std::array<std::int32_t, 4> data{INT32_MIN, INT32_MAX, 1 << 30, -(1 << 30)};
+  const std::array<std::int32_t, 5> factors{-(1 << 17), (1 << 17) - 1, 1 << 16, 1 << 15, 3 << 14};
+  int at = EngineMap::D::lower;
+  for (const std::int32_t x : data) m.set_data(at++, x);
+  for (const std::int32_t x : factors) m.set_data(at++, x);
+  int n = 0;
+  for (int mode = 0; mode < 4; ++mode) {
+    for (int a = 0; a < 4; ++a) {
+      for (int b = 0; b < 5; ++b, ++n) {
+        m.set_program(
+            n, engine_encode(word(EngineOp::mul, mode, EngineMap::D::lower + a,
+                                  EngineMap::D::lower + 4 + b, EngineTarget::event, n, n == 79)));
+      }
+    }
+  }
+  LoadedDevice device(m);
+  device.write(H::run, 1);
+  int events = 0, limited = 0;
+  for (int k = 0; k < 50 * kTick; ++k) {
+    device.clock();
+    const Twin::Out out = device.out();
+    if (!out.event_valid) continue;
+    ++events;
+    limited += out.event_value == INT32_MIN || out.event_value == INT32_MAX ? 1 : 0;
+  }
+  CHECK(events > 160);
+  CHECK(limited > events / 4);
+  CHECK(limited < events * 3 / 4);
+  device.play();
+}

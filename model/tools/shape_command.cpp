@@ -145,8 +145,8 @@ int run_several(const ShapeArguments& a) {
   for (const std::string& svg : a.svgs) {
     const auto [read, curve] = drawn(a, svg);
     polygons.push_back(polygon_of(svg, curve, a.vertices));
-    said += fmt::format("shape {}: {}, {} corners in the file, {:.1f} mm around\n",
-                        polygons.size() - 1, svg, read.size(), 1e3 * curve.length_m);
+    said += fmt::format("shape {}: {}, {} corners in the file, {:.1f} mm around, {} vertices\n",
+                        polygons.size() - 1, svg, read.size(), 1e3 * curve.length_m, a.vertices);
     names += (names.empty() ? "" : ", ") + std::filesystem::path(svg).stem().string();
   }
   const std::string text =
@@ -241,7 +241,7 @@ void add_shape(CLI::App& app, int* exit_code) {
       ->capture_default_str();
   const CLI::Option* vertices =
       sub->add_option("--vertices", a->vertices,
-                      "on the outline, more where it bends, or what fits")
+                      "on the outline, more where it bends; fewer where 100 do not fit")
           ->type_name("N")
           ->check(CLI::Range(shape::fewest_vertices, shape::most_vertices))
           ->capture_default_str();

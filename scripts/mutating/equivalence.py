@@ -39,8 +39,22 @@ def at_buffers(mutant):
     return mutant | {"cell": buffer_of(mutant["cell"], pin), "type": "$pos", "port": port}
 
 
+def check_clocks(cell, body):
+    """Clocks and enables of its ports are cut away uncompared: they must be none, or the clock."""
+    reads, writes = (
+        re.search(rf"parameter \\{port}_CLK_ENABLE \d+'(\d*)", body).group(1)
+        for port in ("RD", "WR")
+    )
+    clocks = re.search(r"connect \\WR_CLK (.*)", body).group(1)
+    if "1" in reads or "0" in writes or set(re.findall(r"[\\$]\S+", clocks)) - {"\\clk_i"}:
+        raise netlist.NetlistError(
+            f"memory {cell.lstrip(chr(92))}: the proof wants reads without a clock and writes with "
+            "clk_i; write it so, or take --proof-seconds 0"
+        )
+
+
 def without_memories(rtlil):
-    """The design with ports in place of the pins of its memories, and a buffer behind each."""
+    """The design with ports in place of the pins of its memories, and a buffer between."""
     last_port = max(int(n) for n in re.findall(r"^  wire .*?(?:input|output) (\d+) ", rtlil, re.M))
     count = 0
 
@@ -49,6 +63,7 @@ def without_memories(rtlil):
         cell, body = found.groups()
         count += 1
         size = {k: int(v) for k, v in re.findall(r"parameter \\(\w+) (\d+)\n", body)}
+        check_clocks(cell, body)
         lines = []
         for pins, direction in ((MEMORY_INPUTS, "input"), (MEMORY_OUTPUTS, "output")):
             for pin, (ports, width) in pins.items():
@@ -87,7 +102,6 @@ def join_script(block, mutants, width):
         "hierarchy -top joined",
         "opt_merge -share_all",  # what no mutant reaches is there once
         "async2sync",
-        "memory_map",
         "opt -fast",
         "techmap",
         "setundef -zero -init",
@@ -167,7 +181,7 @@ class Joined:
         ):
             key = int(clock), signal
             values[key] = values.get(key, 0) | int(value) << int(bit or 0)
-        lines, last = ["inputs that show it, from a state of 0:"], {}
+        lines, last = ["inputs that show it, from a state of 0 (memory_N_RD_DATA: any word):"], {}
         for clock in range(max((key[0] for key in values), default=-1) + 1):
             now = {
                 signal: value

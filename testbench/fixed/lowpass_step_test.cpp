@@ -89,8 +89,7 @@ TEST_CASE("where it is not allowed the state does leave") {
   CHECK(compare<Round::half_up, state.key(), operand(2), Format{0, 0, 5}.key()>().outside > 0);
 }
 
-TEST_CASE(
-    "an operand that lacks range or has bits to spare, or a coefficient with a sign, is not") {
+TEST_CASE("a narrow operand, one with bits to spare, or a coefficient with a sign: not allowed") {
   CHECK(stays_between<Round::half_up>());
   CHECK_FALSE(stays_between<Round::half_up, Format{1, 2, 3}.key()>());
   CHECK_FALSE(stays_between<Round::half_up, Format{1, 3, 4}.key()>());

@@ -137,6 +137,15 @@ class Netlist(unittest.TestCase):
         self.assertIn(r"input 6 \memory_1_RD_DATA", cut)
         self.assertIn(r"output 7 \memory_1_RD_ADDR", cut)
 
+    def test_a_memory_with_another_clock_is_refused(self):
+        text = (self.folder / "block.il").read_text(encoding="utf-8")
+        for old, new in (("RD_CLK_ENABLE 1'0", "RD_CLK_ENABLE 1'1"),
+                         ("WR_CLK_ENABLE 1'1", "WR_CLK_ENABLE 1'0"),
+                         (r"WR_CLK \clk_i", "WR_CLK $and$1")):
+            self.assertIn(old, text)
+            with self.assertRaisesRegex(netlist.NetlistError, "memory words"):
+                equivalence.without_memories(text.replace(old, new))
+
     def test_a_mutant_at_a_memory(self):
         read = self.mutant(type="$mem_v2", port="RD_DATA", mode="inv")
         wrote = self.mutant(type="$mem_v2", port="WR_DATA")

@@ -52,6 +52,13 @@ class Shape(LawMaking):
             done = self.run_it("shape", SHAPES / "square.svg", option)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn("around, 80 vertices", done.stdout)
+        names = ("square", "bell", "banana", "fish", "horseshoe", "mushroom", "duck")
+        files = [SHAPES / f"{name}.svg" for name in names]
+        done = self.run_it("shape", *files, "--radius", "2mm", "-o", "hidden_shapes.law")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("around, 27 vertices", done.stdout)
+        written = (self.folder / "hidden_shapes.law").read_text()
+        self.assertEqual(written, (ROOT / "rtl/laws/hidden_shapes.law").read_text())
 
     def test_table(self):
         """The proxy's force never steps by more than 6 %, the others' by their edges."""

@@ -20,11 +20,14 @@ using Chain = ChainTick<Built, Fixed>;
 using A = Lever::A;
 using S = Lever::S;
 
+/// The largest ramp step: a ramp ends in a tick.
+constexpr std::int64_t at_once = fixed_of<Lever::P::ramp_step.key()>::max_raw();
+
 }  // namespace
 
 TEST_CASE("chain: a reset takes the torque and its ramp away") {
   Chain chain;
-  chain.words().set_raw(A::ramp_step, (std::int64_t{1} << 27) - 1);
+  chain.words().set_raw(A::ramp_step, at_once);
   chain.words().set_raw(A::setpoint_torque, 4242);
   for (int k = 0; k < 3; ++k) chain.tick(0, 0, true, S::setpoint, Mode::closed_loop);
   CHECK(chain.tau_ref().raw() == 4242);
@@ -37,7 +40,7 @@ TEST_CASE("chain: a reset takes the torque and its ramp away") {
 
 TEST_CASE("chain: a program's torque is rendered") {
   Chain chain;
-  chain.words().set_raw(A::ramp_step, (std::int64_t{1} << 27) - 1);
+  chain.words().set_raw(A::ramp_step, at_once);
   chain.program(Chain::Torque::from_raw(-777));
   for (int k = 0; k < 3; ++k) chain.render(true, S::law, 0);
   CHECK(chain.tau_ref().raw() == -777);
@@ -45,7 +48,7 @@ TEST_CASE("chain: a program's torque is rendered") {
 
 TEST_CASE("chain: the velocity's input is of the travel since m1 ticks ago") {
   Chain chain;
-  VelocityLaw<Built, Fixed>::Velocity one = VelocityLaw<Built, Fixed>::raw(1, nullptr);
+  const auto one = VelocityLaw<Built, Fixed>::raw(1, nullptr);
   REQUIRE(one.raw() > 0);
   CHECK(chain.velocity_input(1) == one.raw());
   CHECK(chain.velocity_input(-1) == -one.raw());

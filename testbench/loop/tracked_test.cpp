@@ -81,8 +81,7 @@ TEST_CASE("wall: 2 Nm/deg is quiet on the encoder at 490 Hz, 0.2 Nm/deg jitters 
   CHECK(filtered.theta_rad < 0.9 * raw.theta_rad);
 }
 
-TEST_CASE(
-    "ceiling: filtered it is quiet to a higher stiffness, and higher still with the encoder") {
+TEST_CASE("ceiling: the filter raises the border; with the encoder the lever moves less near it") {
   CHECK(!rest("ceiling_tracked", kRaw, 2200).quiet());
   const Rest filtered = rest("ceiling_tracked", kFiltered, 2900);
   const Rest fused = rest("ceiling_tracked", kFused, 2900);

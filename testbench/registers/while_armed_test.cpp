@@ -99,9 +99,9 @@ TEST_CASE("while armed: parameters that a chain is to take, and ramps that begin
   CHECK(host.restart(true, S::wall));
   host.restart(false, S::wall);
   CHECK(host.write(A::torque_constant, 1));
-  CHECK(host.write(511, 1));
+  CHECK(host.write(C::control - 1, 1));  // the last parameter
   CHECK_FALSE(host.write(C::control, 0));
-  CHECK_FALSE(host.write(514, 1));  // neither a parameter nor control or command
+  CHECK_FALSE(host.write(C::command + 1, 1));  // neither a parameter nor control or command
 }
 
 TEST_CASE("while armed: a new zero begins a ramp, but where the torque is an input") {

@@ -27,13 +27,14 @@ using A = Lever::A;
 using S = Lever::S;
 using Law = ScenesLaw<Built, Fixed>;
 constexpr Law::Velocity at_rest{};
+constexpr std::int64_t most_setpoint = fixed_of<Lever::P::setpoint_torque.key()>::max_raw();
 
-/// A torque reference without ramps: a step of 8 Nm ends them in a tick.
+/// A torque reference without ramps: the largest step ends them in a tick.
 struct Device {
   Words<Built, Fixed> words;
   Law law;
 
-  Device() { words.set_raw(A::ramp_step, (std::int64_t{1} << 27) - 1); }
+  Device() { words.set_raw(A::ramp_step, fixed_of<Lever::P::ramp_step.key()>::max_raw()); }
   std::int64_t tick(int scene, bool armed = true, Relief relief = {},
                     TestPulse pulse = TestPulse::none, std::int32_t position = 0) {
     law.tick(words, armed, scene, position, at_rest, relief, pulse);
@@ -79,7 +80,7 @@ TEST_CASE("scenes: a pulse of the self-test stands instead of the scene, at once
 
 TEST_CASE("scenes: disarmed there is no torque, and no limit is told") {
   Device d;
-  d.words.set_raw(A::setpoint_torque, (std::int64_t{1} << 20) - 1);
+  d.words.set_raw(A::setpoint_torque, most_setpoint);
   CHECK(d.settled(S::setpoint, false) == 0);
   CHECK_FALSE(d.law.limit_torque());
   CHECK_FALSE(d.law.limit_ramp());
@@ -92,7 +93,7 @@ TEST_CASE("scenes: disarmed there is no torque, and no limit is told") {
 
 TEST_CASE("scenes: a relief eases the limit") {
   Device d;
-  d.words.set_raw(A::setpoint_torque, (std::int64_t{1} << 20) - 1);
+  d.words.set_raw(A::setpoint_torque, most_setpoint);
   const std::int64_t whole = d.limit_word(A::torque_limit), eased = d.limit_word(A::hold_limit);
   REQUIRE(eased < whole);
   CHECK(d.settled(S::setpoint) == whole);

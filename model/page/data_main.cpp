@@ -138,7 +138,7 @@ int main(int count, char** argv) {
     json out = {{"recorded", json::array()},  {"closed", json::array()},
                 {"shapes", hidden_shapes()},  {"training", training_squares()},
                 {"drums", image_of("drums")}, {"material", image_of("material")},
-                {"materials", materials()}};
+                {"materials", materials()},   {"coupled", image_of("coupled_levers")}};
     for (int i = 1; i < count; ++i) {
       const std::string design = argv[i];
       if (feltgate::design_named(design).scene_number("law") >= 0) {

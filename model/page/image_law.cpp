@@ -39,11 +39,12 @@ void ImageLaw::set(const std::string& parameter, double value) {
   law::write(machine_, values_.set(parameter, value));
 }
 
-void ImageLaw::joint(int axis, double angle_rad, double speed_rad_s) {
+void ImageLaw::joint(int axis, double angle_rad, double speed_rad_s, double observed_nm) {
   const auto first = static_cast<std::size_t>(3 * axis);
   inputs_[first] = static_cast<std::int32_t>(std::floor(angle_rad / design_.count_rad));
-  const Format f = design_.velocity;
+  const Format f = design_.velocity, t = design_.torque;
   inputs_[first + 1] = word_of(speed_rad_s, f.fraction, f.width());
+  inputs_[first + 2] = word_of(observed_nm, t.fraction, t.width());
 }
 
 void ImageLaw::run() {

@@ -28,8 +28,8 @@ class ImageLaw {
   void set(const std::string& parameter, double value);
   double value(const std::string& parameter) const { return values_.value(parameter); }
   /// Joint `axis` (0 to 2) of the next run: an absolute angle, of which the counts that are below
-  /// it are left, and a speed, rounded to the design's word.
-  void joint(int axis, double angle_rad, double speed_rad_s);
+  /// it are left, a speed and an observed torque, rounded to the design's words.
+  void joint(int axis, double angle_rad, double speed_rad_s, double observed_nm = 0);
   /// Counts of the joint, as the next run gets them.
   std::int32_t counts(int axis) const { return inputs_[static_cast<std::size_t>(3 * axis)]; }
   /// One run of the law. Errors: std::runtime_error, of a program that does not end.

@@ -16,9 +16,8 @@
 #include "feltgate/reading.hpp"
 #include "page/live_loop.hpp"
 #include "page/own_design.hpp"
-#include "page/pen_loop.hpp"
 #include "page/recorded_inputs.hpp"
-#include "page/stick_loop.hpp"
+#include "page/said.hpp"
 #include "page/user_law.hpp"
 #include "plant/plant_file.hpp"
 #include "stability/linear_loop.hpp"
@@ -27,21 +26,11 @@ namespace {
 
 using emscripten::val;
 namespace page = feltgate::page;
+using page::said;
 
 const char* registers = "/rtl/registers.toml";
 constexpr int law_runs = 5000;  ///< beside the law in double
 std::string plant_path(const std::string& name) { return "/plants/" + name + ".toml"; }
-
-/// What went wrong as a text for the page; empty: nothing.
-template <class Do>
-std::string said(Do&& act) {
-  try {
-    act();
-    return {};
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-}
 
 class Loop {
  public:
@@ -157,76 +146,6 @@ class Loop {
   std::unique_ptr<page::UserLaw> law_;
 };
 
-/// The pen of the pantograph in a hand, and a law's image that pushes it.
-class Pen {
- public:
-  explicit Pen(const std::string& image) : loop_(image) {}
-  std::string load(const std::string& image) {
-    return said([&] { loop_.load(image); });
-  }
-  std::string set(const std::string& name, double value) {
-    return said([&] { loop_.set(name, value); });
-  }
-  void place(double x_m, double y_m) { loop_.place({x_m, y_m}); }
-  void lead(double x_m, double y_m) { loop_.lead({x_m, y_m}); }
-  std::string advance(double seconds) {
-    return said([&] { loop_.advance(seconds); });
-  }
-  /// Places of pen and hand, m; force on the pen, N; counts of the joints; time, s.
-  val state() const {
-    val out = val::object();
-    out.set("x", loop_.pen_m().x);
-    out.set("y", loop_.pen_m().y);
-    out.set("hand_x", loop_.hand_m().x);
-    out.set("hand_y", loop_.hand_m().y);
-    out.set("force_x", loop_.force_n().x);
-    out.set("force_y", loop_.force_n().y);
-    out.set("counts_1", loop_.law().counts(0));
-    out.set("counts_5", loop_.law().counts(1));
-    out.set("time", loop_.time_s());
-    out.set("rate_hz", 1 / loop_.law().period_s());
-    return out;
-  }
-
- private:
-  page::PenLoop loop_;
-};
-
-/// A stick over drums.
-class Stick {
- public:
-  explicit Stick(const std::string& image) : loop_(image) {}
-  std::string set(const std::string& name, double value) {
-    return said([&] { loop_.set(name, value); });
-  }
-  void lead(double theta_rad) { loop_.lead(theta_rad); }
-  std::string advance(double seconds) {
-    return said([&] { loop_.advance(seconds); });
-  }
-  /// Angles, rad; torque of the law, Nm; what it told in the last advance().
-  val state() const {
-    val out = val::object(), events = val::array();
-    out.set("theta", loop_.theta_rad());
-    out.set("hand", loop_.hand_rad());
-    out.set("torque", loop_.torque_nm());
-    out.set("counts", loop_.law().counts(0));
-    out.set("time", loop_.time_s());
-    out.set("rate_hz", 1 / loop_.law().period_s());
-    for (const page::StickEvent& e : loop_.events()) {
-      val one = val::object();
-      one.set("name", e.name);
-      one.set("value", e.value);
-      one.set("time", e.time_s);
-      events.call<void>("push", one);
-    }
-    out.set("events", events);
-    return out;
-  }
-
- private:
-  page::StickLoop loop_;
-};
-
 /// What is wrong with a law, by line; or the table of `feltgate law`.
 val check_law(const std::string& design, const std::string& text) {
   val out = val::object(), errors = val::array();
@@ -334,20 +253,6 @@ EMSCRIPTEN_BINDINGS(feltgate) {
       .function("status", &Loop::status)
       .function("parameters", &Loop::parameters)
       .function("design", &Loop::design);
-  emscripten::class_<Pen>("Pen")
-      .constructor<std::string>()
-      .function("load", &Pen::load)
-      .function("set", &Pen::set)
-      .function("place", &Pen::place)
-      .function("lead", &Pen::lead)
-      .function("advance", &Pen::advance)
-      .function("state", &Pen::state);
-  emscripten::class_<Stick>("Stick")
-      .constructor<std::string>()
-      .function("set", &Stick::set)
-      .function("lead", &Stick::lead)
-      .function("advance", &Stick::advance)
-      .function("state", &Stick::state);
   emscripten::function("designNames", &design_names);
   emscripten::function("checkLaw", &check_law);
   emscripten::function("hash", &hash);

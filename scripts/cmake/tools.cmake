@@ -60,7 +60,7 @@ target_link_libraries(feltgate_identify PRIVATE nlohmann_json::nlohmann_json)
 target_compile_options(feltgate_calibrate PRIVATE -O1)
 target_compile_options(feltgate_identify PRIVATE -O1)
 # The page for a browser: what runs natively of it; scripts/page.py compiles it for the browser.
-feltgate_library(feltgate_page page EXCEPT "/page_api" feltgate_loop feltgate_design feltgate_law_loop
+feltgate_library(feltgate_page page EXCEPT "_api" feltgate_loop feltgate_design feltgate_law_loop
   feltgate_shape)
 foreach(design fast lever_law)
   feltgate_type_of(${design} type)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The page's pantograph, its guessing game, its drums and materials, in Debian's Chromium.
+"""The page's pantograph, its guessing game, its drums, materials and two levers, in Chromium.
 
 tabs_test.py --pictures FOLDER keeps screenshots.
 Documentation: docs/page.md
@@ -208,6 +208,49 @@ class Materials(PageTest):
             self.assertLess(tremble, 0.01)
 
 
+class Coupled(PageTest):
+    def at_rest(self, lead):
+        """Means over a second, when the hand's swinging is over."""
+        self.js("feltgate.coupled.aim(arguments[0])", lead)
+        begin = self.js("return feltgate.coupled.seen.time")
+        self.until("return feltgate.coupled.seen.time > arguments[0]", begin + 2.5)
+        return self.js("return feltgate.coupled.seen")
+
+    def choose(self, place, value):
+        self.js(
+            "const e = document.querySelector(arguments[0]);"
+            "e.value = arguments[1]; e.dispatchEvent(new Event('input'))",
+            place,
+            value,
+        )
+
+    def test_a_spring_is_felt_through_the_law(self):
+        self.driver.find_element(By.ID, "tab-coupled").click()
+        self.until("return !!feltgate.coupled")
+        self.assertEqual(self.js("return feltgate.coupled.met"), "spring")
+        count, hand, k, coupling = 2 * math.pi / 4096, 1.35, 1, 4
+        for n, share in enumerate((0, 1)):
+            self.choose("#coupled-law label:nth-of-type(3) input", share)
+            self.assertEqual(self.js("return feltgate.coupled.values.share"), share)
+            seen = self.at_rest(0.5)
+            felt = k * coupling / (coupling + (1 - share) * k)
+            theta = hand * 0.5 / (hand + felt)
+            self.assertAlmostEqual(seen["theta"][0], theta, delta=3 * count, msg=n)
+            self.assertAlmostEqual(seen["theta"][1], felt / k * theta, delta=3 * count, msg=n)
+            self.assertAlmostEqual(seen["met"], -k * seen["theta"][1], delta=1e-9, msg=n)
+            told = self.driver.find_element(By.CSS_SELECTOR, "#coupled-stages figure").text
+            self.assertIn(f"{felt:.2f} Nm/rad of k = 1.00", told)
+        # From the other side, and with nothing in the way.
+        self.choose("#coupled-met", "nothing")
+        second = self.driver.find_elements(By.CSS_SELECTOR, "#coupled-stages svg")[1]
+        second.send_keys(Keys.ARROW_LEFT)
+        self.assertEqual(self.js("return feltgate.coupled.held"), 1)
+        seen = self.at_rest(-0.2)
+        for angle in seen["theta"]:
+            self.assertAlmostEqual(angle, -0.2, delta=8 * count)
+        self.assertEqual(seen["met"], 0)
+
+
 def fastest_m_s():
     """Of the tip, in a hand that wants to be 0.6 rad lower at once; later is slower."""
     damping, stiffness, mass = 6.45, 135, 0.554
@@ -267,6 +310,7 @@ def pictures(folder):
         "document.getElementById('tab-drums').click(); feltgate.drums.aim(0.05, -0.2)",
         "materials": "document.getElementById('tab-materials').click();"
         "feltgate.materials.aim(0.55)",
+        "coupled": "document.getElementById('tab-coupled').click(); feltgate.coupled.aim(0.5)",
     }
     for name, script in views.items():
         driver.execute_script(script)

@@ -1,0 +1,165 @@
+// Two levers that only a law couples: either can be dragged, the second one meets something.
+"use strict";
+
+const MET = {
+  nothing: { number: 0, strength: 0, low: 0, high: 0, unit: "" },
+  spring: { number: 1, strength: 1, low: 0.1, high: 4, unit: "Nm/rad" },
+  wall: { number: 2, strength: 10, low: 1, high: 20, unit: "Nm/rad" },
+  weight: { number: 3, strength: 0.2, low: 0, high: 0.4, unit: "Nm" },
+};
+const COUPLED_WALL_RAD = 0.3, COUPLED_MOST_RAD = 1; // of coupled_loop.hpp
+const COUPLING = [
+  { name: "stiffness", label: "stiffness", unit: "Nm/rad", low: 0.5, high: 8, step: 0.1, value: 4 },
+  { name: "damping", label: "damping", unit: "Nm s/rad", low: 0, high: 0.03, step: 0.001, value: 0.01 },
+  { name: "share", label: "observer", unit: "", low: 0, high: 1, step: 0.05, value: 0 },
+  { name: "calm", label: "calm", unit: "Nm s/rad", low: 0, high: 0.03, step: 0.001, value: 0.01 },
+];
+const COUPLED_TRACE = 240; // frames that the curve keeps
+
+class CoupledLever {
+  constructor(tab, place, number) {
+    this.tab = tab;
+    this.number = number;
+    this.figure = document.createElement("figure");
+    this.figure.innerHTML = `<svg viewBox="0 0 500 400" tabindex="0" role="slider" aria-label="${number ? "Second" : "First"} lever: the hand's angle in rad" aria-valuemin="${-COUPLED_MOST_RAD}" aria-valuemax="${COUPLED_MOST_RAD}" aria-valuenow="0"></svg>
+      <figcaption><span class="name">${number ? "second lever" : "first lever"}</span><div class="equation"></div></figcaption>`;
+    this.svg = this.figure.querySelector("svg");
+    place.append(this.figure);
+    this.svg.addEventListener("pointerdown", (event) => { this.svg.setPointerCapture(event.pointerId); this.point(event); });
+    this.svg.addEventListener("pointermove", (event) => { if (event.buttons) this.point(event); });
+    this.svg.addEventListener("keydown", (event) => {
+      const step = { ArrowLeft: -0.02, ArrowRight: 0.02 }[event.key];
+      if (!step) return;
+      event.preventDefault();
+      tab.hold(number);
+      tab.aim(tab.lead + step);
+    });
+  }
+
+  point(event) {
+    const [x, y] = pointed(event, this.svg);
+    this.tab.hold(this.number);
+    this.tab.aim(Math.atan2(x - CENTRE[0], Math.max(CENTRE[1] - y, 1)));
+  }
+
+  /** What the second lever meets. */
+  met(theta) {
+    const { met } = this.tab;
+    if (met === "spring") return `<path class="object" d="${coil(-1.2, theta, 130, 9)}"/><path class="object" d="${ray(-1.2, 100, 160)}"/>`;
+    if (met === "wall") return `<path class="solid" d="${sector(Math.max(COUPLED_WALL_RAD, theta), 1.2, 60, 225)}"/><path class="object" d="${ray(COUPLED_WALL_RAD, 60, 225)}"/>`;
+    if (met !== "weight") return "";
+    const [x, y] = at(theta, 150);
+    return `<path class="object" d="${path([[x, y], [x - 60, y]])}"/><path class="object" d="${path([[x - 60, y], [x - 60, y + 70]])}"/><rect class="outline" x="${x - 78}" y="${y + 70}" width="36" height="26"/>`;
+  }
+
+  draw(s) {
+    const theta = s.theta[this.number], newton = s.torque[this.number] / RADIUS_M, [hx, hy] = at(theta, LENGTH);
+    const reach = Math.max(-90, Math.min(90, newton * 18)), head = Math.sign(reach) * Math.min(12, Math.abs(reach));
+    const along = (far, aside) => [hx + far * Math.cos(theta) + aside * Math.sin(theta), hy + far * Math.sin(theta) - aside * Math.cos(theta)];
+    let text = this.number ? this.met(theta) : "";
+    text += `<path class="lever" d="${ray(theta, 0, LENGTH)}"/><circle class="hub" cx="${CENTRE[0]}" cy="${CENTRE[1]}" r="16"/><circle class="knob" cx="${hx}" cy="${hy}" r="12"/>`;
+    if (s.held === this.number) {
+      const [gx, gy] = at(s.hand, LENGTH);
+      text += `<path class="handline" d="${path([[hx, hy], [gx, gy]])}"/><circle class="handring" cx="${gx}" cy="${gy}" r="19"/>`;
+      this.svg.setAttribute("aria-valuenow", this.tab.lead.toFixed(2));
+    }
+    if (Math.abs(reach) > 1) text += `<path class="force" d="${path([[hx, hy], along(reach - head, 0)])}"/><path class="forcehead" d="${path([along(reach, 0), along(reach - head, 7), along(reach - head, -7)])}Z"/>`;
+    this.svg.innerHTML = text;
+  }
+
+  tell(text) {
+    this.figure.querySelector(".equation").textContent = text;
+  }
+}
+
+class CoupledTab {
+  constructor(core, numbers) {
+    this.loop = new core.Coupled(numbers.coupled);
+    this.lead = this.held = 0;
+    this.trace = [];
+    this.values = {};
+    this.levers = [0, 1].map((n) => new CoupledLever(this, $("coupled-stages"), n));
+    for (const slider of COUPLING) $("coupled-law").append(this.slider(slider, (value) => this.set(slider.name, value)));
+    for (const name of Object.keys(MET)) $("coupled-met").append(option(name, name));
+    $("coupled-met").oninput = () => this.meet($("coupled-met").value, MET[$("coupled-met").value].strength);
+    $("coupled-strength").oninput = () => this.meet(this.met, Number($("coupled-strength").value));
+    $("coupled-met").value = "spring";
+    this.meet("spring", MET.spring.strength);
+    this.seen = this.loop.state();
+  }
+
+  slider({ label, unit, low, high, step, value }, act) {
+    const line = document.createElement("label"), shown = document.createElement("output");
+    const range = Object.assign(document.createElement("input"), { type: "range", min: low, max: high, step, value });
+    line.className = "slider";
+    range.oninput = () => { act(Number(range.value)); shown.textContent = `${range.value} ${unit}`; };
+    range.oninput();
+    line.append(label, range, shown);
+    return line;
+  }
+
+  set(name, value) {
+    this.values[name] = value;
+    say(this.loop.set(name, value));
+  }
+
+  meet(what, strength) {
+    const { number, low, high, unit } = MET[what];
+    this.met = what;
+    this.strength = strength;
+    say(this.loop.meet(number, strength));
+    Object.assign($("coupled-strength"), { min: low, max: high, step: 0.05, value: strength, disabled: !number });
+    $("coupled-strength-shown").textContent = number ? `${fixed(strength, 2)} ${unit}` : "";
+  }
+
+  /** The hand changes levers where they are. */
+  hold(number) {
+    if (number === this.held) return;
+    this.held = number;
+    say(this.loop.hold(number));
+    this.lead = this.loop.state().theta[number];
+  }
+
+  aim(lead) {
+    this.lead = Math.max(-COUPLED_MOST_RAD, Math.min(COUPLED_MOST_RAD, lead));
+  }
+
+  frame(passed) {
+    this.loop.lead(this.lead);
+    run_timed(passed, () => say(this.loop.advance(passed)));
+    this.seen = this.loop.state();
+    this.trace.push(this.seen.theta);
+    if (this.trace.length > COUPLED_TRACE) this.trace.shift();
+    this.levers.forEach((lever) => lever.draw(this.seen));
+    this.tell();
+    this.draw_angles();
+  }
+
+  tell() {
+    const s = this.seen, { stiffness: K, share: m } = this.values;
+    let felt = `τ₀ = ${fixed(s.torque[0])} Nm, ${fixed(s.theta[0])} rad`;
+    if (this.met === "spring") felt += `\nat rest it feels k K/(K + (1 − m) k) = ${fixed((this.strength * K) / (K + (1 - m) * this.strength), 2)} Nm/rad of k = ${fixed(this.strength, 2)}`;
+    this.levers[0].tell(`${felt}\nthe law's words at ${fixed(s.rate_hz / 1000, 0)} kHz`);
+    this.levers[1].tell(`τ₁ = ${fixed(s.torque[1])} Nm, ${fixed(s.theta[1])} rad\nit meets ${fixed(s.met)} Nm; θ₀ − θ₁ = ${fixed(1000 * (s.theta[0] - s.theta[1]), 1)} mrad`);
+  }
+
+  draw_angles() {
+    const { pen, width, height, colour } = cleared($("coupled-angles"));
+    const most = Math.max(0.1, ...this.trace.flatMap((pair) => pair.map(Math.abs))), left = 46, top = 24, bottom = height - 8;
+    const x = (n) => left + (n / COUPLED_TRACE) * (width - left - 8), y = (rad) => (top + bottom) / 2 - (rad / most) * ((bottom - top) / 2);
+    pen.strokeStyle = colour("--line");
+    pen.fillStyle = colour("--faint");
+    pen.fillText("angle, rad, the last seconds", left + 6, 15);
+    for (const rad of [-most, 0, most]) {
+      pen.beginPath(); pen.moveTo(left, y(rad)); pen.lineTo(width - 8, y(rad)); pen.stroke();
+      pen.fillText(rad.toFixed(2), 4, y(rad) + 4);
+    }
+    ["--blue", "--red"].forEach((name, n) => {
+      pen.strokeStyle = pen.fillStyle = colour(name);
+      pen.fillText(n ? "second" : "first", left + 190 + 80 * n, 15);
+      pen.beginPath();
+      this.trace.forEach((pair, i) => (i ? pen.lineTo(x(i), y(pair[n])) : pen.moveTo(x(i), y(pair[n]))));
+      pen.stroke();
+    });
+  }
+}

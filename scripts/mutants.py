@@ -26,6 +26,9 @@ def main():
     parser.add_argument("--parameter", action="append", default=[], metavar="NAME=VALUE")
     parser.add_argument("--count", type=int, default=400)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument(
+        "--own", action="store_true", help="leave its children whole, but for their pins"
+    )
     parser.add_argument("--root", type=Path, default=ROOT)
     parser.add_argument("--output", type=Path, required=True)
     options = parser.parse_args()
@@ -41,6 +44,7 @@ def main():
             options.seed,
             options.output.resolve(),
             root,
+            options.own,
         )
     except (netlist.NetlistError, DefectError, OSError) as error:
         print(f"mutants: {error}", file=sys.stderr)

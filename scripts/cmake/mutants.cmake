@@ -9,6 +9,8 @@ set(FELTGATE_MUTANTS 400 CACHE STRING "mutants of each block")
 set(FELTGATE_MUTANTS_SHARE 24 CACHE STRING "mutants that every test run tries of each")
 # Blocks of which these are tried; of the others with --whole.
 set(FELTGATE_MUTANT_BLOCKS dob limiter link_receiver ramp scene_wall sequencer velocity_jump)
+# Blocks whose children have mutants of their own: only their own cells and the children's pins change.
+set(FELTGATE_MUTANT_TOPS feltgate_core feltgate_linked axes_engine)
 set(FELTGATE_MUTANT_SEED 1 CACHE STRING "which mutants these are")
 set(FELTGATE_WRITE_MUTANTS "${FELTGATE_ROOT}/scripts/mutants.py")
 find_program(FELTGATE_MUTANT_YOSYS yosys)
@@ -29,6 +31,9 @@ function(feltgate_mutants test block sources libraries)
   file(CONFIGURE OUTPUT "${folder}/test.json" CONTENT "{\"test\": \"${test}\", \"block\": \"${block}\"}\n")
   set(parameters ${ARGN})
   list(TRANSFORM parameters REPLACE "^-G" "--parameter=")
+  if(block IN_LIST FELTGATE_MUTANT_TOPS)
+    list(APPEND parameters --own)
+  endif()
   add_custom_command(OUTPUT "${folder}/${block}.sv" "${folder}/mutants.json" "${folder}/block.il"
     COMMAND ${Python3_EXECUTABLE} -B "${FELTGATE_WRITE_MUTANTS}" ${block} --root "${FELTGATE_ROOT}"
             --sources ${sources} ${parameters} --count ${FELTGATE_MUTANTS} --seed ${FELTGATE_MUTANT_SEED}

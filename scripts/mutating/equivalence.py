@@ -56,12 +56,14 @@ def check_clocks(cell, body):
 def without_memories(rtlil):
     """The design with ports in place of the pins of its memories, and a buffer between."""
     last_port = max(int(n) for n in re.findall(r"^  wire .*?(?:input|output) (\d+) ", rtlil, re.M))
-    count = 0
+    numbers = {
+        cell: n for n, cell in enumerate(sorted(re.findall(r"^  cell \$mem_v2 (\S+)", rtlil, re.M)), 1)
+    }
 
     def ports(found):
-        nonlocal last_port, count
+        nonlocal last_port
         cell, body = found.groups()
-        count += 1
+        count = numbers[cell]
         size = {k: int(v) for k, v in re.findall(r"parameter \\(\w+) (\d+)\n", body)}
         check_clocks(cell, body)
         lines = []
@@ -89,14 +91,20 @@ def without_memories(rtlil):
     return re.sub(r"^  cell \$mem_v2 (\S+)(.*?)^  end\n", ports, rtlil, flags=re.M | re.S)
 
 
-def join_script(block, mutants, width):
-    """Both in one design, any of the mutants in the second one, which mutsel chooses."""
+def commands(block, mutants, width):
+    """Any of the mutants, chosen by mutsel."""
     return [
-        "read_rtlil design.il",
+        netlist.command(m, block, f"-ctrl mutsel {width} {k}") for k, m in enumerate(mutants, 1)
+    ]
+
+
+def join_script(block, width):
+    """Both in one design, the second one with mutants."""
+    return [
+        "read_rtlil gold.il",
         f"rename {block} gold",
         f"add -input mutsel {width} gold",
-        "read_rtlil design.il",
-        *(netlist.command(m, block, f"-ctrl mutsel {width} {k}") for k, m in enumerate(mutants, 1)),
+        "read_rtlil gate.il",
         f"rename {block} gate",
         "miter -equiv -flatten gold gate joined",
         "hierarchy -top joined",
@@ -117,15 +125,28 @@ def join_script(block, mutants, width):
 class Joined:
     """The block beside itself with any of these mutants; the folder has its block.il."""
 
-    def __init__(self, folder, block, mutants, work, crew):
+    def __init__(self, folder, block, mutants, work, crew, own=False):
         self.work, self.crew = work, crew
         self.numbers = {m["number"]: k for k, m in enumerate(mutants, 1)}
         self.width = max(1, len(mutants).bit_length())
         work.mkdir(parents=True, exist_ok=True)
-        (work / "design.il").write_text(
-            (folder / "block.il").read_text(encoding="utf-8"), encoding="utf-8"
-        )
-        netlist.run_yosys(join_script(block, mutants, self.width), "join", work, crew)
+        text = (folder / "block.il").read_text(encoding="utf-8")
+        # Of a block with its children whole, mutants come first and memories are cut out of both.
+        layers = netlist.FLAT if own else []
+        if not own:
+            text = without_memories(text)
+            mutants = [at_buffers(m) for m in mutants]
+        (work / "design.il").write_text(text, encoding="utf-8")
+        changed = {"gold": [], "gate": commands(block, mutants, self.width)}
+        for name, change in changed.items():
+            script = ["read_rtlil design.il", *change, *layers, f"write_rtlil {name}.il"]
+            netlist.run_yosys(script, name, work, crew)
+            if own:
+                flat = work / f"{name}.il"
+                flat.write_text(
+                    without_memories(flat.read_text(encoding="utf-8")), encoding="utf-8"
+                )
+        netlist.run_yosys(join_script(block, self.width), "join", work, crew)
         self.blif = (work / "joined.blif").read_text(encoding="utf-8")
         self.abc = shutil.which("yosys-abc")
         if self.abc is None:
@@ -192,12 +213,3 @@ class Joined:
             lines.append(f"  clock {clock}: {' '.join(changed) or 'as before'}")
             last |= now
         return "\n".join(lines)
-
-
-def joined(folder, block, mutants, work, crew):
-    """The block with any of these mutants, beside itself, memories cut out."""
-    cut = work / "cut"
-    cut.mkdir(parents=True)
-    text = (folder / "block.il").read_text(encoding="utf-8")
-    (cut / "block.il").write_text(without_memories(text), encoding="utf-8")
-    return Joined(cut, block, [at_buffers(m) for m in mutants], work / "joined", crew)

@@ -20,7 +20,10 @@ from seeding.block import Head
 LIMIT_S = 600  # yosys' mutate never ends when nearly all of its database is asked for
 MOST_OF_DATABASE = 0.6
 # One clock cannot be wrong at one register; a memory is read without clock, enable and reset.
-LEFT_OUT = ("CLK", "RD_CLK", "WR_CLK", "RD_EN", "RD_ARST", "RD_SRST")
+LEFT_OUT = ("CLK", "RD_CLK", "WR_CLK", "RD_EN", "RD_ARST", "RD_SRST", "clk_i")
+# Not `memory -nomap`: its ports would read X for a word that is being written.
+FLAT = ["flatten", "opt -full", "memory_collect", "opt_clean -purge"]
+LAYERED = ["opt -full", "opt_clean -purge"]
 
 
 class NetlistError(Exception):
@@ -64,7 +67,9 @@ def cell_types(rtlil):
     found = {}
     for kind, name, body in re.findall(r"^  cell (\S+) (\S+)$(.*?)^  end$", rtlil, re.M | re.S):
         q = re.search(r"^    connect \\Q (.*)$", body, re.M)
-        found[name.lstrip("\\")] = kind, q.group(1).replace("\\", "") if q else ""
+        name = name.lstrip("\\")
+        child = kind.startswith(("\\", "$paramod"))
+        found[name] = name if child else kind, q.group(1).replace("\\", "") if q else ""
     return found
 
 
@@ -126,11 +131,11 @@ def command(mutant, top, control=""):
     return " ".join(word for word in words if word)
 
 
-def wrapper(block, source, width):
+def wrapper(block, source, sources, width):
     """The module of the block's own name: its ports, and which mutant it is."""
     head = Head(block, source)
     ports = ", ".join(f".{port}({port})" for _, _, port in head.ports)
-    edges = set(re.findall(r"\bposedge (\w+)", source)) & {port for _, _, port in head.ports}
+    edges = set(re.findall(r"\bposedge (\w+)", sources)) & {port for _, _, port in head.ports}
     return "\n".join(
         [
             "`default_nettype none",
@@ -157,7 +162,7 @@ def chosen(parameter):
     )
 
 
-def write(block, sources, parameters, count, seed, output, root):
+def write(block, sources, parameters, count, seed, output, root, own=False):
     """Writes output (.sv) and, beside it, BLOCK.il, what the mutants change, and mutants.json."""
     folder = output.parent
     folder.mkdir(parents=True, exist_ok=True)
@@ -171,13 +176,10 @@ def write(block, sources, parameters, count, seed, output, root):
             "read_verilog -sv " + " ".join(f'"{source}"' for source in sources),
             f"hierarchy -top {block}{changed}",
             "proc",
-            "flatten",
-            # Not `memory -nomap`: its ports would read X for a word that is being written.
-            "opt -full",
-            "memory_collect",
-            "opt_clean -purge",
+            *(LAYERED if own else FLAT),
             f"rename -top {block}",
             "write_rtlil block.il",
+            f"select {block}",
             f"mutate -list 1 -seed {seed} -o one.txt",
         ],
         "read",
@@ -187,7 +189,11 @@ def write(block, sources, parameters, count, seed, output, root):
     # Some pins are left out below; what is asked for makes up for them.
     asked = max(1, min(count * 3 // 2, int(MOST_OF_DATABASE * database)))
     run_yosys(
-        ["read_rtlil block.il", f"mutate -list {asked} -seed {seed} -o proposed.txt"],
+        [
+            "read_rtlil block.il",
+            f"select {block}",
+            f"mutate -list {asked} -seed {seed} -o proposed.txt",
+        ],
         "list",
         folder,
     )
@@ -208,6 +214,7 @@ def write(block, sources, parameters, count, seed, output, root):
         [
             "read_rtlil block.il",
             *(command(m, block, f"-ctrl mutsel {width} {m['number']}") for m in mutants),
+            *(FLAT if own else []),
             # Verilator 5.006 loses changes of a word that is driven in parts, some by others of it.
             "opt_clean",
             "splitnets -driver",
@@ -217,12 +224,13 @@ def write(block, sources, parameters, count, seed, output, root):
         "netlist",
         folder,
     )
-    source = next(p for p in sources if Path(p).stem == block)
-    text = wrapper(block, Path(root, source).read_text(encoding="utf-8"), width)
+    texts = {Path(p).stem: Path(root, p).read_text(encoding="utf-8") for p in sources}
+    clocked = "\n".join(texts.values()) if own else texts[block]  # by a child, too
+    text = wrapper(block, texts[block], clocked, width)
     netlist = (folder / "netlist.v").read_text(encoding="utf-8")
     if not output.exists() or output.read_text(encoding="utf-8") != text + netlist:
         output.write_text(
             text + netlist, encoding="utf-8"
         )  # else nothing needs to be compiled again
-    result = {"block": block, "seed": seed, "database": database, "mutants": mutants}
+    result = {"block": block, "seed": seed, "own": own, "database": database, "mutants": mutants}
     (folder / "mutants.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")

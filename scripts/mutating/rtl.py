@@ -40,6 +40,7 @@ class Test:
     seed: int = 0
     database: int = 0
     mutants: list = field(default_factory=list)
+    own: bool = False  # its children are whole but for their pins
 
     def names(self):
         """What a user may call it; a test may have the name of its block."""
@@ -51,6 +52,10 @@ class Test:
             raise MutateError(f"{path} is missing; build the target {self.program.name}")
         found = json.loads(path.read_text(encoding="utf-8"))
         self.seed, self.database, self.mutants = found["seed"], found["database"], found["mutants"]
+        self.own = found["own"]
+
+    def joined(self, mutants, work, crew):
+        return equivalence.Joined(self.folder, self.block, mutants, work, crew, self.own)
 
 
 def tests(build):
@@ -322,9 +327,7 @@ def prove(rows, crew, work, jobs, limit_s):
             ]
             if not alive:
                 return []
-            design = equivalence.joined(
-                row.test.folder, row.test.block, alive, work / row.test.name, crew
-            )
+            design = row.test.joined(alive, work / row.test.name, crew)
             return [(row, mutant, design) for mutant in alive]
 
         def verdict(item):
@@ -355,7 +358,7 @@ def show(test, number, root, proof_seconds):
     print(f"{fate} in {seconds:.2f} s of CPU{f': {said.group(0)}' if said else ''}")
     if fate == SURVIVES and proof_seconds:
         with tempfile.TemporaryDirectory(prefix="feltgate-mutate-") as work:
-            design = equivalence.joined(test.folder, test.block, [mutant], Path(work, "one"), crew)
+            design = test.joined([mutant], Path(work, "one"), crew)
             verdict, said, _ = design.prove(mutant, proof_seconds)
             print(f"{verdict}: {said}")
             if verdict == equivalence.DIFFERENT:

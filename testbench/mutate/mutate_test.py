@@ -43,6 +43,18 @@ COUNTER = """module counter (
   assign kept_o = kept_q ^ (read_q == 4'd3);
 endmodule
 """
+PAIR = """module pair (
+  input  logic       clk_i,
+  input  logic       up_i,
+  input  logic       halt_i,
+  output logic [3:0] count_o,
+  output logic       kept_o
+);
+  logic up;
+  assign up = up_i && !halt_i;
+  counter u_counter (.clk_i(clk_i), .rst_ni(1'b1), .up_i(up), .count_o(count_o), .kept_o(kept_o));
+endmodule
+"""
 LINE = ("mutate -mode cnot1 -module b -cell $add$rtl/b.sv:2$1 -port Y -portbit 3 -ctrlbit 1 "
         "-wire w -wirebit 2 -src rtl/b.sv:2.1-2.9 -src rtl/b.sv:1.1-1.4")
 
@@ -83,7 +95,7 @@ class Netlist(unittest.TestCase):
 
     def verdicts(self, *mutants):
         with tempfile.TemporaryDirectory() as work:
-            design = equivalence.joined(self.folder, "counter", list(mutants), Path(work), Crew())
+            design = equivalence.Joined(self.folder, "counter", list(mutants), Path(work), Crew())
             return [design.prove(m, 10)[0] for m in mutants]
 
     def test_at_most_60_percent_and_no_clocks(self):
@@ -118,7 +130,7 @@ class Netlist(unittest.TestCase):
     def test_none_is_equivalent(self):
         count = dict(self.mutant(type="$adffe", port="Q"))
         with tempfile.TemporaryDirectory() as work:
-            design = equivalence.joined(self.folder, "counter", [count], Path(work), Crew())
+            design = equivalence.Joined(self.folder, "counter", [count], Path(work), Crew())
             design.numbers[count["number"]] = 0
             self.assertEqual(design.prove(count, 10)[0], equivalence.EQUIVALENT)
 
@@ -164,6 +176,49 @@ class Netlist(unittest.TestCase):
         wrote = {k: v for k, v in wrote.items() if k != "by_bit"} | {"mode": "const0"}
         verdicts = self.verdicts(wrote | {"bit": 3}, wrote | {"bit": 2, "number": 9999})
         self.assertEqual(verdicts, [equivalence.EQUIVALENT, equivalence.DIFFERENT])
+
+
+
+@unittest.skipUnless(shutil.which("yosys") and shutil.which("yosys-abc"), "no yosys")
+class OfItsOwn(unittest.TestCase):
+    """A block whose child, with a memory in it, is measured by itself."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.temporary.cleanup)
+        root = Path(cls.temporary.name)
+        (root / "rtl").mkdir()
+        for name, text in (("counter", COUNTER), ("pair", PAIR)):
+            (root / f"rtl/{name}.sv").write_text(text, encoding="utf-8")
+        cls.folder = root / "own"
+        sources = [Path("rtl/counter.sv"), Path("rtl/pair.sv")]
+        netlist.write("pair", sources, [], 1000, 1, cls.folder / "pair.sv", root, own=True)
+        cls.test = rtl.Test("pair", "pair", cls.folder, cls.folder / "pair")
+        cls.test.read()
+
+    def test_only_its_own_cells_and_the_pins_of_its_child_change(self):
+        self.assertLess(self.test.database, 100)
+        self.assertEqual({m["type"] for m in self.test.mutants},
+                         {"$logic_not", "$logic_and", "u_counter"})
+        pins = {m["port"] for m in self.test.mutants if m["type"] == "u_counter"}
+        self.assertLessEqual(pins, {"rst_ni", "up_i", "count_o", "kept_o"})
+        self.assertIn("count_o", pins)
+
+    def test_the_netlist_is_one_module_behind_the_ports(self):
+        text = (self.folder / "pair.sv").read_text(encoding="utf-8")
+        self.assertEqual(re.findall(r"^module (\w+)", text, re.M), ["pair", "pair_mutants"])
+
+    def test_pins_of_the_child_are_proven_with_its_memory_cut_out(self):
+        pin = next(m for m in self.test.mutants if m["type"] == "u_counter")
+        pin = {k: v for k, v in pin.items() if k != "by_bit"} | {"port": "rst_ni", "bit": 0}
+        same, other = ({**pin, "mode": mode, "number": n} for n, mode in ((1, "const1"),
+                                                                         (2, "const0")))
+        with tempfile.TemporaryDirectory() as work:
+            design = self.test.joined([same, other], Path(work), Crew())
+            self.assertIn("memory_1_RD_DATA", design.blif)
+            found = [design.prove(m, 10)[0] for m in (same, other)]
+        self.assertEqual(found, [equivalence.EQUIVALENT, equivalence.DIFFERENT])
 
 
 class Reasons(unittest.TestCase):
@@ -241,7 +296,7 @@ class Programs(unittest.TestCase):
         mutant = netlist.parse(LINE, {})
         mutants = [mutant | {"number": n} for n in range(1, 5)]
         (folder / "mutants.json").write_text(
-            json.dumps({"block": "b", "seed": 1, "database": 9, "mutants": mutants}),
+            json.dumps({"block": "b", "seed": 1, "own": False, "database": 9, "mutants": mutants}),
             encoding="utf-8")
         self.program = self.build / "testbench/b/b_mutants"
         self.say("case $FELTGATE_MUTANT in 0|4) exit 0;; 3) kill -SEGV $$;; "

@@ -18,6 +18,7 @@
 #include "page/own_design.hpp"
 #include "page/pen_loop.hpp"
 #include "page/recorded_inputs.hpp"
+#include "page/said.hpp"
 #include "page/stick_loop.hpp"
 #include "page/user_law.hpp"
 #include "plant/plant_file.hpp"
@@ -26,22 +27,12 @@
 namespace {
 
 using emscripten::val;
+using feltgate::page::said;
 namespace page = feltgate::page;
 
 const char* registers = "/rtl/registers.toml";
 constexpr int law_runs = 5000;  ///< beside the law in double
 std::string plant_path(const std::string& name) { return "/plants/" + name + ".toml"; }
-
-/// What went wrong as a text for the page; empty: nothing.
-template <class Do>
-std::string said(Do&& act) {
-  try {
-    act();
-    return {};
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-}
 
 class Loop {
  public:

@@ -160,7 +160,10 @@ class StringTab {
     if (count < 2) return { count: 0, helmholtz: false };
     const least = Math.min(...since), most = Math.max(...since), mean = since.reduce((sum, s) => sum + s, 0) / count;
     const whole = this.slips[0].time < this.seen.time - JUDGED_S + 1.1 * PERIOD_S && this.slips[count].time > this.seen.time - 1.1 * PERIOD_S;
-    return { count, least, most, mean, helmholtz: whole && least > 0.95 * PERIOD_S && most < 1.05 * PERIOD_S };
+    const one = whole && least > 0.95 * PERIOD_S && most < 1.05 * PERIOD_S;
+    // Below the least force a faint motion may have one slip a period too.
+    const loud = Math.max(...this.trace) > this.bow_speed() / this.place / 4;
+    return { count, least, most, mean, one, helmholtz: one && loud };
   }
 
   /** The last slip after which there is so much of the trace; else undefined. */
@@ -202,7 +205,7 @@ class StringTab {
     if (Math.abs(reach) > 2) text += `<path class="force" d="${path([handle, along(reach - head, 0)])}"/><path class="forcehead" d="${path([along(reach, 0), along(reach - head, 6), along(reach - head, -6)])}Z"/>`;
     text += `<text x="10" y="20">the string in slow motion,</text><text x="10" y="35">its way ${b.wide} times as large</text>`;
     this.svg.innerHTML = text;
-    const j = this.judged, kind = !j.count ? "no slips" : j.helmholtz ? "one slip a period: Helmholtz motion" : "not one slip a period";
+    const j = this.judged, kind = !j.count ? "no slips" : j.helmholtz ? "one slip a period: Helmholtz motion" : j.one ? "one slip a period, but a faint wave" : "not one slip a period";
     const ms = (x) => fixed(1000 * x, 2), pitch = j.count ? `, ${ms(j.least)} to ${ms(j.most)} ms apart: ${fixed(1 / j.mean, 1)} Hz, ${fixed(PERIOD_S / j.mean, 2)} in 1/196 s` : "";
     this.caption.textContent = `τ = −reach · friction = ${fixed(s.mean_torque)} Nm in the mean; the bow at ${fixed(REACH_M * s.speed, 2)} m/s\n${kind}${pitch}\nthe law's words at ${fixed(s.rate_hz / 1000, 0)} kHz`;
   }

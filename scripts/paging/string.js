@@ -173,7 +173,8 @@ class StringTab {
   }
 
   /** Way of the string, m, at shares of its length from the bridge: the wave that goes to the bridge less the
-      one that comes back, as a string without losses would have it. */
+      one that comes back, as a string without losses would have it. The mean over a period is left out: it is the string
+      that the bow pulls aside when it turns around. */
   shape(points) {
     const slip = this.slip_before(1.6 * PERIOD_S), { trace, seen } = this, dt = 1 / seen.rate_hz;
     const time = slip ? slip.time + this.phase * PERIOD_S : seen.time - PERIOD_S;
@@ -183,7 +184,8 @@ class StringTab {
       const at = Math.max(0, Math.min(trace.length - 1e-6, trace.length - (seen.time - t) / dt)), n = Math.floor(at);
       return ways[n] + (ways[n + 1] - ways[n]) * (at - n);
     };
-    return points.map((share) => way(time + (share * PERIOD_S) / 2) - way(time - (share * PERIOD_S) / 2));
+    const around = (share) => way(time + (share * PERIOD_S) / 2) - way(time - (share * PERIOD_S) / 2), whole = around(1);
+    return points.map((share) => around(share) - share * whole);
   }
 
   draw() {
@@ -200,7 +202,7 @@ class StringTab {
     text += `<path class="string" d="${path(string)}"/>`;
     text += `<path class="scale" d="${path(Array.from({ length: 31 }, (_, i) => turn(-0.9 + 0.06 * i)))}"/><path class="lever" d="${path([b.lever, handle])}"/><circle class="hub" cx="${b.lever[0]}" cy="${b.lever[1]}" r="12"/><circle class="knob" cx="${handle[0]}" cy="${handle[1]}" r="10"/>`;
     text += `<path class="handline" d="${path([handle, hand])}"/><circle class="handring" cx="${hand[0]}" cy="${hand[1]}" r="16"/>`;
-    const reach = Math.max(-90, Math.min(90, newton * 40)), head = Math.sign(reach) * Math.min(10, Math.abs(reach));
+    const reach = Math.max(-110, Math.min(110, newton * 60)), head = Math.sign(reach) * Math.min(10, Math.abs(reach));
     const along = (far, aside) => [handle[0] + far * Math.cos(s.theta) + aside * Math.sin(s.theta), handle[1] + far * Math.sin(s.theta) - aside * Math.cos(s.theta)];
     if (Math.abs(reach) > 2) text += `<path class="force" d="${path([handle, along(reach - head, 0)])}"/><path class="forcehead" d="${path([along(reach, 0), along(reach - head, 6), along(reach - head, -6)])}Z"/>`;
     text += `<text x="10" y="20">the string in slow motion,</text><text x="10" y="35">its way ${b.wide} times as large</text>`;

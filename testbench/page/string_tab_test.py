@@ -18,12 +18,13 @@ from browsing import ActionChains, By, Keys, PageTest, opened
 
 PERIOD_S = 1 / 196
 TURN = "Object.assign(document.getElementById(arguments[0]), {value: arguments[1]}).oninput()"
-# A late part of a stroke, in which the bow's speed is even, with one slip a period in it.
+# Late in a stroke but the first, where the bow's speed is even, with one slip a period.
 EVEN = (
-    "const s = feltgate.string, h = s.seen.hand, up = h > (s.before ?? h); s.before = h;"
-    "if (!s.judged.helmholtz || (up ? h : -h) < 0.5 || (up ? h : -h) > 0.8) return null;"
-    "return {judged: s.judged, time: s.seen.time, slips: s.slips, trace: [...s.trace],"
-    "speed: s.quick, theta: s.seen.theta, hand: h, caption: s.caption.textContent}"
+    "const s = feltgate.string, h = s.seen.hand, up = h > (s.before ?? h), far = up ? h : -h;"
+    "s.before = h;"
+    "if (s.seen.time < 0.9 || !s.judged.helmholtz || far < 0.5 || far > 0.8) return null;"
+    "return {judged: s.judged, seen: s.seen, slips: s.slips, trace: [...s.trace],"
+    "speed: s.quick, caption: s.caption.textContent}"
 )
 
 
@@ -64,7 +65,7 @@ class BowedString(PageTest):
         self.assertRegex(even["caption"], r"19[0-4]\.\d Hz.*\n.* 40 kHz")
         self.assertAlmostEqual(even["speed"], 0.2, delta=0.02)
         # The wave at the bridge is a sawtooth as high as the bow's speed over its place.
-        start = even["time"] - len(even["trace"]) / 40000
+        start = even["seen"]["time"] - len(even["trace"]) / 40000
         values = [(start + i / 40000, v) for i, v in enumerate(even["trace"])]
         slips = [s["time"] for s in even["slips"] if s["time"] > start][:9]
         self.assertAlmostEqual(first_harmonic(values, slips), 2 / math.pi, delta=0.06)
@@ -76,7 +77,7 @@ class BowedString(PageTest):
             "return [0, 1, 2].map(n => Math.max(...ways.map(w => Math.abs(w[n]))))"
         )
         self.assertLess(widest[0], 1e-9)
-        self.assertLess(widest[2], 0.25e-3)
+        self.assertLess(widest[2], 1e-9)
         self.assertAlmostEqual(widest[1], 2 * PERIOD_S / 8, delta=0.3e-3)
 
     def test_the_hand_is_ahead_by_the_friction(self):
@@ -84,8 +85,7 @@ class BowedString(PageTest):
         for force in (1.2, 2.2):
             self.turn("force", force)
             self.passes(0.7)
-            self.until(EVEN)
-            seen = self.js("return feltgate.string.seen")
+            seen = self.until(EVEN)["seen"]
             behind = seen["hand"] - seen["theta"]
             # 135 N/m at 0.1 m; the turn's swing is not all over.
             self.assertAlmostEqual(1.35 * behind, -seen["mean_torque"], delta=0.02)

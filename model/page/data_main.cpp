@@ -13,8 +13,10 @@
 #include <vector>
 
 #include "law/compile.hpp"
+#include "law/read_law.hpp"
 #include "law_loop/scene_law.hpp"
 #include "loop/scenario.hpp"
+#include "page/image_law.hpp"
 #include "page/live_loop.hpp"
 #include "page/recorded_inputs.hpp"
 #include "plant/plant_file.hpp"
@@ -110,6 +112,22 @@ json materials() {
   return all;
 }
 
+/// The bowed string at its own rate and at that of a usual host, each with where its image keeps
+/// what comes to the bridge.
+json strings() {
+  const auto target = feltgate::law::target_of(feltgate::design_named("lever"));
+  json all = json::array();
+  for (const double rate_hz : {40e3, 1e3}) {
+    const auto law =
+        feltgate::law::compile(feltgate::law::read_law(laws + "bowed_string.law", rate_hz), target);
+    const page::StateWord heard = page::state_word(law, "heard");
+    all.push_back({{"rate_hz", rate_hz},
+                   {"image", feltgate::law::text(law.image)},
+                   {"heard", {{"address", heard.address}, {"scale", heard.scale}}}});
+  }
+  return all;
+}
+
 json hidden_shapes() {
   json all = json::array();
   for (const std::string& name : shapes) all.push_back(hidden(name, {}));
@@ -138,7 +156,8 @@ int main(int count, char** argv) {
     json out = {{"recorded", json::array()},  {"closed", json::array()},
                 {"shapes", hidden_shapes()},  {"training", training_squares()},
                 {"drums", image_of("drums")}, {"material", image_of("material")},
-                {"materials", materials()},   {"coupled", image_of("coupled_levers")}};
+                {"materials", materials()},   {"coupled", image_of("coupled_levers")},
+                {"strings", strings()}};
     for (int i = 1; i < count; ++i) {
       const std::string design = argv[i];
       if (feltgate::design_named(design).scene_number("law") >= 0) {

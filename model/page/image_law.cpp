@@ -26,6 +26,15 @@ std::int32_t word_of(double value, int fraction, int width) {
 
 }  // namespace
 
+StateWord state_word(const law::Compiled& law, const std::string& name) {
+  for (std::size_t k = 0; k < law.law.states.size(); ++k) {
+    if (law.law.states[k].name != name) continue;
+    const int first = law.target.thread * EngineMap::private_words;
+    return {first + law.assembled.state_address[k], law.program.states[k].scale};
+  }
+  throw std::invalid_argument(fmt::format("law {} has no state {}", law.image.name, name));
+}
+
 ImageLaw::ImageLaw(const std::string& image_text)
     : image_(law::read_image(image_text)),
       design_(design_named(image_.design)),

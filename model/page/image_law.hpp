@@ -10,10 +10,19 @@
 
 #include "engine/machine.hpp"
 #include "feltgate/design_info.hpp"
+#include "law/compile.hpp"
 #include "law/image.hpp"
 #include "law/load.hpp"
 
 namespace feltgate::page {
+
+/// Where an image keeps a state of its law: a data word of the engine, and the SI value of its 1.
+struct StateWord {
+  int address = 0;
+  double scale = 1;
+};
+/// Errors: std::invalid_argument, the law has no such state.
+StateWord state_word(const law::Compiled& law, const std::string& name);
 
 class ImageLaw {
  public:
@@ -36,6 +45,8 @@ class ImageLaw {
   void run();
   /// What the last run asks of a joint, Nm, within the design's torque word.
   double torque_nm(int axis) const;
+  /// A state as the last run left it, SI.
+  double state(const StateWord& s) const { return machine_.memory().data_at(s.address) * s.scale; }
   /// Events of the last run: numbers and words.
   const std::vector<law::MachineEvent>& events() const { return run_->events; }
   const std::vector<law::ImageEvent>& event_names() const { return image_.events; }

@@ -32,7 +32,7 @@ It compiles for a minute or two. Exit code: 0 written or current, 1 --check foun
 2 a design or a tool cannot be used."""
 DESIGNS = ("lever", "paper", "fast", "lever_law")
 LEVER_SCRIPTS = ("core.js", "drawing.js", "objects.js", "device.js", "curves.js", "law.js")
-SCRIPTS = (*LEVER_SCRIPTS, "pen.js", "game.js", "drums.js", "materials.js", "page.js")
+SCRIPTS = (*LEVER_SCRIPTS, "pen.js", "game.js", "drums.js", "materials.js", "stylus.js", "page.js")
 COMMITTED = "docs/page.html"
 STAMP = re.compile(r'<meta name="feltgate-sources" content="(\w+)">')
 

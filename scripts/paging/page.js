@@ -241,6 +241,7 @@ function select_tab(name) {
   if (name === "pantograph") page.pantograph ??= new PenTab(page.core, page.numbers);
   if (name === "drums") page.drums ??= new DrumsTab(page.core, page.numbers);
   if (name === "materials") page.materials ??= new MaterialsTab(page.core, page.numbers);
+  if (name === "stylus") page.stylus ??= new StylusTab(page.core, page.numbers);
   page.speed = 0;
 }
 

@@ -1,10 +1,10 @@
 // A stylus on three slides: the mouse leads its hand in a section, a host sends the nearest plane.
 "use strict";
 
-const STYLUS_CUT = { width: 640, height: 430, x: 240, y: 225, per_m: 3200, right: 480 };
-const STYLUS_ABOVE = { x: 560, y: 96, half: 72, per_m: 960 }; // the view from above, beside the section
-const STYLUS_MOST_M = 0.07; // where the hand may be led
-const STYLUS_NEWTON = 36; // length of a force's arrow for 1 N
+const STYLUS_CUT = { width: 640, height: 430, x: 240, y: 220, per_m: 4000, right: 480 };
+const STYLUS_ABOVE = { x: 560, y: 96, half: 72, per_m: 1200 }; // the view from above, beside the section
+const STYLUS_MOST_M = 0.054; // where the hand may be led
+const STYLUS_NEWTON = 55; // length of a force's arrow for 1 N
 const STYLUS_TRACE = { sample_s: 0.001, samples: 1000 }; // what the curve keeps: 1 s
 
 const in_section = ([x, , z]) => [STYLUS_CUT.x + STYLUS_CUT.per_m * x, STYLUS_CUT.y - STYLUS_CUT.per_m * z];
@@ -121,7 +121,7 @@ class StylusTab {
     return circle("scale", r) + (inside ? circle("outline", STYLUS_CUT.per_m * Math.sqrt(radius_m ** 2 - off ** 2)) : "");
   }
 
-  /** The plane that came last, cut at the pen's y next to the pen, and its normal there. */
+  /** The plane that came last, cut at the pen's y next to the pen, and its normal, beside the pen. */
   plane_in_section() {
     const { point, normal, pen } = this.seen;
     if (!point) return "";
@@ -131,7 +131,7 @@ class StylusTab {
     // From the pen within the section to the plane.
     const way = above / flat, [x, y] = in_section([pen[0] - (way * normal[0]) / flat, 0, pen[2] - (way * normal[2]) / flat]);
     const u = normal[2] / flat, v = normal[0] / flat;
-    return `<path class="sent" d="${path([[x - 75 * u, y - 75 * v], [x + 75 * u, y + 75 * v]])}"/>` + stylus_arrow([x, y], 46 * normal[0], -46 * normal[2], "sent");
+    return `<path class="sent" d="${path([[x - 75 * u, y - 75 * v], [x + 75 * u, y + 75 * v]])}"/>` + stylus_arrow([x - 55 * u, y - 55 * v], 50 * normal[0], -50 * normal[2], "sent");
   }
 
   view_from_above() {
@@ -139,7 +139,7 @@ class StylusTab {
     const [x, y] = from_above(centre), r = STYLUS_ABOVE.per_m * radius_m, left = STYLUS_ABOVE.x - STYLUS_ABOVE.half, top = STYLUS_ABOVE.y - STYLUS_ABOVE.half, size = 2 * STYLUS_ABOVE.half;
     const box = (kind, half_x, half_y) => `<rect class="${kind}" x="${x - half_x}" y="${y - half_y}" width="${2 * half_x}" height="${2 * half_y}"/>`;
     const object = name === "floor" ? box("outline", STYLUS_ABOVE.half, STYLUS_ABOVE.half) : name === "cube" ? box("outline", r, r) : `<circle class="outline" cx="${x}" cy="${y}" r="${r}"/>`;
-    const at_pen = from_above(pen), at_hand = from_above(hand), scale = STYLUS_NEWTON * 0.6;
+    const at_pen = from_above(pen), at_hand = from_above(hand), scale = STYLUS_NEWTON * 0.4;
     return `<rect class="scale" x="${left}" y="${top}" width="${size}" height="${size}"/><g clip-path="url(#stylus-above)">${object}` +
       `<path class="scale" stroke-dasharray="4 4" d="${path([[left, at_pen[1]], [left + size, at_pen[1]]])}"/>` +
       (point ? stylus_arrow(at_pen, 30 * normal[0], -30 * normal[1], "sent") : "") + stylus_arrow(at_pen, scale * force[0], -scale * force[1], "force") +
@@ -151,10 +151,10 @@ class StylusTab {
     const s = this.seen, tip = in_section(s.pen), hand = in_section(s.hand), lean = Math.PI / 6;
     const on_pen = (along, across) => [tip[0] + along * Math.sin(lean) + across * Math.cos(lean), tip[1] - along * Math.cos(lean) + across * Math.sin(lean)];
     const body = `<path class="joint" d="${path([tip, on_pen(18, 6), on_pen(120, 6), on_pen(120, -6), on_pen(18, -6)])}Z"/>`;
-    const key = [["sent", "the plane that was sent"], ["force", "force on the pen"], ["handline", "where the hand wants it"]].map(
+    const key = [["sent", "plane, as sent"], ["force", "force on the pen"], ["handline", "to where it is led"]].map(
       ([kind, text], n) => `<path class="${kind}" d="${path([[490, 196 + 20 * n], [506, 196 + 20 * n]])}"/><text x="511" y="${200 + 20 * n}">${text}</text>`).join("");
     const age = s.point ? `${fixed(1000 * s.age, s.age < 0.001 ? 2 : 1)} ms` : "none yet";
-    const large = [["depth", `${fixed(1000 * Math.max(0, s.depth), 2)} mm`], ["force", `${fixed(Math.hypot(...s.force), 2)} N`], ["tilt", `${fixed((180 / Math.PI) * s.tilt, 2)}°`], ["plane's age", age]].map(
+    const large = [["depth", `${fixed(1000 * Math.max(0, s.depth), 2)} mm`], ["force", `${fixed(Math.hypot(...s.force), 2)} N`], ["tilt", `${fixed((180 / Math.PI) * s.tilt, 2)}°`], ["age", age]].map(
       ([name, text], n) => `<text x="490" y="${288 + 36 * n}">${name}</text><text class="figure" x="628" y="${290 + 36 * n}">${text}</text>`).join("");
     this.svg.innerHTML = `<defs><clipPath id="stylus-cut"><rect width="${STYLUS_CUT.right}" height="${STYLUS_CUT.height}"/></clipPath>
       <clipPath id="stylus-above"><rect x="${STYLUS_ABOVE.x - STYLUS_ABOVE.half}" y="${STYLUS_ABOVE.y - STYLUS_ABOVE.half}" width="${2 * STYLUS_ABOVE.half}" height="${2 * STYLUS_ABOVE.half}"/></clipPath></defs>

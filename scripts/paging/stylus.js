@@ -111,7 +111,7 @@ class StylusTab {
   /** The object cut at the pen's y, and its outline where it is widest. */
   object_in_section() {
     const { name, centre, radius_m } = this.world, [x, y] = in_section(centre), r = STYLUS_CUT.per_m * radius_m;
-    if (name === "floor") return `<path class="outline" d="${path([[-5, y], [STYLUS_CUT.right + 5, y], [STYLUS_CUT.right + 5, 500], [-5, 500]])}Z"/>`;
+    if (name === "floor") return `<path class="outline" d="${path([[-600, y], [STYLUS_CUT.right + 5, y], [STYLUS_CUT.right + 5, 500], [-600, 500]])}Z"/>`;
     const off = Math.abs(this.seen.pen[1] - centre[1]), inside = off < radius_m;
     if (name === "cube") {
       const square = (kind) => `<rect class="${kind}" x="${x - r}" y="${y - r}" width="${2 * r}" height="${2 * r}"/>`;
@@ -127,11 +127,11 @@ class StylusTab {
     if (!point) return "";
     const above = vector_plus(pen, point, -1).reduce((sum, part, n) => sum + part * normal[n], 0);
     const flat = Math.hypot(normal[0], normal[2]);
-    if (flat < 0.2) return ""; // nearly along the section: no line of it
+    if (flat < 0.2) return `<text x="8" y="36">the sent plane lies along the cut: see from above</text>`;
     // From the pen within the section to the plane.
     const way = above / flat, [x, y] = in_section([pen[0] - (way * normal[0]) / flat, 0, pen[2] - (way * normal[2]) / flat]);
     const u = normal[2] / flat, v = normal[0] / flat;
-    return `<path class="sent" d="${path([[x - 75 * u, y - 75 * v], [x + 75 * u, y + 75 * v]])}"/>` + stylus_arrow([x - 55 * u, y - 55 * v], 50 * normal[0], -50 * normal[2], "sent");
+    return `<path class="sent plane" d="${path([[x - 75 * u, y - 75 * v], [x + 75 * u, y + 75 * v]])}"/>` + stylus_arrow([x - 55 * u, y - 55 * v], 50 * normal[0], -50 * normal[2], "sent");
   }
 
   view_from_above() {
@@ -156,7 +156,7 @@ class StylusTab {
     const age = s.point ? `${fixed(1000 * s.age, s.age < 0.001 ? 2 : 1)} ms` : "none yet";
     const large = [["depth", `${fixed(1000 * Math.max(0, s.depth), 2)} mm`], ["force", `${fixed(Math.hypot(...s.force), 2)} N`], ["tilt", `${fixed((180 / Math.PI) * s.tilt, 2)}°`], ["age", age]].map(
       ([name, text], n) => `<text x="490" y="${288 + 36 * n}">${name}</text><text class="figure" x="628" y="${290 + 36 * n}">${text}</text>`).join("");
-    this.svg.innerHTML = `<defs><clipPath id="stylus-cut"><rect width="${STYLUS_CUT.right}" height="${STYLUS_CUT.height}"/></clipPath>
+    this.svg.innerHTML = `<defs><clipPath id="stylus-cut"><rect x="-500" width="${STYLUS_CUT.right + 500}" height="${STYLUS_CUT.height}"/></clipPath>
       <clipPath id="stylus-above"><rect x="${STYLUS_ABOVE.x - STYLUS_ABOVE.half}" y="${STYLUS_ABOVE.y - STYLUS_ABOVE.half}" width="${2 * STYLUS_ABOVE.half}" height="${2 * STYLUS_ABOVE.half}"/></clipPath></defs>
       <g clip-path="url(#stylus-cut)">${this.object_in_section()}${body}${this.plane_in_section()}<path class="handline" d="${path([tip, hand])}"/>
       <circle class="handring" cx="${hand[0]}" cy="${hand[1]}" r="13"/>${stylus_arrow(tip, STYLUS_NEWTON * s.force[0], -STYLUS_NEWTON * s.force[2], "force")}<circle class="knob" cx="${tip[0]}" cy="${tip[1]}" r="4.5"/></g>

@@ -32,8 +32,8 @@ It compiles for a minute or two. Exit code: 0 written or current, 1 --check foun
 2 a design or a tool cannot be used."""
 DESIGNS = ("lever", "paper", "fast", "lever_law")
 LEVER_SCRIPTS = ("core.js", "drawing.js", "objects.js", "device.js", "curves.js", "law.js")
-TAB_SCRIPTS = ("pen.js", "game.js", "drums.js", "materials.js", "coupled.js", "string.js")
-SCRIPTS = (*LEVER_SCRIPTS, *TAB_SCRIPTS, "page.js")
+TABS = ("pen.js", "game.js", "drums.js", "materials.js", "coupled.js", "string.js", "stylus.js")
+SCRIPTS = (*LEVER_SCRIPTS, *TABS, "page.js")
 COMMITTED = "docs/page.html"
 STAMP = re.compile(r'<meta name="feltgate-sources" content="(\w+)">')
 

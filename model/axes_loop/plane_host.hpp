@@ -69,6 +69,11 @@ class PlaneHost {
   /// Does it, with the pen where the cores count it; the words that arrive.
   std::map<std::string, double> act(Clock now, plant::Vec3 counted_m);
 
+  /// The plane that came last, if one has come.
+  std::optional<Plane> plane() const {
+    return now_ ? std::optional<Plane>(now_->plane) : std::nullopt;
+  }
+
   static std::vector<std::string> names(int axes);
   /// Values of names(): normal in force, its angle from the world's at the pen (with the sign of a
   /// turn about z where there are two axes), age of the pose behind it, change of the spring's

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "axes_loop/axes_scene.hpp"
 #include "law/compile.hpp"
 #include "law/read_law.hpp"
 #include "law_loop/scene_law.hpp"
@@ -19,6 +20,7 @@
 #include "page/image_law.hpp"
 #include "page/live_loop.hpp"
 #include "page/recorded_inputs.hpp"
+#include "page/stylus_loop.hpp"
 #include "plant/plant_file.hpp"
 #include "shape/shape_law.hpp"
 
@@ -100,6 +102,28 @@ std::string image_of(const std::string& law) {
   return feltgate::law::text(feltgate::law::compile_file(laws + law + ".law", target).image);
 }
 
+/// The law, the slides and the worlds of a stylus: device and scenes as they are shipped.
+json stylus() {
+  const auto target = feltgate::law::target_of(page::stylus_design());
+  const auto law = feltgate::law::compile_file(laws + "local_space.law", target);
+  json worlds = json::array(), slides;
+  for (const char* name : {"floor", "sphere", "cube"}) {
+    const auto scene = feltgate::read_axes_scene(
+        vectors + "scenes/stylus_" + name + ".toml",
+        [](const std::string& device) { return vectors + "devices/" + device + ".toml"; });
+    const feltgate::PlaneHostSettings& w = scene.plane.value();
+    worlds.push_back({{"name", name},
+                      {"kind", static_cast<int>(w.world)},
+                      {"centre", {w.centre_m.x, w.centre_m.y, w.centre_m.z}},
+                      {"radius_m", w.radius_m}});
+    const auto& device = std::get<feltgate::StylusSetup>(scene.device);
+    const page::StylusSlides s = page::slides_of(device.parameters.lever);
+    slides = {
+        {"mass_kg", s.mass_kg}, {"friction_ns_m", s.friction_ns_m}, {"capstan_m", s.capstan_m}};
+  }
+  return {{"image", feltgate::law::text(law.image)}, {"slides", slides}, {"worlds", worlds}};
+}
+
 /// The presets of the law `material` are scenes.
 json materials() {
   json all = json::array();
@@ -157,7 +181,7 @@ int main(int count, char** argv) {
                 {"shapes", hidden_shapes()},  {"training", training_squares()},
                 {"drums", image_of("drums")}, {"material", image_of("material")},
                 {"materials", materials()},   {"coupled", image_of("coupled_levers")},
-                {"strings", strings()}};
+                {"strings", strings()},       {"stylus", stylus()}};
     for (int i = 1; i < count; ++i) {
       const std::string design = argv[i];
       if (feltgate::design_named(design).scene_number("law") >= 0) {

@@ -36,16 +36,27 @@ StateWord state_word(const law::Compiled& law, const std::string& name) {
 }
 
 ImageLaw::ImageLaw(const std::string& image_text)
+    : ImageLaw(image_text, design_named(law::read_image(image_text).design)) {}
+
+ImageLaw::ImageLaw(const std::string& image_text, const DesignInfo& design)
     : image_(law::read_image(image_text)),
-      design_(design_named(image_.design)),
+      design_(design),
       values_(image_),
       machine_(law::memory(image_)),
       period_s_(image_.threads[0].divider / static_cast<double>(design_.tick_hz)) {
+  if (image_.design != design.name) {
+    throw std::invalid_argument(fmt::format("law {} is compiled for design {}, not for {}",
+                                            image_.name, image_.design, design.name));
+  }
   machine_.enter();
 }
 
 void ImageLaw::set(const std::string& parameter, double value) {
   law::write(machine_, values_.set(parameter, value));
+}
+
+void ImageLaw::set(const std::map<std::string, double>& values) {
+  law::write(machine_, values_.set(values));
 }
 
 void ImageLaw::joint(int axis, double angle_rad, double speed_rad_s, double observed_nm) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 
 #include "engine/machine.hpp"
@@ -28,6 +29,8 @@ class ImageLaw {
  public:
   /// The text of an image for a design that is built in. Errors: std::invalid_argument.
   explicit ImageLaw(const std::string& image_text);
+  /// The text of an image for this design, built in or not. Errors: std::invalid_argument.
+  ImageLaw(const std::string& image_text, const DesignInfo& design);
   ImageLaw(const ImageLaw&) = delete;
   ImageLaw& operator=(const ImageLaw&) = delete;
 
@@ -35,12 +38,16 @@ class ImageLaw {
   double period_s() const { return period_s_; }
   /// A parameter or a mailbox, in its unit. Errors: std::invalid_argument, unknown or out of range.
   void set(const std::string& parameter, double value);
+  /// Several by one commit. Errors: as of one; nothing is set then.
+  void set(const std::map<std::string, double>& values);
   double value(const std::string& parameter) const { return values_.value(parameter); }
   /// Joint `axis` (0 to 2) of the next run: an absolute angle, of which the counts that are below
   /// it are left, a speed and an observed torque, rounded to the design's words.
   void joint(int axis, double angle_rad, double speed_rad_s, double observed_nm = 0);
   /// Counts of the joint, as the next run gets them.
   std::int32_t counts(int axis) const { return inputs_[static_cast<std::size_t>(3 * axis)]; }
+  /// The angle of these counts.
+  double counted_rad(int axis) const { return counts(axis) * design_.count_rad; }
   /// One run of the law. Errors: std::runtime_error, of a program that does not end.
   void run();
   /// What the last run asks of a joint, Nm, within the design's torque word.

@@ -61,7 +61,7 @@ target_compile_options(feltgate_calibrate PRIVATE -O1)
 target_compile_options(feltgate_identify PRIVATE -O1)
 # The page for a browser: what runs natively of it; scripts/page.py compiles it for the browser.
 feltgate_library(feltgate_page page EXCEPT "_api" feltgate_loop feltgate_design feltgate_law_loop
-  feltgate_shape)
+  feltgate_axes_loop feltgate_shape)
 foreach(design fast lever_law)
   feltgate_type_of(${design} type)
   feltgate_for_design(design_twin.cpp.in "${PROJECT_BINARY_DIR}/engines/${design}_twin.cpp")

@@ -25,6 +25,7 @@ HEADERS = {
 }
 FOLDERS = ("page", "plant", "config", "design", "law", "law_loop")
 FILES = (
+    "axes_loop/plane_host.cpp",
     "engines/engine.cpp",
     "loop/ensemble.cpp",
     "loop/engine_choice.cpp",

@@ -243,6 +243,7 @@ function select_tab(name) {
   if (name === "materials") page.materials ??= new MaterialsTab(page.core, page.numbers);
   if (name === "coupled") page.coupled ??= new CoupledTab(page.core, page.numbers);
   if (name === "string") page.string ??= new StringTab(page.core, page.numbers);
+  if (name === "stylus") page.stylus ??= new StylusTab(page.core, page.numbers);
   page.speed = 0;
 }
 

@@ -1,0 +1,188 @@
+// A stylus on three slides: the mouse leads its hand in a section, a host sends the nearest plane.
+"use strict";
+
+const STYLUS_CUT = { width: 640, height: 430, x: 240, y: 220, per_m: 4000, right: 480 };
+const STYLUS_ABOVE = { x: 560, y: 96, half: 72, per_m: 1200 }; // the view from above, beside the section
+const STYLUS_MOST_M = 0.054; // where the hand may be led
+const STYLUS_NEWTON = 55; // length of a force's arrow for 1 N
+const STYLUS_TRACE = { sample_s: 0.001, samples: 1000 }; // what the curve keeps: 1 s
+
+const in_section = ([x, , z]) => [STYLUS_CUT.x + STYLUS_CUT.per_m * x, STYLUS_CUT.y - STYLUS_CUT.per_m * z];
+const from_above = ([x, y]) => [STYLUS_ABOVE.x + STYLUS_ABOVE.per_m * x, STYLUS_ABOVE.y - STYLUS_ABOVE.per_m * y];
+const vector_plus = (a, b, k = 1) => a.map((v, n) => v + k * b[n]);
+
+/** An arrow of SVG from a point along (u, v) of its own length; nothing where that is short. */
+function stylus_arrow([x, y], u, v, kind) {
+  const long = Math.hypot(u, v);
+  if (long < 4) return "";
+  const back = Math.min(9, long), ux = u / long, uy = v / long;
+  const to = (along, across) => [x + along * ux - across * uy, y + along * uy + across * ux];
+  return `<path class="${kind}" d="${path([[x, y], to(long - back, 0)])}"/><path class="${kind}head" d="${path([to(long, 0), to(long - back, 5.5), to(long - back, -5.5)])}Z"/>`;
+}
+
+class StylusTab {
+  constructor(core, numbers) {
+    this.most_n = core.STYLUS_MOST_N;
+    this.pen = new core.Stylus(numbers.stylus.image, numbers.stylus.slides);
+    this.worlds = numbers.stylus.worlds;
+    this.seen = this.pen.state();
+    this.trace = [];
+    $("stylus-stage").innerHTML = `<svg viewBox="0 0 ${STYLUS_CUT.width} ${STYLUS_CUT.height}" tabindex="0" role="application"
+      aria-label="Stylus: the hand follows the mouse, or the arrow keys by a millimetre; Page Up and Page Down lead it away and near"></svg>
+      <figcaption><span class="equation"></span></figcaption>`;
+    this.svg = $("stylus-stage").querySelector("svg");
+    this.caption = $("stylus-stage").querySelector(".equation");
+    this.svg.addEventListener("pointerdown", (event) => this.svg.setPointerCapture(event.pointerId));
+    for (const kind of ["pointerdown", "pointermove"]) this.svg.addEventListener(kind, (event) => this.point(event));
+    this.svg.addEventListener("keydown", (event) => this.key(event));
+    for (const { name } of this.worlds) $("stylus-world").append(option(name, { floor: "plane" }[name] || name));
+    $("stylus-world").value = "sphere";
+    $("stylus-world").oninput = () => this.choose();
+    for (const id of ["stiffness", "damping", "friction", "rate", "age"]) $(`stylus-${id}`).oninput = () => this.touch();
+    $("stylus-y").oninput = () => this.aim(this.lead[0], Number($("stylus-y").value) / 1000, this.lead[2]);
+    this.choose();
+  }
+
+  /** Another object, with the pen above it. */
+  choose() {
+    this.world = this.worlds.find((world) => world.name === $("stylus-world").value);
+    this.touch();
+    this.pen.place(0, 0, 0.045);
+    this.led = [0, 0, 0.045];
+    this.aim(...this.led);
+    this.seen = this.pen.state();
+  }
+
+  /** The host begins anew, with what the controls say. */
+  touch() {
+    const number = (id) => Number($(`stylus-${id}`).value);
+    const shown = (id, text) => ($(`stylus-${id}-shown`).textContent = text);
+    this.material = { stiffness_n_m: number("stiffness"), damping_ns_m: number("damping"), friction: number("friction") };
+    this.rate_hz = number("rate") || this.seen.rate_hz;
+    this.pen.touch({ ...this.world, ...this.material, rate_hz: this.rate_hz, age_s: number("age") / 1000 });
+    shown("stiffness", `${fixed(this.material.stiffness_n_m, 0)} N/m`);
+    shown("damping", `${fixed(this.material.damping_ns_m, 2)} Ns/m`);
+    shown("friction", fixed(this.material.friction, 2));
+    shown("age", `${fixed(number("age"), 1)} ms`);
+  }
+
+  /** The section leads x and z; the view from above, while it is pressed, x and y. */
+  point(event) {
+    const [x, y] = pointed(event, this.svg);
+    if (event.type === "pointerdown") this.above = x > STYLUS_CUT.right;
+    if (!event.buttons) this.above = false;
+    if (this.above) this.aim((x - STYLUS_ABOVE.x) / STYLUS_ABOVE.per_m, (STYLUS_ABOVE.y - y) / STYLUS_ABOVE.per_m, this.lead[2]);
+    else if (x <= STYLUS_CUT.right) this.aim((x - STYLUS_CUT.x) / STYLUS_CUT.per_m, this.lead[1], (STYLUS_CUT.y - y) / STYLUS_CUT.per_m);
+  }
+
+  key(event) {
+    const away = { PageUp: 1, PageDown: -1 }[event.key] || (event.shiftKey && { ArrowUp: 1, ArrowDown: -1 }[event.key]);
+    const step = away ? [0, away, 0] : { ArrowLeft: [-1, 0, 0], ArrowRight: [1, 0, 0], ArrowUp: [0, 0, 1], ArrowDown: [0, 0, -1] }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    this.aim(...vector_plus(this.lead, step, 0.001));
+  }
+
+  aim(...lead) {
+    this.lead = lead.map((m) => Math.max(-STYLUS_MOST_M, Math.min(STYLUS_MOST_M, m)));
+    $("stylus-y").value = 1000 * this.lead[1];
+    $("stylus-y-shown").textContent = `${fixed(1000 * this.lead[1], 0)} mm`;
+  }
+
+  /** In slices, so that a plane that comes is seen in the curve. */
+  advance(seconds) {
+    const slices = Math.max(1, Math.round(seconds / STYLUS_TRACE.sample_s)), from = this.led;
+    for (let n = 1; n <= slices; ++n) {
+      this.pen.lead(...vector_plus(from, vector_plus(this.lead, from, -1), n / slices));
+      say(this.pen.advance(seconds / slices));
+      this.seen = this.pen.state();
+      this.trace.push([Math.hypot(...this.seen.force), (180 / Math.PI) * this.seen.tilt]);
+    }
+    this.led = this.lead;
+    if (this.trace.length > STYLUS_TRACE.samples) this.trace.splice(0, this.trace.length - STYLUS_TRACE.samples);
+  }
+
+  frame(passed) {
+    run_timed(passed, () => this.advance(passed));
+    this.draw();
+    this.draw_trace();
+  }
+
+  /** The object cut at the pen's y, and its outline where it is widest. */
+  object_in_section() {
+    const { name, centre, radius_m } = this.world, [x, y] = in_section(centre), r = STYLUS_CUT.per_m * radius_m;
+    if (name === "floor") return `<path class="outline" d="${path([[-600, y], [STYLUS_CUT.right + 5, y], [STYLUS_CUT.right + 5, 500], [-600, 500]])}Z"/>`;
+    const off = Math.abs(this.seen.pen[1] - centre[1]), inside = off < radius_m;
+    if (name === "cube") {
+      const square = (kind) => `<rect class="${kind}" x="${x - r}" y="${y - r}" width="${2 * r}" height="${2 * r}"/>`;
+      return square("scale") + (inside ? square("outline") : "");
+    }
+    const circle = (kind, radius) => `<circle class="${kind}" cx="${x}" cy="${y}" r="${radius}"/>`;
+    return circle("scale", r) + (inside ? circle("outline", STYLUS_CUT.per_m * Math.sqrt(radius_m ** 2 - off ** 2)) : "");
+  }
+
+  /** The plane that came last, cut at the pen's y next to the pen, and its normal, beside the pen. */
+  plane_in_section() {
+    const { point, normal, pen } = this.seen;
+    if (!point) return "";
+    const above = vector_plus(pen, point, -1).reduce((sum, part, n) => sum + part * normal[n], 0);
+    const flat = Math.hypot(normal[0], normal[2]);
+    if (flat < 0.2) return `<text x="8" y="36">the sent plane lies along the cut: see from above</text>`;
+    // From the pen within the section to the plane.
+    const way = above / flat, [x, y] = in_section([pen[0] - (way * normal[0]) / flat, 0, pen[2] - (way * normal[2]) / flat]);
+    const u = normal[2] / flat, v = normal[0] / flat;
+    return `<path class="sent plane" d="${path([[x - 75 * u, y - 75 * v], [x + 75 * u, y + 75 * v]])}"/>` + stylus_arrow([x - 55 * u, y - 55 * v], 50 * normal[0], -50 * normal[2], "sent");
+  }
+
+  view_from_above() {
+    const { name, centre, radius_m } = this.world, { pen, hand, force, point, normal } = this.seen;
+    const [x, y] = from_above(centre), r = STYLUS_ABOVE.per_m * radius_m, left = STYLUS_ABOVE.x - STYLUS_ABOVE.half, top = STYLUS_ABOVE.y - STYLUS_ABOVE.half, size = 2 * STYLUS_ABOVE.half;
+    const box = (kind, half_x, half_y) => `<rect class="${kind}" x="${x - half_x}" y="${y - half_y}" width="${2 * half_x}" height="${2 * half_y}"/>`;
+    const object = name === "floor" ? box("outline", STYLUS_ABOVE.half, STYLUS_ABOVE.half) : name === "cube" ? box("outline", r, r) : `<circle class="outline" cx="${x}" cy="${y}" r="${r}"/>`;
+    const at_pen = from_above(pen), at_hand = from_above(hand), scale = STYLUS_NEWTON * 0.4;
+    return `<rect class="scale" x="${left}" y="${top}" width="${size}" height="${size}"/><g clip-path="url(#stylus-above)">${object}` +
+      `<path class="scale" stroke-dasharray="4 4" d="${path([[left, at_pen[1]], [left + size, at_pen[1]]])}"/>` +
+      (point ? stylus_arrow(at_pen, 30 * normal[0], -30 * normal[1], "sent") : "") + stylus_arrow(at_pen, scale * force[0], -scale * force[1], "force") +
+      `<circle class="handring" cx="${at_hand[0]}" cy="${at_hand[1]}" r="8"/><circle class="knob" cx="${at_pen[0]}" cy="${at_pen[1]}" r="4"/></g>` +
+      `<text x="${left}" y="${top - 7}">from above, y up</text>`;
+  }
+
+  draw() {
+    const s = this.seen, tip = in_section(s.pen), hand = in_section(s.hand), lean = Math.PI / 6;
+    const on_pen = (along, across) => [tip[0] + along * Math.sin(lean) + across * Math.cos(lean), tip[1] - along * Math.cos(lean) + across * Math.sin(lean)];
+    const body = `<path class="joint" d="${path([tip, on_pen(18, 6), on_pen(120, 6), on_pen(120, -6), on_pen(18, -6)])}Z"/>`;
+    const key = [["sent", "plane, as sent"], ["force", "force on the pen"], ["handline", "to where it is led"]].map(
+      ([kind, text], n) => `<path class="${kind}" d="${path([[490, 196 + 20 * n], [506, 196 + 20 * n]])}"/><text x="511" y="${200 + 20 * n}">${text}</text>`).join("");
+    const age = s.point ? `${fixed(1000 * s.age, s.age < 0.001 ? 2 : 1)} ms` : "none yet";
+    const large = [["depth", `${fixed(1000 * Math.max(0, s.depth), 2)} mm`], ["force", `${fixed(Math.hypot(...s.force), 2)} N`], ["tilt", `${fixed((180 / Math.PI) * s.tilt, 2)}°`], ["age", age]].map(
+      ([name, text], n) => `<text x="490" y="${288 + 36 * n}">${name}</text><text class="figure" x="628" y="${290 + 36 * n}">${text}</text>`).join("");
+    this.svg.innerHTML = `<defs><clipPath id="stylus-cut"><rect x="-500" width="${STYLUS_CUT.right + 500}" height="${STYLUS_CUT.height}"/></clipPath>
+      <clipPath id="stylus-above"><rect x="${STYLUS_ABOVE.x - STYLUS_ABOVE.half}" y="${STYLUS_ABOVE.y - STYLUS_ABOVE.half}" width="${2 * STYLUS_ABOVE.half}" height="${2 * STYLUS_ABOVE.half}"/></clipPath></defs>
+      <g clip-path="url(#stylus-cut)">${this.object_in_section()}${body}${this.plane_in_section()}<path class="handline" d="${path([tip, hand])}"/>
+      <circle class="handring" cx="${hand[0]}" cy="${hand[1]}" r="13"/>${stylus_arrow(tip, STYLUS_NEWTON * s.force[0], -STYLUS_NEWTON * s.force[2], "force")}<circle class="knob" cx="${tip[0]}" cy="${tip[1]}" r="4.5"/></g>
+      <path class="scale" d="${path([[STYLUS_CUT.right, 0], [STYLUS_CUT.right, STYLUS_CUT.height]])}"/><text x="8" y="18">cut at y = ${fixed(1000 * s.pen[1], 1)} mm, z up</text>${this.view_from_above()}${key}${large}`;
+    const list = (v, digits, k = 1) => `(${v.map((part) => fixed(k * part, digits)).join(", ")})`;
+    this.caption.textContent = `pen ${list(s.pen, 1, 1000)} mm; F = ${list(s.force, 2)} N${s.limited ? `: an axis gives ${this.most_n} N, no more` : ""}\n` +
+      (s.normal ? `n = ${list(s.normal, 3)} as sent, ${fixed(1000 * s.tilt, 1)} mrad off the true one; ` : "") + `the law's words at ${fixed(s.rate_hz / 1000, 0)} kHz`;
+  }
+
+  draw_trace() {
+    const { pen, width, height, colour } = cleared($("stylus-curve"));
+    const left = 46, x = (n) => left + (n / STYLUS_TRACE.samples) * (width - left - 8);
+    [["force on the pen, N, the last second", "--red", 1], ["sent normal off the true one, degrees", "--blue", 0.5]].forEach(([title, name, least], n) => {
+      const top = 20 + (n * height) / 2, bottom = ((n + 1) * height) / 2 - 6, most = Math.max(least, ...this.trace.map((row) => row[n]));
+      const y = (value) => bottom - (value / most) * (bottom - top);
+      pen.strokeStyle = colour("--line");
+      pen.fillStyle = colour("--faint");
+      pen.fillText(title, left + 6, top - 6);
+      for (const value of [0, most]) {
+        pen.beginPath(); pen.moveTo(left, y(value)); pen.lineTo(width - 8, y(value)); pen.stroke();
+        pen.fillText(value.toFixed(2), 4, y(value) + 4);
+      }
+      pen.strokeStyle = colour(name);
+      pen.beginPath();
+      this.trace.forEach((row, i) => (i ? pen.lineTo(x(i), y(row[n])) : pen.moveTo(x(i), y(row[n]))));
+      pen.stroke();
+    });
+  }
+}

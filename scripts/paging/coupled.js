@@ -4,7 +4,7 @@
 const MET = {
   nothing: { number: 0, strength: 0, low: 0, high: 0, unit: "" },
   spring: { number: 1, strength: 1, low: 0.1, high: 4, unit: "Nm/rad" },
-  wall: { number: 2, strength: 10, low: 1, high: 20, unit: "Nm/rad" },
+  wall: { number: 2, strength: 6, low: 1, high: 20, unit: "Nm/rad" },
   weight: { number: 3, strength: 0.2, low: 0, high: 0.4, unit: "Nm" },
 };
 const COUPLED_WALL_RAD = 0.3, COUPLED_MOST_RAD = 1; // of coupled_loop.hpp
@@ -14,6 +14,7 @@ const COUPLING = [
   { name: "share", label: "observer", unit: "", low: 0, high: 1, step: 0.05, value: 0 },
   { name: "calm", label: "calm", unit: "Nm s/rad", low: 0, high: 0.03, step: 0.001, value: 0.01 },
 ];
+const MOST_SHARE = 0.5; // with a hand on the second lever: beyond, nothing holds the first one, and it swings
 const COUPLED_TRACE = 240; // frames that the curve keeps
 
 class CoupledLever {
@@ -79,7 +80,8 @@ class CoupledTab {
     this.trace = [];
     this.values = {};
     this.levers = [0, 1].map((n) => new CoupledLever(this, $("coupled-stages"), n));
-    for (const slider of COUPLING) $("coupled-law").append(this.slider(slider, (value) => this.set(slider.name, value)));
+    this.sliders = {};
+    for (const slider of COUPLING) $("coupled-law").append(this.slider(slider));
     for (const name of Object.keys(MET)) $("coupled-met").append(option(name, name));
     $("coupled-met").oninput = () => this.meet($("coupled-met").value, MET[$("coupled-met").value].strength);
     $("coupled-strength").oninput = () => this.meet(this.met, Number($("coupled-strength").value));
@@ -88,12 +90,13 @@ class CoupledTab {
     this.seen = this.loop.state();
   }
 
-  slider({ label, unit, low, high, step, value }, act) {
+  slider({ name, label, unit, low, high, step, value }) {
     const line = document.createElement("label"), shown = document.createElement("output");
     const range = Object.assign(document.createElement("input"), { type: "range", min: low, max: high, step, value });
     line.className = "slider";
-    range.oninput = () => { act(Number(range.value)); shown.textContent = `${range.value} ${unit}`; };
+    range.oninput = () => { this.set(name, Number(range.value)); shown.textContent = `${range.value} ${unit}`; };
     range.oninput();
+    this.sliders[name] = range;
     line.append(label, range, shown);
     return line;
   }
@@ -101,6 +104,7 @@ class CoupledTab {
   set(name, value) {
     this.values[name] = value;
     say(this.loop.set(name, value));
+    if (name === "share" && value > MOST_SHARE) this.hold(0);
   }
 
   meet(what, strength) {
@@ -117,6 +121,10 @@ class CoupledTab {
     if (number === this.held) return;
     this.held = number;
     say(this.loop.hold(number));
+    if (number && this.values.share > MOST_SHARE) {
+      this.sliders.share.value = 0;
+      this.sliders.share.oninput();
+    }
     this.lead = this.loop.state().theta[number];
   }
 

@@ -182,6 +182,12 @@ class Device {
     for (Axis& a : in.axis) a.zeroed = false;
     in.port.reg_write = in.port.reg_read = false;
   }
+  /// A clock between two ticks, which then are further apart.
+  void pause() {
+    in.snapshot = in.measured = false;
+    twin_.clock(in);
+    inputs_.push_back(in);
+  }
   void clocks(int n) {
     for (int k = 0; k < n; ++k) clock();
   }

@@ -47,7 +47,9 @@ def draw(axis, scene, key, factor, label="", **style):
 def finish(figure, axes, name, caption):
     for axis in axes:
         axis.set_xscale("log")
-        axis.set_yscale("log")
+        # A swing may be 0.
+        whole = all(value > 0 for line in axis.lines for value in line.get_ydata())
+        axis.set_yscale("log" if whole else "linear")
         axis.set_xticks(list(TICKS), list(TICKS.values()))
         axis.minorticks_off()
         axis.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
@@ -75,8 +77,8 @@ def one(scene):
     ring = "a ring is the core's block. "
     if device:
         below = (
-            "Below: the largest swing of a torque in the last quarter; a hollow mark where not all of "
-            "the scene's expectations are kept."
+            "Below: the largest swing of a torque in the last quarter; a hollow mark where not all "
+            "of the scene's expectations are kept."
         )
         ring = f"{scene['axes']} axes. "
     caption = (
@@ -106,9 +108,9 @@ def one(scene):
 def several(scenes):
     """All scenes: rms error as a share of the law's largest torque, and margins."""
     caption = (
-        "Above: rms error of the torque over the law's largest torque; dashed: devices with several "
-        "axes. Below: border of stability over the scene's own stiffness; under 1 the lever swings "
-        "by itself. Rings: the core's blocks. Simulation."
+        "Above: rms error of the torque over the law's largest torque; dashed: devices with "
+        "several axes. Below: border of stability over the scene's own stiffness; under 1 the "
+        "lever swings by itself. Rings: the core's blocks. Simulation."
     )
     figure, axes = plots.stacked("Every scene at every rate", [2.8, 2.4], width=7.6)
     for number, scene in enumerate(scenes):

@@ -43,8 +43,7 @@ class AxesSweep : public Sweep {
     report_.simulated_s = scene_.scenario.duration_s;
     sweep(std::move(fast), 0);
     report_.notes.emplace_back(
-        "no margin: there is no linear loop of this device; what shows are the torque's swing in "
-        "the last quarter and the expectations of the scene that are kept");
+        "no margin: there is no linear loop of this device; swing and expectations stand for it");
     return report_;
   }
 

@@ -204,7 +204,7 @@ void add_rates(CLI::App& app, int* exit_code) {
       "rate. Margin: the largest stable stiffness by eigenvalues over the scene's; below 1\n"
       "the lever swings by itself. A device with several axes has none; its torque's swing in\n"
       "the last quarter and the scene's expectations that are kept tell of it. Time: of the\n"
-      "twin, against the last row. Without SCENE all of vectors/scenes, in about TIME\n"
+      "twin, against the last row. Without SCENE all of vectors/scenes, in about five\n"
       "minutes.\n"
       "  feltgate rates wall\n"
       "  feltgate rates detent --rate 200,2000,20000\n"

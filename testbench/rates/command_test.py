@@ -15,6 +15,7 @@ from pathlib import Path
 
 ROOT = Path(os.environ["FELTGATE_ROOT"])
 PROGRAM = Path(os.environ["FELTGATE_BUILD"]) / "feltgate_lever_law"
+OF_DEVICE = Path(os.environ["FELTGATE_BUILD"]) / "feltgate_two_levers_law"
 SCENE = """title = "Short"
 about = "A wall for some milliseconds."
 duration_s = 0.03
@@ -61,10 +62,10 @@ class Rates(unittest.TestCase):
         (self.folder / "lawless.toml").write_text(lawless, encoding="utf-8")
         (self.folder / "free.toml").write_text(NO_TORQUE, encoding="utf-8")
 
-    def call(self, *words):
+    def call(self, *words, program=PROGRAM):
         environment = {**os.environ, "FELTGATE_PYTHON": sys.executable}
         return subprocess.run(
-            [PROGRAM, "rates", *words],
+            [program, "rates", *words],
             cwd=self.folder,
             env=environment,
             capture_output=True,
@@ -155,6 +156,18 @@ class Rates(unittest.TestCase):
         for row in scene["rates"]:
             self.assertEqual(row["mismatches"], 0)
             self.assertGreater(row["clocks_compared"], 1_400_000)
+
+    def test_rtl_and_twin_of_a_device_are_equal(self):
+        short = LEVERS.replace("duration_s = 0.03\n", "duration_s = 0.015\n", 1)
+        (self.folder / "levers.toml").write_text(short, encoding="utf-8")
+        done = self.call(
+            *("levers.toml", "--rate", "144", "--lock-step", "--json", "-"), program=OF_DEVICE
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        (scene,) = json.loads(done.stdout)["scenes"]
+        self.assertEqual([r["runs"] for r in scene["rates"]], [2, 1])
+        for row in scene["rates"]:
+            self.assertEqual((row["mismatches"], row["clocks_compared"]), (0, 750_000))
 
     def test_several_scenes_make_one_picture(self):
         (self.folder / "other.toml").write_text(SCENE, encoding="utf-8")

@@ -65,7 +65,7 @@ def find_space(name):
     if scene.is_file() and (name == scene.stem or Path(name).resolve() == scene.resolve()):
         raise plans.PlanError(
             f"{name} is a scene, and explore takes a space of design points; what its rate costs a "
-            f"one-lever scene's torque is in: ./feltgate rates {scene.stem}"
+            f"scene's torque is in: ./feltgate rates {scene.stem}"
         )
     if not Path(name).exists():
         known = ", ".join(sorted(path.stem for path in spaces.glob("*.toml")))

@@ -20,7 +20,7 @@ from outputs import write_whole
 from reporting import plots
 
 COLOURS = ["#0072b2", "#b23a00", "#008a64", "#7d4bb5", "#b04a8b", "#8a6d00", "#1d2329", "#5c6670"]
-MARKS = "os^Dv"
+MARKS = "os^DvP<"
 TICKS = {144: "144", 490: "490", 1e3: "1 k", 1e4: "10 k", 4e4: "40 k", 1e5: "100 k", 1e6: "1 M"}
 
 
@@ -47,7 +47,9 @@ def draw(axis, scene, key, factor, label="", **style):
 def finish(figure, axes, name, caption):
     for axis in axes:
         axis.set_xscale("log")
-        axis.set_yscale("log")
+        # A swing may be 0.
+        whole = all(value > 0 for line in axis.lines for value in line.get_ydata())
+        axis.set_yscale("log" if whole else "linear")
         axis.set_xticks(list(TICKS), list(TICKS.values()))
         axis.minorticks_off()
         axis.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
@@ -56,17 +58,37 @@ def finish(figure, axes, name, caption):
     return plots.finish(figure, name, caption)
 
 
+def kept(scene, axis):
+    """Swing at the end of a device; full marks where all of the scene's expectations are kept."""
+    colour = COLOURS[2]
+    rows = scene["rates"]
+    points = [(r["rate_hz"], 1e3 * r["swing_nm"], not r["broken"]) for r in rows]
+    axis.plot([p[0] for p in points], [p[1] for p in points], color=colour, linewidth=1.1)
+    for rate_hz, swing, whole in points:
+        face = colour if whole else "white"
+        axis.plot(rate_hz, swing, marker="o", markersize=5, color=colour, markerfacecolor=face)
+    axis.set_ylabel("swing, mNm")
+
+
 def one(scene):
-    """One scene: rms and worst error, and its margin."""
+    """One scene: rms and worst error, and its margin, or a device's swing."""
+    device = "device" in scene
+    below = "Below: border of stability over the scene; under 1 the lever swings by itself."
+    ring = "a ring is the core's block. "
+    if device:
+        below = (
+            "Below: the largest swing of a torque in the last quarter; a hollow mark where not all "
+            "of the scene's expectations are kept."
+        )
+        ring = f"{scene['axes']} axes. "
     caption = (
-        f"{scene['title']}: law {scene['law']} on the engine; a ring is the core's block. "
+        f"{scene['title']}: law {scene['law']} on the engine; {ring}"
         "Above: error of the torque against the continuous law, dashed what the encoder's counts "
-        "alone leave. Below: border of stability over the scene; under 1 the lever swings by "
-        "itself. Simulation."
+        f"alone leave. {below} Simulation."
     )
     has_margin = any("margin" in r for r in scene["rates"])
     title = f"{scene['scene']}: what a slower torque costs"
-    figure, axes = plots.stacked(title, [2.4, 1.6] if has_margin else [2.4])
+    figure, axes = plots.stacked(title, [2.4, 1.6] if has_margin or device else [2.4])
     draw(axes[0], scene, "error_max_nm", 1e3, "worst", color=COLOURS[1], marker="s")
     draw(axes[0], scene, "error_rms_nm", 1e3, "rms", color=COLOURS[0], marker="o")
     for key, colour in (("counts_alone_max_nm", COLOURS[1]), ("counts_alone_rms_nm", COLOURS[0])):
@@ -78,21 +100,24 @@ def one(scene):
         draw(axes[1], scene, "margin", 1, color=COLOURS[2], marker="o")
         axes[1].axhline(1, color="#d55e00", linewidth=0.9)
         axes[1].set_ylabel("border / scene")
+    elif device:
+        kept(scene, axes[1])
     return finish(figure, axes, f"rates_{scene['scene']}", caption)
 
 
 def several(scenes):
     """All scenes: rms error as a share of the law's largest torque, and margins."""
     caption = (
-        "Above: rms error of the torque over the law's largest torque. Below: border of stability "
-        "over the scene's own stiffness; under 1 the lever swings by itself. Rings: the core's "
-        "blocks. Simulation."
+        "Above: rms error of the torque over the law's largest torque; dashed: devices with "
+        "several axes. Below: border of stability over the scene's own stiffness; under 1 the "
+        "lever swings by itself. Rings: the core's blocks. Simulation."
     )
     figure, axes = plots.stacked("Every scene at every rate", [2.8, 2.4], width=7.6)
     for number, scene in enumerate(scenes):
         style = {
             "color": COLOURS[number % len(COLOURS)],
             "marker": MARKS[number // len(COLOURS) % len(MARKS)],
+            "linestyle": "--" if "device" in scene else "-",
         }
         share = 100 / scene["largest_nm"] if scene["largest_nm"] > 0 else 0
         draw(axes[0], scene, "error_rms_nm", share, scene["scene"], **style)
@@ -101,7 +126,8 @@ def several(scenes):
     if axes[0].get_legend_handles_labels()[0]:
         # Taller than the axes: it has the right quarter for itself.
         figure.get_layout_engine().set(rect=(0, 0, 0.76, 1))
-        figure.legend(loc="upper right", bbox_to_anchor=(1.0, 0.96))
+        small = {"fontsize": 6.5, "labelspacing": 0.25} if len(scenes) > 30 else {}
+        figure.legend(loc="upper right", bbox_to_anchor=(1.0, 0.96), **small)
     axes[1].axhline(1, color="#d55e00", linewidth=0.9)
     axes[1].set_ylabel("border / scene")
     return finish(figure, axes, "rates", caption)

@@ -144,7 +144,11 @@ class CompiledAxesLaw : public AxesLaw {
 
 std::unique_ptr<AxesLaw> make_axes_law(const std::string& path, const DesignInfo& design,
                                        int axes) {
-  law::Compiled law = law::compile_file(path, law::target_of(design));
+  return make_axes_law(law::compile_file(path, law::target_of(design)), path, design, axes);
+}
+
+std::unique_ptr<AxesLaw> make_axes_law(law::Compiled law, const std::string& path,
+                                       const DesignInfo& design, int axes) {
   unsigned given = 0;
   for (const law::Output& o : law.law.outputs) {
     if (o.axis >= axes) {

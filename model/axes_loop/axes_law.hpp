@@ -11,6 +11,7 @@
 #include <string>
 
 #include "engines/axes_cores.hpp"
+#include "law/compile.hpp"
 #include "loop/scene_law.hpp"
 
 namespace feltgate {
@@ -52,5 +53,8 @@ class AxesLaw {
 /// The law of a file for a design with `axes` axes. Errors: law::LawError, law::Refused,
 /// std::invalid_argument where it has not exactly these axes.
 std::unique_ptr<AxesLaw> make_axes_law(const std::string& path, const DesignInfo& design, int axes);
+/// One that is compiled for the design; `path` is for messages.
+std::unique_ptr<AxesLaw> make_axes_law(law::Compiled law, const std::string& path,
+                                       const DesignInfo& design, int axes);
 
 }  // namespace feltgate

@@ -14,8 +14,8 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "axes_loop/axes_columns.hpp"
 #include "axes_loop/axes_engines.hpp"
-#include "axes_loop/device_signals.hpp"
 #include "axes_loop/homing.hpp"
 #include "axes_loop/plane_host.hpp"
 #include "axes_loop/signal_record.hpp"
@@ -29,25 +29,6 @@
 namespace feltgate {
 
 namespace {
-
-std::string of_axis(const char* name, std::size_t axis) { return fmt::format("{}.{}", name, axis); }
-
-template <class Plant>
-std::vector<std::string> columns_of(const AxesScene& scene) {
-  std::vector<std::string> all{"time_s"};
-  for (std::size_t n = 0; n < Plant::axes; ++n) {
-    for (const char* name : {"theta_rad", "position_rad", "velocity_rad_s", "tau_ref_nm",
-                             "tau_hat_nm", "motor_torque_nm", "law_nm", "limits", "faults"}) {
-      all.push_back(of_axis(name, n));
-    }
-  }
-  const auto own = DeviceSignals<Plant>::names();
-  all.insert(all.end(), own.begin(), own.end());
-  if (scene.plane) {
-    for (const std::string& name : PlaneHost::names(scene.plane->axes)) all.push_back(name);
-  }
-  return all;
-}
 
 /// Which of the limits stand between a law's torque and the commanded one.
 constexpr unsigned limits_of_torque = limit::torque | limit::ramp | limit::hold | limit::chatter;
@@ -265,13 +246,17 @@ class AxesRun : plant::AxesDevice<Plant> {
       meters_[n].tick(asked_nm, design_.torque_constant_nm_a * current_a, s[n].limits, s[n].faults);
       meters_[n].motor(motor_nm, asked_nm);
       faults_ |= s[n].faults;
-      row_.insert(row_.end(),
-                  {plant_.seen().theta_rad[n], s[n].position * design_.count_rad,
-                   std::ldexp(static_cast<double>(s[n].velocity), -design_.velocity.fraction),
-                   asked_nm, nm(s[n].tau_hat), motor_nm, kept_nm_[n],
-                   static_cast<double>(s[n].limits), static_cast<double>(s[n].faults)});
+      Row& r = axes_rows_[n];
+      r.position_rad = position_rad_[n] = s[n].position * design_.count_rad;
+      r.velocity_rad_s = std::ldexp(static_cast<double>(s[n].velocity), -design_.velocity.fraction);
+      r.tau_ref_nm = asked_nm;
+      r.tau_hat_nm = nm(s[n].tau_hat);
+      r.limits = s[n].limits;
+      r.faults = s[n].faults;
+      row_.insert(row_.end(), {plant_.seen().theta_rad[n], r.position_rad, r.velocity_rad_s,
+                               asked_nm, r.tau_hat_nm, motor_nm, kept_nm_[n],
+                               static_cast<double>(r.limits), static_cast<double>(r.faults)});
     }
-    for (std::size_t n = 0; n < axes; ++n) position_rad_[n] = s[n].position * design_.count_rad;
     const bool told = ticks_ % options_.row_every == 0;
     DeviceSignals<Plant>::add(plant_, row_);
     if constexpr (DeviceSignals<Plant>::has_pen) {
@@ -285,7 +270,21 @@ class AxesRun : plant::AxesDevice<Plant> {
     }
     for (std::size_t k = 1; k < row_.size(); ++k) records_[k - 1].add(row_[k]);
     if (options_.row && told) options_.row(row_);
+    if (options_.axes) tell_axes();
     ++ticks_;
+  }
+
+  /// A step of the plant ends up to 4 ticks after this one, and is as good as straight.
+  void tell_axes() {
+    const Clock left = plant_.now() - (ticks_ + 1) * design_.clocks_per_tick;
+    const double back_s = static_cast<double>(left) / static_cast<double>(design_.clock_hz);
+    for (std::size_t n = 0; n < axes; ++n) {
+      Row& r = axes_rows_[n];
+      r.time_s = row_[0];
+      r.omega_rad_s = plant_.seen().omega_rad_s[n];
+      r.theta_rad = plant_.seen().theta_rad[n] - back_s * r.omega_rad_s;
+    }
+    options_.axes(axes_rows_);
   }
 
   AxesResult result(Clock end) {
@@ -362,6 +361,7 @@ class AxesRun : plant::AxesDevice<Plant> {
   std::array<ErrorFigure, axes> errors_;
   std::int64_t ticks_ = 0, ticks_to_come_ = 0;
   std::vector<double> row_;
+  std::vector<Row> axes_rows_ = std::vector<Row>(axes);
   std::vector<SignalRecord> records_;
   std::vector<FeltMeter> meters_;
   int faults_ = 0;

@@ -13,6 +13,7 @@
 
 #include "axes_law.hpp"
 #include "axes_scene.hpp"
+#include "loop/columns.hpp"
 #include "loop/felt.hpp"
 #include "loop/figures.hpp"
 
@@ -59,6 +60,8 @@ struct AxesRunOptions {
   /// Called for every row_every-th tick with the values of axes_columns(); may be empty.
   std::function<void(const std::vector<double>&)> row;
   int row_every = 1;
+  /// Called for every tick with a row an axis, angle and speed the plant's own; may be empty.
+  std::function<void(const std::vector<Row>&)> axes;
   /// Leads an impedance hand on the pen of a pantograph instead of its profiles: asked with every
   /// such row; may be empty.
   std::function<PenLead(const std::vector<double>&)> lead;

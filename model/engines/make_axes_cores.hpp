@@ -5,15 +5,13 @@
 // Documentation: docs/architecture.md
 #pragma once
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
-#include "axes_cores.hpp"
-#include "feltgate/feltgate_axes.hpp"
 #include "lock_step_core.hpp"
+#include "make_twin_axes.hpp"
 #include "rtl_axes_ports.hpp"
 #include "rtl_model.hpp"
 
@@ -43,104 +41,32 @@ std::string port_difference(const AxesOut<N>& rtl, const AxesOut<N>& twin) {
 }
 
 /// Rtl is Verilator's class of feltgate_axes for design D. The twin leads and gives what a run asks
-/// for; with `with_rtl` the RTL follows in every clock.
+/// for; the RTL follows in every clock.
 template <class Rtl, class D>
-class DesignAxes : public AxesCores {
+class LockStepAxes : public TwinAxes<D> {
+  using Base = TwinAxes<D>;
+  using Base::in_, Base::twin_, Base::now_, Base::stop_, Base::mismatches_, Base::first_mismatch_,
+      Base::first_mismatch_clock_, Base::N;
+
  public:
-  static constexpr int N = D::axes;
-  static_assert(N >= 2 && D::engine != 0, "several axes with an engine");
-
-  explicit DesignAxes(bool with_rtl) : AxesCores(design_info<D>(), N), with_rtl_(with_rtl) {}
-
   void trace(const std::string& path, Clock from, Clock to) override {
-    if (!with_rtl_) {
-      throw std::invalid_argument(
-          "--fst: the engine twin has no waveform; choose --engine rtl or all");
-    }
     path_ = path;
     from_ = from;
     to_ = to;
   }
 
-  void reset(std::uint64_t seed, const Pins& pins) override {
-    pins_ = pins;
-    for (auto& edges : edges_) edges.clear();
-    writes_.clear();
-    now_ = mismatches_ = 0;
-    first_mismatch_.clear();
-    in_ = {};
-    twin_ = std::make_unique<Twin>();
-    rtl_.reset();
-    if (!with_rtl_) return;
-    for (std::size_t n = 0; n < N; ++n) in_.axis[n].encoder = pins_[n];
+ private:
+  void reset_beside(std::uint64_t seed) override {
     rtl_.emplace(seed);
     (*rtl_)->law_torque_i = 0;
     (*rtl_)->law_late_i = (*rtl_)->law_restart_i = 0;
-    drive_axes<D, N>(**rtl_, in_);
+    drive();
     rtl_->reset(4);
   }
+  bool beside() const override { return true; }
+  void drive() override { drive_axes<D, N>(**rtl_, in_); }
 
-  void advance(Clock clocks) override {
-    snapshots_.clear();
-    for (const Clock end = now_ + clocks; now_ < end;) {
-      in_.stop = stop_;
-      Clock until = end;
-      for (std::size_t n = 0; n < N; ++n) {
-        auto& edges = edges_[n];
-        for (; !edges.empty() && edges.front().clock <= now_; edges.pop_front()) {
-          pins_[n] = edges.front().pins;
-        }
-        in_.axis[n].encoder = pins_[n];
-        if (!edges.empty()) until = std::min(until, edges.front().clock);
-      }
-      bool writes = false;
-      if (!writes_.empty()) {
-        const int ahead = host_write_clock - twin_->clock_of_tick();
-        writes = ahead == 0 && !twin_->glue().busy() && !twin_->out().reg_busy;
-        until = std::min(until, now_ + (ahead == 0 ? 1 : ahead > 0 ? ahead : ahead + tick));
-      }
-      if (writes) issue_write();
-      run(until - now_);
-      in_.reg_write = false;
-    }
-  }
-
-  int duty(std::size_t axis) const override { return twin_->out().axis[axis].duty_active; }
-  bool gates_enabled(std::size_t axis) const override {
-    return twin_->out().axis[axis].gates_enable;
-  }
-
- private:
-  using Twin = FeltgateAxes<D, N, true, true>;
-  static constexpr int tick = D::clocks_per_tick;
-
-  void issue_write() {
-    in_.reg_addr = writes_.front().first;
-    in_.reg_wdata = writes_.front().second;
-    in_.reg_write = true;
-    writes_.pop_front();
-    ++writes_done_;
-  }
-
-  /// With the inputs held.
-  void run(Clock clocks) {
-    if (!with_rtl_ && !in_.reg_write) {
-      // Without RTL nobody reads; an address of the engine would have it go clock by clock.
-      if (writes_.empty()) in_.reg_addr = 0;
-      twin_->run(in_, clocks, [this] { keep(); });
-      now_ += clocks;
-      return;
-    }
-    if (with_rtl_) drive_axes<D, N>(**rtl_, in_);
-    for (Clock k = 0; k < clocks; ++k) {
-      twin_->clock(in_);
-      if (with_rtl_) follow();
-      ++now_;
-      if (twin_->out().axis[0].snapshot_valid) keep();
-    }
-  }
-
-  void follow() {
+  void follow() override {
     const bool dumping = !path_.empty() && now_ >= from_ && (to_ < 0 || now_ <= to_);
     if (dumping && !rtl_->tracing()) rtl_->trace(path_, "1ps");
     (*rtl_)->stop_i = in_.stop;
@@ -176,34 +102,17 @@ class DesignAxes : public AxesCores {
     return port_difference<N>(port, twin);
   }
 
-  void keep() {
-    AxesSnapshot s;
-    for (std::size_t n = 0; n < N; ++n) {
-      s[n] = Snapshot(twin_->out().axis[n], twin_->core(static_cast<int>(n)).sampled_travel(),
-                      writes_done_);
-    }
-    const EngineWatch& watch = twin_->glue().watch();
-    s[0].law_begins = watch.begins;
-    s[0].law_known = watch.in_force.has_value();
-    s[0].law_tick = watch.in_force.value_or(0);
-    s[0].law_changes = watch.changes_at_begin;
-    snapshots_.push_back(s);
-  }
   static constexpr Clock half_clock_ps = 500'000'000'000 / D::clock_hz;
 
-  bool with_rtl_;
-  std::unique_ptr<Twin> twin_;
   std::optional<RtlModel<Rtl>> rtl_;
-  AxesIn<N> in_;
-  std::int64_t writes_done_ = 0;
   std::string path_;
   Clock from_ = 0, to_ = -1;
 };
 
 template <class Rtl, class D>
 std::unique_ptr<AxesCores> make_design_axes(const std::string& kind) {
-  if (kind == "twin") return std::make_unique<DesignAxes<Rtl, D>>(false);
-  if (kind == "lockstep") return std::make_unique<DesignAxes<Rtl, D>>(true);
+  if (kind == "twin") return std::make_unique<TwinAxes<D>>();
+  if (kind == "lockstep") return std::make_unique<LockStepAxes<Rtl, D>>();
   throw std::invalid_argument("engine \"" + kind + "\" is unknown; choose twin or lockstep");
 }
 

@@ -123,12 +123,6 @@ const BlockLaw* block_law(const std::string& scene) {
 }
 
 void require_one_law(const Scenario& s) {
-  if (s.tracker) {
-    throw config::ConfigError(
-        fmt::format("{}:{}: a tracker feeds the law, which the continuous law does not see; choose "
-                    "a scene without [tracker]",
-                    s.path, s.scene_line));
-  }
   constexpr int voltage_mode = 2;
   for (const Event& e : s.events) {
     if ((e.scene && *e.scene != s.scene) || e.mode.value_or(0) == voltage_mode) {

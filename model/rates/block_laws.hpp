@@ -36,8 +36,7 @@ const BlockLaw* block_law(const std::string& scene);
 /// another one.
 Scenario as_law(const Scenario& scene, const BlockLaw& law, const DesignInfo& design);
 
-/// Throws config::ConfigError where the scene changes to another one, has the voltage mode or a
-/// tracker.
+/// Throws config::ConfigError where the scene changes to another one, or has the voltage mode.
 void require_one_law(const Scenario& scene);
 
 }  // namespace feltgate::rates

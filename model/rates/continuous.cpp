@@ -7,10 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 
 #include "feltgate/generated/causes.hpp"
-#include "law/load.hpp"
 
 namespace feltgate::rates {
 
@@ -24,64 +22,73 @@ constexpr int left_out =
 
 }  // namespace
 
-std::vector<Change> changes_of(const Scenario& scene, const law::Law& law,
-                               const law::Image* image) {
+std::vector<Change> changes_of(const Scenario& scene, const law::Law& law) {
   std::vector<Change> all;
-  std::optional<law::LoadedParameters> words;
-  if (image != nullptr) words.emplace(*image);
   const auto add = [&](double at_s, const std::map<std::string, double>& set) {
     for (std::size_t i = 0; i < law.parameters.size(); ++i) {
       const law::Parameter& p = law.parameters[i];
       const auto it = p.derived < 0 ? set.find(p.name) : set.end();
-      if (it == set.end()) continue;
-      double value = it->second;
-      if (words) {
-        words->set(p.name, value);
-        value = words->value(p.name);
-      }
-      all.push_back({at_s, i, value * p.to_si});
+      if (it != set.end()) all.push_back({at_s, i, it->second * p.to_si});
     }
   };
-  if (words) {
-    for (std::size_t i = 0; i < law.parameters.size(); ++i) {
-      const law::Parameter& p = law.parameters[i];
-      if (p.derived < 0) all.push_back({0, i, words->value(p.name) * p.to_si});
-    }
-  }
   add(0, scene.parameters);
   for (const Event& e : scene.events) add(e.at_s, e.set);
   return all;
 }
 
 Continuous::Continuous(const law::Law& law, std::vector<Change> changes, const Setting& setting)
-    : law_(law), changes_(std::move(changes)), setting_(setting), true_(law), sampled_(law) {}
+    : law_(law),
+      changes_(std::move(changes)),
+      setting_(setting),
+      true_(law),
+      sampled_(law),
+      seen_(setting.axes),
+      counted_(setting.axes),
+      axes_(setting.axes) {
+  for (const law::Output& o : law.outputs) axes_.at(static_cast<std::size_t>(o.axis)).driven = true;
+}
 
-void Continuous::fill(double position_rad, double velocity_rad_s, double tau_hat_nm) {
+double Continuous::mean_error_nm(std::size_t axis) const {
+  const Axis& a = axes_[axis];
+  return a.error.count() == 0 ? 0 : a.sum_nm / static_cast<double>(a.error.count());
+}
+
+void Continuous::set(std::size_t parameter, double si) {
+  true_.set_parameter(parameter, si);
+  sampled_.set_parameter(parameter, si);
+}
+
+double Continuous::limited(double nm) const {
+  return std::clamp(nm, -setting_.limit_nm, setting_.limit_nm);
+}
+
+void Continuous::run(law::Evaluation<double>& law, const std::vector<Sample>& samples,
+                     double Axis::*to_nm) {
   inputs_.clear();
   for (const law::Input& in : law_.inputs) {
-    inputs_.push_back(in.source == law::Source::position   ? position_rad
-                      : in.source == law::Source::velocity ? velocity_rad_s
-                                                           : tau_hat_nm);
+    const Sample& s = samples[static_cast<std::size_t>(in.axis)];
+    inputs_.push_back(in.source == law::Source::position   ? s.position_rad
+                      : in.source == law::Source::velocity ? s.velocity_rad_s
+                                                           : s.tau_hat_nm);
+  }
+  law.run(inputs_);
+  for (std::size_t i = 0; i < law_.outputs.size(); ++i) {
+    axes_[static_cast<std::size_t>(law_.outputs[i].axis)].*to_nm = limited(law.outputs()[i]);
   }
 }
 
-double Continuous::torque(law::Evaluation<double>& law) {
-  law.run(inputs_);
-  return std::clamp(law.outputs().front(), -setting_.limit_nm, setting_.limit_nm);
-}
-
-double Continuous::probe(double position_rad, double velocity_rad_s, double tau_hat_nm) {
+double Continuous::probe(Sample sample) {
   law::Evaluation<double> copy = true_;
-  fill(position_rad, velocity_rad_s, tau_hat_nm);
-  return torque(copy);
+  run(copy, {sample}, &Axis::ideal_nm);
+  return axes_.front().ideal_nm;
 }
 
 // A slope is one that a count and a sixteenth of it show alike; a difference that does not shrink
 // with the distance is a jump.
-void Continuous::look(double position_rad, double velocity_rad_s, double tau_hat_nm) {
+void Continuous::look(const Sample& at) {
   const auto fall = [&](double h) {
-    return probe(position_rad - h, velocity_rad_s, tau_hat_nm) -
-           probe(position_rad + h, velocity_rad_s, tau_hat_nm);
+    return probe({at.position_rad - h, at.velocity_rad_s, at.tau_hat_nm}) -
+           probe({at.position_rad + h, at.velocity_rad_s, at.tau_hat_nm});
   };
   const double h = setting_.count_rad / 2, wide = fall(h), narrow = fall(h / 16);
   const double tiny = 1e-9 * setting_.limit_nm;
@@ -92,15 +99,16 @@ void Continuous::look(double position_rad, double velocity_rad_s, double tau_hat
     return;
   }
   const double stiffness = wide / (2 * h);
-  const double damping = (probe(position_rad, velocity_rad_s - speed_step_rad_s, tau_hat_nm) -
-                          probe(position_rad, velocity_rad_s + speed_step_rad_s, tau_hat_nm)) /
-                         (2 * speed_step_rad_s);
+  const double damping =
+      (probe({at.position_rad, at.velocity_rad_s - speed_step_rad_s, at.tau_hat_nm}) -
+       probe({at.position_rad, at.velocity_rad_s + speed_step_rad_s, at.tau_hat_nm})) /
+      (2 * speed_step_rad_s);
   if (slope_.stiffness_nm_rad <= 0 && stiffness <= 0) {
     slope_.damping_nm_s_rad = std::max(slope_.damping_nm_s_rad, damping);
     return;
   }
   // Of places that are as steep, the one with the most torque: there the law is not about to end.
-  const double here_nm = std::fabs(probe(position_rad, velocity_rad_s, tau_hat_nm));
+  const double here_nm = std::fabs(probe(at));
   const bool steeper = stiffness > 1.001 * slope_.stiffness_nm_rad;
   const bool as_steep = stiffness > 0.999 * slope_.stiffness_nm_rad && here_nm > steepest_nm_;
   if (!steeper && !as_steep) return;
@@ -109,39 +117,50 @@ void Continuous::look(double position_rad, double velocity_rad_s, double tau_hat
   steepest_nm_ = here_nm;
 }
 
-void Continuous::tick(const Row& r) {
-  if (!placed_) {
-    placed_ = true;
-    const double q = setting_.count_rad;
+void Continuous::place(const Row* rows) {
+  if (placed_) return;
+  placed_ = true;
+  const double q = setting_.count_rad;
+  for (std::size_t n = 0; n < axes_.size(); ++n) {
     // The core counts from where it was reset. An encoder's zero is anywhere: a count is taken for
     // the middle of its angles.
-    zero_rad_ = std::floor(r.theta_rad / q) * q - r.position_rad + q / 2;
+    const Row& r = rows[n];
+    axes_[n].zero_rad = std::floor(r.theta_rad / q) * q - r.position_rad + q / 2;
   }
-  for (; next_ < changes_.size() && changes_[next_].at_s <= r.time_s; ++next_) {
-    true_.set_parameter(changes_[next_].parameter, changes_[next_].si);
-    sampled_.set_parameter(changes_[next_].parameter, changes_[next_].si);
+}
+
+void Continuous::tick(const Row* rows) {
+  place(rows);
+  for (; next_ < changes_.size() && changes_[next_].at_s <= rows[0].time_s; ++next_) {
+    set(changes_[next_].parameter, changes_[next_].si);
   }
-  if ((r.limits & static_cast<int>(limit::gates_closed)) != 0) {
+  // The engine runs its law by the first axis.
+  if ((rows[0].limits & static_cast<int>(limit::gates_closed)) != 0) {
     true_.reset();
     sampled_.reset();
     ticks_ = 0;
     return;
   }
-  const double position_rad = r.theta_rad - zero_rad_;
   if (ticks_++ % setting_.every == 0) {
-    if (setting_.slope) {
-      if (runs_++ % look_every == 0) look(position_rad, r.omega_rad_s, r.tau_hat_nm);
-      fill(r.position_rad, r.velocity_rad_s, r.tau_hat_nm);
-      of_counts_nm_ = torque(sampled_);
+    for (std::size_t n = 0; n < axes_.size(); ++n) {
+      const Row& r = rows[n];
+      seen_[n] = {r.theta_rad - axes_[n].zero_rad, r.omega_rad_s, r.tau_hat_nm};
+      counted_[n] = {r.position_rad, r.velocity_rad_s, r.tau_hat_nm};
     }
-    fill(position_rad, r.omega_rad_s, r.tau_hat_nm);
-    ideal_nm_ = torque(true_);
+    if (setting_.slope && runs_++ % look_every == 0) look(seen_.front());
+    if (setting_.floor) run(sampled_, counted_, &Axis::of_counts_nm);
+    run(true_, seen_, &Axis::ideal_nm);
   }
-  if ((r.limits & left_out) != 0) return;
-  error_.add(r.tau_ref_nm - ideal_nm_);
-  sum_nm_ += r.tau_ref_nm - ideal_nm_;
-  largest_nm_ = std::max(largest_nm_, std::fabs(ideal_nm_));
-  if (setting_.slope) floor_.add(of_counts_nm_ - ideal_nm_);
+  for (std::size_t n = 0; n < axes_.size(); ++n) {
+    Axis& a = axes_[n];
+    if (!a.driven || (rows[n].limits & left_out) != 0) continue;
+    const double off_nm = rows[n].tau_ref_nm - a.ideal_nm;
+    a.error.add(off_nm);
+    a.sum_nm += off_nm;
+    error_.add(off_nm);
+    largest_nm_ = std::max(largest_nm_, std::fabs(a.ideal_nm));
+    if (setting_.floor) floor_.add(a.of_counts_nm - a.ideal_nm);
+  }
 }
 
 }  // namespace feltgate::rates

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A law without rate, counts and rounding beside a run: what the torque should be, and how far from
-// it the core's is. Documentation: docs/rates.md
+// A law without rate, counts and rounding beside a run: what the torques should be, and how far
+// from them the core's are. Documentation: docs/rates.md
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "law/evaluate.hpp"
-#include "law/image.hpp"
 #include "loop/columns.hpp"
 #include "loop/figures.hpp"
 #include "loop/scenario.hpp"
@@ -31,52 +30,70 @@ struct Change {
 };
 
 /// The changes of a scene that runs this law, in order of time; those of before the run at 0 s.
-/// With an image its values are those that its words say.
-std::vector<Change> changes_of(const Scenario& scene, const law::Law& law,
-                               const law::Image* image = nullptr);
+std::vector<Change> changes_of(const Scenario& scene, const law::Law& law);
 
+/// Of a device with one axis or several; a row is what the loop tells of an axis in a tick.
 class Continuous {
  public:
   struct Setting {
+    std::size_t axes = 1;
     double count_rad = 0;
-    double limit_nm = 0;  ///< of the torque reference
-    int every = 1;        ///< ticks between two runs: 1, but for a law with a rate of its own
-    bool slope = false;   ///< look for the steepest place and for the floor
+    double limit_nm = 0;  ///< of the torque reference of each axis
+    int every = 1;        ///< ticks between two runs: 1, but for a law whose states count runs
+    bool slope = false;   ///< look for the steepest place; of one axis
+    bool floor = false;   ///< run it from the counts, too
   };
   /// The law must outlive this.
   Continuous(const law::Law& law, std::vector<Change> changes, const Setting& setting);
 
-  /// A tick of the core; called for each.
-  void tick(const Row& row);
+  /// A tick of the core, called for each; a row an axis.
+  void tick(const std::vector<Row>& axes) { tick(axes.data()); }
+  void tick(const Row& row) { tick(&row); }
+  /// The host has set a parameter, from the next tick on.
+  void set(std::size_t parameter, double si);
 
-  /// Torque reference less the law at the lever's true angle and speed, Nm. Left out are ticks in
-  /// which the motor is disarmed, the torque ramps, or the core relieves a torque that is held.
+  /// Torque reference less the law at the device's true angles and speeds, Nm, of all axes. Left
+  /// out are ticks in which an axis' motor is disarmed, its torque ramps, or the core relieves a
+  /// torque that is held.
   const ErrorFigure& error() const { return error_; }
-  double mean_error_nm() const { return error_.count() == 0 ? 0 : sum_nm_ / count(); }
+  const ErrorFigure& error(std::size_t axis) const { return axes_[axis].error; }
+  double mean_error_nm(std::size_t axis = 0) const;
   /// The same of the law in double in every tick, from the counts and the velocity of the core:
   /// what no rate makes smaller.
   const ErrorFigure& floor() const { return floor_; }
   const Slope& slope() const { return slope_; }
-  double largest_nm() const { return largest_nm_; }  ///< of the law, limited
+  double largest_nm() const { return largest_nm_; }  ///< of the law, limited, on any axis
 
  private:
-  double count() const { return static_cast<double>(error_.count()); }
-  void fill(double position_rad, double velocity_rad_s, double tau_hat_nm);
-  double torque(law::Evaluation<double>& law);
-  /// Of a copy, which this run does not change.
-  double probe(double position_rad, double velocity_rad_s, double tau_hat_nm);
-  void look(double position_rad, double velocity_rad_s, double tau_hat_nm);
+  /// What a law may see of an axis.
+  struct Sample {
+    double position_rad = 0, velocity_rad_s = 0, tau_hat_nm = 0;
+  };
+  struct Axis {
+    bool driven = false;  ///< the law has a torque for it
+    double zero_rad = 0;  ///< the true angle at which the core's position is 0
+    double ideal_nm = 0, of_counts_nm = 0, sum_nm = 0;
+    ErrorFigure error;
+  };
+  void tick(const Row* rows);
+  void place(const Row* rows);
+  void run(law::Evaluation<double>& law, const std::vector<Sample>& samples, double Axis::*to_nm);
+  double limited(double nm) const;
+  /// Torque of axis 0 by a copy, which this run does not change.
+  double probe(Sample sample);
+  void look(const Sample& sample);
 
   const law::Law& law_;
   std::vector<Change> changes_;
   Setting setting_;
   law::Evaluation<double> true_, sampled_;
   std::vector<double> inputs_;
+  std::vector<Sample> seen_, counted_;
+  std::vector<Axis> axes_;
   std::size_t next_ = 0;
   std::int64_t ticks_ = 0, runs_ = 0;
   bool placed_ = false;
-  double zero_rad_ = 0;  ///< the true angle at which the core's position is 0
-  double ideal_nm_ = 0, of_counts_nm_ = 0, sum_nm_ = 0, largest_nm_ = 0, steepest_nm_ = 0;
+  double largest_nm_ = 0, steepest_nm_ = 0;
   ErrorFigure error_, floor_;
   Slope slope_;
 };

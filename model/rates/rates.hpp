@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// One scene at several rates: error of the torque, distance from instability, clocks and time.
+// One scene at several rates: error of the torque, distance from instability, clocks and time; of
+// one lever, and of a device with several axes.
 // Documentation: docs/rates.md
 #pragma once
 
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "axes_loop/axes_scene.hpp"
 #include "design/design.hpp"
 #include "plant/parameters.hpp"
 #include "rates/block_laws.hpp"
@@ -23,11 +25,15 @@ struct RateRow {
   int ticks = 1;       ///< between two updates
   bool block = false;  ///< the core's own block; else the engine runs a law
   int runs = 1;        ///< of the engine from one update to the next
-  ErrorFigure error;   ///< of the torque reference against the continuous law, Nm
-  double mean_error_nm = 0;
-  Margin margin;
-  int clocks_used = 0;       ///< of the engine for a run
-  int clocks_available = 0;  ///< from one of its runs to the next; 0 for a block
+  ErrorFigure error;   ///< of the torque reference against the continuous law, Nm; of all axes
+  double mean_error_nm = 0;          ///< of the first axis
+  std::vector<ErrorFigure> of_axes;  ///< the same as `error`, of each
+  Margin margin;                     ///< of one lever
+  double swing_nm = 0;  ///< of several axes: the largest of their torques' in the last quarter
+  int expected = 0;     ///< bounds that the scene sets for its figures; of several axes
+  std::vector<std::string> broken;  ///< of these, a line each
+  int clocks_used = 0;              ///< of the engine for a run
+  int clocks_available = 0;         ///< from one of its runs to the next; 0 for a block
   int instructions = 0;
   double cpu_s_per_s = 0;  ///< of the closed loop with the twin, per simulated second
   std::int64_t mismatches = 0, clocks_compared = 0;  ///< RTL and twin in lock-step
@@ -36,12 +42,13 @@ struct RateRow {
 };
 
 struct Report {
-  std::string scene, title, law, plant;
+  std::string scene, title, law, plant;  ///< plant: or device
+  int axes = 1;
   std::string block_gates;  ///< empty: no block renders it
   double simulated_s = 0;
   double largest_nm = 0;  ///< of the continuous law
   Slope slope;
-  ErrorFigure floor;               ///< of counts and estimated velocity, at every tick
+  ErrorFigure floor;               ///< of counts and estimated velocity, at every tick, all axes
   double damping_nm_s_rad = 0;     ///< of the lever, for the margins
   std::vector<RateRow> rows;       ///< the slowest first
   std::vector<std::string> notes;  ///< why rates or margins are missing
@@ -63,6 +70,15 @@ inline constexpr const char* law_design = "lever_law";
 /// several axes.
 Report measure(const Scenario& scene, const LawSource& law, const plant::Parameters& plant,
                const design::Elaborated& e, const Options& options);
+
+/// The same of a device with several axes, whose design "DEVICE_law" `e` is: its law at each rate
+/// on its twin, or on RTL and twin. No margin. Errors: LawError; std::invalid_argument for a design
+/// that this program lacks, or a law that is not for these axes.
+Report measure(const AxesScene& scene, const LawSource& law, const design::Elaborated& e,
+               const Options& options);
+
+/// Name of the design of a scene's device.
+std::string axes_design(const AxesScene& scene);
 
 /// Tables for people; JSON by the schema feltgate-rates/1; a row of CSV a rate of a scene.
 std::string report_text(const Report& report);

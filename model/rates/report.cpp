@@ -31,6 +31,11 @@ std::string slope_text(const Slope& s, double largest_nm) {
   return text;
 }
 
+std::string kept_text(const RateRow& r) {
+  if (r.expected == 0) return "-";
+  return fmt::format("{} of {}", r.expected - static_cast<int>(r.broken.size()), r.expected);
+}
+
 std::string margin_text(const Margin& m) {
   if (m.of == Margin::Of::none) return fmt::format("{:>9} {:>8}", "-", "-");
   return fmt::format("{:>9.4g} {:>8}", m.border,
@@ -59,12 +64,12 @@ std::string rate_text(double hz) {
   return hz >= 1e3 ? fmt::format("{:.3g} kHz", hz / 1e3) : fmt::format("{:.3g} Hz", hz);
 }
 
-std::string report_text(const Report& r) {
+namespace {
+
+/// One lever: error, margin, clocks and time.
+std::string lever_table(const Report& r) {
   const bool damper = !r.rows.empty() && r.rows.back().margin.of == Margin::Of::damping;
-  std::string s =
-      fmt::format("scene {}: {}\nlaw {}, {}; to {:.3g} Nm; plant {}, {:.3g} s\n", r.scene, r.title,
-                  r.law, slope_text(r.slope, r.largest_nm), r.largest_nm, r.plant, r.simulated_s);
-  s += fmt::format(
+  std::string s = fmt::format(
       "\n{:<17}  {:^19}  {:^18}  {:^16}  {:>5}\n{:<17}  {:>9} {:>9}  {:>9} {:>8}  {:>16}  {:>5}\n",
       "torque renewed", "torque error, mNm", damper ? "border Nms/rad" : "border Nm/rad",
       "engine clocks", "CPU", "at", "rms", "worst", "", "margin", "of a run", "time");
@@ -74,16 +79,49 @@ std::string report_text(const Report& r) {
                      1e3 * row.error.max(), margin_text(row.margin), clocks_text(row),
                      time_ratio(r, row));
   }
+  return s;
+}
+
+/// Several axes: no margin; what the bits show in its place.
+std::string axes_table(const Report& r) {
+  const char* line = "{:<17}  {:>9} {:>9}  {:>6}  {:>9}  {:>8}  {:>16}  {:>5}\n";
+  std::string s =
+      fmt::format("\n{:<17}  {:^19}  {:>6}  {:>9}  {:>8}  {:^16}  {:>5}\n", "torque renewed",
+                  "torque error, mNm", "", "swing,", "expec-", "engine clocks", "CPU");
+  s += fmt::format(line, "at", "rms", "worst", "margin", "mNm", "ted kept", "of a run", "time");
+  for (const RateRow& row : r.rows) {
+    s += fmt::format("{:<9} {:<7}  {:>9.4g} {:>9.4g}  {:>6}  {:>9.4g}  {:>8}  {:>16}  {:>5.2f}\n",
+                     rate_text(row.rate_hz), "engine", 1e3 * row.error.rms(), 1e3 * row.error.max(),
+                     "-", 1e3 * row.swing_nm, kept_text(row), clocks_text(row), time_ratio(r, row));
+  }
+  return s;
+}
+
+}  // namespace
+
+std::string report_text(const Report& r) {
+  const bool several = r.axes > 1;
+  std::string s = fmt::format("scene {}: {}\nlaw {}", r.scene, r.title, r.law);
+  if (!several) s += ", " + slope_text(r.slope, r.largest_nm);
+  s +=
+      fmt::format("; to {:.3g} Nm; {}, {:.3g} s\n", r.largest_nm,
+                  several ? fmt::format("device {}, {} axes", r.plant, r.axes) : "plant " + r.plant,
+                  r.simulated_s);
+  s += several ? axes_table(r) : lever_table(r);
   s += fmt::format("{:<17}  {:>9.4g} {:>9.4g}\n", "counts alone", 1e3 * r.floor.rms(),
                    1e3 * r.floor.max());
   for (const RateRow& row : r.rows) {
-    if (row.fault.empty()) continue;
-    s += fmt::format("fault at {}: {}; not compared from there on\n", rate_text(row.rate_hz),
-                     row.fault);
+    const std::string rate = rate_text(row.rate_hz);
+    if (!row.fault.empty()) {
+      s += fmt::format("fault at {}: {}; not compared from there on\n", rate, row.fault);
+    }
+    for (const std::string& line : row.broken) s += fmt::format("not kept at {}: {}\n", rate, line);
   }
   for (const std::string& note : r.notes) s += "note: " + note + "\n";
-  s += fmt::format("gates, at every rate: {}engine 1448 LUT4 eq, 2 MULT18, 4 BRAM, its law none\n",
-                   r.block_gates.empty() ? "" : "block " + r.block_gates + "; ");
+  s +=
+      fmt::format("gates, at every rate: {}engine 1448 LUT4 eq, 2 MULT18, 4 BRAM{}, its law none\n",
+                  r.block_gates.empty() ? "" : "block " + r.block_gates + "; ",
+                  several ? " with its glue to one axis" : "");
   return s;
 }
 
@@ -93,18 +131,21 @@ std::string reports_json(const std::vector<Report>& reports) {
     Json scene{{"scene", r.scene},
                {"title", r.title},
                {"law", r.law},
-               {"plant", r.plant},
+               {r.axes > 1 ? "device" : "plant", r.plant},
+               {"axes", r.axes},
                {"simulated_s", r.simulated_s},
-               {"largest_nm", r.largest_nm},
-               {"stiffness_nm_rad", r.slope.stiffness_nm_rad},
-               {"damping_nm_s_rad", r.slope.damping_nm_s_rad},
-               {"jump_nm", r.slope.jump_nm},
-               {"lever_damping_nm_s_rad", r.damping_nm_s_rad},
-               {"counts_alone_rms_nm", r.floor.rms()},
-               {"counts_alone_max_nm", r.floor.max()},
-               {"block_gates", r.block_gates},
-               {"notes", r.notes},
-               {"rates", Json::array()}};
+               {"largest_nm", r.largest_nm}};
+    if (r.axes == 1) {
+      scene["stiffness_nm_rad"] = r.slope.stiffness_nm_rad;
+      scene["damping_nm_s_rad"] = r.slope.damping_nm_s_rad;
+      scene["jump_nm"] = r.slope.jump_nm;
+      scene["lever_damping_nm_s_rad"] = r.damping_nm_s_rad;
+    }
+    scene["counts_alone_rms_nm"] = r.floor.rms();
+    scene["counts_alone_max_nm"] = r.floor.max();
+    scene["block_gates"] = r.block_gates;
+    scene["notes"] = r.notes;
+    scene["rates"] = Json::array();
     for (const RateRow& row : r.rows) {
       Json one{{"rate_hz", row.rate_hz},
                {"ticks", row.ticks},
@@ -123,6 +164,16 @@ std::string reports_json(const std::vector<Report>& reports) {
         one["border"] = row.margin.border;
         one["border_of"] = margin_kind(row.margin);
       }
+      if (r.axes > 1) {
+        for (const ErrorFigure& e : row.of_axes) {
+          one["axes"].push_back({{"error_rms_nm", e.rms()},
+                                 {"error_max_nm", e.max()},
+                                 {"ticks_compared", e.count()}});
+        }
+        one["swing_nm"] = row.swing_nm;
+        one["expected"] = row.expected;
+        one["broken"] = row.broken;
+      }
       if (!row.block) {
         one["instructions"] = row.instructions;
         one["runs"] = row.runs;
@@ -139,16 +190,18 @@ std::string reports_json(const std::vector<Report>& reports) {
 std::string reports_csv(const std::vector<Report>& reports) {
   std::string s =
       "scene,by,rate_hz,ticks,error_rms_nm,error_max_nm,margin,border,border_of,clocks_used,"
-      "clocks_available,time_ratio\n";
+      "clocks_available,time_ratio,swing_nm,expected,broken\n";
   for (const Report& r : reports) {
     for (const RateRow& row : r.rows) {
       const bool known = row.margin.of != Margin::Of::none;
-      s += fmt::format("{},{},{:.10g},{},{:.6g},{:.6g},{},{},{},{},{},{:.3g}\n", r.scene,
-                       row.block ? "block" : "engine", row.rate_hz, row.ticks, row.error.rms(),
-                       row.error.max(), known ? fmt::format("{:.4g}", row.margin.ratio) : "",
-                       known ? fmt::format("{:.4g}", row.margin.border) : "",
-                       margin_kind(row.margin), row.clocks_used, row.clocks_available,
-                       time_ratio(r, row));
+      s += fmt::format(
+          "{},{},{:.10g},{},{:.6g},{:.6g},{},{},{},{},{},{:.3g},{}\n", r.scene,
+          row.block ? "block" : "engine", row.rate_hz, row.ticks, row.error.rms(), row.error.max(),
+          known ? fmt::format("{:.4g}", row.margin.ratio) : "",
+          known ? fmt::format("{:.4g}", row.margin.border) : "", margin_kind(row.margin),
+          row.clocks_used, row.clocks_available, time_ratio(r, row),
+          r.axes > 1 ? fmt::format("{:.6g},{},{}", row.swing_nm, row.expected, row.broken.size())
+                     : ",,");
     }
   }
   return s;

@@ -37,6 +37,7 @@ if(FELTGATE_SIM)
       PATTERN "ensemble.hpp" EXCLUDE PATTERN "host_feed.hpp" EXCLUDE PATTERN "scenario_bounds.hpp" EXCLUDE
       PATTERN "make_engines.hpp" EXCLUDE PATTERN "lock_step_engine.hpp" EXCLUDE
       PATTERN "lock_step_core.hpp" EXCLUDE PATTERN "make_axes_cores.hpp" EXCLUDE
+      PATTERN "make_twin_axes.hpp" EXCLUDE
       PATTERN "plant_table.hpp" EXCLUDE PATTERN "rtl_*.hpp" EXCLUDE)
   endforeach()
   install(DIRECTORY "${FELTGATE_ROOT}/vectors/plants" "${FELTGATE_ROOT}/vectors/devices"

@@ -45,7 +45,8 @@ feltgate_library(feltgate_stability stability feltgate_engines feltgate_plant_fi
 target_link_libraries(feltgate_stability PRIVATE nlohmann_json::nlohmann_json)
 
 # Scenes at several rates.
-feltgate_library(feltgate_rates rates feltgate_stability feltgate_loop feltgate_law_loop)
+feltgate_library(feltgate_rates rates feltgate_stability feltgate_loop feltgate_law_loop
+  feltgate_axes_loop)
 target_link_libraries(feltgate_rates PRIVATE nlohmann_json::nlohmann_json)
 target_compile_definitions(feltgate_rates PRIVATE
   FELTGATE_VERSION="${PROJECT_VERSION}")
@@ -62,9 +63,25 @@ target_compile_options(feltgate_identify PRIVATE -O1)
 # The page for a browser: what runs natively of it; scripts/page.py compiles it for the browser.
 feltgate_library(feltgate_page page EXCEPT "_api" feltgate_loop feltgate_design feltgate_law_loop
   feltgate_axes_loop feltgate_shape)
-foreach(design fast lever_law)
+# Presets of several axes, for `feltgate rates` of all scenes.
+set(FELTGATE_AXES_PRESETS "")
+foreach(design IN LISTS FELTGATE_PRESETS)
+  set(package "${FELTGATE_ROOT}/rtl/generated/${design}/feltgate_pkg.sv")
+  if(NOT EXISTS "${package}")
+    continue()
+  endif()
+  file(STRINGS "${package}" several REGEX " AXES = [23];")
+  if(several)
+    list(APPEND FELTGATE_AXES_PRESETS ${design})
+  endif()
+endforeach()
+foreach(design fast lever_law ${FELTGATE_AXES_PRESETS})
   feltgate_type_of(${design} type)
-  feltgate_for_design(design_twin.cpp.in "${PROJECT_BINARY_DIR}/engines/${design}_twin.cpp")
+  set(template design_twin.cpp.in)
+  if(design IN_LIST FELTGATE_AXES_PRESETS)
+    set(template design_axes_twin.cpp.in)
+  endif()
+  feltgate_for_design(${template} "${PROJECT_BINARY_DIR}/engines/${design}_twin.cpp")
   # Objects: what registers the engine stays in every program that takes them.
   add_library(twin_${design} OBJECT EXCLUDE_FROM_ALL "${PROJECT_BINARY_DIR}/engines/${design}_twin.cpp")
   target_compile_options(twin_${design} PRIVATE ${FELTGATE_ENGINE_OPTIONS})

@@ -84,15 +84,17 @@ TEST_CASE("axes_engine: a program is locked while a check is under way that nobo
   const EngineMemory m = counting_law();
   Device device;
   device.load(m, image_crc(m));
+  const auto low = static_cast<std::uint32_t>(m.program_at(3));
+  device.write(H::high, static_cast<std::uint32_t>(m.program_at(3) >> 32));
   device.set(&Axis::asks, true);
   device.ticks(2);
   device.set(&Axis::asks, false);
   device.ticks(1);
-  device.write(H::line_base, 7);
-  CHECK(device.read(H::line_base) == 509);
+  device.write(H::program + 3, low ^ 1);
+  CHECK(device.read(H::program + 3) == low);
   device.ticks(2000);
-  device.write(H::line_base, 7);
-  CHECK(device.read(H::line_base) == 7);
+  device.write(H::program + 3, low ^ 1);
+  CHECK(device.read(H::program + 3) == (low ^ 1));
   device.play();
 }
 

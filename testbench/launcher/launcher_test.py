@@ -135,6 +135,13 @@ class Presets(Machine):
     def test_rates_run_laws(self):
         self.installed(*BUILD_PACKAGES)
         self.assertEqual(self.built("rates", "wall"), [["feltgate_lever_law"]])
+        # That has the twin of each device; the RTL is in the device's own program.
+        scene = self.folder / "mine.toml"
+        scene.write_text('device = "stylus"\n', encoding="utf-8")
+        self.assertEqual(self.built("rates", str(scene)), [["feltgate_lever_law"]])
+        locked = self.built("rates", str(scene), "--lock-step")
+        self.assertEqual(locked, [["feltgate_stylus_law"]])
+        self.assertEqual(self.built("rates", "wall", "--lock-step"), [["feltgate_lever_law"]])
 
     def test_the_demo_has_scenes_with_laws(self):
         self.installed(*BUILD_PACKAGES)

@@ -15,6 +15,7 @@ from pathlib import Path
 
 ROOT = Path(os.environ["FELTGATE_ROOT"])
 PROGRAM = Path(os.environ["FELTGATE_BUILD"]) / "feltgate_lever_law"
+OF_DEVICE = Path(os.environ["FELTGATE_BUILD"]) / "feltgate_two_levers_law"
 SCENE = """title = "Short"
 about = "A wall for some milliseconds."
 duration_s = 0.03
@@ -28,6 +29,25 @@ wall_contact = 5
 kind = "prescribed"
 motion = [{ kind = "ramp", duration_s = 0.03, to_rad = 0.05 }]
 """
+LEVERS = """title = "Short levers"
+about = "Two levers parted for some milliseconds."
+duration_s = 0.03
+device = "two_levers"
+[core]
+scene = "law"
+law = "coupled_levers"
+arm_s = 0.001
+[hand]
+[[hand.phase]]
+kind = "prescribed"
+motion = [{ kind = "ramp", duration_s = 0.03, to_rad = 0.05 }]
+[[expect]]
+figure = "faults"
+high = 0
+[[expect]]
+figure = "theta_rad.0.end"
+high = 0.01
+"""
 NO_TORQUE = SCENE.replace('"wall"', '"free"').replace("[parameters]\nwall_contact = 5\n", "")
 
 
@@ -37,12 +57,15 @@ class Rates(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
         (self.folder / "short.toml").write_text(SCENE, encoding="utf-8")
+        (self.folder / "levers.toml").write_text(LEVERS, encoding="utf-8")
+        lawless = LEVERS.replace('law = "coupled_levers"\n', "")
+        (self.folder / "lawless.toml").write_text(lawless, encoding="utf-8")
         (self.folder / "free.toml").write_text(NO_TORQUE, encoding="utf-8")
 
-    def call(self, *words):
+    def call(self, *words, program=PROGRAM):
         environment = {**os.environ, "FELTGATE_PYTHON": sys.executable}
         return subprocess.run(
-            [PROGRAM, "rates", *words],
+            [program, "rates", *words],
             cwd=self.folder,
             env=environment,
             capture_output=True,
@@ -95,6 +118,35 @@ class Rates(unittest.TestCase):
         self.assertIn("torque error, mNm", svg)
         self.assertIn("border / scene", svg)
 
+    def test_a_device_has_its_axes_and_what_is_kept(self):
+        done = self.call(
+            *("levers.toml", "--rate", "144,10000", "--json", "a.json", "--csv", "a.csv"),
+            *("-o", "a.svg"),
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for word in ("device two_levers, 2 axes", "144 Hz", "10 kHz", "1 of 2", "note: no margin"):
+            self.assertIn(word, done.stdout)
+        self.assertIn("not kept at 144 Hz: theta_rad.0.end = 0.04", done.stdout)
+        (scene,) = json.loads((self.folder / "a.json").read_text(encoding="utf-8"))["scenes"]
+        self.assertEqual((scene["device"], scene["axes"]), ("two_levers", 2))
+        self.assertNotIn("plant", scene)
+        self.assertEqual([round(r["rate_hz"]) for r in scene["rates"][:2]], [144, 10_000])
+        for rate in scene["rates"]:
+            self.assertEqual(len(rate["axes"]), 2)
+            of_axes = [axis["error_max_nm"] for axis in rate["axes"]]
+            self.assertEqual(max(of_axes), rate["error_max_nm"])
+            self.assertGreater(min(of_axes), 0)
+            self.assertEqual((rate["expected"], len(rate["broken"])), (2, 1))
+            self.assertNotIn("margin", rate)
+        slow, fast = scene["rates"][0], scene["rates"][-1]
+        self.assertGreater(slow["error_rms_nm"], 3 * fast["error_rms_nm"])
+        with (self.folder / "a.csv").open(encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([(r["expected"], r["broken"]) for r in rows], [("2", "1")] * len(rows))
+        svg = (self.folder / "a.svg").read_text(encoding="utf-8")
+        for word in ("torque error, mNm", "swing, mNm"):
+            self.assertIn(word, svg)
+
     def test_rtl_and_twin_are_equal_at_every_rate(self):
         done = self.call("short.toml", "--rate", "144,10000", "--lock-step", "--json", "-")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -105,17 +157,33 @@ class Rates(unittest.TestCase):
             self.assertEqual(row["mismatches"], 0)
             self.assertGreater(row["clocks_compared"], 1_400_000)
 
+    def test_rtl_and_twin_of_a_device_are_equal(self):
+        short = LEVERS.replace("duration_s = 0.03\n", "duration_s = 0.015\n", 1)
+        (self.folder / "levers.toml").write_text(short, encoding="utf-8")
+        done = self.call(
+            *("levers.toml", "--rate", "144", "--lock-step", "--json", "-"), program=OF_DEVICE
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        (scene,) = json.loads(done.stdout)["scenes"]
+        self.assertEqual([r["runs"] for r in scene["rates"]], [2, 1])
+        for row in scene["rates"]:
+            self.assertEqual((row["mismatches"], row["clocks_compared"]), (0, 750_000))
+
     def test_several_scenes_make_one_picture(self):
         (self.folder / "other.toml").write_text(SCENE, encoding="utf-8")
-        done = self.call("short.toml", "other.toml", "--rate", "2000", "-o", "b.svg", "--quiet")
+        scenes = ("short.toml", "other.toml", "levers.toml")
+        done = self.call(*scenes, "--rate", "2000", "-o", "b.svg", "--quiet")
         self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
         svg = (self.folder / "b.svg").read_text(encoding="utf-8")
-        for name in ("short", "other", "torque error rms, %"):
+        for name in ("short", "other", "levers", "torque error rms, %"):
             self.assertIn(name, svg)
 
     def test_bad_input_is_told_in_a_line(self):
         for words, told in (
             (("nosuch",), "nosuch"),
+            (("levers.toml", "--plant", "linear"), "levers.toml names a device; leave it out"),
+            (("lawless.toml",), "lawless.toml:6: a device of several axes needs a law"),
+            (("levers.toml", "--lock-step"), "of two_levers_law is not in this program"),
             (("free.toml",), "free.toml:5: the scene renders no torque law"),
             (("short.toml", "--rate", "0"), "--rate"),
             (("short.toml", "--rate", "nan"), "--rate"),

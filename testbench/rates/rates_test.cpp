@@ -115,13 +115,25 @@ TEST_CASE("scenes of the core become laws with the same numbers") {
   CHECK(law.events.front().set.at("setpoint_torque") == 0.1);
 }
 
+TEST_CASE("what a tracker sends is in the continuous law") {
+  // Its samples are 20 mNm apart, and the law is the same at its own rate: what is left is the
+  // encoder's count and what the wall goes on between two runs.
+  const Report r = measured("vectors/scenes/wall_tracked.toml", shipped("wall_tracked"),
+                            Options{{144}, false, {}}, 0.4);
+  REQUIRE(r.rows.size() == 2);
+  CHECK(r.largest_nm > 0.1);
+  CHECK(r.rows[1].error.rms() < 0.1 * r.largest_nm);
+  CHECK(r.rows[1].error.rms() < r.rows[0].error.rms());
+  CHECK(r.rows[1].margin.of == Margin::Of::none);
+}
+
 TEST_CASE("what has no single law is refused") {
   const auto refused = [](const std::string& path) {
     const Scenario s = read_scenario(root + "/vectors/scenes/" + path);
     CHECK_THROWS_AS(require_one_law(s), config::ConfigError);
   };
   refused("calibration_open_loop.toml");
-  refused("wall_tracked.toml");
+  refused("free_lever.toml");
   Scenario s = read_scenario(root + "/vectors/scenes/wall.toml");
   CHECK_NOTHROW(require_one_law(s));
   Event e;

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate_core: pins between its blocks that random life hardly moves, each seen at an output.
+// Documentation: docs/blocks/feltgate_core.md
+#include "core_life.hpp"
+
+using namespace feltgate::test;
+using feltgate::Fault;
+using feltgate::Map;
+using D = feltgate::test::Design;
+
+TEST_CASE("core: what other axes say is heard in every scene") {
+  Life s;
+  s.write(A::self_test_pulse, 0);
+  s.in.axis_silent = true;
+  s.write(C::control, kHost | 1u << C::control_arm);
+  s.ticks(3);
+  CHECK_FALSE(s.out().armed);
+  s.in.axis_silent = false;  // the last one asks
+  s.ticks(1);
+  CHECK(s.out().armed);
+  s.in.axis_silent = true;
+  s.ticks(1);
+  CHECK_FALSE(s.out().armed);
+  s.in.axis_blocked = true;
+  s.in.axis_silent = false;
+  s.ticks(3);
+  CHECK_FALSE(s.out().armed);
+  s.in.axis_blocked = false;
+  s.disarm();
+  s.ticks(2);
+  s.arm(D::S::setpoint);
+  s.in.axis_fault = true;
+  s.ticks(1);
+  CHECK_FALSE(s.out().armed);
+  CHECK(s.only(Fault::axis));
+  s.play();
+}
+
+TEST_CASE("core: its own test waits for that of another axis") {
+  Life s;
+  s.write(A::self_test_quiet, 1);
+  s.write(A::self_test_pulse, 1);
+  s.ticks(2);
+  s.in.axis_waits = true;
+  s.write(C::control, kHost | 1u << C::control_arm);
+  constexpr std::int64_t unit = std::int64_t{1} << Map::self_test_unit_bits;
+  s.ticks(4 * unit);
+  CHECK(s.out().armed);
+  CHECK(s.shown().tau_ref == 0);
+  s.in.axis_waits = false;
+  std::int64_t ticks = 0;
+  while (s.shown().tau_ref == 0 && ticks < 4 * unit) s.ticks(1), ++ticks;
+  CHECK(s.shown().tau_ref == static_cast<std::int32_t>(word_of_design(A::self_test_torque)));
+  s.play();
+}
+
+TEST_CASE("core: a pulse of the self-test has all bits of its torque") {
+  for (const std::uint32_t torque : {0x1555u, 0x0aaau}) {
+    Life s;
+    s.write(A::self_test_quiet, 1);
+    s.write(A::self_test_pulse, 1);
+    s.write(A::self_test_torque, torque);
+    s.ticks(2);
+    s.write(C::control, kHost | 1u << C::control_arm);
+    s.ticks(std::int64_t{8} << Map::self_test_unit_bits);
+    s.play();
+  }
+}
+
+TEST_CASE("core: what an engine says is no matter outside of the scene of programs") {
+  Life s;
+  s.write(A::setpoint_torque, 3000);
+  s.arm(D::S::setpoint);
+  s.in.law_late = s.in.law_restart = true;
+  s.write(A::ramp_step, 1u << 20);
+  for (const std::int32_t torque : {0x15555, -0x15556}) {
+    s.in.law_torque = torque;
+    s.write(A::setpoint_torque, static_cast<std::uint32_t>(-torque / 64));
+    s.ticks(40);
+    CHECK(s.out().armed);
+    CHECK(s.shown().tau_ref == -torque / 64);
+  }
+  s.play();
+}
+
+TEST_CASE("core: a thousand wrong edges are counted up to the port") {
+  Life s;
+  s.arm(D::S::free);
+  s.ticks(1);
+  for (int k = 0; k < 1100; ++k) {
+    s.in.encoder.a = !s.in.encoder.a;
+    s.in.encoder.b = !s.in.encoder.b;
+    s.clocks(3 + k % 3);
+  }
+  s.ticks(2);
+  CHECK((s.read(C::snapshot + Map::R::encoder) & 0xffff) == 1100);
+  s.play();
+}

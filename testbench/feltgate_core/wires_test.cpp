@@ -98,3 +98,27 @@ TEST_CASE("core: a thousand wrong edges are counted up to the port") {
   CHECK((s.read(C::snapshot + Map::R::encoder) & 0xffff) == 1100);
   s.play();
 }
+
+TEST_CASE("core: a torque is held for the time that the word says, not for less") {
+  Life s;
+  s.write(A::hold_time, 8);
+  s.write(A::hold_torque, 100);
+  s.write(A::setpoint_torque, 3000);
+  s.arm(D::S::setpoint);
+  s.ticks(std::int64_t{3} << Map::hold_unit_bits);
+  CHECK(s.shown().tau_ref == 3000);
+  s.play();
+}
+
+TEST_CASE("core: factors that are powers of two, whose products end in ties") {
+  for (int bit = 0; bit < D::coefficient_bits; ++bit) {
+    Life s;
+    s.write(A::tension_stiffness, 1u << bit);
+    s.write(A::velocity_a1, 1u << bit);
+    s.arm(D::S::spring_tension);
+    s.move(9, kTick);
+    s.move(-22, kTick);
+    s.ticks(3);
+    s.play();
+  }
+}

@@ -109,3 +109,20 @@ TEST_CASE("engine: products beyond every window saturate") {
   CHECK(limited < events * 3 / 4);
   device.play();
 }
+
+TEST_CASE("engine: ages have 16 bits, and a program is late after as many ticks") {
+  LoadedDevice device(image(wall, {100, 20000, -60000}));
+  // Both ages with each bit set and cleared twice; what is written last counts.
+  for (const std::uint32_t age : {0xffffu, 0u, 0xffffu, 0x5555u, 0xaaaau, 0u, 1100u}) {
+    device.write(H::mailbox_age, age);
+    device.write(H::max_age, age);
+  }
+  device.write(H::divider0, 4000);
+  device.write(H::run, 1);
+  REQUIRE(device.until_fresh() > 0);
+  device.clock(1000 * kTick);
+  CHECK_FALSE(device.out().late);
+  device.clock(200 * kTick);
+  CHECK(device.out().late);
+  device.play();
+}

@@ -28,11 +28,9 @@ void CoupledLoop::lead(double theta_rad) {
 }
 
 void CoupledLoop::advance(double seconds) {
-  owed_s_ += seconds;
   const double dt = law_.period_s();
-  const int runs = static_cast<int>(owed_s_ / dt);
+  const int runs = pace_.runs(seconds, dt);
   if (runs < 1) return;
-  owed_s_ -= runs * dt;
   const double rate = (wanted_rad_ - hand_rad_) / (runs * dt);
   for (int i = 0; i < runs; ++i) step(dt, rate);
   hand_rad_ = wanted_rad_;
@@ -60,19 +58,17 @@ void CoupledLoop::step(double dt, double hand_rad_s) {
   law_.run();
   met_nm_ = given_nm(theta_rad(1));
   hand_rad_ += hand_rad_s * dt;
-  const double squared = radius_m * radius_m;
   for (int n = 0; n < 2; ++n) {
     Lever& lever = levers_[index(n)];
     lever.torque_nm = law_.torque_nm(n);
-    double outside_nm = n == 1 ? met_nm_ : 0, inertia = inertia_kg_m2;
+    double outside_nm = n == 1 ? met_nm_ : 0, inertia = inertia_kg_m2_;
     if (n == held_) {
-      outside_nm += squared * (hand_.stiffness_n_m * (hand_rad_ - lever.theta_rad) +
-                               hand_.damping_ns_m * (hand_rad_s - lever.speed_rad_s));
-      inertia += squared * hand_.mass_kg;
+      outside_nm += hand_.torque_nm(hand_rad_, hand_rad_s, lever.theta_rad, lever.speed_rad_s);
+      inertia += hand_.inertia_kg_m2();
     }
     const double rad_s2 = (lever.torque_nm + outside_nm) / inertia;
     // The motor's torque less what the lever's own inertia takes: what it gives to the world.
-    const double given = lever.torque_nm - inertia_kg_m2 * rad_s2;
+    const double given = lever.torque_nm - inertia_kg_m2_ * rad_s2;
     lever.observed_nm += (given - lever.observed_nm) * std::min(1.0, dt / observer_s);
     lever.speed_rad_s += rad_s2 * dt;
     lever.theta_rad += lever.speed_rad_s * dt;

@@ -10,7 +10,8 @@
 #include <string>
 
 #include "page/image_law.hpp"
-#include "plant/hand.hpp"
+#include "page/lever_hand.hpp"
+#include "page/pace.hpp"
 
 namespace feltgate::page {
 
@@ -24,16 +25,15 @@ enum class Met {
 
 class CoupledLoop {
  public:
-  static constexpr double radius_m = 0.1;           ///< where a hand holds a lever
-  static constexpr double inertia_kg_m2 = 1.22e-4;  ///< of each lever, as in plant p24
-  static constexpr double most_rad = 1.0;           ///< that the hand is led to, either way
+  static constexpr double most_rad = 1.0;  ///< that the hand is led to, either way
   static constexpr double wall_rad = 0.3;
   /// What the law reads as tau_hat lags by a first-order filter of this time, as an observer does.
   static constexpr double observer_s = 2e-3;
 
-  /// Both levers rest at 0 rad, the hand holds the first. Errors: std::invalid_argument for a
-  /// broken image.
-  explicit CoupledLoop(const std::string& image_text) : law_(image_text) {}
+  /// Levers of this inertia each rest at 0 rad, the hand holds the first. Errors:
+  /// std::invalid_argument for a broken image.
+  CoupledLoop(const std::string& image_text, double inertia_kg_m2)
+      : law_(image_text), inertia_kg_m2_(inertia_kg_m2) {}
 
   /// A parameter of the law. Errors: std::invalid_argument.
   void set(const std::string& parameter, double value) { law_.set(parameter, value); }
@@ -67,12 +67,14 @@ class CoupledLoop {
   double given_nm(double theta_rad) const;
 
   ImageLaw law_;
-  plant::Impedance hand_;
+  double inertia_kg_m2_;
+  LeverHand hand_;
   std::array<Lever, 2> levers_;
   int held_ = 0;
   Met met_ = Met::nothing;
   double strength_ = 0, met_nm_ = 0;
-  double hand_rad_ = 0, wanted_rad_ = 0, time_s_ = 0, owed_s_ = 0;
+  double hand_rad_ = 0, wanted_rad_ = 0, time_s_ = 0;
+  Pace pace_;
 };
 
 }  // namespace feltgate::page

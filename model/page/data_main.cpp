@@ -102,6 +102,12 @@ std::string image_of(const std::string& law) {
   return feltgate::law::text(feltgate::law::compile_file(laws + law + ".law", target).image);
 }
 
+/// The law, and the inertia of the lever that each of both is.
+json coupled() {
+  const auto plant = feltgate::plant::read_plant_file(vectors + "plants/p24.toml");
+  return {{"image", image_of("coupled_levers")}, {"inertia_kg_m2", plant.lever.inertia_kg_m2}};
+}
+
 /// The law, the slides and the worlds of a stylus: device and scenes as they are shipped.
 json stylus() {
   const auto target = feltgate::law::target_of(page::stylus_design());
@@ -180,7 +186,7 @@ int main(int count, char** argv) {
     json out = {{"recorded", json::array()},  {"closed", json::array()},
                 {"shapes", hidden_shapes()},  {"training", training_squares()},
                 {"drums", image_of("drums")}, {"material", image_of("material")},
-                {"materials", materials()},   {"coupled", image_of("coupled_levers")},
+                {"materials", materials()},   {"coupled", coupled()},
                 {"strings", strings()},       {"stylus", stylus()}};
     for (int i = 1; i < count; ++i) {
       const std::string design = argv[i];

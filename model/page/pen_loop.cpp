@@ -37,11 +37,9 @@ void PenLoop::lead(Point to) {
 }
 
 void PenLoop::advance(double seconds) {
-  owed_s_ += seconds;
   const double dt = law_->period_s();
-  const int runs = static_cast<int>(owed_s_ / dt);
+  const int runs = pace_.runs(seconds, dt);
   if (runs < 1) return;
-  owed_s_ -= runs * dt;
   const Point rate = (wanted_m_ - hand_m_) * (1 / (runs * dt));
   for (int i = 0; i < runs; ++i) step(dt, rate);
   hand_m_ = wanted_m_;

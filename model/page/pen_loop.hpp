@@ -9,6 +9,7 @@
 #include <string>
 
 #include "page/image_law.hpp"
+#include "page/pace.hpp"
 #include "plant/hand.hpp"
 #include "shape/rhombus.hpp"
 
@@ -49,7 +50,8 @@ class PenLoop {
   std::unique_ptr<ImageLaw> law_;
   plant::Impedance hand_;
   shape::Point pen_m_, velocity_m_s_, hand_m_, wanted_m_, force_n_;
-  double time_s_ = 0, owed_s_ = 0;
+  double time_s_ = 0;
+  Pace pace_;
 };
 
 }  // namespace feltgate::page

@@ -16,11 +16,9 @@ void StickLoop::lead(double theta_rad) {
 
 void StickLoop::advance(double seconds) {
   events_.clear();
-  owed_s_ += seconds;
   const double dt = law_.period_s();
-  const int runs = static_cast<int>(owed_s_ / dt);
+  const int runs = pace_.runs(seconds, dt);
   if (runs < 1) return;
-  owed_s_ -= runs * dt;
   const double rate = (wanted_rad_ - hand_rad_) / (runs * dt);
   for (int i = 0; i < runs; ++i) step(dt, rate);
   hand_rad_ = wanted_rad_;
@@ -38,10 +36,8 @@ void StickLoop::step(double dt, double hand_rad_s) {
     }
   }
   hand_rad_ += hand_rad_s * dt;
-  const double squared = radius_m * radius_m;
-  const double held = squared * (hand_.stiffness_n_m * (hand_rad_ - theta_rad_) +
-                                 hand_.damping_ns_m * (hand_rad_s - speed_rad_s_));
-  speed_rad_s_ += (held + torque_nm_) * dt / (hand_.mass_kg * squared);
+  const double held_nm = hand_.torque_nm(hand_rad_, hand_rad_s, theta_rad_, speed_rad_s_);
+  speed_rad_s_ += (held_nm + torque_nm_) * dt / hand_.inertia_kg_m2();
   theta_rad_ += speed_rad_s_ * dt;
   time_s_ += dt;
 }

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "page/image_law.hpp"
-#include "plant/hand.hpp"
+#include "page/lever_hand.hpp"
+#include "page/pace.hpp"
 
 namespace feltgate::page {
 
@@ -22,7 +23,6 @@ struct StickEvent {
 
 class StickLoop {
  public:
-  static constexpr double radius_m = 0.1;  ///< where the hand holds the stick, as a lever
   static constexpr double highest_rad = 0.6, lowest_rad = -0.6;
 
   /// The stick rests at 0.3 rad. Errors: std::invalid_argument for a broken image.
@@ -49,9 +49,10 @@ class StickLoop {
   void step(double dt_s, double hand_rad_s);
 
   ImageLaw law_;
-  plant::Impedance hand_;
+  LeverHand hand_;
   double theta_rad_ = 0.3, speed_rad_s_ = 0, hand_rad_ = 0.3, wanted_rad_ = 0.3;
-  double torque_nm_ = 0, time_s_ = 0, owed_s_ = 0;
+  double torque_nm_ = 0, time_s_ = 0;
+  Pace pace_;
   std::vector<StickEvent> events_;
 };
 

@@ -37,11 +37,9 @@ void StringLoop::draw(double bow_m_s) {
 void StringLoop::advance(double seconds) {
   slips_.clear();
   heard_m_s_.clear();
-  owed_s_ += seconds;
   const double dt = law_.period_s();
-  const int runs = static_cast<int>(owed_s_ / dt);
+  const int runs = pace_.runs(seconds, dt);
   if (runs < 1) return;
-  owed_s_ -= runs * dt;
   const double led = (wanted_rad_ - hand_rad_) / (runs * dt);
   mean_nm_ = 0;
   for (int i = 0; i < runs; ++i) {
@@ -66,10 +64,8 @@ void StringLoop::step(double dt, double hand_rad_s) {
   heard_m_s_.push_back(static_cast<float>(law_.state(heard_)));
   for (const law::MachineEvent& e : law_.events()) slips_.push_back({time_s_, slip_s_ * e.value});
   hand_rad_ += hand_rad_s * dt;
-  const double squared = radius_m * radius_m;
-  const double held = squared * (hand_.stiffness_n_m * (hand_rad_ - theta_rad_) +
-                                 hand_.damping_ns_m * (hand_rad_s - speed_rad_s_));
-  speed_rad_s_ += (held + torque_nm_) * dt / (hand_.mass_kg * squared);
+  const double held_nm = hand_.torque_nm(hand_rad_, hand_rad_s, theta_rad_, speed_rad_s_);
+  speed_rad_s_ += (held_nm + torque_nm_) * dt / hand_.inertia_kg_m2();
   theta_rad_ += speed_rad_s_ * dt;
   time_s_ += dt;
 }

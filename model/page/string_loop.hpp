@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "page/image_law.hpp"
-#include "plant/hand.hpp"
+#include "page/lever_hand.hpp"
+#include "page/pace.hpp"
 
 namespace feltgate::page {
 
@@ -21,7 +22,6 @@ struct StringSlip {
 
 class StringLoop {
  public:
-  static constexpr double radius_m = 0.1;  ///< where the hand holds the lever
   /// How far the hand can go, and where a bow that draws itself turns around.
   static constexpr double farthest_rad = 1.0, turn_rad = 0.9;
 
@@ -60,9 +60,10 @@ class StringLoop {
   ImageLaw law_;
   StateWord heard_;
   double slip_s_ = 0;  ///< of 1 in the word of a slip
-  plant::Impedance hand_;
+  LeverHand hand_;
   double theta_rad_ = 0, speed_rad_s_ = 0, hand_rad_ = 0, wanted_rad_ = 0, drawn_rad_s_ = 0;
-  double torque_nm_ = 0, mean_nm_ = 0, time_s_ = 0, owed_s_ = 0;
+  double torque_nm_ = 0, mean_nm_ = 0, time_s_ = 0;
+  Pace pace_;
   std::vector<StringSlip> slips_;
   std::vector<float> heard_m_s_;
 };

@@ -6,27 +6,17 @@
 #include <emscripten/bind.h>
 #include <emscripten/val.h>
 
-#include <exception>
 #include <string>
 
+#include "page/said.hpp"
 #include "page/stylus_loop.hpp"
 
 namespace {
 
 using emscripten::val;
+using feltgate::page::said;
 using feltgate::plant::Vec3;
 namespace page = feltgate::page;
-
-/// What went wrong as a text for the page; empty: nothing.
-template <class Do>
-std::string said(Do&& act) {
-  try {
-    act();
-    return {};
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-}
 
 val array_of(Vec3 v) {
   val list = val::array();

@@ -68,11 +68,9 @@ double StylusLoop::depth_m() const {
 }
 
 void StylusLoop::advance(double seconds) {
-  owed_s_ += seconds;
   const double dt = law_.period_s();
-  const int runs = static_cast<int>(owed_s_ / dt);
+  const int runs = pace_.runs(seconds, dt);
   if (runs < 1) return;
-  owed_s_ -= runs * dt;
   const Vec3 rate = 1 / (runs * dt) * (wanted_m_ - hand_m_);
   for (int i = 0; i < runs; ++i) step(dt, rate);
   hand_m_ = wanted_m_;

@@ -12,6 +12,7 @@
 
 #include "axes_loop/plane_host.hpp"
 #include "page/image_law.hpp"
+#include "page/pace.hpp"
 #include "plant/hand.hpp"
 #include "plant/parameters.hpp"
 #include "plant/rotation.hpp"
@@ -83,7 +84,8 @@ class StylusLoop {
   Clock host_runs_ = 0;                 ///< the clock of the host: runs since touch()
   std::map<std::string, double> sent_;  ///< what of it is in the mailbox
   plant::Vec3 pen_m_, velocity_m_s_, hand_m_, wanted_m_, force_n_;
-  double tilt_rad_ = 0, age_s_ = 0, time_s_ = 0, owed_s_ = 0;
+  double tilt_rad_ = 0, age_s_ = 0, time_s_ = 0;
+  Pace pace_;
   bool limited_ = false;
 };
 

@@ -92,7 +92,7 @@ class Stick {
 /// Two levers that a law couples.
 class Coupled {
  public:
-  explicit Coupled(const std::string& image) : loop_(image) {}
+  Coupled(const std::string& image, double inertia_kg_m2) : loop_(image, inertia_kg_m2) {}
   std::string set(const std::string& name, double value) {
     return said([&] { loop_.set(name, value); });
   }
@@ -145,8 +145,10 @@ EMSCRIPTEN_BINDINGS(feltgate_tabs) {
       .function("lead", &Stick::lead)
       .function("advance", &Stick::advance)
       .function("state", &Stick::state);
+  emscripten::constant("COUPLED_WALL_RAD", page::CoupledLoop::wall_rad);
+  emscripten::constant("COUPLED_MOST_RAD", page::CoupledLoop::most_rad);
   emscripten::class_<Coupled>("Coupled")
-      .constructor<std::string>()
+      .constructor<std::string, double>()
       .function("set", &Coupled::set)
       .function("hold", &Coupled::hold)
       .function("meet", &Coupled::meet)

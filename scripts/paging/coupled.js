@@ -7,7 +7,6 @@ const MET = {
   wall: { number: 2, strength: 6, low: 1, high: 20, unit: "Nm/rad" },
   weight: { number: 3, strength: 0.2, low: 0, high: 0.4, unit: "Nm" },
 };
-const COUPLED_WALL_RAD = 0.3, COUPLED_MOST_RAD = 1; // of coupled_loop.hpp
 const COUPLING = [
   { name: "stiffness", label: "stiffness", unit: "Nm/rad", low: 0.5, high: 8, step: 0.1, value: 4 },
   { name: "damping", label: "damping", unit: "Nm s/rad", low: 0, high: 0.03, step: 0.001, value: 0.01 },
@@ -22,7 +21,7 @@ class CoupledLever {
     this.tab = tab;
     this.number = number;
     this.figure = document.createElement("figure");
-    this.figure.innerHTML = `<svg viewBox="0 0 500 400" tabindex="0" role="slider" aria-label="${number ? "Second" : "First"} lever: the hand's angle in rad" aria-valuemin="${-COUPLED_MOST_RAD}" aria-valuemax="${COUPLED_MOST_RAD}" aria-valuenow="0"></svg>
+    this.figure.innerHTML = `<svg viewBox="0 0 500 400" tabindex="0" role="slider" aria-label="${number ? "Second" : "First"} lever: the hand's angle in rad" aria-valuemin="${-tab.most}" aria-valuemax="${tab.most}" aria-valuenow="0"></svg>
       <figcaption><span class="name">${number ? "second lever" : "first lever"}</span><div class="equation"></div></figcaption>`;
     this.svg = this.figure.querySelector("svg");
     place.append(this.figure);
@@ -45,9 +44,9 @@ class CoupledLever {
 
   /** What the second lever meets. */
   met(theta) {
-    const { met } = this.tab;
+    const { met, wall } = this.tab;
     if (met === "spring") return `<path class="object" d="${coil(-1.2, theta, 130, 9)}"/><path class="object" d="${ray(-1.2, 100, 160)}"/>`;
-    if (met === "wall") return `<path class="solid" d="${sector(Math.max(COUPLED_WALL_RAD, theta), 1.2, 60, 225)}"/><path class="object" d="${ray(COUPLED_WALL_RAD, 60, 225)}"/>`;
+    if (met === "wall") return `<path class="solid" d="${sector(Math.max(wall, theta), 1.2, 60, 225)}"/><path class="object" d="${ray(wall, 60, 225)}"/>`;
     if (met !== "weight") return "";
     const [x, y] = at(theta, 150);
     return `<path class="object" d="${path([[x, y], [x - 60, y]])}"/><path class="object" d="${path([[x - 60, y], [x - 60, y + 70]])}"/><rect class="outline" x="${x - 78}" y="${y + 70}" width="36" height="26"/>`;
@@ -55,8 +54,6 @@ class CoupledLever {
 
   draw(s) {
     const theta = s.theta[this.number], newton = s.torque[this.number] / RADIUS_M, [hx, hy] = at(theta, LENGTH);
-    const reach = Math.max(-90, Math.min(90, newton * 18)), head = Math.sign(reach) * Math.min(12, Math.abs(reach));
-    const along = (far, aside) => [hx + far * Math.cos(theta) + aside * Math.sin(theta), hy + far * Math.sin(theta) - aside * Math.cos(theta)];
     let text = this.number ? this.met(theta) : "";
     text += `<path class="lever" d="${ray(theta, 0, LENGTH)}"/><circle class="hub" cx="${CENTRE[0]}" cy="${CENTRE[1]}" r="16"/><circle class="knob" cx="${hx}" cy="${hy}" r="12"/>`;
     if (s.held === this.number) {
@@ -64,7 +61,7 @@ class CoupledLever {
       text += `<path class="handline" d="${path([[hx, hy], [gx, gy]])}"/><circle class="handring" cx="${gx}" cy="${gy}" r="19"/>`;
       this.svg.setAttribute("aria-valuenow", this.tab.lead.toFixed(2));
     }
-    if (Math.abs(reach) > 1) text += `<path class="force" d="${path([[hx, hy], along(reach - head, 0)])}"/><path class="forcehead" d="${path([along(reach, 0), along(reach - head, 7), along(reach - head, -7)])}Z"/>`;
+    text += force_at([hx, hy], theta, newton, 18, 90);
     this.svg.innerHTML = text;
   }
 
@@ -75,7 +72,9 @@ class CoupledLever {
 
 class CoupledTab {
   constructor(core, numbers) {
-    this.loop = new core.Coupled(numbers.coupled);
+    this.loop = new core.Coupled(numbers.coupled.image, numbers.coupled.inertia_kg_m2);
+    this.wall = core.COUPLED_WALL_RAD;
+    this.most = core.COUPLED_MOST_RAD;
     this.lead = this.held = 0;
     this.trace = [];
     this.values = {};
@@ -129,7 +128,7 @@ class CoupledTab {
   }
 
   aim(lead) {
-    this.lead = Math.max(-COUPLED_MOST_RAD, Math.min(COUPLED_MOST_RAD, lead));
+    this.lead = Math.max(-this.most, Math.min(this.most, lead));
   }
 
   frame(passed) {
@@ -152,22 +151,7 @@ class CoupledTab {
   }
 
   draw_angles() {
-    const { pen, width, height, colour } = cleared($("coupled-angles"));
-    const most = Math.max(0.1, ...this.trace.flatMap((pair) => pair.map(Math.abs))), left = 46, top = 24, bottom = height - 8;
-    const x = (n) => left + (n / COUPLED_TRACE) * (width - left - 8), y = (rad) => (top + bottom) / 2 - (rad / most) * ((bottom - top) / 2);
-    pen.strokeStyle = colour("--line");
-    pen.fillStyle = colour("--faint");
-    pen.fillText("angle, rad, the last seconds", left + 6, 15);
-    for (const rad of [-most, 0, most]) {
-      pen.beginPath(); pen.moveTo(left, y(rad)); pen.lineTo(width - 8, y(rad)); pen.stroke();
-      pen.fillText(rad.toFixed(2), 4, y(rad) + 4);
-    }
-    ["--blue", "--red"].forEach((name, n) => {
-      pen.strokeStyle = pen.fillStyle = colour(name);
-      pen.fillText(n ? "second" : "first", left + 190 + 80 * n, 15);
-      pen.beginPath();
-      this.trace.forEach((pair, i) => (i ? pen.lineTo(x(i), y(pair[n])) : pen.moveTo(x(i), y(pair[n]))));
-      pen.stroke();
-    });
+    const lines = ["first", "second"].map((text, n) => ({ text, colour: n ? "--red" : "--blue", values: this.trace.map((pair) => pair[n]) }));
+    draw_traces($("coupled-angles"), "angle, rad, the last seconds", lines, COUPLED_TRACE, 0.1);
   }
 }

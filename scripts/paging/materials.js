@@ -59,12 +59,10 @@ class MaterialStage {
 
   draw() {
     const s = this.seen, [hx, hy] = at(s.theta, LENGTH), [gx, gy] = at(s.hand, LENGTH), newton = s.torque / RADIUS_M;
-    const reach = Math.max(-90, Math.min(90, newton * 18)), head = Math.sign(reach) * Math.min(12, Math.abs(reach));
-    const along = (far, aside) => [hx + far * Math.cos(s.theta) + aside * Math.sin(s.theta), hy + far * Math.sin(s.theta) - aside * Math.cos(s.theta)];
     let text = `<path class="solid" d="${sector(Math.max(FACE_RAD, s.theta), 1.2, 60, 225)}"/><path class="object" d="${ray(FACE_RAD, 60, 225)}"/>`;
     text += `<path class="lever" d="${ray(s.theta, 0, LENGTH)}"/><circle class="hub" cx="${CENTRE[0]}" cy="${CENTRE[1]}" r="16"/><circle class="knob" cx="${hx}" cy="${hy}" r="12"/>`;
     text += `<path class="handline" d="${path([[hx, hy], [gx, gy]])}"/><circle class="handring" cx="${gx}" cy="${gy}" r="19"/>`;
-    if (Math.abs(reach) > 1) text += `<path class="force" d="${path([[hx, hy], along(reach - head, 0)])}"/><path class="forcehead" d="${path([along(reach, 0), along(reach - head, 7), along(reach - head, -7)])}Z"/>`;
+    text += force_at([hx, hy], s.theta, newton, 18, 90);
     this.svg.innerHTML = text;
     this.svg.setAttribute("aria-valuenow", this.tab.lead.toFixed(2));
     this.figure.querySelector(".equation").textContent = `${fixed(s.torque)} Nm, ${fixed(Math.max(0, s.theta - FACE_RAD))} rad deep\n` +
@@ -100,22 +98,7 @@ class MaterialsTab {
   }
 
   draw_torques() {
-    const { pen, width, height, colour } = cleared($("materials-torque"));
-    const most = Math.max(0.05, ...this.stages.flatMap((stage) => stage.trace.map(Math.abs))), left = 46, top = 24, bottom = height - 8;
-    const x = (n) => left + (n / TRACE) * (width - left - 8), y = (nm) => (top + bottom) / 2 - (nm / most) * ((bottom - top) / 2);
-    pen.strokeStyle = colour("--line");
-    pen.fillStyle = colour("--faint");
-    pen.fillText("torque, Nm, the last second", left + 6, 15);
-    for (const nm of [-most, 0, most]) {
-      pen.beginPath(); pen.moveTo(left, y(nm)); pen.lineTo(width - 8, y(nm)); pen.stroke();
-      pen.fillText(nm.toFixed(2), 4, y(nm) + 4);
-    }
-    this.stages.forEach((stage, n) => {
-      pen.strokeStyle = pen.fillStyle = colour(n ? "--red" : "--blue");
-      pen.fillText(`${n ? "right" : "left"}: ${stage.name}`, left + 190 + 130 * n, 15);
-      pen.beginPath();
-      stage.trace.forEach((nm, i) => (i ? pen.lineTo(x(i), y(nm)) : pen.moveTo(x(i), y(nm))));
-      pen.stroke();
-    });
+    const lines = this.stages.map((stage, n) => ({ text: `${n ? "right" : "left"}: ${stage.name}`, colour: n ? "--red" : "--blue", values: stage.trace }));
+    draw_traces($("materials-torque"), "torque, Nm, the last second", lines, TRACE, 0.05);
   }
 }

@@ -202,9 +202,7 @@ class StringTab {
     text += `<path class="string" d="${path(string)}"/>`;
     text += `<path class="scale" d="${path(Array.from({ length: 31 }, (_, i) => turn(-0.9 + 0.06 * i)))}"/><path class="lever" d="${path([b.lever, handle])}"/><circle class="hub" cx="${b.lever[0]}" cy="${b.lever[1]}" r="12"/><circle class="knob" cx="${handle[0]}" cy="${handle[1]}" r="10"/>`;
     text += `<path class="handline" d="${path([handle, hand])}"/><circle class="handring" cx="${hand[0]}" cy="${hand[1]}" r="16"/>`;
-    const reach = Math.max(-110, Math.min(110, newton * 60)), head = Math.sign(reach) * Math.min(10, Math.abs(reach));
-    const along = (far, aside) => [handle[0] + far * Math.cos(s.theta) + aside * Math.sin(s.theta), handle[1] + far * Math.sin(s.theta) - aside * Math.cos(s.theta)];
-    if (Math.abs(reach) > 2) text += `<path class="force" d="${path([handle, along(reach - head, 0)])}"/><path class="forcehead" d="${path([along(reach, 0), along(reach - head, 6), along(reach - head, -6)])}Z"/>`;
+    text += force_at(handle, s.theta, newton, 60, 110);
     text += `<text x="10" y="20">the string in slow motion,</text><text x="10" y="35">its way ${b.wide} times as large</text>`;
     this.svg.innerHTML = text;
     const j = this.judged, kind = !j.count ? "no slips" : j.helmholtz ? "one slip a period: Helmholtz motion" : j.one ? "one slip a period, but a faint wave" : "not one slip a period";

@@ -11,15 +11,6 @@ const in_section = ([x, , z]) => [STYLUS_CUT.x + STYLUS_CUT.per_m * x, STYLUS_CU
 const from_above = ([x, y]) => [STYLUS_ABOVE.x + STYLUS_ABOVE.per_m * x, STYLUS_ABOVE.y - STYLUS_ABOVE.per_m * y];
 const vector_plus = (a, b, k = 1) => a.map((v, n) => v + k * b[n]);
 
-/** An arrow of SVG from a point along (u, v) of its own length; nothing where that is short. */
-function stylus_arrow([x, y], u, v, kind) {
-  const long = Math.hypot(u, v);
-  if (long < 4) return "";
-  const back = Math.min(9, long), ux = u / long, uy = v / long;
-  const to = (along, across) => [x + along * ux - across * uy, y + along * uy + across * ux];
-  return `<path class="${kind}" d="${path([[x, y], to(long - back, 0)])}"/><path class="${kind}head" d="${path([to(long, 0), to(long - back, 5.5), to(long - back, -5.5)])}Z"/>`;
-}
-
 class StylusTab {
   constructor(core, numbers) {
     this.most_n = core.STYLUS_MOST_N;
@@ -131,7 +122,7 @@ class StylusTab {
     // From the pen within the section to the plane.
     const way = above / flat, [x, y] = in_section([pen[0] - (way * normal[0]) / flat, 0, pen[2] - (way * normal[2]) / flat]);
     const u = normal[2] / flat, v = normal[0] / flat;
-    return `<path class="sent plane" d="${path([[x - 75 * u, y - 75 * v], [x + 75 * u, y + 75 * v]])}"/>` + stylus_arrow([x - 55 * u, y - 55 * v], 50 * normal[0], -50 * normal[2], "sent");
+    return `<path class="sent plane" d="${path([[x - 75 * u, y - 75 * v], [x + 75 * u, y + 75 * v]])}"/>` + arrow([x - 55 * u, y - 55 * v], 50 * normal[0], -50 * normal[2], "sent");
   }
 
   view_from_above() {
@@ -142,7 +133,7 @@ class StylusTab {
     const at_pen = from_above(pen), at_hand = from_above(hand), scale = STYLUS_NEWTON * 0.4;
     return `<rect class="scale" x="${left}" y="${top}" width="${size}" height="${size}"/><g clip-path="url(#stylus-above)">${object}` +
       `<path class="scale" stroke-dasharray="4 4" d="${path([[left, at_pen[1]], [left + size, at_pen[1]]])}"/>` +
-      (point ? stylus_arrow(at_pen, 30 * normal[0], -30 * normal[1], "sent") : "") + stylus_arrow(at_pen, scale * force[0], -scale * force[1], "force") +
+      (point ? arrow(at_pen, 30 * normal[0], -30 * normal[1], "sent") : "") + arrow(at_pen, scale * force[0], -scale * force[1], "force") +
       `<circle class="handring" cx="${at_hand[0]}" cy="${at_hand[1]}" r="8"/><circle class="knob" cx="${at_pen[0]}" cy="${at_pen[1]}" r="4"/></g>` +
       `<text x="${left}" y="${top - 7}">from above, y up</text>`;
   }
@@ -159,7 +150,7 @@ class StylusTab {
     this.svg.innerHTML = `<defs><clipPath id="stylus-cut"><rect x="-500" width="${STYLUS_CUT.right + 500}" height="${STYLUS_CUT.height}"/></clipPath>
       <clipPath id="stylus-above"><rect x="${STYLUS_ABOVE.x - STYLUS_ABOVE.half}" y="${STYLUS_ABOVE.y - STYLUS_ABOVE.half}" width="${2 * STYLUS_ABOVE.half}" height="${2 * STYLUS_ABOVE.half}"/></clipPath></defs>
       <g clip-path="url(#stylus-cut)">${this.object_in_section()}${body}${this.plane_in_section()}<path class="handline" d="${path([tip, hand])}"/>
-      <circle class="handring" cx="${hand[0]}" cy="${hand[1]}" r="13"/>${stylus_arrow(tip, STYLUS_NEWTON * s.force[0], -STYLUS_NEWTON * s.force[2], "force")}<circle class="knob" cx="${tip[0]}" cy="${tip[1]}" r="4.5"/></g>
+      <circle class="handring" cx="${hand[0]}" cy="${hand[1]}" r="13"/>${arrow(tip, STYLUS_NEWTON * s.force[0], -STYLUS_NEWTON * s.force[2], "force")}<circle class="knob" cx="${tip[0]}" cy="${tip[1]}" r="4.5"/></g>
       <path class="scale" d="${path([[STYLUS_CUT.right, 0], [STYLUS_CUT.right, STYLUS_CUT.height]])}"/><text x="8" y="18">cut at y = ${fixed(1000 * s.pen[1], 1)} mm, z up</text>${this.view_from_above()}${key}${large}`;
     const list = (v, digits, k = 1) => `(${v.map((part) => fixed(k * part, digits)).join(", ")})`;
     this.caption.textContent = `pen ${list(s.pen, 1, 1000)} mm; F = ${list(s.force, 2)} N${s.limited ? `: an axis gives ${this.most_n} N, no more` : ""}\n` +

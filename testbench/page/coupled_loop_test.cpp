@@ -24,7 +24,8 @@ const std::string& coupled() {
   return image;
 }
 
-constexpr double squared_m2 = CoupledLoop::radius_m * CoupledLoop::radius_m;
+constexpr double inertia_kg_m2 = 1.22e-4;  // about that of a lever
+constexpr double squared_m2 = LeverHand::radius_m * LeverHand::radius_m;
 const plant::Impedance hand;
 const double hand_nm_rad = hand.stiffness_n_m * squared_m2;
 const double count_rad = design_named("lever").count_rad;
@@ -59,7 +60,7 @@ void couple(CoupledLoop& loop, double stiffness, double damping, double share) {
 TEST_CASE("page: a spring at the second lever is felt at the first, by the share of the observer") {
   const double k = 1, coupling = 4, lead = 0.5;
   for (const double share : {0.0, 0.5, 1.0}) {
-    CoupledLoop loop(coupled());
+    CoupledLoop loop(coupled(), inertia_kg_m2);
     couple(loop, coupling, 0.01, share);
     loop.meet(Met::spring, k);
     loop.lead(lead);
@@ -76,7 +77,7 @@ TEST_CASE("page: a spring at the second lever is felt at the first, by the share
 
 TEST_CASE("page: a weight at the second lever hangs in the coupling; a wall is met at its face") {
   const double coupling = 4, weight = 0.2;
-  CoupledLoop loop(coupled());
+  CoupledLoop loop(coupled(), inertia_kg_m2);
   couple(loop, coupling, 0.01, 0);
   loop.meet(Met::weight, weight);
   const Rest hangs = at_rest(loop);
@@ -101,7 +102,7 @@ TEST_CASE("page: a weight at the second lever hangs in the coupling; a wall is m
 
 TEST_CASE("page: a hand at the second lever leads the first") {
   for (const double share : {0.0, 0.5}) {
-    CoupledLoop loop(coupled());
+    CoupledLoop loop(coupled(), inertia_kg_m2);
     couple(loop, 4, 0.01, share);
     loop.hold(1);
     CHECK(loop.held() == 1);
@@ -114,11 +115,11 @@ TEST_CASE("page: a hand at the second lever leads the first") {
 }
 
 TEST_CASE("page: levers in a stiff coupling swing in the hand as one mass") {
-  CoupledLoop loop(coupled());
+  CoupledLoop loop(coupled(), inertia_kg_m2);
   couple(loop, 20, 0.05, 0);
   loop.lead(0.3);
   loop.advance(loop.law().period_s());
-  const double mass = hand.mass_kg * squared_m2 + 2 * CoupledLoop::inertia_kg_m2;
+  const double mass = hand.mass_kg * squared_m2 + 2 * inertia_kg_m2;
   const double a = hand.damping_ns_m * squared_m2 / mass / 2;
   const double w = std::sqrt(hand_nm_rad / mass - a * a);
   for (int i = 1; i <= 40; ++i) {
@@ -133,7 +134,7 @@ TEST_CASE("page: levers in a stiff coupling swing in the hand as one mass") {
 }
 
 TEST_CASE("page: levers and strengths that are none are refused") {
-  CoupledLoop loop(coupled());
+  CoupledLoop loop(coupled(), inertia_kg_m2);
   CHECK(loop.torque_nm(0) == 0);  // before the first run, too
   CHECK_THROWS_AS(loop.hold(2), std::invalid_argument);
   CHECK_THROWS_AS(loop.hold(-1), std::invalid_argument);

@@ -156,7 +156,7 @@ TEST_CASE("page: beyond the bow force's upper limit there is not one slip a peri
 }
 
 TEST_CASE("page: friction holds the lever behind the hand as a spring says") {
-  const double stiffness = hand.stiffness_n_m * StringLoop::radius_m * StringLoop::radius_m;
+  const double stiffness = hand.stiffness_n_m * LeverHand::radius_m * LeverHand::radius_m;
   for (const double force_n : {1.0, 1.8, 2.5}) {
     StringLoop loop = loop_of(bowed());
     loop.set("force", force_n);

@@ -109,38 +109,7 @@ TEST_CASE(
   s.play();
 }
 
-TEST_CASE("axis: none is armed before all ask and may be; all are disarmed with one") {
-  Life s;
-  s.write(A::self_test_pulse, 0);
-  s.in.axis_silent = true;
-  s.write(C::control, kHost | 1u << C::control_arm);
-  s.ticks(3);
-  CHECK_FALSE(s.out().armed);
-  s.in.axis_silent = false;  // the last one asks
-  s.ticks(1);
-  CHECK(s.out().armed);
-  s.in.axis_silent = true;
-  s.ticks(1);
-  CHECK_FALSE(s.out().armed);
-  s.in.axis_blocked = true;
-  s.in.axis_silent = false;
-  s.ticks(3);
-  CHECK_FALSE(s.out().armed);
-  s.in.axis_blocked = false;  // a request that was in vain must fall first
-  s.ticks(3);
-  CHECK_FALSE(s.out().armed);
-  s.in.axis_silent = true;
-  s.ticks(1);
-  s.in.axis_silent = false;
-  s.ticks(1);
-  CHECK(s.out().armed);
-  s.in.axis_blocked = true;  // and once armed nobody looks
-  s.ticks(3);
-  CHECK(s.out().armed);
-  s.play();
-}
-
-TEST_CASE("axis: while another tests itself the scene waits, and the own test where it is later") {
+TEST_CASE("axis: while another tests itself the scene waits") {
   Life s;
   s.in.law_torque = torque(0.2);
   s.arm(D::S::law);
@@ -153,19 +122,5 @@ TEST_CASE("axis: while another tests itself the scene waits, and the own test wh
   s.in.axis_testing = false;
   s.ticks(3);
   CHECK(s.shown().tau_ref == torque(0.2));
-  s.disarm();
-  s.write(A::self_test_pulse, 1);
-  s.write(A::self_test_quiet, 1);
-  s.ticks(2);
-  s.in.axis_waits = s.in.axis_testing = true;
-  s.write(C::control, kHost | 1u << C::control_arm);
-  s.ticks(1 << (Map::self_test_unit_bits + 2));
-  CHECK(s.out().armed);
-  CHECK(s.shown().tau_ref == 0);
-  s.in.axis_waits = s.in.axis_testing = false;
-  std::int64_t ticks = 0;
-  while (s.shown().tau_ref == 0 && ticks < 4 << Map::self_test_unit_bits) s.ticks(1), ++ticks;
-  CHECK(s.shown().tau_ref == static_cast<std::int32_t>(word_of_design(A::self_test_torque)));
-  CHECK(ticks > 1);
   s.play();
 }

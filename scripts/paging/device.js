@@ -108,18 +108,12 @@ class Device {
     const s = { ...this.now, tau: this.now.tau_ref }, g = this.geometry || {};
     this.parts.objects.innerHTML = drawing(this.scene, g, s);
     const [hx, hy] = at(s.theta, LENGTH), newton = s.torque / RADIUS_M;
-    const reach = Math.max(-90, Math.min(90, newton * 18));
-    const tip = [hx + reach * Math.cos(s.theta), hy + reach * Math.sin(s.theta)];
-    const across = [Math.sin(s.theta) * 7, -Math.cos(s.theta) * 7], back = [Math.cos(s.theta) * 12 * Math.sign(reach), Math.sin(s.theta) * 12 * Math.sign(reach)];
     let over = `<path class="lever" d="${ray(s.theta, 0, LENGTH)}"/><circle class="hub" cx="${CENTRE[0]}" cy="${CENTRE[1]}" r="16"/><circle class="knob" cx="${hx}" cy="${hy}" r="12"/>`;
     if (this.held) {
       const [gx, gy] = at(this.lead, LENGTH);
       over += `<path class="handline" d="${path([[hx, hy], [gx, gy]])}"/><circle class="handring" cx="${gx}" cy="${gy}" r="19"/>`;
     }
-    if (Math.abs(reach) > 1) {
-      over += `<path class="force" d="${path([[hx, hy], [tip[0] - back[0] * 0.7, tip[1] - back[1] * 0.7]])}"/>` +
-        `<path class="forcehead" d="${path([tip, [tip[0] - back[0] + across[0], tip[1] - back[1] + across[1]], [tip[0] - back[0] - across[0], tip[1] - back[1] - across[1]]])}Z"/>`;
-    }
+    over += force_at([hx, hy], s.theta, newton, 18, 90);
     over += `<text x="12" y="24">${fixed(newton, 2)} N at the handle</text><text x="12" y="42">${fixed(s.theta)} rad</text>`;
     this.parts.over.innerHTML = over;
     const state = this.figure.querySelector(".state"), st = this.status;

@@ -81,11 +81,8 @@ class PenStage {
     let over = [middle - half, middle + half].map((angle) => `<path class="link" d="${path([motor, elbow(angle), pen])}"/><circle class="joint" cx="${elbow(angle)[0]}" cy="${elbow(angle)[1]}" r="4"/>`).join("");
     over += `<circle class="hub" cx="${motor[0]}" cy="${motor[1]}" r="10"/><path class="handline" d="${path([pen, hand])}"/><circle class="handring" cx="${hand[0]}" cy="${hand[1]}" r="11"/><circle class="knob" cx="${pen[0]}" cy="${pen[1]}" r="6"/>`;
     const newton = Math.hypot(s.force_x, s.force_y);
-    if (this.arrow && newton > 0.01) {
-      const long = Math.min(150, newton * NEWTON), ux = s.force_x / newton, uy = -s.force_y / newton, back = Math.min(10, long);
-      const at = (along, across) => [pen[0] + along * ux - across * uy, pen[1] + along * uy + across * ux];
-      over += `<path class="force" d="${path([pen, at(long - back, 0)])}"/><path class="forcehead" d="${path([at(long, 0), at(long - back, 6), at(long - back, -6)])}Z"/>`;
-    }
+    const per_newton = Math.min(NEWTON, 150 / newton);
+    if (this.arrow && newton > 0) over += arrow(pen, per_newton * s.force_x, -per_newton * s.force_y, "force");
     this.over.innerHTML = over;
     const mm = (m) => fixed(1000 * m, 1);
     this.caption.textContent = `pen ${mm(s.x)}, ${mm(s.y)} mm: joints at ${s.counts_1} and ${s.counts_5} counts` +

@@ -20,8 +20,7 @@ PERIOD_S = 1 / 196
 TURN = "Object.assign(document.getElementById(arguments[0]), {value: arguments[1]}).oninput()"
 # Late in a stroke but the first, where the bow's speed is even, with one slip a period.
 EVEN = (
-    "const s = feltgate.string, h = s.seen.hand, up = h > (s.before ?? h), far = up ? h : -h;"
-    "s.before = h;"
+    "const s = feltgate.string, far = s.seen.hand * Math.sign(s.seen.speed);"
     "if (s.seen.time < 0.9 || !s.judged.helmholtz || far < 0.5 || far > 0.8) return null;"
     "const ways = [];"
     "for (s.phase = 0; s.phase < 1; s.phase += 0.02) ways.push(s.shape([0, 0.5, 1]));"

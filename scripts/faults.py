@@ -28,9 +28,10 @@ Each fault ends in one class:
 Peak and integral are those of the torque's deviation, from the fault to the gates off. Beside a
 zero stands its 95 % bound, about 3/N. Results and what this does not say: docs/verification.md
 
-Exit code: 0 what is promised is kept (none unsafe, at most 1 % of single flips silent, 99 % flagged
-of the faults that docs/safety.md says so of; with --clean no alarm; with --replay each case as
-listed), 1 it is not, 2 when a program, a file or an argument is wrong.
+Exit code: 0 what is promised is kept (none unsafe but where the encoder's cable is cut, which
+nothing sees; at most 1 % of single flips silent, 99 % flagged of the faults that docs/safety.md
+says so of; with --clean no alarm; with --replay each case as listed), 1 it is not, 2 when a
+program, a file or an argument is wrong.
 
   feltgate faults                        the whole campaign, more than 10 000 faults
   feltgate faults --flips 1 --pins 200   a smaller one

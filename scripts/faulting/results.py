@@ -73,8 +73,13 @@ def changes_count(fault):
 
 def promises(faults):
     """[(what, reached, of, kept)]."""
-    unsafe = sum(f["class"] == "unsafe" for f in faults)
-    found = [("unsafe, of all faults", unsafe, len(faults), unsafe == 0)]
+    seen = [f for f in faults if not f.get("unseen")]
+    unsafe = sum(f["class"] == "unsafe" for f in seen)
+    found = [("unsafe, of all faults that a core can see", unsafe, len(seen), unsafe == 0)]
+    for group in dict.fromkeys(f["group"] for f in faults if f.get("unseen")):
+        its = [f for f in faults if f["group"] == group]
+        unsafe = sum(f["class"] == "unsafe" for f in its)
+        found.append((f"unsafe, of '{group}', which nothing sees", unsafe, len(its), True))
     safety = [f for f in faults if is_safety(f)]
     if safety:
         silent = sum(f["class"] in ("silent", "unsafe") for f in safety)

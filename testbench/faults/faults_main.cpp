@@ -5,6 +5,7 @@
 // scripts/faults.py starts it, and makes the table. Documentation: docs/verification.md
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -72,7 +73,10 @@ int replay(const Arguments& a) {
 int run(const Arguments& a) {
   if (a.kinds) {
     for (const auto& k : faults::pin_kinds()) {
-      say(Json{{"kind", k.name}, {"point", k.point}, {"about", k.about}, {"must_flag", k.must_flag}}
+      say(Json{{"kind", k.name},
+               {"point", k.point},
+               {"about", k.about},
+               {"must_flag", k.promise == faults::Promise::flagged}}
               .dump());
     }
     return exit_ok;
@@ -93,9 +97,10 @@ int run(const Arguments& a) {
             .dump());
     return r.alarms == 0 ? exit_ok : exit_failed;
   }
+  const std::vector<faults::StateFault> states = faults::plan(a.state);
   const auto& kinds = faults::pin_kinds();
   for (std::size_t k = 0; k < kinds.size(); ++k) {
-    const int n = a.pins * kinds[k].share / 100;
+    const int n = a.pins == 0 ? 0 : std::max(1, a.pins * kinds[k].share / 100);
     for (int i = 0; i < n; ++i) {
       if (i % a.parts != a.part) continue;
       say(faults::line_of(faults::run_pin_fault(
@@ -103,7 +108,7 @@ int run(const Arguments& a) {
     }
   }
   if (a.state.flips_per_bit == 0 && a.state.doubles == 0 && a.state.resets == 0) return exit_ok;
-  return run_states(a, faults::plan(a.state));
+  return run_states(a, states);
 }
 
 }  // namespace

@@ -43,6 +43,13 @@ class Results(unittest.TestCase):
         self.assertTrue(all(good for *_, good in results.promises(some)))
         self.assertFalse(results.promises([*some, state("b", "unsafe")])[0][3])
 
+    def test_what_nothing_sees_is_counted_apart(self):
+        cut = pin("unsafe", "cable cut") | {"must_flag": False, "unseen": True}
+        found = results.promises([state("a"), cut, pin("detected")])
+        self.assertEqual([(n, of, good) for _, n, of, good in found[:2]],
+                         [(0, 2, True), (1, 1, True)])
+        self.assertIn("cable cut", found[1][0])
+
     def test_silent_flips_of_the_safety_state_may_be_one_in_a_hundred(self):
         some = [state("a") for _ in range(99)]
         self.assertTrue(results.promises([*some, state("b", "silent")])[1][3])

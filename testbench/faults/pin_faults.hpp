@@ -14,13 +14,20 @@
 
 namespace feltgate::faults {
 
+/// What docs/safety.md says of a kind of fault.
+enum class Promise {
+  none,
+  flagged,  ///< a fault in >= 99 %
+  unseen,   ///< nothing sees it: what is unsafe is reported apart
+};
+
 /// A kind of fault: how many of it, and what its row says.
 struct PinKind {
   const char* name;
   const char* point;  ///< "pins" or "words"
   const char* about;
-  int share;       ///< of 100 of the campaign
-  bool must_flag;  ///< docs/safety.md promises a fault, >= 99 %
+  int share;  ///< in hundredths of what --pins asks for
+  Promise promise;
 };
 const std::vector<PinKind>& pin_kinds();
 

@@ -77,7 +77,8 @@ std::string line_of(const PinResult& r) {
   j["group"] = kind.name;
   j["seed"] = r.seed;
   j["what"] = r.what;
-  j["must_flag"] = kind.must_flag;
+  j["must_flag"] = kind.promise == Promise::flagged;
+  if (kind.promise == Promise::unseen) j["unseen"] = true;
   add(r.outcome, &j);
   j["count_changed"] = r.outcome.count_changed;
   j["travel_rad"] = rounded(r.outcome.travel_rad, 1e-5);

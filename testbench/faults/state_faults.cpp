@@ -4,9 +4,12 @@
 // Bits of the core's state that flip for one clock. Documentation: docs/verification.md
 #include "faults/state_faults.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <stdexcept>
 #include <utility>
 
 #include "faults/rtl_state.hpp"
@@ -335,6 +338,12 @@ std::vector<StateFault> plan(const StateCampaign& c) {
   std::vector<std::size_t> chosen;
   for (std::size_t n = 0; n < bits.size(); ++n) {
     if (c.only.empty() || bits[n].name.find(c.only) != std::string::npos) chosen.push_back(n);
+  }
+  if (chosen.empty()) {
+    throw std::invalid_argument(
+        fmt::format("--only {}: no register and no parameter of the core has this in its name; "
+                    "u_pwm, for one, takes those of the PWM",
+                    c.only));
   }
   std::size_t act = 0;
   for (const std::size_t n : chosen) {

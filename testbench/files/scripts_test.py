@@ -254,7 +254,7 @@ class Outputs(Bench):
         for name in ("-", "/dev/stdout"):
             done = subprocess.run([*command, name], capture_output=True, text=True, check=False)
             self.assertEqual(json.loads(done.stdout)["faults"], 1)
-            self.assertIn("unsafe, of all faults: 0 of 1", done.stderr)
+            self.assertIn("unsafe, of all faults that a core can see: 0 of 1", done.stderr)
 
     def refused(self, script, *words, said):
         with self.subTest(script, words=words):

@@ -10,9 +10,10 @@ One file per kind, written by the command that measures (its --update) and commi
 
 A count is [reached, of]. The keys of each kind are in KINDS; seconds are of CPU time. A block, a
 key or a file that is not there is a dash in the table. Rows that are no block of rtl/ are named in
-EXTRA. Where blocks are measured one by one "dates" of a row says when each of its keys was; the
-file's own date is that of all others. "sources" of a row is the fingerprint of what each key was
-measured on, so that the table can mark what is of an earlier source.
+EXTRA. Where blocks are measured one by one "dates" of a row says when each of its keys was, and
+"machines" where; the file's own date and machine are those of all others. "sources" of a row is
+the fingerprint of what each key was measured on, so that the table can mark what is of an earlier
+source.
 """
 
 import datetime
@@ -58,7 +59,7 @@ HEADINGS = {
 }
 DASH = "-"
 EARLIER = "*"
-BESIDE = ("dates", "sources")  # of a row: by key, no results
+BESIDE = ("dates", "machines", "sources")  # of a row: by key, no results
 
 
 class ResultsError(Exception):
@@ -141,25 +142,29 @@ def today():
 
 
 def merge(root, kind, command, rows):
-    """Puts these rows' keys beside what the file has; each key keeps the date on which it was
-    measured."""
+    """Puts these rows' keys beside what the file has; each key keeps the date and the machine of
+    its measurement."""
     before = read(root, kind)
     blocks = before["blocks"] if before else {}
+    heads = (("dates", "date", today()), ("machines", "machine", machine()))
     for row in blocks.values():
-        dates = row.setdefault("dates", {})
-        for key in row.keys() & KINDS[kind].keys():
-            dates.setdefault(key, before["date"])
+        for many, one, _ in heads:
+            known = row.keys() & KINDS[kind].keys()
+            row[many] = dict.fromkeys(known, before[one]) | row.get(many, {})
     for block, found in rows.items():
-        row = blocks.setdefault(block, {"dates": {}})
-        row["dates"] |= dict.fromkeys(found.keys() & KINDS[kind].keys(), today())
+        row = blocks.setdefault(block, {})
+        for many, _, now in heads:
+            measured = dict.fromkeys(found.keys() & KINDS[kind].keys(), now)
+            row[many] = row.get(many, {}) | measured
         earlier = row.get("sources", {})
         stamp(root, kind, {block: found})
         row |= found
         row["sources"] = earlier | found.get("sources", {})
     for row in blocks.values():
-        older = {key: date for key, date in sorted(row.pop("dates").items()) if date != today()}
-        if older:
-            row["dates"] = older
+        for many, _, now in heads:
+            other = {key: of for key, of in sorted(row.pop(many).items()) if of != now}
+            if other:
+                row[many] = other
     put(root, kind, command, blocks)
 
 
@@ -210,13 +215,17 @@ def read(root, kind):
 
 
 def when(found):
-    """The date of a file's results, or the first and the last one."""
-    dates = set()
+    """The date of a file's results, or the first and the last one, on each machine."""
+    dates = {}
     for row in found["blocks"].values():
-        own = row.get("dates", {})
-        dates |= {own.get(key, found["date"]) for key in row.keys() & KINDS[found["kind"]].keys()}
-    first, last = min(dates, default=found["date"]), max(dates, default=found["date"])
-    return first if first == last else f"{first} to {last}"
+        for key in row.keys() & KINDS[found["kind"]].keys():
+            where = row.get("machines", {}).get(key, found["machine"])
+            dates.setdefault(where, set()).add(row.get("dates", {}).get(key, found["date"]))
+    spans = []
+    for where, them in sorted((dates or {found["machine"]: {found["date"]}}).items()):
+        first, last = min(them), max(them)
+        spans.append(f"{first if first == last else f'{first} to {last}'}, {where}")
+    return "; ".join(spans)
 
 
 def cell(value):
@@ -258,5 +267,5 @@ def table(root, names):
         lines += [f"\\{EARLIER} measured before the last change of the block's own source.", ""]
     for kind, found in kinds.items():
         if found:
-            lines.append(f"- {kind}: `{found['command']}`, {when(found)}, {found['machine']}")
+            lines.append(f"- {kind}: `{found['command']}`, {when(found)}")
     return lines

@@ -7,6 +7,7 @@ import json
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import block_results
 import check_blocks
@@ -120,6 +121,23 @@ class CheckBlocks(unittest.TestCase):
         block_results.merge(**write,
                             rows={"alpha": {"twin": [4, 4]}, "scene_spring": {"rtl": [4, 5]}})
         self.assertNotIn("dates", json.dumps(block_results.read(self.root, "mutants")))
+
+    def test_results_keep_the_machine_on_which_they_were_measured(self):
+        write = {"root": self.root, "kind": "mutants", "command": "measured"}
+        here = "2 cores, here"
+        with mock.patch.object(block_results, "machine", lambda: "1 core, there"):
+            block_results.write(**write, blocks={"alpha": {"rtl": [1, 2], "twin": [3, 4]}})
+        with mock.patch.object(block_results, "machine", lambda: here):
+            block_results.merge(**write, rows={"alpha": {"rtl": [2, 2]}, "beta": {"rtl": [1, 1]}})
+            found = block_results.read(self.root, "mutants")
+            self.assertEqual(found["machine"], here)
+            self.assertEqual(found["blocks"]["alpha"]["machines"], {"twin": "1 core, there"})
+            self.assertNotIn("machines", found["blocks"]["beta"])
+            day = block_results.today()
+            self.assertEqual(block_results.when(found), f"{day}, 1 core, there; {day}, {here}")
+            block_results.merge(**write, rows={"alpha": {"twin": [4, 4]}})
+        found = block_results.read(self.root, "mutants")
+        self.assertEqual(block_results.when(found), f"{day}, {here}")
 
     def test_results_of_an_earlier_source_are_marked(self):
         write = {"root": self.root, "kind": "mutants", "command": "measured"}

@@ -29,6 +29,24 @@ def add_jobs(to, what):
     )
 
 
+def add_only_arguments(to):
+    """--only-arguments, for the launcher: nothing is fetched or built for what is refused."""
+    to.add_argument("--only-arguments", action="store_true", help=argparse.SUPPRESS)
+
+
+def is_given(value):
+    """Whether an option is not as it is without a word; a number 0 is a word."""
+    return value is not None and value is not False
+
+
+def refuse_beside(to, options, alone, *others):
+    """Ends with 2 where an option would leave others without effect; names as Python has them."""
+    given = [name for name in others if is_given(getattr(options, name))]
+    if is_given(getattr(options, alone)) and given:
+        words = ", ".join(f"--{name.replace('_', '-')}" for name in given)
+        to.error(f"--{alone.replace('_', '-')} does nothing with {words}: leave one of them away")
+
+
 def add_json(to):
     """--json FILE: a Path, or None."""
     to.add_argument("--json", type=Path, metavar="FILE", help="write the results here")

@@ -90,7 +90,10 @@ def arguments(argv):
     parser.add_argument(
         "--twin", action="store_true", help="mutants of the C++ twin; its options: --twin --help"
     )
+    command_options.add_only_arguments(parser)
     options = parser.parse_args(argv)
+    command_options.refuse_beside(parser, options, "list", "update", "json", "again", "show")
+    command_options.refuse_beside(parser, options, "show", "update", "json", "again")
     outputs.check(parser, [options.again], json=options.json)
     if options.jobs < 1:
         parser.error("argument --jobs: at least 1")
@@ -174,8 +177,9 @@ def earlier(path):
         return found
     except (OSError, ValueError, KeyError, TypeError) as error:
         missing = "it has no " if isinstance(error, KeyError) else ""
+        why = error.strerror if isinstance(error, OSError) else error
         raise rtl.MutateError(
-            f"{path}: no results of 'feltgate mutate --json': {missing}{error}; give such a file"
+            f"{path}: no results of 'feltgate mutate --json': {missing}{why}; give such a file"
         ) from error
 
 
@@ -200,6 +204,9 @@ def main(argv=None):
     options = arguments(argv)
     interrupts.end_on_signals()
     try:
+        results = earlier(options.again) if options.again else None
+        if options.only_arguments:
+            return 0
         everything = rtl.tests(build)
         tests = chosen(everything, options.name)
         if options.update:
@@ -217,7 +224,6 @@ def main(argv=None):
                 raise rtl.MutateError(f"--show takes one test: {', '.join(t.name for t in tests)}")
             rtl.show(tests[0], options.show, root, options.proof_seconds)
             return 0
-        results = earlier(options.again) if options.again else None
         rows = rtl.run(
             tests,
             root,

@@ -31,7 +31,7 @@ from pathlib import Path
 import command_options
 import interrupts
 import outputs
-from proving import catalog, page, record, tasks
+from proving import catalog, page, record, tasks, unproven
 from proving.tools import Broken, Tools
 from reporting.progress import Steps
 from seeding.patches import DefectError
@@ -85,7 +85,13 @@ def arguments(argv):
         action="store_true",
         help="only look whether that table is of the proofs as they are",
     )
+    command_options.add_only_arguments(parser)
     options = parser.parse_args(argv)
+    run_only = ("changed", "record", "defects", "keep", "json", "update")
+    command_options.refuse_beside(parser, options, "list", *run_only)
+    command_options.refuse_beside(parser, options, "check_page", "list", "fast", *run_only)
+    if options.check_page and options.proof:
+        parser.error("--check-page looks at the whole table: name no proof")
     outputs.check(parser, json=options.json)
     if (
         options.keep
@@ -129,10 +135,12 @@ def print_list(root, proofs):
 
 
 def print_open(blocks):
-    """Ports that no property names."""
+    """Ports that no property names, and blocks that have none in any."""
     for block, names in blocks.items():
         if names:
             print(f"{block}: in no property: {', '.join(names)}")
+    for block, why in unproven.BLOCKS.items():
+        print(f"{block}: in no property: {why}")
 
 
 def run(options, root, proofs, folder):
@@ -184,9 +192,11 @@ def main(argv=None):
     interrupts.end_on_signals()
     try:
         everything = catalog.read(root)
-        if options.check_page:
+        if options.check_page and not options.only_arguments:
             return page.check(root, everything)
         proofs = chosen(everything, options.proof, options.fast)
+        if options.only_arguments:
+            return 0
         if options.list:
             print_list(root, proofs)
             if not options.proof and not options.fast:

@@ -161,6 +161,9 @@ def run(options, root, build):
             f"no header {', '.join(unknown)} in {twin_results.CATALOGUE}; "
             f"there are {', '.join(catalogue.tests)}"
         )
+    survived = twin_results.survivors_of(options.again) if options.again else None
+    if options.only_arguments:
+        return 0
     language = twin_parser.cpp_language(build / "venv-mutate")
     if options.list:
         for header in parse(catalogue, root, names, {}, language):
@@ -188,7 +191,6 @@ def run(options, root, build):
     )
     chosen = [m for h in headers for m in choose(h, options.count, options.seed)]
     if options.again:
-        survived = twin_results.survivors_of(options.again)
         chosen = [
             m
             for h in headers
@@ -264,7 +266,9 @@ def arguments(argv):
         help=f"put the results of these headers into {twin_results.RESULTS}, their sums where "
         "docs/blocks.md has them",
     )
+    command_options.add_only_arguments(parser)
     options = parser.parse_args(argv)
+    command_options.refuse_beside(parser, options, "list", "update", "json", "again")
     outputs.check(parser, [options.again], json=options.json)
     if options.jobs < 1:
         parser.error("argument --jobs: at least 1")

@@ -68,7 +68,10 @@ def survivors_of(path):
             (row["header"], survivor["mutant"]) for row in rows for survivor in row["survivors"]
         }
     except (OSError, ValueError, KeyError, TypeError) as error:
-        raise TwinError(f"{path}: no results of mutate --twin ({error})") from None
+        why = error.strerror if isinstance(error, OSError) else error
+        raise TwinError(
+            f"{path}: no results of 'feltgate mutate --twin --json' ({why}); give such a file"
+        ) from None
 
 
 @dataclass
@@ -200,13 +203,13 @@ def update(root, catalogue, result):
         entries[entry["header"]] = {
             **{k: v for k, v in entry.items() if k != "survivors"},
             "date": result["date"],
+            "machine": result["machine"],
         }
     known = [entries[name] for name in catalogue.tests if name in entries]
     lines = ",\n".join("  " + json.dumps(entry) for entry in known)
     outputs.write_whole(
         where,
-        f'{{"schema": "{SCHEMA}", "machine": {json.dumps(result["machine"])}, '
-        f'"headers": [\n{lines}\n]}}\n',
+        f'{{"schema": "{SCHEMA}", "headers": [\n{lines}\n]}}\n',
     )
     changed, sums = {row_of(catalogue, entry["header"]) for entry in result["headers"]}, {}
     for entry in known:

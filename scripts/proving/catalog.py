@@ -9,6 +9,8 @@ from pathlib import Path
 
 import rtl_sources
 
+from . import unproven
+
 KEYS = {"name", "title", "depth", "cover_depth", "defect_depth", "designs", "assumes", "show",
         "sources", "defines", "cut", "abstract", "fast", "property", "cover"}
 ASSERTION = re.compile(r"\b(\w+):\s*assert\b")
@@ -166,8 +168,8 @@ def ports(root, block):
 
 
 def open_ports(root, proofs):
-    """{block: its ports that no property names}; clock and reset are in all. A property names a port of a
-    block inside as BLOCK.PORT."""
+    """{block: its ports that no property names}, without the blocks of unproven.BLOCKS; clock and
+    reset are in all. A property names a port of a block inside as BLOCK.PORT."""
     named = {}
     for proof in proofs:
         for entry in proof.properties:
@@ -176,7 +178,7 @@ def open_ports(root, proofs):
                 named.setdefault(block or proof.block, set()).add(port)
     found = {}
     files = rtl_sources.module_files(root)
-    for block in sorted(name for name, path in files.items() if "/" not in path or name in named):
+    for block in sorted(files.keys() - (unproven.BLOCKS.keys() - named.keys())):
         there = set(ports(root, block))
         strange = named.pop(block, set())
         found[block] = sorted(there - strange - {"clk_i", "rst_ni"})

@@ -150,6 +150,25 @@ class Presets(Machine):
         self.assertEqual(self.built("demo"), [["feltgate", *engines]])
 
 
+class Arguments(Machine):
+    def test_what_is_refused_fetches_and_builds_nothing(self):
+        for words, said in (
+            (("prove", "--defects", "x"), "argument --defects"),
+            (("prove", "--list", "--update"), "--update"),
+            (("prove", "limitr"), "no proof of limitr"),
+            (("mutate", "limiter", "--again", "/nonexist"), "/nonexist: no results of"),
+            (("mutate", "--twin", "--count", "-1"), "argument --count"),
+        ):
+            with self.subTest(words):
+                self.setUp()
+                self.installed(*BUILD_PACKAGES)
+                done = self.start(*words, FELTGATE_SKIP_PACKAGES="1")
+                self.assertEqual(done.returncode, 2)
+                self.assertIn(said, done.stderr)
+                self.assertEqual([c.split()[0] for c in self.log()], ["python3"])
+                self.assertNotIn("fetching", done.stderr)
+
+
 class Tests(Machine):
     def setUp(self):
         super().setUp()

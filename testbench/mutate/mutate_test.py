@@ -341,8 +341,7 @@ class Programs(unittest.TestCase):
                              (None, "no results of")):
             results.write_text(json.dumps(found | change if change else []))
             code, _, err = self.call("--again", str(results))
-            self.assertEqual(code, 2)
-            self.assertIn(says, err)
+            self.assertEqual((code, says in err), (2, True), err)
 
     def test_the_required_share(self):
         self.assertEqual(self.call("--require", "0.7")[0], 0)
@@ -358,16 +357,17 @@ class Programs(unittest.TestCase):
         self.assertIn("b_mutants killed without a mutant", err)
 
     def test_what_is_unknown(self):
-        code, _, err = self.call("c")
-        self.assertEqual(code, 2)
-        self.assertIn("no block c with mutants; there are b", err)
-        self.assertEqual(self.call("--show", "9")[0], 2)
+        self.assertIn("no block c with mutants; there are b", self.call("c")[2])
+        self.assertEqual([self.call(*w)[0] for w in (["c"], ["--show", "9"])], [2, 2])
+        self.build = self.build / "none"  # the file is looked at before the build folder
+        self.assertIn("/nonexist: no results of", self.call("--again", "/nonexist")[2])
 
     def test_options_that_mean_nothing(self):
         for words in (["--require", "99"], ["--require", "nan"], ["--count", "-1"],
                       ["--proof-seconds", "-1"], ["--update", "--count", "2"],
-                      ["--update", "--proof-seconds", "0"],
-                      ["--again", str(Path(__file__)), "--count", "2"]):
+                      ["--list", "--update"], ["--update", "--proof-seconds", "0"],
+                      ["--show", "1", "--json", "x"],
+                      ["--again", str(Path(__file__)), "--count", "2"], ["--list", "--show", "0"]):
             with self.subTest(words), self.assertRaises(SystemExit) as ended, \
                     contextlib.redirect_stderr(io.StringIO()):
                 mutate.arguments(words)

@@ -228,6 +228,7 @@ class Verdicts(unittest.TestCase):
             written = json.loads((folder / twin_results.RESULTS).read_text(encoding="utf-8"))
             self.assertEqual([h["header"] for h in written["headers"]], ["h"])
             self.assertNotIn("survivors", written["headers"][0])
+            self.assertEqual(written["headers"][0]["machine"], block_results.machine())
 
             path = folder / "old.json"
             path.write_text(json.dumps(result), encoding="utf-8")
@@ -237,7 +238,8 @@ class Verdicts(unittest.TestCase):
                 twin_results.survivors_of(path)
 
     def test_options_that_do_nothing_are_refused(self):
-        for wrong in (["--jobs", "0"], ["--update", "--again", "x.json"], ["--coun", "3"]):
+        for wrong in (["--jobs", "0"], ["--update", "--again", "x.json"], ["--coun", "3"],
+                      ["--list", "--update"], ["--list", "--json", "x"]):
             with self.assertRaises(SystemExit) as ended, contextlib.redirect_stderr(io.StringIO()):
                 twin.arguments(wrong)
             self.assertEqual(ended.exception.code, 2)

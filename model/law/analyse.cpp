@@ -6,10 +6,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "law/analysis.hpp"
 
 namespace feltgate::law {
+
+std::string beyond_text(double value, double lower, double upper) {
+  // As many digits as tell it from the end that it is beyond.
+  for (int digits = 6; digits < 17; ++digits) {
+    const std::string text = fmt::format("{:.{}g}", value, digits);
+    const double shown = std::strtod(text.c_str(), nullptr);
+    if (shown < lower || shown > upper) return text;
+  }
+  return fmt::format("{:.17g}", value);
+}
 
 namespace analysis {
 
@@ -224,7 +235,9 @@ void Analysis::states() {
 void Analysis::require(const Fact& f, double lower, double upper, double scale, int state) {
   if (f.words.lo >= lower && f.words.hi <= upper) return;
   const double end = f.words.lo < lower ? f.words.lo : f.words.hi;
-  facts_.unproven.push_back({-1, state, fmt::format("its next value can be {:.6g}", end * scale)});
+  facts_.unproven.push_back(
+      {-1, state,
+       "its next value can be " + beyond_text(end * scale, lower * scale, upper * scale)});
 }
 
 }  // namespace analysis

@@ -32,7 +32,11 @@ struct Choice {
 /// This choice of formats has no instructions; another may.
 class Unfit : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  /// `node` does not fit; `scale` > 0: where a word counts in that.
+  explicit Unfit(const std::string& what, NodeId node = -1, double scale = 0)
+      : std::runtime_error(what), node(node), scale(scale) {}
+  NodeId node;
+  double scale;
 };
 
 /// Steps of the law; `spans` are its nodes' ranges. Throws Unfit, or Refused for what no choice
@@ -144,7 +148,7 @@ class BackEnd {
   bool is_fixed(NodeId id) const { return fixed_[static_cast<std::size_t>(id)] != 0; }
   bool once(NodeId id) const { return users_[static_cast<std::size_t>(id)] <= 1; }
   int word(const std::vector<NodeId>& nodes, double scale);
-  Operand constant(double value);
+  Operand constant(double value, NodeId of = -1);
   double fixed_size(const std::vector<NodeId>& nodes) const;
   Step& emit(EngineOp op, int mode, Operand x, Operand y, double scale, NodeId origin);
   Operand last() const { return {From::step, static_cast<int>(program_.steps.size()) - 1}; }

@@ -4,8 +4,6 @@
 // Bounds over cells. Documentation: docs/law-compiler.md
 #include "law/bound.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -191,7 +189,8 @@ class Bounds {
       if (next.lo < s.range.lower - slack || next.hi > s.range.upper + slack) {
         const double end = next.lo < s.range.lower - slack ? next.lo : next.hi;
         b->unproven.push_back(
-            {-1, static_cast<int>(k), fmt::format("its next value can be {:.6g}", end)});
+            {-1, static_cast<int>(k),
+             "its next value can be " + beyond_text(end, s.range.lower, s.range.upper)});
       }
     }
   }

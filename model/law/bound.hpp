@@ -50,6 +50,9 @@ struct CellFacts {
   std::vector<double> margin;        ///< of comparisons: words within which both ways are possible
 };
 
+/// `value`, which is beyond one end of a range, with the digits that show it.
+std::string beyond_text(double value, double lower, double upper);
+
 /// `state_error`: how far the states may be from the law's before the run, SI. `swap`: that
 /// comparison may go wrong, so what it selects may be off by all that it chooses from; -1: none.
 /// `spans`: the ranges of the law over the cell where they are known already. `explain`: with

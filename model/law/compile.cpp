@@ -115,8 +115,8 @@ Compiled settled(const Read& read, const Target& target) {
     const Law law = read(0.0);
     if (law.rate_hz > 0) return compile(law, target);
   } catch (const LawError&) {
-    // What needs a rate, and nothing else, is well with one.
-    (void)read(rate);
+    // What needs a rate, and nothing else, is well with one; a rate of its own stands.
+    if (read(rate).own_rate) throw;
   }
   // The file has no rate of its own: it is only read as if, for dt and filters.
   const auto at_rate = [&] {

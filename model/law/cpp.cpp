@@ -17,6 +17,29 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+/// As it stands between quotes: a file's name may hold anything.
+std::string escaped(const std::string& text) {
+  std::string s;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') s += '\\';
+    // An octal escape ends after three digits, whatever follows.
+    s += byte < 0x20 || byte == 0x7f ? fmt::format("\\{:03o}", byte) : std::string(1, c);
+  }
+  return s;
+}
+
+/// As it stands in a comment of one line.
+std::string in_comment(std::string text) {
+  for (char& c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) c = '?';
+  }
+  // A last backslash would take the next line into the comment.
+  if (!text.empty() && text.back() == '\\') text.back() = '/';
+  return text;
+}
+
 const char* constant_text(bool value) { return value ? "true" : "false"; }
 
 class Header {
@@ -31,7 +54,7 @@ class Header {
         "#pragma once\n\n#include <array>\n#include <cstddef>\n#include <cstdint>\n\n"
         "#include \"feltgate/law_ops.hpp\"\n\n"
         "namespace feltgate::{} {{\n\n{}template <class N>\nclass {} {{\n public:\n",
-        source_, space_, about(), class_);
+        in_comment(source_), space_, about(), class_);
     s += facts() + functions() + members();
     return s + "};\n\n}  // namespace feltgate::" + space_ + "\n";
   }
@@ -44,7 +67,7 @@ class Header {
     std::string s = fmt::format(
         "/// {}\n///\n/// For design {}: {} instructions, {} clocks from start to start, {:.9g} "
         "Hz.\n",
-        law_.summary.empty() ? law_.name : law_.summary, c_.target.design, count,
+        in_comment(law_.summary.empty() ? law_.name : law_.summary), c_.target.design, count,
         engine_period(count, c_.target.axes), c_.rate_hz);
     for (std::size_t o = 0; o < law_.outputs.size(); ++o) {
       s += fmt::format("/// Torque of axis {}: proven within {:.3g} Nm of the law{}.\n",
@@ -67,7 +90,8 @@ class Header {
         "  static constexpr std::uint32_t image_crc = 0x{:08x};\n"
         "  static constexpr int instructions = {};\n"
         "  static constexpr int ticks_per_run = {};\n\n",
-        law_.name, c_.target.design, crc(c_.image), c_.assembled.instructions.size(), c_.divider);
+        escaped(law_.name), c_.target.design, crc(c_.image), c_.assembled.instructions.size(),
+        c_.divider);
     s += list("LawInput", "inputs", law_.inputs.size());
     for (std::size_t i = 0; i < law_.inputs.size(); ++i) {
       const Input& in = law_.inputs[i];

@@ -26,8 +26,9 @@ std::string joined(const std::string& file, const std::vector<Diagnostic>& all) 
 }  // namespace
 
 std::string message(const std::string& file, const Diagnostic& diagnostic) {
-  std::string text = fmt::format("{}:{}:{}: {}; {}", file, diagnostic.place.line,
-                                 diagnostic.place.column, diagnostic.what, diagnostic.mend);
+  const Place& p = diagnostic.place;
+  const std::string where = p.line > 0 ? fmt::format(":{}:{}", p.line, p.column) : "";
+  std::string text = fmt::format("{}{}: {}; {}", file, where, diagnostic.what, diagnostic.mend);
   for (char& c : text) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x20 || byte >= 0x7f) c = '?';

@@ -30,7 +30,8 @@ class LawError : public std::runtime_error {
   std::vector<Diagnostic> diagnostics_;
 };
 
-/// "file:line:column: what; mend", with '?' for what cannot be printed.
+/// "file:line:column: what; mend", with '?' for what cannot be printed. Line 0: of the file as a
+/// whole, "file: what; mend".
 std::string message(const std::string& file, const Diagnostic& diagnostic);
 
 /// Collects what is wrong: each place once, the first twenty.

@@ -128,15 +128,25 @@ NodeId Lowering::unknown(const Expression& e, const char* what, bool functions) 
       if (is_function(given) == functions) candidates.push_back(given);
     }
     const std::string guess = config::nearest(e.name, candidates);
+    std::string known = "define it above with param, let or state";
+    if (functions) {
+      known = "there are";
+      for (const std::string& given : given_names()) {
+        if (is_function(given)) known += " " + given + ",";
+      }
+      known += " and what table defines above";
+    }
     report(e.offset, std::string("unknown ") + what + " \"" + e.name + "\"",
-           guess.empty() ? "define it above with param, let or state"
-                         : "did you mean \"" + guess + "\"?");
+           guess.empty() ? known : "did you mean \"" + guess + "\"?");
   }
   return kNone;
 }
 
 NodeId Lowering::step_time(Place place) {
-  if (law_.rate_hz > 0) return graph_.constant(1 / law_.rate_hz, kSecond, place);
+  law_.timed = true;
+  // A rate of the file holds from its statement on, whoever gives another in its place.
+  const bool below = law_.own_rate && !rate_read_;
+  if (law_.rate_hz > 0 && !below) return graph_.constant(1 / law_.rate_hz, kSecond, place);
   diagnostics_.add(place, "dt and filters need a rate", "write above: rate = 40 kHz");
   return kNone;
 }

@@ -3,10 +3,14 @@
 //
 // The search for formats: one value's fraction bits at a time, as long as that helps.
 // Documentation: docs/law-compiler.md
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "law/compile.hpp"
+#include "law/finish.hpp"
+#include "law/units.hpp"
 
 namespace feltgate::law {
 
@@ -18,7 +22,7 @@ struct Candidate {
   Choice choice;
   Program program;
   double cost = infinity;
-  std::string reason;
+  Unfit unfit{""};  ///< why there is no program
   std::vector<Unproven> unproven;
 };
 
@@ -64,7 +68,7 @@ class Search {
       c.cost = cost(law_, target_, c.program, b, spans_);
       c.unproven = b.unproven;
     } catch (const Unfit& e) {
-      c.reason = e.what();
+      c.unfit = e;
     }
     made_ = std::move(c.choice.made);
     c.choice.made.clear();
@@ -222,13 +226,69 @@ void mark_primary(const Law& law, Program& program) {
   }
 }
 
+namespace {
+
+std::string unit_text(const Unit& unit) { return unit == kNumber ? "" : " " + text_of(unit); }
+
+std::string range_text(const Span& s, const Unit& unit) {
+  return fmt::format("{:.6g} .. {:.6g}", s.lo, s.hi) + unit_text(unit);
+}
+
+/// What goes into a line or a state and is beyond what that holds by far.
+void refuse_kept(const Law& law, const Span& can, NodeId node) {
+  const auto refuse = [&](const Place& place, const std::string& what, const Range& range) {
+    if (can.within({range.lower, range.upper})) return;
+    throw Refused(place,
+                  fmt::format("{} can leave its range {:.6g} .. {:.6g}: its next value can be "
+                              "{:.6g} .. {:.6g}",
+                              what, range.lower, range.upper, can.lo, can.hi),
+                  fmt::format("write clamp(..., {:.6g}, {:.6g}), or give it a larger range",
+                              range.lower, range.upper));
+  };
+  for (const Line& l : law.lines) {
+    if (l.written == node) refuse(l.place, "line " + l.name, l.range);
+  }
+  for (const State& s : law.states) {
+    if (s.next == node && !s.phase) refuse(s.place, "state " + s.name, s.range);
+  }
+}
+
+[[noreturn]] void refuse(const Law& law, const std::vector<Span>& spans, const Unfit& why) {
+  const std::string narrow = "narrow the ranges of parameters and states";
+  if (why.node < 0) {
+    throw Refused(std::string("no formats were found that fit: ") + why.what(),
+                  narrow + ", or limit values with clamp");
+  }
+  const Node& n = law.nodes[static_cast<std::size_t>(why.node)];
+  const Span can = spans[static_cast<std::size_t>(why.node)];
+  refuse_kept(law, can, why.node);
+  const double end = 2147483648.0 * why.scale;
+  std::string reason = why.what();
+  // A value between, of another size than the node's, may be what does not fit.
+  if (why.scale > 0 && can.size() > end * (1 - 1.0 / 256)) {
+    reason = fmt::format("a word with the step {:.3g} holds {}", why.scale,
+                         range_text({-end, end}, n.unit));
+  }
+  if (n.op == Op::constant) {
+    throw Refused(n.place,
+                  fmt::format("{:.6g}{} does not fit: {}", n.value, unit_text(n.unit), reason),
+                  "write a smaller number");
+  }
+  // A long formula is told by its place alone.
+  const std::string own = formula(law, why.node);
+  throw Refused(n.place,
+                fmt::format("{} goes over {} and does not fit: {}",
+                            own.find("...") == std::string::npos ? own : "this value",
+                            range_text(can, n.unit), reason),
+                "limit it with clamp, or " + narrow);
+}
+
+}  // namespace
+
 Program choose_formats(const Law& law, const Target& target, const std::vector<Span>& spans,
                        int* tried) {
   Candidate best = Search(law, target, spans).run(tried);
-  if (best.cost == infinity) {
-    throw Refused("no formats were found that fit: " + best.reason,
-                  "narrow the ranges of parameters and states, or limit values with clamp");
-  }
+  if (best.cost == infinity) refuse(law, spans, best.unfit);
   return std::move(best.program);
 }
 

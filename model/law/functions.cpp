@@ -216,7 +216,7 @@ Value BackEnd::function(NodeId id) {
                       ? same->second
                       : chosen_scale(id, 1, fraction, span(id).size());
   if (points) memory_scales_[memory] = r.value_scale;
-  if (-std::log2(r.value_scale) > fraction + 0.5) throw Unfit("a table's value has 20 bits");
+  if (-std::log2(r.value_scale) > fraction + 0.5) throw Unfit("a table's value has 20 bits", id);
   const std::string key = fmt::format("{} {} {:.17g} {} {} {:.17g}", static_cast<int>(n.op),
                                       n.index, scale, r.low, r.count, r.value_scale);
   auto found = table_keys_.find(key);
@@ -252,11 +252,11 @@ Operand BackEnd::phase(NodeId id, double turn) {
     if (t.factors.empty()) {
       if (t.fixed.empty()) {
         const double words = number - std::nearbyint(number * turn) / turn;
-        if (std::fabs(words) > 2147483647.0) throw Unfit("a phase does not fit");
+        if (std::fabs(words) > 2147483647.0) throw Unfit("a phase does not fit", id);
         addends.push_back({constant(words), 1, std::fabs(words - std::nearbyint(words))});
       } else {
         if (fixed_size(t.fixed) * std::fabs(number) > 2147483000.0) {
-          throw Unfit("a phase parameter does not fit in 32 bits");
+          throw Unfit("a phase parameter does not fit in 32 bits", id);
         }
         addends.push_back({{From::word, word(t.fixed, 1 / number)}, 1, 0});
       }
@@ -349,12 +349,12 @@ Value BackEnd::sine(NodeId id) {
   }
   const double scale = chosen_scale(id, 1, 18, 1);
   const int fraction = static_cast<int>(std::lround(-std::log2(scale)));
-  if (fraction > 18) throw Unfit("a table's value has 20 bits");
+  if (fraction > 18) throw Unfit("a table's value has 20 bits", id);
   // Up to 17 bits it can be a factor, which 1 itself is not.
   const std::int32_t one = fraction <= 17 ? 131071 : 524287;
   const std::string table = fmt::format("sine {} {}", bits, fraction);
   const auto found = table_keys_.find(table);
-  if (found == table_keys_.end() && ++sine_tables_ > 1) throw Unfit("one table of sines");
+  if (found == table_keys_.end() && ++sine_tables_ > 1) throw Unfit("one table of sines", id);
   const std::string made_key = table + (cosines_ ? " c" : "");
   auto ready = choice_.made.find(made_key);
   if (ready == choice_.made.end()) {

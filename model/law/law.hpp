@@ -166,8 +166,10 @@ struct Requirement {
 /// Parsed, its units checked, its loops unrolled, equal nodes merged, constants folded.
 struct Law {
   std::string name;
-  std::string summary;  ///< the first comment of the file
-  double rate_hz = 0;   ///< 0: as fast as it gets
+  std::string summary;    ///< the first comment of the file
+  double rate_hz = 0;     ///< 0: as fast as it gets
+  bool own_rate = false;  ///< the file says a rate
+  bool timed = false;     ///< dt or a filter is used
   std::vector<Parameter> parameters;
   std::vector<Input> inputs;
   std::vector<State> states;

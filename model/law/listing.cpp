@@ -16,6 +16,22 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+/// Values of the file of which a word keeps little.
+std::string rounded(const Compiled& c) {
+  std::string s;
+  for (const ImageWord& w : c.image.words) {
+    for (const Parameter& p : c.law.parameters) {
+      const double kept = w.initial * w.scale;
+      const bool far = std::fabs(kept - p.initial) > 0.1 * std::fabs(p.initial);
+      if (!w.formula.empty() || p.name != w.name || !far) continue;
+      s += fmt::format(
+          "{}: {:.6g} of the file becomes {:.6g}, its step is {:.3g}; narrow its range\n", w.name,
+          p.initial / w.to_si, kept / w.to_si + 0.0, std::fabs(w.scale / w.to_si));
+    }
+  }
+  return s;
+}
+
 std::string parameters(const Compiled& c) {
   if (c.image.words.empty()) return {};
   std::string s = fmt::format("\n{:<14} {:>4} {:>12} {:>12} {:>12} {:>10}  {}\n", "parameter",
@@ -33,6 +49,7 @@ std::string parameters(const Compiled& c) {
                      w.initial * step + 0.0, std::min(a, b) + 0.0, std::max(a, b) + 0.0,
                      std::fabs(step), w.unit, w.mailbox ? " (mailbox)" : "");
   }
+  s += rounded(c);
   if (c.image.mailbox_first != EngineMap::parameter_words) {
     const double step = EngineMap::mailbox_step / static_cast<double>(c.target.tick_hz);
     s += fmt::format("mailbox: {:.6g} ms without a commit, and the torque ramps to 0\n",
@@ -86,6 +103,9 @@ std::string report(const Compiled& c, const Measured& m) {
   s += fmt::format("\n{} instructions, {} clocks from start to start: every {} clocks, {:.6g} Hz\n",
                    count, engine_period(count, c.target.axes), c.divider * c.target.clocks_per_tick,
                    c.rate_hz);
+  if (c.law.timed && !c.law.own_rate) {
+    s += "the file says no rate: this is the fastest, and dt and filters are for it\n";
+  }
   s += fmt::format("memory: {} private words of {}, {} parameters of 32, {} constants of 64\n",
                    c.assembled.private_words, EngineMap::input_first, c.image.words.size(),
                    c.program.constants.size());

@@ -63,8 +63,8 @@ int BackEnd::word(const std::vector<NodeId>& nodes, double scale) {
   return static_cast<int>(program_.words.size()) - 1;
 }
 
-Operand BackEnd::constant(double value) {
-  if (!(std::fabs(value) <= 2147483647.0)) throw Unfit("a constant does not fit in 32 bits");
+Operand BackEnd::constant(double value, NodeId of) {
+  if (!(std::fabs(value) <= 2147483647.0)) throw Unfit("a constant does not fit in 32 bits", of);
   const auto c = static_cast<std::int32_t>(std::nearbyint(value));
   for (std::size_t i = 0; i < program_.constants.size(); ++i) {
     if (program_.constants[i] == c) return {From::constant, static_cast<int>(i), value};
@@ -100,7 +100,7 @@ double BackEnd::chosen_scale(NodeId id, double unit, int preferred, double size)
   }
   int fraction = std::min(preferred, most);
   if (found != choice_.fraction.end()) {
-    if (found->second > most) throw Unfit("a value does not fit in 32 bits");
+    if (found->second > most) throw Unfit("a value does not fit in 32 bits", id);
     fraction = found->second;
   }
   choice_.fraction[id] = fraction;
@@ -165,7 +165,7 @@ Value BackEnd::at_scale(NodeId id, double scale, double* error) {
   Term term;
   gather(id, true, term);
   if (fixed_size(term.fixed) * std::fabs(term.number) / scale > 2147483000.0) {
-    throw Unfit("a parameter does not fit in 32 bits");
+    throw Unfit("it does not fit in 32 bits", id, scale);
   }
   if (term.fixed.empty()) {
     const double exact = term.number / scale;
@@ -184,8 +184,9 @@ Value BackEnd::align(const Value& v, double scale, NodeId id) {
       return to;
     }
   }
-  if (v.size / scale > 2147483647.0 * (1 - 1.0 / 512))
-    throw Unfit("a value does not fit in 32 bits");
+  if (v.size / scale > 2147483647.0 * (1 - 1.0 / 512)) {
+    throw Unfit("a value does not fit in 32 bits", id, scale);
+  }
   const Multiply m = by_number(v, v.scale / scale, id);
   emit(EngineOp::mul, m.mode, m.x, m.y, scale, id).y_error = m.y_error;
   const Value to{last(), scale, v.size};
@@ -267,8 +268,8 @@ Value BackEnd::state(NodeId id) {
   unit /= std::exp2(std::floor(std::log2(unit) + 1e-9));
   const int preferred = s.whole ? 0 : std::min(largest_fraction(id, unit, size) - 1, 28);
   const double scale = chosen_scale(id, unit, preferred, size);
-  if (s.whole && scale > 1) throw Unfit("a whole state counts in ones");
-  if (s.range.upper - s.range.lower < 2 * scale) throw Unfit("a state's format holds no value");
+  if (s.whole && scale > 1) throw Unfit("a whole state counts in ones", id);
+  if (s.range.upper - s.range.lower < 2 * scale) throw Unfit("a state's format holds no value", id);
   program_.states[static_cast<std::size_t>(index)].scale = scale;
   return {{From::state, index}, scale, size};
 }

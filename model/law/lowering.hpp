@@ -117,6 +117,7 @@ class Lowering {
   std::set<std::string> has_next_;
   std::vector<std::pair<std::string, Place>> unused_;
   bool any_out_ = false;
+  bool rate_read_ = false;
   int loops_ = 0;
   long steps_ = 0;
 };

@@ -2,10 +2,14 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 #include "law/read_law.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 
+#include "law/bytes.hpp"
 #include "law/evaluate.hpp"
 #include "law/finish.hpp"
 #include "law/lowering.hpp"
@@ -14,12 +18,25 @@ namespace feltgate::law {
 
 namespace {
 
+/// A text of a file as UTF-8 that a terminal takes, with '?' for what is none.
+std::string printable(std::string_view text) {
+  std::string all;
+  for (std::size_t at = 0; at < text.size();) {
+    std::uint32_t code = 0;
+    const std::size_t length = utf8_letter(text, at, &code);
+    const bool control = (code < 0x20 && code != '\t') || (code >= 0x7f && code < 0xa0);
+    all += length == 0 || control ? "?" : text.substr(at, length);
+    at += std::max<std::size_t>(length, 1);
+  }
+  return all;
+}
+
 /// A comment without its # and the blanks around it.
 std::string bare(std::string_view comment) {
   const std::size_t begin = comment.find_first_not_of("# \t");
   if (begin == std::string_view::npos) return {};
   const std::size_t end = comment.find_last_not_of(" \t\r");
-  return std::string(comment.substr(begin, end - begin + 1));
+  return printable(comment.substr(begin, end - begin + 1));
 }
 
 std::string_view line_of(std::string_view text, std::size_t begin) {
@@ -57,9 +74,30 @@ void take_comments(std::string_view text, Law& law) {
   }
 }
 
+bool is_utf16(std::string_view text) {
+  if (text.size() < 2) return false;
+  const std::string_view mark = text.substr(0, 2);
+  return mark == "\xff\xfe" || mark == "\xfe\xff" || text[0] == '\0' || text[1] == '\0';
+}
+
+/// Ends of lines that are a CR alone, as old files have them, become those of others.
+std::string with_line_ends(std::string_view text) {
+  std::string all(text);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i] == '\r' && (i + 1 == all.size() || all[i + 1] != '\n')) all[i] = '\n';
+  }
+  return all;
+}
+
 }  // namespace
 
-Law read_law_text(std::string_view text, const std::string& path, double rate_hz) {
+Law read_law_text(std::string_view given, const std::string& path, double rate_hz) {
+  if (is_utf16(given)) {
+    throw LawError(path, {{{}, "a file in UTF-16, not in UTF-8", "save it as UTF-8"}});
+  }
+  const std::string whole =
+      with_line_ends(given.substr(given.substr(0, 3) == "\xef\xbb\xbf" ? 3 : 0));
+  const std::string_view text = whole;
   Law law;
   law.name = std::filesystem::path(path).stem().string();
   law.summary = summary_of(text);
@@ -85,9 +123,14 @@ Law read_law_text(std::string_view text, const std::string& path, double rate_hz
 }
 
 Law read_law(const std::string& path, double rate_hz) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  if (status.type() == std::filesystem::file_type::not_found) {
+    throw LawError(path, {{{0, 0}, "there is no such file", "give the path of a .law file"}});
+  }
   std::ifstream in(path, std::ios::binary);
   if (!in.is_open() || std::filesystem::is_directory(path)) {
-    throw LawError(path, {{{}, "cannot be read", "give the path of a .law file"}});
+    throw LawError(path, {{{0, 0}, "cannot be read", "give the path of a .law file"}});
   }
   const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   return read_law_text(text, path, rate_hz);

@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <utility>
 
 #include "feltgate/nearest.hpp"
+#include "law/bytes.hpp"
 
 namespace feltgate::law {
 
@@ -67,10 +69,21 @@ std::vector<std::string> statement_words() {
   return words;
 }
 
+bool is_plain(unsigned char byte) { return byte >= 0x20 && byte < 0x7f; }
+
+constexpr const char* kPlain =
+    "outside of comments a law is plain ASCII; pi is written as a word, micro as u";
+
 /// What stands at `at`, for a message.
 std::string found(std::string_view text, std::size_t at) {
   if (at >= text.size()) return "the end of the file";
   if (text.substr(at, 2) == "==") return "\"==\"";
+  const unsigned char byte = byte_at(text, at);
+  if (!is_plain(byte)) {
+    std::uint32_t code = 0;
+    return utf8_letter(text, at, &code) > 1 ? fmt::format("the character U+{:04X}", code)
+                                            : fmt::format("the byte 0x{:02x}", byte);
+  }
   const std::string_view word = word_at(text, at);
   return "\"" + std::string(word.empty() ? text.substr(at, 1) : word.substr(0, 40)) + "\"";
 }
@@ -146,7 +159,8 @@ Diagnostic explained(std::string_view text, std::size_t begin, const SyntaxError
             "choose another name"};
   }
   const Before last = before(text, begin, at);
-  const std::string mend = "the form is: " + last.form;
+  const bool plain = at >= text.size() || is_plain(byte_at(text, at));
+  const std::string mend = plain ? "the form is: " + last.form : kPlain;
   if (places.of(at).line != places.of(last.end).line) {
     return {places.of(last.end), error.what + " before the end of the line", mend};
   }
@@ -161,8 +175,9 @@ Diagnostic no_statement(std::string_view text, std::size_t at, const Places& pla
     return {places.of(at), "\"=\" where an expression has ended",
             "a definition begins with its word: let NAME = EXPRESSION"};
   }
-  return {places.of(at), found(text, at) + " where a statement begins or an expression goes on",
-          guess + "statements begin with param, let, state, next, out, ..."};
+  const std::string what = found(text, at) + " where a statement begins or an expression goes on";
+  if (!is_plain(byte_at(text, at))) return {places.of(at), what, kPlain};
+  return {places.of(at), what, guess + "statements begin with param, let, state, next, out, ..."};
 }
 
 }  // namespace
@@ -174,7 +189,8 @@ bool is_keyword(std::string_view word) {
 
 void refuse_word(std::string_view rest) {
   const std::string_view word = word_at(rest, 0);
-  if (word.empty() || is_keyword(word)) return;
+  // A number behind a number is no unit: the grammar says what it expected.
+  if (word.empty() || is_keyword(word) || (word[0] >= '0' && word[0] <= '9')) return;
   const std::string guess = config::did_you_mean(word, unit_symbols());
   throw SyntaxError{rest.data(), "unknown unit \"" + std::string(word.substr(0, 40)) + "\"",
                     guess +

@@ -126,7 +126,7 @@ Value BackEnd::next_state(const State& s, double scale) {
     if (is_fixed(s.next)) return at_scale(s.next, scale, &error);
     const Value v = value(s.next);
     if (same_scale(v.scale, 1)) {
-      if (!whole(s.next)) throw Unfit("a value that is rounded down needs fraction bits");
+      if (!whole(s.next)) throw Unfit("a value that is rounded down needs fraction bits", s.next);
       return align(v, scale, s.next);
     }
     const Value fine = align(v, 1.0 / 4096, s.next);

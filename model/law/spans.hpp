@@ -53,13 +53,17 @@ inline double bounded_product(double a, double b) { return a == 0 || b == 0 ? 0 
 inline Span operator*(const Span& a, const Span& b) {
   const double p = bounded_product(a.lo, b.lo), q = bounded_product(a.lo, b.hi),
                r = bounded_product(a.hi, b.lo), s = bounded_product(a.hi, b.hi);
-  return {down(std::min({p, q, r, s})), up(std::max({p, q, r, s}))};
+  Span all = {down(std::min({p, q, r, s})), up(std::max({p, q, r, s}))};
+  // Where both factors have one sign, the product has its own: rounding does not cross 0.
+  if ((a.lo >= 0 && b.lo >= 0) || (a.hi <= 0 && b.hi <= 0)) all.lo = std::max(all.lo, 0.0);
+  if ((a.lo >= 0 && b.hi <= 0) || (a.hi <= 0 && b.lo >= 0)) all.hi = std::min(all.hi, 0.0);
+  return all;
 }
 inline Span operator*(const Span& a, double b) { return a * Span{b, b}; }
 inline Span square(const Span& a) {
   const double p = a.lo * a.lo, q = a.hi * a.hi;
   const bool zero = a.lo <= 0 && a.hi >= 0;
-  return {zero ? 0 : down(std::min(p, q)), up(std::max(p, q))};
+  return {zero ? 0 : std::max(0.0, down(std::min(p, q))), up(std::max(p, q))};
 }
 /// Of words, which doubles hold exactly.
 inline Span exact_product(const Span& a, const Span& b, bool same) {
@@ -82,7 +86,8 @@ inline Span amount(const Span& a) {
 /// The whole line where 0 is in it.
 inline Span inverse(const Span& a) {
   if (a.lo <= 0 && a.hi >= 0) return whole_line();
-  return {down(1 / a.hi), up(1 / a.lo)};
+  const Span i = {down(1 / a.hi), up(1 / a.lo)};
+  return a.lo > 0 ? Span{std::max(0.0, i.lo), i.hi} : Span{i.lo, std::min(0.0, i.hi)};
 }
 /// Of what of it is not negative.
 inline Span root(const Span& a) {

@@ -30,6 +30,12 @@ struct get_info<sequence<Left, Right>> {
   std::string operator()(const sequence<Left, Right>& p) const { return what(p.left); }
 };
 
+template <class Left, class Right>
+struct get_info<list<Left, Right>> {
+  using result_type = std::string;
+  std::string operator()(const list<Left, Right>& p) const { return what(p.left); }
+};
+
 }  // namespace boost::spirit::x3
 
 namespace feltgate::law {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "feltgate/nearest.hpp"
 #include "law/lowering.hpp"
@@ -38,6 +39,7 @@ Lowering::Lowering(std::string_view text, double rate_hz, Law& law, Diagnostics&
 void Lowering::run(const std::vector<Statement>& statements) {
   for (const Statement& s : statements) {
     if (is_definition(s.kind)) defined_.emplace(s.name, at(s.name_offset));
+    if (s.kind == Kind::rate) law_.own_rate = true;
   }
   for (const Statement& s : statements) statement(s);
   check_ends(statements.empty() ? nullptr : &statements.back());
@@ -272,6 +274,7 @@ void Lowering::event(const Statement& s) {
 }
 
 void Lowering::rate(const Statement& s) {
+  const bool second = std::exchange(rate_read_, true);
   double hz = 0;
   Unit unit;
   if (!constant_of(s.value, "the rate", hz, unit)) return;
@@ -279,7 +282,7 @@ void Lowering::rate(const Statement& s) {
     report(s.value->offset, "the rate is no frequency above 0", "write rate = 40 kHz");
     return;
   }
-  if (law_.rate_hz > 0 && !(rate_hz_ > 0)) {
+  if (second) {
     report(s.offset, "a second rate", "write one");
     return;
   }

@@ -141,9 +141,8 @@ BackEnd::Multiply BackEnd::pair(const Value& a, const Value& b, int mode, NodeId
     m.x = b.operand;
     m.y = a.operand;
   } else {
-    throw Unfit("neither factor fits in 18 bits");
+    throw Unfit("neither factor fits in 18 bits", id);
   }
-  (void)id;
   return m;
 }
 
@@ -168,7 +167,7 @@ Value BackEnd::product(const Value& first, const Value& second, NodeId id) {
     products_[key] = {last(), scale / (a.scale * b.scale), size / (a.size * b.size)};
     return {last(), scale, size};
   }
-  throw Unfit("a product does not fit in 32 bits");
+  throw Unfit("a product does not fit in 32 bits", id);
 }
 
 Value BackEnd::negated(const Value& v, NodeId id) {
@@ -233,12 +232,12 @@ void BackEnd::add_term(const Term& term, double scale, NodeId id, Chain& chain) 
     Addend a;
     if (term.fixed.empty()) {
       const double exact = term.number / scale;
-      a.operand = constant(exact);
+      a.operand = constant(exact, id);
       a.error = is_whole(exact) ? 0 : std::fabs(exact - std::nearbyint(exact));
     } else {
       const double s = scale / term.number;
       if (fixed_size(term.fixed) / std::fabs(s) > 2147483000.0) {
-        throw Unfit("a parameter does not fit in 32 bits");
+        throw Unfit("a parameter does not fit in 32 bits", id, scale);
       }
       // The sign of a plain word is the instruction's.
       a.operand = {From::word, word(term.fixed, std::fabs(s))};

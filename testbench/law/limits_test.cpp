@@ -19,9 +19,9 @@ TEST_CASE("every message names the file, and what() holds all of them") {
     CHECK(std::string(error.what()).find("\nfolder/bad.law:2:9: unknown") != std::string::npos);
   }
   const std::string folder = FELTGATE_ROOT "/rtl/laws";
-  CHECK_THROWS_WITH(read_law(folder),
-                    folder + ":1:1: cannot be read; give the path of a .law file");
-  CHECK_THROWS_AS(read_law(folder + "/nothing.law"), LawError);
+  CHECK_THROWS_WITH(read_law(folder), folder + ": cannot be read; give the path of a .law file");
+  CHECK_THROWS_WITH(read_law(folder + "/nothing.law"),
+                    folder + "/nothing.law: there is no such file; give the path of a .law file");
 }
 
 TEST_CASE("what would take too long or too deep is refused at once") {
@@ -45,6 +45,73 @@ TEST_CASE("what would take too long or too deep is refused at once") {
   CHECK(messages_of(repeated("# long\n", 10000)).find("64 KiB") != std::string::npos);
   const std::string loops = "var q = 0\nfor i in 0 .. 999 { for j in 0 .. 999 { set q = 1 } }\n";
   CHECK(messages_of(loops + "out torque = 1 Nm * q").find("300000 steps") != std::string::npos);
+}
+
+TEST_CASE("what is missing is called by a name for people, wherever a statement ends") {
+  const std::string form = "; the form is: let NAME = EXPRESSION";
+  CHECK(messages_of("let a = sin()") == "1:13: expected an expression, found \")\"" + form);
+  CHECK(messages_of("let a = clamp(,1,2)") == "1:15: expected an expression, found \",\"" + form);
+  CHECK(messages_of("let a = sin(\nlet b = 2") ==
+        "1:13: expected an expression before the end of the line" + form);
+  CHECK(messages_of("array a = [] Nm") ==
+        "1:12: expected an expression, found \"]\"; the form is: array NAME = [1, 2, 3] UNIT");
+  const std::string all[] = {
+      "param a = 1 Nm in 0 .. (2 Nm) whole",
+      "mailbox a = 1 in 0 .. 2 max_age 5 ms",
+      "let a = if not 1 < 2 and 2 < 3 or 3 < 4 then max(1, 2) else -sum(i in 0 .. 1: a[i]) ^ 2",
+      "phase a = 0 in 0 .. 1",
+      "next a = sin(1, 2)",
+      "set a = 1 * 2 / 3 + 4 - 5",
+      "table f(x) on [0, 1] = x with 5 segments",
+      "table f(x) on [0, 1] through [0, 1] Nm",
+      "array a = [1, 2] Nm",
+      "line a[3] in -1 .. 1 Nm",
+      "for i in 0 .. 3 { var a = 1 }",
+      "out torque[1] = 1 Nm",
+      "event hit(position) when position > 1",
+      "rate = 40 kHz",
+      "require a <= 2"};
+  for (const std::string& text : all) {
+    for (std::size_t end = 0; end <= text.size(); ++end) {
+      for (const char* then : {"", ")", "]", ",", "}", "\nlet b = 1"}) {
+        const std::string m = messages_of(text.substr(0, end) + then);
+        INFO(text.substr(0, end) << then);
+        CHECK(m.find("boost") == std::string::npos);
+      }
+    }
+  }
+}
+
+TEST_CASE("files of other editors: a mark at the begin, other line ends, UTF-16, no UTF-8") {
+  const std::string out = "out torque = tau_hat";
+  CHECK(messages_of("\xef\xbb\xbf" + out) == "read");
+  CHECK(
+      messages_of("\xef\xbb\xbflet a = ") ==
+      "1:8: expected an expression, found the end of the file; the form is: let NAME = EXPRESSION");
+  const std::string utf16 = "1:1: a file in UTF-16, not in UTF-8; save it as UTF-8";
+  CHECK(messages_of(std::string("\xff\xfeo\0u\0", 6)) == utf16);
+  CHECK(messages_of(std::string("\xfe\xff\0o", 4)) == utf16);
+  CHECK(messages_of(std::string("o\0u\0", 4)) == utf16);
+  // A CR alone ends a line, and so the comment.
+  const Law old = law_of("# a knob\rparam a = 1 Nm in 0 .. 2 Nm # how much\rout torque = a\r");
+  CHECK(old.summary == "a knob");
+  CHECK(old.parameters.at(0).comment == "how much");
+  CHECK(messages_of("# x\r" + out + "\rlet b = c\r") == messages_of("# x\n" + out + "\nlet b = c"));
+  CHECK(messages_of("# x\r\n" + out + "\r\n") == "read");
+  // What a terminal would not take is a question mark.
+  CHECK(law_of("# fr\xfch \x1b[1m gr\xc3\xbc\xc3\x9f\x65 \xed\xa0\x80\n" + out).summary ==
+        "fr?h ?[1m gr\xc3\xbc\xc3\x9f\x65 ???");
+}
+
+TEST_CASE("what is no ASCII is told by its number") {
+  const std::string mend =
+      "; outside of comments a law is plain ASCII; pi is written as a word, micro as u";
+  CHECK(messages_of("let a = 2 * \xcf\x80") ==
+        "1:13: expected an expression, found the character U+03C0" + mend);
+  CHECK(messages_of("let gr\xc3\xb6\xc3\x9f\x65 = 2") ==
+        "1:7: expected \"=\", found the character U+00F6" + mend);
+  CHECK(messages_of("\xdf = 1") ==
+        "1:1: the byte 0xdf where a statement begins or an expression goes on" + mend);
 }
 
 TEST_CASE("at most twenty messages, in the order of the file") {

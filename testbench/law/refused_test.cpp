@@ -114,7 +114,10 @@ const Bad kGrammar[] = {
     {"let a = 1 # (\nlet b = 2 # )\nlet c = a +* b",
      "3:12: expected an expression, found \"*\"; the form is: let NAME = EXPRESSION"},
     {"let a = \xb5\x01",
-     "1:9: expected an expression, found \"?\"; the form is: let NAME = EXPRESSION"},
+     "1:9: expected an expression, found the byte 0xb5; outside of comments a law is plain ASCII; "
+     "pi is written as a word, micro as u"},
+    {"array a = [1 2]" OUT,
+     "1:14: expected \"]\", found \"2\"; the form is: array NAME = [1, 2, 3] UNIT"},
 };
 
 const Bad kMeaning[] = {
@@ -150,6 +153,9 @@ const Bad kMeaning[] = {
     {"out torque = 1 Nm * postion", "1:21: unknown name \"postion\"; did you mean \"position\"?"},
     {"out torque = 1 Nm * sinn(position)",
      "1:21: unknown function \"sinn\"; did you mean \"sin\"?"},
+    {"out torque = 1 Nm * tan(position)",
+     "1:21: unknown function \"tan\"; there are min, max, clamp, abs, sgn, sin, cos, sqrt, exp, "
+     "lowpass, sum, and what table defines above"},
     {"out torque = 1 Nm * qqq",
      "1:21: unknown name \"qqq\"; define it above with param, let or state"},
     {"out torque = 1 Nm * b\nlet b = 1",

@@ -5,7 +5,9 @@
 #include <catch2/catch.hpp>
 
 #include "law/compile.hpp"
+#include "law/cpp.hpp"
 #include "law/diagnostics.hpp"
+#include "law/listing.hpp"
 
 namespace feltgate::law {
 namespace {
@@ -42,6 +44,29 @@ TEST_CASE("a rate that is no part of the tick is refused") {
              Contains("is no whole part of the tick") && Contains("250000 Hz"));
 }
 
+TEST_CASE("a rate of the file stands: no second one, and none below its use") {
+  const std::string torque = "out torque = -0.1 Nm * clamp(position, -1, 1)\n";
+  CHECK(refusal("rate = 1 kHz\nrate = 2 kHz\n" + torque) == "x.law:2:1: a second rate; write one");
+  CHECK(refusal("rate = 1 kHz\nrate = 1 kHz\n" + torque) == "x.law:2:1: a second rate; write one");
+  const std::string above = "dt and filters need a rate; write above: rate = 40 kHz";
+  CHECK(refusal("out torque = -0.1 Nm * lowpass(clamp(position, -1, 1), 10 Hz)\nrate = 1 kHz\n") ==
+        "x.law:1:24: " + above);
+  CHECK(refusal("out torque = 1 Nm * velocity * dt\nrate = 2 kHz\n") == "x.law:1:32: " + above);
+  CHECK(compile_text("rate = 2 kHz\n" + torque, "x.law", Target{}).rate_hz == 2000);
+}
+
+TEST_CASE("without a rate, dt and filters take the fastest, and the answer says so") {
+  const auto answer = [](const std::string& text) {
+    const Compiled c = compile_text(text, "x.law", Target{});
+    return report(c, measure(c, 1, 10));
+  };
+  const std::string torque = "out torque = 0.1 Nm * lowpass(clamp(position, -1, 1), 10 Hz)\n";
+  const std::string says = "the file says no rate: this is the fastest";
+  CHECK_THAT(answer(torque), Contains(" 500000 Hz\n" + says));
+  CHECK_THAT(answer("rate = 2 kHz\n" + torque), !Contains(says));
+  CHECK_THAT(answer("out torque = tau_hat\n"), !Contains(says));
+}
+
 TEST_CASE("a max_age that the engine cannot count is refused with what it can") {
   const auto aged = [](const std::string& age) {
     return refusal("mailbox push = 0 Nm in -0.1 .. 0.1 Nm max_age " + age +
@@ -59,6 +84,61 @@ TEST_CASE("a root of what can be negative, a division by what can be zero") {
   // The length of an arrow is never the root of less than 0.
   CHECK(refusal("let lean = clamp(position, -1, 1)\nlet twice = 2 * lean\n"
                 "out torque = 0.1 Nm * clamp(sqrt(lean^2 + twice^2), 0, 1)\n") == "compiled");
+}
+
+TEST_CASE("a root of what ends at 0 exactly: products, squares and quotients keep their sign") {
+  const auto root_of = [](const std::string& x) {
+    return refusal(
+        "param c = 0.5 in 0 .. 1\nlet a = min(abs(position), 1)\nlet b = clamp(velocity / "
+        "(1 rad/s), 0, 1)\nout torque = 0.1 Nm * sqrt(" +
+        x + ") + 0 * c * a * b * 1 Nm\n");
+  };
+  CHECK(refusal("out torque = sqrt(0.01 Nm^2 * min(abs(position), 1))\n") == "compiled");
+  CHECK(refusal("let a = min(abs(position), 1)\nlet b = max(-1, -abs(position))\n"
+                "out torque = 0.1 Nm * sqrt(-a * b)\n") == "compiled");
+  CHECK(root_of("a * b") == "compiled");
+  CHECK(root_of("c * a") == "compiled");
+  CHECK(root_of("a^3 + b^2") == "compiled");
+  CHECK(root_of("c * a * b + 2 * a") == "compiled");
+  CHECK_THAT(root_of("a * b - 0.001"), Contains("sqrt of what can be -0.001"));
+  CHECK_THAT(root_of("a * (b - 1e-9)"), Contains("sqrt of what can be -1e-09"));
+}
+
+TEST_CASE("what does not fit is told with its line, its range and the mend") {
+  const std::string ends = "a word with the step 1.53e-05 holds -32768 .. 32768 Nm; ";
+  const std::string limit = "limit it with clamp, or narrow the ranges of parameters and states";
+  CHECK_THAT(refusal("let x = position\nout torque = 100 Nm * x^8\n"),
+             Contains("x.law:2:21: this value goes over 0 .. ") &&
+                 Contains(" Nm and does not fit: " + ends + limit));
+  CHECK_THAT(refusal("out torque = 1 Nm * exp(position)\n"),
+             Contains("x.law:1:19: 1*exp(position) goes over ") && Contains(ends + limit));
+  CHECK(refusal("out torque = 40000 Nm\n") ==
+        "x.law:1:14: 40000 Nm does not fit: " + ends + "write a smaller number");
+  CHECK(refusal("param a = 3 Nm in 0 .. 1e6 Nm\nout torque = a\n") ==
+        "x.law:1:7: a goes over 0 .. 1e+06 Nm and does not fit: " + ends + limit);
+  CHECK_THAT(
+      refusal("rate = 10 kHz\nline past[10] in -1 .. 1\nnext past = position\n"
+              "out torque = 1 Nm * past[3]\n"),
+      Contains("x.law:2:6: line past can leave its range -1 .. 1: its next value can be -2") &&
+          Contains("write clamp(..., -1, 1), or give it a larger range"));
+}
+
+TEST_CASE("a state that leaves its range by little: with the digits that show it") {
+  const std::string r = refusal(
+      "state q = 0 in 0 .. 1\nnext q = min(q + 0.000001, 1.000001)\nout torque = 1 Nm * q\n");
+  CHECK_THAT(r, Contains("state q can leave its range 0 .. 1: its next value can be 1.0000"));
+}
+
+TEST_CASE(
+    "a value that its word does not hold is told, and a name that C++ does not take escaped") {
+  const Compiled c =
+      compile_text("param a = 1 in 0 .. 1e12\nout torque = 1 Nm * clamp(a * position, -1, 1)\n",
+                   "a\"b\\.law", Target{});
+  CHECK_THAT(report(c, measure(c, 1, 10)),
+             Contains("\na: 1 of the file becomes 0, its step is 8.54e+07; narrow its range\n"));
+  const std::string header = cpp_header(c, "a\"b\\");
+  CHECK_THAT(header, Contains("name = \"a\\\"b\\\\\";"));
+  CHECK_THAT(header, Contains("// Generated from a\"b/\n"));
 }
 
 TEST_CASE("a delay line that can leave its range, or the table memory") {

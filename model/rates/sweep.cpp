@@ -120,12 +120,17 @@ void Sweep::leave_out(int ticks, const std::string& reason) {
       "not at {}: {}", rate_text(static_cast<double>(target_.tick_hz) / ticks), reason));
 }
 
-void Sweep::note_stale(const RateRow& row, const Acted& stale) {
+void Sweep::note_once(const std::string& note) {
+  const auto& all = report_.notes;
+  if (std::find(all.begin(), all.end(), note) == all.end()) report_.notes.push_back(note);
+}
+
+void Sweep::note_stale(const Acted& stale) {
   if (stale.seconds == 0) return;
-  report_.notes.push_back(fmt::format(
-      "at {} a mailbox of the law is stale for {:.4g} s, from {:.4g} s: no torque, not compared; "
-      "add [feed] rate_hz (or raise it)",
-      rate_text(static_cast<double>(target_.tick_hz) / row.ticks), stale.seconds, stale.first_s));
+  note_once(fmt::format(
+      "a mailbox of the law is stale for {:.4g} s, from {:.4g} s: no torque, not compared; add "
+      "[feed] rate_hz (or raise it)",
+      stale.seconds, stale.first_s));
 }
 
 RateRow Sweep::row_of(const law::Compiled& law, int ticks) const {
@@ -179,10 +184,9 @@ void Sweep::add(RateRow row, const Continuous& continuous, const Continuous::Set
     report_.largest_nm = continuous.largest_nm();
   }
   if (row.error.count() == 0 && row.fault.empty()) {
-    report_.notes.push_back(
-        fmt::format("nothing compared at {}: in every tick the motor is disarmed, or its torque "
-                    "ramps, is relieved or none",
-                    rate_text(row.rate_hz)));
+    note_once(
+        "where there is a -, nothing was compared: in every tick the motor is disarmed, or its "
+        "torque ramps, is relieved or none");
   }
   report_.rows.push_back(std::move(row));
 }

@@ -253,6 +253,7 @@ class AxesRun : plant::AxesDevice<Plant> {
       r.tau_hat_nm = nm(s[n].tau_hat);
       r.limits = s[n].limits;
       r.faults = s[n].faults;
+      r.law_stale = s[0].law_stale;
       row_.insert(row_.end(), {plant_.seen().theta_rad[n], r.position_rad, r.velocity_rad_s,
                                asked_nm, r.tau_hat_nm, motor_nm, kept_nm_[n],
                                static_cast<double>(r.limits), static_cast<double>(r.faults)});

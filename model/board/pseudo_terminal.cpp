@@ -32,10 +32,18 @@ void make_raw(int descriptor) {
   if (tcsetattr(descriptor, TCSANOW, &mode) != 0) fail("tcsetattr");
 }
 
-/// What stands at `link` may be replaced: nothing, or a link.
+/// What stands at `link` may be replaced: nothing, or a link to what is gone, as a board leaves
+/// that was killed.
 void refuse_to_replace(const std::string& link) {
   struct stat now {};
-  if (lstat(link.c_str(), &now) != 0 || S_ISLNK(now.st_mode)) return;
+  if (lstat(link.c_str(), &now) != 0) return;
+  if (S_ISLNK(now.st_mode)) {
+    if (stat(link.c_str(), &now) != 0) return;
+    throw std::invalid_argument(
+        fmt::format("--link {}: is a link to what is there, such as a board that runs; end that, "
+                    "remove the link or give another name",
+                    link));
+  }
   throw std::invalid_argument(
       fmt::format("--link {}: is there and no symbolic link; give another name", link));
 }

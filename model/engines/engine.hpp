@@ -34,6 +34,8 @@ struct Snapshot {
   bool law_begins = false, law_known = false;
   std::uint32_t law_tick = 0;
   std::int64_t law_changes = 0;  ///< sets of parameters that had come into force by then
+  bool law_restart = false;      ///< this wave began with a torque of the law that may jump
+  bool law_stale = false;        ///< a mailbox of the law is too old, which asks for no torque
 
   Snapshot() = default;
   Snapshot(const CoreOut& o, std::int16_t sampled_travel, std::int64_t writes_before)

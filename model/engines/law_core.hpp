@@ -66,6 +66,8 @@ class LawCore {
     s->law_known = watch.in_force.has_value();
     s->law_tick = watch.in_force.value_or(0);
     s->law_changes = watch.changes_at_begin;
+    s->law_restart = axes_.glue().restarted();
+    s->law_stale = watch.stale;
   }
 
  private:

@@ -124,6 +124,7 @@ class TwinAxes : public AxesCores {
     s[0].law_known = watch.in_force.has_value();
     s[0].law_tick = watch.in_force.value_or(0);
     s[0].law_changes = watch.changes_at_begin;
+    s[0].law_stale = watch.stale;
     snapshots_.push_back(s);
   }
 

@@ -29,6 +29,17 @@ constexpr double commit_patience_s = 1.0;
 /// Of writing what does not read back: a line that loses a tenth of all frames needs four.
 constexpr int most_rounds = 12;
 
+/// A board drives one lever.
+void require_one_axis(const law::Image& image) {
+  for (const law::ImageOutput& o : image.outputs) {
+    if (o.axis == 0) continue;
+    throw std::invalid_argument(
+        fmt::format("law {}: a torque for axis {}, and a board has one axis; `feltgate law` "
+                    "measures laws of several axes, `feltgate run` runs their scenes",
+                    image.name, o.axis));
+  }
+}
+
 bool bit(std::uint32_t word, int n) { return (word >> n & 1U) != 0; }
 
 }  // namespace
@@ -122,10 +133,12 @@ int LawEngine::bring(const law::Image& image, LoadReport* report,
 
 LoadReport LawEngine::load(const law::Image& image, const std::function<void(double)>& progress) {
   if (image.design != device_.design().design.name) {
-    throw Refused(
-        fmt::format("the law was compiled for design {}, the board has {}; compile it again",
-                    image.design, device_.design().design.name));
+    throw std::invalid_argument(
+        fmt::format("the law was compiled for design {0}, the board has {1}; compile it again: "
+                    "`feltgate law {2} --design {1} -o {2}.img`",
+                    image.design, device_.design().design.name, image.name));
   }
+  require_one_axis(image);
   refuse_while_armed();
   image_.reset();
   parameters_.reset();
@@ -233,6 +246,10 @@ double LawEngine::value_in(const law::ImageWord& of, const std::string& text) co
   }
   std::string unit = text.substr(used);
   unit.erase(0, unit.find_first_not_of(' '));
+  if (unit.substr(0, 1) == ",") {
+    throw std::invalid_argument(
+        fmt::format("\"{}\" is no number; write its point as a point: 5.5", text));
+  }
   if (!unit.empty() && unit != of.unit) {
     law::UnitValue given, own;
     std::size_t size = 0;
@@ -243,8 +260,10 @@ double LawEngine::value_in(const law::ImageWord& of, const std::string& text) co
       throw std::invalid_argument(fmt::format("{}: {}; {}", of.name, e.what, e.mend));
     }
     if (size != unit.size() || !(given.unit == own.unit)) {
-      throw std::invalid_argument(fmt::format("{} is not in {}; give it in {}", of.name, unit,
-                                              of.unit.empty() ? "1" : of.unit));
+      throw std::invalid_argument(
+          of.unit.empty()
+              ? fmt::format("{} has no unit; give the number alone, without {}", of.name, unit)
+              : fmt::format("{} is not in {}; give it in {}", of.name, unit, of.unit));
     }
     number *= given.to_si / of.to_si;
   }

@@ -26,6 +26,7 @@ struct Row : EngineSignals {
   double theta_rad = 0, omega_rad_s = 0, motor_torque_nm = 0, hand_torque_nm = 0;
   double position_rad = 0;  ///< the core's count
   int limits = 0, faults = 0;
+  bool law_stale = false;  ///< a mailbox of the law that is rendered is too old: no torque
   std::vector<EngineSignals> engines;  ///< of EngineChoice::names(), in their order
 };
 

@@ -94,13 +94,13 @@ void Ensemble::ride(const Snapshot& s) {
     if (passenger_ != nullptr) passenger_->set_parameter(w.address, w.value);
   }
   lead_figures_.saturations += (s.limits & ~(limit::ramp | limits_of_core)) != 0 ? 1 : 0;
-  const bool restart = host_.restart(s.armed, s.scene);
+  const bool restart = host_.restart(s.armed, s.scene) || (renders_law(s) && s.law_restart);
   if (riders_.empty() && passenger_ == nullptr && watch_ == nullptr) return;
   const ChainIn in{s.position, s.travel,           s.armed, s.scene, host_.mode(),
                    restart,    relief_of(s.limits)};
   watch_velocity(s.travel);
   if (passenger_ != nullptr) passenger_->tick(in);
-  const bool in_law = law_ != nullptr && s.armed && design().scene_number("law") == s.scene;
+  const bool in_law = renders_law(s) && s.armed;
   if (in_law && !law_entered_) {
     for (Rider& r : riders_) r.law->enter();
     if (watch_ != nullptr) watch_->enter();
@@ -161,6 +161,7 @@ void Ensemble::fill(Row& row, const Snapshot& s) const {
   row.position_rad = s.position * design().count_rad;
   row.limits = s.limits;
   row.faults = s.faults;
+  row.law_stale = stale(s);
   row.engines.clear();
   if (!choice_.rider_drives) row.engines.push_back(of_core(s));
   for (const Rider& r : riders_) row.engines.push_back(of_chain(r.chain->out()));

@@ -87,6 +87,9 @@ class Ensemble {
     e.current_a = current_a(s);
     e.torque_nm = design().torque_constant_nm_a * e.current_a;
   }
+  /// Whether the torque is none for a mailbox of the law that is too old; the RTL alone does not
+  /// tell.
+  bool stale(const Snapshot& s) const { return s.law_stale && s.armed && renders_law(s); }
   /// Position, limits, faults and the signals of every engine in the tick of `s`.
   void fill(Row& row, const Snapshot& s) const;
   const EngineChoice& choice() const { return choice_; }
@@ -122,6 +125,9 @@ class Ensemble {
     double velocity_rad_s = 0, torque_nm = 0, current_a = 0, voltage_v = 0;
   };
 
+  bool renders_law(const Snapshot& s) const {
+    return law_ != nullptr && design().scene_number("law") == s.scene;
+  }
   EngineSignals of_core(const Snapshot& s) const;
   EngineSignals of_chain(const ChainOut& o) const;
   void write(HostWrite w);

@@ -244,6 +244,7 @@ class ScenarioRun {
     core_.signals(r, s);
     felt_.tick(r.tau_ref_nm, r.torque_nm, s.limits, s.faults);
     felt_.motor(r.motor_torque_nm, r.tau_ref_nm);
+    if (core_.stale(s) && stale_ticks_++ == 0) stale_from_ = ticks_;
     position_ = s.position;
     if (plant_.now() >= rest_.from_clock) rest_.add(theta_rad, r.tau_ref_nm);
     faults_ |= s.faults;
@@ -287,6 +288,9 @@ class ScenarioRun {
     out.engines = core_.figures();
     out.felt = felt_.felt();
     out.felt.closed_loop = true;
+    const double tick_s = 1 / static_cast<double>(d.tick_hz);
+    out.law_stale = {static_cast<double>(stale_ticks_) * tick_s,
+                     static_cast<double>(stale_from_) * tick_s};
     end_step();
     for (EngineFigures& e : out.engines) {
       if (closes_loop(e.name)) e.steps = steps_;
@@ -367,7 +371,7 @@ class ScenarioRun {
   } before_;
   int duty_clocks_ = 0;  ///< of the bridge, and what it is of a period
   double duty_ = 0;
-  std::int64_t ticks_ = 0;
+  std::int64_t ticks_ = 0, stale_ticks_ = 0, stale_from_ = 0;
   int faults_ = 0;
   double absorbed_j_ = 0;
   Range tau_ref_, tau_hat_, velocity_, theta_;

@@ -74,7 +74,8 @@ struct RunResult {
   std::string reference;  ///< engine that the others are compared with, "quad" or "double", or none
   std::vector<EngineFigures> engines;
   Felt felt;
-  std::vector<RunEvent> events;           ///< of the scene's law
+  Acted law_stale;               ///< armed, but a mailbox of the law was too old: no torque
+  std::vector<RunEvent> events;  ///< of the scene's law
   std::map<std::string, double> figures;  ///< what scene files put bounds on
   std::vector<std::string> broken;  ///< expectations and bounds that do not hold, one line each
   double simulated_s = 0;

@@ -40,6 +40,15 @@ void check_parameter(const std::string& place, const std::string& name, double v
     return;
   }
   const ParameterInfo* info = design.find(name);
+  if (info == nullptr && law != nullptr) {
+    try {
+      law->check(name, value);  // says what the law has
+    } catch (const std::invalid_argument& error) {
+      throw config::ConfigError(
+          fmt::format("{}{}; nor has the core: `feltgate design {}` lists its parameters", at,
+                      error.what(), design.name));
+    }
+  }
   if (info == nullptr) throw config::ConfigError(at + design.unknown(name));
   try {
     (void)quantise_parameter(*info, value);

@@ -153,7 +153,7 @@ void Continuous::tick(const Row* rows) {
   }
   for (std::size_t n = 0; n < axes_.size(); ++n) {
     Axis& a = axes_[n];
-    if (!a.driven || (rows[n].limits & left_out) != 0) continue;
+    if (!a.driven || rows[0].law_stale || (rows[n].limits & left_out) != 0) continue;
     const double off_nm = rows[n].tau_ref_nm - a.ideal_nm;
     a.error.add(off_nm);
     a.sum_nm += off_nm;

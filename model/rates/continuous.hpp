@@ -53,8 +53,8 @@ class Continuous {
   void set(std::size_t parameter, double si);
 
   /// Torque reference less the law at the device's true angles and speeds, Nm, of all axes. Left
-  /// out are ticks in which an axis' motor is disarmed, its torque ramps, or the core relieves a
-  /// torque that is held.
+  /// out are ticks in which an axis' motor is disarmed, its torque ramps, the core relieves a
+  /// torque that is held, or a mailbox of the law is too old.
   const ErrorFigure& error() const { return error_; }
   const ErrorFigure& error(std::size_t axis) const { return axes_[axis].error; }
   double mean_error_nm(std::size_t axis = 0) const;

@@ -107,6 +107,7 @@ class LeverSweep : public Sweep {
     row.clocks_compared = result.lock_step ? result.clocks : 0;
     row.first_mismatch = result.first_mismatch;
     row.fault = first_fault(result.felt.faults);
+    if (row.fault.empty()) note_stale(result.law_stale);
     row.cpu_s_per_s = cpu_s(scene, design, law) / result.simulated_s;
     add(std::move(row), continuous, set);
   }

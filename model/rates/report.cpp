@@ -31,6 +31,20 @@ std::string slope_text(const Slope& s, double largest_nm) {
   return text;
 }
 
+/// In mNm; of no tick there is none.
+std::string error_text(const ErrorFigure& e) {
+  if (e.count() == 0) return fmt::format("{:>9} {:>9}", "-", "-");
+  return fmt::format("{:>9.4g} {:>9.4g}", 1e3 * e.rms(), 1e3 * e.max());
+}
+
+/// Of an error; of no tick there is none.
+Json measured_json(const ErrorFigure& of, double value) {
+  return of.count() == 0 ? Json(nullptr) : Json(value);
+}
+std::string measured_csv(const ErrorFigure& of, double value) {
+  return of.count() == 0 ? "" : fmt::format("{:.6g}", value);
+}
+
 std::string kept_text(const RateRow& r) {
   if (r.expected == 0) return "-";
   return fmt::format("{} of {}", r.expected - static_cast<int>(r.broken.size()), r.expected);
@@ -74,10 +88,9 @@ std::string lever_table(const Report& r) {
       "torque renewed", "torque error, mNm", damper ? "border Nms/rad" : "border Nm/rad",
       "engine clocks", "CPU", "at", "rms", "worst", "", "margin", "of a run", "time");
   for (const RateRow& row : r.rows) {
-    s += fmt::format("{:<9} {:<7}  {:>9.4g} {:>9.4g}  {}  {:>16}  {:>5.2f}\n",
-                     rate_text(row.rate_hz), row.block ? "block" : "engine", 1e3 * row.error.rms(),
-                     1e3 * row.error.max(), margin_text(row.margin), clocks_text(row),
-                     time_ratio(r, row));
+    s += fmt::format("{:<9} {:<7}  {}  {}  {:>16}  {:>5.2f}\n", rate_text(row.rate_hz),
+                     row.block ? "block" : "engine", error_text(row.error), margin_text(row.margin),
+                     clocks_text(row), time_ratio(r, row));
   }
   return s;
 }
@@ -90,9 +103,9 @@ std::string axes_table(const Report& r) {
                   "torque error, mNm", "", "swing,", "expec-", "engine clocks", "CPU");
   s += fmt::format(line, "at", "rms", "worst", "margin", "mNm", "ted kept", "of a run", "time");
   for (const RateRow& row : r.rows) {
-    s += fmt::format("{:<9} {:<7}  {:>9.4g} {:>9.4g}  {:>6}  {:>9.4g}  {:>8}  {:>16}  {:>5.2f}\n",
-                     rate_text(row.rate_hz), "engine", 1e3 * row.error.rms(), 1e3 * row.error.max(),
-                     "-", 1e3 * row.swing_nm, kept_text(row), clocks_text(row), time_ratio(r, row));
+    s += fmt::format("{:<9} {:<7}  {}  {:>6}  {:>9.4g}  {:>8}  {:>16}  {:>5.2f}\n",
+                     rate_text(row.rate_hz), "engine", error_text(row.error), "-",
+                     1e3 * row.swing_nm, kept_text(row), clocks_text(row), time_ratio(r, row));
   }
   return s;
 }
@@ -108,8 +121,7 @@ std::string report_text(const Report& r) {
                   several ? fmt::format("device {}, {} axes", r.plant, r.axes) : "plant " + r.plant,
                   r.simulated_s);
   s += several ? axes_table(r) : lever_table(r);
-  s += fmt::format("{:<17}  {:>9.4g} {:>9.4g}\n", "counts alone", 1e3 * r.floor.rms(),
-                   1e3 * r.floor.max());
+  s += fmt::format("{:<17}  {}\n", "counts alone", error_text(r.floor));
   for (const RateRow& row : r.rows) {
     const std::string rate = rate_text(row.rate_hz);
     if (!row.fault.empty()) {
@@ -141,8 +153,8 @@ std::string reports_json(const std::vector<Report>& reports) {
       scene["jump_nm"] = r.slope.jump_nm;
       scene["lever_damping_nm_s_rad"] = r.damping_nm_s_rad;
     }
-    scene["counts_alone_rms_nm"] = r.floor.rms();
-    scene["counts_alone_max_nm"] = r.floor.max();
+    scene["counts_alone_rms_nm"] = measured_json(r.floor, r.floor.rms());
+    scene["counts_alone_max_nm"] = measured_json(r.floor, r.floor.max());
     scene["block_gates"] = r.block_gates;
     scene["notes"] = r.notes;
     scene["rates"] = Json::array();
@@ -150,9 +162,9 @@ std::string reports_json(const std::vector<Report>& reports) {
       Json one{{"rate_hz", row.rate_hz},
                {"ticks", row.ticks},
                {"by", row.block ? "block" : "engine"},
-               {"error_rms_nm", row.error.rms()},
-               {"error_max_nm", row.error.max()},
-               {"error_mean_nm", row.mean_error_nm},
+               {"error_rms_nm", measured_json(row.error, row.error.rms())},
+               {"error_max_nm", measured_json(row.error, row.error.max())},
+               {"error_mean_nm", measured_json(row.error, row.mean_error_nm)},
                {"ticks_compared", row.error.count()},
                {"cpu_s_per_s", row.cpu_s_per_s},
                {"time_ratio", time_ratio(r, row)},
@@ -166,8 +178,8 @@ std::string reports_json(const std::vector<Report>& reports) {
       }
       if (r.axes > 1) {
         for (const ErrorFigure& e : row.of_axes) {
-          one["axes"].push_back({{"error_rms_nm", e.rms()},
-                                 {"error_max_nm", e.max()},
+          one["axes"].push_back({{"error_rms_nm", measured_json(e, e.rms())},
+                                 {"error_max_nm", measured_json(e, e.max())},
                                  {"ticks_compared", e.count()}});
         }
         one["swing_nm"] = row.swing_nm;
@@ -195,8 +207,9 @@ std::string reports_csv(const std::vector<Report>& reports) {
     for (const RateRow& row : r.rows) {
       const bool known = row.margin.of != Margin::Of::none;
       s += fmt::format(
-          "{},{},{:.10g},{},{:.6g},{:.6g},{},{},{},{},{},{:.3g},{}\n", r.scene,
-          row.block ? "block" : "engine", row.rate_hz, row.ticks, row.error.rms(), row.error.max(),
+          "{},{},{:.10g},{},{},{},{},{},{},{},{},{:.3g},{}\n", r.scene,
+          row.block ? "block" : "engine", row.rate_hz, row.ticks,
+          measured_csv(row.error, row.error.rms()), measured_csv(row.error, row.error.max()),
           known ? fmt::format("{:.4g}", row.margin.ratio) : "",
           known ? fmt::format("{:.4g}", row.margin.border) : "", margin_kind(row.margin),
           row.clocks_used, row.clocks_available, time_ratio(r, row),

@@ -120,6 +120,19 @@ void Sweep::leave_out(int ticks, const std::string& reason) {
       "not at {}: {}", rate_text(static_cast<double>(target_.tick_hz) / ticks), reason));
 }
 
+void Sweep::note_once(const std::string& note) {
+  const auto& all = report_.notes;
+  if (std::find(all.begin(), all.end(), note) == all.end()) report_.notes.push_back(note);
+}
+
+void Sweep::note_stale(const Acted& stale) {
+  if (stale.seconds == 0) return;
+  note_once(fmt::format(
+      "a mailbox of the law is stale for {:.4g} s, from {:.4g} s: no torque, not compared; add "
+      "[feed] rate_hz (or raise it)",
+      stale.seconds, stale.first_s));
+}
+
 RateRow Sweep::row_of(const law::Compiled& law, int ticks) const {
   RateRow row;
   row.ticks = ticks;
@@ -169,6 +182,11 @@ void Sweep::add(RateRow row, const Continuous& continuous, const Continuous::Set
     report_.slope = continuous.slope();
     report_.floor = continuous.floor();
     report_.largest_nm = continuous.largest_nm();
+  }
+  if (row.error.count() == 0 && row.fault.empty()) {
+    note_once(
+        "where there is a -, nothing was compared: in every tick the motor is disarmed, or its "
+        "torque ramps, is relieved or none");
   }
   report_.rows.push_back(std::move(row));
 }

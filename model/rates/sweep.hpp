@@ -36,6 +36,9 @@ class Sweep {
   /// What the host has set, for the continuous law; and all that the law was loaded with.
   void tell(Continuous& continuous, const std::string& name, double value) const;
   void tell_all(Continuous& continuous, const SceneLaw& law) const;
+  /// Ticks without torque, which are not compared.
+  void note_stale(const Acted& stale);
+  void note_once(const std::string& note);
   /// Takes the figures of a run over.
   void add(RateRow row, const Continuous& continuous, const Continuous::Setting& setting);
 

@@ -3,16 +3,20 @@
 //
 // feltgate board: a board without hardware. Documentation: docs/board.md
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 
 #include "board/serve.hpp"
+#include "design/design.hpp"
+#include "engines/engine.hpp"
 #include "files/output_file.hpp"
 #include "plant/plant_file.hpp"
 #include "tools/checks.hpp"
@@ -128,6 +132,19 @@ int run(const Arguments& a) {
   return a.replay.empty() ? run_board(a, kind) : run_replay(a, kind);
 }
 
+/// A board is a core with a link: of a device with several axes there is none.
+void require_one_axis(const std::string& design) {
+  const std::filesystem::path file =
+      std::filesystem::path(repository()) / "rtl/designs" / (design + ".toml");
+  if (!std::filesystem::exists(file)) return;
+  const int axes = design::read_design(file.string()).axes;
+  if (axes == 1) return;
+  throw std::invalid_argument(
+      fmt::format("--design {}: has {} axes, and a board has one; choose "
+                  "one of {}",
+                  design, axes, fmt::join(design_names(), ", ")));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -191,6 +208,7 @@ int main(int argc, char** argv) {
   int exit_code = exit_ok;
   app.callback([&] {
     if (a.replay.empty() && !has_design(a.setup.design)) {
+      require_one_axis(a.setup.design);
       a.setup.design = built_design(a.setup.design);
     }
     exit_code = run(a);

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -25,13 +26,26 @@ auto of_file(const std::string& file, const Make& make) {
   }
 }
 
+/// A number that is one, from `low` on: CLI::Range takes a NaN. Says nothing in the help.
+inline CLI::Validator finite(double low = -1e300) {
+  return {[low](std::string& text) {
+            double value = 0;
+            if (!CLI::detail::lexical_cast(text, value)) return text + " is no number";
+            if (!std::isfinite(value)) return text + " is no finite number; give one";
+            if (value < low) return fmt::format("{:g} is too small; give {:g} or more", value, low);
+            return std::string();
+          },
+          ""};
+}
+
 /// An option that takes a length with its unit, mm or m; `value` is in m.
 inline CLI::Option* add_length(CLI::App& to, const std::string& name, double* value,
                                const std::string& what) {
   static const std::map<std::string, double> units{{"mm", 1e-3}, {"m", 1.0}};
   return to.add_option(name, *value, what)
       ->type_name("LENGTH")
-      ->transform(CLI::AsNumberWithUnit(units, CLI::AsNumberWithUnit::UNIT_REQUIRED));
+      ->transform(CLI::AsNumberWithUnit(units, CLI::AsNumberWithUnit::UNIT_REQUIRED))
+      ->check(finite());
 }
 
 }  // namespace feltgate

@@ -5,10 +5,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -42,6 +44,7 @@ struct RunArguments {
 }  // namespace
 
 void apply_settings(const std::vector<std::string>& set, Scenario& scenario) {
+  std::set<std::string> given;
   for (const std::string& item : set) {
     const auto at = item.find('=');
     char* end = nullptr;
@@ -51,6 +54,10 @@ void apply_settings(const std::vector<std::string>& set, Scenario& scenario) {
                                   " is not NAME=VALUE; write for example --set voltage_gain=1");
     }
     const std::string name = item.substr(0, at);
+    if (!given.insert(name).second) {
+      throw std::invalid_argument("--set " + item + ": " + name +
+                                  " is given twice; leave one of them out");
+    }
     scenario.parameters[name] = value;
     scenario.parameter_lines.erase(name);  // an error in it is none of the file
   }
@@ -58,7 +65,12 @@ void apply_settings(const std::vector<std::string>& set, Scenario& scenario) {
 
 std::string law_file(const Scenario& s) {
   const bool path = s.law.find('/') != std::string::npos || fs::path(s.law).extension() == ".law";
-  return path ? (fs::path(s.path).parent_path() / s.law).string() : find_law(s.law);
+  if (path) return (fs::path(s.path).parent_path() / s.law).string();
+  try {
+    return find_law(s.law);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("{}:{}: {}", s.path, s.law_line, error.what()));
+  }
 }
 
 namespace {
@@ -180,6 +192,11 @@ int run(const RunArguments& a) {
   RunLabels labels{"scene", plant.name, "", scenario.step_clocks, effects_off(scenario)};
   labels.differing = stability::differing_constants(elaborated.design, plant, scenario.effects);
   labels.plant_as_named = scenario.plant;
+  const auto arms = [](const Event& e) { return e.arm.value_or(false); };
+  if (scenario.arm_s >= scenario.duration_s &&
+      std::none_of(scenario.events.begin(), scenario.events.end(), arms)) {
+    labels.never_armed_s = scenario.arm_s;
+  }
   for (files::OutputFile* file : {json, report_json}) {
     if (file != nullptr) file->write(run_json(result, labels));
   }

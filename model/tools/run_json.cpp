@@ -116,6 +116,9 @@ std::string run_json(const RunResult& r, const RunLabels& labels) {
   if (!r.reference.empty()) j["reference"] = r.reference;
   for (const EngineFigures& e : r.engines) j["engines"][e.name] = engine_json(e, r);
   j["felt"] = felt_json(r.felt);
+  if (r.law_stale.seconds > 0) {
+    j["law_stale"] = {{"seconds", r.law_stale.seconds}, {"first_s", r.law_stale.first_s}};
+  }
   if (r.felt.closed_loop) {
     j["plant_step_clocks"] = labels.step_clocks;
     j["plant_longest_step_clocks"] = r.longest_step_clocks;

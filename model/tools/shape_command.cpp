@@ -23,6 +23,8 @@ namespace feltgate {
 
 namespace {
 
+constexpr double least_size_m = 1e-3;
+
 struct ShapeArguments {
   std::vector<std::string> svgs;
   std::string out, path, law = "proxy", design = "lever";
@@ -245,18 +247,23 @@ void add_shape(CLI::App& app, int* exit_code) {
           ->type_name("N")
           ->check(CLI::Range(shape::fewest_vertices, shape::most_vertices))
           ->capture_default_str();
-  add_length(*sub, "--radius", &a->radius_m, "of every corner, 5mm; 0mm: as drawn");
-  add_length(*sub, "--size", &a->size_m, "larger side of the shape, 60mm");
+  add_length(*sub, "--radius", &a->radius_m, "of every corner, 5mm; 0mm: as drawn")
+      ->check(finite(0));
+  add_length(*sub, "--size", &a->size_m, "larger side of the shape, 60mm")
+      ->check(finite(least_size_m));
   sub->add_option("--centre", a->centre_m, "its middle, m, motors at 0 0")
       ->type_name("X Y")
+      ->check(finite())
       ->capture_default_str();
   sub->add_option("--stiffness", a->stiffness, "N/m at first; the host may change it")
       ->type_name("N/m")
       ->check(CLI::Range(0.0, shape::most_stiffness_n_per_m))
+      ->check(finite())
       ->capture_default_str();
   sub->add_option("--damping", a->damping, "N s/m, likewise")
       ->type_name("N s/m")
       ->check(CLI::Range(0.0, shape::most_damping_ns_per_m))
+      ->check(finite())
       ->capture_default_str();
   sub->add_option("--design", a->design, "design point in rtl/designs")
       ->type_name("DESIGN")

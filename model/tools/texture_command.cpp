@@ -166,10 +166,12 @@ void add_texture(CLI::App& app, int* exit_code) {
   sub->add_option("--stiffness", a->stiffness, "N/m at first; the host may change it")
       ->type_name("N/m")
       ->check(CLI::Range(0.0, texture::most_stiffness_n_per_m))
+      ->check(finite())
       ->capture_default_str();
   sub->add_option("--damping", a->damping, "N s/m, likewise")
       ->type_name("N s/m")
       ->check(CLI::Range(0.0, texture::most_damping_ns_per_m))
+      ->check(finite())
       ->capture_default_str();
   sub->add_option("--normals", a->normals, "interpolated between pixels, or facets")
       ->check(CLI::IsMember({"interpolated", "facets"}))

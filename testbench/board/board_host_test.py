@@ -70,10 +70,13 @@ class BoardTest(ProgramTest):
 
 class Verbs(BoardTest):
     def test_a_session(self):
+        (self.folder / "lever").symlink_to("/dev/pts/of-a-board-that-was-killed")
         with Board(self.folder, "--hand", "swing", "--link", "lever") as board:
             self.assertRegex(board.port, r"^lever -> /dev/pts/\d+$")
             port = self.folder / "lever"
             self.assertIn("SIMULATED", self.host(port, "info"))
+            said = self.run_program("feltgate_board", "--link", "lever", status=2)
+            self.assertIn("is a link to what is there", said)
             self.host(port, "set", "torque_limit=0.1Nm")
             self.assertAlmostEqual(self.value(port, "torque_limit"), 0.1, places=4)
             self.patient(port)
@@ -275,6 +278,7 @@ class Recordings(BoardTest):
             (("--replay", "none.board"), "cannot be read"),
             (("--replay", "x", "--link", "y"), "leave --record and --link out"),
             (("--bad-line", "2"), "--bad-line"),
+            (("--design", "pantograph_law"), "has 2 axes, and a board has one"),
         ):
             with self.subTest(words):
                 self.assertIn(needle, self.run_program("feltgate_board", *words, status=2))

@@ -341,4 +341,9 @@ TEST_CASE("host law: a board without engine, an image of another design") {
   law::Image other = spring();
   other.design = "lever";
   CHECK(told([&] { b.engine.load(other); }).find("compiled for design lever") != std::string::npos);
+  CHECK_THROWS_AS(b.engine.load(other), std::invalid_argument);
+  law::Image two = spring();
+  two.outputs.push_back({"other", 1});
+  CHECK(told([&] { b.engine.load(two); }).find("a torque for axis 1, and a board has one axis") !=
+        std::string::npos);
 }

@@ -78,12 +78,20 @@ class Laws(ProgramTest):
         self.assertIn("law.clicks", self.host("get", "--all"))
 
         # Nothing of it is set where one cannot be.
-        self.assertIn("takes 1 to 200", self.host("set", "clicks=7", "clicks=201", status=2))
+        said = self.host("set", "amplitude=70mNm", "clicks=201", status=2)
+        self.assertIn("takes 1 to 200", said)
         self.assertIn("takes 0 to 0.5", self.host("set", "clicks=7", "amplitude=0.6Nm", status=2))
+        twice = self.host("set", "clicks=5", "clicks=6", status=2)
+        self.assertIn("clicks=6 sets what was set before it", twice)
+        twice = self.host("set", "clicks=5", "law.clicks=6", status=2)
+        self.assertIn("law.clicks=6 sets what was set before it", twice)
+        self.assertIn("has no unit", self.host("set", "clicks=5Nm", status=2))
+        self.assertIn("is no number", self.host("set", "clicks=5,5", status=2))
         self.assertIn("is not in deg", self.host("set", "clicks=7", "amplitude=3deg", status=2))
         self.assertIn('did you mean "clicks"', self.host("set", "click=7", status=2))
         self.assertIn("did you mean", self.host("get", "amplitud", status=2))
         self.assertRegex(self.host("get", "clicks"), r"clicks +12 ")
+        self.assertRegex(self.host("get", "law.amplitude"), r"amplitude +(0\.08|0\.079)")
 
         # Another computer, which did not load it.
         self.cache = "other"
@@ -102,6 +110,9 @@ class Laws(ProgramTest):
         self.assertIn("choose one of", self.host("law", "no_such", status=2))
         (self.folder / "broken.img").write_text("nothing\n", encoding="utf-8")
         self.assertIn("broken.img", self.host("law", "broken.img", status=2))
+        (self.folder / "empty.img").write_text("", encoding="utf-8")
+        self.assertIn("no law's image", self.host("law", "empty.img", status=2))
+        self.assertIn("a torque for axis 1", self.host("law", "pantograph", status=2))
         refused = self.host("arm", "law", status=1)
         self.assertIn("its CRC does not hold", refused)
 

@@ -127,6 +127,37 @@ TEST_CASE("what a tracker sends is in the continuous law") {
   CHECK(r.rows[1].margin.of == Margin::Of::none);
 }
 
+TEST_CASE("where the torque ramps all the time nothing is compared") {
+  // 0.2 Nm at 5 Nm/s take 40 ms.
+  const Report r = measured("testbench/rates/turned_spring.toml", shipped("spring"),
+                            Options{{1e3}, false, {}}, 0.0025);
+  REQUIRE(r.rows.size() == 3);
+  CHECK(r.rows[0].error.count() == 0);
+  CHECK(report_text(r).find(" -         -") != std::string::npos);
+  CHECK(report_text(r).find("note: where there is a -, nothing was compared") != std::string::npos);
+  const std::string json = reports_json({r}), csv = reports_csv({r});
+  CHECK(json.find("\"error_rms_nm\": null") != std::string::npos);
+  CHECK(json.find("\"ticks_compared\": 0") != std::string::npos);
+  CHECK(csv.find(",engine,1000,1000,,,") != std::string::npos);
+}
+
+TEST_CASE("ticks of a mailbox that is too old are not compared, and told") {
+  const LawSource stale{"stale.law",
+                        "mailbox pull = 0.1 Nm in -1 .. 1 Nm max_age 5 ms\nout torque = pull\n"};
+  Scenario scene = read_scenario(root + "/vectors/scenes/wall_tracked.toml");
+  scene.tracker.reset();
+  scene.parameters.clear();
+  scene.parameter_lines.clear();
+  scene.rest_from_s.reset();
+  scene.duration_s = 0.2;
+  const auto plant = plant::read_plant_file(root + "/vectors/plants/" + scene.plant + ".toml");
+  resolve_effects(scene, plant.effects);
+  const Report r = measure(scene, stale, plant, law_core(), Options{{}, false, {}});
+  REQUIRE(r.rows.size() == 1);
+  CHECK(r.rows[0].error.max() < 1e-3);
+  CHECK(report_text(r).find("a mailbox of the law is stale for") != std::string::npos);
+}
+
 TEST_CASE("what has no single law is refused") {
   const auto refused = [](const std::string& path) {
     const Scenario s = read_scenario(root + "/vectors/scenes/" + path);

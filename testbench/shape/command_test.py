@@ -83,6 +83,10 @@ class Shape(LawMaking):
         self.refused("no.svg", "no.svg")
         self.refused("--vertices", SHAPES / "fish.svg", "--vertices", "1000")
         self.refused("--radius", SHAPES / "fish.svg", "--radius", "5")
+        self.refused("--radius", SHAPES / "fish.svg", "--radius", "-1mm")
+        self.refused("--size", SHAPES / "fish.svg", "--size", "-60mm")
+        self.refused("--stiffness", SHAPES / "fish.svg", "--stiffness", "nan")
+        self.refused("--centre", SHAPES / "fish.svg", "--centre", "nan", "0.12")
         self.refused("say --vertices 80", SHAPES / "fish.svg", "--texture", "--vertices", 81)
         self.refused("out of the pen", SHAPES / "fish.svg", "--size", "300mm")
 

@@ -100,6 +100,8 @@ class Texture(LawMaking):
         self.refused("no row 8", IMAGES / "ripples.png", "--row", "8")
         self.refused("--texel", IMAGES / "ripples.png", "--texel", "1")
         self.refused("--stiffness", IMAGES / "ripples.png", "--stiffness", "-1")
+        self.refused("--stiffness", IMAGES / "ripples.png", "--stiffness", "nan")
+        self.refused("--damping", IMAGES / "ripples.png", "--damping", "nan")
         self.refused("--surface", IMAGES / "valley.png", "--field", "--surface", "10mm")
         far = (IMAGES / "ripples.png", "--depth", "1mm", "--surface")
         self.refused("the pen reaches 40 to 190 mm", *far, "200mm", "--path", "way.csv")

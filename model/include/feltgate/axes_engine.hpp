@@ -60,6 +60,8 @@ class AxesEngine {
   const EngineWatch& watch() const { return runs_.watch(); }
   /// Whether it goes run by run at present.
   bool runs_whole() const { return runs_.on(); }
+  /// Whether the wave of the tick measured last began with a torque that may jump.
+  bool restarted() const { return restarted_; }
   /// It would not take every write.
   bool busy() const { return out_.busy || runs_.committing(); }
 
@@ -67,6 +69,7 @@ class AxesEngine {
     runs_.reset();
     out_ = runs_.clocked().out();
     state_ = {};
+    restarts_ = restarted_ = false;
   }
 
   template <class Cores>
@@ -76,7 +79,7 @@ class AxesEngine {
     for (std::size_t n = 0; n < N; ++n) {
       each[n].law_torque = out_.torque[n];
       each[n].law_late = out_.late || !out_.crc_good;
-      each[n].law_restart = state_.runs != 0 || !state_.sampled;
+      each[n].law_restart = may_jump();
       each[n].axis_silent |= !state_.checked;
       each[n].axis_blocked |= law && !out_.crc_good;
     }
@@ -86,6 +89,8 @@ class AxesEngine {
   template <class Cores>
   void clock(const AxesIn<N>& in, const Cores& cores, const std::array<CoreIn, N>& each) {
     State& s = state_;
+    if (cores[0].clock_of_tick() == D::clocks_per_tick - 1) restarts_ = may_jump();
+    if (cores[0].measured()) restarted_ = restarts_;
     bool law = false, armed = false, all_ask = true, zeroed = false;
     for (std::size_t n = 0; n < N; ++n) {
       law |= in_law(cores[n]);
@@ -181,11 +186,13 @@ class AxesEngine {
   void tick(int ahead, const Cores& cores) {
     Axes tau_hat;
     for (std::size_t n = 0; n < N; ++n) tau_hat[n] = cores[n].out().tau_hat;
+    restarted_ = restarts_;
     runs_.tick(ahead, positions(cores), velocities(cores), tau_hat);
   }
   template <class Cores, class OnEvent>
   void advance(int clocks, const Cores& cores, OnEvent&& on_event) {
     runs_.advance(clocks, positions(cores), velocities(cores), on_event);
+    if (cores[0].clock_of_tick() == 0) restarts_ = may_jump();
     runs_.show(&out_);
   }
 
@@ -228,6 +235,8 @@ class AxesEngine {
     }
     return axes;
   }
+  /// Whether the torque in force may be of before a change.
+  bool may_jump() const { return state_.runs != 0 || !state_.sampled; }
   static bool is_engine(std::uint16_t address) { return address >> 12 == axes_engine >> 12; }
   template <class Core>
   static bool in_law(const Core& core) {
@@ -243,6 +252,7 @@ class AxesEngine {
   Runs runs_{D::engine_max_age, kTiming};
   typename EngineOf::Out out_;
   State state_;
+  bool restarts_ = false, restarted_ = false;  ///< may_jump() at the last tick's end; restarted()
 };
 
 }  // namespace feltgate

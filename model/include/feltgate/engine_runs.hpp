@@ -42,9 +42,9 @@ class EngineRuns {
   }
   void clock(const In& in) {
     leave();
-    const bool takes = engine_.commit_.taken(in.tick);
+    const bool takes = engine_.commit_.taken(in.tick), late = engine_.mailbox_late();
     engine_.clock(in);
-    watch_.clock(in.tick, in.tick_count, engine_.running(0), engine_.out().fresh, takes);
+    watch_.clock(in.tick, in.tick_count, engine_.running(0), engine_.out().fresh, takes, late);
     if (rest_ > 0) --rest_;
   }
   const EngineWatch& watch() const { return watch_; }
@@ -83,6 +83,7 @@ class EngineRuns {
   void tick(int ahead, const Axes& position, const Axes& velocity, const Axes& tau_hat) {
     const std::int64_t at = now_ + ahead, counts = at + 1 + thread_;
     settle(at);
+    watch_.stale = silent_;
     ticks_.add({at, position, velocity, tau_hat});
     if (run_ == 0) {
       watch_.begins = false;
@@ -294,6 +295,7 @@ class EngineRuns {
         fresh_at_ = comes_[0].clock + 1;
         watch_.ended_before = watch_.ended;
         watch_.end();
+        if (silent_) watch_.ended.reset();
       }
       comes_[0].appear(&state_, silent_);
       comes_[0] = comes_[1];

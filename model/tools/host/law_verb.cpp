@@ -17,7 +17,7 @@
 namespace feltgate::host {
 
 std::string law_text(const law::ImageWord& of, double value) {
-  return fmt::format("{:.9g}{}{}", value, of.unit.empty() ? "" : " ", of.unit);
+  return fmt::format("{:.9g}{}{}", value + 0.0, of.unit.empty() ? "" : " ", of.unit);
 }
 
 std::string range_text(const law::ImageWord& of) {
@@ -102,9 +102,10 @@ Run add_law(CLI::App& sub) {
       "Exit code: 0 loaded, 1 refused: armed, no engine; 2 unusable input, a law that cannot be "
       "read or\n"
       "proven, with line, reason and mend; 3 the link broke down.");
-  sub.add_option("law", *file,
-                 "name in rtl/laws, a law file, or an image of feltgate law --output; without it says "
-                 "which law runs")
+  sub.add_option(
+         "law", *file,
+         "name in rtl/laws, a law file, or an image of feltgate law --output; without it says "
+         "which law runs")
       ->type_name("LAW");
   return [file](Session& session) { return run_law(session, *file); };
 }

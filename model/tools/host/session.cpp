@@ -91,6 +91,11 @@ law::Image Session::image_of(const std::string& law) {
   std::ostringstream text;
   text << in.rdbuf();
   if (!in) throw std::invalid_argument(path + ": cannot be read; check the path");
+  if (text.str().empty()) {
+    throw std::invalid_argument(
+        path + ": is empty, no law's image; make one: `feltgate law NAME --design " +
+        design().design.design.name + " -o NAME.img`");
+  }
   try {
     return law::read_image(text.str());
   } catch (const std::invalid_argument& e) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
 
 #include "config/nearest.hpp"
 #include "files/output_file.hpp"
@@ -135,6 +137,11 @@ void set_law(LawEngine& laws, const std::vector<std::pair<std::string, double>>&
 int set(Session& session, const std::vector<std::string>& texts) {
   Device& device = session.device();
   // All of them first: one that cannot be used must not leave the others half done.
+  std::set<std::string> given;
+  const auto once = [&given](const std::string& name, const std::string& text) {
+    if (given.insert(name).second) return;
+    throw std::invalid_argument(text + " sets what was set before it; leave one of them out");
+  };
   std::vector<Setting> settings;
   std::vector<std::pair<std::string, double>> of_law;
   for (const std::string& text : texts) {
@@ -143,8 +150,10 @@ int set(Session& session, const std::vector<std::string>& texts) {
     if (equals != std::string::npos && equals > 0 && device.quantities().look(name) == nullptr &&
         is_of_law(session, name)) {
       LawEngine& laws = session.laws();
+      once("law." + laws.find(name)->name, text);
       of_law.emplace_back(name, laws.value_in(*laws.find(name), text.substr(equals + 1)));
     } else {
+      once(name, text);
       settings.push_back(device.quantities().setting(text));
     }
   }

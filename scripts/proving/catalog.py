@@ -176,7 +176,9 @@ def open_ports(root, proofs):
                 named.setdefault(block or proof.block, set()).add(port)
     found = {}
     files = rtl_sources.module_files(root)
-    for block in sorted(name for name, path in files.items() if "/" not in path or name in named):
+    for block, path in sorted(files.items()):
+        if "/" in path and not path.startswith("link/") and block not in named:
+            continue
         there = set(ports(root, block))
         strange = named.pop(block, set())
         found[block] = sorted(there - strange - {"clk_i", "rst_ni"})

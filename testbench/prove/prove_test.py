@@ -135,8 +135,8 @@ class Product(unittest.TestCase):
         self.proofs = catalog.read(ROOT)
 
     def test_every_port_is_in_a_property(self):
-        # The whole core is the sum of its blocks, also with its link; of the vendor's multiplier and
-        # of the checks at elaboration nothing is proven, nor of what joins an engine and axes.
+        # The whole core is the sum of its blocks, also with its link; of the vendor's multiplier
+        # and of the checks at elaboration nothing is proven, nor of what joins engine and axes.
         without = {"feltgate_core", "feltgate_linked", "feltgate_axes", "axes_engine",
                    "feltgate_checks", "mult18_ecp5"}
         for block, names in catalog.open_ports(ROOT, self.proofs).items():

@@ -177,7 +177,7 @@ def open_ports(root, proofs):
     found = {}
     files = rtl_sources.module_files(root)
     for block, path in sorted(files.items()):
-        if "/" in path and not path.startswith("link/") and block not in named:
+        if "/" in path and not path.startswith(("link/", "axes/")) and block not in named:
             continue
         there = set(ports(root, block))
         strange = named.pop(block, set())

@@ -3,23 +3,17 @@
 """What no property of a proof is about, and why: a block or a port that is missing here fails
 prove.scripts. Documentation: docs/proofs.md"""
 
-LINK = "in lock-step with its twin"
 PART = "in lock-step, as a part of the engine"
 # Blocks of which no port is in a property: how they are tested instead.
 BLOCKS = {
     "feltgate_checks": "it has no ports; lint.elaboration breaks each constant that it checks",
     "feltgate_linked": "in lock-step: core, engine and link put together",
-    "link_stream": LINK,
-    "link_transmitter": LINK,
-    "uart_rx": LINK,
-    "uart_tx": LINK,
     "engine_alu": PART,
     "engine_commit": PART,
     "engine_crc": PART,
     "engine_events": PART,
     "engine_inputs": PART,
     "engine_memory": PART,
-    "axes_engine": "in lock-step: what joins the engine and the axes",
     "feltgate_axes": "in lock-step: the cores of all axes put together",
 }
 ENGINE = "only what programs may write, both ages and what is cleared are proven"

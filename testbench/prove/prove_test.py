@@ -80,13 +80,19 @@ class Catalogue(unittest.TestCase):
 
     def test_a_block_of_a_folder_that_no_property_names(self):
         self.write("rtl/link/n.sv", RTL.replace("module b", "module n"))
-        self.write("rtl/link/uart_rx.sv", RTL.replace("module b", "module uart_rx"))
+        self.write("rtl/engine/engine_alu.sv", RTL.replace("module b", "module engine_alu"))
         self.assertEqual(catalog.open_ports(self.root, catalog.read(self.root)),
                          {"b": [], "n": ["x_i", "y_o"]})
 
     def test_a_port_in_no_property(self):
         self.write("rtl/b.sv", RTL.replace("x_i,", "x_i,\n  input logic signed [2:0] z_i,"))
         self.assertEqual(catalog.open_ports(self.root, catalog.read(self.root)), {"b": ["z_i"]})
+
+    def test_a_block_of_the_link_without_a_proof(self):
+        self.write("rtl/link/e.sv", RTL.replace("module b", "module e"))
+        self.write("rtl/boards/f.sv", RTL.replace("module b", "module f"))
+        self.assertEqual(catalog.open_ports(self.root, catalog.read(self.root)),
+                         {"b": [], "e": ["x_i", "y_o"]})
 
     def test_a_port_that_is_none(self):
         self.write("rtl/b.sv", RTL.replace("x_i", "u_i"))

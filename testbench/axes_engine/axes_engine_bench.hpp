@@ -34,6 +34,7 @@ struct AxisOf {
   bool asks(const CoreIn&) const { return says.asks; }
   bool zeroed() const { return says.zeroed; }
   bool measured() const { return is_measured; }
+  int clock_of_tick() const { return 0; }  // what restarted() keeps is not looked at here
 };
 
 /// The twin as a block of its own.

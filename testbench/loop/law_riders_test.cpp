@@ -96,3 +96,14 @@ TEST_CASE("a mailbox that is fed too rarely comes and goes, one fed in time stay
   CHECK(fed.largest_nm > 0.09);
   CHECK(fed.rider_nm < 1e-3);
 }
+
+TEST_CASE("a law's riders need the twin, which knows the runs: the RTL alone is refused") {
+  const Scenario s = read_scenario(kept("feltgate_law_riders.toml", kHead + kHold));
+  const auto law = make_scene_law(std::string(FELTGATE_ROOT) + "/rtl/laws/spring.law",
+                                  design_named("lever_law"));
+  RunOptions options;
+  options.design = "lever_law";
+  options.law = law.get();
+  options.engine = "rtl,double";
+  CHECK_THROWS_WITH(run_on_p24(s, options), Catch::Contains("add the twin, as rtl,twin,double"));
+}

@@ -75,4 +75,11 @@ EngineChoice choose_engines(const std::string& engines) {
   return choice;
 }
 
+void require_runs_of_law(const EngineChoice& choice) {
+  if (choice.lead != "rtl" || choice.riders.empty()) return;
+  throw std::invalid_argument(
+      "--engine: the RTL alone does not tell of which run of the law a torque is; add the twin, "
+      "as rtl,twin,double");
+}
+
 }  // namespace feltgate

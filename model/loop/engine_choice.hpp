@@ -27,4 +27,8 @@ struct EngineChoice {
 /// first one drives the motor. Throws std::invalid_argument naming what there is.
 EngineChoice choose_engines(const std::string& engines);
 
+/// A law's riders must know of which run a torque is, and the RTL alone does not tell. Throws
+/// std::invalid_argument with the engines that do.
+void require_runs_of_law(const EngineChoice& choice);
+
 }  // namespace feltgate

@@ -47,11 +47,7 @@ void Ensemble::write(HostWrite w) {
 }
 
 void Ensemble::run_law(SceneLaw& law) {
-  if (choice_.lead == "rtl" && !riders_.empty()) {
-    throw std::invalid_argument(
-        "--engine: the RTL alone does not tell of which run of the law a torque is; add the twin, "
-        "as rtl,twin,double");
-  }
+  require_runs_of_law(choice_);
   law_ = &law;
   for (const auto& [address, data] : law.load()) write({0, address, data, 0});
   for (Rider& r : riders_) r.law = law.rider(r.figures.name);

@@ -10,6 +10,7 @@
 
 #include "catch.hpp"
 #include "law_loop/scene_law.hpp"
+#include "loop/engine_choice.hpp"
 #include "loop_fixture.hpp"
 
 namespace {
@@ -98,12 +99,9 @@ TEST_CASE("a mailbox that is fed too rarely comes and goes, one fed in time stay
 }
 
 TEST_CASE("a law's riders need the twin, which knows the runs: the RTL alone is refused") {
-  const Scenario s = read_scenario(kept("feltgate_law_riders.toml", kHead + kHold));
-  const auto law = make_scene_law(std::string(FELTGATE_ROOT) + "/rtl/laws/spring.law",
-                                  design_named("lever_law"));
-  RunOptions options;
-  options.design = "lever_law";
-  options.law = law.get();
-  options.engine = "rtl,double";
-  CHECK_THROWS_WITH(run_on_p24(s, options), Catch::Contains("add the twin, as rtl,twin,double"));
+  CHECK_THROWS_WITH(require_runs_of_law(choose_engines("rtl,double")),
+                    Catch::Contains("add the twin, as rtl,twin,double"));
+  for (const char* good : {"rtl", "rtl,twin,double", "twin,float", "double"}) {
+    CHECK_NOTHROW(require_runs_of_law(choose_engines(good)));
+  }
 }

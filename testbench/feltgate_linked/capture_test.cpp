@@ -112,20 +112,10 @@ struct Session {
       frame.push_back(byte);
       return;
     }
-    Bytes body;
-    for (std::size_t k = 0; k < frame.size(); ++k) {
-      const bool escaped = frame[k] == LinkMap::frame_escape;
-      if (escaped) ++k;
-      body.push_back(!escaped ? frame[k] : frame[k] == LinkMap::escaped_end ? 0xc0 : 0xdb);
-    }
+    const Bytes body = unescaped(frame);
     frame.clear();
     if (body.size() < 12) return;
-    std::vector<std::uint32_t> words;
-    for (std::size_t k = 4; k + 4 < body.size(); k += 4) {
-      words.push_back(body[k] | static_cast<std::uint32_t>(body[k + 1]) << 8 |
-                      static_cast<std::uint32_t>(body[k + 2]) << 16 |
-                      static_cast<std::uint32_t>(body[k + 3]) << 24);
-    }
+    std::vector<std::uint32_t> words = body_words(body);
     if (body[0] == LinkMap::kind_stream) {
       words.insert(words.begin(), body[2] | static_cast<std::uint32_t>(body[3]) << 8);
       seen->streamed.push_back(words);

@@ -122,27 +122,16 @@ struct Host {
   }
   static std::vector<std::uint32_t> words_of(const Bytes& wire, int kind, int sequence,
                                              std::uint32_t address, std::uint32_t words) {
-    Bytes body;
     REQUIRE(wire.size() > 9);
     REQUIRE(wire.front() == 0xc0);
     REQUIRE(wire.back() == 0xc0);
-    for (std::size_t k = 1; k + 1 < wire.size(); ++k) {
-      const bool escaped = wire[k] == 0xdb;
-      if (escaped) ++k;
-      body.push_back(!escaped ? wire[k] : wire[k] == 0xdc ? 0xc0 : 0xdb);
-    }
+    const Bytes body = unescaped(Bytes(wire.begin() + 1, wire.end() - 1));
     REQUIRE(body.size() == 8 + 4 * words);
     REQUIRE(framed(Bytes(body.begin(), body.end() - 4)) == wire);
     CHECK(body[0] == kind);
     CHECK(body[1] == sequence);
     CHECK(body[2] + 256U * body[3] == address);
-    std::vector<std::uint32_t> read;
-    for (std::size_t k = 4; k < 4 + 4 * words; k += 4) {
-      read.push_back(body[k] | static_cast<std::uint32_t>(body[k + 1]) << 8 |
-                     static_cast<std::uint32_t>(body[k + 2]) << 16 |
-                     static_cast<std::uint32_t>(body[k + 3]) << 24);
-    }
-    return read;
+    return body_words(body);
   }
 };
 

@@ -33,6 +33,28 @@ inline Bytes framed(Bytes body) {
   return wire;
 }
 
+/// Between two ends of frames: the body and its CRC, without escapes.
+inline Bytes unescaped(const Bytes& frame) {
+  Bytes body;
+  for (std::size_t k = 0; k < frame.size(); ++k) {
+    const bool escaped = frame[k] == 0xdb && k + 1 < frame.size();
+    if (escaped) ++k;
+    body.push_back(!escaped ? frame[k] : frame[k] == 0xdc ? 0xc0 : 0xdb);
+  }
+  return body;
+}
+
+/// The words of a body behind its head of four bytes, without the CRC.
+inline std::vector<std::uint32_t> body_words(const Bytes& body) {
+  std::vector<std::uint32_t> words;
+  for (std::size_t at = 4; at + 8 <= body.size(); at += 4) {
+    std::uint32_t word = 0;
+    for (std::size_t b = 4; b-- > 0;) word = word << 8 | body[at + b];
+    words.push_back(word);
+  }
+  return words;
+}
+
 inline Bytes request(int kind, int sequence, std::uint32_t address, std::uint32_t value) {
   Bytes body{static_cast<std::uint8_t>(kind), static_cast<std::uint8_t>(sequence)};
   add_number(body, address, 2);

@@ -66,7 +66,7 @@ class Life {
         }
         const Bytes frame = std::exchange(frame_, {});
         // Those before it may be answered too.
-        if (frame.size() > 2 && frame[1] == wire[2]) return words_of(frame);
+        if (frame.size() > 2 && frame[1] == wire[2]) return body_words(unescaped(frame));
       }
     }
     return {};
@@ -125,22 +125,6 @@ class Life {
   }
 
  private:
-  static std::vector<std::uint32_t> words_of(const Bytes& frame) {
-    Bytes body;
-    for (std::size_t k = 0; k < frame.size(); ++k) {
-      const bool escaped = frame[k] == LinkMap::frame_escape;
-      if (escaped) ++k;
-      body.push_back(!escaped ? frame[k] : frame[k] == LinkMap::escaped_end ? 0xc0 : 0xdb);
-    }
-    std::vector<std::uint32_t> words;
-    for (std::size_t at = 4; at + 8 <= body.size(); at += 4) {
-      std::uint32_t word = 0;
-      for (std::size_t b = 4; b-- > 0;) word = word << 8 | body[at + b];
-      words.push_back(word);
-    }
-    return words;
-  }
-
   std::unique_ptr<Twin> twin_ = std::make_unique<Twin>();
   UartLine line_{D::clock_hz, BAUD};
   std::vector<LinkedIn> inputs_;

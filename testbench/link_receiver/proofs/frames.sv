@@ -30,15 +30,7 @@ module frames_proof (
   (* hierconn *) wire \u_dut.escaped_q ;
   (* hierconn *) wire \u_dut.spoiled_q ;
 
-  // So many bits of a byte through the CRC.
-  function automatic logic [31:0] crc_after(input logic [31:0] crc, input logic [7:0] bits, input logic [3:0] count);
-    crc_after = crc;
-    for (int k = 0; k < 8; k++) begin
-      if (4'(k) < count) begin
-        crc_after = {1'b0, crc_after[31:1]} ^ ((crc_after[0] ^ bits[k]) ? 32'hedb88320 : 32'd0);
-      end
-    end
-  endfunction
+`include "crc.svh"
   function automatic logic [63:0] frame_after(input logic [63:0] frame, input logic [7:0] bits, input logic [3:0] count);
     frame_after = frame;
     for (int k = 0; k < 8; k++) begin

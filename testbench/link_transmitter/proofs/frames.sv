@@ -37,15 +37,7 @@ module frames_proof (
   (* hierconn *) wire [7:0] \u_dut.byte_q ;
   (* hierconn *) wire [31:0] \u_dut.crc_q ;
 
-  // So many bits of a byte through the CRC.
-  function automatic logic [31:0] crc_after(input logic [31:0] crc, input logic [7:0] bits, input logic [3:0] count);
-    crc_after = crc;
-    for (int k = 0; k < 8; k++) begin
-      if (4'(k) < count) begin
-        crc_after = {1'b0, crc_after[31:1]} ^ ((crc_after[0] ^ bits[k]) ? 32'hedb88320 : 32'd0);
-      end
-    end
-  endfunction
+`include "crc.svh"
 
   // The sources: a byte that was taken and is not yet through, the CRC of all that were.
   logic takes, takes_stream, sent, last_q, owed_q, of_stream_q, any_q;

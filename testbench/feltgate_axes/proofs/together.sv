@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What three axes and the engine hear of each other, whatever they do: of them only the ports are read.
+`default_nettype none
+
+module together_proof (
+    input logic        clk_i,
+    input logic        rst_ni,
+    input logic        arm_i,
+    input logic        stop_i,
+    input logic [15:0] addr_i,
+    input logic [31:0] wdata_i,
+    input logic        write_i,
+    input logic        read_i
+);
+  localparam int FirstW = feltgate_map_pkg::W_FAULTS_FIRST;
+
+`include "reset.svh"
+
+  logic busy;
+  logic [31:0] rdata;
+  logic [3*FirstW-1:0] first_fault;
+  feltgate_axes #(.AxisCount(3), .Engine(1)) u_dut (
+      .clk_i(clk_i), .rst_ni(rst_ni),
+      .enc_a_i(3'd0), .enc_b_i(3'd0), .enc_z_i(3'd0),
+      .arm_i(arm_i), .stop_i(stop_i), .set_zero_i(3'd0), .scene_i(12'd0),
+      .law_torque_i('0), .law_late_i(1'b0), .law_restart_i(1'b0),
+      .reg_addr_i(addr_i), .reg_wdata_i(wdata_i), .reg_write_i(write_i), .reg_read_i(read_i),
+      .reg_busy_o(busy), .reg_rdata_o(rdata),
+      .first_fault_o(first_fault)
+  );
+  (* hierconn *) wire \u_dut.g_axis[0].u_core.axis_fault_i ;
+  (* hierconn *) wire \u_dut.g_axis[0].u_core.axis_silent_i ;
+  (* hierconn *) wire \u_dut.g_axis[0].u_core.axis_blocked_i ;
+  (* hierconn *) wire \u_dut.g_axis[0].u_core.axis_testing_i ;
+  (* hierconn *) wire \u_dut.g_axis[0].u_core.axis_waits_i ;
+  (* hierconn *) wire \u_dut.g_axis[0].u_core.asks_o ;
+  (* hierconn *) wire \u_dut.g_axis[0].u_core.ready_o ;
+  (* hierconn *) wire \u_dut.g_axis[0].u_core.testing_o ;
+  (* hierconn *) wire \u_dut.g_axis[0].u_core.reg_write_i ;
+  (* hierconn *) wire \u_dut.g_axis[0].u_core.reg_busy_o ;
+  (* hierconn *) wire \u_dut.g_axis[0].u_core.arm_i ;
+  (* hierconn *) wire \u_dut.g_axis[0].u_core.stop_i ;
+  (* hierconn *) wire [11:0] \u_dut.g_axis[0].u_core.reg_addr_i ;
+  (* hierconn *) wire [31:0] \u_dut.g_axis[0].u_core.reg_wdata_i ;
+  (* hierconn *) wire [31:0] \u_dut.g_axis[0].u_core.reg_rdata_o ;
+  (* hierconn *) wire \u_dut.g_axis[1].u_core.axis_fault_i ;
+  (* hierconn *) wire \u_dut.g_axis[1].u_core.axis_silent_i ;
+  (* hierconn *) wire \u_dut.g_axis[1].u_core.axis_blocked_i ;
+  (* hierconn *) wire \u_dut.g_axis[1].u_core.axis_testing_i ;
+  (* hierconn *) wire \u_dut.g_axis[1].u_core.axis_waits_i ;
+  (* hierconn *) wire \u_dut.g_axis[1].u_core.asks_o ;
+  (* hierconn *) wire \u_dut.g_axis[1].u_core.ready_o ;
+  (* hierconn *) wire \u_dut.g_axis[1].u_core.testing_o ;
+  (* hierconn *) wire \u_dut.g_axis[1].u_core.reg_write_i ;
+  (* hierconn *) wire \u_dut.g_axis[1].u_core.reg_busy_o ;
+  (* hierconn *) wire \u_dut.g_axis[1].u_core.arm_i ;
+  (* hierconn *) wire \u_dut.g_axis[1].u_core.stop_i ;
+  (* hierconn *) wire [11:0] \u_dut.g_axis[1].u_core.reg_addr_i ;
+  (* hierconn *) wire [31:0] \u_dut.g_axis[1].u_core.reg_wdata_i ;
+  (* hierconn *) wire [31:0] \u_dut.g_axis[1].u_core.reg_rdata_o ;
+  (* hierconn *) wire \u_dut.g_axis[2].u_core.axis_fault_i ;
+  (* hierconn *) wire \u_dut.g_axis[2].u_core.axis_silent_i ;
+  (* hierconn *) wire \u_dut.g_axis[2].u_core.axis_blocked_i ;
+  (* hierconn *) wire \u_dut.g_axis[2].u_core.axis_testing_i ;
+  (* hierconn *) wire \u_dut.g_axis[2].u_core.axis_waits_i ;
+  (* hierconn *) wire \u_dut.g_axis[2].u_core.asks_o ;
+  (* hierconn *) wire \u_dut.g_axis[2].u_core.ready_o ;
+  (* hierconn *) wire \u_dut.g_axis[2].u_core.testing_o ;
+  (* hierconn *) wire \u_dut.g_axis[2].u_core.reg_write_i ;
+  (* hierconn *) wire \u_dut.g_axis[2].u_core.reg_busy_o ;
+  (* hierconn *) wire \u_dut.g_axis[2].u_core.arm_i ;
+  (* hierconn *) wire \u_dut.g_axis[2].u_core.stop_i ;
+  (* hierconn *) wire [11:0] \u_dut.g_axis[2].u_core.reg_addr_i ;
+  (* hierconn *) wire [31:0] \u_dut.g_axis[2].u_core.reg_wdata_i ;
+  (* hierconn *) wire [31:0] \u_dut.g_axis[2].u_core.reg_rdata_o ;
+  (* hierconn *) wire \u_dut.g_engine.u_engine.unchecked_o ;
+  (* hierconn *) wire \u_dut.g_engine.u_engine.unfit_o ;
+  (* hierconn *) wire \u_dut.g_engine.u_engine.reg_busy_o ;
+  (* hierconn *) wire [31:0] \u_dut.g_engine.u_engine.reg_rdata_o ;
+  (* hierconn *) wire [2:0] \u_dut.g_engine.u_engine.asks_i ;
+  (* hierconn *) wire [15:0] \u_dut.g_engine.u_engine.reg_addr_i ;
+
+  // Axis n is bit n.
+  logic [2:0] hears_fault, silent, blocked, beside, waits, asks, ready, testing, writes, busies, arms, stops;
+  logic [35:0] addresses;
+  logic [95:0] data, words;
+  assign hears_fault = {\u_dut.g_axis[2].u_core.axis_fault_i , \u_dut.g_axis[1].u_core.axis_fault_i , \u_dut.g_axis[0].u_core.axis_fault_i };
+  assign silent = {\u_dut.g_axis[2].u_core.axis_silent_i , \u_dut.g_axis[1].u_core.axis_silent_i , \u_dut.g_axis[0].u_core.axis_silent_i };
+  assign blocked = {\u_dut.g_axis[2].u_core.axis_blocked_i , \u_dut.g_axis[1].u_core.axis_blocked_i , \u_dut.g_axis[0].u_core.axis_blocked_i };
+  assign beside = {\u_dut.g_axis[2].u_core.axis_testing_i , \u_dut.g_axis[1].u_core.axis_testing_i , \u_dut.g_axis[0].u_core.axis_testing_i };
+  assign waits = {\u_dut.g_axis[2].u_core.axis_waits_i , \u_dut.g_axis[1].u_core.axis_waits_i , \u_dut.g_axis[0].u_core.axis_waits_i };
+  assign asks = {\u_dut.g_axis[2].u_core.asks_o , \u_dut.g_axis[1].u_core.asks_o , \u_dut.g_axis[0].u_core.asks_o };
+  assign ready = {\u_dut.g_axis[2].u_core.ready_o , \u_dut.g_axis[1].u_core.ready_o , \u_dut.g_axis[0].u_core.ready_o };
+  assign testing = {\u_dut.g_axis[2].u_core.testing_o , \u_dut.g_axis[1].u_core.testing_o , \u_dut.g_axis[0].u_core.testing_o };
+  assign writes = {\u_dut.g_axis[2].u_core.reg_write_i , \u_dut.g_axis[1].u_core.reg_write_i , \u_dut.g_axis[0].u_core.reg_write_i };
+  assign busies = {\u_dut.g_axis[2].u_core.reg_busy_o , \u_dut.g_axis[1].u_core.reg_busy_o , \u_dut.g_axis[0].u_core.reg_busy_o };
+  assign arms = {\u_dut.g_axis[2].u_core.arm_i , \u_dut.g_axis[1].u_core.arm_i , \u_dut.g_axis[0].u_core.arm_i };
+  assign stops = {\u_dut.g_axis[2].u_core.stop_i , \u_dut.g_axis[1].u_core.stop_i , \u_dut.g_axis[0].u_core.stop_i };
+  assign addresses = {\u_dut.g_axis[2].u_core.reg_addr_i , \u_dut.g_axis[1].u_core.reg_addr_i , \u_dut.g_axis[0].u_core.reg_addr_i };
+  assign data = {\u_dut.g_axis[2].u_core.reg_wdata_i , \u_dut.g_axis[1].u_core.reg_wdata_i , \u_dut.g_axis[0].u_core.reg_wdata_i };
+  assign words = {\u_dut.g_axis[2].u_core.reg_rdata_o , \u_dut.g_axis[1].u_core.reg_rdata_o , \u_dut.g_axis[0].u_core.reg_rdata_o };
+
+  (* anyconst *) logic [1:0] n;
+  always_comb assume (n <= 2'd2);
+  logic addressed;
+  assign addressed = addr_i[15:10] == {4'd0, n};
+
+  // Of the others than n.
+  logic [2:0] own, faults;
+  assign own    = 3'd1 << n;
+  assign faults = {first_fault[2*FirstW+:FirstW] != '0, first_fault[FirstW+:FirstW] != '0, first_fault[0+:FirstW] != '0};
+  logic engine_busy;
+  logic [31:0] engine_word;
+  assign engine_busy = \u_dut.g_engine.u_engine.reg_busy_o ;
+  assign engine_word = \u_dut.g_engine.u_engine.reg_rdata_o ;
+
+  always_comb begin
+    if (past_ok_q) begin
+      any_fault_is_heard: assert (hears_fault[n] == ((faults & ~own) != 3'd0));
+      stop_for_all: assert (stops == {3{stop_i}} && arms == {3{arm_i}});
+      arms_with_all: assert (silent[n] == ((~asks & ~own) != 3'd0 || \u_dut.g_engine.u_engine.unchecked_o ));
+      ready_with_all: assert (blocked[n] == ((~ready & ~own) != 3'd0 || \u_dut.g_engine.u_engine.unfit_o ));
+      tests_in_turn: assert (waits[n] == ((testing & (own - 3'd1)) != 3'd0));
+      nothing_beside_a_test: assert (beside[n] == ((testing & ~own) != 3'd0));
+      its_addresses: assert (addresses[12*n+:12] == {{2{!addressed}}, addr_i[9:0]} && writes[n] == write_i &&
+                             data[32*n+:32] == wdata_i);
+      busy_if_addressed: assert (busy == (engine_busy || (addr_i[15:10] < 6'd3 && busies[addr_i[11:10]])));
+      word_of_all: assert (rdata == (words[31:0] | words[63:32] | words[95:64] | engine_word));
+      engine_hears_all: assert (\u_dut.g_engine.u_engine.asks_i == asks && \u_dut.g_engine.u_engine.reg_addr_i == addr_i);
+      a_test: cover (testing[2] && waits == 3'd0 && beside == 3'd3);
+      a_fault: cover (faults == 3'd4 && hears_fault == 3'd3);
+    end
+  end
+endmodule
+
+`default_nettype wire

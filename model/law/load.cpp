@@ -5,12 +5,14 @@
 #include "law/load.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "feltgate/generated/engine.hpp"
+#include "feltgate/nearest.hpp"
 
 namespace feltgate::law {
 
@@ -126,10 +128,12 @@ double LoadedParameters::value(const std::string& name) const {
 double LoadedParameters::rounded_si(const std::string& name, double value) const {
   const ImageWord* word = find(name);
   if (word == nullptr) {
-    std::string names;
-    for (const auto& [known, unused] : si_) names += (names.empty() ? "" : ", ") + known;
-    throw std::invalid_argument(fmt::format("law {} has no parameter \"{}\"; it has {}",
-                                            image_.name, name, names.empty() ? "none" : names));
+    std::vector<std::string> names;
+    for (const auto& [known, unused] : si_) names.push_back(known);
+    const std::string all = fmt::format("{}", fmt::join(names, ", "));
+    throw std::invalid_argument(fmt::format("law {} has no parameter \"{}\"; {}it has {}",
+                                            image_.name, name, config::did_you_mean(name, names),
+                                            names.empty() ? "none" : all));
   }
   const double raw = value * word->to_si / word->scale;
   if (!(std::nearbyint(raw) >= word->lower && std::nearbyint(raw) <= word->upper)) {

@@ -19,7 +19,10 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <stdexcept>
+#include <string_view>
+#include <vector>
 
 #include "shape/outline.hpp"
 
@@ -41,9 +44,14 @@ struct TooMany {};
 class Collector {
  public:
   std::vector<Outline> outlines;
-  bool open = false;  ///< one of them was not closed
+  std::vector<int> of_element;  ///< the element of each, counted as they were entered
+  int entered = 0;              ///< elements so far
+  int open_in = 0;              ///< the element of the first outline that was not closed, or 0
 
-  void on_enter_element(svgpp::tag::element::any) { matrices_.push_back(matrices_.back()); }
+  void on_enter_element(svgpp::tag::element::any) {
+    ++entered;
+    matrices_.push_back(matrices_.back());
+  }
   /// Only now all of its attributes were told, a transform behind its path too.
   void on_exit_element() {
     const Matrix& m = matrices_.back();
@@ -99,8 +107,10 @@ class Collector {
   void end() {
     if (corners_.size() > 2) {
       const Point gap = corners_.back() - corners_.front();
-      open = open || !(closed_ || std::hypot(gap.x, gap.y) < 1e-9);
+      const bool closed = closed_ || std::hypot(gap.x, gap.y) < 1e-9;
+      if (!closed && open_in == 0) open_in = entered;
       outlines.push_back(corners_);
+      of_element.push_back(entered);
     }
     corners_.clear();
     closed_ = false;
@@ -136,6 +146,18 @@ using Walk = svgpp::document_traversal<
     svgpp::processed_elements<Elements>, svgpp::processed_attributes<Attributes>,
     svgpp::path_policy<svgpp::policy::path::minimal>, svgpp::error_policy<Tolerant>>;
 
+/// The n-th element from 1 that the library enters, n counted down; null where there are fewer.
+const rapidxml_ns::xml_node<>* element(const rapidxml_ns::xml_node<>* first, int* n) {
+  static const std::set<std::string_view> names = {"svg",      "g",    "path",   "polygon",
+                                                   "polyline", "rect", "circle", "ellipse"};
+  for (const auto* node = first; node != nullptr; node = node->next_sibling()) {
+    if (names.count({node->local_name(), node->local_name_size()}) == 0) continue;
+    if (--*n == 0) return node;
+    if (const auto* inside = element(node->first_node(), n)) return inside;
+  }
+  return nullptr;
+}
+
 std::string read(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -156,29 +178,40 @@ Outline read_svg(const std::string& path) {
   buffer.push_back('\0');
   rapidxml_ns::xml_document<> document;
   Collector found;
+  const auto line_at = [&](const char* place) {
+    const auto before =
+        std::min<std::ptrdiff_t>(place - buffer.data(), static_cast<std::ptrdiff_t>(text.size()));
+    return 1 + std::count(text.begin(), text.begin() + before, '\n');
+  };
+  const auto line_of = [&](int entered) {
+    const rapidxml_ns::xml_node<>* node = element(document.first_node(), &entered);
+    return node == nullptr ? 1 : line_at(node->name());
+  };
   try {
     document.parse<rapidxml_ns::parse_no_string_terminators>(buffer.data());
     const rapidxml_ns::xml_node<>* svg = document.first_node();
     if (svg == nullptr) refuse(1, "no element; write an SVG file with one closed path");
     Walk::load_document(svg, found);
   } catch (const rapidxml_ns::parse_error& e) {
-    const auto place = std::min<std::ptrdiff_t>(e.where<char>() - buffer.data(),
-                                                static_cast<std::ptrdiff_t>(text.size()));
-    refuse(1 + std::count(text.begin(), text.begin() + place, '\n'),
+    refuse(line_at(e.where<char>()),
            fmt::format("no whole XML: {}; save the drawing again", e.what()));
   } catch (const TooMany&) {
-    refuse(1, fmt::format("a path of more than {} corners and curves; simplify it in a drawing "
-                          "program",
-                          most_commands));
+    refuse(line_of(found.entered),
+           fmt::format("a path of more than {} corners and curves; simplify it in a drawing "
+                       "program",
+                       most_commands));
   } catch (const svgpp::exception_base& e) {
-    refuse(1, fmt::format("{}; save the drawing as plain SVG", e.what()));
+    refuse(line_of(found.entered), fmt::format("{}; save the drawing as plain SVG", e.what()));
   }
   if (found.outlines.empty()) refuse(1, "no path; draw one closed outline");
   if (found.outlines.size() > 1) {
-    refuse(1, fmt::format("{} outlines; unite them to one, a hidden shape has no holes",
-                          found.outlines.size()));
+    refuse(line_of(found.of_element[1]),
+           fmt::format("{} outlines; unite them to one, a hidden shape has no holes",
+                       found.outlines.size()));
   }
-  if (found.open) refuse(1, "the path is open; close it (z at its end)");
+  if (found.open_in != 0) {
+    refuse(line_of(found.open_in), "the path is open; close it (z at its end)");
+  }
   return found.outlines.front();
 }
 

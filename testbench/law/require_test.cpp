@@ -92,6 +92,9 @@ TEST_CASE("require: a material whose dynamic friction is above its static one") 
         "law material requires dynamic <= static, which are 0.5 and 0.4; set both to values that "
         "fit");
   CHECK(told([&] { p.set({{"dynamic", 0.5}, {"static", 0.5}}); }) == "done");
+  CHECK(told([&] { p.set("dampnig", 0); })
+            .find("no parameter \"dampnig\"; did you mean "
+                  "\"damping\"? it has ") != std::string::npos);
   CHECK(told([&] { p.set("damping", -1); }).find("damping = -1") == 0);
   CHECK(told([&] { p.set("damping", -1); }).find("is out of its range; law material takes 0 to ") !=
         std::string::npos);

@@ -134,6 +134,18 @@ TEST_CASE("what is refused, with the mend") {
   std::string many = "<path d='M0 0";
   for (int i = 1; i < 10000; ++i) many += " L" + std::to_string(i) + " " + std::to_string(i % 7);
   CHECK_THAT(message(drawing(many + " Z'/>")), Contains("more than 2000 corners"));
+
+  // The line is that of the element that is to blame.
+  const std::string head = "<svg xmlns=\"http://www.w3.org/2000/svg\">\n<g><text>x</text>\n";
+  const std::string whole = "<path d='M0 0 L60 0 L60 60 Z'/>\n";
+  CHECK_THAT(message(head + "<path d='M0 0 L60 0 L60 60'/>\n</g></svg>"),
+             Contains("outline_test.svg:3: the path is open"));
+  CHECK_THAT(message(head + whole + "<rect width='3' height='3'/>\n</g>\n" + whole + "</svg>"),
+             Contains("outline_test.svg:4: 3 outlines"));
+  CHECK_THAT(message(head + whole + "</g>\n<path d='M0 0 L60 nothing Z'/></svg>"),
+             Contains("outline_test.svg:5: "));
+  CHECK_THAT(message(head + "</g>\n" + many + " Z'/></svg>"),
+             Contains("outline_test.svg:4: a path of more than 2000 corners"));
   Placing far;
   far.centre_m = {0.0, 0.18};
   CHECK_THROWS_WITH(curve_of("square", 5e-3, far), Contains("out of the pen's reach"));

@@ -146,7 +146,8 @@ using Walk = svgpp::document_traversal<
     svgpp::processed_elements<Elements>, svgpp::processed_attributes<Attributes>,
     svgpp::path_policy<svgpp::policy::path::minimal>, svgpp::error_policy<Tolerant>>;
 
-/// The n-th element from 1 that the library enters, n counted down; null where there are fewer.
+/// The n-th element from 1 that the library enters, below the root; n counts down, null where there
+/// are fewer.
 const rapidxml_ns::xml_node<>* element(const rapidxml_ns::xml_node<>* first, int* n) {
   static const std::set<std::string_view> names = {"svg",      "g",    "path",   "polygon",
                                                    "polyline", "rect", "circle", "ellipse"};
@@ -184,7 +185,8 @@ Outline read_svg(const std::string& path) {
     return 1 + std::count(text.begin(), text.begin() + before, '\n');
   };
   const auto line_of = [&](int entered) {
-    const rapidxml_ns::xml_node<>* node = element(document.first_node(), &entered);
+    const rapidxml_ns::xml_node<>* root = document.first_node();
+    const auto* node = root == nullptr ? nullptr : element(root->first_node(), &entered);
     return node == nullptr ? 1 : line_at(node->name());
   };
   try {

@@ -6,6 +6,7 @@
 #include <Vcore_open.h>
 #include <Vcore_open___024root.h>
 
+#include <cstdlib>
 #include <memory>
 
 #include "catch.hpp"
@@ -146,6 +147,31 @@ TEST_CASE("core: each bit of each word that a scene uses opens the gates within 
   }
   CHECK(flips > 1400);
   CHECK(pair.mismatches() == 0);
+}
+
+TEST_CASE("core: a bit of the voltage gain of high torque opens the gates where that is used") {
+  constexpr std::int32_t border = 1 << 13;  // far below the limit
+  for (const int bit : {0, 17, 31, 35}) {
+    for (const int address : {D::A::voltage_gain, D::A::voltage_gain_high}) {
+      for (const std::int32_t torque : {border / 2, 2 * border, -2 * border}) {
+        Pair pair;
+        pair.write(D::A::setpoint_torque, static_cast<std::uint32_t>(torque));
+        pair.write(D::A::region_torque, border);
+        pair.write(D::A::ramp_step,
+                   1u << D::P::ramp_step.fraction);  // 1 Nm a tick: it is over soon
+        pair.arm(D::S::setpoint);
+        pair.clocks(8 * kTick);
+        REQUIRE(pair.out().gates_enable);
+        REQUIRE(std::abs(pair.out().tau_ref) == std::abs(torque));
+        const bool used = (address == D::A::voltage_gain_high) == (std::abs(torque) > border);
+        pair.flip(address, bit);
+        pair.clocks(3 * kTick);
+        INFO("address " << address << " bit " << bit << " torque " << torque);
+        CHECK(pair.out().gates_enable != used);
+        CHECK(pair.mismatches() == 0);
+      }
+    }
+  }
 }
 
 TEST_CASE("core: flips of several bits, found or not as the four parities say") {

@@ -144,3 +144,32 @@ TEST_CASE("core: factors that are powers of two, whose products end in ties") {
   }
   CHECK(pushed > 5);
 }
+
+TEST_CASE("core: a bit beyond the format of a factor without sign counts for nothing") {
+  constexpr std::uint32_t beyond = 1u << D::coefficient_bits;
+  for (const int address : {A::velocity_a1, A::observer_a1, A::voltage_gain, A::torque_gain}) {
+    Life s;
+    s.write(address, word_of_design(address) | beyond);
+    s.write(A::setpoint_torque, 3000);
+    s.arm(D::S::setpoint);
+    s.move(40, kTick);
+    s.ticks(30);
+    CHECK(s.out().armed);
+    s.play();
+  }
+}
+
+TEST_CASE("core: the motor is too hot in the tick in which the sum of squares says so") {
+  std::int64_t longest = 0;
+  for (int bit = 6; bit < 26; ++bit) {
+    Life s;
+    s.write(A::i2t_budget, static_cast<std::uint32_t>(D::i2t_start) + (1u << bit));
+    s.write(A::setpoint_torque, 0x5d3);
+    s.arm(D::S::setpoint);
+    std::int64_t ticks = 0;
+    while (s.out().armed && ticks < 600) s.ticks(1), ++ticks;
+    if (!s.out().armed) longest = std::max(longest, ticks);
+    s.play();
+  }
+  CHECK(longest > 100);
+}

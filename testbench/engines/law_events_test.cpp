@@ -45,7 +45,7 @@ class Liar : public Vcore_lever_law {
   bool last_told_ = false;
 };
 
-std::unique_ptr<SceneLaw> law() {
+std::unique_ptr<SceneLaw> telling_law() {
   const auto path = std::filesystem::temp_directory_path() / "feltgate_law_events.law";
   std::ofstream(path) << "event passed(position) when position > 0.01 rad\n"
                          "event back(position) when position < 0.005 rad\nout torque = 0 Nm\n";
@@ -70,7 +70,7 @@ TEST_CASE("the lock-step compares what a law tells, in its clock") {
   constexpr Clock clocks = 300'000;
   const auto engine = std::make_unique<LockStepEngine<Liar, LeverLaw>>();
   engine->reset(3, {});
-  for (const auto& [address, word] : law()->load()) engine->write(address, word);
+  for (const auto& [address, word] : telling_law()->load()) engine->write(address, word);
   const auto events = motion(clocks);
   engine->advance(clocks, events.data(), events.data() + events.size());
   INFO("lie " << static_cast<int>(lie) << "; " << engine->first_mismatch());

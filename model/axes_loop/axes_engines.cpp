@@ -4,6 +4,8 @@
 // Engines of several axes. Documentation: docs/devices.md
 #include "axes_loop/axes_engines.hpp"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 
 #include "loop/engine_choice.hpp"
@@ -28,6 +30,24 @@ AxesEngines choose_axes_engines(const std::string& engines) {
     if (c.reference != "quad") c.reference = rider;
   }
   return c;
+}
+
+std::unique_ptr<AxesCores> make_axes_cores(const std::string& design, const std::string& lead,
+                                           const std::string& device, std::size_t axes) {
+  const AxesDesignMakers* d = find_axes_design(design);
+  if (d == nullptr) {
+    throw std::invalid_argument(fmt::format(
+        "design {} is not one of {} axes that this program has; ./feltgate builds it with "
+        "--design {}_law",
+        design, axes, device));
+  }
+  auto made = d->cores(lead);
+  if (made->axes() != static_cast<int>(axes)) {
+    throw std::invalid_argument(
+        fmt::format("design {} has {} axes and the device {}; take one with as many", design,
+                    made->axes(), axes));
+  }
+  return made;
 }
 
 }  // namespace feltgate

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -16,6 +17,7 @@
 
 #include "axes_loop/axes_columns.hpp"
 #include "axes_loop/axes_engines.hpp"
+#include "axes_loop/hand_work.hpp"
 #include "axes_loop/homing.hpp"
 #include "axes_loop/plane_host.hpp"
 #include "axes_loop/signal_record.hpp"
@@ -33,6 +35,17 @@ namespace {
 /// Which of the limits stand between a law's torque and the commanded one.
 constexpr unsigned limits_of_torque = limit::torque | limit::ramp | limit::hold | limit::chatter;
 
+void tell_beyond_bounds(AxesResult* r) {
+  for (std::size_t n = 0; n < r->axes.size(); ++n) {
+    const double off_nm = r->axes[n].law_error_nm.max(), bound_nm = r->axes[n].bound_nm;
+    if (off_nm <= bound_nm) continue;
+    r->broken.push_back(fmt::format(
+        "axis {}: the torque is off from the law in {} by {:.4g} Nm, above its proven bound {:.4g} "
+        "Nm",
+        n, r->reference, off_nm, bound_nm));
+  }
+}
+
 template <class Plant>
 class AxesRun : plant::AxesDevice<Plant> {
  public:
@@ -43,7 +56,7 @@ class AxesRun : plant::AxesDevice<Plant> {
         options_(options),
         choice_(choose_axes_engines(options.engine)),
         plant_(plant),
-        cores_(make_cores()),
+        cores_(make_axes_cores(options.design, choice_.lead, plant.parameters().name, axes)),
         design_(cores_->design()),
         columns_(columns_of<Plant>(scene)),
         scene_(scene_number(design_, s_.scene)),
@@ -57,6 +70,7 @@ class AxesRun : plant::AxesDevice<Plant> {
     for (std::size_t n = 0; n < axes; ++n) {
       meters_.emplace_back(1.0 / static_cast<double>(design_.tick_hz));
     }
+    if (s_.feed_hz > 0) next_feed_ = 0;
   }
 
   AxesResult run() {
@@ -82,7 +96,8 @@ class AxesRun : plant::AxesDevice<Plant> {
       while (next < s_.events.size() && now >= clock_of(s_.events[next].at_s)) {
         apply(s_.events[next++]);
       }
-      Clock until = end;
+      if (now >= next_feed_) feed();
+      Clock until = std::min(end, next_feed_);
       if constexpr (DeviceSignals<Plant>::has_pen) {
         if (plane_) {
           auto words = plane_->act(now, DeviceSignals<Plant>::counted(plant_, position_rad_));
@@ -115,24 +130,6 @@ class AxesRun : plant::AxesDevice<Plant> {
     const AxesLawRider::Torques* now_nm;
   };
 
-  std::unique_ptr<AxesCores> make_cores() const {
-    const AxesDesignMakers* d = find_axes_design(options_.design);
-    if (d == nullptr) {
-      throw std::invalid_argument(fmt::format(
-          "design {} is not one of {} axes that this program has; ./feltgate builds it with "
-          "--design {}_law",
-          options_.design, axes, plant_.parameters().name));
-    }
-    auto made = d->cores(choice_.lead);
-    if (made->axes() != static_cast<int>(axes)) {
-      throw std::invalid_argument(
-          fmt::format("design {} has {} axes and the device {}; take one "
-                      "with as many",
-                      options_.design, made->axes(), axes));
-    }
-    return made;
-  }
-
   Clock clock_of(double seconds) const {
     return std::llround(std::min(seconds * static_cast<double>(design_.clock_hz), 0x1p62));
   }
@@ -155,6 +152,11 @@ class AxesRun : plant::AxesDevice<Plant> {
     }
     if (of_law.empty()) return;
     for (const auto& [address, data] : options_.law->set(of_law)) cores_->write(address, data);
+  }
+  /// The host commits the law's words anew, as they stand.
+  void feed() {
+    for (const auto& [address, data] : options_.law->set({})) cores_->write(address, data);
+    next_feed_ = clock_of(static_cast<double>(++fed_) / s_.feed_hz);
   }
   void control(bool arm) {
     armed_ = arm;
@@ -199,11 +201,7 @@ class AxesRun : plant::AxesDevice<Plant> {
   }
 
   void stepped(const Plant& p) {
-    const double work_j = p.seen().hand_work_j - work_j_;
-    work_j_ += work_j;
-    (work_j > 0 ? energy_.taken_from_hand_j : given_j_) += work_j;
-    energy_.peak_from_hand_j = std::max(energy_.peak_from_hand_j, work_j_);
-    energy_.peak_to_hand_j = std::max(energy_.peak_to_hand_j, -work_j_);
+    work_.follow(p.seen().hand_work_j);
     if (options_.progress && p.now() >= next_report_) {
       options_.progress(p.seconds() / s_.duration_s);
       next_report_ = p.now() + design_.clock_hz / 100;
@@ -304,8 +302,7 @@ class AxesRun : plant::AxesDevice<Plant> {
     out.reference = choice_.reference;
     out.simulated_s = static_cast<double>(end) / static_cast<double>(design_.clock_hz);
     out.busy_s = busy_s_;
-    energy_.given_to_hand_j = 0.0 - given_j_;
-    out.energy = energy_;
+    out.energy = work_.energy();
     for (std::size_t n = 0; n < axes; ++n) {
       const Felt felt = meters_[n].felt();
       out.axes.push_back(
@@ -315,14 +312,7 @@ class AxesRun : plant::AxesDevice<Plant> {
     ExpectationsHeld held = hold_expectations(s_, out.design, out.figures);
     out.expectations = std::move(held.all);
     out.broken = std::move(held.broken);
-    for (std::size_t n = 0; n < axes; ++n) {
-      const AxisFigures& a = out.axes[n];
-      if (a.law_error_nm.max() <= a.bound_nm) continue;
-      out.broken.push_back(fmt::format(
-          "axis {}: the torque is off from the law in {} by {:.4g} Nm, above its proven "
-          "bound {:.4g} Nm",
-          n, out.reference, a.law_error_nm.max(), a.bound_nm));
-    }
+    tell_beyond_bounds(&out);
     return out;
   }
 
@@ -331,8 +321,8 @@ class AxesRun : plant::AxesDevice<Plant> {
     if (plane_) plane_->add_figures(f);
     f["mismatches"] = static_cast<double>(out.mismatches);
     f["faults"] = faults_;
-    f["hand_energy_j"] = work_j_;
-    f["hand_energy_least_j"] = 0.0 - energy_.peak_to_hand_j;
+    f["hand_energy_j"] = work_.net_j();
+    f["hand_energy_least_j"] = 0.0 - out.energy.peak_to_hand_j;
     for (std::size_t n = 0; n < axes; ++n) f[of_axis("law_error_nm", n)] = errors_[n].max();
     for (std::size_t k = 1; k < columns_.size(); ++k) {
       const SignalRecord& r = records_[k - 1];
@@ -355,6 +345,8 @@ class AxesRun : plant::AxesDevice<Plant> {
   int scene_, mode_;
   bool armed_ = false, arm_done_ = false;
   Clock homed_ = 0, next_report_ = 0;
+  Clock next_feed_ = std::numeric_limits<Clock>::max();
+  std::int64_t fed_ = 0;
   std::vector<Rider> riders_;
   bool law_entered_ = false;
   std::int64_t law_changes_ = 1;  ///< sets of parameters that the riders know; the first loads
@@ -366,8 +358,8 @@ class AxesRun : plant::AxesDevice<Plant> {
   std::vector<SignalRecord> records_;
   std::vector<FeltMeter> meters_;
   int faults_ = 0;
-  FeltEnergy energy_;
-  double work_j_ = 0, given_j_ = 0, busy_s_ = 0;
+  HandWork work_;
+  double busy_s_ = 0;
 };
 
 template <class Setup>

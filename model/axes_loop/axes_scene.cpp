@@ -10,6 +10,8 @@
 #include <type_traits>
 
 #include "config/toml_reader.hpp"
+#include "plant/gimbal/gimbal_file.hpp"
+#include "plant/gimbal/turning_hand_file.hpp"
 #include "plant/pantograph/pantograph_file.hpp"
 #include "plant/plant_file.hpp"
 #include "plant/plant_table.hpp"
@@ -61,9 +63,15 @@ DeviceSetup setup_of(const std::string& path, config::TomlReader& top) {
     }
     return s;
   }
+  if (file.contains("bodies")) {
+    GimbalSetup s{plant::read_gimbal_file(path), {}};
+    if (top.has("hand")) s.hand = plant::read_turning_hand(top.section("hand"));
+    return s;
+  }
   throw config::ConfigError(path +
-                            ":1: no device that `feltgate run` knows; it takes one with the "
-                            "table [linkage], a pantograph, [levers], or [slides], a stylus");
+                            ":1: no device that `feltgate run` knows; it takes one with the table "
+                            "[linkage], a pantograph, [levers], [slides], a stylus, or [bodies], a "
+                            "gimbal");
 }
 
 }  // namespace
@@ -75,7 +83,8 @@ AxesScene read_axes_scene(const std::string& path,
     scene.device_path = find(top.text("device"));
     scene.device = setup_of(scene.device_path, top);
     if (!top.has("plane")) return;
-    if (std::holds_alternative<TwoLeversSetup>(scene.device)) {
+    if (std::holds_alternative<TwoLeversSetup>(scene.device) ||
+        std::holds_alternative<GimbalSetup>(scene.device)) {
       top.fail("plane", "a plane without a pen",
                "take device = \"pantograph\" or \"stylus\", or leave it out");
     }
@@ -87,14 +96,11 @@ AxesScene read_axes_scene(const std::string& path,
         fmt::format("{}:{}: step_nm is for scenes of one lever; leave it out", path, e.line));
   }
   const Scenario& s = scene.scenario;
-  const int line = s.tracker         ? s.tracker->line
-                   : s.feed_hz > 0   ? s.feed_line
-                   : s.rest_line > 0 ? s.rest_line
-                                     : s.drag_line;
+  const int line = s.tracker ? s.tracker->line : s.rest_line > 0 ? s.rest_line : s.drag_line;
   if (line > 0) {
     throw config::ConfigError(fmt::format(
-        "{}:{}: [tracker], [feed], [rest] and [drag] are for scenes of one lever; leave them out",
-        path, line));
+        "{}:{}: [tracker], [rest] and [drag] are for scenes of one lever; leave them out", path,
+        line));
   }
   std::visit([&](const auto& setup) { resolve_effects(scene.scenario, setup.parameters.effects); },
              scene.device);

@@ -13,6 +13,7 @@
 
 #include "axes_loop/plane_host.hpp"
 #include "loop/scenario.hpp"
+#include "plant/gimbal/gimbal.hpp"
 #include "plant/lever_set.hpp"
 #include "plant/pantograph/pantograph.hpp"
 
@@ -36,7 +37,13 @@ struct StylusSetup {
   std::array<plant::Hand, 3> hand;  ///< along x, y and z
 };
 
-using DeviceSetup = std::variant<PantographSetup, TwoLeversSetup, StylusSetup>;
+struct GimbalSetup {
+  using Plant = plant::Gimbal;
+  plant::GimbalParameters parameters;
+  plant::TurningHand hand;
+};
+
+using DeviceSetup = std::variant<PantographSetup, TwoLeversSetup, StylusSetup, GimbalSetup>;
 
 struct AxesScene {
   Scenario scenario;  ///< its hand is empty

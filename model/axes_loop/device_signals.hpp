@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "plant/gimbal/gimbal.hpp"
 #include "plant/lever_set.hpp"
 #include "plant/pantograph/pantograph.hpp"
 
@@ -58,6 +59,19 @@ struct DeviceSignals<plant::Stylus> {
   static plant::Vec3 pen(const plant::Stylus& p) { return p.pen_m(); }
   static plant::Vec3 counted(const plant::Stylus& p, const std::array<double, 3>& theta_rad) {
     return p.place_m(theta_rad);
+  }
+};
+
+template <>
+struct DeviceSignals<plant::Gimbal> {
+  static constexpr bool has_pen = false;
+  static std::vector<std::string> names() {
+    return {"handle_w", "handle_x", "handle_y", "handle_z", "hand_x_nm", "hand_y_nm", "hand_z_nm"};
+  }
+  static void add(const plant::Gimbal& p, std::vector<double>& to) {
+    const plant::Quaternion& o = p.seen().handle;
+    const plant::Vec3& hand = p.seen().hand_nm;
+    to.insert(to.end(), {o.w, o.x, o.y, o.z, hand.x, hand.y, hand.z});
   }
 };
 

@@ -17,6 +17,7 @@ NAMES = {
     "pantograph": ("left crank", "right crank"),
     "two_levers": ("lever", "the other lever"),
     "stylus": ("x", "y", "z"),
+    "gimbal": ("outer joint", "middle joint", "inner joint"),
 }
 
 

@@ -57,6 +57,7 @@ TITLES = {
     "stylus_cube": "Over the edge of a cube",
     "stylus_floor": "3.3 N on a floor of 206 N/m",
     "stylus_sphere": "A sphere by its tangent planes",
+    "gimbal": "A handle that a spring turns back by the shorter way",
     "bowed_string": "Bow on a string",
 }
 
@@ -128,6 +129,8 @@ OF_AXES = {
     "something, both motors together push back with up to {force}.",
     "stylus": "A hand leads a stylus over {way_mm} mm through space; where it meets something, "
     "three motors together push back with up to {force}.",
+    "gimbal": "A hand turns a handle in two rings by {first}; three motors together turn it back by the "
+    "shorter way, with up to {most}.",
     "two_levers": "The hand turns a lever by {first}, another one follows by {second}, and what that "
     "one meets is felt: up to {most}.",
 }
@@ -148,6 +151,9 @@ def of_axes(summary, csv):
     words = {"first": turned(0), "second": turned(1)}
     if "hand_nm" in csv:
         words["most"] = f"{np.abs(csv['hand_nm']).max():.2f} Nm"
+    if "handle_w" in csv:
+        torques = [csv[f"motor_torque_nm.{n}"] for n in range(3)]
+        words["most"] = f"{np.linalg.norm(torques, axis=0).max():.2f} Nm"
     if "pen_x_m" in csv:
         axes = [a for a in "xyz" if f"pen_{a}_m" in csv]
         way = np.linalg.norm([np.ptp(csv[f"pen_{a}_m"]) for a in axes])

@@ -37,6 +37,7 @@ RULES = (
     Rule(r"feltgate texture .*--table", "BY", "texture.command"),
     Rule(r"feltgate run plane_floor.*", "BY", "scene.plane_floor.pantograph_law"),
     Rule(r"feltgate run stylus_(?:floor|sphere|cube)", "BY", "stylus_test"),
+    Rule(r"feltgate run gimbal", "BY", "gimbal_run_test"),
     Rule(r"feltgate run plane_circle.*", "BY", "local_plane_test"),
     Rule(r"feltgate run (?:pantograph_floor|hidden_shapes).*", "BY", "axes_run_test"),
     Rule(r"feltgate run pantograph_wall.*", "BY", "pantograph_wall_test"),

@@ -145,7 +145,7 @@ class Presets(Machine):
 
     def test_the_demo_has_scenes_with_laws(self):
         self.installed(*BUILD_PACKAGES)
-        devices = ("lever", "pantograph", "two_levers", "stylus")
+        devices = ("lever", "pantograph", "two_levers", "stylus", "gimbal")
         engines = [f"feltgate_{name}_law" for name in devices]
         self.assertEqual(self.built("demo"), [["feltgate", *engines]])
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Reads vectors/gimbals/NAME.toml. Documentation: docs/gimbal.md
+// Reads vectors/devices/gimbal.toml and the like. Documentation: docs/gimbal.md
 #include "plant/gimbal/gimbal_file.hpp"
 
 #include "plant/plant_table.hpp"

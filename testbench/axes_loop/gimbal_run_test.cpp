@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A handle turned once around against a spring between orientations: RTL and twin of three axes and
+// their engine, the torques against the plant's own arithmetic. Documentation: docs/gimbal.md
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "axes_fixture.hpp"
+#include "catch.hpp"
+#include "config/toml_reader.hpp"
+#include "plant/gimbal/gimbal_mechanics.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// The scene with this in place of its [hand]; what it is refused with, or nothing.
+std::string refused(const std::string& hand, const std::string& more = "") {
+  const auto path = std::filesystem::temp_directory_path() / "feltgate_gimbal_run_test.toml";
+  std::ofstream(path) << "title = \"t\"\nabout = \"a\"\nduration_s = 0.1\ndevice = \"gimbal\"\n"
+                         "[core]\nscene = \"law\"\nlaw = \"gimbal\"\n[hand]\n"
+                      << hand << more;
+  try {
+    (void)read_axes_scene(path.string(), device_file);
+  } catch (const config::ConfigError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("gimbal: RTL and twin of three axes around the plant, the same outputs in every clock") {
+  AxesScene scene = scene_named("gimbal");
+  scene.scenario.duration_s = 0.06;
+  scene.scenario.expectations.clear();
+  const AxesResult r = run_scene(scene, "rtl,twin,double");
+  INFO(r.first_mismatch);
+  CHECK(r.lock_step);
+  CHECK(r.mismatches == 0);
+  CHECK(r.broken.empty());
+  CHECK(r.figures.at("tau_ref_nm.0.min") < -0.01);
+  CHECK(r.figures.at("faults") == 0);
+}
+
+TEST_CASE("gimbal: a turn of 359 degrees is felt as the shorter way, by all three motors") {
+  const AxesScene scene = scene_named("gimbal");
+  const auto& set = scene.scenario.parameters;
+  const plant::Quaternion to{set.at("dw"), 0.0, set.at("dy"), 0.0};
+  const Rows rows(scene, 25);
+  CHECK(rows.result().broken.empty());
+  double worst_nm = 0.0, largest_rad = 0.0;
+  int compared = 0;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const double time_s = 25e-6 * static_cast<double>(k);
+    if (time_s < 0.02) continue;  // armed, and the ramp is over
+    plant::GimbalJoints at{};
+    for (std::size_t n = 0; n < 3; ++n) {
+      at[n] = rows.of(k, "position_rad." + std::to_string(n));
+    }
+    const plant::GimbalPose pose = plant::gimbal_pose(at);
+    largest_rad = std::max(largest_rad, at[0]);
+    // Where both ways are as short, a count decides.
+    if (std::abs((to * pose.handle.inverse()).w) < 0.01) continue;
+    const plant::GimbalJoints asked =
+        pose.torque(plant::coupling_nm(set.at("stiffness"), to, pose.handle));
+    for (std::size_t n = 0; n < 3; ++n) {
+      const double nm = rows.of(k, "tau_ref_nm." + std::to_string(n));
+      worst_nm = std::max(worst_nm, std::abs(nm - asked[n]));
+    }
+    ++compared;
+  }
+  INFO("torque within " << 1e3 * worst_nm << " mNm of 0.4 Nm");
+  CHECK(compared > 10000);
+  CHECK(largest_rad > 359.0 * kPi / 180.0);
+  // 49 rad/s for the 30 us from sample to torque, 0.2 Nm/rad, and what the bits cost.
+  CHECK(worst_nm < 0.5e-3);
+}
+
+TEST_CASE("gimbal: hands that cannot be used are refused with their line") {
+  const std::string phase = "[[hand.phase]]\nkind = \"torque\"\n";
+  const std::string torque = "torque = [{ kind = \"hold\", duration_s = 1 }]\n";
+  CHECK(refused("").empty());
+  CHECK(refused(phase + "axis = [0, 3, 0]\n" + torque).empty());
+  CHECK(refused("start_deg = [0, 0]\n").find(":9: \"start_deg\" is not three numbers") !=
+        std::string::npos);
+  CHECK(refused(phase + "axis = [0, 0, 0]\n" + torque).find(":11: \"axis\" has no direction") !=
+        std::string::npos);
+  CHECK(refused(phase).find("\"torque\"") != std::string::npos);
+  CHECK(refused("[[hand.phase]]\nkind = \"prescribed\"\n").find(":10: ") != std::string::npos);
+  CHECK(refused("", "[plane]\nsphere_m = [0, 0, 0, 0.1]\n").find("a plane without a pen") !=
+        std::string::npos);
+}

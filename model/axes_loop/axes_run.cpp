@@ -214,11 +214,13 @@ class AxesRun : plant::AxesDevice<Plant> {
 
   void ride(const AxesSnapshot& s) {
     const bool in_law = s[0].armed && design_.scene_number("law") == s[0].scene;
+    if (in_law && s[0].law_stale && stale_ticks_++ == 0) stale_from_ = ticks_;
+    kept_nm_ = {};
     for (Rider& r : riders_) {
       if (in_law && !law_entered_) r.law->enter();
       r.now_nm = r.law->torques_nm(s);
       if (in_law && r.now_nm != nullptr && r.kind == choice_.reference) compare(s, *r.now_nm);
-      if (r.now_nm != nullptr) kept_nm_ = *r.now_nm;
+      if (r.now_nm != nullptr && r.kind == choice_.reference) kept_nm_ = *r.now_nm;
       for (std::int64_t n = law_changes_; n < s[0].law_changes; ++n) r.law->change();
       r.law->follow(s);
     }
@@ -303,6 +305,9 @@ class AxesRun : plant::AxesDevice<Plant> {
     out.simulated_s = static_cast<double>(end) / static_cast<double>(design_.clock_hz);
     out.busy_s = busy_s_;
     out.energy = work_.energy();
+    const double tick_s = 1.0 / static_cast<double>(design_.tick_hz);
+    out.law_stale = {static_cast<double>(stale_ticks_) * tick_s,
+                     static_cast<double>(stale_from_) * tick_s};
     for (std::size_t n = 0; n < axes; ++n) {
       const Felt felt = meters_[n].felt();
       out.axes.push_back(
@@ -321,6 +326,7 @@ class AxesRun : plant::AxesDevice<Plant> {
     if (plane_) plane_->add_figures(f);
     f["mismatches"] = static_cast<double>(out.mismatches);
     f["faults"] = faults_;
+    f["law_stale_s"] = out.law_stale.seconds;
     f["hand_energy_j"] = work_.net_j();
     f["hand_energy_least_j"] = 0.0 - out.energy.peak_to_hand_j;
     for (std::size_t n = 0; n < axes; ++n) f[of_axis("law_error_nm", n)] = errors_[n].max();
@@ -352,7 +358,7 @@ class AxesRun : plant::AxesDevice<Plant> {
   std::int64_t law_changes_ = 1;  ///< sets of parameters that the riders know; the first loads
   AxesLawRider::Torques kept_nm_{};
   std::array<ErrorFigure, axes> errors_;
-  std::int64_t ticks_ = 0, ticks_to_come_ = 0;
+  std::int64_t ticks_ = 0, ticks_to_come_ = 0, stale_ticks_ = 0, stale_from_ = 0;
   std::vector<double> row_;
   std::vector<Row> axes_rows_ = std::vector<Row>(axes);
   std::vector<SignalRecord> records_;

@@ -40,6 +40,7 @@ struct AxesResult {
   double simulated_s = 0, busy_s = 0;
   std::vector<AxisFigures> axes;
   FeltEnergy energy;
+  Acted law_stale;  ///< time in the law with a mailbox that was too old
   std::map<std::string, double> figures;
   std::vector<Expected> expectations;
   std::vector<std::string> broken;  ///< expectations and bounds that do not hold, one line each

@@ -65,7 +65,7 @@ DeviceSetup setup_of(const std::string& path, config::TomlReader& top) {
   }
   if (file.contains("bodies")) {
     GimbalSetup s{plant::read_gimbal_file(path), {}};
-    if (top.has("hand")) s.hand = plant::read_turning_hand(top.section("hand"));
+    if (top.has("hand")) s.hand = plant::read_turning_hand(top.section("hand"), s.parameters.stops);
     return s;
   }
   throw config::ConfigError(path +

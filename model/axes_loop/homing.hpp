@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 #include <vector>
@@ -18,6 +19,9 @@ namespace feltgate {
 
 /// Of a count on the way from 0 to where the device stands: slower than any overspeed.
 constexpr Clock homing_clocks_per_count = 400;
+/// And then it stands so long: ten time constants of a velocity estimate of 500 rad/s, after which
+/// the core no longer takes it for moving.
+constexpr double homing_rest_s = 0.02;
 
 template <class Plant, std::size_t... I>
 std::array<plant::Encoder, Plant::axes> zeroed(const Plant& device,
@@ -27,7 +31,8 @@ std::array<plant::Encoder, Plant::axes> zeroed(const Plant& device,
 }
 
 /// Resets the cores. They count from where their joints are zeroed: motors off, each joint goes
-/// from its angle 0 to where the device stands. Returns the clocks that it took, whole periods.
+/// from its angle 0 to where the device stands, and rests. Returns the clocks that it took, whole
+/// periods.
 template <class Plant>
 Clock home(AxesCores& cores, const Plant& device, std::uint64_t seed, Clock period_clocks) {
   constexpr std::size_t axes = Plant::axes;
@@ -40,13 +45,15 @@ Clock home(AxesCores& cores, const Plant& device, std::uint64_t seed, Clock peri
   }
   cores.reset(seed, pins);
   if (most == 0) return 0;
-  Clock clocks = most * homing_clocks_per_count;
+  const Clock moving = most * homing_clocks_per_count;
+  Clock clocks =
+      moving + std::llround(homing_rest_s * static_cast<double>(cores.design().clock_hz));
   clocks += period_clocks - clocks % period_clocks;
   for (std::size_t n = 0; n < axes; ++n) {
     std::vector<EncoderEvent> edges;
     const double to_rad =
         (static_cast<double>(device.encoder(n).count()) + 0.5) * device.encoder(n).count_rad();
-    encoders[n].advance(to_rad, 0, clocks - 1, edges);
+    encoders[n].advance(to_rad, 0, moving - 1, edges);
     for (const EncoderEvent& e : edges) cores.edge(n, e);
   }
   cores.advance(clocks);

@@ -60,6 +60,10 @@ class CompiledSceneLaw : public SceneLaw {
     return std::any_of(all.begin(), all.end(),
                        [&](const law::Parameter& p) { return p.mailbox && p.name == parameter; });
   }
+  bool has_mailbox() const override {
+    const auto& all = law_.law.parameters;
+    return std::any_of(all.begin(), all.end(), [](const law::Parameter& p) { return p.mailbox; });
+  }
   double within(const std::string& parameter, double value) const override {
     return parameters_.within(parameter, value);
   }

@@ -108,7 +108,7 @@ void check_mailbox(const Scenario& s, const SceneLaw* law) {
   const auto refuse = [&](int line, const std::string& what) {
     throw config::ConfigError(fmt::format("{}:{}: {}", s.path, line, what));
   };
-  if (s.feed_hz > 0 && law == nullptr) {
+  if (s.feed_hz > 0 && (law == nullptr || !law->has_mailbox())) {
     refuse(s.feed_line,
            "[feed] needs a law with a mailbox; name one under [core], or leave it out");
   }

@@ -94,6 +94,7 @@ class SceneLaw {
   virtual Writes set(const std::map<std::string, double>& values) = 0;
   /// Whether the host has to keep this parameter fresh.
   virtual bool is_mailbox(const std::string& parameter) const = 0;
+  virtual bool has_mailbox() const = 0;
   /// The nearest value that set() takes.
   virtual double within(const std::string& parameter, double value) const = 0;
   /// From run to run, s.

@@ -47,6 +47,7 @@ class ToldLaw : public SceneLaw {
   bool is_mailbox(const std::string& parameter) const override {
     return law_.is_mailbox(parameter);
   }
+  bool has_mailbox() const override { return law_.has_mailbox(); }
   double within(const std::string& parameter, double value) const override {
     return law_.within(parameter, value);
   }

@@ -38,6 +38,8 @@ namespace {
 
 using Matrix = std::array<double, 6>;
 
+constexpr std::size_t most_depth = 1000;
+
 struct TooMany {};
 
 /// What the library tells while it walks through the document.
@@ -50,6 +52,7 @@ class Collector {
 
   void on_enter_element(svgpp::tag::element::any) {
     ++entered;
+    commands_ = 0;
     matrices_.push_back(matrices_.back());
   }
   /// Only now all of its attributes were told, a transform behind its path too.
@@ -146,6 +149,21 @@ using Walk = svgpp::document_traversal<
     svgpp::processed_elements<Elements>, svgpp::processed_attributes<Attributes>,
     svgpp::path_policy<svgpp::policy::path::minimal>, svgpp::error_policy<Tolerant>>;
 
+constexpr std::string_view kNamespace = "http://www.w3.org/2000/svg";
+
+/// Tags that are open at once, at most: the libraries go down into elements by recursion. What
+/// stands in comments counts as well.
+std::size_t depth_of(const std::string& text) {
+  std::size_t depth = 0, most = 0;
+  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+    const char next = text[i + 1];
+    if (text[i] == '<' && next == '/') depth -= depth > 0 ? 1 : 0;
+    if (text[i] == '/' && next == '>') depth -= depth > 0 ? 1 : 0;
+    if (text[i] == '<' && next != '/' && next != '!' && next != '?') most = std::max(most, ++depth);
+  }
+  return most;
+}
+
 /// The n-th element from 1 that the library enters, below the root; n counts down, null where there
 /// are fewer.
 const rapidxml_ns::xml_node<>* element(const rapidxml_ns::xml_node<>* first, int* n) {
@@ -153,6 +171,7 @@ const rapidxml_ns::xml_node<>* element(const rapidxml_ns::xml_node<>* first, int
                                                    "polyline", "rect", "circle", "ellipse"};
   for (const auto* node = first; node != nullptr; node = node->next_sibling()) {
     if (names.count({node->local_name(), node->local_name_size()}) == 0) continue;
+    if (std::string_view(node->namespace_uri(), node->namespace_uri_size()) != kNamespace) continue;
     if (--*n == 0) return node;
     if (const auto* inside = element(node->first_node(), n)) return inside;
   }
@@ -175,6 +194,9 @@ Outline read_svg(const std::string& path) {
   const auto refuse = [&](long line, const std::string& what) {
     throw std::invalid_argument(fmt::format("{}:{}: {}", path, line, what));
   };
+  if (depth_of(text) > most_depth) {
+    refuse(1, fmt::format("elements in more than {} others; ungroup the drawing", most_depth));
+  }
   std::vector<char> buffer(text.begin(), text.end());
   buffer.push_back('\0');
   rapidxml_ns::xml_document<> document;
@@ -182,7 +204,13 @@ Outline read_svg(const std::string& path) {
   const auto line_at = [&](const char* place) {
     const auto before =
         std::min<std::ptrdiff_t>(place - buffer.data(), static_cast<std::ptrdiff_t>(text.size()));
-    return 1 + std::count(text.begin(), text.begin() + before, '\n');
+    const std::string_view above(text.data(), static_cast<std::size_t>(before));
+    long line = 1;
+    for (std::size_t i = 0; i < above.size(); ++i) {
+      // CR LF is one end of a line, CR alone another.
+      line += above[i] == '\n' || (above[i] == '\r' && text[i + 1] != '\n') ? 1 : 0;
+    }
+    return line;
   };
   const auto line_of = [&](int entered) {
     const rapidxml_ns::xml_node<>* root = document.first_node();
@@ -193,6 +221,10 @@ Outline read_svg(const std::string& path) {
     document.parse<rapidxml_ns::parse_no_string_terminators>(buffer.data());
     const rapidxml_ns::xml_node<>* svg = document.first_node();
     if (svg == nullptr) refuse(1, "no element; write an SVG file with one closed path");
+    if (std::string_view(svg->namespace_uri(), svg->namespace_uri_size()) != kNamespace) {
+      refuse(line_at(svg->name()),
+             fmt::format("no SVG; write <svg xmlns=\"{}\"> around the path", kNamespace));
+    }
     Walk::load_document(svg, found);
   } catch (const rapidxml_ns::parse_error& e) {
     refuse(line_at(e.where<char>()),

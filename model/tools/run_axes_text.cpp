@@ -4,6 +4,7 @@
 // A run of several axes for reading and as JSON. Documentation: docs/json.md
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -29,6 +30,11 @@ std::string range_line(const AxesResult& r, const std::string& signal) {
   const auto of = [&](const char* what) { return r.figures.at(signal + what); };
   return fmt::format("  {:<18} {:>12.6g} {:>12.6g} {:>12.6g} {:>12.3g}\n", signal, of(".min"),
                      of(".max"), of(".end"), of(".swing"));
+}
+
+bool bounded(const AxesResult& r) {
+  return std::any_of(r.axes.begin(), r.axes.end(),
+                     [](const AxisFigures& a) { return std::isfinite(a.bound_nm); });
 }
 
 Json errors_json(const AxisFigures& a) {
@@ -78,8 +84,9 @@ std::string axes_text(const AxesResult& r) {
               ? "law error: none, for without double or quad beside it\n"
               : fmt::format(
                     "law error: commanded torque against the law in {} on the words that the "
-                    "engine got, where no ramp or limit holds it; bound: proven\n",
-                    r.reference);
+                    "engine got, where no ramp or limit holds it; bound: {}\n",
+                    r.reference, bounded(r) ? "proven" : "none, for the law has jumps or states");
+  text += stale_line(r.law_stale);
   text += fmt::format("\n  {:<18} {:>12} {:>12} {:>12} {:>12}\n", "signal", "min", "max",
                       "end (mean)", "swing");
   for (const std::string& signal : signals_of(r)) text += range_line(r, signal);
@@ -116,6 +123,9 @@ std::string axes_json(const AxesResult& r) {
                  {"net_from_hand_j", r.energy.net_from_hand_j()},
                  {"peak_from_hand_j", r.energy.peak_from_hand_j},
                  {"peak_to_hand_j", r.energy.peak_to_hand_j}};
+  if (r.law_stale.seconds > 0) {
+    j["law_stale"] = {{"seconds", r.law_stale.seconds}, {"first_s", r.law_stale.first_s}};
+  }
   j["figures"] = r.figures;
   j["expectations"] = {{"checked", r.expectations.size()}, {"broken", r.broken}};
   return files::json_text(j);

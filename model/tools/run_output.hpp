@@ -44,6 +44,8 @@ std::string felt_text(const RunResult& result);
 // Parts of it.
 std::string acted_text(const std::map<std::string, Acted>& all);
 std::string energy_lines(const FeltEnergy& energy);
+/// What may look like a law of no torque; empty where its mailbox never was too old.
+std::string stale_line(const Acted& stale);
 std::string expectation_lines(const std::vector<Expected>& all);
 
 /// NAME=VALUE of --set onto the scene's parameters. Throws std::invalid_argument.

@@ -71,15 +71,6 @@ std::string engine_table(const RunResult& r) {
   return r.felt.errors.empty() ? text : text + bound_lines(r);
 }
 
-/// What may look like a law of no torque.
-std::string stale_line(const RunResult& r) {
-  if (r.law_stale.seconds == 0) return {};
-  return fmt::format(
-      "note: the law's mailbox is stale for {:.4g} s, from {:.4g} s: no torque then; add [feed] "
-      "rate_hz (or raise it), or a longer max_age\n",
-      r.law_stale.seconds, r.law_stale.first_s);
-}
-
 std::string step_table(const RunResult& r) {
   for (const EngineFigures& e : r.engines) {
     if (e.steps.empty()) continue;
@@ -109,6 +100,14 @@ std::string acted_text(const std::map<std::string, Acted>& all) {
     items.push_back(fmt::format("{} {:.4g} s (from {:.4g} s)", name, a.seconds, a.first_s));
   }
   return items.empty() ? "none" : fmt::format("{}", fmt::join(items, ", "));
+}
+
+std::string stale_line(const Acted& stale) {
+  if (stale.seconds == 0) return {};
+  return fmt::format(
+      "note: the law's mailbox is stale for {:.4g} s, from {:.4g} s: no torque then; add [feed] "
+      "rate_hz (or raise it), or a longer max_age\n",
+      stale.seconds, stale.first_s);
 }
 
 std::string energy_lines(const FeltEnergy& e) {
@@ -228,7 +227,7 @@ std::string run_text(const RunResult& r, const RunLabels& labels) {
     text += fmt::format("engine: {}, {:.3g} times real time\n", r.engines.front().name,
                         r.simulated_s / r.engines.front().busy_s);
   }
-  text += step_table(r) + felt_text(r) + stale_line(r);
+  text += step_table(r) + felt_text(r) + stale_line(r.law_stale);
   if (labels.never_armed_s > 0) {
     text += fmt::format("note: the motor never arms: arm_s = {:g}, and the scene ends at {:g} s\n",
                         labels.never_armed_s, r.simulated_s);

@@ -129,8 +129,8 @@ OF_AXES = {
     "something, both motors together push back with up to {force}.",
     "stylus": "A hand leads a stylus over {way_mm} mm through space; where it meets something, "
     "three motors together push back with up to {force}.",
-    "gimbal": "A hand turns a handle in two rings by {first}; three motors together turn it back by the "
-    "shorter way, with up to {most}.",
+    "gimbal": "A hand turns a handle in two rings by {first}; motors on all joints push it to where it "
+    "began, the shorter way: up to {most} at the outer one.",
     "two_levers": "The hand turns a lever by {first}, another one follows by {second}, and what that "
     "one meets is felt: up to {most}.",
 }
@@ -152,8 +152,7 @@ def of_axes(summary, csv):
     if "hand_nm" in csv:
         words["most"] = f"{np.abs(csv['hand_nm']).max():.2f} Nm"
     if "handle_w" in csv:
-        torques = [csv[f"motor_torque_nm.{n}"] for n in range(3)]
-        words["most"] = f"{np.linalg.norm(torques, axis=0).max():.2f} Nm"
+        words["most"] = f"{np.abs(csv['motor_torque_nm.0']).max():.2f} Nm"
     if "pen_x_m" in csv:
         axes = [a for a in "xyz" if f"pen_{a}_m" in csv]
         way = np.linalg.norm([np.ptp(csv[f"pen_{a}_m"]) for a in axes])

@@ -38,14 +38,18 @@ std::string refused(const std::string& hand, const std::string& more = "") {
 
 TEST_CASE("gimbal: RTL and twin of three axes around the plant, the same outputs in every clock") {
   AxesScene scene = scene_named("gimbal");
-  scene.scenario.duration_s = 0.06;
+  // From 165 degrees by some 37: over the half turn, where the torque turns round.
+  std::get<GimbalSetup>(scene.device).hand.start_rad[0] = 165.0 * kPi / 180.0;
+  scene.scenario.parameters["ramp_step"] = 1e-3;  // Nm a tick: all of it at once
+  scene.scenario.duration_s = 0.08;
   scene.scenario.expectations.clear();
   const AxesResult r = run_scene(scene, "rtl,twin,double");
   INFO(r.first_mismatch);
   CHECK(r.lock_step);
   CHECK(r.mismatches == 0);
   CHECK(r.broken.empty());
-  CHECK(r.figures.at("tau_ref_nm.0.min") < -0.01);
+  CHECK(r.figures.at("tau_ref_nm.0.min") < -0.39);
+  CHECK(r.figures.at("tau_ref_nm.0.max") > 0.39);
   CHECK(r.figures.at("faults") == 0);
 }
 
@@ -83,6 +87,37 @@ TEST_CASE("gimbal: a turn of 359 degrees is felt as the shorter way, by all thre
   CHECK(worst_nm < 0.5e-3);
 }
 
+TEST_CASE("gimbal: a handle that stands where it begins is not moved by a law without torque") {
+  AxesScene scene = scene_named("gimbal");
+  auto& hand = std::get<GimbalSetup>(scene.device).hand;
+  hand = {};
+  hand.start_rad = {-1.0, 0.5, 1.5};
+  scene.scenario.parameters["stiffness"] = 0.0;
+  scene.scenario.arm_s = 0.001;
+  scene.scenario.duration_s = 0.03;
+  scene.scenario.expectations.clear();
+  const AxesResult r = run_scene(scene, "twin,double");
+  for (const std::string axis : {"0", "1", "2"}) {
+    CHECK(std::abs(r.figures.at("velocity_rad_s." + axis + ".max")) < 0.1);
+    CHECK(std::abs(r.figures.at("velocity_rad_s." + axis + ".min")) < 0.1);
+    CHECK(std::abs(r.figures.at("motor_torque_nm." + axis + ".max")) < 2e-3);
+    CHECK(std::abs(r.figures.at("motor_torque_nm." + axis + ".min")) < 2e-3);
+    CHECK(r.figures.at("position_rad." + axis + ".swing") == 0);
+  }
+}
+
+TEST_CASE("gimbal: a host that feeds too rarely is told, with the time without torque") {
+  AxesScene scene = scene_named("gimbal");
+  scene.scenario.duration_s = 0.1;
+  scene.scenario.expectations.clear();
+  CHECK(run_scene(scene, "twin,double").figures.at("law_stale_s") == 0);
+  scene.scenario.feed_hz = 20;  // 50 ms, and 20 are the most
+  const AxesResult r = run_scene(scene, "twin,double");
+  CHECK(r.law_stale.seconds == Approx(0.06).margin(0.002));
+  CHECK(r.law_stale.first_s == Approx(0.02).margin(0.002));
+  CHECK(r.figures.at("law_stale_s") == r.law_stale.seconds);
+}
+
 TEST_CASE("gimbal: hands that cannot be used are refused with their line") {
   const std::string phase = "[[hand.phase]]\nkind = \"torque\"\n";
   const std::string torque = "torque = [{ kind = \"hold\", duration_s = 1 }]\n";
@@ -90,6 +125,9 @@ TEST_CASE("gimbal: hands that cannot be used are refused with their line") {
   CHECK(refused(phase + "axis = [0, 3, 0]\n" + torque).empty());
   CHECK(refused("start_deg = [0, 0]\n").find(":9: \"start_deg\" is not three numbers") !=
         std::string::npos);
+  CHECK(refused("start_deg = [0, 90, 0]\n")
+            .find(":9: the middle joint begins at 90 degrees, beyond "
+                  "its stops; begin from -75 to 75") != std::string::npos);
   CHECK(refused(phase + "axis = [0, 0, 0]\n" + torque).find(":11: \"axis\" has no direction") !=
         std::string::npos);
   CHECK(refused(phase).find("\"torque\"") != std::string::npos);

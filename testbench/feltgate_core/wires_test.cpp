@@ -147,19 +147,28 @@ TEST_CASE("core: factors that are powers of two, whose products end in ties") {
 
 TEST_CASE("core: a bit beyond the format of a factor without sign counts for nothing") {
   constexpr std::uint32_t beyond = 1u << D::coefficient_bits;
-  for (const int address : {A::velocity_a1, A::observer_a1, A::voltage_gain, A::torque_gain}) {
+  const auto lives = [](int address, std::uint32_t word) {
     Life s;
-    s.write(address, word_of_design(address) | beyond);
+    s.write(address, word);
     s.write(A::setpoint_torque, 3000);
     s.arm(D::S::setpoint);
     s.move(40, kTick);
     s.ticks(30);
     CHECK(s.out().armed);
     s.play();
+    return s.shown();
+  };
+  for (const int address : {A::velocity_a1, A::observer_a1, A::voltage_gain, A::torque_gain}) {
+    const std::uint32_t word = word_of_design(address);
+    const CoreOut with = lives(address, word | beyond), without = lives(address, word);
+    CHECK(with.velocity == without.velocity);
+    CHECK(with.tau_hat == without.tau_hat);
+    CHECK(with.current_ref == without.current_ref);
+    CHECK(with.duty == without.duty);
   }
 }
 
-TEST_CASE("core: the motor is too hot in the tick in which the sum of squares says so") {
+TEST_CASE("core: budgets of heat that last up to some hundred ticks, RTL and twin to the tick") {
   int fell = 0, longest = 0;
   for (int bit = 6; bit < 24; bit += 2) {
     Life s;

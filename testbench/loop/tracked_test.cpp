@@ -135,6 +135,11 @@ TEST_CASE("what a law requires of its parameters holds at the start and after ea
              Catch::Contains("damping = -1 mNm*s/rad is out of its range"));
   e.set = {{"static", 0.1}, {"dynamic", 0.1}};
   CHECK(told([&](Scenario& s) { s.events.push_back(e); }) == "");
+  CHECK_THAT(told([](Scenario& s) {
+               s.feed_hz = 100;
+               s.feed_line = 30;
+             }),
+             Catch::Contains("material_stone.toml:30: [feed] needs a law with a mailbox"));
 }
 
 TEST_CASE("a tracker: rate, filter, step, latency, and no noise where none is asked for") {

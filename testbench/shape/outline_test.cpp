@@ -146,6 +146,16 @@ TEST_CASE("what is refused, with the mend") {
              Contains("outline_test.svg:5: "));
   CHECK_THAT(message(head + "</g>\n" + many + " Z'/></svg>"),
              Contains("outline_test.svg:4: a path of more than 2000 corners"));
+  const std::string foreign =
+      "<x:path xmlns:x='y' d='M0 0'/><!--\n<g> --><defs><path d='M0'/></defs>\r\n";
+  CHECK_THAT(message(head + foreign + "<path d='M0 0 L60 0 L60 60'/>\n</g></svg>"),
+             Contains("outline_test.svg:5: the path is open"));
+  CHECK_THAT(message("<svg><path d='M0 0 L60 0 L60 60 Z'/></svg>"), Contains("xmlns"));
+  std::string deep, half = "<path d='M0 0";
+  for (int i = 0; i < 30000; ++i) deep += "<g>";
+  CHECK_THAT(message(drawing(deep)), Contains("ungroup"));
+  for (int i = 1; i < 1200; ++i) half += " L" + std::to_string(i) + " " + std::to_string(i % 7);
+  CHECK_THAT(message(drawing(half + " Z'/>" + half + " Z'/>")), Contains("2 outlines"));
   Placing far;
   far.centre_m = {0.0, 0.18};
   CHECK_THROWS_WITH(curve_of("square", 5e-3, far), Contains("out of the pen's reach"));

@@ -59,12 +59,18 @@ TurnPhase read_phase(config::TomlReader table, bool last) {
 
 }  // namespace
 
-TurningHand read_turning_hand(config::TomlReader table) {
+TurningHand read_turning_hand(config::TomlReader table, const AngleStops& stops) {
   TurningHand hand;
   if (table.has("start_deg")) {
     const auto start =
         three(table, "start_deg", "write those of outer, middle and inner joint", {-720.0, 720.0});
     for (std::size_t n = 0; n < 3; ++n) hand.start_rad[n] = start[n] * kDegree;
+    if (hand.start_rad[1] < stops.least_rad || hand.start_rad[1] > stops.most_rad) {
+      table.fail("start_deg",
+                 fmt::format("the middle joint begins at {:g} degrees, beyond its stops", start[1]),
+                 fmt::format("begin from {:g} to {:g}", stops.least_rad / kDegree,
+                             stops.most_rad / kDegree));
+    }
   }
   std::vector<config::TomlReader> phases = table.sections("phase");
   for (std::size_t i = 0; i < phases.size(); ++i) {

@@ -9,8 +9,8 @@
 
 namespace feltgate::plant {
 
-/// Reads [hand] and [[hand.phase]] of a hand that turns a handle.
-/// Errors: config::ConfigError "file:line: what; mend".
-TurningHand read_turning_hand(config::TomlReader table);
+/// Reads [hand] and [[hand.phase]] of a hand that turns a handle whose middle joint has these
+/// stops. Errors: config::ConfigError "file:line: what; mend".
+TurningHand read_turning_hand(config::TomlReader table, const AngleStops& stops);
 
 }  // namespace feltgate::plant

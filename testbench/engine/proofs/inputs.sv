@@ -102,6 +102,7 @@ module inputs_proof (
       ends_with_it: assert (!runs || (run_q && !(ends_q && runs_q)));
       asked_for_once: assert (asks == (run_q && !starts_q && (asks_q || rose_q)));
       overrun_is_told: assert (!waits || overrun == waits_q);
+      no_other_overrun: assert (!overrun || \u_dut.due );
       inside_waits: assert (waits_q == \u_dut.due_q [any_thread]);
       inside_loads: assert (!loads || !runs);
       inside_written: assert ((runs && !runs_q) == (\u_dut.written_q && \u_dut.loaded_q == any_thread && run_q));

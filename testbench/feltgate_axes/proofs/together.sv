@@ -81,6 +81,9 @@ module together_proof (
   (* hierconn *) wire [31:0] \u_dut.g_engine.u_engine.reg_rdata_o ;
   (* hierconn *) wire [2:0] \u_dut.g_engine.u_engine.asks_i ;
   (* hierconn *) wire [15:0] \u_dut.g_engine.u_engine.reg_addr_i ;
+  (* hierconn *) wire [31:0] \u_dut.g_engine.u_engine.reg_wdata_i ;
+  (* hierconn *) wire \u_dut.g_engine.u_engine.reg_write_i ;
+  (* hierconn *) wire \u_dut.g_engine.u_engine.reg_read_i ;
 
   // Axis n is bit n.
   logic [2:0] hears_fault, silent, blocked, beside, waits, asks, ready, testing, writes, busies, arms, stops;
@@ -128,6 +131,8 @@ module together_proof (
                              data[32*n+:32] == wdata_i);
       busy_if_addressed: assert (busy == (engine_busy || (addr_i[15:10] < 6'd3 && busies[addr_i[11:10]])));
       word_of_all: assert (rdata == (words[31:0] | words[63:32] | words[95:64] | engine_word));
+      engine_side: assert (\u_dut.g_engine.u_engine.reg_write_i == write_i && \u_dut.g_engine.u_engine.reg_wdata_i == wdata_i &&
+                           \u_dut.g_engine.u_engine.reg_read_i == read_i);
       engine_hears_all: assert (\u_dut.g_engine.u_engine.asks_i == asks && \u_dut.g_engine.u_engine.reg_addr_i == addr_i);
       a_test: cover (testing[2] && waits == 3'd0 && beside == 3'd3);
       a_fault: cover (faults == 3'd4 && hears_fault == 3'd3);

@@ -11,7 +11,6 @@
 
 #include "config/toml_reader.hpp"
 #include "plant/gimbal/gimbal_file.hpp"
-#include "plant/gimbal/turning_hand_file.hpp"
 #include "plant/pantograph/pantograph_file.hpp"
 #include "plant/plant_file.hpp"
 #include "plant/plant_table.hpp"

@@ -10,6 +10,7 @@
 
 #include "config/toml_reader.hpp"
 #include "plant/axes_parameters.hpp"
+#include "plant/gimbal/gimbal.hpp"
 #include "plant/hand.hpp"
 #include "plant/pantograph/pen_hand.hpp"
 #include "plant/parameters.hpp"
@@ -39,6 +40,10 @@ PenHand read_pen_hand(config::TomlReader table);
 /// The same of a hand that holds the pen of a stylus, as what it does to each axis: a lever whose
 /// capstan has this radius, m.
 std::array<Hand, 3> read_stylus_hand(config::TomlReader table, double capstan_m);
+
+/// Reads [hand] and [[hand.phase]] of a hand that turns a handle whose middle joint has these stops.
+/// Errors: config::ConfigError "file:line: what; mend".
+TurningHand read_turning_hand(config::TomlReader table, const AngleStops& stops);
 
 /// Reads [hand] and [[hand.phase]]; files of traces are relative to the folder of the scene.
 /// Errors: config::ConfigError "file:line: what; mend".

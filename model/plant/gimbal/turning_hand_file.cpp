@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Reads the [hand] table of a hand that turns a handle. Documentation: docs/gimbal.md
-#include "plant/gimbal/turning_hand_file.hpp"
-
 #include <fmt/format.h>
 
 #include <utility>

@@ -41,8 +41,8 @@ PenHand read_pen_hand(config::TomlReader table);
 /// capstan has this radius, m.
 std::array<Hand, 3> read_stylus_hand(config::TomlReader table, double capstan_m);
 
-/// Reads [hand] and [[hand.phase]] of a hand that turns a handle whose middle joint has these stops.
-/// Errors: config::ConfigError "file:line: what; mend".
+/// Reads [hand] and [[hand.phase]] of a hand that turns a handle whose middle joint has these
+/// stops. Errors: config::ConfigError "file:line: what; mend".
 TurningHand read_turning_hand(config::TomlReader table, const AngleStops& stops);
 
 /// Reads [hand] and [[hand.phase]]; files of traces are relative to the folder of the scene.

@@ -160,7 +160,7 @@ TEST_CASE("core: a bit beyond the format of a factor without sign counts for not
   };
   for (const int address : {A::velocity_a1, A::observer_a1, A::voltage_gain, A::torque_gain}) {
     const std::uint32_t word = word_of_design(address);
-    const CoreOut with = lives(address, word | beyond), without = lives(address, word);
+    const feltgate::CoreOut with = lives(address, word | beyond), without = lives(address, word);
     CHECK(with.velocity == without.velocity);
     CHECK(with.tau_hat == without.tau_hat);
     CHECK(with.current_ref == without.current_ref);

@@ -74,7 +74,9 @@ class Shape(LawMaking):
 
     def test_refused(self):
         path = '<svg xmlns="http://www.w3.org/2000/svg"><path d="{}"/></svg>'
-        self.refused("no path", self.drawing("a.svg", "<svg><text>x</text></svg>"))
+        self.refused("no SVG; write <svg xmlns=", self.drawing("a.svg", "<svg><text>x</text></svg>"))
+        text = "<svg xmlns='http://www.w3.org/2000/svg'><text>x</text></svg>"
+        self.refused("no path", self.drawing("a.svg", text))
         self.refused("crosses", self.drawing("b.svg", path.format("M0 0 L9 9 L9 0 L0 9 Z")))
         many = " ".join(f"L{i} {i % 5}" for i in range(10_000))
         self.refused("simplify", self.drawing("c.svg", path.format("M0 0 " + many + " Z")))

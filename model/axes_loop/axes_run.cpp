@@ -8,7 +8,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -24,6 +23,7 @@
 #include "config/toml_reader.hpp"
 #include "feltgate/axes_ports.hpp"
 #include "loop/expectations.hpp"
+#include "loop/feed_clock.hpp"
 #include "loop/scenario_check.hpp"
 #include "plant/axes_loop.hpp"
 #include "plant/drive.hpp"
@@ -60,7 +60,8 @@ class AxesRun : plant::AxesDevice<Plant> {
         design_(cores_->design()),
         columns_(columns_of<Plant>(scene)),
         scene_(scene_number(design_, s_.scene)),
-        mode_(s_.mode) {
+        mode_(s_.mode),
+        feed_(s_.feed_hz, design_.clock_hz) {
     for (const std::string& kind : choice_.riders) {
       riders_.push_back({kind, options.law->rider(kind), nullptr});
     }
@@ -70,7 +71,6 @@ class AxesRun : plant::AxesDevice<Plant> {
     for (std::size_t n = 0; n < axes; ++n) {
       meters_.emplace_back(1.0 / static_cast<double>(design_.tick_hz));
     }
-    if (s_.feed_hz > 0) next_feed_ = 0;
   }
 
   AxesResult run() {
@@ -96,8 +96,8 @@ class AxesRun : plant::AxesDevice<Plant> {
       while (next < s_.events.size() && now >= clock_of(s_.events[next].at_s)) {
         apply(s_.events[next++]);
       }
-      if (now >= next_feed_) feed();
-      Clock until = std::min(end, next_feed_);
+      if (feed_.due(now)) write_law({});
+      Clock until = std::min(end, feed_.next());
       if constexpr (DeviceSignals<Plant>::has_pen) {
         if (plane_) {
           auto words = plane_->act(now, DeviceSignals<Plant>::counted(plant_, position_rad_));
@@ -150,13 +150,11 @@ class AxesRun : plant::AxesDevice<Plant> {
       if (info == nullptr) throw std::invalid_argument(design_.unknown(name));
       write_all(info->address, static_cast<std::uint32_t>(quantise_parameter(*info, value)));
     }
-    if (of_law.empty()) return;
-    for (const auto& [address, data] : options_.law->set(of_law)) cores_->write(address, data);
+    if (!of_law.empty()) write_law(of_law);
   }
-  /// The host commits the law's words anew, as they stand.
-  void feed() {
-    for (const auto& [address, data] : options_.law->set({})) cores_->write(address, data);
-    next_feed_ = clock_of(static_cast<double>(++fed_) / s_.feed_hz);
+  /// Words of the law, and a commit; none: what stands is sent anew.
+  void write_law(const std::map<std::string, double>& values) {
+    for (const auto& [address, data] : options_.law->set(values)) cores_->write(address, data);
   }
   void control(bool arm) {
     armed_ = arm;
@@ -351,8 +349,7 @@ class AxesRun : plant::AxesDevice<Plant> {
   int scene_, mode_;
   bool armed_ = false, arm_done_ = false;
   Clock homed_ = 0, next_report_ = 0;
-  Clock next_feed_ = std::numeric_limits<Clock>::max();
-  std::int64_t fed_ = 0;
+  FeedClock feed_;
   std::vector<Rider> riders_;
   bool law_entered_ = false;
   std::int64_t law_changes_ = 1;  ///< sets of parameters that the riders know; the first loads

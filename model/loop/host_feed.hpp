@@ -6,13 +6,12 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
 
 #include "ensemble.hpp"
+#include "feed_clock.hpp"
 #include "scenario.hpp"
 #include "tracker.hpp"
 
@@ -22,19 +21,16 @@ class HostFeed {
  public:
   /// `law` is that of the scene; scene and law must outlive this.
   HostFeed(const Scenario& scenario, const SceneLaw* law, std::int64_t clock_hz)
-      : scenario_(scenario), law_(law), clock_hz_(static_cast<double>(clock_hz)) {
+      : scenario_(scenario), law_(law), feed_(scenario.feed_hz, clock_hz) {
     if (scenario.tracker) tracker_.emplace(*scenario.tracker, clock_hz);
-    if (scenario.feed_hz > 0) next_ = 0;
   }
 
   /// The next clock with something to do.
-  Clock next() const { return tracker_ ? std::min(next_, tracker_->next()) : next_; }
+  Clock next() const { return tracker_ ? std::min(feed_.next(), tracker_->next()) : feed_.next(); }
   /// Does it: the lever's angle and the core's position are those of `now`.
   void act(Clock now, double angle_rad, double encoder_rad, Ensemble& core) {
     if (tracker_) track(now, angle_rad, encoder_rad, core);
-    if (now < next_) return;
-    core.feed_law({});
-    next_ = std::llround(static_cast<double>(++sent_) * clock_hz_ / scenario_.feed_hz);
+    if (feed_.due(now)) core.feed_law({});
   }
 
  private:
@@ -51,10 +47,8 @@ class HostFeed {
 
   const Scenario& scenario_;
   const SceneLaw* law_;
-  double clock_hz_;
+  FeedClock feed_;
   std::optional<Tracker> tracker_;
-  Clock next_ = std::numeric_limits<Clock>::max();
-  std::int64_t sent_ = 0;
 };
 
 }  // namespace feltgate

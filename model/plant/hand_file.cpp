@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <system_error>
 #include <utility>
 
@@ -60,6 +61,14 @@ Profile read_profile(config::TomlReader& table, const std::string& key, const st
                "write " + key + " = [{kind = \"hold\", duration_s = 1.0}, ...]");
   }
   return profile;
+}
+
+double read_duration(config::TomlReader& table, double motion_s, bool last) {
+  if (!table.has("duration_s")) {
+    if (last) return std::numeric_limits<double>::infinity();
+    if (motion_s > 0.0) return motion_s;
+  }
+  return table.number("duration_s", config::kPositive);
 }
 
 Impedance read_impedance(config::TomlReader& table) {
@@ -145,12 +154,7 @@ HandPhase read_phase(config::TomlReader table, bool last) {
   }
   if (phase.kind == Kind::kImpedance) phase.impedance = read_impedance(table);
   if (phase.kind == Kind::kCord) phase.cord = read_cord(table);
-  if (table.has("duration_s")) {
-    phase.duration_s = table.number("duration_s", config::kPositive);
-  } else if (!last) {
-    if (natural_s <= 0.0) phase.duration_s = table.number("duration_s", config::kPositive);
-    phase.duration_s = natural_s;
-  }
+  phase.duration_s = read_duration(table, natural_s, last);
   table.finish();
   return phase;
 }

@@ -17,6 +17,8 @@
 
 namespace feltgate::plant {
 
+constexpr double kRadPerDegree = 3.14159265358979323846 / 180.0;
+
 /// A plant from a parsed table, `file` being the name that errors print.
 Parameters read_plant(const toml::table& root, const std::string& file);
 
@@ -30,6 +32,9 @@ Effects read_effects(config::TomlReader table, const Effects& base);
 /// A motion under `key`: segments with `to_UNIT`, `amplitude_UNIT`; one at least.
 Profile read_profile(config::TomlReader& table, const std::string& key, const std::string& unit,
                      bool steps_allowed);
+/// `duration_s` of a phase of a hand. Where it is not there that of the phase's motion, s, if it
+/// has one; the last phase lasts for good.
+double read_duration(config::TomlReader& table, double motion_s, bool last);
 /// The five keys of an impedance; each may be missing.
 Impedance read_impedance(config::TomlReader& table);
 

@@ -80,12 +80,14 @@ std::string axes_text(const AxesResult& r) {
   text += fmt::format("\n{:<5} {:>10} {:>10} {:>12} {:>10} {:>10}\n", "axis", "asked Nm",
                       "motor Nm", "law error Nm", "rms", "bound");
   for (std::size_t n = 0; n < r.axes.size(); ++n) text += axis_line(n, r.axes[n]);
-  text += r.reference.empty()
-              ? "law error: none, for without double or quad beside it\n"
-              : fmt::format(
-                    "law error: commanded torque against the law in {} on the words that the "
-                    "engine got, where no ramp or limit holds it; bound: {}\n",
-                    r.reference, bounded(r) ? "proven" : "none, for the law has jumps or states");
+  text +=
+      r.reference.empty()
+          ? "law error: none, for without double or quad beside it\n"
+          : fmt::format(
+                "law error: commanded torque against the law in {} on the words that the "
+                "engine got, where no ramp or limit holds it; bound: {}\n",
+                r.reference,
+                bounded(r) ? "proven" : "none, for the law jumps, or has states without an end");
   text += stale_line(r.law_stale);
   text += fmt::format("\n  {:<18} {:>12} {:>12} {:>12} {:>12}\n", "signal", "min", "max",
                       "end (mean)", "swing");

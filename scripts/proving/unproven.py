@@ -11,11 +11,14 @@ BLOCKS = {
     "engine_alu": PART,
     "engine_memory": PART,
 }
-ENGINE = "not what an instruction calculates; proven are what programs may write, both ages and what is cleared"
+ENGINE = (
+    "not what an instruction calculates; proven are what programs may write, both ages and what is "
+    "cleared"
+)
 # Blocks of which some ports are in a property: why not all.
 SOME_PORTS = {
     "feltgate_core": "only the register port, the snapshot and the clocks to the duty are proven",
-    "feltgate_axes": "only the register port, on the side of axes and engine, and what the axes hear of each other are proven",
+    "feltgate_axes": "only the register port and what the axes hear of each other are proven",
     "engine": ENGINE,
     "engine_barrel": ENGINE,
     "engine_inputs": "when a thread is due is not proven",

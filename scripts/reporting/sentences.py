@@ -129,8 +129,8 @@ OF_AXES = {
     "something, both motors together push back with up to {force}.",
     "stylus": "A hand leads a stylus over {way_mm} mm through space; where it meets something, "
     "three motors together push back with up to {force}.",
-    "gimbal": "A hand turns a handle in two rings by {first}; motors on all joints push it to where it "
-    "began, the shorter way: up to {most} at the outer one.",
+    "gimbal": "A hand turns a handle in two rings by {first}; motors on all joints push it to "
+    "where it began, the shorter way: up to {most} at the outer one.",
     "two_levers": "The hand turns a lever by {first}, another one follows by {second}, and what that "
     "one meets is felt: up to {most}.",
 }

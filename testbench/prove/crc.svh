@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The link's CRC-32, the proofs' own. Included in a wrapper.
+// The CRC-32 of link and images, the proofs' own. Included in a wrapper.
 
   // So many bits of a byte through the CRC.
   function automatic logic [31:0] crc_after(input logic [31:0] crc, input logic [7:0] bits, input logic [3:0] count);

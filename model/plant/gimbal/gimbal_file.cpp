@@ -9,8 +9,6 @@
 namespace feltgate::plant {
 namespace {
 
-constexpr double kRadPerDegree = 3.14159265358979323846 / 180.0;
-
 // Principal moments of a body: none of a real one is more than the sum of the others.
 Vec3 read_inertia(config::TomlReader& table, const std::string& key) {
   const auto i = table.numbers(key, config::kPositive);

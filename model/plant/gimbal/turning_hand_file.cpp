@@ -14,8 +14,6 @@ namespace {
 
 using Kind = TurnPhase::Kind;
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
-
 std::vector<double> three(config::TomlReader& table, const std::string& key,
                           const std::string& mend, const config::Range& range) {
   std::vector<double> numbers = table.numbers(key, range);
@@ -45,12 +43,7 @@ TurnPhase read_phase(config::TomlReader table, bool last) {
           table.number_or("damping_nm_s_rad", phase.damping_nm_s_rad, config::kNotNegative);
     }
   }
-  if (table.has("duration_s")) {
-    phase.duration_s = table.number("duration_s", config::kPositive);
-  } else if (!last) {
-    if (natural_s <= 0.0) phase.duration_s = table.number("duration_s", config::kPositive);
-    phase.duration_s = natural_s;
-  }
+  phase.duration_s = read_duration(table, natural_s, last);
   table.finish();
   return phase;
 }
@@ -62,12 +55,12 @@ TurningHand read_turning_hand(config::TomlReader table, const AngleStops& stops)
   if (table.has("start_deg")) {
     const auto start =
         three(table, "start_deg", "write those of outer, middle and inner joint", {-720.0, 720.0});
-    for (std::size_t n = 0; n < 3; ++n) hand.start_rad[n] = start[n] * kDegree;
+    for (std::size_t n = 0; n < 3; ++n) hand.start_rad[n] = start[n] * kRadPerDegree;
     if (hand.start_rad[1] < stops.least_rad || hand.start_rad[1] > stops.most_rad) {
       table.fail("start_deg",
                  fmt::format("the middle joint begins at {:g} degrees, beyond its stops", start[1]),
-                 fmt::format("begin from {:g} to {:g}", stops.least_rad / kDegree,
-                             stops.most_rad / kDegree));
+                 fmt::format("begin from {:g} to {:g}", stops.least_rad / kRadPerDegree,
+                             stops.most_rad / kRadPerDegree));
     }
   }
   std::vector<config::TomlReader> phases = table.sections("phase");

@@ -13,8 +13,6 @@
 namespace feltgate::plant {
 namespace {
 
-constexpr double kRadPerDegree = 3.14159265358979323846 / 180.0;
-
 LinkageGeometry read_linkage(config::TomlReader table) {
   LinkageGeometry g;
   g.base_m = table.number("base_m", config::kNotNegative);

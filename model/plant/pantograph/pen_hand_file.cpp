@@ -49,12 +49,7 @@ Phase<N> read_phase(config::TomlReader table, bool last) {
     }
   }
   if (phase.kind == Kind::kImpedance) phase.impedance = read_impedance(table);
-  if (table.has("duration_s")) {
-    phase.duration_s = table.number("duration_s", config::kPositive);
-  } else if (!last) {
-    if (natural_s <= 0.0) phase.duration_s = table.number("duration_s", config::kPositive);
-    phase.duration_s = natural_s;
-  }
+  phase.duration_s = read_duration(table, natural_s, last);
   table.finish();
   return phase;
 }

@@ -15,6 +15,7 @@ module crc_proof (
     input logic [31:0] wanted_i
 );
   `include "reset.svh"
+`include "crc.svh"
   (* anyconst *) logic [9:0] line_base_i;
   always_comb assume (line_base_i <= 10'd512);
   logic busy, reads, good, done, of_program, of_table;
@@ -77,7 +78,7 @@ module crc_proof (
     if (takes) word_q <= {4'd0, word_i};
     else word_q <= word_q >> 1;
     if (begins) crc_q <= 32'hffffffff;
-    else if (bits_q != 6'd0) crc_q <= (crc_q >> 1) ^ (crc_q[0] != word_q[0] ? 32'hedb88320 : 32'd0);
+    else if (bits_q != 6'd0) crc_q <= crc_after(crc_q, word_q[7:0], 4'd1);
   end
 
   always_comb begin

@@ -87,7 +87,7 @@ module engine_inputs #(
       request_o <= '0;
       running_o <= '0;
     end else begin
-      written_q <= all_written;
+      written_q <= all_written && run_i[loaded_q];
       if (tick_i || !loading_q) word_q <= '0;  // of one tick
       else if (taken_i) word_q <= word_q + 4'd1;
       if (!loading_q) begin

@@ -24,7 +24,8 @@ struct Device {
   Twin::In in;
   int since = 0;
   std::int64_t clocks = 0;
-  int jumps = 0;  ///< clocks in which torques may begin to jump
+  int jumps = 0;    ///< clocks in which torques may begin to jump
+  int results = 0;  ///< fresh ones
 
   std::vector<Twin::In> inputs;
 
@@ -44,6 +45,7 @@ struct Device {
     in.enter = in.crc_start = in.write = in.read = false;
     ++clocks;
     jumps += out().changed;
+    results += out().fresh;
   }
   void clock(int n) {
     for (int k = 0; k < n; ++k) clock();

@@ -29,6 +29,42 @@ TEST_CASE("engine: a long divider counts all its ticks, and begins anew when run
   device.play();
 }
 
+TEST_CASE(
+    "engine: a run counts that begins where the one word of lines is cleared, at every clock") {
+  EngineMemory m;
+  m.set_data(EngineMap::D::lower, -1000);
+  m.set_data(EngineMap::D::upper, 1000);
+  m.line_base = EngineMap::table_words - 1;
+  std::vector<EngineInstruction> list(110, word(EngineOp::nop, 0, 0, 0));
+  list.front() = to(0, EngineOp::add, kParameter, kConstant);
+  list.push_back(to(1, EngineOp::sub, 0, kParameter));  // 0: one set of parameters in all of a run
+  list.push_back(out(0, EngineOp::add, 1, kConstant));
+  int n = 0;
+  for (const EngineInstruction& i : list) m.set_program(n++, engine_encode(i));
+  LoadedDevice device(m);
+  device.write(H::divider0, 20);
+  int value = 0;
+  for (int phase = 0; phase < kTick; ++phase) {
+    device.write(H::run, 0);  // so that the next tick is the first
+    device.clock(2 * kTick);
+    while (device.since != kTick - 20) device.clock();
+    device.write(H::run, 1);
+    while (device.since != 0) device.clock();
+    device.clock(phase);
+    device.in.enter = true;
+    device.clock();
+    for (int k = 0; k < 2;
+         ++k) {  // what is written after a commit waits for the run that has its bank
+      device.write(H::data + kParameter, static_cast<std::uint32_t>(++value));
+      if (k == 0) device.write(H::commit, 1);
+    }
+    device.clock(40 * kTick);
+    CHECK(device.out().torque[0] == 0);
+  }
+  CHECK(device.results >= kTick);
+  device.play();
+}
+
 TEST_CASE("engine: only the commit's own address commits") {
   LoadedDevice device(image(wall, {100, 20000, -60000}));
   device.write(H::data + kParameter, 7);

@@ -101,7 +101,7 @@ class EngineInputs {
       loaded_ = (ready & 1U) != 0 ? 0 : (ready & 2U) != 0 ? 1 : (ready & 4U) != 0 ? 2 : 3;
     } else if (all && !in.tick) {
       loading_ = false;
-      written_ = true;
+      written_ = (in.run >> loaded & 1U) != 0;
       due_ &= ~(1U << loaded);
       running |= 1U << loaded;
     }

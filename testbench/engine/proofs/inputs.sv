@@ -56,7 +56,6 @@ module inputs_proof (
     if (!tick_i) assume (inputs == inputs_q);
     if (!wanted) assume (!taken_i);
     if (!running[thread_i]) assume (!ended_i);
-    if (\u_dut.written_q && !run_q) assume (!run_i[any_thread]);
   end
 
   (* anyconst *) logic [3:0] any_word;
@@ -101,6 +100,7 @@ module inputs_proof (
       runs_to_its_end: assert (!runs_q || runs || ends_q || !run_q);
       ends_with_it: assert (!runs || (run_q && !(ends_q && runs_q)));
       asked_for_once: assert (asks == (run_q && !starts_q && (asks_q || rose_q)));
+      every_start_counts: assert (!asks || asks_q || runs_q);
       overrun_is_told: assert (!waits || overrun == waits_q);
       no_other_overrun: assert (!overrun || \u_dut.due );
       inside_waits: assert (waits_q == \u_dut.due_q [any_thread]);

@@ -316,28 +316,3 @@ TEST_CASE("quad_decoder: a count that has slipped does not fit its index, until 
     REQUIRE_FALSE(near.turn(40).slip(slip).turn(2 * INDEX_COUNTS).wrong());
   }
 }
-
-TEST_CASE("quad_decoder: a settled twin may be skipped") {
-  QuadDecoder every(kStart, INDEX_COUNTS);
-  QuadDecoder skipping(kStart, INDEX_COUNTS);
-  Mix mix;
-  mix.filter = 4;
-  mix.glitch = 10;
-  mix.jump = 40;
-  Wander wander(3, mix);
-  std::int64_t skipped = 0;
-  for (int k = 0; k < 50'000; ++k) {
-    QuadDecoder::In in = wander(k);
-    for (int held = 0; held < 30; ++held) {
-      every.clock(in);
-      if (skipping.settled(in)) {
-        ++skipped;
-      } else {
-        skipping.clock(in);
-      }
-      in.set_zero = in.clear_error = false;
-      REQUIRE(every.out() == skipping.out());
-    }
-  }
-  REQUIRE(skipped > 500'000);
-}

@@ -93,24 +93,24 @@ class Life {
       }
     }
   }
-  void control(bool arm, int scene = D::S::law) {
+  void control(bool arm) {
     write(D::C::control, static_cast<std::uint32_t>(D::control_reset) | 1U << D::C::control_host |
                              std::uint32_t{arm} << D::C::control_arm |
-                             static_cast<std::uint32_t>(scene) << D::C::control_scene);
+                             static_cast<std::uint32_t>(D::S::law) << D::C::control_scene);
   }
-  void arm(int scene = D::S::law) {
-    control(false, scene);
+  void arm() {
+    control(false);
     write(D::A::self_test_pulse, 0);
     write(D::A::ramp_step, 0x7ffffff);
     write(D::C::command, 1U << D::C::command_clear_faults);
-    control(true, scene);
+    control(true);
     for (int k = 0; k < 3000 && !out().core.armed; ++k) ticks(1);
   }
-  /// One count, and some ticks.
-  void step(bool up, int ticks_after = 4) {
+  /// One count, and four ticks.
+  void step(bool up) {
     phase_ += up ? 1U : 3U;
     in.encoder = {(phase_ & 2U) != 0, ((phase_ >> 1 ^ phase_) & 1U) != 0, in.encoder.z};
-    ticks(ticks_after);
+    ticks(4);
   }
   /// What was done, at the RTL beside a twin.
   void play() {

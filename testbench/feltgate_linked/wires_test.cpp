@@ -159,6 +159,25 @@ TEST_CASE("linked: each cause of fault is its own at the pins") {
            s.in.encoder.z = false;
          }
        }},
+      {Fault::polarity,
+       {{D::A::overspeed, 0x7fffffff},
+        {D::A::polarity_ticks, 20},
+        {D::A::polarity_speed, 1},
+        {D::A::polarity_current, 0}},
+       [](Life& s) {
+         for (int gap = 40; gap > 0; gap -= 1 + gap / 20) {
+           s.ticks(gap);
+           s.step(true);
+         }
+       }},
+      {Fault::channel,
+       {},
+       [](Life& s) {
+         for (int k = 0; k < 20'000 && s.out().core.gates_enable; ++k) s.step(k % 2 == 0);
+       }},
+      {Fault::engine,
+       {{EngineMap::port_first + H::divider0, 4000}, {EngineMap::port_first + H::max_age, 3000}},
+       [](Life& s) { s.ticks(9000); }},
   };
   for (const Way& way : ways) {
     Armed s(way.words);
@@ -204,4 +223,12 @@ TEST_CASE("linked: each limit is its own at the pins") {
     CHECK((seen >> way.limit & 1U) == 1);
     s.play();
   }
+  Armed s;
+  unsigned seen = 0;
+  for (int k = 0; k < 40; ++k) {
+    s.step(k % 2 == 0);
+    seen |= s.out().core.limits;
+  }
+  CHECK((seen & limit::chatter) != 0);
+  s.play();
 }

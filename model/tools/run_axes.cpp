@@ -26,8 +26,9 @@ std::unique_ptr<AxesLaw> law_of(const AxesScene& scene, const DesignInfo& design
   const Scenario& s = scene.scenario;
   if (s.law.empty()) {
     throw std::invalid_argument(
-        fmt::format("{}:{}: a device of several axes needs a law; name one: law = \"pantograph\"",
-                    s.path, s.scene_line));
+        fmt::format("{}:{}: a device of several axes needs a law; name one of rtl/laws that has a "
+                    "torque for each of {}'s {}: law = \"NAME\"",
+                    s.path, s.scene_line, device_of(scene), axes_of(scene)));
   }
   return make_axes_law(law_file(s), design, axes_of(scene));
 }
@@ -63,6 +64,10 @@ void show_mismatch(const AxesScene& scene, AxesRunOptions again, const AxesResul
 int run_axes_scene(const AxesArguments& a) {
   AxesScene scene = read_axes_scene(
       a.scene_path, [](const std::string& name) { return find_file(name, "vectors/devices"); });
+  if (a.columns) {
+    fmt::print("{}\n", fmt::join(axes_columns(scene), "\n"));
+    return exit_ok;
+  }
   apply_settings(a.set, scene.scenario);
   const AxesDesignMakers* made = find_axes_design(a.design);
   if (made == nullptr) {

@@ -19,6 +19,7 @@ struct AxesArguments {
   std::uint64_t seed = 1;
   int every = 0;  ///< 0: sane_every()
   bool quiet = false;
+  bool columns = false;  ///< print their names alone
 };
 
 /// Runs and prints; the exit code.

@@ -102,7 +102,7 @@ void write_states(files::OutputFile& to, const SceneLaw& law, RunOptions& option
 }
 
 int run(const RunArguments& a) {
-  if (a.columns) {
+  if (a.columns && a.scene.empty()) {
     fmt::print("{}", columns_markdown());
     return exit_ok;
   }
@@ -118,8 +118,12 @@ int run(const RunArguments& a) {
       throw std::invalid_argument(fmt::format(
           "{} is for scenes of one lever, and {} names a device; leave it out", option, a.scene));
     }
-    return run_axes_scene(
-        {scene_path, a.design, a.engine, a.json, a.csv, a.fst, a.set, a.seed, a.every, a.quiet});
+    return run_axes_scene({scene_path, a.design, a.engine, a.json, a.csv, a.fst, a.set, a.seed,
+                           a.every, a.quiet, a.columns});
+  }
+  if (a.columns) {
+    fmt::print("{}", columns_markdown());
+    return exit_ok;
   }
   Scenario scenario = read_scenario(scene_path);
   apply_settings(a.set, scenario);
@@ -277,7 +281,8 @@ void add_run(CLI::App& app, int* exit_code) {
   sub->add_option("--every", a->every, every_help)
       ->check(checks::whole(1, 1'000'000'000))
       ->type_name("TICKS");
-  sub->add_flag("--columns", a->columns, "print the table of CSV columns and end");
+  sub->add_flag("--columns", a->columns,
+                "print the CSV columns of SCENE, of one lever without, and end");
   sub->add_option("--fst", a->fst, "waveform of every clock of the RTL (large: short scenes only)")
       ->type_name("FILE");
   sub->add_option("--record", a->record, "the encoder's edges as a vector file (docs/traces.md)")

@@ -62,6 +62,8 @@ TEST_CASE("axes: each comes to its own limits") {
     CAPTURE(n, limits);
     CHECK((limits & limit::voltage) != 0);
     CHECK((limits & limit::current) != 0);
+    for (int m = 0; m < kAxes; ++m) s.control(m, D::S::setpoint, false);
+    s.ticks(2);
     s.play();
   }
 }
@@ -99,6 +101,9 @@ TEST_CASE("axes: each has its own faults, and tells the others") {
       if (pulse && k % 8 == 0) step(s, n, phase, s.out(n).tau_ref < 0);
     }
     check_fault(s, n, Fault::self_test);
+    for (int m = 0; m < kAxes; ++m) s.control(m, D::S::setpoint, false);
+    s.write_all(C::command, 1U << C::command_clear_faults);
+    for (int m = 0; m < kAxes; ++m) CHECK(s.out(m).faults == 0);
     s.play();
   }
 }

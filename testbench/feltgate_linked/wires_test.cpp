@@ -187,6 +187,12 @@ TEST_CASE("linked: each cause of fault is its own at the pins") {
     CHECK(s.out().core.faults == fault_bit(way.cause));
     CHECK(s.out().core.first_fault == static_cast<unsigned>(way.cause));
     CHECK_FALSE(s.out().core.gates_enable);
+    s.control(false);
+    s.write(D::A::i2t_budget, 0xffffffff);  // else the heat stays a fault
+    s.write(D::A::overspeed, 0x7fffffff);   // and the last of the velocity
+    s.write(C::command, 1U << C::command_clear_faults);
+    s.ticks(3);
+    CHECK(s.out().core.faults == 0);
     s.play();
   }
 }
@@ -221,6 +227,9 @@ TEST_CASE("linked: each limit is its own at the pins") {
     }
     INFO("limit " << way.limit << ", seen " << seen);
     CHECK((seen >> way.limit & 1U) == 1);
+    s.control(false);
+    s.ticks(3);
+    CHECK(s.out().core.limits == limit::gates_closed);
     s.play();
   }
   Armed s;

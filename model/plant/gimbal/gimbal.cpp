@@ -124,8 +124,8 @@ void Gimbal::finish(const AxisSet<axes>::Torques& torques, Clock clocks) {
       !std::isfinite(state_.hand_work_j)) {
     throw MotionError(fmt::format(
         "after {:.6g} s a joint turns by more than one state of its encoder in a clock (outer, "
-        "middle, inner: {:.4g}, {:.4g}, {:.4g} rad/s); use gentler constants or motions, or a "
-        "shorter step of the plant",
+        "middle, inner: {:.4g}, {:.4g}, {:.4g} rad/s); use gentler constants of the "
+        "device, or slower motions",
         seconds(), before.omega_rad_s[0], before.omega_rad_s[1], before.omega_rad_s[2]));
   }
   for (std::size_t i = 0; i < axes; ++i) {

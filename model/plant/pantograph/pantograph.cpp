@@ -115,7 +115,7 @@ void Pantograph::refuse(const char* what, const Joints& before) const {
   constexpr double kDegrees = 180.0 / 3.14159265358979323846;
   throw MotionError(fmt::format(
       "after {:.6g} s {} (the cranks stood at {:.4g} and {:.4g} degrees, with {:.4g} and {:.4g} "
-      "rad/s); use gentler constants or motions, or a shorter step of the plant",
+      "rad/s); use gentler constants of the device, or slower motions",
       seconds(), what, kDegrees * before[0], kDegrees * before[1], seen_.omega_rad_s[0],
       seen_.omega_rad_s[1]));
 }

@@ -240,4 +240,17 @@ TEST_CASE("linked: each limit is its own at the pins") {
   }
   CHECK((seen & limit::chatter) != 0);
   s.play();
+
+  // Thousands of rad/s, until the motion is over.
+  Armed fast({{D::A::overspeed, 0x7fffffff}});
+  seen = 0;
+  for (unsigned k = 0; k < 4'000; ++k) {
+    fast.in.encoder = {(k & 2U) != 0, ((k >> 1 ^ k) & 1U) != 0, false};
+    fast.clocks(2);
+    seen |= fast.out().core.limits;
+  }
+  CHECK((seen & limit::velocity) != 0);
+  fast.ticks(2000);
+  CHECK((fast.out().core.limits & limit::velocity) == 0);
+  fast.play();
 }

@@ -53,11 +53,10 @@ TEST_CASE(
     device.clock(phase);
     device.in.enter = true;
     device.clock();
-    for (int k = 0; k < 2;
-         ++k) {  // what is written after a commit waits for the run that has its bank
-      device.write(H::data + kParameter, static_cast<std::uint32_t>(++value));
-      if (k == 0) device.write(H::commit, 1);
-    }
+    // What is written after a commit waits for the run that has its bank.
+    device.write(H::data + kParameter, static_cast<std::uint32_t>(++value));
+    device.write(H::commit, 1);
+    device.write(H::data + kParameter, static_cast<std::uint32_t>(++value));
     device.clock(40 * kTick);
     CHECK(device.out().torque[0] == 0);
   }

@@ -33,9 +33,9 @@ inline AxesResult run_scene(const AxesScene& scene, const std::string& engine,
   REQUIRE(made != nullptr);
   const std::string& named = scene.scenario.law;
   const bool is_file = named.find('/') != std::string::npos;
-  const auto law = make_axes_law(
-      is_file ? named : std::string(FELTGATE_ROOT) + "/rtl/laws/" + named + ".law", made->info(),
-      axes_of(scene));
+  const auto law =
+      make_axes_law(is_file ? named : std::string(FELTGATE_ROOT) + "/rtl/laws/" + named + ".law",
+                    made->info(), axes_of(scene));
   AxesRunOptions options;
   options.design = design;
   options.engine = engine;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The design first_power asks for no more than 0.05 Nm and 2 A in any scene, whatever the lever does, and its
-// self-test finds swapped channels; lever, in the same hands, asks for more. docs/boards/first-hour.md
+// The design first_power asks for no more than 0.05 Nm and 2 A in any scene, whatever the lever
+// does, and its self-test finds swapped channels; lever, in the same hands, asks for more.
+// docs/boards/first-hour.md
 #include "feltgate/generated/first_power.hpp"
 
 #include <algorithm>
@@ -30,8 +31,8 @@ struct Most {
 template <class D>
 Most most_of(double swing_rad_s) {
   Most most;
-  for (const char* scene : {"free", "setpoint", "membrane", "spring_compression", "spring_tension", "damper",
-                            "charge_attract", "charge_repel", "wall"}) {
+  for (const char* scene : {"free", "setpoint", "membrane", "spring_compression", "spring_tension",
+                            "damper", "charge_attract", "charge_repel", "wall"}) {
     TwinDevice<D> device;
     device.select(scene);
     device.arm();
@@ -60,7 +61,8 @@ TEST_CASE("first_power: 0.05 Nm and 2 A are never exceeded, in no scene") {
   CHECK(most.voltage_v < 3);
 }
 
-TEST_CASE("first_power: a lever that goes the wrong way in the first pulse is a fault before any scene") {
+TEST_CASE(
+    "first_power: a lever that goes the wrong way in the first pulse is a fault before any scene") {
   for (const double sign : {1.0, -1.0}) {
     TwinDevice<FirstPower> device;
     device.select("setpoint");

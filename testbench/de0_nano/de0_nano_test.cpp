@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Keys, switches and lamps of the DE0-Nano top level, around a stub that shows what reaches the
-// core. Verilated with -GDebounceBits=4 -GLoopBits=3 -GLongPressClocks=200 -GLampBits=5 -GHeartbeatBits=6.
-// Documentation: docs/boards/panel.md
+// core. Verilated with -GDebounceBits=4 -GLoopBits=3 -GLongPressClocks=200 -GLampBits=5
+// -GHeartbeatBits=6. Documentation: docs/boards/panel.md
 #include <memory>
 
 #include "Vde0_nano.h"

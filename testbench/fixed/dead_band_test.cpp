@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "catch.hpp"
 #include "../extremes/dead_band.hpp"
+#include "catch.hpp"
 #include "feltgate/fixed.hpp"
 
 namespace {

@@ -156,5 +156,6 @@ TEST_CASE("material: the cycle of stick and slip has the closed form's period an
   }
   REQUIRE(slips > 5);
   CHECK((last_s - first_s) / (slips - 2) == Approx(slip_s + stick_s).epsilon(0.02));
-  CHECK(fastest == Approx(v + std::hypot(v, D * w / k)).epsilon(0.06));  // calmed, it tears off a little above Ts
+  CHECK(fastest == Approx(v + std::hypot(v, D * w / k))
+                       .epsilon(0.06));  // calmed, it tears off a little above Ts
 }

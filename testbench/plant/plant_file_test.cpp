@@ -106,8 +106,9 @@ TEST_CASE("errors of a plant file say file, line, what and mend", "[plant_file]"
                                   ": \"resistance_ohm\" = -0.42 is out of range; it must be "
                                   "greater than 0");
   const std::string stops =
-      good + "\n[end_stops]\nlow_rad = -1.0\nhigh_rad = 1.0\nstiffness_nm_rad = 100.0\n"
-             "restitution = 0.5\n";
+      good +
+      "\n[end_stops]\nlow_rad = -1.0\nhigh_rad = 1.0\nstiffness_nm_rad = 100.0\n"
+      "restitution = 0.5\n";
   CHECK(plant_error(stops) == "no error");
   CHECK(contains(plant_error(replaced(stops, "high_rad = 1.0", "high_rad = -1.0")),
                  "\"high_rad\" is not above \"low_rad\"; leave the lever a way: raise it"));
@@ -198,7 +199,8 @@ TEST_CASE("errors of a hand say file, line, what and mend", "[plant_file]") {
   CHECK(contains(error("kind = \"trace\"\ntime_s = [0, 1, 1]\ntheta_rad = [0, 0, 0]"),
                  "time does not increase at sample 2"));
   CHECK(contains(error("kind = \"trace\"\ntime_s = [0, 1]\ntheta_rad = [0]"), "2 times and 1"));
-  CHECK(contains(error("kind = \"trace\"\nfile = \"nowhere.csv\""), "nowhere.csv: cannot be opened"));
+  CHECK(
+      contains(error("kind = \"trace\"\nfile = \"nowhere.csv\""), "nowhere.csv: cannot be opened"));
   CHECK(contains(hand_error("[hand]\nstart_rad = 1\n[[hand.phase]]\nkind = \"trace\"\n"
                             "time_s = [0, 1]\ntheta_rad = [0, 1]"),
                  "start_rad"));

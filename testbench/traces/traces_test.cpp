@@ -166,7 +166,8 @@ TEST_CASE("STEP and DIR become quadrature", "[traces]") {
       "time_us,S,D\n0,1,1\n1,0,1\n2,1,1\n3,0,1\n4,1,1\n5,0,0\n6,1,0\n7,0,0\n8,1,0\n9,1,1\n");
   CHECK(told(file, options) == "0:00 100:01 200:11 300:01 400:00 end:450");
   options.dir.clear();
-  CHECK(told(file, options).find("STEP and DIR go together, and not with probes") != std::string::npos);
+  CHECK(told(file, options).find("STEP and DIR go together, and not with probes") !=
+        std::string::npos);
 }
 
 TEST_CASE("columns of counts and of angles are spread evenly", "[traces]") {

@@ -84,15 +84,9 @@ class LawLife : public Life {
     ticks(8);
   }
   void step(int n, bool up) {
-    phase_[n] += up ? 1u : 3u;
-    const bool a = (phase_[n] & 2u) != 0;
-    axis(n).encoder.a = a;
-    axis(n).encoder.b = ((phase_[n] & 1u) != 0) != a;
+    turn(n, up);
     ticks(1);
   }
-
- private:
-  unsigned phase_[2] = {0, 0};
 };
 
 }  // namespace feltgate::test

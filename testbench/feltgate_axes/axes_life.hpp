@@ -9,6 +9,7 @@
 
 #include "axes_adapter.hpp"
 #include "catch.hpp"
+#include "encoder_phase.hpp"
 
 namespace feltgate::test {
 
@@ -95,6 +96,11 @@ class Life {
     to_clock(0);
     clocks(n * kTick);
   }
+  /// One count of axis n.
+  void turn(int n, bool up) {
+    phase_[n] += up ? 1U : 3U;
+    axis(n).encoder = pins_at(phase_[n], axis(n).encoder.z);
+  }
   void write(int n, int address, std::uint32_t word) {
     to_clock(5);
     in.reg_addr = static_cast<std::uint16_t>(n * axes_stride + address);
@@ -147,6 +153,7 @@ class Life {
 
   AxesTwin twin_;
   std::vector<In> inputs_;
+  unsigned phase_[kAxes] = {};
 };
 
 inline std::int32_t torque(double nm) {

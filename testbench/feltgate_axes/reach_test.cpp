@@ -27,11 +27,6 @@ void check_met(Life& s, int n, unsigned limit, int ticks) {
   CAPTURE(n, limit, limits);
   CHECK((limits & limit) != 0);
 }
-/// One count of axis n.
-void step(Life& s, int n, unsigned& phase, bool up) {
-  phase += up ? 1U : 3U;
-  s.axis(n).encoder = {(phase & 2U) != 0, ((phase >> 1 ^ phase) & 1U) != 0, false};
-}
 void check_fault(Life& s, int n, Fault cause) {
   CAPTURE(n, s.out(n).faults);
   CHECK(s.out(n).first_fault == static_cast<unsigned>(cause));
@@ -72,7 +67,6 @@ TEST_CASE("axes: each has its own faults, and tells the others") {
   if (kEngine) return;  // arming takes longer: engine_test.cpp
   for (int n = 0; n < kAxes; ++n) {
     Life s;
-    unsigned phase = 0;
     s.write(n, A::watchdog_ticks, 40);
     s.arm(D::S::setpoint);
     s.write(n, C::command, 1U << C::command_kick);
@@ -87,7 +81,7 @@ TEST_CASE("axes: each has its own faults, and tells the others") {
     s.write(n, A::setpoint_torque, static_cast<std::uint32_t>(torque(0.05)));
     s.arm(D::S::setpoint);
     for (int gap = 2'000; gap > 100 && s.out(n).gates_enable; gap -= gap / 20) {
-      step(s, n, phase, false);
+      s.turn(n, false);
       s.clocks(gap);
     }
     check_fault(s, n, Fault::polarity);
@@ -98,7 +92,7 @@ TEST_CASE("axes: each has its own faults, and tells the others") {
     for (int k = 0; k < 64 << Map::self_test_unit_bits && s.out(n).gates_enable; ++k) {
       s.ticks(1);
       const bool pulse = s.twin().core(n).testing() && s.out(n).tau_ref != 0;
-      if (pulse && k % 8 == 0) step(s, n, phase, s.out(n).tau_ref < 0);
+      if (pulse && k % 8 == 0) s.turn(n, s.out(n).tau_ref < 0);
     }
     check_fault(s, n, Fault::self_test);
     for (int m = 0; m < kAxes; ++m) s.control(m, D::S::setpoint, false);

@@ -53,7 +53,7 @@ struct Session {
     for (const std::uint8_t byte : line.take_received()) take(byte);
     if (!asked && --wait <= 0) ask();
     if (clock > 60'000 && clock % 700 == 0) ++phase;
-    in.encoder = {(phase & 2U) != 0, ((phase >> 1 ^ phase) & 1U) != 0, false};
+    in.encoder = pins_at(phase);
     in.uart_rx = line.level();
     return in;
   }

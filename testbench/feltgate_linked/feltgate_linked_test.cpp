@@ -42,7 +42,7 @@ struct Stimulus {
     if (low > 0) --low;
     line.clock(out.uart_tx);
     if (random.one_in(900)) phase += random.one_in(5) ? 3 : 1;
-    in.encoder = {(phase & 2U) != 0, ((phase >> 1 ^ phase) & 1U) != 0, (phase & 0xfffU) == 0};
+    in.encoder = pins_at(phase, (phase & 0xfffU) == 0);
     if (random.one_in(60'000)) in.arm = !in.arm;
     if (random.one_in(200'000)) in.scene = static_cast<std::uint8_t>(random.below(10));
     in.stop = random.one_in(400'000);
@@ -316,7 +316,7 @@ TEST_CASE("feltgate_linked: from event to event as clock by clock") {
       send(request(2, k & 255, LinkMap::A::stream_period, 0));
     }
     if (random.one_in(3)) phase += 1;
-    in.encoder = {(phase & 2U) != 0, ((phase >> 1 ^ phase) & 1U) != 0, false};
+    in.encoder = pins_at(phase);
     in.arm = random.coin();
     const auto clocks = static_cast<std::int64_t>(1 + random.below(3000));
     std::int64_t snapshots = 0;

@@ -7,6 +7,7 @@
 
 #include <Vfeltgate_linked.h>
 
+#include "encoder_phase.hpp"
 #include "feltgate_linked_twin.hpp"
 #include "lock_step.hpp"
 #ifdef LAW

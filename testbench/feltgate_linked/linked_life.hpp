@@ -106,10 +106,14 @@ class Life {
     control(true);
     for (int k = 0; k < 3000 && !out().core.armed; ++k) ticks(1);
   }
+  /// One count.
+  void turn(bool up) {
+    phase_ += up ? 1U : 3U;
+    in.encoder = pins_at(phase_, in.encoder.z);
+  }
   /// One count, and four ticks.
   void step(bool up) {
-    phase_ += up ? 1U : 3U;
-    in.encoder = {(phase_ & 2U) != 0, ((phase_ >> 1 ^ phase_) & 1U) != 0, in.encoder.z};
+    turn(up);
     ticks(4);
   }
   /// What was done, at the RTL beside a twin.

@@ -244,8 +244,8 @@ TEST_CASE("linked: each limit is its own at the pins") {
   // Thousands of rad/s, until the motion is over.
   Armed fast({{D::A::overspeed, 0x7fffffff}});
   seen = 0;
-  for (unsigned k = 0; k < 4'000; ++k) {
-    fast.in.encoder = {(k & 2U) != 0, ((k >> 1 ^ k) & 1U) != 0, false};
+  for (int k = 0; k < 4'000; ++k) {
+    fast.turn(true);
     fast.clocks(2);
     seen |= fast.out().core.limits;
   }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "axes_loop/axes_run.hpp"
+#include "rates/device_joints.hpp"
 #include "rates/sweep.hpp"
 #include "rates/told_law.hpp"
 
@@ -42,8 +43,12 @@ class AxesSweep : public Sweep {
     report_.axes = axes_of(scene_);
     report_.simulated_s = scene_.scenario.duration_s;
     sweep(std::move(fast), 0);
-    report_.notes.emplace_back(
-        "no margin: there is no linear loop of this device; swing and expectations stand for it");
+    if (keeps_time(source_)) {
+      report_.notes.emplace_back(
+          "no margin: the law's springs and masses are states, not its slope");
+    } else {
+      margins();
+    }
     return report_;
   }
 
@@ -55,7 +60,8 @@ class AxesSweep : public Sweep {
         make_axes_law(std::move(law), source_.path, design_, report_.axes);
     Continuous::Setting set = setting(scene.scenario);
     set.axes = static_cast<std::size_t>(report_.axes);
-    set.floor = last();
+    set.slope = set.floor = last();
+    set.inertia = [&](const Eigen::VectorXd& at) { return inertia_kg_m2(scene_.device, at); };
     Continuous continuous(continuous_law_, {}, set);
     tell_all(continuous, loaded->host());
     ToldAxesLaw told(*loaded,
@@ -84,6 +90,16 @@ class AxesSweep : public Sweep {
     }
     row.cpu_s_per_s = cpu_s(scene, *loaded) / result.simulated_s;
     add(std::move(row), continuous, set);
+  }
+
+  /// Around the steepest place; what a host holds there stays as it is.
+  void margins() {
+    if (report_.slope.at_rad.size() == 0) return;
+    const plant::Parameters joint = joint_of(scene_.device, scene_.scenario.effects);
+    const stability::AxesLoopModel model =
+        stability::make_axes_model(e_, joint, inertia_kg_m2(scene_.device, report_.slope.at_rad));
+    report_.damping_nm_s_rad = model.axis.damping_nm_s_rad;
+    for (RateRow& r : report_.rows) r.margin = margin(model, report_.slope, r.ticks, delay_of(r));
   }
 
   /// Of the closed loop alone: nobody looks at it.

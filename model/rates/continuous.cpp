@@ -14,8 +14,9 @@ namespace feltgate::rates {
 
 namespace {
 
-constexpr int look_every = 20;  ///< runs between two looks at the slope
-constexpr double speed_step_rad_s = 1e-3;
+constexpr double least_stiffness_nm_rad = 1e-6;  ///< less is rounding
+constexpr int look_every = 20;                   ///< runs between two looks at the slope
+constexpr double speed_step_rad_s = 1e-3, observed_step_nm = 1e-4;
 /// The torque is not the law's in these.
 constexpr int left_out =
     static_cast<int>(limit::ramp | limit::gates_closed | limit::hold | limit::chatter);
@@ -46,6 +47,9 @@ Continuous::Continuous(const law::Law& law, std::vector<Change> changes, const S
       counted_(setting.axes),
       axes_(setting.axes) {
   for (const law::Output& o : law.outputs) axes_.at(static_cast<std::size_t>(o.axis)).driven = true;
+  for (const law::Input& in : law.inputs) {
+    observes_ = observes_ || in.source == law::Source::tau_hat;
+  }
 }
 
 double Continuous::mean_error_nm(std::size_t axis) const {
@@ -77,43 +81,76 @@ void Continuous::run(law::Evaluation<double>& law, const std::vector<Sample>& sa
   }
 }
 
-double Continuous::probe(Sample sample) {
+Eigen::VectorXd Continuous::probe(const std::vector<Sample>& samples) {
   law::Evaluation<double> copy = true_;
-  run(copy, {sample}, &Axis::ideal_nm);
-  return axes_.front().ideal_nm;
+  run(copy, samples, &Axis::ideal_nm);
+  Eigen::VectorXd nm(static_cast<Eigen::Index>(axes_.size()));
+  for (std::size_t n = 0; n < axes_.size(); ++n) {
+    nm[static_cast<Eigen::Index>(n)] = axes_[n].driven ? axes_[n].ideal_nm : 0;
+  }
+  return nm;
+}
+
+Eigen::MatrixXd Continuous::fall(double Sample::*input, double step) {
+  const auto axes = static_cast<Eigen::Index>(axes_.size());
+  Eigen::MatrixXd out(axes, axes);
+  std::vector<Sample> at = seen_;
+  for (std::size_t n = 0; n < axes_.size(); ++n) {
+    const double middle = at[n].*input;
+    at[n].*input = middle - step;
+    const Eigen::VectorXd before = probe(at);
+    at[n].*input = middle + step;
+    out.col(static_cast<Eigen::Index>(n)) = before - probe(at);
+    at[n].*input = middle;
+  }
+  return out;
 }
 
 // A slope is one that a count and a sixteenth of it show alike; a difference that does not shrink
 // with the distance is a jump.
-void Continuous::look(const Sample& at) {
-  const auto fall = [&](double h) {
-    return probe({at.position_rad - h, at.velocity_rad_s, at.tau_hat_nm}) -
-           probe({at.position_rad + h, at.velocity_rad_s, at.tau_hat_nm});
-  };
-  const double h = setting_.count_rad / 2, wide = fall(h), narrow = fall(h / 16);
-  const double tiny = 1e-9 * setting_.limit_nm;
-  if (std::fabs(wide - 16 * narrow) > 0.05 * std::fabs(wide) + tiny) {
-    if (std::fabs(narrow) > 0.5 * std::fabs(wide)) {
-      slope_.jump_nm = std::max(slope_.jump_nm, std::fabs(narrow));
-    }
-    return;
+void Continuous::look() {
+  const double h = setting_.count_rad / 2, tiny = 1e-9 * setting_.limit_nm;
+  const Eigen::MatrixXd wide = fall(&Sample::position_rad, h);
+  const Eigen::MatrixXd narrow = fall(&Sample::position_rad, h / 16);
+  bool smooth = true;
+  for (Eigen::Index n = 0; n < wide.cols(); ++n) {
+    const double all = wide.col(n).cwiseAbs().maxCoeff(),
+                 part = narrow.col(n).cwiseAbs().maxCoeff();
+    if ((wide.col(n) - 16 * narrow.col(n)).cwiseAbs().maxCoeff() <= 0.05 * all + tiny) continue;
+    smooth = false;
+    if (part > 0.5 * all) slope_.jump_nm = std::max(slope_.jump_nm, part);
   }
-  const double stiffness = wide / (2 * h);
-  const double damping =
-      (probe({at.position_rad, at.velocity_rad_s - speed_step_rad_s, at.tau_hat_nm}) -
-       probe({at.position_rad, at.velocity_rad_s + speed_step_rad_s, at.tau_hat_nm})) /
-      (2 * speed_step_rad_s);
-  if (slope_.stiffness_nm_rad <= 0 && stiffness <= 0) {
-    slope_.damping_nm_s_rad = std::max(slope_.damping_nm_s_rad, damping);
-    return;
+  if (!smooth) return;
+  const Eigen::MatrixXd stiffness = wide / (2 * h);
+  const Eigen::MatrixXd damping =
+      fall(&Sample::velocity_rad_s, speed_step_rad_s) / (2 * speed_step_rad_s);
+  Eigen::VectorXd at_rad(wide.cols());
+  for (std::size_t n = 0; n < axes_.size(); ++n) {
+    at_rad[static_cast<Eigen::Index>(n)] = seen_[n].position_rad + axes_[n].zero_rad;
   }
+  const Eigen::MatrixXd per_torque = setting_.inertia
+                                         ? setting_.inertia(at_rad).inverse().eval()
+                                         : Eigen::MatrixXd::Identity(wide.rows(), wide.cols());
+  const auto largest = [](const Eigen::MatrixXd& m) { return m.eigenvalues().real().maxCoeff(); };
+  const double steep = largest(per_torque * stiffness);
+  const bool stiff = largest(stiffness) > least_stiffness_nm_rad || slope_.stiffness_nm_rad > 0;
+  const double compared = stiff ? steep : largest(per_torque * damping);
+  // What is stiff ends the search for what only damps.
+  if (stiff && slope_.stiffness_nm_rad <= 0) steepest_ = steepest_nm_ = 0;
   // Of places that are as steep, the one with the most torque: there the law is not about to end.
-  const double here_nm = std::fabs(probe(at));
-  const bool steeper = stiffness > 1.001 * slope_.stiffness_nm_rad;
-  const bool as_steep = stiffness > 0.999 * slope_.stiffness_nm_rad && here_nm > steepest_nm_;
-  if (!steeper && !as_steep) return;
-  slope_.stiffness_nm_rad = std::max(stiffness, slope_.stiffness_nm_rad);
-  slope_.damping_nm_s_rad = damping;
+  const double here_nm = probe(seen_).cwiseAbs().maxCoeff();
+  const bool steeper = compared > (stiff ? 1.001 : 1.0) * steepest_;
+  const bool as_steep = stiff && compared > 0.999 * steepest_ && here_nm > steepest_nm_;
+  if (compared <= 0 || (!steeper && !as_steep)) return;
+  slope_.stiffness_nm_rad = stiff ? largest(stiffness) : 0;
+  slope_.damping_nm_s_rad = largest(damping);
+  slope_.stiffness = stiffness;
+  slope_.damping = damping;
+  slope_.observed = Eigen::MatrixXd::Zero(wide.rows(), wide.cols());
+  if (observes_)
+    slope_.observed = -fall(&Sample::tau_hat_nm, observed_step_nm) / (2 * observed_step_nm);
+  slope_.at_rad = at_rad;
+  steepest_ = std::max(compared, steepest_);
   steepest_nm_ = here_nm;
 }
 
@@ -147,7 +184,7 @@ void Continuous::tick(const Row* rows) {
       seen_[n] = {r.theta_rad - axes_[n].zero_rad, r.omega_rad_s, r.tau_hat_nm};
       counted_[n] = {r.position_rad, r.velocity_rad_s, r.tau_hat_nm};
     }
-    if (setting_.slope && runs_++ % look_every == 0) look(seen_.front());
+    if (setting_.slope && runs_++ % look_every == 0) look();
     if (setting_.floor) run(sampled_, counted_, &Axis::of_counts_nm);
     run(true_, seen_, &Axis::ideal_nm);
   }

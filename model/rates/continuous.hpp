@@ -5,6 +5,8 @@
 // from them the core's are. Documentation: docs/rates.md
 #pragma once
 
+#include <Eigen/Dense>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,11 +17,16 @@
 
 namespace feltgate::rates {
 
-/// How the torque changes where the motion met the law at its steepest.
+/// How the torques change where the motion met the law at its steepest; of several axes along the
+/// direction in which they change most.
 struct Slope {
   double stiffness_nm_rad = 0;  ///< of the steepest place that is no jump
   double damping_nm_s_rad = 0;  ///< there, or the largest where nothing is stiff
-  double jump_nm = 0;           ///< largest step of the torque at one position
+  double jump_nm = 0;           ///< largest step of a torque at one position
+  /// There, a row a torque, a column an axis: less torque per angle and per speed, torque per
+  /// tau_hat; and the device's angles. Empty where the law has neither stiffness nor damping.
+  Eigen::MatrixXd stiffness, damping, observed;
+  Eigen::VectorXd at_rad;
 };
 
 /// What a value of the law's parameter becomes, and when.
@@ -40,8 +47,10 @@ class Continuous {
     double count_rad = 0;
     double limit_nm = 0;  ///< of the torque reference of each axis
     int every = 1;        ///< ticks between two runs: 1, but for a law whose states count runs
-    bool slope = false;   ///< look for the steepest place; of one axis
-    bool floor = false;   ///< run it from the counts, too
+    bool slope = false;   ///< look for the steepest place
+    /// Of several axes at these angles, kg m^2: steepest is where a swing would be the fastest.
+    std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> inertia;
+    bool floor = false;  ///< run it from the counts, too
   };
   /// The law must outlive this.
   Continuous(const law::Law& law, std::vector<Change> changes, const Setting& setting);
@@ -79,9 +88,11 @@ class Continuous {
   void place(const Row* rows);
   void run(law::Evaluation<double>& law, const std::vector<Sample>& samples, double Axis::*to_nm);
   double limited(double nm) const;
-  /// Torque of axis 0 by a copy, which this run does not change.
-  double probe(Sample sample);
-  void look(const Sample& sample);
+  /// Torques by a copy, which this run does not change.
+  Eigen::VectorXd probe(const std::vector<Sample>& samples);
+  /// How they change with one input of each axis, to either side of the samples by `step`.
+  Eigen::MatrixXd fall(double Sample::*input, double step);
+  void look();
 
   const law::Law& law_;
   std::vector<Change> changes_;
@@ -93,7 +104,9 @@ class Continuous {
   std::size_t next_ = 0;
   std::int64_t ticks_ = 0, runs_ = 0;
   bool placed_ = false;
-  double largest_nm_ = 0, steepest_nm_ = 0;
+  double largest_nm_ = 0;
+  double steepest_ = 0, steepest_nm_ = 0;  ///< what is compared, and the torque there
+  bool observes_ = false;                  ///< the law has tau_hat
   ErrorFigure error_, floor_;
   Slope slope_;
 };

@@ -4,6 +4,8 @@
 // Documentation: docs/rates.md
 #include "rates/margin.hpp"
 
+#include <functional>
+
 namespace feltgate::rates {
 
 namespace {
@@ -11,21 +13,15 @@ namespace {
 constexpr double least_stiffness_nm_rad = 1e-3;  ///< below it there is no wall
 constexpr double most = 1e4, least = 1e-4;       ///< ratios that are told apart
 
-}  // namespace
+Margin::Of kind(const Slope& slope) {
+  if (slope.stiffness_nm_rad > least_stiffness_nm_rad) return Margin::Of::stiffness;
+  return slope.damping_nm_s_rad > 0 ? Margin::Of::damping : Margin::Of::none;
+}
 
-Margin margin(const stability::LoopModel& model, const Slope& slope, int scene_ticks,
-              int delay_ticks) {
+/// `stable` tells it of a ratio; the stable ones begin at 0 and end once.
+Margin search(const Slope& slope, const std::function<bool(double)>& stable) {
   Margin m;
-  const bool stiff = slope.stiffness_nm_rad > least_stiffness_nm_rad;
-  if (!stiff && slope.damping_nm_s_rad <= 0) return m;
-  m.of = stiff ? Margin::Of::stiffness : Margin::Of::damping;
-  const double whole = stiff ? slope.stiffness_nm_rad : slope.damping_nm_s_rad;
-  const auto stable = [&](double ratio) {
-    stability::Wall wall{least_stiffness_nm_rad, slope.damping_nm_s_rad, scene_ticks, delay_ticks};
-    (stiff ? wall.stiffness_nm_rad : wall.damping_nm_s_rad) = ratio * whole;
-    return stability::poles(model, wall).front().real() < 0;
-  };
-  // The stable ratios begin at 0 and end once.
+  m.of = kind(slope);
   double low = 1, high = 1;
   if (stable(1)) {
     while (low < most && stable(high *= 1.5)) low = high;
@@ -39,8 +35,44 @@ Margin margin(const stability::LoopModel& model, const Slope& slope, int scene_t
     (stable(middle) ? low : high) = middle;
   }
   m.ratio = low;
-  m.border = low * whole;
+  m.border =
+      low * (m.of == Margin::Of::stiffness ? slope.stiffness_nm_rad : slope.damping_nm_s_rad);
   return m;
+}
+
+}  // namespace
+
+Margin margin(const stability::LoopModel& model, const Slope& slope, int scene_ticks,
+              int delay_ticks) {
+  const Margin::Of of = kind(slope);
+  if (of == Margin::Of::none) return {};
+  return search(slope, [&](double ratio) {
+    stability::Wall wall{least_stiffness_nm_rad, slope.damping_nm_s_rad, scene_ticks, delay_ticks};
+    if (of == Margin::Of::stiffness) {
+      wall.stiffness_nm_rad = ratio * slope.stiffness_nm_rad;
+    } else {
+      wall.damping_nm_s_rad = ratio * slope.damping_nm_s_rad;
+    }
+    return stability::poles(model, wall).front().real() < 0;
+  });
+}
+
+Margin margin(const stability::AxesLoopModel& model, const Slope& slope, int scene_ticks,
+              int delay_ticks) {
+  const Margin::Of of = kind(slope);
+  if (of == Margin::Of::none) return {};
+  // Along a wall, and where two levers turn together, nothing holds an angle.
+  const auto axes = slope.damping.rows();
+  const Eigen::MatrixXd held = least_stiffness_nm_rad * Eigen::MatrixXd::Identity(axes, axes);
+  return search(slope, [&](double ratio) {
+    stability::AxesWall wall{held, slope.damping, slope.observed, scene_ticks, delay_ticks};
+    if (of == Margin::Of::stiffness) {
+      wall.stiffness_nm_rad += ratio * slope.stiffness;
+    } else {
+      wall.damping_nm_s_rad *= ratio;
+    }
+    return stability::poles(model, wall).front().real() < 0;
+  });
 }
 
 }  // namespace feltgate::rates

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "rates/continuous.hpp"
+#include "stability/axes_linear_loop.hpp"
 #include "stability/linear_loop.hpp"
 
 namespace feltgate::rates {
@@ -20,6 +21,10 @@ struct Margin {
 /// `delay_ticks`: from the samples of a run to the first tick in which its torque is in force, at
 /// most `scene_ticks`.
 Margin margin(const stability::LoopModel& model, const Slope& slope, int scene_ticks,
+              int delay_ticks);
+
+/// The same of several axes: the whole matrix of the stiffness is scaled, or that of the damping.
+Margin margin(const stability::AxesLoopModel& model, const Slope& slope, int scene_ticks,
               int delay_ticks);
 
 }  // namespace feltgate::rates

@@ -130,10 +130,7 @@ class LeverSweep : public Sweep {
     plant.effects.viscous = true;
     const stability::LoopModel model = stability::make_model(e_, plant);
     report_.damping_nm_s_rad = model.damping_nm_s_rad;
-    for (RateRow& r : report_.rows) {
-      const int run = (r.clocks_used + target_.clocks_per_tick - 1) / target_.clocks_per_tick;
-      r.margin = margin(model, report_.slope, r.ticks, std::min(run, r.ticks));
-    }
+    for (RateRow& r : report_.rows) r.margin = margin(model, report_.slope, r.ticks, delay_of(r));
   }
 
   Scenario scene_, of_law_;

@@ -28,7 +28,7 @@ struct RateRow {
   ErrorFigure error;   ///< of the torque reference against the continuous law, Nm; of all axes
   double mean_error_nm = 0;          ///< of the first axis
   std::vector<ErrorFigure> of_axes;  ///< the same as `error`, of each
-  Margin margin;                     ///< of one lever
+  Margin margin;
   double swing_nm = 0;  ///< of several axes: the largest of their torques' in the last quarter
   int expected = 0;     ///< bounds that the scene sets for its figures; of several axes
   std::vector<std::string> broken;  ///< of these, a line each
@@ -49,7 +49,7 @@ struct Report {
   double largest_nm = 0;  ///< of the continuous law
   Slope slope;
   ErrorFigure floor;               ///< of counts and estimated velocity, at every tick, all axes
-  double damping_nm_s_rad = 0;     ///< of the lever, for the margins
+  double damping_nm_s_rad = 0;     ///< of the lever or each joint, for the margins
   std::vector<RateRow> rows;       ///< the slowest first
   std::vector<std::string> notes;  ///< why rates or margins are missing
 };
@@ -72,7 +72,7 @@ Report measure(const Scenario& scene, const LawSource& law, const plant::Paramet
                const design::Elaborated& e, const Options& options);
 
 /// The same of a device with several axes, whose design "DEVICE_law" `e` is: its law at each rate
-/// on its twin, or on RTL and twin. No margin. Errors: LawError; std::invalid_argument for a design
+/// on its twin, or on RTL and twin. Errors: LawError; std::invalid_argument for a design
 /// that this program lacks, or a law that is not for these axes.
 Report measure(const AxesScene& scene, const LawSource& law, const design::Elaborated& e,
                const Options& options);

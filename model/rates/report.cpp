@@ -50,10 +50,14 @@ std::string kept_text(const RateRow& r) {
   return fmt::format("{} of {}", r.expected - static_cast<int>(r.broken.size()), r.expected);
 }
 
+std::string ratio_text(const Margin& m) {
+  if (m.of == Margin::Of::none) return "-";
+  return m.ratio >= 1e3 ? ">1000" : fmt::format("{:.3g}", m.ratio);
+}
+
 std::string margin_text(const Margin& m) {
   if (m.of == Margin::Of::none) return fmt::format("{:>9} {:>8}", "-", "-");
-  return fmt::format("{:>9.4g} {:>8}", m.border,
-                     m.ratio >= 1e3 ? ">1000" : fmt::format("{:.3g}", m.ratio));
+  return fmt::format("{:>9.4g} {:>8}", m.border, ratio_text(m));
 }
 
 std::string clocks_text(const RateRow& r) {
@@ -95,7 +99,7 @@ std::string lever_table(const Report& r) {
   return s;
 }
 
-/// Several axes: no margin; what the bits show in its place.
+/// Several axes: what the bits show beside the margin.
 std::string axes_table(const Report& r) {
   const char* line = "{:<17}  {:>9} {:>9}  {:>6}  {:>9}  {:>8}  {:>16}  {:>5}\n";
   std::string s =
@@ -103,9 +107,10 @@ std::string axes_table(const Report& r) {
                   "torque error, mNm", "", "swing,", "expec-", "engine clocks", "CPU");
   s += fmt::format(line, "at", "rms", "worst", "margin", "mNm", "ted kept", "of a run", "time");
   for (const RateRow& row : r.rows) {
-    s += fmt::format("{:<9} {:<7}  {}  {:>6}  {:>9.4g}  {:>8}  {:>16}  {:>5.2f}\n",
-                     rate_text(row.rate_hz), "engine", error_text(row.error), "-",
-                     1e3 * row.swing_nm, kept_text(row), clocks_text(row), time_ratio(r, row));
+    s +=
+        fmt::format("{:<9} {:<7}  {}  {:>6}  {:>9.4g}  {:>8}  {:>16}  {:>5.2f}\n",
+                    rate_text(row.rate_hz), "engine", error_text(row.error), ratio_text(row.margin),
+                    1e3 * row.swing_nm, kept_text(row), clocks_text(row), time_ratio(r, row));
   }
   return s;
 }
@@ -115,7 +120,7 @@ std::string axes_table(const Report& r) {
 std::string report_text(const Report& r) {
   const bool several = r.axes > 1;
   std::string s = fmt::format("scene {}: {}\nlaw {}", r.scene, r.title, r.law);
-  if (!several) s += ", " + slope_text(r.slope, r.largest_nm);
+  s += ", " + slope_text(r.slope, r.largest_nm);
   s +=
       fmt::format("; to {:.3g} Nm; {}, {:.3g} s\n", r.largest_nm,
                   several ? fmt::format("device {}, {} axes", r.plant, r.axes) : "plant " + r.plant,
@@ -147,12 +152,10 @@ std::string reports_json(const std::vector<Report>& reports) {
                {"axes", r.axes},
                {"simulated_s", r.simulated_s},
                {"largest_nm", r.largest_nm}};
-    if (r.axes == 1) {
-      scene["stiffness_nm_rad"] = r.slope.stiffness_nm_rad;
-      scene["damping_nm_s_rad"] = r.slope.damping_nm_s_rad;
-      scene["jump_nm"] = r.slope.jump_nm;
-      scene["lever_damping_nm_s_rad"] = r.damping_nm_s_rad;
-    }
+    scene["stiffness_nm_rad"] = r.slope.stiffness_nm_rad;
+    scene["damping_nm_s_rad"] = r.slope.damping_nm_s_rad;
+    scene["jump_nm"] = r.slope.jump_nm;
+    scene["lever_damping_nm_s_rad"] = r.damping_nm_s_rad;
     scene["counts_alone_rms_nm"] = measured_json(r.floor, r.floor.rms());
     scene["counts_alone_max_nm"] = measured_json(r.floor, r.floor.max());
     scene["block_gates"] = r.block_gates;

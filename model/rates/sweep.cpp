@@ -120,6 +120,11 @@ void Sweep::leave_out(int ticks, const std::string& reason) {
       "not at {}: {}", rate_text(static_cast<double>(target_.tick_hz) / ticks), reason));
 }
 
+int Sweep::delay_of(const RateRow& row) const {
+  const int run = (row.clocks_used + target_.clocks_per_tick - 1) / target_.clocks_per_tick;
+  return std::min(run, row.ticks);
+}
+
 void Sweep::note_once(const std::string& note) {
   const auto& all = report_.notes;
   if (std::find(all.begin(), all.end(), note) == all.end()) report_.notes.push_back(note);

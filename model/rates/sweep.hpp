@@ -36,6 +36,8 @@ class Sweep {
   /// What the host has set, for the continuous law; and all that the law was loaded with.
   void tell(Continuous& continuous, const std::string& name, double value) const;
   void tell_all(Continuous& continuous, const SceneLaw& law) const;
+  /// From the samples of a run to the first tick in which its torque is in force.
+  int delay_of(const RateRow& row) const;
   /// Ticks without torque, which are not compared.
   void note_stale(const Acted& stale);
   void note_once(const std::string& note);

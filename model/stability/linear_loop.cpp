@@ -8,100 +8,70 @@
 #include <cmath>
 #include <numeric>
 
+#include "stability/axis_chain.hpp"
+
 namespace feltgate::stability {
+
+Eigen::MatrixXd exp_minus_one(const Eigen::MatrixXd& a, double t) {
+  const int doublings = std::max(0, std::ilogb(a.cwiseAbs().maxCoeff() * t) + 4);
+  const Eigen::MatrixXd step = a * std::ldexp(t, -doublings);
+  Eigen::MatrixXd term = step, sum = Eigen::MatrixXd::Zero(a.rows(), a.cols());
+  for (int n = 2; n < 20; ++n) {
+    sum += term;
+    term = (term * step / n).eval();
+  }
+  for (int n = 0; n < doublings; ++n) sum = (2 * sum + sum * sum).eval();
+  return sum;
+}
 
 namespace {
 
 /// Everything that one tick hands to the next.
 struct State {
-  // Plant: current, speed, angle. Chain: velocity, observer, current reference.
-  double current = 0, speed = 0, angle = 0, velocity = 0, observer = 0, reference = 0;
-  double volts_new = 0, volts = 0;     ///< newest, and in force in this PWM period
-  double torque = 0, torque_next = 0;  ///< of the host: in force, and under way
-  std::vector<double> window;          ///< angles of the last m1 ticks, a ring
-  std::size_t oldest = 0;
+  double current = 0, speed = 0, angle = 0;
+  AxisChain chain;
 };
 
-constexpr int kScalars = 10;
+constexpr Eigen::Index kPlant = 3;
 
-int delay_of(const Wall& wall) {
-  if (wall.delay_ticks >= 0) return wall.delay_ticks;
-  return wall.scene_ticks > 1 ? host_ticks : 0;
+Renewal renewal_of(const Wall& wall) {
+  if (wall.delay_ticks >= 0) return {wall.scene_ticks, wall.delay_ticks};
+  return {wall.scene_ticks, wall.scene_ticks > 1 ? host_ticks : 0};
 }
 
 /// The tick `k` of the loop.
 void tick(const LoopModel& m, const Wall& wall, long k, State& s) {
-  if (k % m.pwm_ticks == 0) s.volts = s.volts_new;
-  const int delay = delay_of(wall);
-  if (delay > 0 && (k - delay) % wall.scene_ticks == 0) s.torque = s.torque_next;
-  const double travel = s.angle - s.window[s.oldest];
-  s.window[s.oldest] = s.angle;
-  if (++s.oldest == s.window.size()) s.oldest = 0;
-  s.velocity += m.velocity_a1 * (m.raw_rad_s_rad * travel - s.velocity);
-  const double inertia = m.inertia_gain * s.velocity;
-  s.observer += m.observer_a1 * (m.torque_constant * s.reference + inertia - s.observer);
-  const double asked = -wall.stiffness_nm_rad * s.angle - wall.damping_nm_s_rad * s.velocity;
-  if (k % wall.scene_ticks == 0) {
-    s.torque_next = asked;
-    if (delay == 0) s.torque = asked;
-  }
-  s.reference = m.torque_gain * s.torque + m.observer_gain * (s.observer - inertia);
-  s.volts_new = m.applied * (m.voltage_gain * s.reference + m.emf_constant * s.velocity);
-  const Eigen::Vector3d next = m.plant * Eigen::Vector4d(s.current, s.speed, s.angle, s.volts);
+  const Renewal renewal = renewal_of(wall);
+  s.chain.begin(m, renewal, k);
+  s.chain.see(m, s.angle);
+  s.chain.ask(renewal, k,
+              -wall.stiffness_nm_rad * s.angle - wall.damping_nm_s_rad * s.chain.velocity);
+  s.chain.drive(m);
+  const Eigen::Vector3d next =
+      m.plant * Eigen::Vector4d(s.current, s.speed, s.angle, s.chain.volts);
   s.current = next[0];
   s.speed = next[1];
   s.angle = next[2];
 }
 
-State unpack(const LoopModel& m, const Eigen::VectorXd& v) {
+Eigen::VectorXd after(const LoopModel& m, const Wall& wall, const Eigen::VectorXd& v, int ticks) {
   State s;
   s.current = v[0];
   s.speed = v[1];
   s.angle = v[2];
-  s.velocity = v[3];
-  s.observer = v[4];
-  s.reference = v[5];
-  s.volts_new = v[6];
-  s.volts = v[7];
-  s.torque = v[8];
-  s.torque_next = v[9];
-  s.window.assign(v.data() + kScalars, v.data() + kScalars + m.m1);
-  return s;
-}
-
-Eigen::VectorXd pack(const State& s) {
-  Eigen::VectorXd v(kScalars + static_cast<Eigen::Index>(s.window.size()));
-  v.head(kScalars) << s.current, s.speed, s.angle, s.velocity, s.observer, s.reference, s.volts_new,
-      s.volts, s.torque, s.torque_next;
-  const std::size_t n = s.window.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    v[kScalars + static_cast<Eigen::Index>(i)] = s.window[(s.oldest + i) % n];
-  }
-  return v;
-}
-
-Eigen::VectorXd after(const LoopModel& m, const Wall& wall, const Eigen::VectorXd& v, int ticks) {
-  State s = unpack(m, v);
+  s.chain.unpack(m, v.data() + kPlant);
   for (int k = 0; k < ticks; ++k) tick(m, wall, k, s);
-  return pack(s);
+  Eigen::VectorXd out(v.size());
+  out.head(kPlant) << s.current, s.speed, s.angle;
+  s.chain.pack(out.data() + kPlant);
+  return out;
 }
 
 int period_ticks(const LoopModel& m, const Wall& wall) {
   return std::lcm(m.pwm_ticks, wall.scene_ticks);
 }
 
-/// exp(a*t) - 1, by a Taylor series and doubling.
-Eigen::Matrix4d exp_minus_one(const Eigen::Matrix4d& a, double t) {
-  const int doublings = std::max(0, std::ilogb(a.cwiseAbs().maxCoeff() * t) + 4);
-  const Eigen::Matrix4d step = a * std::ldexp(t, -doublings);
-  Eigen::Matrix4d term = step, sum = Eigen::Matrix4d::Zero();
-  for (int n = 2; n < 20; ++n) {
-    sum += term;
-    term = term * step / n;
-  }
-  for (int n = 0; n < doublings; ++n) sum = (2 * sum + sum * sum).eval();
-  return sum;
-}
+Eigen::Index size_of(const LoopModel& m) { return kPlant + AxisChain::scalars + m.m1; }
 
 double back_emf_of(const plant::Parameters& p) {
   return p.effects.back_emf ? p.motor.back_emf_constant_v_s_rad : 0.0;
@@ -169,7 +139,7 @@ LoopModel make_model(const design::Elaborated& e, const plant::Parameters& p) {
 
 Eigen::MatrixXd monodromy(const LoopModel& m, const Wall& wall, int* ticks) {
   *ticks = period_ticks(m, wall);
-  const Eigen::Index n = kScalars + m.m1;
+  const Eigen::Index n = size_of(m);
   Eigen::MatrixXd out(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     out.col(i) = after(m, wall, Eigen::VectorXd::Unit(n, i), *ticks);
@@ -177,46 +147,19 @@ Eigen::MatrixXd monodromy(const LoopModel& m, const Wall& wall, int* ticks) {
   return out;
 }
 
-// Arnoldi: the matrix is known by what it does to a vector, its largest eigenvalues are wanted and
-// most of the others are 0 (the window forgets). Short periods are repeated to about 1 ms, so that
-// the wanted ones stand apart; up to 500 Hz no turn is lost by that.
+int apart_ticks(const LoopModel& m, int period_ticks) {
+  return period_ticks *
+         std::max(1, static_cast<int>(std::lround(1e-3 / (period_ticks * m.tick_s))));
+}
+
 std::vector<Pole> poles(const LoopModel& m, const Wall& wall) {
-  const int period = period_ticks(m, wall);
-  const int repeats = std::max(1, static_cast<int>(std::lround(1e-3 / (period * m.tick_s))));
-  const int ticks = period * repeats;
-  const Eigen::Index n = kScalars + m.m1, most = std::min<Eigen::Index>(24, n);
-  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(n, most + 1);
-  Eigen::MatrixXd h = Eigen::MatrixXd::Zero(most + 1, most);
-  Eigen::VectorXd start = Eigen::VectorXd::Zero(n);
-  start[1] = start[3] = 1;
+  const int ticks = apart_ticks(m, period_ticks(m, wall));
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(size_of(m));
+  start[1] = start[kPlant] = 1;
   start[2] = 0.01;
   start.tail(m.m1).setConstant(0.01);
-  basis.col(0) = start.normalized();
-  Eigen::Index size = 0;
-  while (size < most) {
-    Eigen::VectorXd w = after(m, wall, basis.col(size), ticks);
-    const double scale = w.norm();
-    for (int pass = 0; pass < 2; ++pass) {
-      for (Eigen::Index i = 0; i <= size; ++i) {
-        const double part = basis.col(i).dot(w);
-        h(i, size) += part;
-        w -= part * basis.col(i);
-      }
-    }
-    h(size + 1, size) = w.norm();
-    ++size;
-    if (w.norm() <= 1e-13 * scale) break;
-    basis.col(size) = w / w.norm();
-  }
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(h.topLeftCorner(size, size), false);
-  std::vector<Pole> out;
-  const double seconds = ticks * m.tick_s;
-  for (const Pole& z : solver.eigenvalues()) {
-    if (std::abs(z) > 1e-6 && z.imag() >= 0) out.push_back(std::log(z) / seconds);
-  }
-  std::sort(out.begin(), out.end(),
-            [](const Pole& a, const Pole& b) { return a.real() > b.real(); });
-  return out;
+  return dominant_poles([&](const Eigen::VectorXd& v) { return after(m, wall, v, ticks); }, start,
+                        24, ticks * m.tick_s);
 }
 
 Border border(const LoopModel& m, double damping_nm_s_rad, int scene_ticks) {

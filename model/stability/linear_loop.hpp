@@ -7,11 +7,11 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <complex>
 #include <vector>
 
 #include "design/design.hpp"
 #include "plant/parameters.hpp"
+#include "stability/dominant_poles.hpp"
 
 namespace feltgate::stability {
 
@@ -63,11 +63,15 @@ struct LoopModel : LinearLoop {
   double velocity_moment_s2 = 0;  ///< half the second moment of the estimator's impulse response
 };
 
+/// exp(a*t) - 1 of a rate of change, by a Taylor series and doubling.
+Eigen::MatrixXd exp_minus_one(const Eigen::MatrixXd& a, double t);
+
+/// Ticks of a torque's period that are repeated so that poles stand apart, about 1 ms: up to 500 Hz
+/// no turn is lost by that.
+int apart_ticks(const LoopModel& model, int period_ticks);
+
 /// Of two voltage gains, the low one.
 LoopModel make_model(const design::Elaborated& e, const plant::Parameters& plant);
-
-/// An eigenvalue as a pole, rad/s.
-using Pole = std::complex<double>;
 
 /// Poles nearest to growth, the fastest growing first; those of a conjugate pair with imag >= 0.
 std::vector<Pole> poles(const LoopModel& model, const Wall& wall);

@@ -58,13 +58,20 @@ TEST_CASE("two levers turned apart: each axis lags by half a period in the mean"
       CHECK(axis.count() > 350000);
     }
     CHECK(row.error.count() == row.of_axes[0].count() + row.of_axes[1].count());
-    CHECK(row.margin.of == Margin::Of::none);
     CHECK(row.expected == 1);
   }
   // The scene's bound on the torque at its end is between the lags of 490 Hz and of 1 kHz.
   CHECK(r.rows[0].broken.size() == 1);
   CHECK(r.rows[1].broken.size() == 1);
   CHECK(r.rows[2].broken.empty());
+  // They feel twice of it against each other.
+  CHECK(r.slope.stiffness_nm_rad == Approx(2 * k).epsilon(1e-6));
+  CHECK(r.slope.damping_nm_s_rad == Approx(0).margin(1e-9));
+  for (std::size_t i = 0; i < 5; ++i) {
+    CHECK(r.rows[i].margin.of == Margin::Of::stiffness);
+    CHECK(r.rows[i].margin.border == Approx(r.rows[i].margin.ratio * 2 * k));
+    if (i > 0) CHECK(r.rows[i].margin.ratio > r.rows[i - 1].margin.ratio);
+  }
   CHECK(r.floor.rms() == Approx(counts).epsilon(0.01));
   CHECK(r.rows[4].error.rms() == Approx(r.floor.rms()).epsilon(0.02));
 }

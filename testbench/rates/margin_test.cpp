@@ -22,6 +22,14 @@ stability::LoopModel model() {
   return stability::make_model(e, plant::read_plant_file(root + "/vectors/plants/linear.toml"));
 }
 
+Slope slope(double stiffness_nm_rad, double damping_nm_s_rad, double jump_nm = 0) {
+  Slope s;
+  s.stiffness_nm_rad = stiffness_nm_rad;
+  s.damping_nm_s_rad = damping_nm_s_rad;
+  s.jump_nm = jump_nm;
+  return s;
+}
+
 }  // namespace
 
 TEST_CASE("a sampled wall without other delays ends at 2 b / T") {
@@ -39,7 +47,7 @@ TEST_CASE("a sampled wall without other delays ends at 2 b / T") {
 
 TEST_CASE("a margin is the border of the stability study over the stiffness") {
   const stability::LoopModel m = model();
-  const Slope wall{4, 0.005, 0};
+  const Slope wall = slope(4, 0.005);
   for (const int ticks : {1000, 100, 1}) {
     const int delay = ticks > 1 ? stability::host_ticks : 0;
     const Margin found = margin(m, wall, ticks, delay);
@@ -56,9 +64,9 @@ TEST_CASE("a margin is the border of the stability study over the stiffness") {
 
 TEST_CASE("damping has a margin where nothing is stiff, and nothing has none") {
   const stability::LoopModel m = model();
-  const Margin slow = margin(m, {0, 0.03, 0}, 7000, 1), fast = margin(m, {0, 0.03, 0}, 1, 0);
+  const Margin slow = margin(m, slope(0, 0.03), 7000, 1), fast = margin(m, slope(0, 0.03), 1, 0);
   CHECK(slow.of == Margin::Of::damping);
   CHECK(slow.ratio < fast.ratio);
   CHECK(fast.border == Approx(0.03 * fast.ratio));
-  CHECK(margin(m, {0, 0, 0.5}, 1000, 1).of == Margin::Of::none);
+  CHECK(margin(m, slope(0, 0, 0.5), 1000, 1).of == Margin::Of::none);
 }

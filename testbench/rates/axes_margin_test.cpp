@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Margins of several axes: where the axes can be told apart they are those of single levers, and a
+// pen on a floor is the matrix that its own test derives.
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "plant/plant_file.hpp"
+#include "rates/device_joints.hpp"
+#include "rates/margin.hpp"
+#include "wall_loop.hpp"
+
+using namespace feltgate;
+using namespace feltgate::rates;
+using Matrix = Eigen::Matrix2d;
+
+namespace {
+
+const std::string root = FELTGATE_ROOT;
+
+design::Elaborated elaborated(const std::string& name) {
+  return design::elaborate(design::read_design(root + "/rtl/designs/" + name + ".toml"),
+                           design::read_registers(root + "/rtl/registers.toml"));
+}
+plant::Parameters lever() {
+  plant::Parameters p = plant::read_plant_file(root + "/vectors/plants/linear.toml");
+  p.effects.viscous = true;  // what turns freely must come to rest
+  return p;
+}
+
+Slope of(const Matrix& stiffness, const Matrix& damping) {
+  Slope s;
+  s.stiffness = stiffness;
+  s.damping = damping;
+  s.observed = Matrix::Zero();
+  s.stiffness_nm_rad = stiffness.eigenvalues().real().maxCoeff();
+  s.damping_nm_s_rad = damping.eigenvalues().real().maxCoeff();
+  return s;
+}
+Slope single(double stiffness_nm_rad, double damping_nm_s_rad) {
+  Slope s;
+  s.stiffness_nm_rad = stiffness_nm_rad;
+  s.damping_nm_s_rad = damping_nm_s_rad;
+  return s;
+}
+
+const Matrix apart = (Matrix() << 1, -1, -1, 1).finished();
+
+}  // namespace
+
+TEST_CASE("axes that do not know of each other are levers") {
+  const auto e = elaborated("lever");
+  const plant::Parameters p = lever();
+  const auto one = stability::make_model(e, p);
+  const auto two = stability::make_axes_model(e, p, p.lever.inertia_kg_m2 * Matrix::Identity());
+  for (const int ticks : {1000, 1}) {
+    CAPTURE(ticks);
+    const double border = margin(one, single(4, 0.005), ticks, 1).border;
+    const Slope both = of(Matrix::Identity() * 4, Matrix::Identity() * 0.005);
+    CHECK(margin(two, both, ticks, 1).border == Approx(border).epsilon(0.002));
+    // The second one is half as stiff: the first ends it.
+    const Slope less = of(Eigen::Vector2d(4, 2).asDiagonal(), Matrix::Identity() * 0.005);
+    CHECK(margin(two, less, ticks, 1).border == Approx(border).epsilon(0.002));
+    CHECK(margin(two, less, ticks, 1).ratio == Approx(border / 4).epsilon(0.002));
+  }
+  const Margin damped = margin(two, of(Matrix::Zero(), Matrix::Identity() * 0.03), 7000, 1);
+  CHECK(damped.of == Margin::Of::damping);
+  CHECK(damped.border == Approx(margin(one, single(0, 0.03), 7000, 1).border).epsilon(0.002));
+}
+
+TEST_CASE("levers against each other feel twice of what couples them") {
+  const auto e = elaborated("lever");
+  const plant::Parameters p = lever();
+  const auto one = stability::make_model(e, p);
+  const auto two = stability::make_axes_model(e, p, p.lever.inertia_kg_m2 * Matrix::Identity());
+  const Margin found = margin(two, of(4 * apart, 0.005 * apart), 100, 1);
+  CHECK(found.ratio == Approx(margin(one, single(8, 0.01), 100, 1).ratio).epsilon(0.002));
+}
+
+TEST_CASE("masses that couple two axes are two levers, one heavier and one lighter") {
+  const auto e = elaborated("lever");
+  plant::Parameters p = lever();
+  const double j = p.lever.inertia_kg_m2, c = 0.6 * j;
+  const auto two = stability::make_axes_model(e, p, (Matrix() << j, c, c, j).finished());
+  const Slope both = of(Matrix::Identity() * 4, Matrix::Identity() * 0.005);
+  const double found = margin(two, both, 1000, 1).border;
+  double borders[2];
+  for (int i = 0; i < 2; ++i) {
+    p.lever.inertia_kg_m2 = i == 0 ? j - c : j + c;
+    borders[i] = margin(stability::make_model(e, p), single(4, 0.005), 1000, 1).border;
+  }
+  CHECK(std::fabs(borders[0] - borders[1]) > 0.01 * borders[0]);
+  CHECK(found == Approx(std::min(borders[0], borders[1])).epsilon(0.002));
+}
+
+TEST_CASE("a law that gives tau_hat back is an observer of another gain") {
+  const auto e = elaborated("lever");
+  const plant::Parameters p = lever();
+  const auto two = stability::make_axes_model(e, p, p.lever.inertia_kg_m2 * Matrix::Identity());
+  Slope s = of(4 * Matrix::Identity(), 0.005 * Matrix::Identity());
+  s.observed = 0.5 * Matrix::Identity();
+  const double found = margin(two, s, 1, 0).border;
+  auto other = stability::make_model(e, p);
+  other.observer_gain += 0.5 * other.torque_gain;
+  CHECK(found == Approx(margin(other, single(4, 0.005), 1, 0).border).epsilon(0.002));
+  CHECK(std::fabs(found - margin(stability::make_model(e, p), single(4, 0.005), 1, 0).border) >
+        0.02 * found);
+}
+
+TEST_CASE("a pen on a floor of 1 kHz ends where its own matrix does") {
+  const AxesScene scene = read_axes_scene(
+      root + "/vectors/scenes/pantograph_floor.toml",
+      [](const std::string& name) { return root + "/vectors/devices/" + name + ".toml"; });
+  const auto& parameters = std::get<PantographSetup>(scene.device).parameters;
+  test::WallLoop floor;
+  floor.filtered = false;
+  const double viscous = floor.border_nm_s_rad(parameters);
+  REQUIRE(viscous > 1e-4);
+  DeviceSetup device = scene.device;
+  std::get<PantographSetup>(device).parameters.joint.viscous_nm_s_rad = viscous;
+  plant::Effects on = scene.scenario.effects;
+  on.lugre = false;
+  on.inductance = on.back_emf = true;
+  const plant::Parameters joint = joint_of(device, on);
+  CHECK(joint.motor.torque_constant_nm_a == Approx(3 * 0.0302));
+  // The pen stands at (0, 0.1) m: cranks of 0.1 m at 30 and 150 degrees.
+  const double first = std::asin(0.5);
+  const Eigen::Vector2d at(first, 3.14159265358979323846 - first);
+  const auto model =
+      stability::make_axes_model(elaborated("pantograph_law"), joint, inertia_kg_m2(device, at));
+  // y = (theta1 - theta5) / (2 g), g the turn of a crank per way of the pen.
+  const double per = 1 / (2 * floor.turn_rad_m(parameters));
+  const Eigen::Vector2d by(per, -per);
+  const Slope slope = of(floor.stiffness_n_m * by * by.transpose(), Matrix::Zero());
+  const Margin found = margin(model, slope, 1000, 10);
+  CHECK(found.of == Margin::Of::stiffness);
+  CHECK(found.ratio == Approx(1).epsilon(0.02));
+  // Twice the friction carries about twice the floor.
+  std::get<PantographSetup>(device).parameters.joint.viscous_nm_s_rad = 2 * viscous;
+  const auto calmer = stability::make_axes_model(elaborated("pantograph_law"), joint_of(device, on),
+                                                 inertia_kg_m2(device, at));
+  CHECK(margin(calmer, slope, 1000, 10).ratio > 1.5);
+}

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "levers_loop.hpp"
 #include "plant/plant_file.hpp"
 #include "rates/device_joints.hpp"
 #include "rates/margin.hpp"
@@ -47,6 +48,7 @@ Slope single(double stiffness_nm_rad, double damping_nm_s_rad) {
 }
 
 const Matrix apart = (Matrix() << 1, -1, -1, 1).finished();
+const Matrix pulled = (Matrix() << 0, 0, -1, 1).finished();  ///< the second lever alone
 
 }  // namespace
 
@@ -77,6 +79,24 @@ TEST_CASE("levers against each other feel twice of what couples them") {
   const auto two = stability::make_axes_model(e, p, p.lever.inertia_kg_m2 * Matrix::Identity());
   const Margin found = margin(two, of(4 * apart, 0.005 * apart), 100, 1);
   CHECK(found.ratio == Approx(margin(one, single(8, 0.01), 100, 1).ratio).epsilon(0.002));
+}
+
+TEST_CASE("coupled levers: their own matrix, and what bits show with the observer's torque") {
+  plant::Parameters p = plant::read_plant_file(root + "/vectors/plants/p24.toml");
+  p.effects.lugre = false;
+  p.effects.viscous = true;
+  p.lever.viscous_nm_s_rad = 1e-5;  // next to none, and free levers come to rest
+  const auto two = stability::make_axes_model(elaborated("two_levers_law"), p,
+                                              p.lever.inertia_kg_m2 * Matrix::Identity());
+  test::LeversLoop levers;
+  const double border = margin(two, of(4 * apart, 0.005 * apart), 2, 2).ratio * 4;
+  CHECK(border == Approx(levers.border_nm_rad(p)).epsilon(0.03));
+  // docs/devices/coupled_levers.md: by bits between 5 and 6 Nm/rad.
+  Slope observed = of(4 * pulled, 0.005 * pulled);
+  observed.observed << 0, -1, 0, 1;
+  const double with_observer = margin(two, observed, 2, 2).ratio * 4;
+  CHECK(with_observer > 5);
+  CHECK(with_observer < 6);
 }
 
 TEST_CASE("masses that couple two axes are two levers, one heavier and one lighter") {

@@ -71,24 +71,26 @@ def kept(scene, axis):
 
 
 def one(scene):
-    """One scene: rms and worst error, and its margin, or a device's swing."""
+    """One scene: rms and worst error, its margin, and a device's swing."""
     device = "device" in scene
-    below = "Below: border of stability over the scene; under 1 the lever swings by itself."
-    ring = "a ring is the core's block. "
+    has_margin = any("margin" in r for r in scene["rates"])
+    ring = f"{scene['axes']} axes. " if device else "a ring is the core's block. "
+    below = ""
+    if has_margin:
+        what = "free device" if device else "lever"
+        below = f"Below: border of stability over the scene; under 1 the {what} swings by itself. "
     if device:
-        below = (
-            "Below: the largest swing of a torque in the last quarter; a hollow mark where not all "
-            "of the scene's expectations are kept."
+        below += (
+            f"{'Last' if has_margin else 'Below'}: the largest swing of a torque in the last "
+            "quarter; a hollow mark where not all of the scene's expectations are kept. "
         )
-        ring = f"{scene['axes']} axes. "
     caption = (
         f"{scene['title']}: law {scene['law']} on the engine; {ring}"
         "Above: error of the torque against the continuous law, dashed what the encoder's counts "
-        f"alone leave. {below} Simulation."
+        f"alone leave. {below}Simulation."
     )
-    has_margin = any("margin" in r for r in scene["rates"])
     title = f"{scene['scene']}: what a slower torque costs"
-    figure, axes = plots.stacked(title, [2.4, 1.6] if has_margin or device else [2.4])
+    figure, axes = plots.stacked(title, [2.4] + [1.6] * (has_margin + device))
     draw(axes[0], scene, "error_max_nm", 1e3, "worst", color=COLOURS[1], marker="s")
     draw(axes[0], scene, "error_rms_nm", 1e3, "rms", color=COLOURS[0], marker="o")
     for key, colour in (("counts_alone_max_nm", COLOURS[1]), ("counts_alone_rms_nm", COLOURS[0])):
@@ -100,8 +102,8 @@ def one(scene):
         draw(axes[1], scene, "margin", 1, color=COLOURS[2], marker="o")
         axes[1].axhline(1, color="#d55e00", linewidth=0.9)
         axes[1].set_ylabel("border / scene")
-    elif device:
-        kept(scene, axes[1])
+    if device:
+        kept(scene, axes[-1])
     return finish(figure, axes, f"rates_{scene['scene']}", caption)
 
 

@@ -11,6 +11,7 @@ namespace feltgate::rates {
 namespace {
 
 constexpr double least_stiffness_nm_rad = 1e-3;  ///< below it there is no wall
+constexpr double next_to_none_nm_rad = 1e-7;     ///< no friction is so low that it shakes
 constexpr double most = 1e4, least = 1e-4;       ///< ratios that are told apart
 
 Margin::Of kind(const Slope& slope) {
@@ -63,7 +64,7 @@ Margin margin(const stability::AxesLoopModel& model, const Slope& slope, int sce
   if (of == Margin::Of::none) return {};
   // Along a wall, and where two levers turn together, nothing holds an angle.
   const auto axes = slope.damping.rows();
-  const Eigen::MatrixXd held = least_stiffness_nm_rad * Eigen::MatrixXd::Identity(axes, axes);
+  const Eigen::MatrixXd held = next_to_none_nm_rad * Eigen::MatrixXd::Identity(axes, axes);
   return search(slope, [&](double ratio) {
     stability::AxesWall wall{held, slope.damping, slope.observed, scene_ticks, delay_ticks};
     if (of == Margin::Of::stiffness) {

@@ -3,17 +3,14 @@
 """What no property of a proof is about, and why: a block or a port that is missing here fails
 prove.scripts. Documentation: docs/proofs.md"""
 
-PART = "in lock-step, as a part of the engine"
 # Blocks of which no port is in a property: how they are tested instead.
 BLOCKS = {
     "feltgate_checks": "it has no ports; lint.elaboration breaks each constant that it checks",
-    "feltgate_linked": "in lock-step: core, engine and link put together",
-    "engine_alu": PART,
-    "engine_memory": PART,
+    "engine_memory": "in lock-step, as a part of the engine, and as a RAM on the netlist",
 }
 ENGINE = (
-    "not what an instruction calculates; proven are what programs may write, both ages and what is "
-    "cleared"
+    "not how an instruction gets its words; proven are what it gives, what programs may write, "
+    "both ages and what is cleared"
 )
 # Blocks of which some ports are in a property: why not all.
 SOME_PORTS = {

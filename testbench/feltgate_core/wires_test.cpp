@@ -69,6 +69,22 @@ TEST_CASE("axis: its own test waits for that of another axis") {
   s.play();
 }
 
+TEST_CASE("core: a stop that is written is a fault, and the first one") {
+  Life s;
+  s.arm(D::S::setpoint);
+  s.to_clock(5);
+  s.in.reg_addr = C::command;
+  s.in.reg_wdata = 1u << C::command_stop;
+  s.in.reg_write = true;
+  s.clocks(1);
+  s.in.reg_write = false;
+  s.clocks(2);
+  CHECK_FALSE(s.out().gates_enable);
+  CHECK(s.only(Fault::stop));
+  s.ticks(2);
+  s.play();
+}
+
 TEST_CASE("core: a pulse of the self-test has all bits of its torque") {
   for (const std::uint32_t torque : {0x1555u, 0x0aaau}) {
     Life s;
@@ -186,4 +202,28 @@ TEST_CASE("core: budgets of heat that last up to some hundred ticks, RTL and twi
   }
   CHECK(fell > 3);
   CHECK(longest > 100);  // 1 % of the heat is a tick
+}
+
+TEST_CASE("core: of the words that make the heat the low 17 bits count") {
+  const auto lives = [](std::uint32_t more) {
+    Life s;
+    s.write(A::nominal_current_squared, 0);
+    s.write(A::i2t_budget, static_cast<std::uint32_t>(D::i2t_start) + (1u << 13));
+    for (const int address : {A::inverse_resistance, A::emf_over_resistance}) {
+      s.write(address, word_of_design(address) | more);
+    }
+    s.write(A::setpoint_torque, 0x45d3);
+    s.arm(D::S::setpoint);
+    int ticks = 0;
+    for (; s.out().gates_enable && ticks < 600; ++ticks) {
+      if (ticks % 20 == 0) s.step(false);
+      s.ticks(1);
+    }
+    CHECK(s.only(Fault::i2t));
+    s.play();
+    return ticks;
+  };
+  const int ticks = lives(0);
+  CHECK(ticks > 5);
+  CHECK(lives(1u << D::coefficient_bits) == ticks);
 }

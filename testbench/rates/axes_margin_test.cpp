@@ -129,6 +129,18 @@ TEST_CASE("a law that gives tau_hat back is an observer of another gain") {
         0.02 * found);
 }
 
+TEST_CASE("along a floor a pen with next to no friction is not shaken") {
+  const AxesScene scene = read_axes_scene(
+      root + "/vectors/scenes/stylus_floor.toml",
+      [](const std::string& name) { return root + "/vectors/devices/" + name + ".toml"; });
+  const plant::Parameters slide = joint_of(scene.device, scene.scenario.effects);
+  REQUIRE(slide.lever.viscous_nm_s_rad < 1e-6);
+  const auto model = stability::make_axes_model(elaborated("stylus_law"), slide,
+                                                slide.lever.inertia_kg_m2 * Matrix::Identity());
+  const Slope slope = of(Eigen::Vector2d(0.02, 0).asDiagonal(), 1e-4 * Matrix::Identity());
+  CHECK(margin(model, slope, 1000, 10).ratio > 1.5);
+}
+
 TEST_CASE("a pen on a floor of 1 kHz ends where its own matrix does") {
   const AxesScene scene = read_axes_scene(
       root + "/vectors/scenes/pantograph_floor.toml",

@@ -78,7 +78,10 @@ def one(scene):
     below = ""
     if has_margin:
         what = "free device" if device else "lever"
-        below = f"Below: border of stability over the scene; under 1 the {what} swings by itself. "
+        below = (
+            f"Below: border of stability over the scene; under 1 the {what} swings by itself, and "
+            "where it is 0 there is no mark. "
+        )
     if device:
         below += (
             f"{'Last' if has_margin else 'Below'}: the largest swing of a torque in the last "

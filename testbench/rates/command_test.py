@@ -124,7 +124,7 @@ class Rates(unittest.TestCase):
             *("-o", "a.svg"),
         )
         self.assertEqual(done.returncode, 0, done.stderr)
-        for word in ("device two_levers, 2 axes", "144 Hz", "10 kHz", "1 of 2", "note: no margin"):
+        for word in ("device two_levers, 2 axes", "144 Hz", "10 kHz", "1 of 2", "at its steepest"):
             self.assertIn(word, done.stdout)
         self.assertIn("not kept at 144 Hz: theta_rad.0.end = 0.04", done.stdout)
         (scene,) = json.loads((self.folder / "a.json").read_text(encoding="utf-8"))["scenes"]
@@ -137,14 +137,19 @@ class Rates(unittest.TestCase):
             self.assertEqual(max(of_axes), rate["error_max_nm"])
             self.assertGreater(min(of_axes), 0)
             self.assertEqual((rate["expected"], len(rate["broken"])), (2, 1))
-            self.assertNotIn("margin", rate)
+            # Against each other the levers feel twice the law's stiffness.
+            self.assertEqual(rate["border_of"], "stiffness")
+            whole = rate["margin"] * scene["stiffness_nm_rad"]
+            self.assertAlmostEqual(rate["border"], whole, delta=1e-3 * whole)
+        margins = [rate["margin"] for rate in scene["rates"]]
+        self.assertEqual(margins, sorted(margins))
         slow, fast = scene["rates"][0], scene["rates"][-1]
         self.assertGreater(slow["error_rms_nm"], 3 * fast["error_rms_nm"])
         with (self.folder / "a.csv").open(encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual([(r["expected"], r["broken"]) for r in rows], [("2", "1")] * len(rows))
         svg = (self.folder / "a.svg").read_text(encoding="utf-8")
-        for word in ("torque error, mNm", "swing, mNm"):
+        for word in ("torque error, mNm", "border / scene", "swing, mNm"):
             self.assertIn(word, svg)
 
     def test_rtl_and_twin_are_equal_at_every_rate(self):

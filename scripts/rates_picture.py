@@ -12,6 +12,7 @@ Documentation: docs/rates.md
 
 import argparse
 import json
+import math
 import sys
 from pathlib import Path
 
@@ -25,11 +26,12 @@ TICKS = {144: "144", 490: "490", 1e3: "1 k", 1e4: "10 k", 4e4: "40 k", 1e5: "100
 
 
 def points(scene, key, factor=1.0):
-    """Rates and values of the engine's rows, and of the block's, where they have the value."""
+    """Rates and values of the engine's rows, and of the block's, where they have the value; a gap
+    where it is 0, for which a logarithm has no place."""
     out = {}
     for by in ("engine", "block"):
-        rows = [r for r in scene["rates"] if r["by"] == by and r.get(key)]
-        out[by] = ([r["rate_hz"] for r in rows], [factor * r[key] for r in rows])
+        rows = [r for r in scene["rates"] if r["by"] == by and r.get(key) is not None]
+        out[by] = ([r["rate_hz"] for r in rows], [factor * r[key] or math.nan for r in rows])
     return out
 
 
@@ -48,7 +50,8 @@ def finish(figure, axes, name, caption):
     for axis in axes:
         axis.set_xscale("log")
         # A swing may be 0.
-        whole = all(value > 0 for line in axis.lines for value in line.get_ydata())
+        values = [value for line in axis.lines for value in line.get_ydata()]
+        whole = all(value > 0 for value in values if not math.isnan(value))
         axis.set_yscale("log" if whole else "linear")
         axis.set_xticks(list(TICKS), list(TICKS.values()))
         axis.minorticks_off()
@@ -79,8 +82,8 @@ def one(scene):
     if has_margin:
         what = "free device" if device else "lever"
         below = (
-            f"Below: border of stability over the scene; under 1 the {what} swings by itself, and "
-            "where it is 0 there is no mark. "
+            f"Below: border of stability over the scene; under 1 the {what} swings by itself, "
+            "a gap where it is 0. "
         )
     if device:
         below += (
@@ -115,7 +118,7 @@ def several(scenes):
     caption = (
         "Above: rms error of the torque over the law's largest torque; dashed: devices with "
         "several axes. Below: border of stability over the scene's own stiffness; under 1 the "
-        "lever swings by itself. Rings: the core's blocks. Simulation."
+        "lever or the free device swings by itself, a gap where it is 0. Rings: the core's blocks. Simulation."
     )
     figure, axes = plots.stacked("Every scene at every rate", [2.8, 2.4], width=7.6)
     for number, scene in enumerate(scenes):

@@ -94,12 +94,24 @@ class AxesSweep : public Sweep {
 
   /// Around the steepest place; what a host holds there stays as it is.
   void margins() {
-    if (report_.slope.at_rad.size() == 0) return;
+    if (report_.slope.coupled) {
+      report_.notes.emplace_back(
+          "in places the law's axes drive each other and no direction is stiff: the margin does "
+          "not "
+          "look at these");
+    }
+    if (report_.slope.at_rad.size() == 0) {
+      report_.notes.emplace_back("no margin: the motion met the law nowhere stiff or damped");
+      return;
+    }
     const plant::Parameters joint = joint_of(scene_.device, scene_.scenario.effects);
     const stability::AxesLoopModel model =
         stability::make_axes_model(e_, joint, inertia_kg_m2(scene_.device, report_.slope.at_rad));
     report_.damping_nm_s_rad = model.axis.damping_nm_s_rad;
     for (RateRow& r : report_.rows) r.margin = margin(model, report_.slope, r.ticks, delay_of(r));
+    if (report_.rows.back().margin.of == Margin::Of::damping) {
+      report_.notes.emplace_back("the margin is that of the law's damping: it is nowhere stiff");
+    }
   }
 
   /// Of the closed loop alone: nobody looks at it.

@@ -14,8 +14,8 @@ namespace feltgate::rates {
 
 namespace {
 
-constexpr double least_stiffness_nm_rad = 1e-6;  ///< less is rounding
-constexpr int look_every = 20;                   ///< runs between two looks at the slope
+constexpr double rounding_nm_rad = 1e-6;  ///< no more than that is no stiffness
+constexpr int look_every = 20;            ///< runs between two looks at the slope
 constexpr double speed_step_rad_s = 1e-3, observed_step_nm = 1e-4;
 /// The torque is not the law's in these.
 constexpr int left_out =
@@ -133,7 +133,10 @@ void Continuous::look() {
                                          : Eigen::MatrixXd::Identity(wide.rows(), wide.cols());
   const auto largest = [](const Eigen::MatrixXd& m) { return m.eigenvalues().real().maxCoeff(); };
   const double steep = largest(per_torque * stiffness);
-  const bool stiff = largest(stiffness) > least_stiffness_nm_rad || slope_.stiffness_nm_rad > 0;
+  const bool stiff = largest(stiffness) > rounding_nm_rad || slope_.stiffness_nm_rad > 0;
+  if (largest(stiffness) <= rounding_nm_rad && wide.cols() > 1) {
+    slope_.coupled = slope_.coupled || (stiffness - stiffness.transpose()).norm() > rounding_nm_rad;
+  }
   const double compared = stiff ? steep : largest(per_torque * damping);
   // What is stiff ends the search for what only damps.
   if (stiff && slope_.stiffness_nm_rad <= 0) steepest_ = steepest_nm_ = 0;

@@ -4,6 +4,8 @@
 // Documentation: docs/rates.md
 #include "rates/device_joints.hpp"
 
+#include <cmath>
+
 #include "plant/pantograph/linkage_dynamics.hpp"
 
 namespace feltgate::rates {
@@ -20,6 +22,7 @@ plant::Parameters joint_of(const plant::AxesParameters& p) {
   out.lugre.viscous_nm_s_rad = ratio * ratio * p.lugre.viscous_nm_s_rad;
   out.supply = p.supply;
   out.encoder = p.encoder;
+  out.encoder.lines = static_cast<int>(std::lround(p.encoder.lines * p.joint.encoder_ratio()));
   return out;
 }
 plant::Parameters joint_of(const plant::LeverSetParameters& p) {

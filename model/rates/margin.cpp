@@ -14,15 +14,15 @@ constexpr double least_stiffness_nm_rad = 1e-3;  ///< below it there is no wall
 constexpr double next_to_none_nm_rad = 1e-7;     ///< no friction is so low that it shakes
 constexpr double most = 1e4, least = 1e-4;       ///< ratios that are told apart
 
-Margin::Of kind(const Slope& slope) {
-  if (slope.stiffness_nm_rad > least_stiffness_nm_rad) return Margin::Of::stiffness;
+Margin::Of kind(const Slope& slope, double least_nm_rad) {
+  if (slope.stiffness_nm_rad > least_nm_rad) return Margin::Of::stiffness;
   return slope.damping_nm_s_rad > 0 ? Margin::Of::damping : Margin::Of::none;
 }
 
 /// `stable` tells it of a ratio; the stable ones begin at 0 and end once.
-Margin search(const Slope& slope, const std::function<bool(double)>& stable) {
+Margin search(Margin::Of of, const Slope& slope, const std::function<bool(double)>& stable) {
   Margin m;
-  m.of = kind(slope);
+  m.of = of;
   double low = 1, high = 1;
   if (stable(1)) {
     while (low < most && stable(high *= 1.5)) low = high;
@@ -36,8 +36,7 @@ Margin search(const Slope& slope, const std::function<bool(double)>& stable) {
     (stable(middle) ? low : high) = middle;
   }
   m.ratio = low;
-  m.border =
-      low * (m.of == Margin::Of::stiffness ? slope.stiffness_nm_rad : slope.damping_nm_s_rad);
+  m.border = low * (of == Margin::Of::stiffness ? slope.stiffness_nm_rad : slope.damping_nm_s_rad);
   return m;
 }
 
@@ -45,9 +44,9 @@ Margin search(const Slope& slope, const std::function<bool(double)>& stable) {
 
 Margin margin(const stability::LoopModel& model, const Slope& slope, int scene_ticks,
               int delay_ticks) {
-  const Margin::Of of = kind(slope);
+  const Margin::Of of = kind(slope, least_stiffness_nm_rad);
   if (of == Margin::Of::none) return {};
-  return search(slope, [&](double ratio) {
+  return search(of, slope, [&](double ratio) {
     stability::Wall wall{least_stiffness_nm_rad, slope.damping_nm_s_rad, scene_ticks, delay_ticks};
     if (of == Margin::Of::stiffness) {
       wall.stiffness_nm_rad = ratio * slope.stiffness_nm_rad;
@@ -60,12 +59,12 @@ Margin margin(const stability::LoopModel& model, const Slope& slope, int scene_t
 
 Margin margin(const stability::AxesLoopModel& model, const Slope& slope, int scene_ticks,
               int delay_ticks) {
-  const Margin::Of of = kind(slope);
+  const Margin::Of of = kind(slope, next_to_none_nm_rad);
   if (of == Margin::Of::none) return {};
   // Along a wall, and where two levers turn together, nothing holds an angle.
   const auto axes = slope.damping.rows();
   const Eigen::MatrixXd held = next_to_none_nm_rad * Eigen::MatrixXd::Identity(axes, axes);
-  return search(slope, [&](double ratio) {
+  return search(of, slope, [&](double ratio) {
     stability::AxesWall wall{held, slope.damping, slope.observed, scene_ticks, delay_ticks};
     if (of == Margin::Of::stiffness) {
       wall.stiffness_nm_rad += ratio * slope.stiffness;

@@ -4,7 +4,9 @@
 // Documentation: docs/stability.md
 #include "stability/axes_linear_loop.hpp"
 
+#include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 #include "stability/axis_chain.hpp"
 
@@ -91,31 +93,15 @@ class AxesTicks {
 
 AxesLoopModel make_axes_model(const design::Elaborated& e, const plant::Parameters& joint,
                               const Eigen::MatrixXd& inertia) {
-  AxesLoopModel out;
-  out.axis = make_model(e, joint);
   const Index n = inertia.rows();
-  const double r = joint.motor.resistance_ohm, l = joint.motor.inductance_h;
-  const double kt = joint.motor.torque_constant_nm_a;
-  const double ke = joint.effects.back_emf ? joint.motor.back_emf_constant_v_s_rad : 0.0;
   const Eigen::MatrixXd per_torque = inertia.inverse();
-  Eigen::MatrixXd rate = Eigen::MatrixXd::Zero(4 * n, 4 * n);
-  const auto block = [&](Index to, Index from) { return rate.block(to * n, from * n, n, n); };
-  using Of = LinearLoop;
-  double damping = out.axis.damping_nm_s_rad;
-  if (joint.effects.inductance) {
-    block(Of::kCurrent, Of::kCurrent).diagonal().setConstant(-r / l);
-    block(Of::kCurrent, Of::kSpeed).diagonal().setConstant(-ke / l);
-    block(Of::kCurrent, Of::kVoltage).diagonal().setConstant(1 / l);
-    block(Of::kSpeed, Of::kCurrent) = kt * per_torque;
-  } else {
-    damping += kt * ke / r;
-    block(Of::kSpeed, Of::kVoltage) = kt / r * per_torque;
-  }
-  block(Of::kSpeed, Of::kSpeed) = -damping * per_torque;
-  block(Of::kAngle, Of::kSpeed).setIdentity();
-  Eigen::MatrixXd change = exp_minus_one(rate, out.axis.tick_s);
-  // A current that follows at once is no state: nothing of it remains after a tick.
-  if (!joint.effects.inductance) change.topLeftCorner(n, n) = -Eigen::MatrixXd::Identity(n, n);
+  if (!per_torque.allFinite()) throw std::invalid_argument("an inertia that has no inverse");
+  plant::Parameters mean = joint;
+  mean.lever.inertia_kg_m2 = inertia.trace() / static_cast<double>(n);
+  AxesLoopModel out;
+  out.axis = make_model(e, mean);
+  const Eigen::MatrixXd change =
+      plant_change(joint, out.axis.damping_nm_s_rad, per_torque, out.axis.tick_s);
   out.plant = (Eigen::MatrixXd::Identity(4 * n, 4 * n) + change).topRows(3 * n);
   return out;
 }
@@ -123,11 +109,11 @@ AxesLoopModel make_axes_model(const design::Elaborated& e, const plant::Paramete
 std::vector<Pole> poles(const AxesLoopModel& model, const AxesWall& wall) {
   AxesTicks run(model, wall);
   const int ticks = apart_ticks(model.axis, std::lcm(model.axis.pwm_ticks, wall.scene_ticks));
-  // Every axis moves otherwise: no mode of several is at rest in it.
+  // No mode whose shares are ratios is at rest in it.
   const Index n = run.axes(), chain = (run.size() - 3 * n) / n;
   Vector start = Vector::Zero(run.size());
   for (Index i = 0; i < n; ++i) {
-    const double share = (i % 2 == 0 ? 1.0 : -1.0) / static_cast<double>(i + 1);
+    const double share = (i % 2 == 0 ? 1.0 : -1.0) / std::sqrt(static_cast<double>(i + 1));
     const double angle = 0.01 * share;
     start[n + i] = share;
     start[2 * n + i] = angle;

@@ -22,12 +22,13 @@ struct AxesWall {
 };
 
 struct AxesLoopModel {
-  LoopModel axis;         ///< of a core's axis around a motor at its joint
+  LoopModel axis;         ///< of a core's axis around its joint, which has the mean inertia
   Eigen::MatrixXd plant;  ///< all currents, speeds, angles after a tick, from those and all volts
 };
 
 /// `joint`: the motor, friction and encoder of each joint, all at the joint; its inertia is not
-/// used. `inertia_kg_m2`: of all joints at that place, symmetric, positive definite.
+/// used. `inertia_kg_m2`: of all joints at that place, symmetric, positive definite; throws
+/// std::invalid_argument where it has no inverse.
 AxesLoopModel make_axes_model(const design::Elaborated& e, const plant::Parameters& joint,
                               const Eigen::MatrixXd& inertia_kg_m2);
 

@@ -12,6 +12,9 @@
 
 namespace feltgate::stability {
 
+namespace {
+
+/// exp(a*t) - 1, by a Taylor series and doubling.
 Eigen::MatrixXd exp_minus_one(const Eigen::MatrixXd& a, double t) {
   const int doublings = std::max(0, std::ilogb(a.cwiseAbs().maxCoeff() * t) + 4);
   const Eigen::MatrixXd step = a * std::ldexp(t, -doublings);
@@ -23,8 +26,6 @@ Eigen::MatrixXd exp_minus_one(const Eigen::MatrixXd& a, double t) {
   for (int n = 0; n < doublings; ++n) sum = (2 * sum + sum * sum).eval();
   return sum;
 }
-
-namespace {
 
 /// Everything that one tick hands to the next.
 struct State {
@@ -77,25 +78,35 @@ double back_emf_of(const plant::Parameters& p) {
   return p.effects.back_emf ? p.motor.back_emf_constant_v_s_rad : 0.0;
 }
 
-/// The plant's change over one tick in which the voltage is held.
-Eigen::Matrix4d change_of(const plant::Parameters& p, double damping_nm_s_rad, double tick_s) {
-  const double r = p.motor.resistance_ohm, l = p.motor.inductance_h, j = p.lever.inertia_kg_m2;
-  const double kt = p.motor.torque_constant_nm_a, ke = back_emf_of(p), b = damping_nm_s_rad;
-  Eigen::Matrix4d rate = Eigen::Matrix4d::Zero();
+}  // namespace
+
+Eigen::MatrixXd plant_change(const plant::Parameters& p, double damping_nm_s_rad,
+                             const Eigen::MatrixXd& per_torque, double tick_s) {
+  const double r = p.motor.resistance_ohm, l = p.motor.inductance_h;
+  const double kt = p.motor.torque_constant_nm_a, ke = back_emf_of(p);
+  const Eigen::Index n = per_torque.rows();
+  Eigen::MatrixXd rate = Eigen::MatrixXd::Zero(4 * n, 4 * n);
+  const auto block = [&](Eigen::Index to, Eigen::Index from) {
+    return rate.block(to * n, from * n, n, n);
+  };
+  using Of = LinearLoop;
+  double damping = damping_nm_s_rad;
   if (p.effects.inductance) {
-    rate.row(LinearLoop::kCurrent) << -r / l, -ke / l, 0, 1 / l;
-    rate.row(LinearLoop::kSpeed) << kt / j, -b / j, 0, 0;
+    block(Of::kCurrent, Of::kCurrent).diagonal().setConstant(-r / l);
+    block(Of::kCurrent, Of::kSpeed).diagonal().setConstant(-ke / l);
+    block(Of::kCurrent, Of::kVoltage).diagonal().setConstant(1 / l);
+    block(Of::kSpeed, Of::kCurrent) = kt * per_torque;
   } else {
-    rate.row(LinearLoop::kSpeed) << 0, -(kt * ke / r + b) / j, 0, kt / (r * j);
+    damping += kt * ke / r;
+    block(Of::kSpeed, Of::kVoltage) = kt / r * per_torque;
   }
-  rate(LinearLoop::kAngle, LinearLoop::kSpeed) = 1;
-  Eigen::Matrix4d change = exp_minus_one(rate, tick_s);
+  block(Of::kSpeed, Of::kSpeed) = -damping * per_torque;
+  block(Of::kAngle, Of::kSpeed).setIdentity();
+  Eigen::MatrixXd change = exp_minus_one(rate, tick_s);
   // A current that follows at once is no state: nothing of it remains after a tick.
-  if (!p.effects.inductance) change.row(LinearLoop::kCurrent) << -1, 0, 0, 0;
+  if (!p.effects.inductance) change.topLeftCorner(n, n) = -Eigen::MatrixXd::Identity(n, n);
   return change;
 }
-
-}  // namespace
 
 LinearLoop make_linear_loop(const design::Elaborated& e, const plant::Parameters& p) {
   const auto word = [&](const char* name) { return e.word(name).quantised(); };
@@ -103,7 +114,8 @@ LinearLoop make_linear_loop(const design::Elaborated& e, const plant::Parameters
   m.tick_s = e.design.tick_s();
   m.m1 = e.design.m1;
   m.damping_nm_s_rad = plant::smooth_damping_nm_s_rad(p, p.effects);
-  m.change = change_of(p, m.damping_nm_s_rad, m.tick_s);
+  m.change = plant_change(p, m.damping_nm_s_rad,
+                          Eigen::MatrixXd::Constant(1, 1, 1 / p.lever.inertia_kg_m2), m.tick_s);
   const double two_pi = 6.283185307179586;
   m.raw_rad_s_rad = 4.0 * p.encoder.lines / two_pi * e.rad_s_per_count();
   m.velocity_a1 = word("velocity_a1");

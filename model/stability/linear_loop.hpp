@@ -63,8 +63,10 @@ struct LoopModel : LinearLoop {
   double velocity_moment_s2 = 0;  ///< half the second moment of the estimator's impulse response
 };
 
-/// exp(a*t) - 1 of a rate of change, by a Taylor series and doubling.
-Eigen::MatrixXd exp_minus_one(const Eigen::MatrixXd& a, double t);
+/// The change of all currents, speeds, angles and voltages over one tick in which these are held,
+/// by the exact exponential; `per_torque`: inverse of the inertia of all axes.
+Eigen::MatrixXd plant_change(const plant::Parameters& plant, double damping_nm_s_rad,
+                             const Eigen::MatrixXd& per_torque, double tick_s);
 
 /// Ticks of a torque's period that are repeated so that poles stand apart, about 1 ms: up to 500 Hz
 /// no turn is lost by that.

@@ -99,6 +99,58 @@ TEST_CASE("coupled levers: their own matrix, and what bits show with the observe
   CHECK(with_observer < 6);
 }
 
+TEST_CASE("a stiffness along any direction is found") {
+  // Along (1, 2), and no torque across.
+  const auto e = elaborated("lever");
+  const plant::Parameters p = lever();
+  const auto one = stability::make_model(e, p);
+  const auto two = stability::make_axes_model(e, p, p.lever.inertia_kg_m2 * Matrix::Identity());
+  const Eigen::Vector2d along = Eigen::Vector2d(1, 2).normalized();
+  const Matrix direction = along * along.transpose();
+  const Margin found = margin(two, of(40 * direction, 0.005 * direction), 1000, 1);
+  CHECK(found.ratio == Approx(margin(one, single(40, 0.005), 1000, 1).ratio).epsilon(0.002));
+  CHECK(found.ratio < 1);
+}
+
+TEST_CASE("joints: behind a capstan, with the encoder at the motor, in two rings") {
+  const auto scene = [](const std::string& name) {
+    return read_axes_scene(root + "/vectors/scenes/" + name + ".toml", [](const std::string& of) {
+      return root + "/vectors/devices/" + of + ".toml";
+    });
+  };
+  const AxesScene pantograph = scene("pantograph_floor");
+  DeviceSetup device = pantograph.device;
+  auto& p = std::get<PantographSetup>(device).parameters;
+  plant::Effects on = pantograph.scenario.effects;
+  on.lugre = true;
+  const plant::Parameters joint = joint_of(device, on);
+  CHECK(plant::smooth_damping_nm_s_rad(joint, joint.effects) ==
+        Approx(p.joint.viscous_nm_s_rad + 9 * p.lugre.viscous_nm_s_rad));
+  CHECK(joint.encoder.lines == p.encoder.lines);
+  p.joint.encoder_on_motor = true;
+  CHECK(joint_of(device, on).encoder.lines == 3 * p.encoder.lines);
+
+  // The rings in a row: each axis turns what is inside it, and none another.
+  const AxesScene gimbal = scene("gimbal");
+  const auto& g = std::get<GimbalSetup>(gimbal.device).parameters;
+  const Eigen::MatrixXd straight = inertia_kg_m2(gimbal.device, Eigen::Vector3d::Zero());
+  CHECK(straight(2, 2) == Approx(g.bodies.handle.x + g.bodies.joint_inertia_kg_m2[2]));
+  CHECK(straight(1, 1) ==
+        Approx(g.bodies.handle.y + g.bodies.inner.y + g.bodies.joint_inertia_kg_m2[1]));
+  CHECK(straight(0, 0) == Approx(g.bodies.handle.z + g.bodies.inner.z + g.bodies.outer.z +
+                                 g.bodies.joint_inertia_kg_m2[0]));
+  CHECK(straight.isDiagonal());
+  // A middle joint that is turned lets the outer one turn the handle about its own axis.
+  const Eigen::MatrixXd turned = inertia_kg_m2(gimbal.device, Eigen::Vector3d(0, 0.5, 0));
+  CHECK(turned(0, 2) == Approx(-std::sin(0.5) * g.bodies.handle.x));
+  CHECK(turned(2, 0) == Approx(turned(0, 2)));
+}
+
+TEST_CASE("an inertia without an inverse is refused") {
+  CHECK_THROWS_WITH(stability::make_axes_model(elaborated("lever"), lever(), Matrix::Zero()),
+                    Catch::Contains("no inverse"));
+}
+
 TEST_CASE("masses that couple two axes are two levers, one heavier and one lighter") {
   const auto e = elaborated("lever");
   plant::Parameters p = lever();

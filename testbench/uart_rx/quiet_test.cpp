@@ -85,3 +85,9 @@ TEST_CASE("uart_rx: a line at rest stays so for ever, whatever is under way does
   clocks(true, 6);
   CHECK(twin.quiet(true) == UartRx::kForever);
 }
+
+TEST_CASE("uart_rx: the step of a rate is the nearest") {
+  CHECK(feltgate::uart_step(50'000'000, 1'000'000) == 1311);  // 1310.72
+  CHECK(feltgate::uart_step(27'000'000, 500'000) == 1214);    // 1213.63
+  CHECK(feltgate::uart_step(50'000'000, 2'000'000) == 2621);  // 2621.44
+}

@@ -96,9 +96,8 @@ class AxesSweep : public Sweep {
   void margins() {
     if (report_.slope.coupled) {
       report_.notes.emplace_back(
-          "in places the law's axes drive each other and no direction is stiff: the margin does "
-          "not "
-          "look at these");
+          "in places the law's axes drive each other and no direction is stiff: no part of the "
+          "margin");
     }
     if (report_.slope.at_rad.size() == 0) {
       report_.notes.emplace_back("no margin: the motion met the law nowhere stiff or damped");

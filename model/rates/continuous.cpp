@@ -114,8 +114,8 @@ void Continuous::look() {
   const Eigen::MatrixXd narrow = fall(&Sample::position_rad, h / 16);
   bool smooth = true;
   for (Eigen::Index n = 0; n < wide.cols(); ++n) {
-    const double all = wide.col(n).cwiseAbs().maxCoeff(),
-                 part = narrow.col(n).cwiseAbs().maxCoeff();
+    const double all = wide.col(n).cwiseAbs().maxCoeff();
+    const double part = narrow.col(n).cwiseAbs().maxCoeff();
     if ((wide.col(n) - 16 * narrow.col(n)).cwiseAbs().maxCoeff() <= 0.05 * all + tiny) continue;
     smooth = false;
     if (part > 0.5 * all) slope_.jump_nm = std::max(slope_.jump_nm, part);
@@ -150,8 +150,9 @@ void Continuous::look() {
   slope_.stiffness = stiffness;
   slope_.damping = damping;
   slope_.observed = Eigen::MatrixXd::Zero(wide.rows(), wide.cols());
-  if (observes_)
+  if (observes_) {
     slope_.observed = -fall(&Sample::tau_hat_nm, observed_step_nm) / (2 * observed_step_nm);
+  }
   slope_.at_rad = at_rad;
   steepest_ = std::max(compared, steepest_);
   steepest_nm_ = here_nm;

@@ -23,8 +23,8 @@ struct Slope {
   double stiffness_nm_rad = 0;  ///< of the steepest place that is no jump
   double damping_nm_s_rad = 0;  ///< there, or the largest where nothing is stiff
   double jump_nm = 0;           ///< largest step of a torque at one position
-  /// Somewhere torques change with angles or tau_hat in a way that is no stiffness of any
-  /// direction.
+  /// Somewhere an axis' torque changes with another's angle, not the other way round, and no
+  /// direction is stiff: the axes drive each other.
   bool coupled = false;
   /// There, a row a torque, a column an axis: less torque per angle and per speed, torque per
   /// tau_hat; and the device's angles. Empty where the law has neither stiffness nor damping.

@@ -29,13 +29,13 @@ AxesScene scene_with(const std::string& name, double stiffness, double damping, 
 
 /// Stiffness that the led lever gives against a hand at 0.3 rad, Nm/rad.
 double felt_nm_rad(double stiffness, double share) {
-  const AxesResult r = run_scene(scene_with("coupled_levers", stiffness, 0.02, share), "twin");
+  const AxesResult r = run_scene(scene_with("coupled_levers", stiffness, 0.005, share), "twin");
   return -r.figures.at("tau_ref_nm.0.end") / r.figures.at("theta_rad.0.end");
 }
 
 /// Work of the hand in a period of 0.5 rad either way at 2 Hz, J.
 double drag_j(double share) {
-  return run_scene(scene_with("coupled_levers_drag", 4, 0.02, share), "twin")
+  return run_scene(scene_with("coupled_levers_drag", 4, 0.005, share), "twin")
       .figures.at("hand_energy_j");
 }
 

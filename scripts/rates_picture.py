@@ -118,7 +118,8 @@ def several(scenes):
     caption = (
         "Above: rms error of the torque over the law's largest torque; dashed: devices with "
         "several axes. Below: border of stability over the scene's own stiffness; under 1 the "
-        "lever or the free device swings by itself, a gap where it is 0. Rings: the core's blocks. Simulation."
+        "lever or the free device swings by itself, a gap where it is 0. Rings: the core's blocks. "
+        "Simulation."
     )
     figure, axes = plots.stacked("Every scene at every rate", [2.8, 2.4], width=7.6)
     for number, scene in enumerate(scenes):

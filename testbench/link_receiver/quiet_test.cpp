@@ -3,12 +3,14 @@
 //
 // link_receiver: when its twin says that it is idle, nothing changes without a byte. Documentation:
 // docs/blocks/link_receiver.md
-#include <array>
+#include <algorithm>
 
+#include "../feltgate_linked/frames.hpp"
 #include "catch.hpp"
 #include "feltgate/link_receiver.hpp"
 
 using namespace feltgate;
+using namespace feltgate::test;
 
 namespace {
 
@@ -19,18 +21,6 @@ LinkReceiver::In byte_of(std::uint8_t byte) {
   return in;
 }
 
-/// A read of one word, sequence 7: eight bytes and their CRC.
-std::array<std::uint8_t, 12> read_of(std::uint16_t address) {
-  std::array<std::uint8_t, 12> frame{LinkMap::kind_read, 7, static_cast<std::uint8_t>(address),
-                                     static_cast<std::uint8_t>(address >> 8), 1};
-  std::uint32_t crc = crc32_start;
-  for (std::size_t k = 0; k < 8; ++k) {
-    for (int bit = 0; bit < 8; ++bit) crc = crc32_shift(crc, (frame[k] >> bit & 1) != 0);
-  }
-  for (std::size_t k = 0; k < 4; ++k) frame[8 + k] = static_cast<std::uint8_t>(~crc >> 8 * k);
-  return frame;
-}
-
 struct Line {
   LinkReceiver twin;
 
@@ -38,16 +28,9 @@ struct Line {
     twin.clock(byte_of(static_cast<std::uint8_t>(byte)));
     for (int k = 0; k < 9; ++k) twin.clock({});
   }
-  /// As it goes over the line, without its END.
-  void send(const std::array<std::uint8_t, 12>& frame) {
-    for (const std::uint8_t byte : frame) {
-      if (byte == LinkMap::frame_end || byte == LinkMap::frame_escape) {
-        send(LinkMap::frame_escape);
-        send(byte == LinkMap::frame_end ? LinkMap::escaped_end : LinkMap::escaped_escape);
-      } else {
-        send(byte);
-      }
-    }
+  /// All of a frame but its last END.
+  void send(const Bytes& frame) {
+    for (std::size_t k = 0; k + 1 < frame.size(); ++k) send(frame[k]);
   }
   bool ends_good() {
     twin.clock(byte_of(LinkMap::frame_end));
@@ -90,7 +73,7 @@ TEST_CASE("link_receiver: it is idle but for the eight bits of a byte and the cl
 
 TEST_CASE("link_receiver: a good frame takes a clock too") {
   Line line;
-  line.send(read_of(0x1000));
+  line.send(request(LinkMap::kind_read, 7, 0x1000, 1));
   REQUIRE(line.twin.idle());
   REQUIRE(line.ends_good());
   CHECK_FALSE(line.twin.idle());
@@ -102,13 +85,13 @@ TEST_CASE("link_receiver: a good frame takes a clock too") {
 
 TEST_CASE("link_receiver: without an engine its addresses are none") {
   Line line;
-  line.send(read_of(0x4000));
+  line.send(request(LinkMap::kind_read, 7, 0x4000, 1));
   CHECK_FALSE(line.ends_good());
 }
 
 TEST_CASE("link_receiver: a byte that is not valid is none, whatever it is") {
   Line line;
-  line.send(read_of(0x1000));
+  line.send(request(LinkMap::kind_read, 7, 0x1000, 1));
   for (const std::uint32_t byte : {LinkMap::frame_end, LinkMap::frame_escape, 0x31U}) {
     LinkReceiver::In in;
     in.byte = static_cast<std::uint8_t>(byte);
@@ -119,16 +102,13 @@ TEST_CASE("link_receiver: a byte that is not valid is none, whatever it is") {
 }
 
 TEST_CASE("link_receiver: two escapes in a row spoil the frame") {
-  // 0x10db: its low byte is the escape.
-  const auto frame = read_of(0x10db);
+  // The low byte of the address is the escape.
+  Bytes frame = request(LinkMap::kind_read, 7, 0x10db, 1);
   Line line;
   line.send(frame);
   REQUIRE(line.ends_good());
-  line.send(frame[0]);
-  line.send(frame[1]);
-  line.send(LinkMap::frame_escape);
-  line.send(LinkMap::frame_escape);
-  line.send(LinkMap::escaped_escape);
-  for (std::size_t k = 3; k < frame.size(); ++k) line.send(frame[k]);
+  const auto escape = std::find(frame.begin(), frame.end(), LinkMap::frame_escape);
+  frame.insert(escape, static_cast<std::uint8_t>(LinkMap::frame_escape));
+  line.send(frame);
   CHECK_FALSE(line.ends_good());
 }

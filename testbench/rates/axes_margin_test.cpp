@@ -25,6 +25,11 @@ design::Elaborated elaborated(const std::string& name) {
   return design::elaborate(design::read_design(root + "/rtl/designs/" + name + ".toml"),
                            design::read_registers(root + "/rtl/registers.toml"));
 }
+AxesScene scene_of(const std::string& name) {
+  return read_axes_scene(root + "/vectors/scenes/" + name + ".toml", [](const std::string& device) {
+    return root + "/vectors/devices/" + device + ".toml";
+  });
+}
 plant::Parameters lever() {
   plant::Parameters p = plant::read_plant_file(root + "/vectors/plants/linear.toml");
   p.effects.viscous = true;  // what turns freely must come to rest
@@ -113,12 +118,7 @@ TEST_CASE("a stiffness along any direction is found") {
 }
 
 TEST_CASE("joints: behind a capstan, with the encoder at the motor, in two rings") {
-  const auto scene = [](const std::string& name) {
-    return read_axes_scene(root + "/vectors/scenes/" + name + ".toml", [](const std::string& of) {
-      return root + "/vectors/devices/" + of + ".toml";
-    });
-  };
-  const AxesScene pantograph = scene("pantograph_floor");
+  const AxesScene pantograph = scene_of("pantograph_floor");
   DeviceSetup device = pantograph.device;
   auto& p = std::get<PantographSetup>(device).parameters;
   plant::Effects on = pantograph.scenario.effects;
@@ -131,7 +131,7 @@ TEST_CASE("joints: behind a capstan, with the encoder at the motor, in two rings
   CHECK(joint_of(device, on).encoder.lines == 3 * p.encoder.lines);
 
   // The rings in a row: each axis turns what is inside it, and none another.
-  const AxesScene gimbal = scene("gimbal");
+  const AxesScene gimbal = scene_of("gimbal");
   const auto& g = std::get<GimbalSetup>(gimbal.device).parameters;
   const Eigen::MatrixXd straight = inertia_kg_m2(gimbal.device, Eigen::Vector3d::Zero());
   CHECK(straight(2, 2) == Approx(g.bodies.handle.x + g.bodies.joint_inertia_kg_m2[2]));
@@ -182,9 +182,7 @@ TEST_CASE("a law that gives tau_hat back is an observer of another gain") {
 }
 
 TEST_CASE("along a floor a pen with next to no friction is not shaken") {
-  const AxesScene scene = read_axes_scene(
-      root + "/vectors/scenes/stylus_floor.toml",
-      [](const std::string& name) { return root + "/vectors/devices/" + name + ".toml"; });
+  const AxesScene scene = scene_of("stylus_floor");
   const plant::Parameters slide = joint_of(scene.device, scene.scenario.effects);
   REQUIRE(slide.lever.viscous_nm_s_rad < 1e-6);
   const auto model = stability::make_axes_model(elaborated("stylus_law"), slide,
@@ -194,9 +192,7 @@ TEST_CASE("along a floor a pen with next to no friction is not shaken") {
 }
 
 TEST_CASE("a pen on a floor of 1 kHz ends where its own matrix does") {
-  const AxesScene scene = read_axes_scene(
-      root + "/vectors/scenes/pantograph_floor.toml",
-      [](const std::string& name) { return root + "/vectors/devices/" + name + ".toml"; });
+  const AxesScene scene = scene_of("pantograph_floor");
   const auto& parameters = std::get<PantographSetup>(scene.device).parameters;
   test::WallLoop floor;
   floor.filtered = false;

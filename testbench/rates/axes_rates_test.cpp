@@ -87,6 +87,29 @@ TEST_CASE("what the host sends a device is in the continuous law") {
   CHECK(r.rows.back().error.rms() < 0.1 * r.largest_nm);
 }
 
+TEST_CASE("what has no margin, or one of another kind, is told") {
+  AxesScene scene = read("testbench/rates/turned_levers.toml");
+  scene.scenario.duration_s = 0.03;
+  scene.scenario.expectations.clear();
+  scene.scenario.parameters.clear();
+  const auto notes = [&](const std::string& text) {
+    const Report r = measured(scene, {"inline.law", text}, Options{{10e3}, false, {}});
+    CHECK(r.slope.coupled == (text.find("position") != std::string::npos));
+    std::string all;
+    for (const std::string& note : r.notes) all += note + "\n";
+    return all;
+  };
+  // Each lever is driven by the other's angle, and by none of its own.
+  CHECK_THAT(notes("param k = 0.2 Nm/rad in 0 .. 1 Nm/rad\n"
+                   "out torque[0] = clamp(k * position[1], -0.1 Nm, 0.1 Nm)\n"
+                   "out torque[1] = clamp(-k * position[0], -0.1 Nm, 0.1 Nm)\n"),
+             Catch::Contains("drive each other") && Catch::Contains("nowhere stiff or damped"));
+  CHECK_THAT(notes("param b = 0.01 Nm s/rad in 0 .. 0.02 Nm s/rad\n"
+                   "out torque[0] = clamp(-b * velocity[0], -0.1 Nm, 0.1 Nm)\n"
+                   "out torque[1] = clamp(-b * velocity[1], -0.1 Nm, 0.1 Nm)\n"),
+             Catch::Contains("that of the law's damping"));
+}
+
 TEST_CASE("a design that is not in the program is told") {
   const AxesScene scene = read("vectors/scenes/pantograph_floor.toml");
   CHECK_THROWS_WITH(measured(scene, shipped("pantograph"), Options{}),

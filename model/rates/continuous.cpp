@@ -108,19 +108,23 @@ Eigen::MatrixXd Continuous::fall(double Sample::*input, double step) {
 
 // A slope is one that a count and a sixteenth of it show alike; a difference that does not shrink
 // with the distance is a jump.
-void Continuous::look() {
-  const double h = setting_.count_rad / 2, tiny = 1e-9 * setting_.limit_nm;
-  const Eigen::MatrixXd wide = fall(&Sample::position_rad, h);
-  const Eigen::MatrixXd narrow = fall(&Sample::position_rad, h / 16);
-  bool smooth = true;
+bool Continuous::smooth(const Eigen::MatrixXd& wide, const Eigen::MatrixXd& narrow) {
+  bool all_smooth = true;
   for (Eigen::Index n = 0; n < wide.cols(); ++n) {
     const double all = wide.col(n).cwiseAbs().maxCoeff();
     const double part = narrow.col(n).cwiseAbs().maxCoeff();
-    if ((wide.col(n) - 16 * narrow.col(n)).cwiseAbs().maxCoeff() <= 0.05 * all + tiny) continue;
-    smooth = false;
+    const double off = (wide.col(n) - 16 * narrow.col(n)).cwiseAbs().maxCoeff();
+    if (off <= 0.05 * all + 1e-9 * setting_.limit_nm) continue;
+    all_smooth = false;
     if (part > 0.5 * all) slope_.jump_nm = std::max(slope_.jump_nm, part);
   }
-  if (!smooth) return;
+  return all_smooth;
+}
+
+void Continuous::look() {
+  const double h = setting_.count_rad / 2;
+  const Eigen::MatrixXd wide = fall(&Sample::position_rad, h);
+  if (!smooth(wide, fall(&Sample::position_rad, h / 16))) return;
   const Eigen::MatrixXd stiffness = wide / (2 * h);
   const Eigen::MatrixXd damping =
       fall(&Sample::velocity_rad_s, speed_step_rad_s) / (2 * speed_step_rad_s);

@@ -95,6 +95,9 @@ class Continuous {
   Eigen::VectorXd probe(const std::vector<Sample>& samples);
   /// How they change with one input of each axis, to either side of the samples by `step`.
   Eigen::MatrixXd fall(double Sample::*input, double step);
+  /// Whether torques that fall by so much over a count and over a sixteenth of it are of a slope;
+  /// notes jumps.
+  bool smooth(const Eigen::MatrixXd& wide, const Eigen::MatrixXd& narrow);
   void look();
 
   const law::Law& law_;

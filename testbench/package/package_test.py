@@ -14,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(os.environ["FELTGATE_ROOT"])
@@ -107,11 +108,15 @@ class Package(unittest.TestCase):
         )
         self.assertGreater(len(headers), 50)
         source = self.folder / "headers.cpp"
-        flags = ["g++", "-std=c++17", "-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-Werror"]
-        # Each comes once before what it could have been given by another, or it is the first.
+        flags = ["g++", "-std=c++17", "-I", include, "-fsyntax-only", "-x", "c++"]
+        warnings = ["-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-Werror"]
         for order in (headers, headers[::-1]):
             source.write_text("".join(f'#include "{h}"\n' for h in order))
-            run(*flags, "-I", include, "-fsyntax-only", source)
+            run(*flags, *warnings, source)
+        twin = [h for h in headers if Path(h).parent == Path("feltgate")]
+        self.assertGreater(len(twin), 50)
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            list(pool.map(lambda header: run(*flags, "/dev/null", "-include", header), twin))
         seen = run("g++", "-std=c++17", "-I", include, "-M", source)
         self.assertEqual(FOREIGN.findall(seen), [])
 

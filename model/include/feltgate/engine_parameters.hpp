@@ -7,6 +7,11 @@
 
 #include "feltgate/generated/engine.hpp"
 
+namespace feltgate::law {
+template <int AxisCount, int TorqueW>
+class EngineRuns;
+}  // namespace feltgate::law
+
 namespace feltgate {
 
 /// Twin of rtl/engine/engine_commit.sv.

@@ -14,11 +14,6 @@
 #include "feltgate/engine_parameters.hpp"
 #include "feltgate/generated/engine.hpp"
 
-namespace feltgate::law {
-template <int AxisCount, int TorqueW>
-class EngineRuns;
-}  // namespace feltgate::law
-
 namespace feltgate {
 
 /// Twin of rtl/engine/engine_inputs.sv.

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 
+#include "feltgate/generated/map.hpp"
 #include "feltgate/limiter.hpp"
 #include "feltgate/numbers.hpp"
 

@@ -6,7 +6,6 @@ prove.scripts. Documentation: docs/proofs.md"""
 # Blocks of which no port is in a property: how they are tested instead.
 BLOCKS = {
     "feltgate_checks": "it has no ports; lint.elaboration breaks each constant that it checks",
-    "engine_memory": "in lock-step, as a part of the engine, and as a RAM on the netlist",
 }
 ENGINE = (
     "not how an instruction gets its words; proven are what it gives, what programs may write, "

@@ -3,7 +3,10 @@
 //
 // engine: ends that random lives seldom come to, RTL against twin. Documentation:
 // docs/blocks/engine.md
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 
 #include "catch.hpp"
 #include "engine_device.hpp"
@@ -61,6 +64,53 @@ TEST_CASE(
     CHECK(device.out().torque[0] == 0);
   }
   CHECK(device.results >= kTick);
+  device.play();
+}
+
+// In a block RAM it may be any word, so nobody should write a program that runs.
+TEST_CASE("engine: a program word written in the clock that fetches it, RTL against twin") {
+  using Op = EngineOp;
+  EngineMemory m;
+  program(m, 0,
+          {to(0, Op::cmp, kConstant, kConstant), to(1, Op::add, kConstant, kConstant),
+           word(Op::brf, 1, 0, 1)});  // for ever
+  LoadedDevice device(m);
+  device.write(H::run, 1);
+  device.clock(2 * kTick);
+  device.write(H::high, 0);
+  const auto event = [](int number) {
+    return engine_encode(word(Op::add, 0, kConstant, kConstant, EngineTarget::event, number));
+  };
+  REQUIRE(event(0) >> 32 == event(511) >> 32);
+  device.write(H::high, static_cast<std::uint32_t>(event(0) >> 32));
+  std::array<int, 512> told{};
+  for (int k = 0; k < 500; ++k) {
+    device.write(H::program + 1, static_cast<std::uint32_t>(event(k % 500 + 1)));
+    for (int wait = 0; wait < 12 + k % 7; ++wait) {
+      device.clock();
+      const auto out = device.out();
+      if (out.event_valid) ++told[static_cast<std::size_t>(out.event_number)];
+    }
+  }
+  CHECK(told[0] == 0);
+  CHECK(std::count_if(told.begin(), told.end(), [](int n) { return n > 0; }) > 400);
+  device.play();
+}
+
+TEST_CASE("engine: lines that are taken away in the clock of an entry are not cleared") {
+  LoadedDevice device(image(wall, {100, 20000, -60000}));
+  device.write(H::line_base, 500);
+  device.write(H::table + 505, 77);
+  device.write(H::run, 1);
+  device.in.enter = true;
+  device.write(H::line_base, EngineMap::table_words);
+  CHECK(device.read(H::table + 505) == 0);  // run was written: cleared then
+  device.write(H::run, 0);
+  device.write(H::table + 505, 78);
+  device.write(H::line_base, 500);
+  device.in.enter = true;
+  device.write(H::line_base, EngineMap::table_words);
+  CHECK(device.read(H::table + 505) == 78);
   device.play();
 }
 

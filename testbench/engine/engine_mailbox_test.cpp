@@ -80,6 +80,9 @@ TEST_CASE("engine: a commit of mailbox words jumps nothing, one of a parameter d
       CHECK(device.commit() == 0);
     }
   }
+  device.write(H::mailbox_first, 31);
+  device.set(30, 7);
+  CHECK(device.commit() == 1);
   // All of it is a parameter where there is no mailbox.
   device.write(H::mailbox_first, 32);
   device.set(31, 5);

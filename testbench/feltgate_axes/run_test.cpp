@@ -94,3 +94,32 @@ TEST_CASE("axes: from event to event as clock by clock") {
     CHECK((kAxes == 1 || faults > 0));
   }
 }
+
+TEST_CASE("axes: inputs that nobody gives are 0, those of a core are one axis's") {
+  const In none;
+  CHECK_FALSE((none.arm || none.stop || none.law_late || none.law_restart));
+  CHECK_FALSE((none.reg_write || none.reg_read));
+  CHECK((none.reg_addr | none.reg_wdata) == 0);
+  for (const In::Axis& axis : none.axis) {
+    CHECK((axis.encoder == EncoderPins{} && !axis.set_zero));
+    CHECK((axis.scene | axis.law_torque) == 0);
+  }
+  const AxesOut<kAxes> silent;
+  CHECK_FALSE((silent.reg_busy || silent.event_valid));
+  CHECK(silent.rdata_known);
+  CHECK(silent.reg_rdata == 0);
+  CHECK((silent.event_number | silent.event_value) == 0);
+
+  CoreIn core;
+  core.encoder = {true, false, true};
+  core.set_zero = core.arm = core.stop = core.reg_write = true;
+  core.scene = 7;
+  core.reg_addr = 0x123;
+  core.reg_wdata = 0x456789ab;
+  const AxesIn<1> one = single_axis(core);
+  CHECK(one.axis[0].encoder == core.encoder);
+  CHECK((one.axis[0].set_zero && one.arm && one.stop && one.reg_write));
+  CHECK(one.axis[0].scene == 7);
+  CHECK(one.reg_addr == 0x123);
+  CHECK(one.reg_wdata == 0x456789ab);
+}

@@ -3,7 +3,12 @@
 //
 // link_capture: every bit of what is set, compared and counted. Documentation:
 // docs/blocks/link_capture.md
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
 #include "capture_session.hpp"
+#include "random.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
@@ -40,7 +45,8 @@ TEST_CASE("link_capture: what is written is read back, as much of it as there is
                         {A::capture_state, 3, 0},
                         {A::capture_control, 0, 0},
                         {0x1010, 7, 0},
-                        {A::capture_first, 3, 0}}) {
+                        {A::capture_first, 3, 0},
+                        {LinkMap::memory + kRows * 8, 3, 0}}) {
     REQUIRE(read_back(t.addr, t.written) == t.read);
   }
   for (int bit = 16; bit < 32; ++bit) {  // of one bit beyond what there is
@@ -85,4 +91,55 @@ TEST_CASE("link_capture: each bit triggers where it rises, whatever the others d
     REQUIRE(c.state == kWaits);
     if (kRows > 16) break;
   }
+}
+
+TEST_CASE("link_capture: of more words than a row holds it holds the first, in a full ring too") {
+  constexpr std::uint32_t all = 0xfff, tick = kRows + 9;
+  auto s = session({all, 4}, tick + kRows + 3, rises_in(tick));
+  const auto c = s.trigger(N::position, 1, 0).set(A::capture_control, kStart).play();
+  REQUIRE(c.state == kDone);
+  REQUIRE(c.rows == kRows);
+  s.check(c, all, tick - 4);
+}
+
+TEST_CASE("link_capture: a tick at once is one word by word") {
+  Random random(6);
+  CaptureTwin at_once, by_words;
+  std::array<std::int64_t, 5> states{};
+  for (int t = 0; t < 20'000; ++t) {
+    CaptureTwin::In in;
+    if (random.one_in(3)) {
+      in.write = true;
+      in.addr = static_cast<std::uint16_t>(A::capture_control + random.below(10));
+      in.wdata = in.addr == A::capture_words ? 0x42 : random.below(8);
+    }
+    for (CaptureTwin* twin : {&at_once, &by_words}) {
+      twin->clock(in);
+      twin->clock({});
+    }
+    std::array<std::uint32_t, LinkMap::snapshot_words> words{};
+    for (std::uint32_t& w : words) w = random.below(16) - 8;
+    at_once.tick(words);
+    for (std::size_t k = 0; k < words.size(); ++k) {
+      CaptureTwin::In word;
+      word.word_valid = true;
+      word.word_slot = static_cast<std::uint8_t>(LinkMap::slots[k]);
+      word.word_data = words[k];
+      by_words.clock(word);
+    }
+    for (int k = random.one_in(4) ? 20 : 1; k > 0; --k) {
+      CaptureTwin::In read;
+      read.addr =
+          static_cast<std::uint16_t>(random.one_in(3) ? LinkMap::memory + random.below(kRows * 8)
+                                                      : A::capture_control + random.below(11));
+      at_once.clock(read);
+      by_words.clock(read);
+      if (k == 1) continue;  // the words before were of another number of clocks
+      REQUIRE(at_once.state() == by_words.state());
+      if (k <= 16) REQUIRE(at_once.out().rdata == by_words.out().rdata);
+    }
+    ++states[static_cast<std::size_t>(at_once.state())];
+  }
+  if (kRows > 16) return;  // a long ring seldom fills
+  for (const std::int64_t n : states) CHECK(n > 100);
 }

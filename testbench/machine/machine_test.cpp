@@ -134,6 +134,26 @@ TEST_CASE("machine: a program word is taken apart and put together") {
   }
 }
 
+TEST_CASE(
+    "machine: an instruction of which nothing is said is a nop, a state of which nothing is 0") {
+  const EngineInstruction i;
+  CHECK(engine_encode(i) == static_cast<std::uint64_t>(EngineOp::nop) << EngineMap::B::op);
+  CHECK(EngineState{}.acc == 0);
+  CHECK_FALSE(EngineState{}.flag);
+}
+
+TEST_CASE("machine: a table word has its value and its slope, and nothing above") {
+  Random random(3);
+  for (int k = 0; k < 20'000; ++k) {
+    const auto value = static_cast<std::int32_t>(centred(corner(random), 20));
+    const auto slope = static_cast<std::int32_t>(centred(corner(random), 16));
+    const std::uint64_t w = engine_table_word(value, slope);
+    REQUIRE(engine_table_value(w) == value);
+    REQUIRE(engine_table_slope(w) == slope);
+    REQUIRE(w >> 36 == 0);
+  }
+}
+
 TEST_CASE("machine: addresses reach the words of the thread, and write no others") {
   for (int thread = 0; thread < 4; ++thread) {
     for (int n = 0; n < 512; ++n) {

@@ -121,8 +121,7 @@ class Engine {
     const bool host_taken = r.waits && free && !inputs_.wanted();
     const bool line_free = free && !inputs_.wanted() && !r.waits;
     const int line_base = barrel_.memory.line_base;
-    EngineBarrel::In to = barrel_inputs(in);
-    to.run = run;
+    const EngineBarrel::In to = barrel_inputs(in, run);
 
     // The write that goes on its way now is seen by the barrel in the next clock.
     Written next = written(input_taken, host_taken);
@@ -231,10 +230,10 @@ class Engine {
     return crc_.reads ? crc_.reads_table() : in.addr >> 10 != 0 && (in.addr >> 9 & 1U) == 0;
   }
 
-  EngineBarrel::In barrel_inputs(const In& in) const {
+  EngineBarrel::In barrel_inputs(const In& in, unsigned run) const {
     const Registers& r = registers_;
     EngineBarrel::In to;
-    to.run = r.run;
+    to.run = run;
     to.request = inputs_.request;
     to.first = r.first;
     to.bank = commit_.bank;

@@ -128,11 +128,6 @@ constexpr std::int32_t engine_table_slope(std::uint64_t t) {
   return (static_cast<std::int32_t>((t >> EngineMap::value_bits) & (2 * half - 1)) ^ half) - half;
 }
 
-/// Whether the instruction reads, or writes, a word of table memory.
-constexpr bool engine_reads_table(EngineOp op) {
-  return op == EngineOp::lrp || op == EngineOp::tab;
-}
-
 /// What CMP, MIN and MAX ask.
 constexpr bool engine_less(std::int32_t x, std::int32_t y) {
   // Exact: the difference may need 33 bits.

@@ -33,13 +33,8 @@ class LinkCapture {
   };
   enum class State : std::uint8_t { idle, fill, wait, rest, done };
 
-  /// The memory keeps its words, but no row holds any.
-  void reset() {
-    std::vector<std::uint32_t> memory;
-    memory.swap(memory_);
-    *this = LinkCapture();
-    memory.swap(memory_);
-  }
+  /// No row holds a word.
+  void reset() { *this = LinkCapture(); }
   const Out& out() const { return out_; }
   State state() const { return state_; }
   bool runs() const {

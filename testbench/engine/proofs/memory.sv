@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A memory of any content: a word that was written is read a clock later, and one that nobody writes stays. So
+// it does for any time between, read or not: each clock is one of these.
+`default_nettype none
+
+module memory_proof (
+    input logic        clk_i,
+    input logic        rst_ni,
+    input logic [ 8:0] read_address_i,
+    input logic        write_i,
+    input logic [ 8:0] write_address_i,
+    input logic [35:0] data_i
+);
+  `include "reset.svh"
+  logic [35:0] word;
+  engine_memory #(.Width(36)) u_dut (
+      .clk_i(clk_i),
+      .read_address_i(read_address_i),
+      .word_o(word),
+      .write_i(write_i),
+      .write_address_i(write_address_i),
+      .data_i(data_i)
+  );
+  always_comb assume (!write_i || write_address_i != read_address_i);
+
+  // What was read and written one clock ago, and two.
+  logic       two_q;
+  logic       wrote_q, wrote2_q;
+  logic [8:0] read_q, read2_q, written_q, written2_q;
+  logic [35:0] word_q, data_q, data2_q;
+  initial two_q = 1'b0;
+  always_ff @(posedge clk_i) begin
+    two_q <= past_ok_q;
+    {wrote_q, wrote2_q} <= {write_i, wrote_q};
+    {read_q, read2_q} <= {read_address_i, read_q};
+    {written_q, written2_q} <= {write_address_i, written_q};
+    {data_q, data2_q} <= {data_i, data_q};
+    word_q <= word;
+  end
+
+  always_comb begin
+    if (two_q) begin
+      written_is_read: assert (!wrote2_q || written2_q != read_q || word == data2_q);
+      unwritten_stays: assert (read2_q != read_q || word == word_q);
+      overwrites: cover (wrote2_q && written2_q == read_q && word == 36'h5a5a5a5a5);
+    end
+  end
+endmodule
+
+`default_nettype wire

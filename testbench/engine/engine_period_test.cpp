@@ -26,8 +26,8 @@ EngineMemory program(int instructions) {
 
 template <int Axes>
 void exact() {
-  constexpr int ticks = 60;
-  for (int n = 4; n <= 20; ++n) {
+  constexpr int ticks = 300;
+  for (const int n : {4, 5, 6, 7, 8, 9, 20}) {
     const int period = engine_period(n, Axes);
     INFO(Axes << " axes, " << n << " instructions, " << period << " clocks");
     for (int phase = 0; phase < EngineMap::round_clocks; ++phase) {

@@ -174,6 +174,47 @@ TEST_CASE("core: a bit of the voltage gain of high torque opens the gates where 
   }
 }
 
+TEST_CASE("core: a bit of the limit of a held torque opens the gates where that is in force") {
+  for (const int bit : {0, 35}) {
+    for (const int address : {D::A::torque_limit, D::A::hold_limit}) {
+      for (const bool held : {false, true}) {
+        Pair pair;
+        pair.write(D::A::setpoint_torque, 1 << 13);
+        pair.write(D::A::hold_torque, 100);
+        pair.write(D::A::hold_time, held ? 1 : 8192);
+        pair.arm(D::S::setpoint);
+        pair.clocks(std::int64_t{2 * kTick} << feltgate::Map::hold_unit_bits);
+        REQUIRE(pair.out().gates_enable);
+        REQUIRE(((pair.out().limits >> 8) & 1) == held);
+        pair.flip(address, bit);
+        pair.clocks(3 * kTick);
+        INFO("address " << address << " bit " << bit << " held " << held);
+        CHECK(pair.out().gates_enable != ((address == D::A::hold_limit) == held));
+        CHECK(pair.mismatches() == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("core: a bit of the self-test's torque opens the gates while it lasts") {
+  for (const int bit : {0, 35}) {
+    for (const int address : {D::A::torque_limit, D::A::self_test_torque}) {
+      for (const bool tests : {false, true}) {
+        Pair pair;
+        pair.write(D::A::self_test_quiet, 1);
+        pair.write(D::A::self_test_pulse, tests ? 10 : 0);
+        pair.arm(D::S::free);
+        REQUIRE(pair.out().gates_enable);
+        pair.flip(address, bit);
+        pair.clocks(3 * kTick);
+        INFO("address " << address << " bit " << bit << " tests " << tests);
+        CHECK(pair.out().gates_enable != ((address == D::A::self_test_torque) == tests));
+        CHECK(pair.mismatches() == 0);
+      }
+    }
+  }
+}
+
 TEST_CASE("core: flips of several bits, found or not as the four parities say") {
   Pair pair;
   feltgate::test::Random random(1);

@@ -34,7 +34,8 @@ struct AxisOf {
   bool asks(const CoreIn&) const { return says.asks; }
   bool zeroed() const { return says.zeroed; }
   bool measured() const { return is_measured; }
-  int clock_of_tick() const { return 0; }  // what restarted() keeps is not looked at here
+  int in_tick = 0;
+  int clock_of_tick() const { return in_tick; }
 };
 
 /// The twin as a block of its own.
@@ -43,6 +44,7 @@ class Twin {
   struct In {
     std::array<Axis, kAxes> axis;
     bool snapshot = false, measured = false;
+    int clock_of_tick = 0;  ///< for the twin: for which wave a torque may jump
     std::uint32_t tick_count = 0;
     AxesIn<kAxes> port;
   };
@@ -53,6 +55,8 @@ class Twin {
   };
 
   auto& engine() { return twin_.engine(); }
+  bool restarted() const { return twin_.restarted(); }
+  bool busy() const { return twin_.busy(); }
   void reset() {
     twin_.reset();
     last_ = In{};
@@ -82,6 +86,7 @@ class Twin {
       AxisOf& a = all[n];
       a.says = in.axis[n];
       a.is_measured = in.measured;
+      a.in_tick = in.clock_of_tick;
       a.core.scene = in.axis[n].law ? Map::S::law : 0;
       a.core.armed = in.axis[n].armed;
       a.core.snapshot_valid = in.snapshot;
@@ -172,9 +177,12 @@ class Device {
 
   Device() { twin_.reset(); }
   Twin::Out out() const { return twin_.peek(in); }
+  Twin& twin() { return twin_; }
+  int clock_of_tick() const { return since_; }
   Axis& axis(int n) { return in.axis[static_cast<std::size_t>(n)]; }
   void clock() {
     since_ = (since_ + 1) % kTick;
+    in.clock_of_tick = since_;
     in.snapshot = since_ == 0;
     in.measured = since_ == 23;
     if (in.measured) ++in.tick_count;

@@ -5,6 +5,7 @@
 // against twin on every clock. Documentation: docs/blocks/axes_engine.md
 #include "axes_engine_bench.hpp"
 #include "catch.hpp"
+#include "random.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
@@ -130,6 +131,84 @@ TEST_CASE("axes_engine: what jumps ramps until it was sampled") {
   CHECK(commit_ramps(0, -7));
   CHECK(device.out().torque[1] == -7);
   device.play();
+}
+
+TEST_CASE(
+    "axes_engine: a wave restarts where the tick before it ended with a torque that may jump") {
+  Device device;
+  device.load(kLaw, kCrc);
+  device.set(&Axis::law, true);
+  device.arm();
+  Random random(1);
+  bool at_end = false, expected = false;
+  int restarts = 0, changes = 0;
+  device.ticks(1);
+  for (int k = 0; k < 20'000; ++k) {
+    if (random.one_in(150)) device.axis(1).zeroed = true;
+    device.clock();
+    const bool jumps = device.out().restart;
+    if (device.in.measured && k > 2 * Device::kTick) {
+      changes += expected != at_end;
+      expected = at_end;
+      REQUIRE(device.twin().restarted() == expected);
+      restarts += expected;
+    } else if (k > 3 * Device::kTick) {
+      REQUIRE(device.twin().restarted() == expected);
+    }
+    if (device.clock_of_tick() == Device::kTick - 2) at_end = jumps;
+  }
+  CHECK(restarts > 100);
+  CHECK(changes > 20);
+  device.axis(1).zeroed = true;
+  device.ticks(2);
+  REQUIRE(device.twin().restarted());
+  device.set(&Axis::law, false);
+  device.set(&Axis::armed, false);
+  device.twin().reset();
+  CHECK_FALSE(device.twin().restarted());
+  while (!device.in.measured) device.clock();
+  CHECK_FALSE(device.twin().restarted());
+}
+
+TEST_CASE("axes_engine: it takes no word between a commit and the end of the runs before it") {
+  Device device;
+  device.load(kLaw, kCrc);
+  CHECK_FALSE(device.twin().busy());
+  device.in.port.reg_addr = axes_engine + H::commit;
+  device.in.port.reg_wdata = 1;
+  device.in.port.reg_write = true;
+  device.clock();
+  int busy = 0, port_busy = 0;
+  while (device.twin().busy() && busy < 10'000) {
+    port_busy += device.out().port.reg_busy;
+    device.clock();
+    ++busy;
+  }
+  CHECK(port_busy > 1000);  // 256 words are compared, one in six clocks
+  CHECK(busy > port_busy);
+  CHECK(busy < 2000 + 2 * Device::kTick);
+  // Without a commit: the words of lines are cleared.
+  device.in.port.reg_addr = axes_engine + H::run;
+  device.in.port.reg_write = true;
+  device.clock();
+  device.clock();
+  CHECK(device.twin().busy());
+  REQUIRE(device.out().port.reg_busy);
+  device.twin().reset();
+  CHECK_FALSE(device.out().port.reg_busy);
+  CHECK_FALSE(device.twin().busy());
+}
+
+TEST_CASE("axes_engine: whether a word is known is said of the engine's only") {
+  Twin twin;
+  Twin::In in;
+  CHECK(twin.out().port.rdata_known);
+  for (int k = 0; k < 100; ++k) {
+    const bool engine = k % 2 != 0;
+    in.port.reg_addr = engine ? axes_engine : 0x300;
+    twin.clock(in);
+    CHECK(twin.out().port.rdata_known == (!engine || k > 40));
+  }
 }
 
 TEST_CASE("axes_engine: a program that gives nothing is late, until it is entered anew") {

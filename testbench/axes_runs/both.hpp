@@ -6,6 +6,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "catch.hpp"
@@ -47,6 +50,7 @@ void same(AxesOut<N> a, AxesOut<N> b, const EngineWatch& x, const EngineWatch& y
     CAPTURE(a.reg_rdata, b.reg_rdata);
     FAIL("read data");
   }
+  if (b.rdata_known && !a.rdata_known) FAIL("read data that are not known");
   if (a.event_valid != b.event_valid) FAIL("an event");
   if (a.event_valid && (a.event_number != b.event_number || a.event_value != b.event_value)) {
     FAIL("an event's number or value");
@@ -61,15 +65,40 @@ class Both {
   AxesIn<N> in;
   Axes by_clock, by_event;
   std::int64_t done = 0, whole = 0;
+  std::int64_t calm = 0, ticks = 0;  ///< starts of a tick that calm() is true of; all
 
   void run(std::int64_t clocks) {
     struct Shown {
       AxesOut<N> out;
       EngineWatch watch;
     };
+    struct Watcher {
+      const Axes& axes;
+      std::vector<std::pair<std::int64_t, int>> events;
+      std::size_t ticks = 0;
+      void event(std::int64_t clock, int number) { events.emplace_back(clock, number); }
+      void words() {
+        if (!axes.core(0).out().snapshot_valid) FAIL("words of an axis that has none");
+        ++ticks;
+      }
+    };
     std::vector<Shown> shown;
+    std::vector<std::pair<std::int64_t, int>> events;
+    const bool held = !in.reg_write && !in.reg_read;
+    const std::int64_t quiet = 1 + done % 30;
+    const bool is_calm = held && by_event.calm(in, quiet);
+    if (held && by_clock.clock_of_tick() == 0) ++ticks, calm += is_calm;
+    const AxesOut<N> before = by_clock.out();
     for (std::int64_t k = 0; k < clocks; ++k) {
+      if (by_clock.out().event_valid) events.emplace_back(k, by_clock.out().event_number);
       by_clock.clock(in);
+      for (std::size_t n = 0; n < N && is_calm && k < quiet; ++n) {
+        const CoreOut &now = by_clock.out().axis[n], &was = before.axis[n];
+        if (now.duty_active != was.duty_active || now.gates_enable != was.gates_enable ||
+            now.snapshot_valid) {
+          FAIL("it was said to be calm");
+        }
+      }
       if (by_clock.out().axis[0].snapshot_valid) {
         shown.push_back({by_clock.out(), by_clock.glue().watch()});
       }
@@ -81,15 +110,24 @@ class Both {
       by_event.clock(in);
       next = shown.size();
     } else {
-      by_event.run(in, clocks, [&] {
+      Watcher watcher{by_event, {}};
+      const auto on_snapshot = [&] {
         REQUIRE(next < shown.size());
         same<N>(shown[next].out, by_event.out(), shown[next].watch, by_event.glue().watch(), true);
         ++next;
-      });
+      };
+      by_event.run(in, clocks, on_snapshot, watcher);
+      if (watcher.events != events) FAIL("what a watcher is told of events");
+      REQUIRE(watcher.ticks == shown.size());
     }
     REQUIRE(next == shown.size());
     same<N>(by_clock.out(), by_event.out(), by_clock.glue().watch(), by_event.glue().watch(),
             false);
+    const bool known = by_clock.out().rdata_known && by_event.out().rdata_known;
+    if (in.reg_addr < axes_engine && !known) FAIL("words of axes are always known");
+    if (by_clock.measured() != by_event.measured()) FAIL("whether a tick is measured");
+    if (by_clock.glue().restarted() != by_event.glue().restarted()) FAIL("a restart");
+    if (by_clock.glue().busy() != by_event.glue().busy()) FAIL("whether it takes words");
     done += clocks;
     if (by_event.glue().runs_whole()) whole += clocks;
   }

@@ -45,7 +45,7 @@ EngineMemory random_program(Random& random, int length) {
 template <int N>
 void random_programs(std::uint64_t seed, int programs) {
   Random random(seed);
-  std::int64_t done = 0, whole = 0;
+  std::int64_t done = 0, whole = 0, calm = 0, ticks = 0;
   for (int k = 0; k < programs; ++k) {
     auto b = std::make_unique<Both<N>>();
     const int length = 1 + static_cast<int>(random.below(random.coin() ? 8 : 30));
@@ -69,9 +69,13 @@ void random_programs(std::uint64_t seed, int programs) {
     live<N>(*b, random, 250, true);
     done += b->done;
     whole += b->whole;
+    calm += b->calm;
+    ticks += b->ticks;
   }
   INFO("clocks " << done << ", run by run " << whole);
   CHECK(whole > done / 10);
+  CHECK(calm > ticks / 200);
+  CHECK(calm < ticks);
 }
 
 }  // namespace

@@ -95,6 +95,41 @@ TEST_CASE("axes: from event to event as clock by clock") {
   }
 }
 
+TEST_CASE("axes: as made they show what their cores do, and measure once in a tick") {
+  FeltgateAxes<D, kAxes> axes;
+  for (int n = 0; n < kAxes; ++n) {
+    CHECK(axes.out().axis[static_cast<std::size_t>(n)] == axes.core(n).out());
+  }
+  constexpr int ticks = 5;
+  int measured = 0;
+  for (int k = 0; k < ticks * D::clocks_per_tick; ++k) {
+    axes.clock({});
+    measured += axes.measured();
+    CHECK(axes.measured() == axes.core(kAxes - 1).measured());
+  }
+  CHECK(measured == ticks);
+}
+
+TEST_CASE("axes: without an engine a watcher is told of ticks, not of events") {
+  struct Watcher {
+    int events = 0, ticks = 0;
+    void event(std::int64_t, int) { ++events; }
+    void words() { ++ticks; }
+  };
+  FeltgateAxes<D, kAxes> axes;
+  Watcher watcher;
+  int snapshots = 0;
+  for (int k = 0; k < 40; ++k) {
+    axes.run(
+        {}, 7 * (k % 3) + D::clocks_per_tick * (k % 2), [&] { ++snapshots; }, watcher);
+  }
+  CHECK(snapshots > 20);
+  CHECK(watcher.ticks == snapshots);
+  CHECK(watcher.events == 0);
+  CHECK_FALSE(axes.glue().event_valid());
+  CHECK(axes.glue().event_number() == 0);
+}
+
 TEST_CASE("axes: inputs that nobody gives are 0, those of a core are one axis's") {
   const In none;
   CHECK_FALSE((none.arm || none.stop || none.law_late || none.law_restart));

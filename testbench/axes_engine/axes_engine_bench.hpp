@@ -30,11 +30,11 @@ struct AxisOf {
   CoreOut core;
   Axis says;
   bool is_measured = false;
+  int in_tick = 0;
   const CoreOut& out() const { return core; }
   bool asks(const CoreIn&) const { return says.asks; }
   bool zeroed() const { return says.zeroed; }
   bool measured() const { return is_measured; }
-  int in_tick = 0;
   int clock_of_tick() const { return in_tick; }
 };
 
@@ -44,7 +44,7 @@ class Twin {
   struct In {
     std::array<Axis, kAxes> axis;
     bool snapshot = false, measured = false;
-    int clock_of_tick = 0;  ///< for the twin: for which wave a torque may jump
+    int clock_of_tick = 0;  ///< the twin's alone, for restarted()
     std::uint32_t tick_count = 0;
     AxesIn<kAxes> port;
   };

@@ -184,7 +184,7 @@ TEST_CASE("axes_engine: it takes no word between a commit and the end of the run
     device.clock();
     ++busy;
   }
-  CHECK(port_busy > 1000);  // 256 words are compared, one in six clocks
+  CHECK(port_busy > 1000);  // 32 words, eight beats each, one in six clocks
   CHECK(busy > port_busy);
   CHECK(busy < 2000 + 2 * Device::kTick);
   // Without a commit: the words of lines are cleared.

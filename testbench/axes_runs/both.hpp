@@ -65,6 +65,7 @@ class Both {
   AxesIn<N> in;
   Axes by_clock, by_event;
   std::int64_t done = 0, whole = 0;
+  bool hasty = false;                ///< a word is not waited for: it lands amid what follows
   std::int64_t calm = 0, ticks = 0;  ///< starts of a tick that calm() is true of; all
 
   void run(std::int64_t clocks) {
@@ -87,7 +88,10 @@ class Both {
     const bool held = !in.reg_write && !in.reg_read;
     const std::int64_t quiet = 1 + done % 30;
     const bool is_calm = held && by_event.calm(in, quiet);
-    if (held && by_clock.clock_of_tick() == 0) ++ticks, calm += is_calm;
+    if (held && by_clock.clock_of_tick() == 0) {
+      ++ticks;
+      calm += is_calm;
+    }
     const AxesOut<N> before = by_clock.out();
     for (std::int64_t k = 0; k < clocks; ++k) {
       if (by_clock.out().event_valid) events.emplace_back(k, by_clock.out().event_number);
@@ -138,6 +142,7 @@ class Both {
     in.reg_write = true;
     run(1);
     in.reg_write = false;
+    if (hasty) return;
     for (int n = 0; (by_clock.out().reg_busy || n == 0) && n < 20'000; ++n) run(1);
   }
   void engine(int address, std::uint32_t word) { write(axes_engine + address, word); }
@@ -212,6 +217,7 @@ void live(Both<N>& b, Random& random, int stretches, bool meddles) {
         b.engine(H::commit, 1);
         break;
       case 1:
+        b.hasty = random.coin();
         b.core(some, D::A::ramp_step, 0x7ffffff - random.below(5));
         break;
       case 2:  // reads, at once or in time
@@ -230,6 +236,7 @@ void live(Both<N>& b, Random& random, int stretches, bool meddles) {
         b.in.reg_write = false;
         break;
       case 4:
+        b.hasty = random.coin();
         b.control(some, random.coin() ? D::S::law : D::S::setpoint, random.below(3) != 0);
         break;
       case 5:
@@ -246,6 +253,7 @@ void live(Both<N>& b, Random& random, int stretches, bool meddles) {
       default:
         break;
     }
+    b.hasty = false;
     if (!random.one_in(5)) b.in.reg_addr = static_cast<std::uint16_t>(random.below(0x300));
     if (!random.one_in(4)) b.in.stop = false;
   }

@@ -112,6 +112,61 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("axes by runs: each arming by the panel has a check of its own, and restarts", "[few]") {
+  EngineMemory m;
+  m.set_program(0, engine_encode(out(0, EngineOp::add, kPosition, kConstant)));
+  Both<1> b;
+  load<1>(b, m, 1, 1, 30);
+  b.core(0, D::A::self_test_pulse, 0);
+  b.core(0, C::command, 1U << C::command_clear_faults);
+  b.in.reg_addr = 0;
+  b.in.axis[0].scene = D::S::law;
+  for (const int ticks : {1, 2, 20, 300}) {
+    b.in.arm = true;
+    b.run(2 * D::clocks_per_tick);
+    CHECK_FALSE(b.by_clock.out().axis[0].armed);
+    for (int k = 0; k < 1300 && !b.by_clock.out().axis[0].armed; ++k) b.run(D::clocks_per_tick);
+    REQUIRE(b.by_clock.out().axis[0].armed);
+    int restarts = 0;
+    for (int k = 0; k < 6; ++k) {
+      b.run(D::clocks_per_tick);
+      restarts += b.by_clock.glue().restarted();
+    }
+    CHECK(restarts >= 2);
+    CHECK(restarts <= 4);
+    b.run(50 * D::clocks_per_tick);
+    CHECK_FALSE(b.by_clock.glue().restarted());
+    CHECK(b.by_event.glue().runs_whole());
+    b.in.arm = false;
+    b.run(ticks * D::clocks_per_tick);
+  }
+}
+
+TEST_CASE("axes by runs: a law that runs and runs is passed run by run", "[few]") {
+  for (const bool tells : {false, true}) {
+    for (const int length : {2, 5, 20, 60}) {
+      EngineMemory m;
+      for (int n = 0; n < length - 1; ++n) {
+        m.set_program(n, engine_encode(to(n % 40, EngineOp::add, kPosition, kPosition)));
+      }
+      if (tells) {
+        m.set_program(
+            0, engine_encode(word(EngineOp::add, 0, kPosition, kPosition, EngineTarget::event, 3)));
+      }
+      m.set_program(length - 1, engine_encode(out(0, EngineOp::add, kPosition, kConstant)));
+      Both<1> b;
+      load<1>(b, m, 1, static_cast<unsigned>(length * 6 / 50 + 1), 30);
+      b.arm(D::S::law);
+      b.run(200 * D::clocks_per_tick);
+      b.done = b.whole = 0;
+      for (int k = 0; k < 100; ++k) b.run(7 * D::clocks_per_tick);
+      INFO("length " << length << ", events " << tells << ", clocks " << b.done << ", run by run "
+                     << b.whole);
+      CHECK(b.whole == b.done);
+    }
+  }
+}
+
 TEST_CASE("axes by runs: random programs, one axis, two and three") {
   random_programs<1>(3, static_cast<int>(scaled_clocks(10)));
   random_programs<2>(4, static_cast<int>(scaled_clocks(4)));

@@ -71,29 +71,25 @@ TEST_CASE(
 TEST_CASE("engine: a program word written in the clock that fetches it, RTL against twin") {
   using Op = EngineOp;
   EngineMemory m;
-  program(m, 0,
-          {to(0, Op::cmp, kConstant, kConstant), to(1, Op::add, kConstant, kConstant),
-           word(Op::brf, 1, 0, 1)});  // for ever
+  const auto event = [](int number) {
+    return engine_encode(word(Op::add, 0, kConstant, kConstant, EngineTarget::event, number, true));
+  };
+  // One instruction a tick: a thread's word is written in its own turns, while it does not run.
+  m.set_program(0, event(0));
   LoadedDevice device(m);
   device.write(H::run, 1);
-  device.clock(2 * kTick);
-  device.write(H::high, 0);
-  const auto event = [](int number) {
-    return engine_encode(word(Op::add, 0, kConstant, kConstant, EngineTarget::event, number));
-  };
   REQUIRE(event(0) >> 32 == event(511) >> 32);
   device.write(H::high, static_cast<std::uint32_t>(event(0) >> 32));
   std::array<int, 512> told{};
   for (int k = 0; k < 500; ++k) {
-    device.write(H::program + 1, static_cast<std::uint32_t>(event(k % 500 + 1)));
-    for (int wait = 0; wait < 12 + k % 7; ++wait) {
+    device.write(H::program, static_cast<std::uint32_t>(event(k + 1)));
+    for (int wait = 0; wait < 44 + k % 13; ++wait) {
       device.clock();
       const auto out = device.out();
       if (out.event_valid) ++told[static_cast<std::size_t>(out.event_number)];
     }
   }
-  CHECK(told[0] == 0);
-  CHECK(std::count_if(told.begin(), told.end(), [](int n) { return n > 0; }) > 400);
+  CHECK(std::count_if(told.begin(), told.end(), [](int n) { return n > 0; }) > 300);
   device.play();
 }
 

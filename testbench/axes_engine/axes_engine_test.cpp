@@ -141,27 +141,26 @@ TEST_CASE(
   device.arm();
   Random random(1);
   bool at_end = false, expected = false;
-  int restarts = 0, changes = 0;
-  device.ticks(1);
+  int waves = 0, restarts = 0, changes = 0;
   for (int k = 0; k < 20'000; ++k) {
     if (random.one_in(150)) device.axis(1).zeroed = true;
     device.clock();
-    const bool jumps = device.out().restart;
-    if (device.in.measured && k > 2 * Device::kTick) {
+    if (device.in.measured) {
+      ++waves;
       changes += expected != at_end;
       expected = at_end;
-      REQUIRE(device.twin().restarted() == expected);
       restarts += expected;
-    } else if (k > 3 * Device::kTick) {
-      REQUIRE(device.twin().restarted() == expected);
     }
-    if (device.clock_of_tick() == Device::kTick - 2) at_end = jumps;
+    if (waves > 1) REQUIRE(device.twin().restarted() == expected);
+    // What is shown now is of the clock to come, the last one of the tick.
+    if (device.clock_of_tick() == Device::kTick - 2) at_end = device.out().restart;
   }
   CHECK(restarts > 100);
   CHECK(changes > 20);
   device.axis(1).zeroed = true;
   device.ticks(2);
   REQUIRE(device.twin().restarted());
+  device.play();
   device.set(&Axis::law, false);
   device.set(&Axis::armed, false);
   device.twin().reset();
@@ -194,6 +193,7 @@ TEST_CASE("axes_engine: it takes no word between a commit and the end of the run
   device.clock();
   CHECK(device.twin().busy());
   REQUIRE(device.out().port.reg_busy);
+  device.play();
   device.twin().reset();
   CHECK_FALSE(device.out().port.reg_busy);
   CHECK_FALSE(device.twin().busy());

@@ -167,6 +167,32 @@ TEST_CASE("axes by runs: a law that runs and runs is passed run by run", "[few]"
   }
 }
 
+TEST_CASE("axes by runs: a mailbox that becomes too old while runs are passed as a whole",
+          "[few]") {
+  EngineMemory m;
+  m.set_program(0, engine_encode(out(0, EngineOp::add, kConstant + 1, kConstant)));
+  m.set_data(kConstant + 1, 1000);
+  for (const int ticks : {1, 7, EngineMap::mailbox_step, 5 * EngineMap::mailbox_step}) {
+    Both<1> b;
+    load<1>(b, m, 1, 1, 30);
+    b.engine(H::mailbox_first, 0);
+    b.engine(H::mailbox_age, 3);
+    b.arm(D::S::law);
+    for (int n = 0; n < 3; ++n) {
+      b.engine(H::commit, 1);
+      b.in.reg_addr = 0;
+      b.run(EngineMap::mailbox_step * D::clocks_per_tick);
+      CHECK(b.by_clock.out().axis[0].tau_ref != 0);
+      CHECK(b.by_event.glue().runs_whole());
+      for (int k = 0; k < 5 * EngineMap::mailbox_step; k += ticks) {
+        b.run(ticks * D::clocks_per_tick);
+      }
+      CHECK(b.by_clock.out().axis[0].tau_ref == 0);
+      CHECK(b.by_clock.glue().watch().stale);
+    }
+  }
+}
+
 TEST_CASE("axes by runs: random programs, one axis, two and three") {
   random_programs<1>(3, static_cast<int>(scaled_clocks(10)));
   random_programs<2>(4, static_cast<int>(scaled_clocks(4)));

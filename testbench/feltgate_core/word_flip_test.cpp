@@ -118,6 +118,15 @@ int clocks_to_fall(Pair& pair, int limit) {
   return n;
 }
 
+/// A flipped bit of an armed pair opens the gates where the word is `used`, and only there.
+void check_flip(Pair& pair, int address, int bit, bool used) {
+  REQUIRE(pair.out().gates_enable);
+  pair.flip(address, bit);
+  pair.clocks(3 * kTick);
+  CHECK(pair.out().gates_enable != used);
+  CHECK(pair.mismatches() == 0);
+}
+
 }  // namespace
 
 TEST_CASE("core: each bit of each word that a scene uses opens the gates within a tick") {
@@ -161,14 +170,10 @@ TEST_CASE("core: a bit of the voltage gain of high torque opens the gates where 
                    1u << D::P::ramp_step.fraction);  // 1 Nm a tick: it is over soon
         pair.arm(D::S::setpoint);
         pair.clocks(8 * kTick);
-        REQUIRE(pair.out().gates_enable);
         REQUIRE(std::abs(pair.out().tau_ref) == std::abs(torque));
         const bool used = (address == D::A::voltage_gain_high) == (std::abs(torque) > border);
-        pair.flip(address, bit);
-        pair.clocks(3 * kTick);
         INFO("address " << address << " bit " << bit << " torque " << torque);
-        CHECK(pair.out().gates_enable != used);
-        CHECK(pair.mismatches() == 0);
+        check_flip(pair, address, bit, used);
       }
     }
   }
@@ -181,16 +186,12 @@ TEST_CASE("core: a bit of the limit of a held torque opens the gates where that 
         Pair pair;
         pair.write(D::A::setpoint_torque, 1 << 13);
         pair.write(D::A::hold_torque, 100);
-        pair.write(D::A::hold_time, held ? 1 : 8192);
+        pair.write(D::A::hold_time, held ? 1u : 1u << feltgate::Map::hold_bits);
         pair.arm(D::S::setpoint);
         pair.clocks(std::int64_t{2 * kTick} << feltgate::Map::hold_unit_bits);
-        REQUIRE(pair.out().gates_enable);
-        REQUIRE(((pair.out().limits >> 8) & 1) == held);
-        pair.flip(address, bit);
-        pair.clocks(3 * kTick);
+        REQUIRE(((pair.out().limits >> feltgate::Map::L::hold) & 1) == held);
         INFO("address " << address << " bit " << bit << " held " << held);
-        CHECK(pair.out().gates_enable != ((address == D::A::hold_limit) == held));
-        CHECK(pair.mismatches() == 0);
+        check_flip(pair, address, bit, (address == D::A::hold_limit) == held);
       }
     }
   }
@@ -204,12 +205,8 @@ TEST_CASE("core: a bit of the self-test's torque opens the gates while it lasts"
         pair.write(D::A::self_test_quiet, 1);
         pair.write(D::A::self_test_pulse, tests ? 10 : 0);
         pair.arm(D::S::free);
-        REQUIRE(pair.out().gates_enable);
-        pair.flip(address, bit);
-        pair.clocks(3 * kTick);
         INFO("address " << address << " bit " << bit << " tests " << tests);
-        CHECK(pair.out().gates_enable != ((address == D::A::self_test_torque) == tests));
-        CHECK(pair.mismatches() == 0);
+        check_flip(pair, address, bit, (address == D::A::self_test_torque) == tests);
       }
     }
   }

@@ -113,6 +113,7 @@ class Package(unittest.TestCase):
         for order in (headers, headers[::-1]):
             source.write_text("".join(f'#include "{h}"\n' for h in order))
             run(*flags, *warnings, source)
+        # Those of the twin, which users take one by one, need none before them.
         twin = [h for h in headers if Path(h).parent == Path("feltgate")]
         self.assertGreater(len(twin), 50)
         with ThreadPoolExecutor(os.cpu_count()) as pool:

@@ -4,10 +4,10 @@
 // The twin of axes with their engine from event to event against its clocks, random programs: the
 // same outputs at the end of every stretch and in every snapshot, the same memories, the same run
 // behind every torque. Documentation: docs/blocks/feltgate_axes.md
-#include <algorithm>
 #include <memory>
 
 #include "../machine/machine_programs.hpp"
+#include "../machine/random_program.hpp"
 #include "both.hpp"
 #include "mismatch.hpp"
 
@@ -15,32 +15,6 @@ using namespace feltgate;
 using namespace feltgate::test;
 
 namespace {
-
-/// A program that ends, mostly: random words, branches forward but for some.
-EngineMemory random_program(Random& random, int length) {
-  EngineMemory m;
-  m.line_base = random.coin() ? 512 : 400;
-  for (auto& word : m.table) word = random.bits() >> 28;
-  for (int n = 448; n < 512; ++n) m.set_data(n, static_cast<std::int32_t>(random.bits() >> 40));
-  for (int t = 0; t < 4; ++t) {
-    for (int n = 0; n < length; ++n) {
-      EngineInstruction i = engine_decode(random.bits() >> 28);
-      const int at = t * EngineMap::thread_words + n;
-      i.last = n + 1 == length || random.one_in(40);
-      if (i.op == EngineOp::brf) {
-        i.b = std::min(at + 1 + static_cast<int>(random.below(4)), at - n + length - 1);
-        if (random.one_in(300)) i.b = at;
-      }
-      if (random.one_in(3)) i.a = 48 + static_cast<int>(random.below(10));
-      if (i.dst == 2) i.d = static_cast<int>(random.below(3));
-      if (i.dst == 1 && random.coin()) i.d = static_cast<int>(random.below(40));
-      if (n + 3 >= length) i.dst = 2;  // mostly a run renews all outputs
-      if (n + 3 >= length) i.d = length - 1 - n;
-      m.set_program(at, engine_encode(i));
-    }
-  }
-  return m;
-}
 
 template <int N>
 void random_programs(std::uint64_t seed, int programs) {

@@ -98,21 +98,22 @@ void EngineRuns<AxisCount, TorqueW>::leave() {
 template <int AxisCount, int TorqueW>
 bool EngineRuns<AxisCount, TorqueW>::at_start(const In& in) const {
   const auto& r = engine_.registers_;
+  const auto& w = r.written;
   const auto& inputs = engine_.inputs_;
   const auto& outputs = engine_.outputs_;
-  if ((r.run & (r.run - 1)) != 0 || r.waits || engine_.busy() || engine_.commit_.committing() ||
+  if ((r.run & (r.run - 1)) != 0 || engine_.busy() || engine_.commit_.committing() ||
       engine_.crc_.read_ || in.armed != r.armed || in.tick || engine_.mailbox_.jumps ||
       inputs.counting_ || inputs.loading_ || inputs.written_ || inputs.due_ != 0 || outputs.ends_ ||
-      outputs.fresh) {
+      outputs.fresh || w.program || w.table) {
     return false;
   }
   for (const auto& axis : outputs.axes_) {
     if (axis.waits) return false;
   }
   for (const auto& turn : engine_.barrel_.at_) {
-    if (turn.valid) return false;
+    if (turn.valid || turn.writes_program || turn.writes_table) return false;
   }
-  return r.run == 0 ? inputs.request == 0 && inputs.running == 0 && !r.written.data
+  return r.run == 0 ? inputs.request == 0 && inputs.running == 0 && !w.data
                     : inputs.request == r.run && inputs.running == r.run &&
                           engine_.barrel_.starts(inputs.request);
 }
@@ -147,7 +148,6 @@ void EngineRuns<AxisCount, TorqueW>::adopt() {
   inputs.request = inputs.running = run_;
   inputs.loading_ = inputs.written_ = false;
   inputs.due_ = base_.due ? run_ : 0;
-  inputs.word_ = 0;
   inputs.counted_ = ticks_.counted(base_.clock);
   inputs.counting_ = inputs.counted_ >= 0;
   if (!inputs.counting_) inputs.counted_ = 0;

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Someone meddles while the engine's twin goes run by run: words in any clock, commits, resets,
+// what is read. Documentation: docs/blocks/engine.md
+#include "../machine/random_program.hpp"
+#include "pair.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+/// The torque is a word of the program, of the data and of the table.
+EngineMemory sums() {
+  EngineMemory m;
+  program(m, 0,
+          {to(1, EngineOp::tab, kConstant, 20), to(1, EngineOp::add, 1, kConstant + 1),
+           to(1, EngineOp::add, 1, kParameter), out(0, EngineOp::add, 1, kPosition)});
+  m.set_data(EngineMap::D::upper, 1 << 20);
+  return m;
+}
+
+void meddle(Pair<1>& p, Random& random) {
+  p.hasty = random.coin();
+  const auto some = static_cast<int>(random.below(512));
+  switch (random.below(12)) {
+    case 0:
+      p.write(EngineMap::D::parameter, random.below(2000));
+      p.write(H::commit, 1);
+      break;
+    case 1:
+      p.write(kConstant + 1, random.below(2000));
+      break;
+    case 2:
+      p.write(H::table + 20, random.below(2000));
+      break;
+    case 3:
+      p.write(H::program + 100 + static_cast<int>(random.below(20)), random.below(2000));
+      break;
+    case 4:
+      p.write(H::run, random.one_in(3) ? 0 : 1);
+      break;
+    case 5:
+      p.write(H::divider0, random.below(4));
+      break;
+    case 6:
+      p.read(random.coin() ? some : H::program + some);
+      break;
+    case 7:
+      p.in.armed = !p.in.armed;
+      p.in.locked = p.in.armed && random.coin();
+      break;
+    case 8:
+      p.in.enter = true;
+      p.write(EngineMap::D::exchange + 3, random.below(2000));
+      p.in.enter = false;
+      break;
+    case 9:
+      p.in.crc_start = true;
+      p.read(H::status);
+      p.in.crc_start = false;
+      break;
+    case 10:
+      if (random.one_in(6)) p.reset();
+      break;
+    default:
+      p.write(H::mailbox_first, random.below(40));
+      p.write(H::mailbox_age, random.below(3));
+      break;
+  }
+  p.hasty = false;
+}
+
+}  // namespace
+
+TEST_CASE("engine by runs: a host meddles") {
+  Random random(1);
+  std::int64_t done = 0, whole = 0;
+  for (std::uint64_t seed = 0; seed < 25; ++seed) {
+    Pair<1> p(seed);
+    EngineMemory m = sums();
+    m.line_base = 490;
+    p.load(m);
+    p.write(H::line_base, 490);
+    p.write(H::divider0, 1);
+    p.write(H::run, 1);
+    for (int n = 0; n < 150; ++n) {
+      p.run(1 + random.below(random.coin() ? 60 : 900));
+      if (random.one_in(3)) meddle(p, random);
+      if (random.one_in(10)) p.look();
+      if (random.one_in(3)) p.in.addr = random.below(0xa20);
+    }
+    done += p.done;
+    whole += p.whole;
+  }
+  INFO("clocks " << done << ", run by run " << whole);
+  CHECK(whole > done / 20);
+}
+
+TEST_CASE("engine by runs: a word of a host, whichever memory it is for, in any clock of a tick") {
+  for (const unsigned run : {0U, 1U}) {
+    for (int clock = 0; clock < 50; ++clock) {
+      Pair<1> p(3);
+      p.load(sums());
+      p.write(H::line_base, 512);
+      p.write(H::divider0, 1);
+      p.write(H::run, run);
+      p.ticks(3);
+      p.hasty = true;
+      INFO("clock " << clock << ", run " << run);
+      std::uint32_t word = 100;
+      for (const int address : {H::program + 100, H::table + 20, kConstant + 1, 256 + 7}) {
+        p.until(clock);
+        p.write(address, ++word);
+        p.ticks(2);
+        p.look();
+      }
+      CHECK(p.by_event.clocked().memory().program_at(100) == 101);
+      CHECK(p.by_event.clocked().memory().table_at(20) == 102);
+      CHECK(p.by_event.clocked().memory().data_at(kConstant + 1) == 103);
+      CHECK(p.by_event.clocked().memory().data_at(256 + 7) == 104);
+    }
+  }
+}
+
+TEST_CASE("engine by runs: what is read, after an address that changes in any clock") {
+  for (const int changes : {1, 12, 20, 39, 40, 41, 200}) {
+    Pair<1> p(3);
+    p.load(sums());
+    p.write(H::divider0, 1);
+    p.write(H::run, 1);
+    p.ticks(10);
+    for (int n = 0; n < 6; ++n) {
+      p.in.addr = static_cast<unsigned>(n % 2 == 0 ? kConstant + 1 : H::program + 3);
+      p.run(changes);
+      p.look();
+    }
+  }
+}
+
+TEST_CASE("engine by runs: after a reset it is as new") {
+  Pair<1> p(3), fresh(3);
+  p.load(sums());
+  p.write(H::divider0, 1);
+  p.write(H::run, 1);
+  p.ticks(10);
+  CHECK(p.by_event.on());
+  CHECK(p.by_event.watch().ended.has_value());
+  p.reset();
+  CHECK_FALSE(p.by_event.on());
+  CHECK_FALSE(p.by_event.watch().ended.has_value());
+  CHECK(p.by_event.watch().begun.empty());
+  p.look();
+}

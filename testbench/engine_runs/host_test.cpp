@@ -124,6 +124,87 @@ TEST_CASE("engine by runs: a word of a host, whichever memory it is for, in any 
   }
 }
 
+TEST_CASE("engine by runs: a host changes what runs in any clock of a tick") {
+  for (const int length : {1, 4, 6}) {
+    for (int clock = 0; clock < 50; ++clock) {
+      EngineMemory m;
+      for (int t = 0; t < 4; ++t) {
+        for (int n = 0; n < length; ++n) {
+          auto i = to(1, EngineOp::add, 1, kPosition);
+          if (n + 1 == length) i = out(0, EngineOp::add, 1, EngineMap::input_tick);
+          m.set_program(t * EngineMap::thread_words + n, engine_encode(i));
+        }
+      }
+      Pair<1> p(3);
+      p.load(m);
+      p.write(H::line_base, 512);
+      for (int t = 0; t < 4; ++t) p.write(H::divider0 + t, static_cast<std::uint32_t>(1 + t % 2));
+      p.hasty = true;
+      INFO("clock " << clock << ", length " << length);
+      for (const unsigned run : {1U, 0U, 2U, 0U, 8U, 1U, 3U, 4U, 8U}) {
+        p.until(clock);
+        p.write(H::run, run);
+        p.run(1 + clock % 3);
+        p.ticks(2);
+        p.look();
+        p.ticks(2);
+        p.look();
+      }
+    }
+  }
+}
+
+TEST_CASE("engine by runs: a word of a host that runs add to, in any clock of a tick") {
+  for (int clock = 0; clock < 50; ++clock) {
+    EngineMemory m;
+    program(m, 0, {to(5, EngineOp::add, 5, kConstant + 1), out(0, EngineOp::add, 5, kPosition)});
+    m.set_data(kConstant + 1, 1);
+    Pair<1> p(3);
+    p.load(m);
+    p.write(H::line_base, 512);
+    p.write(H::divider0, 1);
+    p.write(H::run, 1);
+    p.ticks(3);
+    p.hasty = true;
+    INFO("clock " << clock);
+    for (const int ticks : {1, 2, 3, 4}) {
+      p.until(clock);
+      p.write(5, 1000);
+      p.ticks(ticks);
+      p.run(30);
+      p.look();
+      p.ticks(2);
+      CHECK(p.now().torque[0] < 1010 + 3000);
+    }
+  }
+}
+
+TEST_CASE("engine by runs: a check of the program, its end told") {
+  for (const unsigned run : {0U, 1U}) {
+    Pair<1> p(3);
+    p.load(sums());
+    p.write(H::line_base, 512);
+    p.write(H::crc, image_crc(p.by_clock.clocked().memory()));
+    p.write(H::divider0, 1);
+    p.write(H::run, run);
+    for (int k = 0; k < 3; ++k) {
+      p.ticks(3);
+      p.in.crc_start = true;
+      p.read(H::status);
+      p.in.crc_start = false;
+      int done = 0;
+      for (int n = 0; n < 100'000 && done == 0; ++n) {
+        p.run(1);
+        done += p.now().crc_done;
+      }
+      CHECK(done == 1);
+      p.run(1);
+      p.ticks(3);
+      p.look();
+    }
+  }
+}
+
 TEST_CASE("engine by runs: what is read, after an address that changes in any clock") {
   for (const int changes : {1, 12, 20, 39, 40, 41, 200}) {
     Pair<1> p(3);

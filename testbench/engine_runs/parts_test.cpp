@@ -78,6 +78,15 @@ TEST_CASE("run ticks: what the axes show, before a tick and after it") {
   CHECK(t.position(3, 0)[0] == 1);
 }
 
+TEST_CASE("run ticks: one that has been, and the next that comes") {
+  Ticks t = ticks(1);
+  t.show({-1}, {-10});
+  CHECK(t.position(52, 1)[0] == 1);
+  CHECK(t.position(53, 1)[0] == -1);
+  CHECK(t.velocity(60, 1)[0] == 10);
+  CHECK(t.velocity(61, 1)[0] == -10);
+}
+
 TEST_CASE("run ticks: nothing is shown of a tick to come where there is none before") {
   Ticks t = ticks(0);
   t.show({-1}, {-10});
@@ -158,11 +167,14 @@ TEST_CASE("run writes: wide words of a table, negative ones of data, and none af
   EngineMemory m;
   RunWrites w;
   m.set_table(3, 0xfedcba987);
+  m.set_table(0, 0x123456789);
   m.set_data(3, -5);
   w.table(m, 3, 1);
+  w.table(m, 0, 0);
   w.data(m, 3, 6);
   w.take_back(m);
   CHECK(m.table_at(3) == 0xfedcba987);
+  CHECK(m.table_at(0) == 0x123456789);
   CHECK(m.data_at(3) == -5);
   w.data(m, 3, 6);
   w.mark();
@@ -214,6 +226,14 @@ TEST_CASE("run program: how many instructions every run has at least") {
   CHECK(shortest({add, add, end}, 3) == 3);
   CHECK(shortest({end}, 0) == 0);
   CHECK(shortest({add, end}, 9, 3) == 2);
+  // What lies before a thread's first word is not its own.
+  EngineMemory before;
+  program(before, 0, {end});
+  before.set_program(127, engine_encode(end));
+  program(before, 1, {add, add, end});
+  RunProgram second;
+  second.begin(1, 0);
+  CHECK(second.shortest(before, 9) == 3);
   // The words go round.
   EngineMemory m;
   for (int n = 0; n < 128; ++n) m.set_program(384 + n, engine_encode(add));
@@ -223,6 +243,27 @@ TEST_CASE("run program: how many instructions every run has at least") {
   CHECK(p.shortest(m, 200) == 130);
 }
 
+TEST_CASE("run state: as new") {
+  const RunState<2> s;
+  CHECK(s.clock == 0);
+  CHECK(s.torque == std::array<std::int32_t, 2>{});
+  CHECK(s.renewed == 0);
+  CHECK(s.age == 0);
+  CHECK(s.first == 0);
+  CHECK(s.count == 0);
+  CHECK_FALSE(s.due);
+  CHECK_FALSE(s.overrun);
+  CHECK_FALSE(s.mail_late);
+  CHECK(s.mail_age == 0);
+  const RunOutputs<2> outputs;
+  CHECK(outputs.clock == 0);
+  CHECK(outputs.mask == 0);
+  const RunProgram::Step step;
+  CHECK(step.x == 0);
+  CHECK(step.y == 0);
+  CHECK(step.to == -1);
+}
+
 TEST_CASE("run outputs: all axes renewed by one run or by several") {
   RunOutputs<3> all{9, 7, {1, 2, 3}}, first{9, 1, {4, 5, 6}}, rest{9, 6, {7, 8, 9}}, none{9, 0, {}};
   CHECK(all.renews(0));
@@ -230,7 +271,6 @@ TEST_CASE("run outputs: all axes renewed by one run or by several") {
   CHECK(first.renews(6));
   CHECK_FALSE(none.renews(7));
   RunState<3> s;
-  CHECK(s.clock == 0);
   s.age = 5;
   first.appear(&s, false);
   CHECK(s.torque == std::array<std::int32_t, 3>{4, 0, 0});

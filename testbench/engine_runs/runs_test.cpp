@@ -102,6 +102,9 @@ TEST_CASE("engine by runs: runs that are too long for their divider, overruns to
     INFO("length " << length);
     p.ticks(30);
     p.in.addr = H::status;
+    const std::int64_t done = p.done, whole = p.whole;
+    for (int n = 0; n < 40; ++n) p.run(1 + n * 13 % 71);
+    CHECK(p.whole - whole == p.done - done);
     for (int n = 0; n < 40; ++n) {
       p.run(1 + n * 13 % 71);
       if (n % 5 == 0) p.look();
@@ -169,18 +172,53 @@ TEST_CASE("engine by runs: a mailbox becomes too old, and is fed") {
   }
 }
 
+TEST_CASE("engine by runs: begun anew at every start, at any clock of a tick") {
+  for (const int thread : {0, 1, 3}) {
+    for (int length = 1; length < 20; ++length) {
+      Pair<1> p(static_cast<std::uint64_t>(length));
+      start(p, counting(length, thread), 1U << thread, 1 + length % 3 / 2);
+      INFO("length " << length << ", thread " << thread);
+      for (int n = 0; n < 150; ++n) {
+        p.run(1 + n * 23 % 97);
+        p.look();
+      }
+    }
+  }
+}
+
 TEST_CASE("engine by runs: a run without an end is left to the clocks, and comes back") {
-  EngineMemory m = counting(3);
-  m.set_program(1, engine_encode(word(EngineOp::brf, 1, 0, 1)));
-  Pair<1> p(11);
-  start(p, m, 1, 1);
-  p.ticks(200);
-  CHECK(p.whole < p.done / 10);
-  p.look();
-  p.write(EngineMap::H::program + 1, 0);
-  p.ticks(300);
-  CHECK(p.by_event.on());
-  p.look();
+  for (const int mode : {0, 1}) {  // the first run, or the second
+    EngineMemory m = counting(3);
+    m.set_program(1, engine_encode(word(EngineOp::brf, mode, 0, 1)));
+    Pair<1> p(11);
+    start(p, m, 1, 1);
+    p.ticks(200);
+    CHECK(p.whole < p.done / 10);
+    p.look();
+    p.write(EngineMap::H::program + 1, 0);
+    p.ticks(300);
+    CHECK(p.by_event.on());
+    p.look();
+  }
+}
+
+TEST_CASE("engine by runs: axes renewed by turns") {
+  EngineMemory m;
+  program(m, 0,
+          {to(1, EngineOp::sub, kConstant + 1, 1), word(EngineOp::cmp, 0, kConstant, 1),
+           word(EngineOp::brf, 0, 0, 4), out(0, EngineOp::add, kPosition, EngineMap::input_tick),
+           out(1, EngineOp::add, kPosition, EngineMap::input_tick)});
+  m.set_data(kConstant + 1, 1);
+  for (const unsigned max_age : {2U, 3U, 4000U}) {
+    Pair<2> p(17, max_age);
+    start(p, m, 1, 1);
+    for (int n = 0; n < 150; ++n) {
+      p.run(1 + n * 23 % 97);
+      if (n % 2 == 0) p.look();
+    }
+    CHECK(p.whole > p.done / 4);
+    CHECK(p.out().torque[1] != 0);
+  }
 }
 
 TEST_CASE("engine by runs: the line of a table, written by runs and taken back") {

@@ -76,7 +76,7 @@ class EngineRuns {
     if (!late_ && !renews_now && age == engine_.registers_.max_age) return false;
     // A run whose inputs come late is known with the next tick: too late if it is a short one.
     if (shortest_ >= ticks_.long_run() || (state_.count > 1 && !state_.due)) return true;
-    const std::int64_t ready = std::max(at + 2 + thread_, end_ == never ? 0 : end_ + 1);
+    const std::int64_t ready = std::max(at + 2 + thread_, end_ + 1);
     return ready + words + 3 <= at + ticks_.known_for();
   }
   /// A tick whose inputs are latched in the clock `ahead` of now.
@@ -230,7 +230,6 @@ class EngineRuns {
     last_ = state_;
     for (int k = 0; k < coming_; ++k) comes_[static_cast<std::size_t>(k)].appear(&last_, silent_);
     last_.clock = n;
-    last_.due = run_ != 0 && state_.due;
     writes_.mark();
     ticks_.forget(base_.clock);
     if (events_.empty()) return;
@@ -304,7 +303,7 @@ class EngineRuns {
   }
 
   bool at_start(const In& in) const;
-  void land_inputs();
+  void land_input();
   void adopt();
 
   Clocked engine_;  ///< while on(): as of enter(), but for memory and events

@@ -25,7 +25,7 @@ bool EngineRuns<AxisCount, TorqueW>::enter(const In& in, int clock_of_tick) {
   if (rest_ > 0 || !at_start(in)) return false;
   const auto& r = engine_.registers_;
   run_ = r.run;
-  thread_ = run_ == 0 ? 0 : engine_.barrel_.thread5();
+  thread_ = engine_.barrel_.thread5();
   for (int k = 0; k < 6; ++k) {
     const int turn = stage(k).turn;
     if (turn == EngineBarrel::kSystem) system_ = k;
@@ -53,8 +53,7 @@ bool EngineRuns<AxisCount, TorqueW>::enter(const In& in, int clock_of_tick) {
   state_.mail_late = engine_.mailbox_.late_;
   late_ = engine_.outputs_.late;
   silent_ = engine_.mailbox_late();
-  end_ = never;
-  land_inputs();
+  land_input();
   base_ = last_ = state_;
   on_ = true;
   if (run_ != 0) {
@@ -94,7 +93,7 @@ void EngineRuns<AxisCount, TorqueW>::leave() {
   if (fresh_at_ != now_) watch_.ended_before = watch_.ended;
 }
 
-/// A run starts, or none runs, and nothing else is under way.
+/// A run starts, or none runs, and nothing else is under way but a word that it will read.
 template <int AxisCount, int TorqueW>
 bool EngineRuns<AxisCount, TorqueW>::at_start(const In& in) const {
   const auto& r = engine_.registers_;
@@ -104,7 +103,7 @@ bool EngineRuns<AxisCount, TorqueW>::at_start(const In& in) const {
   if ((r.run & (r.run - 1)) != 0 || engine_.busy() || engine_.commit_.committing() ||
       engine_.crc_.read_ || in.armed != r.armed || in.tick || engine_.mailbox_.jumps ||
       inputs.counting_ || inputs.loading_ || inputs.written_ || inputs.due_ != 0 || outputs.ends_ ||
-      outputs.fresh || w.program || w.table) {
+      outputs.fresh || w.data || w.program || w.table || stage(4).writes_data) {
     return false;
   }
   for (const auto& axis : outputs.axes_) {
@@ -113,20 +112,17 @@ bool EngineRuns<AxisCount, TorqueW>::at_start(const In& in) const {
   for (const auto& turn : engine_.barrel_.at_) {
     if (turn.valid || turn.writes_program || turn.writes_table) return false;
   }
-  return r.run == 0 ? inputs.request == 0 && inputs.running == 0 && !w.data
-                    : inputs.request == r.run && inputs.running == r.run &&
-                          engine_.barrel_.starts(inputs.request);
+  return r.run == 0 ? inputs.running == 0
+                    : inputs.request == r.run && engine_.barrel_.starts(inputs.request);
 }
 
-/// The last word of the inputs may still be on its way.
+/// The last word of the inputs may still be on its way: the run will read it.
 template <int AxisCount, int TorqueW>
-void EngineRuns<AxisCount, TorqueW>::land_inputs() {
-  const auto& w = engine_.registers_.written;
-  for (const int k : {6, 5, 4}) {
-    if (!stage(k).writes_data) continue;
-    write(stage(k).address, k == 6 ? stage(k).result : static_cast<std::int32_t>(stage(k).extra));
+void EngineRuns<AxisCount, TorqueW>::land_input() {
+  for (const int k : {6, 5}) {
+    const auto& turn = stage(k);
+    if (turn.writes_data) write(turn.address, static_cast<std::int32_t>(turn.extra));
   }
-  if (w.data) write(w.address, static_cast<std::int32_t>(w.word));
 }
 
 /// The clocked twin to the state of base_: before the start of a run, nothing under way.
@@ -135,28 +131,20 @@ void EngineRuns<AxisCount, TorqueW>::adopt() {
   if (base_.clock == 0) return;
   auto& barrel = engine_.barrel_;
   const auto turns = static_cast<int>(base_.clock % stages);
-  std::array<int, 8> turn{};
-  for (int k = 0; k < 8; ++k) {
-    turn[static_cast<std::size_t>(k)] = stage((k - turns + 2 * stages) % stages).turn;
+  const auto turns_of = barrel.at_;
+  int k = 0;
+  for (auto& t : barrel.at_) {
+    t = {};
+    t.turn = turns_of[static_cast<std::size_t>((k++ + stages - turns) % stages)].turn;
   }
-  for (std::size_t k = 0; k < turn.size(); ++k) {
-    barrel.at_[k] = {};
-    barrel.at_[k].turn = turn[k];
-  }
-  barrel.acc_ = {};
   auto& inputs = engine_.inputs_;
-  inputs.request = inputs.running = run_;
-  inputs.loading_ = inputs.written_ = false;
   inputs.due_ = base_.due ? run_ : 0;
   inputs.counted_ = ticks_.counted(base_.clock);
   inputs.counting_ = inputs.counted_ >= 0;
   if (!inputs.counting_) inputs.counted_ = 0;
-  inputs.counts_ = {};
-  inputs.counts_[static_cast<std::size_t>(thread_)] = run_ == 0 ? 0 : base_.count;
+  inputs.counts_[static_cast<std::size_t>(thread_)] = base_.count;
   auto& outputs = engine_.outputs_;
   outputs.torque = base_.torque;
-  outputs.fresh = outputs.ends_ = false;
-  for (auto& axis : outputs.axes_) axis.waits = false;
   outputs.renewed_ = base_.renewed;
   outputs.age_ = base_.age;
   engine_.mailbox_.age_ = base_.mail_age;

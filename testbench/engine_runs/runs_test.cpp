@@ -147,6 +147,51 @@ TEST_CASE("engine by runs: a torque becomes too old in the same clock") {
   }
 }
 
+TEST_CASE("engine by runs: outputs that come no more after runs that followed close") {
+  for (int length = 6; length < 16; ++length) {
+    EngineMemory m = counting(length);
+    program(m, 0,
+            {word(EngineOp::cmp, 0, EngineMap::input_tick, kConstant + 1),
+             word(EngineOp::brf, 0, 0, length - 1)});
+    m.set_program(length - 2,
+                  engine_encode(word(EngineOp::nop, 0, 0, 0, EngineTarget::none, 0, true)));
+    m.set_data(kConstant + 1, 100);
+    for (const unsigned max_age : {0U, 1U, 9U, 31U}) {
+      Pair<1> p(7, max_age);
+      start(p, m, 1, 1);
+      INFO("length " << length << ", max_age " << max_age);
+      p.ticks(100 + static_cast<int>(max_age) / 2);
+      p.look();
+      for (int n = 0; n < 90; ++n) p.run(1 + n * 17 % 83);
+      CHECK(p.out().late);
+      p.look();
+    }
+  }
+}
+
+TEST_CASE("engine by runs: long and short runs by turns, told in the tick that they are of") {
+  for (const int thread : {0, 2, 3}) {
+    for (int length = 4; length < 18; ++length) {
+      EngineMemory m = counting(length, thread);
+      const int first = thread * EngineMap::thread_words;
+      program(m, thread,
+              {word(EngineOp::cmp, 0, kPosition, kConstant),
+               word(EngineOp::brf, 0, 0, first + length - 1)});
+      for (const int divider : {1, 2}) {
+        Pair<1> p(static_cast<std::uint64_t>(length));
+        start(p, m, 1U << thread, divider);
+        INFO("length " << length << ", thread " << thread << ", divider " << divider);
+        for (int n = 0; n < 200; ++n) {
+          p.run(1 + n * 23 % 97);
+          if (n % 5 == 0) p.look();
+        }
+        p.ticks(100);
+        p.look();
+      }
+    }
+  }
+}
+
 TEST_CASE("engine by runs: a mailbox becomes too old, and is fed") {
   for (int age = 0; age < 4; ++age) {
     for (const bool runs : {false, true}) {
@@ -184,6 +229,41 @@ TEST_CASE("engine by runs: begun anew at every start, at any clock of a tick") {
       }
     }
   }
+}
+
+TEST_CASE(
+    "engine by runs: a mailbox counts while nobody watches it, and beside runs of every length") {
+  for (const int length : {3, 7, 9, 12, 17}) {
+    const int thread = length % 2;
+    for (const int ticks : {10, 60, 64, 70, 100, 127, 130, 200, 400}) {
+      for (const bool watched : {false, true}) {
+        Pair<1> p(9);
+        start(p, counting(length, thread), 1U << thread, 1);
+        p.write(H::mailbox_first, watched ? 0 : 32);
+        p.write(H::mailbox_age, 1);
+        p.commit();
+        p.in.addr = 0;
+        INFO("length " << length << ", ticks " << ticks << ", watched " << watched);
+        for (int n = 0; n < ticks; ++n) {
+          p.ticks(1);
+          if (p.count() % EngineMap::mailbox_step > 1) continue;
+          for (int k = 0; k < 12; ++k) {
+            p.run(1 + (n + k * 3) % 11);
+            p.look();
+          }
+        }
+        p.write(H::mailbox_first, 0);
+        p.look();
+        p.ticks(70);
+        p.look();
+      }
+    }
+  }
+}
+
+TEST_CASE("engine by runs: as new, nothing is passed") {
+  const Pair<1> p(3);
+  CHECK_FALSE(p.by_event.on());
 }
 
 TEST_CASE("engine by runs: a run without an end is left to the clocks, and comes back") {

@@ -70,10 +70,9 @@ class EngineRuns {
     const std::int64_t at = now_ + ahead;
     if (engine_.watches_mailbox() && mail_ends(at)) return false;
     if (run_ == 0) return true;
-    const bool renews = coming_ > 0 && comes_[0].renews(state_.renewed);
-    const bool renews_now = renews && comes_[0].clock == at;
-    const unsigned age = renews && comes_[0].clock < at ? 0 : state_.age;
-    if (!late_ && !renews_now && age == engine_.registers_.max_age) return false;
+    const Coming& next = comes_.front();
+    const bool renewed = coming_ > 0 && next.clock <= at && next.renews(state_.renewed);
+    if (!late_ && (renewed ? 0 : state_.age) == engine_.registers_.max_age) return false;
     // A run whose inputs come late is known with the next tick: too late if it is a short one.
     if (shortest_ >= ticks_.long_run() || (state_.count > 1 && !state_.due)) return true;
     const std::int64_t ready = std::max(at + 2 + thread_, end_ + 1);
@@ -100,9 +99,7 @@ class EngineRuns {
       cursor_ = at + 1;
       word_ = 0;
     }
-    if (coming_ == 0 || comes_[0].clock != at || !comes_[0].renews(state_.renewed)) {
-      state_.age = (state_.age + 1) & 0xffffU;
-    }
+    state_.age = (state_.age + 1) & 0xffffU;  // 0 again where outputs appear in this clock
     start(counts);
     if (state_.count > 1) {
       --state_.count;
@@ -232,7 +229,6 @@ class EngineRuns {
     last_.clock = n;
     writes_.mark();
     ticks_.forget(base_.clock);
-    if (events_.empty()) return;
     const auto kept = std::partition_point(
         events_.begin(), events_.end(), [this](const Event& e) { return e.clock < base_.clock; });
     for (auto e = events_.begin(); e != kept; ++e) {

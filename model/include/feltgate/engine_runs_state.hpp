@@ -109,6 +109,8 @@ bool EngineRuns<AxisCount, TorqueW>::at_start(const In& in) const {
   for (const auto& axis : outputs.axes_) {
     if (axis.waits) return false;
   }
+  // A mailbox that a host has just made too old takes the torque away with this clock.
+  if (engine_.mailbox_late() && (watch_.ended || outputs.torque != State{}.torque)) return false;
   for (const auto& turn : engine_.barrel_.at_) {
     if (turn.valid || turn.writes_program || turn.writes_table) return false;
   }

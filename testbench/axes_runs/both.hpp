@@ -67,6 +67,7 @@ class Both {
   std::int64_t done = 0, whole = 0;
   bool hasty = false;                ///< a word is not waited for: it lands amid what follows
   std::int64_t calm = 0, ticks = 0;  ///< starts of a tick that calm() is true of; all
+  std::int64_t asked = 0;            ///< clocks that calm() is asked for, 0: some
 
   void run(std::int64_t clocks) {
     struct Shown {
@@ -86,7 +87,7 @@ class Both {
     std::vector<Shown> shown;
     std::vector<std::pair<std::int64_t, int>> events;
     const bool held = !in.reg_write && !in.reg_read;
-    const std::int64_t quiet = 1 + done % 30;
+    const std::int64_t quiet = asked > 0 ? asked : 1 + done % 30;
     const bool is_calm = held && by_event.calm(in, quiet);
     if (held && by_clock.clock_of_tick() == 0) {
       ++ticks;

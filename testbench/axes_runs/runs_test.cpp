@@ -167,6 +167,46 @@ TEST_CASE("axes by runs: a mailbox that becomes too old while runs are passed as
   }
 }
 
+TEST_CASE("axes by runs: a torque that comes in any clock of a tick", "[few]") {
+  for (const int thread : {0, 1, 2, 3}) {
+    for (int length = 1; length < 14; ++length) {
+      EngineMemory m;
+      const int first = thread * EngineMap::thread_words;
+      for (int n = 0; n < length - 1; ++n) {
+        m.set_program(first + n, engine_encode(to(n, EngineOp::add, kPosition, kConstant)));
+      }
+      m.set_program(first + length - 1,
+                    engine_encode(out(0, EngineOp::mul, EngineMap::input_tick, kConstant + 1)));
+      m.set_data(kConstant + 1, 100);
+      Both<1> b;
+      load<1>(b, m, 1U << thread, static_cast<unsigned>(length * 6 / 50 + 1), 30);
+      b.arm(D::S::law);
+      b.run(10 * D::clocks_per_tick - b.by_clock.clock_of_tick());
+      INFO("thread " << thread << ", length " << length);
+      const std::int64_t done = b.done, whole = b.whole;
+      for (int k = 0; k < 40; ++k) b.run(D::clocks_per_tick);
+      CHECK(b.whole - whole == b.done - done);
+      for (int k = 0; k < 40; ++k) b.run(1 + 13 * k % 50);
+    }
+  }
+}
+
+TEST_CASE("axes by runs: calm until a torque is too old", "[few]") {
+  EngineMemory m;
+  m.set_program(0, engine_encode(out(0, EngineOp::add, kPosition, kConstant)));
+  for (const unsigned max_age : {20U, 21U, 22U}) {
+    Both<1> b;
+    load<1>(b, m, 1, 30, max_age);
+    b.asked = 47;
+    for (int life = 0; life < 3; ++life) {
+      b.arm(D::S::law);
+      for (int k = 0; k < 60; ++k) b.run(D::clocks_per_tick - b.by_clock.clock_of_tick());
+      CHECK_FALSE(b.by_clock.out().axis[0].armed);
+    }
+    CHECK(b.calm > b.ticks / 2);
+  }
+}
+
 TEST_CASE("axes by runs: random programs, one axis, two and three") {
   random_programs<1>(3, static_cast<int>(scaled_clocks(10)));
   random_programs<2>(4, static_cast<int>(scaled_clocks(4)));

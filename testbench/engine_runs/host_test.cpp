@@ -145,7 +145,7 @@ TEST_CASE("engine by runs: a host changes what runs in any clock of a tick") {
         p.until(clock);
         p.write(H::run, run);
         p.run(1 + clock % 3);
-        p.ticks(2);
+        p.ticks(5);
         p.look();
         p.ticks(2);
         p.look();

@@ -167,7 +167,6 @@ class Pair {
   int pass(std::int64_t left) {
     const int from = clock_;
     int to = static_cast<int>(std::min<std::int64_t>(timing.clocks_per_tick, from + left));
-    if (from < measured && (from != 0 || to != timing.clocks_per_tick)) to = std::min(to, measured);
     if (!by_event.enter(input(), from)) return 0;
     const bool takes = from < measured && measured <= to,
                measures = from <= measured && measured < to;

@@ -170,7 +170,8 @@ TEST_CASE("engine by runs: outputs that come no more after runs that followed cl
 }
 
 TEST_CASE("engine by runs: long and short runs by turns, told in the tick that they are of") {
-  for (const int thread : {0, 2, 3}) {
+  Random random(1);
+  for (const int thread : {0, 1, 2, 3}) {
     for (int length = 4; length < 18; ++length) {
       EngineMemory m = counting(length, thread);
       const int first = thread * EngineMap::thread_words;
@@ -181,9 +182,9 @@ TEST_CASE("engine by runs: long and short runs by turns, told in the tick that t
         Pair<1> p(static_cast<std::uint64_t>(length));
         start(p, m, 1U << thread, divider);
         INFO("length " << length << ", thread " << thread << ", divider " << divider);
-        for (int n = 0; n < 200; ++n) {
-          p.run(1 + n * 23 % 97);
-          if (n % 5 == 0) p.look();
+        for (int n = 0; n < 300; ++n) {
+          p.run(1 + random.below(n % 2 == 0 ? 50 : 120));
+          if (random.one_in(3)) p.look();
         }
         p.ticks(100);
         p.look();
@@ -234,11 +235,16 @@ TEST_CASE("engine by runs: begun anew at every start, at any clock of a tick") {
 TEST_CASE(
     "engine by runs: a mailbox counts while nobody watches it, and beside runs of every length") {
   for (const int length : {3, 7, 9, 12, 17}) {
-    const int thread = length % 2;
+    const int thread = length % 2 == 0 ? 1 : 0;
     for (const int ticks : {10, 60, 64, 70, 100, 127, 130, 200, 400}) {
       for (const bool watched : {false, true}) {
         Pair<1> p(9);
-        start(p, counting(length, thread), 1U << thread, 1);
+        EngineMemory m = counting(length, thread);
+        if (length == 7) {  // a torque of 0
+          m.set_program(thread * EngineMap::thread_words + length - 1,
+                        engine_encode(out(0, EngineOp::add, kConstant, kConstant)));
+        }
+        start(p, m, 1U << thread, 1);
         p.write(H::mailbox_first, watched ? 0 : 32);
         p.write(H::mailbox_age, 1);
         p.commit();
@@ -279,6 +285,25 @@ TEST_CASE("engine by runs: a run without an end is left to the clocks, and comes
     p.ticks(300);
     CHECK(p.by_event.on());
     p.look();
+  }
+}
+
+TEST_CASE("engine by runs: one without an end after others, begun at any clock of a tick") {
+  for (int length = 7; length < 11; ++length) {
+    for (int last = 60; last < 85; ++last) {
+      EngineMemory m = counting(length);
+      program(m, 0,
+              {word(EngineOp::cmp, 0, EngineMap::input_tick, kConstant + 1),
+               word(EngineOp::brf, 1, 0, 1)});
+      m.set_data(kConstant + 1, last);
+      Pair<1> p(11);
+      start(p, m, 1, 1);
+      INFO("length " << length << ", last tick " << last);
+      while (p.count() < 90) {
+        p.run(50);
+        p.look();
+      }
+    }
   }
 }
 

@@ -95,6 +95,60 @@ TEST_CASE("axes: from event to event as clock by clock") {
   }
 }
 
+TEST_CASE("axes: one that faults in the tick that would arm them all") {
+  using Axes = FeltgateAxes<D, kAxes>;
+  const auto made = [] {
+    Axes axes;
+    In in;
+    for (int n = 0; n < kAxes; ++n) {
+      in.reg_addr = static_cast<std::uint16_t>(n * axes_stride + D::A::self_test_pulse);
+      in.reg_write = true;
+      axes.clock(in);
+      in.reg_write = false;
+      axes.run(in, 20 * D::clocks_per_tick, [] {});
+    }
+    return axes;
+  };
+  In in;
+  in.arm = true;
+  Axes calm = made();
+  std::int64_t arms = 0;  // clocks until they are armed
+  for (; !calm.out().axis[0].armed; ++arms) {
+    REQUIRE(arms < 2'000 * D::clocks_per_tick);
+    calm.clock(in);
+  }
+  int armed = 0, refused = 0;
+  for (int n = 0; n < kAxes; ++n) {
+    for (int before = 0; before < 2 * D::clocks_per_tick; before += 3) {
+      Axes by_clock = made(), by_event = made();
+      In now = in;
+      auto& pins = now.axis[static_cast<std::size_t>(n)].encoder;
+      std::int64_t done = 0;
+      const auto pass = [&](std::int64_t clocks) {
+        for (std::int64_t k = 0; k < clocks; ++k) by_clock.clock(now);
+        by_event.run(now, clocks, [] {});
+        done += clocks;
+        for (std::size_t m = 0; m < kAxes; ++m) {
+          INFO("axis " << m << ", clock " << done << " of " << arms << ", fault of axis " << n);
+          if (!(by_clock.out().axis[m] == by_event.out().axis[m])) FAIL("another output");
+        }
+      };
+      // Both channels at once are an error, of which some are borne.
+      pass(arms - before - 100 * Map::errors_borne);
+      for (int error = 0; error <= Map::errors_borne; ++error) {
+        pins.a = pins.b = !pins.a;
+        pass(error < Map::errors_borne ? 100 : before);
+      }
+      pass(200);
+      armed += by_clock.out().axis[0].armed;
+      const unsigned first = by_clock.out().axis[static_cast<std::size_t>(n)].first_fault;
+      refused += !by_clock.out().axis[0].armed && first == static_cast<unsigned>(Fault::encoder);
+    }
+  }
+  CHECK(armed == 0);
+  CHECK(refused > 20);
+}
+
 TEST_CASE("axes: as made they show what their cores do, and measure once in a tick") {
   FeltgateAxes<D, kAxes> axes;
   for (int n = 0; n < kAxes; ++n) {

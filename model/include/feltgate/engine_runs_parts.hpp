@@ -120,10 +120,6 @@ class RunTicks {
 /// Writes into an engine's memory that can be taken back: those since the last but one mark().
 class RunWrites {
  public:
-  void clear() {
-    before_.clear();
-    after_.clear();
-  }
   void mark() {
     std::swap(before_, after_);
     after_.clear();

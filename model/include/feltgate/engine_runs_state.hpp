@@ -36,7 +36,6 @@ bool EngineRuns<AxisCount, TorqueW>::enter(const In& in, int clock_of_tick) {
   addr_ = in.addr;
   armed_ = r.armed;
   program_.begin(thread_, engine_.commit_.bank);
-  writes_.clear();
   events_.clear();
   untold_.clear();
   coming_ = 0;
@@ -103,7 +102,7 @@ bool EngineRuns<AxisCount, TorqueW>::at_start(const In& in) const {
   if ((r.run & (r.run - 1)) != 0 || engine_.busy() || engine_.commit_.committing() ||
       engine_.crc_.read_ || in.armed != r.armed || in.tick || engine_.mailbox_.jumps ||
       inputs.counting_ || inputs.loading_ || inputs.written_ || inputs.due_ != 0 || outputs.ends_ ||
-      outputs.fresh || w.data || w.program || w.table || stage(4).writes_data) {
+      w.data || w.program || w.table || stage(4).writes_data) {
     return false;
   }
   for (const auto& axis : outputs.axes_) {
@@ -151,7 +150,6 @@ void EngineRuns<AxisCount, TorqueW>::adopt() {
   outputs.age_ = base_.age;
   engine_.mailbox_.age_ = base_.mail_age;
   engine_.mailbox_.late_ = base_.mail_late;
-  engine_.registers_.written = {};
   engine_.registers_.first = base_.first;
   engine_.registers_.overrun = base_.overrun;
 }

@@ -34,7 +34,7 @@ class FeltgateAxes {
   void reset() {
     for (Core& core : cores_) core.reset();
     glue_.reset();
-    show(last_);
+    show({});
   }
 
   void clock(const In& in) {
@@ -130,11 +130,9 @@ class FeltgateAxes {
     if (WithEngine) {
       if (!glue_.by_runs(in, cores_, each)) return 0;
       for (const Core& core : cores_) {
-        if (from == tick - 1 && core.zeroed()) return 0;
-        if (!core.at_rest() && from < tick - 1) to = std::min(to, tick - 1);
+        if (!core.at_rest()) to = std::min(to, tick - 1);
       }
-      // Torques are given for the whole stretch, measurements looked at after it.
-      if (from < kMeasured && (from != 0 || to != tick)) to = std::min(to, kMeasured);
+      if (to == from) return 0;
     }
     if (!apart(each, to == tick)) return 0;
     const bool takes = from < kMeasured && kMeasured <= to;
@@ -204,7 +202,6 @@ class FeltgateAxes {
   }
 
   void show(const In& in) {
-    last_ = in;
     out_.reg_rdata = 0;
     out_.reg_busy = false;
     for (std::size_t n = 0; n < N; ++n) {
@@ -217,7 +214,6 @@ class FeltgateAxes {
 
   std::array<Core, N> cores_;
   Glue glue_;
-  In last_;
   Out out_;
 };
 

@@ -113,7 +113,7 @@ TEST_CASE("engine by runs: a word of a host, whichever memory it is for, in any 
       for (const int address : {H::program + 100, H::table + 20, kConstant + 1, 256 + 7}) {
         p.until(clock);
         p.write(address, ++word);
-        p.ticks(2);
+        p.ticks(5);
         p.look();
       }
       CHECK(p.by_event.clocked().memory().program_at(100) == 101);
@@ -175,6 +175,63 @@ TEST_CASE("engine by runs: a word of a host that runs add to, in any clock of a 
       p.look();
       p.ticks(2);
       CHECK(p.now().torque[0] < 1010 + 3000);
+    }
+  }
+}
+
+TEST_CASE("engine by runs: an instruction that a host writes, in any clock of a tick") {
+  EngineMemory m;
+  program(m, 0,
+          {word(EngineOp::nop, 0, 0, 0), word(EngineOp::nop, 0, 0, 0),
+           out(0, EngineOp::add, kConstant + 1, kConstant)});
+  m.set_data(kConstant + 1, 1);
+  m.set_data(kConstant + 2, 2);
+  Pair<1> p(3);
+  p.load(m);
+  p.write(H::line_base, 512);
+  p.write(H::divider0, 1);
+  p.write(H::run, 1);
+  for (int clock = 0; clock < 50; ++clock) {
+    for (int n = 1; n < 3; ++n) {
+      const auto word = engine_encode(out(0, EngineOp::add, kConstant + n, kConstant));
+      p.write(H::high, static_cast<std::uint32_t>(word >> 32));
+      p.ticks(3);
+      p.until(clock);
+      p.hasty = true;
+      p.write(H::program + 2, static_cast<std::uint32_t>(word));
+      p.hasty = false;
+      p.ticks(5);
+      INFO("clock " << clock);
+      CHECK(p.now().torque[0] == n);
+      p.look();
+    }
+  }
+}
+
+TEST_CASE("engine by runs: a mailbox that a host lets be watched, in any clock of a tick") {
+  for (const int thread : {0, 1}) {
+    for (const int torque : {0, 5}) {
+      EngineMemory m;
+      program(m, thread, {out(0, EngineOp::add, kConstant + 1, kConstant)});
+      m.set_data(kConstant + 1, torque);
+      Pair<1> p(3);
+      p.load(m);
+      p.write(H::line_base, 512);
+      p.write(H::divider0 + thread, 1);
+      p.write(H::run, 1U << thread);
+      for (int clock = 0; clock < 50; ++clock) {
+        INFO("clock " << clock << ", thread " << thread << ", torque " << torque);
+        p.write(H::mailbox_first, 32);
+        p.ticks(3);
+        CHECK(p.now().torque[0] == torque);
+        p.until(clock);
+        p.hasty = true;
+        p.write(H::mailbox_first, 0);
+        p.hasty = false;
+        p.ticks(3);
+        CHECK(p.now().torque[0] == 0);
+        p.look();
+      }
     }
   }
 }

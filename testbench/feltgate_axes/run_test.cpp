@@ -119,7 +119,7 @@ TEST_CASE("axes: one that faults in the tick that would arm them all") {
   }
   int armed = 0, refused = 0;
   for (int n = 0; n < kAxes; ++n) {
-    for (int before = 0; before < 2 * D::clocks_per_tick; before += 3) {
+    for (std::int64_t before = 0; before <= arms; ++before) {
       Axes by_clock = made(), by_event = made();
       In now = in;
       auto& pins = now.axis[static_cast<std::size_t>(n)].encoder;
@@ -134,17 +134,23 @@ TEST_CASE("axes: one that faults in the tick that would arm them all") {
         }
       };
       // Both channels at once are an error, of which some are borne.
-      pass(arms - before - 100 * Map::errors_borne);
-      for (int error = 0; error <= Map::errors_borne; ++error) {
-        pins.a = pins.b = !pins.a;
-        pass(error < Map::errors_borne ? 100 : before);
+      const auto err = [&pins] { pins.a = pins.b = !pins.a; };
+      now.arm = false;
+      for (int error = 0; error < Map::errors_borne; ++error) {
+        err();
+        pass(2 * D::clocks_per_tick);
       }
+      now.arm = true;
+      pass(arms - before);
+      err();
+      pass(before);
       pass(200);
       armed += by_clock.out().axis[0].armed;
       const unsigned first = by_clock.out().axis[static_cast<std::size_t>(n)].first_fault;
       refused += !by_clock.out().axis[0].armed && first == static_cast<unsigned>(Fault::encoder);
     }
   }
+  CAPTURE(arms, armed, refused);
   CHECK(armed == 0);
   CHECK(refused > 20);
 }

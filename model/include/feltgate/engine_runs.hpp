@@ -182,7 +182,7 @@ class EngineRuns {
 
   /// The inputs of a run that is due, one after the other, in the clocks before `limit`.
   void load(std::int64_t limit) {
-    if (!state_.due || start_ != never) return;
+    if (!state_.due) return;
     if (!loading_) {
       const std::int64_t ready = std::max(due_from_, end_ + 1);
       if (ready >= limit) return;

@@ -97,8 +97,8 @@ class Pair {
     const Out shown = a.out(), also = b.out();
     CHECK((!also.rdata_known || shown.rdata_known));
     const bool is_register = in.addr >> 9 == static_cast<unsigned>(H::high) >> 9;
-    if (is_register || also.rdata_known) CHECK(shown.rdata == also.rdata);
-    if (is_register) CHECK(also.rdata_known);
+    if (is_register) CHECK(shown.rdata_known == also.rdata_known);
+    if (also.rdata_known) CHECK(shown.rdata == also.rdata);
     for (int t = 0; t < 4; ++t) CHECK(a.running(t) == b.running(t));
     if (a.memory().program != b.memory().program) FAIL("programs");
     if (a.memory().data != b.memory().data) FAIL("data");

@@ -61,6 +61,12 @@ class Machine {
   /// One run of `thread` (0 to 3) from its start. A run of more than `limit` instructions is given
   /// up: MachineRun::ended is false then. The reference holds until the next run.
   const MachineRun& run(int thread, const MachineInputs& inputs, int limit = 100000) {
+    return run_seen(thread, inputs, limit, [](int, std::int32_t, std::int32_t) {});
+  }
+
+  /// The same; `seen` gets the address of each instruction and its operands x and y before it.
+  template <class Seen>
+  const MachineRun& run_seen(int thread, const MachineInputs& inputs, int limit, const Seen& seen) {
     const auto t = static_cast<std::size_t>(thread);
     for (int n = 0; n < 16; ++n) {
       memory_.set_data(thread * EngineMap::private_words + EngineMap::input_first + n,
@@ -76,7 +82,7 @@ class Machine {
     while (!run_.ended && run_.instructions < limit) {
       const EngineInstruction i = engine_decode(memory_.program_at(pc));
       const bool branch = engine_branches(i.op, i.mode, state.flag);
-      state = step(i, thread, state);
+      state = step(i, thread, state, pc, seen);
       ++run_.instructions;
       run_.ended = i.last;
       pc = branch ? i.b : (pc + 1) % EngineMap::program_words;
@@ -85,9 +91,12 @@ class Machine {
   }
 
  private:
-  EngineState step(const EngineInstruction& i, int thread, EngineState state) {
+  template <class Seen>
+  EngineState step(const EngineInstruction& i, int thread, EngineState state, int pc,
+                   const Seen& seen) {
     const std::int32_t x = memory_.data_at(engine_read_address(i.a, thread, bank_));
     const std::int32_t y = memory_.data_at(engine_read_address(i.b, thread, bank_));
+    seen(pc, x, y);
     const int word = engine_table_address(x, i.b);
     state = engine_step(i.op, i.mode, state, x, y, memory_.table_at(word));
     if (i.op == EngineOp::tst && word >= memory_.line_base) {

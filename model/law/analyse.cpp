@@ -29,6 +29,7 @@ CellFacts Analysis::run() {
   facts_.margin.assign(program_.steps.size(), 0);
   if (explain_) facts_.reasons.resize(program_.steps.size());
   facts_.output_error.assign(law_.outputs.size(), 0);
+  facts_.output_apart.assign(law_.outputs.size(), 0);
   for (std::size_t p = 0; p < law_.parameters.size(); ++p) {
     // Halves of a parameter and of what is derived from it that do not meet.
     const NodeId from = law_.parameters[p].derived;
@@ -47,7 +48,11 @@ CellFacts Analysis::run() {
     facts_.steps[i] = f;
     const Step& s = program_.steps[i];
     for (std::size_t o = 0; s.output >= 0 && o < law_.outputs.size(); ++o) {
-      if (law_.outputs[o].axis == s.output) facts_.output_error[o] = f.error * s.scale;
+      if (law_.outputs[o].axis != s.output) continue;
+      const Span law = spans_[at(law_.outputs[o].value)];
+      facts_.output_error[o] = f.error * s.scale;
+      facts_.output_apart[o] =
+          raised(std::max(f.words.hi * s.scale - law.lo, law.hi - f.words.lo * s.scale));
     }
   }
   states();

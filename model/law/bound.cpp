@@ -36,17 +36,21 @@ std::vector<Span*> sides(Cell& c) {
 
 class Bounds {
  public:
-  Bounds(const Law& law, const Target& target, const Program& program,
-         const std::vector<Span>* whole)
+  Bounds(const Law& law, const Target& target, const Program& program, const Cell& cell,
+         const std::vector<Span>* spans)
       : law_(law),
         target_(target),
         program_(program),
         errors_(law.states.size() + law.lines.size(), 0),
-        whole_(whole != nullptr ? *whole : ranges(law, whole_cell(law, target))) {}
+        cell_(cell),
+        whole_(spans != nullptr ? *spans : ranges(law, cell)) {}
 
-  Bound run(int splits) {
-    Cell whole = whole_cell(law_, target_);
-    settle(whole);
+  /// `one_run`: from the states as they stand.
+  Bound run(int splits, bool one_run, bool with_strips) {
+    Cell whole = cell_;
+    limits_ = splits > 0;
+    bounded_ = !one_run;
+    if (bounded_) settle(whole);
     leaves_.push_back({whole, whole_facts(whole)});
     const bool whole_reachable = leaves_.front().facts.reachable;
     for (int i = 0; i < splits && split(whole); ++i) {
@@ -84,17 +88,25 @@ class Bounds {
     // Formats that hold no value at all prove nothing.
     if (!whole_reachable) b.unproven.push_back({0, -1, "its formats hold no value"});
     if (!bounded_) drifting(&b);
-    if (splits > 0) strips(whole, &b);
+    if (with_strips) strips(whole, &b);
     return b;
   }
 
  private:
   CellFacts facts(const Cell& c, int swap = -1) const {
-    return analyse(law_, target_, program_, c, errors_, swap);
+    return limited(analyse(law_, target_, program_, c, errors_, swap));
   }
 
   CellFacts whole_facts(const Cell& c, int swap = -1) const {
-    return analyse(law_, target_, program_, c, errors_, swap, &whole_);
+    return limited(analyse(law_, target_, program_, c, errors_, swap, &whole_));
+  }
+
+  /// A search of formats goes by the errors themselves, as they do not end at a range.
+  CellFacts limited(CellFacts f) const {
+    for (std::size_t o = 0; limits_ && f.reachable && o < f.output_error.size(); ++o) {
+      f.output_error[o] = std::min(f.output_error[o], f.output_apart[o]);
+    }
+    return f;
   }
 
   /// Errors of states that a run does not make larger; none where they grow without end.
@@ -203,7 +215,8 @@ class Bounds {
   }
 
   void strips(const Cell& whole, Bound* b) const {
-    const CellFacts base = analyse(law_, target_, program_, whole, errors_, -1, &whole_, true);
+    const CellFacts base =
+        limited(analyse(law_, target_, program_, whole, errors_, -1, &whole_, true));
     if (!base.reachable) return;
     for (std::size_t i = 0; i < program_.steps.size(); ++i) {
       if (base.margin[i] <= 0) {
@@ -215,6 +228,7 @@ class Bounds {
       const CellFacts swapped = whole_facts(whole, static_cast<int>(i));
       Strip s;
       s.condition = program_.steps[i].condition;
+      s.step = static_cast<int>(i);
       s.place = program_.steps[i].place;
       const double own = program_.steps[i].margin_scale;
       s.width = base.margin[i] * (own != 0 ? own : program_.steps[i].scale);
@@ -234,9 +248,10 @@ class Bounds {
   const Target& target_;
   const Program& program_;
   std::vector<double> errors_;
+  const Cell cell_;
   std::vector<Span> whole_;
   std::vector<Leaf> leaves_;
-  bool bounded_ = true;
+  bool bounded_ = true, limits_ = false;
   int stalled_ = 0;
 };
 
@@ -244,7 +259,18 @@ class Bounds {
 
 Bound bound(const Law& law, const Target& target, const Program& program, int splits,
             const std::vector<Span>* whole) {
-  return Bounds(law, target, program, whole).run(splits);
+  return Bounds(law, target, program, whole_cell(law, target), whole)
+      .run(splits, false, splits > 0);
+}
+
+std::vector<double> bound_as_set(const Law& law, const Target& target, const Program& program,
+                                 const Cell& cell, const Bound& all, int splits) {
+  const Bound set =
+      Bounds(law, target, program, cell, nullptr).run(splits, !all.states_bounded, false);
+  std::vector<double> least = all.output;
+  if (set.states_bounded != all.states_bounded || !set.unproven.empty()) return least;
+  for (std::size_t o = 0; o < least.size(); ++o) least[o] = std::min(least[o], set.output[o]);
+  return least;
 }
 
 }  // namespace feltgate::law

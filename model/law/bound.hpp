@@ -46,6 +46,7 @@ struct CellFacts {
   std::vector<Reason> reasons;  ///< of each step, where asked for
   std::vector<Unproven> unproven;
   std::vector<double> output_error;  ///< Nm, as Law::outputs
+  std::vector<double> output_apart;  ///< Nm: words and law are no further apart by their ranges
   std::vector<double> state_error;   ///< SI, after the run
   std::vector<double> margin;        ///< of comparisons: words within which both ways are possible
 };
@@ -64,6 +65,7 @@ CellFacts analyse(const Law& law, const Target& target, const Program& program, 
 /// A comparison beside which outputs may differ by more than the bound.
 struct Strip {
   NodeId condition = -1;
+  int step = -1;  ///< Program::steps
   Place place;
   double width = 0;  ///< either side, in `unit`
   Unit unit;
@@ -72,6 +74,7 @@ struct Strip {
 
 struct Bound {
   std::vector<double> output;  ///< Nm
+  std::vector<double> as_set;  ///< Nm, with the parameters as the file sets them
   std::vector<double> state;   ///< SI
   bool states_bounded = true;  ///< false: some state has no finite error; bounds are then of one
                                ///< run from the states as they stand
@@ -89,5 +92,9 @@ struct Bound {
 /// Splits the cell at most `splits` times, where it helps.
 Bound bound(const Law& law, const Target& target, const Program& program, int splits,
             const std::vector<Span>* whole = nullptr);
+
+/// Bound::as_set, over `cell`, in which the parameters stand; of one run where `all` is.
+std::vector<double> bound_as_set(const Law& law, const Target& target, const Program& program,
+                                 const Cell& cell, const Bound& all, int splits);
 
 }  // namespace feltgate::law

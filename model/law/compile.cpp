@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "law/read_law.hpp"
+#include "law/verdict.hpp"
 
 namespace feltgate::law {
 
@@ -56,6 +57,19 @@ void require_proofs(const Law& law, const Program& program, const Bound& b) {
                 "limit it with clamp, or narrow the ranges of what it is made of");
 }
 
+/// Parameters stand as their words do; a mailbox goes over its range.
+Cell cell_as_set(const Law& law, const Target& target, const Image& image) {
+  Cell cell = whole_cell(law, target);
+  for (const ImageWord& w : image.words) {
+    if (!w.formula.empty() || w.mailbox) continue;
+    for (std::size_t p = 0; p < law.parameters.size(); ++p) {
+      if (law.parameters[p].name != w.name) continue;
+      cell.parameters[p] = {w.initial * w.scale, w.initial * w.scale};
+    }
+  }
+  return cell;
+}
+
 int divider_for(const Law& law, const Target& target, int instructions) {
   const int clocks = engine_period(instructions, target.axes);
   const auto least =
@@ -98,11 +112,14 @@ Compiled compile(const Law& given, const Target& target) {
   c.program = choose_formats(c.law, c.target, spans, &c.tried);
   c.bound = bound(c.law, target, c.program, 400);
   require_proofs(c.law, c.program, c.bound);
+  refuse_idle_bounds(c.law, target, c.program, c.bound);
   c.assembled = assemble(c.law, target, c.program);
   const auto length = static_cast<int>(c.assembled.instructions.size());
   c.divider = divider_for(c.law, c.target, length);
   c.rate_hz = static_cast<double>(target.tick_hz) / c.divider;
   c.image = make_image(c.law, target, c.program, c.assembled, c.divider);
+  c.bound.as_set =
+      bound_as_set(c.law, target, c.program, cell_as_set(c.law, target, c.image), c.bound, 400);
   return c;
 }
 

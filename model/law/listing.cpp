@@ -9,28 +9,13 @@
 #include <cmath>
 
 #include "law/units.hpp"
+#include "law/verdict.hpp"
 
 namespace feltgate::law {
 
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-/// Values of the file of which a word keeps little.
-std::string rounded(const Compiled& c) {
-  std::string s;
-  for (const ImageWord& w : c.image.words) {
-    for (const Parameter& p : c.law.parameters) {
-      const double kept = w.initial * w.scale;
-      const bool far = std::fabs(kept - p.initial) > 0.1 * std::fabs(p.initial);
-      if (!w.formula.empty() || p.name != w.name || !far) continue;
-      s += fmt::format(
-          "{}: {:.6g} of the file becomes {:.6g}, its step is {:.3g}; narrow its range\n", w.name,
-          p.initial / w.to_si, kept / w.to_si + 0.0, std::fabs(w.scale / w.to_si));
-    }
-  }
-  return s;
-}
 
 std::string parameters(const Compiled& c) {
   if (c.image.words.empty()) return {};
@@ -49,7 +34,6 @@ std::string parameters(const Compiled& c) {
                      w.initial * step + 0.0, std::min(a, b) + 0.0, std::max(a, b) + 0.0,
                      std::fabs(step), w.unit, w.mailbox ? " (mailbox)" : "");
   }
-  s += rounded(c);
   if (c.image.mailbox_first != EngineMap::parameter_words) {
     const double step = EngineMap::mailbox_step / static_cast<double>(c.target.tick_hz);
     s += fmt::format("mailbox: {:.6g} ms without a commit, and the torque ramps to 0\n",
@@ -97,8 +81,9 @@ std::string strips(const Compiled& c) {
 
 std::string report(const Compiled& c, const Measured& m) {
   const auto count = static_cast<int>(c.assembled.instructions.size());
-  std::string s = fmt::format("law {}, design {}: {}\n", c.law.name, c.target.design,
-                              c.law.summary.empty() ? "no description" : c.law.summary);
+  std::string s =
+      text(verdict(c, m)) + fmt::format("law {}, design {}: {}\n", c.law.name, c.target.design,
+                                        c.law.summary.empty() ? "no description" : c.law.summary);
   s += parameters(c);
   s += fmt::format("\n{} instructions, {} clocks from start to start: every {} clocks, {:.6g} Hz\n",
                    count, engine_period(count, c.target.axes), c.divider * c.target.clocks_per_tick,
@@ -113,14 +98,15 @@ std::string report(const Compiled& c, const Measured& m) {
   s += fmt::format("proven: no instruction saturates, over {} cell{}\n", c.bound.cells,
                    c.bound.cells == 1 ? "" : "s");
   const double lsb = std::ldexp(1.0, -c.target.torque.fraction);
-  s += fmt::format("\n{:<14} {:>12} {:>10} {:>14}\n", "output", "bound Nm", "in LSB",
-                   m.all_inputs ? "exact maximum" : "measured Nm");
+  s += fmt::format("\n{:<14} {:>12} {:>10} {:>12} {:>14}\n", "output", "bound Nm", "in LSB",
+                   "as set Nm", m.all_inputs ? "exact maximum" : "measured Nm");
   for (std::size_t o = 0; o < c.law.outputs.size(); ++o) {
     const Output& output = c.law.outputs[o];
     const std::string name =
         c.law.outputs.size() == 1 ? output.name : fmt::format("{}[{}]", output.name, output.axis);
-    s += fmt::format("{:<14} {:>12.3g} {:>10.3g} {:>14.3g}\n", name, c.bound.output[o],
-                     c.bound.output[o] / lsb, m.output.empty() ? 0.0 : m.output[o]);
+    s += fmt::format("{:<14} {:>12.3g} {:>10.3g} {:>12.3g} {:>14.3g}\n", name, c.bound.output[o],
+                     c.bound.output[o] / lsb, c.bound.as_set[o],
+                     m.output.empty() ? 0.0 : m.output[o]);
   }
   if (!c.bound.states_bounded) {
     s += "a state's error has no end by itself: bounds are of one run from the states as they "
@@ -135,12 +121,11 @@ std::string report(const Compiled& c, const Measured& m) {
               : fmt::format("a run adds an error of up to {:.3g}\n", c.bound.drift[i]));
   }
   if (!m.output.empty()) {
-    s += m.all_inputs
-             ? fmt::format("all {} positions were run, parameters as they stand\n", m.runs)
-             : fmt::format("{} runs of random inputs and parameters{}\n", m.runs,
-                           m.in_strips > 0
-                               ? fmt::format(", {} of them in a strip and left out", m.in_strips)
-                               : "");
+    s += fmt::format(m.all_inputs ? "all {} positions were run, parameters as they stand"
+                                  : "{} runs of random inputs and parameters",
+                     m.runs);
+    if (m.in_strips > 0) s += fmt::format(", {} of them on the other side of a strip", m.in_strips);
+    s += "\n";
   }
   s += strips(c);
   return s;

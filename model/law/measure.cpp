@@ -22,6 +22,12 @@ class Meter {
  public:
   explicit Meter(const Compiled& c) : c_(c), law_(c.law), machine_(memory(c.image)) {
     result_.output.assign(c.law.outputs.size(), 0);
+    for (const int step : c.assembled.step_of) {
+      strips_.push_back(nullptr);
+      for (const Strip& s : c.bound.strips) {
+        if (s.step == step && s.condition >= 0) strips_.back() = &s;
+      }
+    }
     set([](const ImageWord& w) { return static_cast<double>(w.initial); });
   }
 
@@ -71,9 +77,14 @@ class Meter {
     for (std::size_t i = 0; i < c_.law.lines.size() && started_ && !free_running; ++i) take_line(i);
     started_ = true;
     law_.run(values);
-    const MachineRun& run = machine_.run(c_.target.thread, inputs);
+    bool otherwise = false;
+    const MachineRun& run = machine_.run_seen(
+        c_.target.thread, inputs, 100000, [&](int address, std::int32_t x, std::int32_t y) {
+          const Strip* s = strips_[at(address - c_.target.thread * EngineMap::thread_words)];
+          otherwise = otherwise || (s != nullptr && crossed(*s, x, y));
+        });
     ++result_.runs;
-    if (in_strip()) {
+    if (otherwise) {
       ++result_.in_strips;
       return;
     }
@@ -108,24 +119,25 @@ class Meter {
                                               : std::ldexp(1.0, -c_.target.torque.fraction);
   }
 
-  bool in_strip() const {
-    for (const Strip& s : c_.bound.strips) {
-      if (s.condition < 0) continue;
-      const Node& n = c_.law.nodes[at(s.condition)];
-      if (n.op == Op::element) {
-        const double x = law_.value(n.arguments[0]);
-        if (std::fabs(x - std::nearbyint(x)) <= s.width * (1 + 1e-9)) return true;
-      }
-      if (n.op != Op::less) continue;
-      const double apart = law_.value(n.arguments[0]) - law_.value(n.arguments[1]);
-      if (std::fabs(apart) <= s.width * (1 + 1e-9)) return true;
+  /// The law, within the strip, goes the other way than an instruction with these operands.
+  bool crossed(const Strip& s, std::int32_t x, std::int32_t y) const {
+    const Node& n = c_.law.nodes[at(s.condition)];
+    const double a = law_.value(n.arguments[0]), width = s.width * (1 + 1e-9);
+    if (n.op == Op::element) {
+      const double most = static_cast<double>(c_.law.arrays[at(n.index)].values.size()) - 1;
+      const double index = std::clamp(std::floor(a), 0.0, most);
+      return std::fabs(a - std::nearbyint(a)) <= width && std::floor(x / 4096.0) != index;
     }
-    return false;
+    if (n.op != Op::less) return false;
+    const double b = law_.value(n.arguments[1]);
+    const bool turns = c_.program.steps[at(s.step)].op == EngineOp::abs;
+    return std::fabs(a - b) <= width && (x < (turns ? 0 : y)) != (a < b);
   }
 
   const Compiled& c_;
   Evaluation<double> law_;
   Machine machine_;
+  std::vector<const Strip*> strips_;  ///< of each instruction
   Measured result_;
   bool started_ = false;
 };

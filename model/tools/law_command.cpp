@@ -19,6 +19,7 @@
 #include "law/cpp.hpp"
 #include "law/gappa.hpp"
 #include "law/listing.hpp"
+#include "law/verdict.hpp"
 #include "tools/commands.hpp"
 #include "tools/law_target.hpp"
 
@@ -60,15 +61,22 @@ std::string json(const Compiled& c, const Measured& m, const law::GappaCount* g)
                                {"upper_word", w.upper},
                                {"formula", w.formula}});
   }
+  const std::vector<law::Span> ranges = law::output_ranges(c.law, c.target);
   j["outputs"] = Json::array();
   for (std::size_t o = 0; o < c.law.outputs.size(); ++o) {
     j["outputs"].push_back({{"name", c.law.outputs[o].name},
                             {"axis", c.law.outputs[o].axis},
                             {"bound_nm", c.bound.output[o]},
+                            {"bound_as_set_nm", c.bound.as_set[o]},
+                            {"range_nm", {ranges[o].lo, ranges[o].hi}},
                             {"measured_nm", m.output.empty() ? 0.0 : m.output[o]}});
   }
   j["all_inputs"] = m.all_inputs;
   j["runs"] = m.runs;
+  j["left_out"] = m.in_strips;
+  const law::Verdict v = law::verdict(c, m);
+  j["failures"] = v.failures;
+  j["warnings"] = v.warnings;
   j["strips"] = Json::array();
   for (const law::Strip& s : c.bound.strips) {
     j["strips"].push_back({{"line", s.place.line},
@@ -156,11 +164,7 @@ int run(const LawArguments& a) {
                 (a.listing ? law::listing(c) : ""));
   }
   outputs.commit();
-  if (!again.open.empty()) return exit_failed;
-  for (std::size_t o = 0; o < m.output.size(); ++o) {
-    if (m.output[o] > c.bound.output[o] * (1 + 1e-9) + 1e-9) return exit_failed;
-  }
-  return exit_ok;
+  return again.open.empty() && law::verdict(c, m).failures.empty() ? exit_ok : exit_failed;
 }
 
 }  // namespace
@@ -180,8 +184,9 @@ void add_law(CLI::App& app, int* exit_code) {
       "  feltgate law detent --cpp detent.hpp\n"
       "  feltgate law detent --gappa lemmas\n"
       "  feltgate law detent --design lever_law --memories memories\n"
-      "Exit code: 0 all well, 1 a run left its bound or Gappa did not prove a lemma, 2 unusable\n"
-      "input: a law that cannot be read, proven, fitted or scheduled, with line, reason and mend.");
+      "Exit code: 0 all well, 1 a run left its bound, more than half of the runs had to be left\n"
+      "out, or Gappa did not prove a lemma, 2 unusable input: a law that cannot be read, proven,\n"
+      "fitted or scheduled, or whose bound says nothing, with line, reason and mend.");
   sub->add_option("law", a->law, "name in rtl/laws, or the path of a law file")
       ->required()
       ->type_name("LAW");

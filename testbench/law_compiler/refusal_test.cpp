@@ -134,8 +134,9 @@ TEST_CASE(
   const Compiled c =
       compile_text("param a = 1 in 0 .. 1e12\nout torque = 1 Nm * clamp(a * position, -1, 1)\n",
                    "a\"b\\.law", Target{});
-  CHECK_THAT(report(c, measure(c, 1, 10)),
-             Contains("\na: 1 of the file becomes 0, its step is 8.54e+07; narrow its range\n"));
+  CHECK_THAT(
+      report(c, measure(c, 1, 10)),
+      Contains("warning: a: 1 of the file becomes 0; its step is 8.54e+07: narrow its range\n"));
   const std::string header = cpp_header(c, "a\"b\\");
   CHECK_THAT(header, Contains("name = \"a\\\"b\\\\\";"));
   CHECK_THAT(header, Contains("// Generated from a\"b/\n"));

@@ -22,7 +22,8 @@ void require_within(const Compiled& c, const Measured& m) {
     // The law itself runs in double.
     REQUIRE(m.output[o] <= c.bound.output[o] * (1 + 1e-9) + 1e-8);
   }
-  REQUIRE(m.runs > m.in_strips);
+  // Not what the bound does not cover.
+  REQUIRE(m.in_strips * 20 <= m.runs);
 }
 
 struct Goal {

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Documentation: docs/law-compiler.md
+#include "law/verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "law/diagnostics.hpp"
+
+namespace feltgate::law {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+constexpr double kTold = 0.05;    ///< share of runs that are left out: above, it is told
+constexpr double kTooMany = 0.5;  ///< above, the bound is one of too little
+constexpr double kLarge = 0.01;   ///< of an output's range: a bound above is told
+constexpr double kKept = 0.01;  ///< the small end of a parameter's range that is kept worse is told
+constexpr double kAsSet = 0.1;  ///< the file's own value that is kept worse, which the list shows
+
+/// How the bounds become smaller: what goes into the table that is worst for its size is limited.
+std::string mend(const Program& program, const Bound& b) {
+  double worst = 1e-3;
+  std::string words = "limit values with clamp, or narrow the ranges of parameters";
+  for (std::size_t i = 0; i < program.steps.size(); ++i) {
+    const Step& s = program.steps[i];
+    if (s.op != EngineOp::lrp || program.tables[at(s.table)].wraps) continue;
+    const double share = b.errors[i] / std::max(b.words[i].size(), 1.0);
+    if (share <= worst) continue;
+    worst = share;
+    words = fmt::format(
+        "narrow what goes into {} in line {}, with clamp or by the ranges of "
+        "parameters",
+        program.tables[at(s.table)].what, s.place.line);
+  }
+  return words;
+}
+
+std::string name_of(const Law& law, std::size_t o) {
+  return law.outputs.size() == 1 ? law.outputs[o].name
+                                 : fmt::format("{}[{}]", law.outputs[o].name, law.outputs[o].axis);
+}
+
+void runs_left_out(const Measured& m, Verdict* v) {
+  const double share =
+      static_cast<double>(m.in_strips) / static_cast<double>(std::max<std::int64_t>(m.runs, 1));
+  if (share <= kTold) return;
+  auto& list = share > kTooMany ? v->failures : v->warnings;
+  list.push_back(fmt::format(
+      "{:.3g} % of the runs ({} of {}) are left out: a comparison came out otherwise than the "
+      "law's, within its strip; the bound is for the others. Give what is compared finer formats "
+      "(narrower ranges), or compare what is exact",
+      100 * share, m.in_strips, m.runs));
+}
+
+/// Values of which a word keeps little: the file's, and those at the small end of a range.
+void parameters(const Compiled& c, Verdict* v) {
+  for (const ImageWord& w : c.image.words) {
+    if (!w.formula.empty()) continue;
+    for (const Parameter& p : c.law.parameters) {
+      if (p.name != w.name) continue;
+      const auto si = [&](double value) { return fmt::format("{:.3g}", value / w.to_si); };
+      const double step = std::fabs(w.scale), kept = w.initial * w.scale;
+      const std::string mend = fmt::format("; its step is {}: narrow its range", si(step));
+      const std::string unit = w.unit.empty() ? "" : " " + w.unit;
+      if (!(std::fabs(kept - p.initial) <= kAsSet * std::fabs(p.initial))) {
+        v->warnings.push_back(fmt::format("{}: {:.6g}{} of the file becomes {:.6g}{}", w.name,
+                                          p.initial / w.to_si, unit, kept / w.to_si + 0.0, mend));
+      }
+      const double low = p.range.lower, high = p.range.upper;
+      const bool none_at_0 = low > 0 || high < 0;
+      const double least = std::min(std::fabs(low), std::fabs(high));
+      if (!none_at_0 || p.whole || step / 2 <= kKept * least) continue;
+      v->warnings.push_back(
+          fmt::format("{}: of {} .. {}{} only values from {} on are kept to 1 %", w.name, si(low),
+                      si(high), unit, si(step / 2 / kKept)) +
+          (least < step / 2 ? fmt::format(", and those below {} become 0", si(step / 2)) : "") +
+          mend);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Span> output_ranges(const Law& law, const Target& target) {
+  const std::vector<Span> spans = ranges(law, whole_cell(law, target));
+  const double end = std::ldexp(1.0, target.torque.integer);
+  std::vector<Span> list;
+  for (const Output& o : law.outputs) {
+    const Span s = spans[at(o.value)], limited = both_of(s, {-end, end});
+    list.push_back(limited.empty() ? s : limited);
+  }
+  return list;
+}
+
+void refuse_idle_bounds(const Law& law, const Target& target, const Program& program,
+                        const Bound& b) {
+  const std::vector<Span> spans = output_ranges(law, target);
+  for (std::size_t o = 0; o < spans.size(); ++o) {
+    // A last bit is never refused, and what both can be is rounded outward to one.
+    const double lsb = std::ldexp(1.0, -target.torque.fraction);
+    if (b.output[o] <= 2 * lsb || b.output[o] < spans[o].width()) continue;
+    throw Refused(
+        law.outputs[o].place,
+        fmt::format("the proven bound of {}, {:.3g} Nm, is as large as its range, {:.3g} .. {:.3g} "
+                    "Nm: it says nothing",
+                    name_of(law, o), b.output[o], spans[o].lo, spans[o].hi),
+        mend(program, b));
+  }
+}
+
+Verdict verdict(const Compiled& c, const Measured& m) {
+  Verdict v;
+  const std::vector<Span> spans = output_ranges(c.law, c.target);
+  const double lsb = std::ldexp(1.0, -c.target.torque.fraction);
+  for (std::size_t o = 0; o < c.law.outputs.size(); ++o) {
+    const std::string name = name_of(c.law, o);
+    const double bound = m.all_inputs ? c.bound.as_set[o] : c.bound.output[o];
+    if (o < m.output.size() && !(m.output[o] <= bound * (1 + 1e-9) + 1e-9)) {
+      v.failures.push_back(
+          fmt::format("{}: {:.3g} Nm from the law was measured, the bound is {:.3g}", name,
+                      m.output[o], bound));
+    }
+    const double share = c.bound.output[o] / spans[o].width();
+    if (c.bound.output[o] > lsb && share > kLarge) {
+      v.warnings.push_back(fmt::format(
+          "{}: the bound, {:.3g} Nm, is {:.3g} % of its range, {:.3g} .. {:.3g} Nm; {}", name,
+          c.bound.output[o], 100 * share, spans[o].lo, spans[o].hi, mend(c.program, c.bound)));
+    }
+  }
+  runs_left_out(m, &v);
+  parameters(c, &v);
+  return v;
+}
+
+std::string text(const Verdict& v) {
+  std::string s;
+  for (const std::string& f : v.failures) s += "failed: " + f + "\n";
+  for (const std::string& w : v.warnings) s += "warning: " + w + "\n";
+  return s;
+}
+
+}  // namespace feltgate::law

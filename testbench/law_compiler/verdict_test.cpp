@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A bound says something: it is of most runs, less than its output's range, and what a parameter
+// does not keep is told.
+#include "law/verdict.hpp"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <limits>
+
+#include "law/diagnostics.hpp"
+#include "law/listing.hpp"
+
+namespace feltgate::law {
+namespace {
+
+using Catch::Matchers::Contains;
+
+Compiled compiled(const std::string& text) { return compile_text(text, "x.law", Target{}); }
+
+std::string refusal(const std::string& text) {
+  try {
+    (void)compiled(text);
+  } catch (const LawError& e) {
+    return e.what();
+  }
+  return "compiled";
+}
+
+TEST_CASE("runs that are left out are told from a share on, and fail from another") {
+  const Compiled c = compiled("out torque = 0.1 Nm * clamp(position, -1, 1)\n");
+  Measured m;
+  m.output = {0};
+  m.runs = 1000;
+  m.in_strips = 50;
+  CHECK(text(verdict(c, m)).empty());
+  m.in_strips = 51;
+  CHECK_THAT(report(c, m), Catch::StartsWith("warning: 5.1 % of the runs (51 of 1000)"));
+  CHECK(verdict(c, m).failures.empty());
+  m.in_strips = 501;
+  CHECK_THAT(report(c, m), Catch::StartsWith("failed: 50.1 % of the runs (501 of 1000)"));
+  CHECK(verdict(c, m).failures.size() == 1);
+}
+
+TEST_CASE("what was measured above the bound, or is no number, fails") {
+  const Compiled c = compiled("out torque = 0.1 Nm * clamp(position, -1, 1)\n");
+  Measured m;
+  m.runs = 1000;
+  m.output = {c.bound.output[0] / 2};
+  CHECK(verdict(c, m).failures.empty());
+  m.output = {c.bound.output[0] * 2 + 1e-8};
+  CHECK(verdict(c, m).failures.size() == 1);
+  m.output = {std::numeric_limits<double>::quiet_NaN()};
+  CHECK(verdict(c, m).failures.size() == 1);
+}
+
+TEST_CASE("a run is left out where words and law go different ways, not where both are near") {
+  // Without a touch both sides are 0, exactly.
+  const Compiled c = compiled(
+      "param give = 0.1 in 0 .. 1\nlet x = 0.3 * clamp(position, 0, 1)\n"
+      "out torque = if x * x > give then 0.1 Nm else 0.2 Nm\n");
+  REQUIRE(c.bound.strips.size() == 1);
+  CHECK(c.bound.strips[0].width > 0);
+  const Measured m = measure(c, 1, 20000);
+  CHECK(m.in_strips * 100 < m.runs);
+  CHECK(m.output[0] <= c.bound.output[0] + 1e-9);
+}
+
+TEST_CASE("a bound as large as its output's range is refused, one of 1 % of it told") {
+  CHECK_THAT(refusal("param k = 1 in 0 .. 30\nlet x = velocity / (1 rad/s)\n"
+                     "table f(x) on [-10, 30] = exp(x)\n"
+                     "out torque = 1 Nm * min(f(clamp(k * x, -10, 30)), 1)\n"),
+             Contains("x.law:4:5: the proven bound of torque, 1 Nm, is as large as its range") &&
+                 Contains("says nothing") && Contains("narrow what goes into f in line 4"));
+  const std::string coarse =
+      "table f(x) on [0, 100] = sqrt(x)\nout torque = 0.01 Nm * min(f(abs(position)), 1)\n";
+  const Compiled c = compiled(coarse);
+  CHECK(c.bound.output[0] > 0.01 * output_ranges(c.law, c.target)[0].width());
+  CHECK_THAT(text(verdict(c, {})), Contains("warning: torque: the bound") &&
+                                       Contains("narrow what goes into f in line 2"));
+  // One last bit is no matter, however small the torque.
+  CHECK(verdict(compiled("out torque = 0.0002 Nm * clamp(position, 0, 1)\n"), {}).warnings.empty());
+}
+
+TEST_CASE("the bound at the values that are set, of every shipped law") {
+  int smaller = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(FELTGATE_ROOT) + "/rtl/laws")) {
+    if (entry.path().extension() != ".law") continue;
+    const Compiled c = compile_file(entry.path().string(), Target{});
+    INFO(c.law.name);
+    REQUIRE(c.bound.as_set.size() == c.bound.output.size());
+    for (std::size_t o = 0; o < c.bound.output.size(); ++o) {
+      CHECK(c.bound.as_set[o] <= c.bound.output[o]);
+      smaller += c.bound.as_set[o] < 0.5 * c.bound.output[o] ? 1 : 0;
+    }
+    const auto within = [&](const Measured& m) {
+      for (std::size_t o = 0; o < m.output.size(); ++o) {
+        REQUIRE(m.output[o] <= c.bound.as_set[o] * (1 + 1e-9) + 1e-8);
+      }
+    };
+    within(measure_all(c));
+    // The first 50 runs are with what the file sets.
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) within(measure(c, seed, 50));
+  }
+  CHECK(smaller >= 5);
+}
+
+TEST_CASE("values of a parameter that its step does not keep are told") {
+  const auto warned = [](const std::string& range) {
+    return text(verdict(compiled("param tiny = 1 in " + range +
+                                 "\nout torque = 0.01 Nm * clamp(tiny * position, -1, 1)\n"),
+                        {}));
+  };
+  CHECK_THAT(warned("1e-6 .. 1000"),
+             Contains("warning: tiny: of 1e-06 .. 1e+03 only values from") &&
+                 Contains("become 0; its step is"));
+  CHECK_THAT(warned("1e-6 .. 1000"), !Contains("of the file becomes"));
+  CHECK_THAT(warned("0 .. 1000"), !Contains("tiny: of"));
+  CHECK_THAT(warned("0.5 .. 2"), !Contains("tiny"));
+  CHECK_THAT(text(verdict(compiled("param tiny = -1 in -1000 .. -1e-6\nout torque = 0.01 Nm * "
+                                   "clamp(tiny * position, -1, 1)\n"),
+                          {})),
+             Contains("tiny: of -1e+03 .. -1e-06 only values from"));
+}
+
+}  // namespace
+}  // namespace feltgate::law

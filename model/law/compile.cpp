@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "law/pieces.hpp"
 #include "law/read_law.hpp"
 #include "law/verdict.hpp"
 
@@ -98,6 +99,44 @@ int divider_for(const Law& law, const Target& target, int instructions) {
   return divider;
 }
 
+/// Formats, their proof, and what is assembled of them.
+void form(Compiled& c) {
+  const std::vector<Span> spans = ranges(c.law, whole_cell(c.law, c.target));
+  int tried = 0;
+  c.program = choose_formats(c.law, c.target, spans, &tried);
+  c.tried += tried;
+  c.bound = bound(c.law, c.target, c.program, 400);
+  require_proofs(c.law, c.program, c.bound);
+  c.assembled = assemble(c.law, c.target, c.program);
+  c.divider = divider_for(c.law, c.target, static_cast<int>(c.assembled.instructions.size()));
+}
+
+bool has_functions(const Program& program) {
+  return std::any_of(program.steps.begin(), program.steps.end(), [&](const Step& s) {
+    return s.op == EngineOp::lrp && !program.tables[at(s.table)].wraps;
+  });
+}
+
+/// Functions over wide ranges get more tables, as long as the bound is large without and the law
+/// still fits.
+void into_pieces(Compiled& c) {
+  const Law whole = c.law;
+  const Program program = c.program;
+  const Bound b = c.bound;
+  for (int pieces = 1; pieces <= kMostPieces; ++pieces) {
+    const double now = largest_share(c.law, c.target, c.bound);
+    if (now <= kLargeShare || !has_functions(program)) return;
+    Compiled more = c;
+    more.law = in_pieces(whole, c.target, program, b, pieces);
+    try {
+      form(more);
+    } catch (const Refused&) {
+      return;
+    }
+    if (largest_share(more.law, more.target, more.bound) < 0.7 * now) c = more;
+  }
+}
+
 }  // namespace
 
 Compiled compile(const Law& given, const Target& target) {
@@ -108,14 +147,9 @@ Compiled compile(const Law& given, const Target& target) {
   for (const Input& i : c.law.inputs) c.target.axes = std::max(c.target.axes, i.axis + 1);
   for (const Output& o : c.law.outputs) c.target.axes = std::max(c.target.axes, o.axis + 1);
   complete_states(c.law, target);
-  const std::vector<Span> spans = ranges(c.law, whole_cell(c.law, target));
-  c.program = choose_formats(c.law, c.target, spans, &c.tried);
-  c.bound = bound(c.law, target, c.program, 400);
-  require_proofs(c.law, c.program, c.bound);
+  form(c);
+  into_pieces(c);
   refuse_idle_bounds(c.law, target, c.program, c.bound);
-  c.assembled = assemble(c.law, target, c.program);
-  const auto length = static_cast<int>(c.assembled.instructions.size());
-  c.divider = divider_for(c.law, c.target, length);
   c.rate_hz = static_cast<double>(target.tick_hz) / c.divider;
   c.image = make_image(c.law, target, c.program, c.assembled, c.divider);
   c.bound.as_set =

@@ -37,15 +37,17 @@ double line_error(const TableRequest& r, const Segment& s, const Span& x, int de
   };
   const double bend = up(h * h / 8 / r.value_scale);
   const Span curved = j.d2 * Span{-bend, 0};  // function - chord
+  // No further than the ends of what both can be.
+  const Span whole = j.v * (1 / r.value_scale) -
+                     Span{std::min(line(x.lo), line(x.hi)), std::max(line(x.lo), line(x.hi))};
   if (curved.size() < infinity) {
-    return up((hull(apart(x.lo), apart(x.hi)) + hull(curved, {0, 0})).size());
+    const double bent = up((hull(apart(x.lo), apart(x.hi)) + hull(curved, {0, 0})).size());
+    return std::min(bent, up(whole.size() * (1 + 1e-12)));
   }
   if (depth < most_halvings && ++*looks < most_looks) {
     return std::max(line_error(r, s, {x.lo, x.middle()}, depth + 1, looks),
                     line_error(r, s, {x.middle(), x.hi}, depth + 1, looks));
   }
-  const Span whole = j.v * (1 / r.value_scale) -
-                     Span{std::min(line(x.lo), line(x.hi)), std::max(line(x.lo), line(x.hi))};
   const double gradient = s.slope / (s.to - s.from);
   const Span relative = j.d1 * (1 / r.value_scale) - Span{gradient, gradient};
   double error = whole.size();

@@ -19,7 +19,6 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr double kTold = 0.05;    ///< share of runs that are left out: above, it is told
 constexpr double kTooMany = 0.5;  ///< above, the bound is one of too little
-constexpr double kLarge = 0.01;   ///< of an output's range: a bound above is told
 constexpr double kKept = 0.01;  ///< the small end of a parameter's range that is kept worse is told
 constexpr double kAsSet = 0.1;  ///< the file's own value that is kept worse, which the list shows
 
@@ -98,6 +97,16 @@ std::vector<Span> output_ranges(const Law& law, const Target& target) {
   return list;
 }
 
+double largest_share(const Law& law, const Target& target, const Bound& b) {
+  const std::vector<Span> spans = output_ranges(law, target);
+  const double lsb = std::ldexp(1.0, -target.torque.fraction);
+  double share = 0;
+  for (std::size_t o = 0; o < spans.size(); ++o) {
+    if (b.output[o] > 2 * lsb) share = std::max(share, b.output[o] / spans[o].width());
+  }
+  return share;
+}
+
 void refuse_idle_bounds(const Law& law, const Target& target, const Program& program,
                         const Bound& b) {
   const std::vector<Span> spans = output_ranges(law, target);
@@ -127,7 +136,7 @@ Verdict verdict(const Compiled& c, const Measured& m) {
                       m.output[o], bound));
     }
     const double share = c.bound.output[o] / spans[o].width();
-    if (c.bound.output[o] > lsb && share > kLarge) {
+    if (c.bound.output[o] > lsb && share > kLargeShare) {
       v.warnings.push_back(fmt::format(
           "{}: the bound, {:.3g} Nm, is {:.3g} % of its range, {:.3g} .. {:.3g} Nm; {}", name,
           c.bound.output[o], 100 * share, spans[o].lo, spans[o].hi, mend(c.program, c.bound)));

@@ -27,6 +27,11 @@ std::string text(const Verdict& v);
 /// within the torque's format, where the limiter ends at last.
 std::vector<Span> output_ranges(const Law& law, const Target& target);
 
+/// The largest bound beside the range of its output; 0 where none is above two last bits.
+double largest_share(const Law& law, const Target& target, const Bound& b);
+
+constexpr double kLargeShare = 0.01;  ///< from here on it is told, and functions go into pieces
+
 /// Throws Refused where a bound is as large as the range of its output: it says nothing.
 void refuse_idle_bounds(const Law& law, const Target& target, const Program& program,
                         const Bound& b);

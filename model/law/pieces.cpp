@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Documentation: docs/law-compiler.md
+#include "law/pieces.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "feltgate/engine_ops.hpp"
+#include "law/ranges.hpp"
+
+namespace feltgate::law {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+bool has_pieces(Op op) { return op == Op::root || op == Op::reciprocal || op == Op::exponential; }
+
+double value(Op op, double x) {
+  return op == Op::root ? std::sqrt(x) : op == Op::reciprocal ? 1 / x : std::exp(x);
+}
+
+/// How far the function is from a line over a segment, looked at in a few places.
+double bend(Op op, double from, double to) {
+  const double a = value(op, from), b = value(op, to);
+  double most = 0;
+  for (int k = 1; k < 16; ++k) {
+    const double share = k * k / 256.0;  // sqrt bends most near its end
+    for (const double s : {share, 1 - share}) {
+      most = std::max(most, std::fabs(value(op, from + (to - from) * s) - (a + (b - a) * s)));
+    }
+  }
+  return most;
+}
+
+/// Of segments: that of the table of the whole, and the least that the argument's error leaves a
+/// use for.
+struct Widths {
+  double whole = 0, least = 0;
+};
+
+/// Where pieces of `segments` segments each end, which are a power of two of `width.whole` wide and
+/// bend by `error` at most; empty where there would be more than `pieces`.
+std::vector<double> cuts_for(Op op, const Span& x, int pieces, int segments, const Widths& width,
+                             double error) {
+  std::vector<double> ends;
+  double from = x.lo;
+  while (static_cast<int>(ends.size()) < pieces) {
+    double to = from;
+    for (int k = 8; k > -28; --k) {
+      // A table begins at a whole segment, an eighth of one before what it is for.
+      const double h = std::ldexp(width.whole, k);
+      const double end = std::min(x.hi, (std::floor(from / h - 0.125) + segments - 0.25) * h);
+      if (h < width.least || !(end > from)) break;
+      if (bend(op, from, std::min(from + h, end)) > error) continue;
+      double good = from, bad = end;
+      if (bend(op, std::max(end - h, from), end) <= error) good = end;
+      for (int i = 0; i < 24 && good < end; ++i) {
+        const double middle = (good + bad) / 2;
+        (bend(op, std::max(middle - h, from), middle) <= error ? good : bad) = middle;
+      }
+      to = std::max(to, good);
+    }
+    if (to <= from) return {};
+    ends.push_back(to);
+    if (to >= x.hi) return ends;
+    from = to;
+  }
+  return {};
+}
+
+/// Ends of the pieces, with errors as equal as can be.
+std::vector<double> cuts(Op op, const Span& x, int pieces, int segments, const Widths& width) {
+  const double whole = std::fabs(value(op, x.hi) - value(op, x.lo));
+  double low = -40, high = 0;  // bits of the error in one piece
+  std::vector<double> best{x.hi};
+  for (int i = 0; i < 20 && whole > 0; ++i) {
+    const double middle = (low + high) / 2;
+    const std::vector<double> ends =
+        cuts_for(op, x, pieces, segments, width, whole * std::exp2(middle));
+    (ends.empty() ? low : high) = middle;
+    if (!ends.empty()) best = ends;
+  }
+  return best;
+}
+
+/// What the argument is within where the function's value, which is positive, is.
+Span inverse_of(Op op, const Span& keep) {
+  const auto inverse = [op](double y) {
+    return op == Op::root ? y * y : op == Op::reciprocal ? 1 / y : std::log(y);
+  };
+  const bool falls = op == Op::reciprocal;
+  const double low = keep.lo > 0 ? inverse(keep.lo) : falls ? infinity : -infinity;
+  const double high = keep.hi < infinity ? inverse(keep.hi) : falls ? -infinity : infinity;
+  return falls ? Span{high, low} : Span{low, high};
+}
+
+class Pieces {
+ public:
+  Pieces(const Law& law, const Target& target, const Program& whole, const Bound& b, int pieces)
+      : law_(law),
+        spans_(ranges(law, whole_cell(law, target))),
+        wide_(law.nodes.size(), 0),
+        users_(law.nodes.size(), 0),
+        widths_(law.nodes.size()),
+        pieces_(pieces) {
+    for (const Step& s : whole.steps) {
+      if (s.op != EngineOp::lrp || s.node < 0) continue;
+      const double error = s.x.from == From::step ? b.errors[at(s.x.index)] : 0;
+      widths_[at(s.node)] = {4096 * s.argument_scale, 4 * error * s.argument_scale};
+    }
+    const std::vector<char> fixed = fixed_nodes(law);
+    int count = 0;
+    for (const NodeId id : needed(law)) {
+      const Node& n = law.nodes[at(id)];
+      for (const NodeId a : n.arguments) ++users_[at(a)];
+      if (!has_pieces(n.op) || fixed[at(id)] != 0) continue;
+      const Span x = spans_[at(n.arguments[0])];
+      if (!(x.width() > 0 && x.width() < infinity && widths_[at(id)].whole > 0) ||
+          (n.op == Op::root && x.lo < 0) || (n.op == Op::reciprocal && x.lo <= 0 && x.hi >= 0)) {
+        continue;
+      }
+      wide_[at(id)] = 1;
+      ++count;
+    }
+    segments_ = std::max(8, EngineMap::table_words / (pieces * std::max(count, 1)) - 2);
+  }
+
+  Law run() {
+    made_ = law_;
+    made_.nodes.clear();
+    for (std::size_t i = 0; i < law_.nodes.size(); ++i) {
+      const Node& n = law_.nodes[i];
+      const auto id = static_cast<NodeId>(i);
+      if (wide_[i] != 0) {
+        to_.push_back(pieces(id, to_[at(n.arguments[0])], spans_[at(n.arguments[0])]));
+      } else if (n.op == Op::minimum || n.op == Op::maximum) {
+        to_.push_back(limited(id, {-infinity, infinity}));
+      } else {
+        to_.push_back(copied(n));
+      }
+    }
+    const auto move = [this](NodeId& id) { id = id < 0 ? id : to_[at(id)]; };
+    for (Parameter& p : made_.parameters) move(p.derived);
+    for (State& s : made_.states) {
+      move(s.follows);
+      move(s.next);
+    }
+    for (Table& t : made_.tables) {
+      move(t.argument);
+      move(t.body);
+    }
+    for (Line& l : made_.lines) move(l.written);
+    for (Output& o : made_.outputs) move(o.value);
+    for (Event& e : made_.events) {
+      move(e.value);
+      move(e.condition);
+    }
+    for (Requirement& r : made_.requirements) {
+      move(r.smaller);
+      move(r.larger);
+    }
+    return std::move(made_);
+  }
+
+ private:
+  NodeId add(Node n) {
+    made_.nodes.push_back(std::move(n));
+    return static_cast<NodeId>(made_.nodes.size()) - 1;
+  }
+
+  NodeId make(Op op, const Node& like, const Unit& unit, std::vector<NodeId> arguments,
+              double value = 0) {
+    Node n;
+    n.op = op;
+    n.arguments = std::move(arguments);
+    n.value = value;
+    n.unit = unit;
+    n.place = like.place;
+    return add(std::move(n));
+  }
+
+  NodeId copied(Node n) {
+    for (NodeId& a : n.arguments) a = to_[at(a)];
+    return add(std::move(n));
+  }
+
+  /// A value like `like`'s, cut off at the ends of `keep` that it reaches.
+  NodeId cut_off(NodeId made, const Node& like, const Span& has, const Span& keep) {
+    if (has.hi > keep.hi) {
+      made = make(Op::minimum, like, like.unit,
+                  {made, make(Op::constant, like, like.unit, {}, keep.hi)});
+    }
+    if (has.lo < keep.lo) {
+      made = make(Op::maximum, like, like.unit,
+                  {made, make(Op::constant, like, like.unit, {}, keep.lo)});
+    }
+    return made;
+  }
+
+  /// min(max(node, keep.lo), keep.hi), the limits as far inside as they go: a function's table is
+  /// then only for what is left of its argument.
+  NodeId limited(NodeId id, const Span& keep) {
+    const Node& n = law_.nodes[at(id)];
+    const auto constant = [&](int i) {
+      return law_.nodes[at(n.arguments[at(i)])].op == Op::constant;
+    };
+    const bool alone = users_[at(id)] <= 1 || (keep.lo == -infinity && keep.hi == infinity);
+    if (alone && n.arguments.size() == 2 && constant(0) != constant(1)) {
+      const int c = constant(0) ? 0 : 1;
+      const NodeId other = n.arguments[at(1 - c)];
+      const double number = law_.nodes[at(n.arguments[at(c)])].value;
+      if (n.op == Op::minimum && number >= keep.lo) {
+        return limited(other, {keep.lo, std::min(keep.hi, number)});
+      }
+      if (n.op == Op::maximum && number <= keep.hi) {
+        return limited(other, {std::max(keep.lo, number), keep.hi});
+      }
+      if (n.op == Op::multiply && number > 0) {
+        const NodeId factor = to_[at(n.arguments[at(c)])];
+        return make(Op::multiply, n, n.unit,
+                    {factor, limited(other, {keep.lo / number, keep.hi / number})});
+      }
+      if (n.op == Op::subtract && c == 1) {
+        const NodeId less = to_[at(n.arguments[1])];
+        return make(Op::subtract, n, n.unit,
+                    {limited(other, {keep.lo + number, keep.hi + number}), less});
+      }
+      if (n.op == Op::add) {
+        const NodeId addend = to_[at(n.arguments[at(c)])];
+        return make(Op::add, n, n.unit,
+                    {limited(other, {keep.lo - number, keep.hi - number}), addend});
+      }
+    }
+    const bool positive = n.op != Op::reciprocal || spans_[at(n.arguments[0])].lo > 0;
+    if (alone && wide_[at(id)] != 0 && positive && keep.hi > 0) {
+      const NodeId argument = n.arguments[0];
+      const Span x = spans_[at(argument)];
+      const Span left = inverse_of(n.op, keep), inside = both_of(x, left);
+      if (inside.width() > 0) {
+        const NodeId cut = cut_off(to_[at(argument)], law_.nodes[at(argument)], x, left);
+        return pieces(id, cut, inside);
+      }
+    }
+    return cut_off(to_[at(id)], n, spans_[at(id)], keep);
+  }
+
+  NodeId pieces(NodeId id, NodeId argument, const Span& x) {
+    const Node& n = law_.nodes[at(id)];
+    const std::vector<double> ends = cuts(n.op, x, pieces_, segments_, widths_[at(id)]);
+    const Unit unit = made_.nodes[at(argument)].unit;
+    NodeId sum = -1, before = -1;
+    double counted_twice = 0;
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      NodeId part = argument;
+      if (before >= 0) part = make(Op::maximum, n, unit, {part, before});
+      if (i + 1 < ends.size()) {
+        counted_twice += value(n.op, ends[i]);
+        before = make(Op::constant, n, unit, {}, ends[i]);
+        part = make(Op::minimum, n, unit, {part, before});
+      }
+      const NodeId f = make(n.op, n, n.unit, {part});
+      sum = sum < 0 ? f : make(Op::add, n, n.unit, {sum, f});
+    }
+    if (ends.size() < 2) return sum;
+    const NodeId twice = make(Op::constant, n, n.unit, {}, -counted_twice);
+    return make(Op::add, n, n.unit, {sum, twice});
+  }
+
+  const Law& law_;
+  const std::vector<Span> spans_;
+  std::vector<char> wide_;
+  std::vector<int> users_;
+  std::vector<Widths> widths_;
+  std::vector<NodeId> to_;
+  const int pieces_;
+  int segments_ = 0;
+  Law made_;
+};
+
+}  // namespace
+
+Law in_pieces(const Law& law, const Target& target, const Program& whole, const Bound& b,
+              int pieces) {
+  return Pieces(law, target, whole, b, pieces).run();
+}
+
+}  // namespace feltgate::law

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Functions over wide ranges, in pieces: the same law in real numbers, and a bound that says
+// something.
+#include "law/pieces.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+
+#include "feltgate/random.hpp"
+#include "law/evaluate.hpp"
+#include "law/measure.hpp"
+#include "law/read_law.hpp"
+#include "law/verdict.hpp"
+
+namespace feltgate::law {
+namespace {
+
+const char* const wide_laws[] = {
+    "out torque = 0.1 Nm * clamp(sqrt(abs(position)), 0, 1)\n",
+    "out torque = 0.1 Nm * min(3, max(sqrt(abs(position)), 2))\n",
+    "param k = 3 in 0.1 .. 100\nout torque = 1 Nm * exp(-k * abs(position))\n",
+    "param gap = 0.01 in 0.001 .. 1\n"
+    "out torque = 1 Nm * clamp(0.01 / (gap + abs(position)), 0.001, 1)\n",
+    "out torque = 0.01 Nm * max(1 / min(position, -0.01), -20)\n",
+    "let x = velocity / (1 rad/s)\n"
+    "out torque = 0.1 Nm * clamp(2 * exp(clamp(x, -100, 20)) - 1, -0.5, 0.5)\n",
+    "let x = clamp(position, -20, 20)\nlet y = clamp(position[1], -20, 20)\n"
+    "let r = sqrt(x^2 + y^2)\n"
+    "out torque = 0.05 Nm * clamp(r / (10 rad), 0, 1)\nout torque[1] = 0.01 Nm * min(r, 5)\n",
+    "let r = sqrt(clamp(position, -10, 10)^2)\nout torque = 0.1 Nm * clamp(1 / (r + 0.1) - 3, -1, "
+    "0.5)\n"};
+
+TEST_CASE("a law in pieces is the same law in real numbers") {
+  for (const char* text : wide_laws) {
+    const Law law = read_law_text(text, "x.law", 0);
+    const Target target;
+    int tried = 0;
+    const Program program =
+        choose_formats(law, target, ranges(law, whole_cell(law, target)), &tried);
+    const Bound b = bound(law, target, program, 0);
+    std::size_t most = 0;
+    for (int pieces = 1; pieces <= kMostPieces; ++pieces) {
+      INFO(text << pieces << " pieces");
+      const Law made = in_pieces(law, target, program, b, pieces);
+      most = std::max(most, needed(made).size());
+      Evaluation<double> one(law), other(made);
+      SplitMix64 random(5);
+      for (int i = 0; i < 3000; ++i) {
+        std::vector<double> in;
+        for (std::size_t k = 0; k < law.inputs.size(); ++k) {
+          const auto any = static_cast<double>(random.below(20001) - 10000);
+          in.push_back(std::ldexp(any * 0.02, -static_cast<int>(random.below(20))));
+        }
+        one.run(in);
+        other.run(in);
+        for (std::size_t o = 0; o < law.outputs.size(); ++o) {
+          REQUIRE(std::fabs(one.outputs()[o] - other.outputs()[o]) < 1e-11);
+        }
+      }
+    }
+    CHECK(most > needed(law).size());
+  }
+}
+
+TEST_CASE("functions over wide ranges have bounds that say something") {
+  for (const char* text : wide_laws) {
+    INFO(text);
+    const Compiled c = compile_text(text, "x.law", Target{});
+    // A root within a quotient has the errors of both.
+    const bool both = std::string(text).find("r + 0.1") != std::string::npos;
+    CHECK(largest_share(c.law, c.target, c.bound) < (both ? 0.1 : 0.02));
+    for (std::uint64_t seed = 1; seed < 4; ++seed) {
+      const Measured m = measure(c, seed, 20000);
+      CHECK(m.in_strips == 0);
+      for (std::size_t o = 0; o < m.output.size(); ++o) {
+        CHECK(m.output[o] <= c.bound.output[o] * (1 + 1e-9) + 1e-9);
+      }
+    }
+  }
+}
+
+TEST_CASE("a law whose bound is small stays as it is written") {
+  const std::string text = "out torque = 0.1 Nm * sqrt(min(abs(position), 1))\n";
+  const Law law = read_law_text(text, "x.law", 0);
+  CHECK(compile_text(text, "x.law", Target{}).law.nodes.size() == law.nodes.size());
+}
+
+}  // namespace
+}  // namespace feltgate::law

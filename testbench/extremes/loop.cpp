@@ -3,6 +3,8 @@
 //
 // Extremes of the loop: nominal against true inertia and Kp, the pole at stall, the border of the
 // published voltage gain, a wall at the edge of stability. Documentation: docs/extremes.md
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "extremes/closed_loop.hpp"
@@ -220,9 +222,10 @@ Outcome border_015(const Settings&) {
                                near(1e3 * nm_per_v * (v_above - v_below), 0.1),
                                1e3 * nm_per_v * (above - below),
                                1e3 * nm_per_v * (real_above - real_below)));
-  o.note =
-      "Blocked lever, dead-time compensation off: a user who pushes deeper feels 54 mNm less. "
-      "Motor torque: Kt/R of the 24 V winding times the voltage.";
+  o.note = fmt::format(
+      "Blocked lever, dead-time compensation off: a user who pushes deeper feels {:.1f} mNm less. "
+      "Motor torque: Kt/R of the 24 V winding times the voltage.",
+      1e3 * nm_per_v * (v_below - v_above));
   return o;
 }
 

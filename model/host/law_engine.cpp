@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <stdexcept>
 #include <thread>
 
@@ -16,7 +15,7 @@
 #include "feltgate/generated/engine.hpp"
 #include "feltgate/generated/link.hpp"
 #include "feltgate/generated/map.hpp"
-#include "law/units.hpp"
+#include "law/amount.hpp"
 
 namespace feltgate::host {
 
@@ -232,40 +231,11 @@ std::vector<const law::ImageWord*> LawEngine::parameters() const {
 }
 
 double LawEngine::value_in(const law::ImageWord& of, const std::string& text) const {
-  std::size_t used = 0;
   double number = 0;
   try {
-    number = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used == 0 || !std::isfinite(number)) {
-    throw std::invalid_argument(
-        fmt::format("\"{}\" is no number; give one, with its unit if you like: 0.25{}", text,
-                    of.unit.empty() ? "" : of.unit));
-  }
-  std::string unit = text.substr(used);
-  unit.erase(0, unit.find_first_not_of(' '));
-  if (unit.substr(0, 1) == ",") {
-    throw std::invalid_argument(
-        fmt::format("\"{}\" is no number; write its point as a point: 5.5", text));
-  }
-  if (!unit.empty() && unit != of.unit) {
-    law::UnitValue given, own;
-    std::size_t size = 0;
-    try {
-      size = law::scan_unit(unit, given);
-      if (!of.unit.empty()) (void)law::scan_unit(of.unit, own);
-    } catch (const law::UnitError& e) {
-      throw std::invalid_argument(fmt::format("{}: {}; {}", of.name, e.what, e.mend));
-    }
-    if (size != unit.size() || !(given.unit == own.unit)) {
-      throw std::invalid_argument(
-          of.unit.empty()
-              ? fmt::format("{} has no unit; give the number alone, without {}", of.name, unit)
-              : fmt::format("{} is not in {}; give it in {}", of.name, unit, of.unit));
-    }
-    number *= given.to_si / of.to_si;
+    number = law::amount_in(text, of.unit);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("{}: {}", of.name, error.what()));
   }
   parameters_->check(of.name, number);
   return number;

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "config/nearest.hpp"
+#include "law/amount.hpp"
 
 namespace feltgate::host {
 
@@ -34,24 +35,6 @@ std::vector<design::Snapshot> by_slot(std::vector<design::Snapshot> words) {
   std::sort(words.begin(), words.end(),
             [](const auto& a, const auto& b) { return a.slot < b.slot; });
   return words;
-}
-
-/// What is left of a text behind the number at its begin.
-double leading_number(const std::string& text, std::string* rest) {
-  std::size_t used = 0;
-  double value = 0;
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used == 0 || !std::isfinite(value)) {
-    throw std::invalid_argument(
-        fmt::format("\"{}\" is no number; give one, with its unit if you like: 0.25Nm", text));
-  }
-  *rest = text.substr(used);
-  rest->erase(0, rest->find_first_not_of(' '));
-  return value;
 }
 
 }  // namespace
@@ -217,36 +200,11 @@ const Quantity& Quantities::streamed(const std::string& name) const {
 }
 
 double Quantities::value_in(const Quantity& of, const std::string& text) const {
-  std::string unit;
-  const double number = leading_number(text, &unit);
-  if (unit.empty() || unit == of.unit) return number;
-  const struct {
-    const char* own;
-    const char* given;
-    double factor;
-  } also[] = {{"count", "rad", 1 / count_rad_},
-              {"count", "deg", 3.14159265358979323846 / 180 / count_rad_},
-              {"Nm/count", "Nm/rad", count_rad_},
-              {"Nm count^2", "Nm rad^2", 1 / (count_rad_ * count_rad_)},
-              {"Nm count^2", "Nmrad^2", 1 / (count_rad_ * count_rad_)},
-              {"tick", "s", tick_hz_},
-              {"tick", "ms", tick_hz_ / 1e3},
-              {"128 ticks", "s", tick_hz_ / 128},
-              {"128 ticks", "ms", tick_hz_ / 128e3},
-              {"1024 ticks", "s", tick_hz_ / 1024},
-              {"1024 ticks", "ms", tick_hz_ / 1024e3},
-              {"Nm/tick", "Nm/s", 1 / tick_hz_},
-              {"V/tick", "V/s", 1 / tick_hz_},
-              {"A^2 tick", "A^2 s", tick_hz_},
-              {"rad", "deg", 3.14159265358979323846 / 180}};
-  std::string known = of.unit;
-  for (const auto& a : also) {
-    if (of.unit != a.own) continue;
-    if (unit == a.given) return number * a.factor;
-    known += std::string(" or ") + a.given;
+  try {
+    return law::amount_in(text, of.unit, {count_rad_, 1 / tick_hz_});
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("{}: {}", of.name, error.what()));
   }
-  throw std::invalid_argument(
-      fmt::format("{} is not in {}; give it in {}", of.name, unit, known.empty() ? "1" : known));
 }
 
 Setting Quantities::setting(const Quantity& of, double value) const {

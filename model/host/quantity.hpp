@@ -63,9 +63,9 @@ class Quantities {
   /// Number of words in a snapshot, and the number that a word has in masks.
   int words() const { return words_; }
 
-  /// "NAME=VALUE" with an optional unit after the value: the parameter's own, or rad for counts
-  /// (also Nm/rad for Nm/count, Nm rad^2), s and ms for ticks. Throws std::invalid_argument with
-  /// the mend: no '=', unknown name, not to be written, no number, another unit, out of range.
+  /// "NAME=VALUE" with an optional unit after the value (law/amount.hpp). Throws
+  /// std::invalid_argument with the mend: no '=', unknown name, not to be written, no number, a
+  /// unit of something else, out of range.
   Setting setting(const std::string& text) const;
   /// The same of a value in the parameter's unit.
   Setting setting(const Quantity& of, double value) const;

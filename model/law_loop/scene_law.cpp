@@ -48,6 +48,9 @@ class CompiledSceneLaw : public SceneLaw {
   bool has(const std::string& parameter) const override {
     return parameters_.find(parameter) != nullptr;
   }
+  std::string unit(const std::string& parameter) const override {
+    return parameters_.find(parameter)->unit;
+  }
   void check(const std::string& parameter, double value) const override {
     parameters_.check(parameter, value);
   }
@@ -118,10 +121,11 @@ std::unique_ptr<SceneLaw> make_scene_law(const std::string& path, const DesignIn
   law::Compiled law = law::compile_file(path, law::target_of(design));
   for (const law::Output& o : law.law.outputs) {
     if (o.axis == 0) continue;
-    throw std::invalid_argument(
-        fmt::format("{}:{}: a torque for axis {}, and a scene has one lever; "
-                    "`feltgate law {}` measures laws of several axes",
-                    path, o.place.line, o.axis, path));
+    throw std::invalid_argument(fmt::format(
+        "{}:{}: a torque for axis {}, and the scene has one lever; name a device with "
+        "so many axes in the scene, in place of plant and above its tables: "
+        "device = \"{}\"; `feltgate law {}` measures laws of several axes",
+        path, o.place.line, o.axis, law.law.outputs.size() > 2 ? "gimbal" : "two_levers", path));
   }
   return make_scene_law(std::move(law), design);
 }

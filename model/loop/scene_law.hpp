@@ -83,6 +83,8 @@ class SceneLaw {
   /// Into an engine as it is after configuration.
   virtual Writes load() const = 0;
   virtual bool has(const std::string& parameter) const = 0;
+  /// As the law's file writes it; empty: none.
+  virtual std::string unit(const std::string& parameter) const = 0;
   /// Only the errors of set(), without those of what the law requires of several.
   virtual void check(const std::string& parameter, double value) const = 0;
   /// Only the errors of set().

@@ -34,6 +34,7 @@ class ToldLaw : public SceneLaw {
   double bound_nm() const override { return law_.bound_nm(); }
   Writes load() const override { return law_.load(); }
   bool has(const std::string& parameter) const override { return law_.has(parameter); }
+  std::string unit(const std::string& parameter) const override { return law_.unit(parameter); }
   void check(const std::string& parameter, double value) const override {
     law_.check(parameter, value);
   }

@@ -198,7 +198,7 @@ int main(int argc, char** argv) {
       ->type_name("NAME");
   app.add_option("--for", a.for_s, "end after so much simulated time; else Ctrl-C ends it")
       ->type_name("SECONDS")
-      ->check(checks::seconds());
+      ->transform(checks::seconds());
   app.add_flag("--unpaced", a.unpaced, "do not wait for the clock on the wall");
   app.add_option("--record", a.record, "write all that came, with its clock, to this file")
       ->type_name("FILE");

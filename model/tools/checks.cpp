@@ -10,6 +10,9 @@
 #include <charconv>
 #include <cmath>
 #include <functional>
+#include <stdexcept>
+
+#include "law/amount.hpp"
 
 namespace feltgate::checks {
 
@@ -24,14 +27,31 @@ bool parse(const std::string& text, Number* value) {
   return error == std::errc() && stopped == end && begin != end;
 }
 
-/// `kind` and `range` make the message; help shows the range alone.
+bool has_unit(const std::string& text) {
+  try {
+    return !law::read_amount(text, "").unit.empty();
+  } catch (const std::invalid_argument&) {
+    return false;  // no number at all
+  }
+}
+
+/// `kind` and `range` make the message; help shows the range alone. A number with a unit becomes
+/// one in `unit`.
 template <class Number>
 CLI::Validator accepts(const std::string& kind, const std::string& range,
-                       std::function<bool(Number)> good) {
-  const auto check = [kind, range, good](std::string& text) {
+                       std::function<bool(Number)> good, const std::string& unit = "") {
+  const auto check = [kind, range, good, unit](std::string& text) {
+    const std::string given = text;
+    if (!unit.empty() && has_unit(text)) {
+      try {
+        text = fmt::format("{:.17g}", law::amount_in(text, unit));
+      } catch (const std::invalid_argument& error) {
+        return std::string(error.what());
+      }
+    }
     Number value{};
     if (parse(text, &value) && good(value)) return std::string();
-    return fmt::format("{} is not a {} {}", text, kind, range);
+    return fmt::format("{} is not a {} {}", given, kind, range);
   };
   return CLI::Validator(check, range);
 }
@@ -43,13 +63,15 @@ std::string with_unit(const std::string& range, const std::string& unit) {
 }  // namespace
 
 CLI::Validator number(double min, double max, const std::string& unit) {
-  return accepts<double>("number", with_unit(fmt::format("from {:g} to {:.12g}", min, max), unit),
-                         [min, max](double v) { return v >= min && v <= max; });
+  return accepts<double>(
+      "number", with_unit(fmt::format("from {:g} to {:.12g}", min, max), unit),
+      [min, max](double v) { return v >= min && v <= max; }, unit);
 }
 
 CLI::Validator positive(double max, const std::string& unit) {
-  return accepts<double>("number", with_unit(fmt::format("above 0, to {:.12g}", max), unit),
-                         [max](double v) { return v > 0 && v <= max; });
+  return accepts<double>(
+      "number", with_unit(fmt::format("above 0, to {:.12g}", max), unit),
+      [max](double v) { return v > 0 && v <= max; }, unit);
 }
 
 CLI::Validator whole(std::int64_t min, std::int64_t max) {

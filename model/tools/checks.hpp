@@ -12,6 +12,8 @@
 namespace feltgate::checks {
 
 /// A finite number from min to max. `unit` follows the range in help and message; may be empty.
+/// Where there is one, give the option its check by transform(): a number with another unit of the
+/// kind is converted (law/amount.hpp).
 CLI::Validator number(double min, double max, const std::string& unit);
 /// A finite number above 0, to max.
 CLI::Validator positive(double max, const std::string& unit);

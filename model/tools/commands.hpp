@@ -63,11 +63,11 @@ template <class Value>
 CLI::Option* old_spelling(CLI::App* app, const std::string& name, Value& value,
                           const CLI::Validator& check) {
   // A hidden option has no name in messages; its check says it.
-  const auto named = [name, check](const std::string& word) {
+  const auto named = [name, check](std::string& word) {
     const std::string error = check(word);
     return error.empty() ? error : name + ": " + error;
   };
-  return app->add_option(name, value)->group("")->check(named);
+  return app->add_option(name, value)->group("")->transform(CLI::Validator(named, ""));
 }
 
 /// Where the waveform around a mismatch goes: mismatch/ in the build folder, or in this one.

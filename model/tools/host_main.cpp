@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
                  "so long requests are repeated before the link counts as lost")
       ->type_name("SECONDS")
       ->capture_default_str()
-      ->check(checks::positive(3600, "s"));
+      ->transform(checks::positive(3600, "s"));
   app.require_subcommand(1);
   app.fallthrough();
   int exit_code = exit_ok;

@@ -218,7 +218,7 @@ void add_rates(CLI::App& app, int* exit_code) {
   sub->add_option("--rate", a->rates,
                   "rates in Hz; default 144,490,1000,10000,40000,100000; the fastest is added")
       ->delimiter(',')
-      ->check(checks::number(1, 1e6, "Hz"));
+      ->transform(checks::number(1, 1e6, "Hz"));
   sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's")
       ->type_name("PLANT");
   sub->add_flag("--lock-step", a->lock_step,

@@ -57,7 +57,7 @@ struct TraceArguments {
     sub->add_option("--sample-hz", options.sample_hz,
                     "rate of the capture, where the file does not say it")
         ->type_name("HZ")
-        ->check(checks::positive(1e12, "Hz"));
+        ->transform(checks::positive(1e12, "Hz"));
     sub->add_option("--format", format,
                     "sigrok, vcd, saleae, levels, columns or vector; default: by content")
         ->type_name("FORMAT");
@@ -181,7 +181,7 @@ void add_replay(CLI::App& app, int* exit_code) {
       ->capture_default_str();
   sub->add_option("--duration", a->seconds, "stop after so much of it; default: its end")
       ->type_name("SECONDS")
-      ->check(checks::seconds());
+      ->transform(checks::seconds());
   old_spelling(sub, "--seconds", a->seconds, checks::seconds());
   sub->add_option("--json", a->json, "figures as JSON (docs/json.md)")->type_name("FILE");
   sub->add_option("--csv", a->csv, "a row per tick, the columns of every engine (docs/json.md)")

@@ -68,7 +68,6 @@ int run_axes_scene(const AxesArguments& a) {
     fmt::print("{}\n", fmt::join(axes_columns(scene), "\n"));
     return exit_ok;
   }
-  apply_settings(a.set, scene.scenario);
   const AxesDesignMakers* made = find_axes_design(a.design);
   if (made == nullptr) {
     throw std::invalid_argument(
@@ -78,6 +77,7 @@ int run_axes_scene(const AxesArguments& a) {
   }
   const DesignInfo design = made->info();
   const std::unique_ptr<AxesLaw> law = law_of(scene, design);
+  apply_settings(a.set, design, &law->host(), scene.scenario);
   check_asked(scene.scenario, design, &law->host());
   if (scene.plane) PlaneHost::check(*scene.plane, a.scene_path, law->host());
   if (a.every > 0 && a.csv.empty()) {

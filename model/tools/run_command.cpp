@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -15,6 +14,7 @@
 #include <utility>
 
 #include "files/output_file.hpp"
+#include "law/amount.hpp"
 #include "law_loop/scene_law.hpp"
 #include "loop/bounded.hpp"
 #include "loop/event_lines.hpp"
@@ -43,13 +43,12 @@ struct RunArguments {
 
 }  // namespace
 
-void apply_settings(const std::vector<std::string>& set, Scenario& scenario) {
+void apply_settings(const std::vector<std::string>& set, const DesignInfo& design,
+                    const SceneLaw* law, Scenario& scenario) {
   std::set<std::string> given;
   for (const std::string& item : set) {
     const auto at = item.find('=');
-    char* end = nullptr;
-    const double value = at == std::string::npos ? 0 : std::strtod(item.c_str() + at + 1, &end);
-    if (end == nullptr || *end != '\0' || end == item.c_str() + at + 1) {
+    if (at == std::string::npos || at == 0) {
       throw std::invalid_argument("--set " + item +
                                   " is not NAME=VALUE; write for example --set voltage_gain=1");
     }
@@ -58,7 +57,19 @@ void apply_settings(const std::vector<std::string>& set, Scenario& scenario) {
       throw std::invalid_argument("--set " + item + ": " + name +
                                   " is given twice; leave one of them out");
     }
-    scenario.parameters[name] = value;
+    const bool of_law = law != nullptr && law->has(name);
+    const ParameterInfo* of_core = design.find(name);
+    if (!of_law && of_core == nullptr) {
+      scenario.parameters[name] = 0;  // check_asked() says what there is
+    } else {
+      try {
+        scenario.parameters[name] =
+            law::amount_in(item.substr(at + 1), of_law ? law->unit(name) : of_core->unit,
+                           {design.count_rad, 1 / static_cast<double>(design.tick_hz)});
+      } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument(fmt::format("--set {}: {}", item, error.what()));
+      }
+    }
     scenario.parameter_lines.erase(name);  // an error in it is none of the file
   }
 }
@@ -126,13 +137,13 @@ int run(const RunArguments& a) {
     return exit_ok;
   }
   Scenario scenario = read_scenario(scene_path);
-  apply_settings(a.set, scenario);
   if (!a.plant.empty()) scenario.plant = a.plant;
   const std::string plant_path = find_file(scenario.plant, "vectors/plants");
   const plant::Parameters plant = plant::read_plant_file(plant_path);
   resolve_effects(scenario, plant.effects);
   const DesignInfo& design = design_named(a.design);
   const std::unique_ptr<SceneLaw> law = law_of(scenario, design);
+  apply_settings(a.set, design, law.get(), scenario);
   check_scenario(scenario, plant, design, law.get());
 
   if (a.every > 0 && a.csv.empty() && a.report.empty()) {
@@ -267,8 +278,10 @@ void add_run(CLI::App& app, int* exit_code) {
   sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's")
       ->type_name("PLANT");
   sub->add_option("--engine", a->engine, engine_help)->type_name("ENGINES")->capture_default_str();
-  sub->add_option("--set", a->set,
-                  "parameter to set before arming, NAME=VALUE in its unit; may be repeated")
+  sub->add_option(
+         "--set", a->set,
+         "parameter to set before arming, in its unit or with one: wall_stiffness=0.1Nm/deg; may "
+         "be repeated")
       ->type_name("NAME=VALUE");
   sub->add_option("--seed", a->seed, "of the RTL's state before reset")
       ->capture_default_str()

@@ -48,8 +48,10 @@ std::string energy_lines(const FeltEnergy& energy);
 std::string stale_line(const Acted& stale);
 std::string expectation_lines(const std::vector<Expected>& all);
 
-/// NAME=VALUE of --set onto the scene's parameters. Throws std::invalid_argument.
-void apply_settings(const std::vector<std::string>& set, Scenario& scenario);
+/// NAME=VALUE of --set onto the scene's parameters, the value with or without a unit
+/// (law/amount.hpp). `law` may be nullptr. Throws std::invalid_argument.
+void apply_settings(const std::vector<std::string>& set, const DesignInfo& design,
+                    const SceneLaw* law, Scenario& scenario);
 /// The path of the law that a scene names: a path is from the scene's folder.
 std::string law_file(const Scenario& scenario);
 

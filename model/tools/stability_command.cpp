@@ -126,11 +126,11 @@ void add_stability(CLI::App& app, int* exit_code) {
       ->capture_default_str();
   sub->add_option("--rate", a->rates, "scene rates in Hz; default 144,490,1000,40000,1000000")
       ->delimiter(',')
-      ->check(checks::number(1, 1e6, "Hz"));
+      ->transform(checks::number(1, 1e6, "Hz"));
   sub->add_option("--damping", a->damping,
                   "dampings B of the wall in Nm s/rad; default 0,0.001,0.002,0.005,0.01,0.02")
       ->delimiter(',')
-      ->check(checks::number(0, 1, "Nm s/rad"));
+      ->transform(checks::number(0, 1, "Nm s/rad"));
   sub->add_flag("--no-bits", a->no_bits,
                 "without the chain's bits: 6 s; with --no-experiments 0.3 s");
   sub->add_flag("--no-experiments", a->no_experiments, "borders only");

@@ -260,10 +260,10 @@ void add_trim(CLI::App& app, int* exit_code) {
   sub->add_option("--json", a->json, "the figures as JSON")->type_name("FILE");
   sub->add_option("--duration", a->duration_s, "of the scene; default: its own")
       ->type_name("SECONDS")
-      ->check(checks::seconds());
+      ->transform(checks::seconds());
   sub->add_option("--window", a->window_ms, "length of the means, ms")
       ->capture_default_str()
-      ->check(checks::number(0.01, 1000, "ms"));
+      ->transform(checks::number(0.01, 1000, "ms"));
   sub->add_option("--full-step", a->options.full_step_clocks, "step of the full model, clocks")
       ->capture_default_str()
       ->check(checks::whole(1, 5));

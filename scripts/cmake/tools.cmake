@@ -15,7 +15,8 @@ add_library(feltgate_command_line STATIC "${FELTGATE_ROOT}/model/tools/checks.cp
 target_compile_options(feltgate_command_line PRIVATE ${FELTGATE_WARNINGS} -O1)
 target_compile_definitions(feltgate_command_line PRIVATE
   FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}" FELTGATE_VERSION="${PROJECT_VERSION}")
-target_link_libraries(feltgate_command_line PUBLIC feltgate_files feltgate_design CLI11::CLI11 fmt::fmt)
+target_link_libraries(feltgate_command_line PUBLIC feltgate_files feltgate_design CLI11::CLI11
+  PRIVATE feltgate_law fmt::fmt)
 
 # feltgate_program(<name> <sources> [libraries...])
 function(feltgate_program name sources)

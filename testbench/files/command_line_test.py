@@ -16,7 +16,7 @@ SECONDS = "a number above 0, to 100000 s"
 NUMBERS = (
     ("stability", "--rate", ("nan", "inf", "0", "1e300", "1000,nan", "x"), "1 to 1000000 Hz"),
     ("stability", "--damping", ("nan", "-1", "-nan", "2"), "a number from 0 to 1 Nm s/rad"),
-    ("replay x.vec", "--seconds", ("nan", "-1", "0", "1e300", "inf", "1s"), SECONDS),
+    ("replay x.vec", "--seconds", ("nan", "-1", "0", "1e300", "inf", "x"), SECONDS),
     ("replay x.vec", "--sample-hz", ("nan", "0", "-1", "inf"), "a number above 0, to 1e+12 Hz"),
     ("trim membrane", "--duration", ("nan", "1e300", "-1", "0"), SECONDS),
     ("trim membrane", "--window", ("nan", "0"), "a number from 0.01 to 1000 ms"),
@@ -75,6 +75,21 @@ class CommandLine(Bench):
             with self.subTest(value):
                 word = f"voltage_gain={value}"
                 self.refused("run", "membrane", "--set", word, said=("voltage_gain",))
+
+    def test_units(self):
+        for words, said in (
+            (("run", "wall", "--set", "torque_limit=1V"), "1V is not in Nm; write 1 Nm"),
+            (("run", "wall", "--set", "wall_stiffness=4Nm"),
+             "write 4 Nm/count, or give it in Nm/rad"),
+            (("run", "wall", "--set", "torque_limit=20000mNm"), "torque_limit = 20 "),
+            (("run", "wall", "--set", "wall_contact=nan rad"), "is no number"),
+            (("trim", "wall", "--duration", "5V"), "--duration: 5V is not in s; write 5 s"),
+            (("trim", "wall", "--duration", "1us"), "shorter than 10 windows"),
+            (("replay", "x.vec", "--seconds=2m"), "2m is not in s; write 2 s"),
+            (("stability", "--damping", "2V"), "2V is not in Nm s/rad"),
+        ):
+            with self.subTest(words):
+                self.refused(*words, said=(said,))
 
     def test_the_nearest_name(self):
         for words, said in (

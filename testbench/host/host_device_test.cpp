@@ -83,13 +83,17 @@ TEST_CASE("host device: values are set in units") {
   CHECK(b.device.watchdog_s() == Approx(0.05));
   CHECK(set("wall_stiffness=2Nm/rad").setting.value() ==
         Approx(2 * Lever::count_rad).epsilon(1e-3));
+  CHECK(set("wall_stiffness=0.1Nm/deg").setting.value() ==
+        Approx(0.1 * 180 / 3.14159265 * Lever::count_rad).epsilon(1e-4));
+  CHECK(set("torque_limit=200mNm").setting.value() == Approx(0.2).margin(1e-5));
   const std::size_t before = b.board.writes().size();
   CHECK(told([&] { set("torque_limt=0.1"); }).find("did you mean \"torque_limit\"?") !=
         std::string::npos);
   CHECK(told([&] { set("torque_limit=20"); }).find("choose a value from -16 to 16") !=
         std::string::npos);
   CHECK(told([&] { set("torque_limit=nan"); }).find("is no number") != std::string::npos);
-  CHECK(told([&] { set("torque_limit=1V"); }).find("give it in Nm") != std::string::npos);
+  CHECK(told([&] { set("torque_limit=1V"); }).find("1V is not in Nm; write 1 Nm") !=
+        std::string::npos);
   CHECK(told([&] { set("torque_limit"); }).find("NAME=VALUE") != std::string::npos);
   CHECK(told([&] { set("velocity=1"); }).find("can only be read") != std::string::npos);
   CHECK(b.board.writes().size() == before);
@@ -192,7 +196,7 @@ TEST_CASE("host device: what a capture cannot do is said before it starts") {
     return told([&] { host::parse_trigger(b.device, nullptr, text); });
   };
   CHECK(trigger("velocty>5").find("did you mean \"velocity\"?") != std::string::npos);
-  CHECK(trigger("velocity>5V").find("give it in rad/s") != std::string::npos);
+  CHECK(trigger("velocity>5V").find("write 5 rad/s") != std::string::npos);
   CHECK(trigger("fault:spead").find("did you mean \"speed\"?") != std::string::npos);
   CHECK(trigger("status>5").find("made of bits") != std::string::npos);
   CHECK(trigger("sometime").find("is no trigger") != std::string::npos);

@@ -105,3 +105,17 @@ TEST_CASE("a law's riders need the twin, which knows the runs: the RTL alone is 
     CHECK_NOTHROW(require_runs_of_law(choose_engines(good)));
   }
 }
+
+TEST_CASE("a law of several axes says how a scene runs it") {
+  const std::string law = std::string(FELTGATE_ROOT) + "/rtl/laws/";
+  const auto told = [&](const std::string& name) {
+    try {
+      make_scene_law(law + name + ".law", design_named("lever_law"));
+    } catch (const std::exception& error) {
+      return std::string(error.what());
+    }
+    return std::string("taken");
+  };
+  CHECK(told("coupled_levers").find("device = \"two_levers\"") != std::string::npos);
+  CHECK(told("gimbal").find("device = \"gimbal\"") != std::string::npos);
+}

@@ -14,6 +14,7 @@
 #include "files/json_text.hpp"
 #include "files/output_file.hpp"
 #include "host/calibrate/report.hpp"
+#include "law/amount.hpp"
 #include "tools/checks.hpp"
 #include "tools/commands.hpp"
 #include "tools/host/bench_design.hpp"
@@ -41,22 +42,18 @@ void say(const std::string& text) {
   std::fflush(stdout);
 }
 
-/// "0.065" or "0.065Nm", "5.9N" with the arm of the pulley.
+/// "0.065" or "65mNm", "5.9N" with the arm of the pulley.
 double torque_typed(const std::string& text, double arm_m) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  while (*end == ' ') ++end;
-  const std::string unit = end;
-  if (end == text.c_str() || !std::isfinite(value)) {
-    throw MeasurementError(
-        fmt::format("\"{}\" is no reading; type it as 0.065 (Nm) or 5.9N", text));
+  try {
+    const std::string unit = law::read_amount(text, "0.065, which is Nm, or 5.9N").unit;
+    if (unit.empty() || unit.back() != 'N') return law::amount_in(text, "Nm");
+    if (!(arm_m > 0)) throw MeasurementError("forces need the arm of the pulley: --arm 0.011 (m)");
+    return law::amount_in(text, "N") * arm_m;
+  } catch (const MeasurementError&) {
+    throw;
+  } catch (const std::invalid_argument& error) {
+    throw MeasurementError(error.what());
   }
-  if (unit.empty() || unit == "Nm") return value;
-  if (unit != "N") {
-    throw MeasurementError(fmt::format("\"{}\": the unit is Nm or N; type it so", text));
-  }
-  if (!(arm_m > 0)) throw MeasurementError("forces need the arm of the pulley: --arm 0.011 (m)");
-  return value * arm_m;
 }
 
 /// One point after the other: command, tau_hat's mean, the gauge typed, the command away.
@@ -242,11 +239,11 @@ Run add_calibrate(CLI::App& sub) {
       ->check(checks::number(-24, 24, ""));
   sub.add_option("--arm", a->arm_m, "of the pulley, for readings in N")
       ->type_name("M")
-      ->check(checks::positive(10, "m"));
+      ->transform(checks::positive(10, "m"));
   sub.add_option("--torque-constant", a->torque_constant,
                  "Kt that turns the slope into R; default: the design's")
       ->type_name("NM/A")
-      ->check(checks::positive(100, "Nm/A"));
+      ->transform(checks::positive(100, "Nm/A"));
   sub.add_option("--gain", a->gain, "both voltage gains during --closed, of a law in regions")
       ->type_name("KV")
       ->capture_default_str()
@@ -254,7 +251,7 @@ Run add_calibrate(CLI::App& sub) {
   sub.add_option("--hold", a->hold_s, "longest time that a value stands")
       ->type_name("SECONDS")
       ->capture_default_str()
-      ->check(checks::positive(30, "s"));
+      ->transform(checks::positive(30, "s"));
   sub.add_option("--confidence", a->confidence, "of the intervals")
       ->type_name("SHARE")
       ->capture_default_str()

@@ -202,11 +202,11 @@ Run add_capture(CLI::App& sub) {
       ->check(checks::number(0, 1, ""));
   sub.add_option("--span", a->span_s, "time that all rows cover; default: a tick a row")
       ->type_name("SECONDS")
-      ->check(checks::positive(1e6, "s"));
+      ->transform(checks::positive(1e6, "s"));
   sub.add_option("--wait", a->wait_s, "for the trigger")
       ->type_name("SECONDS")
       ->capture_default_str()
-      ->check(checks::positive(1e6, "s"));
+      ->transform(checks::positive(1e6, "s"));
   sub.add_option("--arm", a->arm, "arm this scene, kick the watchdog, disarm at the end")
       ->type_name("SCENE");
   sub.add_option("--csv", a->csv, "a row each, time in seconds")->type_name("FILE");

@@ -112,7 +112,7 @@ Run add_events(CLI::App& sub) {
       ->type_name("SCENE");
   sub.add_option("--for", a->seconds, "end after so long; default: Ctrl-C")
       ->type_name("SECONDS")
-      ->check(checks::seconds());
+      ->transform(checks::seconds());
   sub.add_option("--count", a->count, "end after so many events")
       ->type_name("EVENTS")
       ->check(checks::whole(1, 1'000'000'000));

@@ -222,32 +222,32 @@ int identify(Session& session, const IdentifyArguments& a) {
 void add_separation_options(CLI::App& sub, IdentifyArguments& a) {
   sub.add_option("--resistance", a.resistance, "R by ohmmeter, with wiring and bridge")
       ->type_name("OHM")
-      ->check(checks::positive(1e4, "ohm"));
+      ->transform(checks::positive(1e4, "ohm"));
   sub.add_option("--resistance-error", a.resistance_error, "standard deviation of that")
       ->type_name("OHM")
-      ->check(checks::number(0, 1e4, "ohm"));
+      ->transform(checks::number(0, 1e4, "ohm"));
   sub.add_option("--loaded", a.loaded, "the same drive with a known inertia more on the shaft")
       ->type_name("FILE");
   sub.add_option("--added-inertia", a.added_kg_m2, "which one")
       ->type_name("KGM2")
-      ->check(checks::positive(10, "kg m^2"));
+      ->transform(checks::positive(10, "kg m^2"));
   sub.add_option("--weighed", a.weighed, "a drive with a weight on the lever, the shaft lying")
       ->type_name("FILE");
   sub.add_option("--weight", a.mass_kg, "which one")
       ->type_name("KG")
-      ->check(checks::positive(100, "kg"));
+      ->transform(checks::positive(100, "kg"));
   sub.add_option("--radius", a.radius_m, "of the weight")
       ->type_name("M")
-      ->check(checks::positive(10, "m"));
+      ->transform(checks::positive(10, "m"));
   sub.add_option("--level", a.level_rad, "angle at which the lever is level")
       ->type_name("RAD")
-      ->check(checks::number(-1e6, 1e6, "rad"));
+      ->transform(checks::number(-1e6, 1e6, "rad"));
   sub.add_option("--emf-constant", a.emf, "Ke of a data sheet, where there is no coast-down")
       ->type_name("VS/RAD")
-      ->check(checks::positive(100, "V s/rad"));
+      ->transform(checks::positive(100, "V s/rad"));
   sub.add_option("--electrical-time", a.electrical_s, "L/R: makes J right to a permille")
       ->type_name("SECONDS")
-      ->check(checks::number(0, 0.01, "s"));
+      ->transform(checks::number(0, 0.01, "s"));
 }
 
 }  // namespace
@@ -270,15 +270,15 @@ Run add_identify(CLI::App& sub) {
   sub.add_option("--volts", a->volts, "largest voltage of the drive")
       ->type_name("V")
       ->capture_default_str()
-      ->check(checks::positive(48, "V"));
+      ->transform(checks::positive(48, "V"));
   sub.add_option("--step", a->step_s, "how long each voltage stands")
       ->type_name("SECONDS")
       ->capture_default_str()
-      ->check(checks::number(0.1, 10, "s"));
+      ->transform(checks::number(0.1, 10, "s"));
   sub.add_option("--spin", a->spin_s, "how long it is spun up before it runs down")
       ->type_name("SECONDS")
       ->capture_default_str()
-      ->check(checks::number(0.1, 10, "s"));
+      ->transform(checks::number(0.1, 10, "s"));
   sub.add_option("--from", a->from, "a driven recording instead of a board")->type_name("FILE");
   sub.add_option("--coast", a->coast, "its coast-down")->type_name("FILE");
   add_separation_options(sub, *a);

@@ -101,7 +101,7 @@ Run add_arm(CLI::App& sub) {
   sub.add_flag("--hold", a->hold, "stay, kick the watchdog, disarm at the end");
   sub.add_option("--for", a->seconds, "with --hold: end after so long")
       ->type_name("SECONDS")
-      ->check(checks::seconds());
+      ->transform(checks::seconds());
   return [a](Session& session) { return arm(session, *a); };
 }
 

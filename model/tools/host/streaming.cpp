@@ -41,10 +41,10 @@ void add_stream_options(CLI::App& sub, StreamArguments& a) {
   sub.add_option("--every", a.every_s, "time from one tick shown to the next")
       ->type_name("SECONDS")
       ->capture_default_str()
-      ->check(checks::positive(3600, "s"));
+      ->transform(checks::positive(3600, "s"));
   sub.add_option("--for", a.seconds, "end after so long; default: Ctrl-C")
       ->type_name("SECONDS")
-      ->check(checks::seconds());
+      ->transform(checks::seconds());
 }
 
 std::vector<const Quantity*> stream_columns(Device& device, const StreamArguments& a) {

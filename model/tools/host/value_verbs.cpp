@@ -186,10 +186,10 @@ Run add_set(CLI::App& sub) {
   auto settings = std::make_shared<std::vector<std::string>>();
   sub.footer(
       "  feltgate host /dev/ttyUSB0 set torque_limit=0.1 wall_contact=0.2rad\n"
-      "A value may have its unit behind it: the parameter's own, rad or deg for counts, Nm/rad "
-      "for\n"
-      "Nm/count, s or ms for ticks. What is set holds until the FPGA is configured anew.\n"
-      "Parameters of a law take any unit of their kind and come into force together, with a ramp.\n"
+      "A bare value is in the unit that get prints. One with another unit of the kind is "
+      "converted:\n"
+      "0.1Nm/deg, 50ms for ticks. What is set holds until the FPGA is configured anew.\n"
+      "Parameters of a law come into force together, with a ramp.\n"
       "Exit code: 0 set, 1 refused by the board, 2 unusable input: nothing is set, 3 the link "
       "broke down.");
   sub.add_option("settings", *settings, "what to set")->required()->type_name("NAME=VALUE");

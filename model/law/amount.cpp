@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+#include "law/amount.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <stdexcept>
+
+namespace feltgate::law {
+
+namespace {
+
+constexpr const char* kBoardWords[][2] = {{"count", "rad"}, {"ticks", "s"}, {"tick", "s"}};
+
+/// The words of a board in SI words: "Nm/count" is Nm/rad.
+std::string si_text(std::string unit) {
+  unit.erase(0, unit.find_first_not_of("0123456789 "));  // of "128 ticks"
+  for (const auto& [own, si] : kBoardWords) {
+    const std::size_t at = unit.find(own);
+    if (at != std::string::npos) unit.replace(at, std::string(own).size(), si);
+  }
+  return unit;
+}
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+/// What scan_unit() does not tell of a unit's text.
+struct Rest {
+  double factor = 1;    ///< of its words of the board
+  double of_angle = 0;  ///< power: 1 in rad, -1 in Nm/deg. A law takes angles as numbers
+};
+
+Rest rest_of(const std::string& unit, const BoardUnits& board) {
+  Rest rest;
+  if (unit[0] > '0' && unit[0] <= '9') rest.factor = std::strtod(unit.c_str(), nullptr);
+  for (std::size_t at = 0; at < unit.size(); ++at) {
+    const std::size_t begin = at;
+    while (at < unit.size() && is_letter(unit[at])) ++at;
+    if (at == begin) continue;
+    const std::string word = unit.substr(begin, at - begin);
+    double power = at + 1 < unit.size() && unit[at] == '^' ? std::atoi(&unit[at + 1]) : 1;
+    if (unit.rfind('/', begin) != std::string::npos) power = -power;
+    if (word == "count") rest.factor *= std::pow(board.count_rad, power);
+    if (word == "tick" || word == "ticks") rest.factor *= std::pow(board.tick_s, power);
+    const bool radians = word.size() >= 3 && word.compare(word.size() - 3, 3, "rad") == 0;
+    if (radians || word == "deg" || word == "turn" || word == "turns" || word == "count") {
+      rest.of_angle += power;
+    }
+  }
+  return rest;
+}
+
+struct Meaning {
+  UnitValue value;
+  double of_angle = 0;
+};
+
+/// Nothing where a part of the text is no unit.
+std::optional<Meaning> unit_of(const std::string& text, const BoardUnits& board) {
+  std::string si = si_text(text.rfind("1/", 0) == 0 ? text.substr(1) : text);
+  UnitValue value;
+  try {
+    if (si.empty() || scan_unit(si, value) != si.size()) return {};
+  } catch (const UnitError& e) {
+    throw std::invalid_argument(fmt::format("\"{}\" is {}; {}", text, e.what, e.mend));
+  }
+  const Rest rest = rest_of(text, board);
+  value.to_si *= rest.factor;
+  return Meaning{value, rest.of_angle};
+}
+
+}  // namespace
+
+Amount read_amount(const std::string& text, const std::string& example) {
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  std::string unit = end;
+  if (end == text.c_str() || !std::isfinite(number)) {
+    throw std::invalid_argument(
+        fmt::format("\"{}\" is no number; give one, with its unit if you like: {}", text, example));
+  }
+  if (unit[0] == ',') {
+    throw std::invalid_argument(
+        fmt::format("\"{}\" is no number; write its point as a point: 5.5", text));
+  }
+  unit.erase(0, unit.find_first_not_of(' '));
+  unit.erase(unit.find_last_not_of(' ') + 1);
+  return {number, unit};
+}
+
+double amount_in(const std::string& text, const std::string& unit, const BoardUnits& board) {
+  const bool plain = unit.empty() || unit == "1";
+  const Amount a = read_amount(text, plain ? "0.25" : "0.25 " + unit);
+  if (a.unit.empty() || a.unit == unit) return a.number;
+  if (plain) {
+    throw std::invalid_argument(
+        fmt::format("{} takes a number without a unit; write {:g}", text, a.number));
+  }
+  const auto given = unit_of(a.unit, board), own = unit_of(unit, board);
+  const double factor = given && own ? given->value.to_si / own->value.to_si : 0;
+  if (!std::isnormal(factor) || !(given->value.unit == own->value.unit) ||
+      given->of_angle != own->of_angle) {
+    const std::string si = si_text(unit);
+    throw std::invalid_argument(fmt::format("{} is not in {}; write {:g} {}{}", text, unit,
+                                            a.number, unit,
+                                            si == unit ? "" : ", or give it in " + si));
+  }
+  return a.number * factor;
+}
+
+}  // namespace feltgate::law

@@ -109,7 +109,7 @@ class Pieces {
     for (const Step& s : whole.steps) {
       if (s.op != EngineOp::lrp || s.node < 0) continue;
       const double error = s.x.from == From::step ? b.errors[at(s.x.index)] : 0;
-      widths_[at(s.node)] = {4096 * s.argument_scale, 4 * error * s.argument_scale};
+      widths_[at(s.node)] = {4096 * s.argument_scale, 0.5 * error * s.argument_scale};
     }
     const std::vector<char> fixed = fixed_nodes(law);
     int count = 0;

@@ -30,6 +30,8 @@ const char* const wide_laws[] = {
     "let x = clamp(position, -20, 20)\nlet y = clamp(position[1], -20, 20)\n"
     "let r = sqrt(x^2 + y^2)\n"
     "out torque = 0.05 Nm * clamp(r / (10 rad), 0, 1)\nout torque[1] = 0.01 Nm * min(r, 5)\n",
+    "let x = 0.1 m * clamp(position, -1, 1)\nlet y = 0.1 m * clamp(position[1], -1, 1)\n"
+    "out torque = 1 N * clamp(sqrt(x^2 + y^2) - 20 mm, -50 mm, 50 mm)\n",
     "let r = sqrt(clamp(position, -10, 10)^2)\nout torque = 0.1 Nm * clamp(1 / (r + 0.1) - 3, -1, "
     "0.5)\n"};
 

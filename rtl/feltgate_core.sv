@@ -93,11 +93,10 @@ module feltgate_core #(
   logic [ 3:0] scene_wanted, scene_q;
   logic [ 1:0] mode;
   logic host, clear_faults, kick, region_high;
-  logic disarm, host_stop, restart, refused, unkicked, word_error, testing, paused, law, self_test_trip;
+  logic clear, disarm, host_stop, restart, refused, unkicked, word_error, testing, paused, law, self_test_trip;
   logic moved, beyond, frozen, eased, channel_trip, index_trip, flip_trip;
   assign host         = control[feltgate_map_pkg::B_CONTROL_HOST];
   assign mode         = control[feltgate_map_pkg::B_CONTROL_MODE+:feltgate_map_pkg::W_CONTROL_MODE];
-  assign asks_o       = (host ? control[feltgate_map_pkg::B_CONTROL_ARM] : arm_i) && !disarm;
   assign scene_wanted = host ? control[feltgate_map_pkg::B_CONTROL_SCENE+:feltgate_map_pkg::W_CONTROL_SCENE] : scene_i;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) scene_q <= '0;
@@ -142,7 +141,7 @@ module feltgate_core #(
       .filter_i(control[feltgate_map_pkg::B_CONTROL_FILTER+:feltgate_map_pkg::W_CONTROL_FILTER]),
       .polarity_i(control[feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY]),
       .set_zero_i(zeroed_o),
-      .clear_error_i(clear_faults),
+      .clear_error_i(clear),
       .position_o(position), .travel_o(travel),
       .step_o(step), .count_o(count), .zero_o(zero),
       .levels_o(levels), .illegal_o(illegal),
@@ -284,9 +283,10 @@ module feltgate_core #(
   supervisor u_supervisor (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .tick_i(tick), .period_start_i(period_start),
-      .arm_i(asks_o && !axis_silent_i), .axis_blocked_i(axis_blocked_i), .ready_o(ready_o),
+      .host_i(host), .host_arm_i(control[feltgate_map_pkg::B_CONTROL_ARM]), .arm_i(arm_i), .disarm_i(disarm),
+      .asks_o(asks_o), .ready_o(ready_o), .axis_silent_i(axis_silent_i), .axis_blocked_i(axis_blocked_i),
       .stop_i(stop_i),
-      .clear_faults_i(clear_faults), .kick_i(kick),
+      .clear_faults_i(clear_faults), .clear_o(clear), .kick_i(kick),
       .encoder_error_i(illegal),
       .velocity_i(velocity_o), .current_ref_i(current_ref_o),
       .wave_i(wave), .param_i(param), .product_i(supervisor_product),

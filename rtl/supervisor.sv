@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Arms, watches and alone opens the gates. Seven causes of fault; a fault is latched and the gates
-// are off one clock after its cause is seen. A limit is compared in the clock S_* in which it is on
+// Arms, watches and alone opens the gates. It finds seven of the fourteen causes of fault itself, other
+// blocks bring theirs by trips_i; a fault is latched and the gates are off one clock after its cause is seen. A limit is compared in the clock S_* in which it is on
 // the parameter bus and acts in the clock after, T_*. Estimated current [1,8,8] A, I2t sum [0,31,2]
 // A^2 tick. Documentation: docs/blocks/supervisor.md
 `default_nettype none
@@ -12,9 +12,12 @@ module supervisor (
   input  logic               rst_ni,
   input  logic               tick_i,           // last clock of a tick: arming and disarming
   input  logic               period_start_i,   // one clock per period of the PWM
-  input  logic               arm_i,            // request, a level
+  input  logic               host_i,           // the host has the say, not the panel
+  input  logic               host_arm_i,       // its request, a level
+  input  logic               arm_i,            // the panel's
+  input  logic               disarm_i,         // no request counts in this tick
   input  logic               stop_i,           // external stop, asynchronous; a pulse of any width counts
-  input  logic               clear_faults_i,   // in the clock of tick_i; acts while arm_i is low
+  input  logic               clear_faults_i,   // in the clock of tick_i
   input  logic               kick_i,           // in the clock of tick_i
   input  logic               encoder_error_i,  // high in a clock with an illegal transition
   input  logic signed [feltgate_pkg::VELOCITY_W-1:0] velocity_i,     // new from T_VELOCITY + 1
@@ -29,8 +32,11 @@ module supervisor (
   output logic               gates_enable_o,   // falls at once on a fault
   output logic               gates_clear_o,    // asynchronous: the stop, from its first edge until it is dealt with
   output logic               unkicked_o,       // arming waits for the first kick
-  input  logic               axis_blocked_i,   // it does against another axis
+  output logic               asks_o,           // the request of whoever has the say
   output logic               ready_o,          // nothing speaks against arming
+  output logic               clear_o,          // clear_faults_i, where it acts: while nothing is asked for
+  input  logic               axis_silent_i,    // another axis does not ask
+  input  logic               axis_blocked_i,   // another axis is not ready
   input  logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,  // causes of other blocks, by bit
   output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults_o,  // bit n: cause n was seen
   output logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault_o  // number of the first, 0 none
@@ -280,7 +286,7 @@ module supervisor (
 
   // Faults stay until they are cleared. Of several in one clock the lowest number is the first.
   logic [FAULTS_W-1:0] trip;
-  logic                any_trip, clear;
+  logic                any_trip;
 
   assign trip = (FAULTS_W'(encoder_trip) << feltgate_map_pkg::FAULT_ENCODER) |
                 (FAULTS_W'(speed_trip) << feltgate_map_pkg::FAULT_SPEED) |
@@ -291,7 +297,7 @@ module supervisor (
                 (FAULTS_W'(tick_trip) << feltgate_map_pkg::FAULT_TICK) | trips_i;
 
   assign any_trip = trip != '0;
-  assign clear    = clear_faults_i && !arm_i;
+  assign clear_o  = clear_faults_i && !asks_o;
 
   function automatic logic [FIRST_W-1:0] lowest(input logic [FAULTS_W-1:0] causes);
     lowest = NONE;
@@ -302,27 +308,34 @@ module supervisor (
     if (!rst_ni) begin
       faults_o      <= '0;
       first_fault_o <= NONE;
-    end else if (clear || any_trip) begin
-      faults_o <= (clear ? '0 : faults_o) | trip;
-      if (clear || first_fault_o == NONE) first_fault_o <= lowest(trip);
+    end else if (clear_o || any_trip) begin
+      faults_o <= (clear_o ? '0 : faults_o) | trip;
+      if (clear_o || first_fault_o == NONE) first_fault_o <= lowest(trip);
     end
   end
 
-  // Arming, at the end of a tick. A request that was high during a reset, a fault or a stop must
-  // fall before it counts again.
-  logic asked_q, may_arm, arms;
+  // Arming, at the end of a tick. A request that was high during a reset, a fault or a stop, or while the
+  // other one had the say, must fall before it counts; and all axes' requests together must rise.
+  logic host_counts_q, panel_counts_q, able, asks, asked_q, may_arm, arms;
 
-  assign ready_o = first_fault_o == NONE && !stop_q[1] && !unkicked_o;
+  assign asks_o  = (host_i ? host_arm_i : arm_i) && !disarm_i;
+  assign asks    = asks_o && !axis_silent_i;
+  assign able    = first_fault_o == NONE && !stop_q[1] && !unkicked_o;
+  assign ready_o = able && (host_i ? host_counts_q : panel_counts_q);
   assign may_arm = !asked_q && ready_o && !axis_blocked_i;
-  assign arms    = arm_i && (gates_enable_o || may_arm) && !any_trip;  // or stays armed
+  assign arms    = asks && (gates_enable_o || may_arm) && !any_trip;  // or stays armed
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
+      host_counts_q  <= 1'b0;
+      panel_counts_q <= 1'b0;
       asked_q        <= 1'b1;
       armed_o        <= 1'b0;
       gates_enable_o <= 1'b0;
     end else if (tick_i) begin
-      asked_q        <= arm_i;
+      host_counts_q  <= !host_arm_i || (host_counts_q && host_i && able);
+      panel_counts_q <= !arm_i || (panel_counts_q && !host_i && able);
+      asked_q        <= asks;
       armed_o        <= arms;
       gates_enable_o <= arms;
     end else if (any_trip) begin

@@ -9,7 +9,7 @@ module supervisor_cover (
   input logic clk_i,
   input logic rst_ni,
   input logic tick_i,
-  input logic arm_i,
+  input logic asks,
   input logic stop_i,
   input logic kick_i,
   input logic encoder_error_i,
@@ -20,7 +20,7 @@ module supervisor_cover (
   input logic stop_trip,
   input logic polarity_trip,
   input logic speed_trip,
-  input logic clear,
+  input logic clear_o,
   input logic any_trip,
   input logic may_arm,
   input logic arms,
@@ -42,7 +42,7 @@ module supervisor_cover (
   for (genvar n = 1; n <= LAST; n++) begin : g_fault
     armed_trip:    cover property (@(posedge clk_i) disable iff (!rst_ni) trip[n] && gates_enable_o);
     first:         cover property (@(posedge clk_i) disable iff (!rst_ni) trip[n] && none);
-    cleared:       cover property (@(posedge clk_i) disable iff (!rst_ni) clear && faults_o[n]);
+    cleared:       cover property (@(posedge clk_i) disable iff (!rst_ni) clear_o && faults_o[n]);
     if (n != feltgate_map_pkg::FAULT_POLARITY && n != feltgate_map_pkg::FAULT_WATCHDOG) begin : g_any_time
       beside_first: cover property (@(posedge clk_i) disable iff (!rst_ni)
                                     trip[n] && !none && 32'(first_fault_o) != n);
@@ -50,7 +50,7 @@ module supervisor_cover (
     // Clear and trip in one clock: the fault stands. The other causes have their clock of the wave.
     if (n == feltgate_map_pkg::FAULT_ENCODER || n == feltgate_map_pkg::FAULT_STOP ||
         n == feltgate_map_pkg::FAULT_TICK || n == feltgate_map_pkg::FAULT_WORD) begin : g_in_the_clear
-      in_the_clear: cover property (@(posedge clk_i) disable iff (!rst_ni) clear && trip[n]);
+      in_the_clear: cover property (@(posedge clk_i) disable iff (!rst_ni) clear_o && trip[n]);
     end
   end
 
@@ -58,20 +58,20 @@ module supervisor_cover (
   watchdog_with_stop:   cover property (@(posedge clk_i) disable iff (!rst_ni) watchdog_trip && stop_trip);
   i2t_with_stop:        cover property (@(posedge clk_i) disable iff (!rst_ni) i2t_trip && stop_trip);
   trip_at_a_tick:       cover property (@(posedge clk_i) disable iff (!rst_ni) any_trip && tick_i && gates_enable_o);
-  trip_as_it_arms:      cover property (@(posedge clk_i) disable iff (!rst_ni) any_trip && tick_i && arm_i && may_arm && !gates_enable_o);
+  trip_as_it_arms:      cover property (@(posedge clk_i) disable iff (!rst_ni) any_trip && tick_i && asks && may_arm && !gates_enable_o);
   error_as_one_forgives: cover property (@(posedge clk_i) disable iff (!rst_ni) encoder_error_i && forgive && !encoder_trip);
   trip_as_one_forgives: cover property (@(posedge clk_i) disable iff (!rst_ni) encoder_trip && forgive);
-  clear_while_asked:    cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && arm_i && !none);
+  clear_while_asked:    cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && asks && !none);
   arms_now:             cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && arms && !gates_enable_o);
-  refused_by_level:     cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && arm_i && asked_q && !gates_enable_o && none);
-  disarms_now:          cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && !arm_i && gates_enable_o);
+  refused_by_level:     cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && asks && asked_q && !gates_enable_o && none);
+  disarms_now:          cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && !asks && gates_enable_o);
   kicked_in_time:       cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && kick_i && gates_enable_o);
   kickless_to_the_end:  cover property (@(posedge clk_i) disable iff (!rst_ni) full && !of_runaway);
   cooled_below_0:       cover property (@(posedge clk_i) disable iff (!rst_ni) cooled_negative);
   speed_and_polarity:   cover property (@(posedge clk_i) disable iff (!rst_ni) polarity_trip || speed_trip);
   stop_between_clocks:  cover property (@(posedge stop_i) rst_ni && gates_enable_o);
   if (feltgate_pkg::REQUIRE_WATCHDOG != 0) begin : g_require
-    arming_unkicked: cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && arm_i && unkicked_o && !asked_q && none);
+    arming_unkicked: cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && asks && unkicked_o && !asked_q && none);
   end
 endmodule
 

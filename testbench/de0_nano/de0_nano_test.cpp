@@ -251,20 +251,22 @@ TEST_CASE("de0_nano: a press while the encoder is not plugged in does nothing") 
 }
 
 TEST_CASE("de0_nano: a press during a fault does not arm when a host clears it") {
-  Board board;
-  board.short_press();
-  board.top().ESTOP = 1;
-  board.clock(5);
-  board.top().ESTOP = 0;
-  board.short_press();
-  board.short_press();
-  REQUIRE(board.fault());
-  board.top().ENC_A = board.top().ENC_B = board.top().ENC_Z = 1;
-  board.clock(2);
-  board.top().ENC_A = board.top().ENC_B = board.top().ENC_Z = 0;
-  board.clock(2);
-  CHECK_FALSE(board.fault());
-  CHECK_FALSE(board.armed());
+  for (int presses = 1; presses <= 2; ++presses) {
+    INFO(presses << " presses");
+    Board board;
+    board.short_press();
+    board.top().ESTOP = 1;
+    board.clock(5);
+    board.top().ESTOP = 0;
+    for (int k = 0; k < presses; ++k) board.short_press();
+    REQUIRE(board.fault());
+    board.top().ENC_A = board.top().ENC_B = board.top().ENC_Z = 1;
+    board.clock(2);
+    board.top().ENC_A = board.top().ENC_B = board.top().ENC_Z = 0;
+    board.clock(2);
+    CHECK_FALSE(board.fault());
+    CHECK_FALSE(board.armed());
+  }
 }
 
 TEST_CASE("de0_nano: KEY[1] pressed while a host has armed is a stop, and does not arm") {
@@ -282,6 +284,32 @@ TEST_CASE("de0_nano: KEY[1] pressed while a host has armed is a stop, and does n
   CHECK_FALSE(board.fault());
   CHECK_FALSE(board.armed());
   board.short_press();
+  CHECK(board.armed());
+}
+
+TEST_CASE("de0_nano: KEY[1] asks for nothing that a host has ended, or that was in vain for long") {
+  Board board;
+  const auto host_has_the_say = [&](bool say) {
+    board.top().ENC_A = board.top().ENC_B = say ? 1 : 0;
+    board.clock(3);
+  };
+  for (const bool armed_before : {true, false}) {
+    INFO("armed by the key before the host took the say: " << armed_before);
+    if (armed_before) board.short_press();
+    REQUIRE(board.armed() == armed_before);
+    host_has_the_say(true);
+    CHECK_FALSE(board.armed());
+    if (!armed_before) {
+      board.short_press();
+      board.clock(kLongPress);
+    }
+    host_has_the_say(false);
+    board.clock(kSettle);
+    CHECK_FALSE(board.armed());
+  }
+  board.short_press();
+  CHECK(board.armed());
+  board.clock(3 * kLongPress);
   CHECK(board.armed());
 }
 

@@ -127,6 +127,39 @@ TEST_CASE("axes: a fault of any opens the gates of all, and each keeps its first
   }
 }
 
+TEST_CASE(
+    "axes: none arms by the panel's old request, whichever the host gives the say back first") {
+  if (kEngine) return;  // arming takes longer: engine_test.cpp
+  constexpr std::uint32_t panel = kHost & ~(1u << C::control_host);
+  for (int first = 0; first < kAxes; ++first) {
+    for (const bool by_fault : {false, true}) {
+      Life s;
+      s.write_all(A::self_test_pulse, 0);
+      s.in.arm = true;
+      s.ticks(2);
+      for (int n = 0; n < kAxes; ++n) REQUIRE(s.out(n).gates_enable);
+      if (by_fault) {
+        s.in.stop = true;
+        s.ticks(1);
+        s.in.stop = false;
+      }
+      for (int n = 0; n < kAxes; ++n) s.control(n, D::S::setpoint, false);
+      s.write_all(C::command, 1u << C::command_clear_faults);
+      for (int n = 0; n < kAxes; ++n) {
+        s.write((first + n) % kAxes, C::control, panel);
+        s.ticks(2);
+      }
+      for (int n = 0; n < kAxes; ++n) CHECK_FALSE(s.out(n).gates_enable);
+      // Nor where one of them is armed by the host and the others are the panel's.
+      s.control(first, D::S::setpoint, false);
+      s.control(first, D::S::setpoint, true);
+      s.ticks(2);
+      for (int n = 0; n < kAxes; ++n) CHECK(s.out(n).gates_enable == (kAxes == 1));
+      s.play();
+    }
+  }
+}
+
 TEST_CASE("axes: own scene and polarity, programmed torque by axis, duties in one period") {
   if (kEngine) return;  // it has no program: engine_test.cpp
   Life s;

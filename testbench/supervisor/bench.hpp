@@ -23,7 +23,10 @@ struct SupervisorAdapter {
   static void drive(Vsupervisor& rtl, const Twin::In& in) {
     rtl.tick_i = in.tick;
     rtl.period_start_i = in.period_start;
+    rtl.host_i = in.host;
+    rtl.host_arm_i = in.host_arm;
     rtl.arm_i = in.arm;
+    rtl.disarm_i = in.disarm;
     rtl.stop_i = in.stop;
     rtl.clear_faults_i = in.clear_faults;
     rtl.kick_i = in.kick;
@@ -32,6 +35,7 @@ struct SupervisorAdapter {
     rtl.current_ref_i = port_bits<kCurrentBits>(in.current_ref);
     rtl.wave_i = in.wave;
     rtl.trips_i = in.trips;
+    rtl.axis_silent_i = in.axis_silent;
     rtl.axis_blocked_i = in.axis_blocked;
     rtl.param_i = in.param;
     rtl.product_i = port_bits<kProductBits, std::uint64_t>(in.product);
@@ -184,14 +188,14 @@ class Watch {
       on_ = gates ? on_ + 1 : 0;
       stopped_ = in.stop ? 4 : stopped_ - (stopped_ > 0 ? 1 : 0);
       if (on_ > 4 && stopped_ == 0 && rtl.gates_clear_o != 0) broken = "open gates are not cleared";
-      if (gates && !gates_ && (!in.tick || !in.arm)) broken = "gates open on request at a tick";
+      if (gates && !gates_ && (!in.tick || !in.asks())) broken = "gates open on request at a tick";
       if (gates && !armed) broken = "gates only while armed";
       if (armed != armed_ && !in.tick) broken = "armed changes at ticks";
       if (faults_ != 0 && rtl.faults_o != 0 && rtl.first_fault_o != first_ &&
-          !(in.clear_faults && !in.arm)) {
+          !(in.clear_faults && !in.asks())) {
         broken = "the first cause stays";
       }
-      if ((faults_ & ~rtl.faults_o) != 0 && !(in.clear_faults && !in.arm)) {
+      if ((faults_ & ~rtl.faults_o) != 0 && !(in.clear_faults && !in.asks())) {
         broken = "a fault stays until it is cleared";
       }
       if (rtl.faults_o != 0 && ((rtl.faults_o >> rtl.first_fault_o) & 1) == 0) {

@@ -31,12 +31,16 @@ inline bool same(const Twin::Out& a, const Twin::Out& b) {
 
 /// What the core would do around the supervisor from now on.
 struct Scenario {
+  bool host = false;
+  bool host_arm = false;
   bool arm = false;
+  bool disarm = false;
   bool stop = false;
   bool clear_faults = false;  ///< these two at the end of each tick
   bool kick = false;
   bool encoder_error = false;
   bool period_start = false;
+  bool axis_silent = false;
   bool axis_blocked = false;
   bool ticks_stand = false;      ///< neither ticks nor waves
   bool tick_stuck = false;       ///< high
@@ -78,12 +82,16 @@ class Bus {
     Twin::In in;
     in.tick = (now.tick && !s.ticks_stand) || s.tick_stuck;
     in.period_start = s.period_start;
+    in.host = s.host;
+    in.host_arm = s.host_arm;
     in.arm = s.arm;
+    in.disarm = s.disarm;
     in.stop = s.stop;
     in.clear_faults = s.clear_faults && now.tick;
     in.kick = s.kick && now.tick;
     in.encoder_error = s.encoder_error;
     in.trips = s.trips;
+    in.axis_silent = s.axis_silent;
     in.axis_blocked = s.axis_blocked;
     in.wave = s.ticks_stand ? 0 : now.wave;
     in.product = static_cast<std::int64_t>(noise_.bits()) >> 10;

@@ -15,7 +15,7 @@ namespace feltgate::test {
 class RandomScenario {
  public:
   explicit RandomScenario(std::uint64_t seed, bool near = false)
-      : random_(seed), axes_(~seed), words_(seed + 1'000), near_(near) {
+      : random_(seed), axes_(~seed), words_(seed + 1'000), say_(seed + 2'000), near_(near) {
     s_.words.nominal_current_squared = (1U << 31) - 1;  // until the first limits: cold
   }
 
@@ -25,6 +25,10 @@ class RandomScenario {
     s_.kick = random_.one_in(15);
     if (random_.one_in(s_.arm ? 40 : 3)) s_.arm = !s_.arm;
     if (axes_.one_in(s_.axis_blocked ? 2 : 60)) s_.axis_blocked = !s_.axis_blocked;
+    if (say_.one_in(s_.host_arm ? 40 : 3)) s_.host_arm = !s_.host_arm;
+    if (say_.one_in(60)) s_.host = !s_.host;
+    if (say_.one_in(s_.axis_silent ? 2 : 90)) s_.axis_silent = !s_.axis_silent;
+    s_.disarm = say_.one_in(90);
     if (random_.one_in(60)) limits();
     if (random_.one_in(30)) signals();
     if (s_.arm && random_.one_in(200))
@@ -98,7 +102,7 @@ class RandomScenario {
     if (!random_.one_in(4)) s_.current_ref = (i < 0) == (drift_ < 0) ? -(i + 1) : i;
   }
 
-  Random random_, axes_, words_;
+  Random random_, axes_, words_, say_;
   bool near_;
   Scenario s_;
   std::int32_t drift_ = 0;  ///< of the velocity in a tick

@@ -67,6 +67,79 @@ TEST_CASE("supervisor: arming asks for a rising request, no fault and no stop") 
   s.play();
 }
 
+TEST_CASE("supervisor: whoever gets the say must be seen to ask for nothing first") {
+  for (const bool to_host : {false, true}) {   // who gets the say while asking
+    for (const bool of_old : {false, true}) {  // what the other one asks for then
+      Script s;
+      bool& gets = to_host ? s.now.host_arm : s.now.arm;
+      bool& other = to_host ? s.now.arm : s.now.host_arm;
+      s.now.host = !to_host;
+      s.ticks(2);
+      gets = true;  // while the other one has the say
+      other = of_old;
+      s.ticks(2);
+      REQUIRE(s.out().armed == of_old);
+      other = false;
+      s.ticks(2);
+      REQUIRE_FALSE(s.out().armed);
+      s.now.host = to_host;
+      s.ticks(5);
+      REQUIRE_FALSE(s.out().gates_enable);
+      s.now.clear_faults = true;
+      s.ticks(2);
+      s.now.clear_faults = false;
+      REQUIRE_FALSE(s.out().gates_enable);
+      gets = false;
+      s.ticks(1);
+      gets = true;
+      s.ticks(1);
+      REQUIRE(s.out().gates_enable);
+      other = true;  // and it goes on while the say goes to and fro, as long as both ask
+      s.now.host = !to_host;
+      s.ticks(3);
+      s.now.host = to_host;
+      s.ticks(3);
+      REQUIRE(s.out().gates_enable);
+      s.play();
+    }
+  }
+}
+
+TEST_CASE("supervisor: a request of before a stop or a fault is not one after it") {
+  for (const bool gates_on : {true, false}) {
+    Script s;
+    s.ticks(1);
+    s.now.axis_silent = !gates_on;
+    s.now.arm = true;
+    s.ticks(1);
+    REQUIRE(s.out().armed == gates_on);
+    s.now.stop = true;
+    s.ticks(1);
+    s.now.stop = false;
+    s.ticks(1);
+    REQUIRE(only(s, Fault::stop) == gates_on);
+    s.now.axis_silent = true;  // of several axes another one falls silent, clears, and asks again
+    s.now.clear_faults = true;
+    s.ticks(2);
+    REQUIRE(only(s, Fault::stop) == gates_on);
+    s.now.clear_faults = false;
+    s.now.axis_silent = false;
+    s.ticks(3);
+    REQUIRE_FALSE(s.out().armed);
+    s.now.host = true;  // the host takes the say, clears, and gives it back
+    s.now.clear_faults = true;
+    s.ticks(2);
+    REQUIRE(s.out().faults == 0);
+    s.now.clear_faults = false;
+    s.now.host = false;
+    s.ticks(3);
+    REQUIRE_FALSE(s.out().gates_enable);
+    s.arm();
+    REQUIRE(s.out().gates_enable);
+    s.play();
+  }
+}
+
 TEST_CASE("supervisor: over-speed at the limit plus one bit, either way") {
   Script s;
   const auto limit = static_cast<std::int32_t>(s.now.words.overspeed);

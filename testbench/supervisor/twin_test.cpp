@@ -22,7 +22,8 @@ TEST_CASE("supervisor: a tick at once is its clocks one by one") {
   for (std::int64_t k = 0; k < scaled_clocks(60000); ++k) {
     const Scenario before = now;
     now = scenarios.next();
-    now.axis_blocked = false;  // a tick at once knows no other axes
+    // A tick at once knows no host and no other axes.
+    now.host = now.disarm = now.axis_silent = now.axis_blocked = false;
     Twin::Tick tick;
     tick.voltage_before = before.voltage;
     tick.velocity_before = before.velocity;

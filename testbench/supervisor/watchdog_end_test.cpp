@@ -47,6 +47,7 @@ class Pair {
   void drive(const Twin::In& in) {
     rtl_->tick_i = in.tick;
     rtl_->period_start_i = 0;
+    rtl_->host_i = rtl_->host_arm_i = rtl_->disarm_i = rtl_->axis_silent_i = 0;
     rtl_->arm_i = in.arm;
     rtl_->stop_i = 0;
     rtl_->clear_faults_i = in.clear_faults;

@@ -12,10 +12,20 @@
 namespace feltgate {
 
 template <class D, bool ReadBack>
+void FeltgateCore<D, ReadBack>::ask(const In& in, typename Supervisor<D>::In* sup) const {
+  sup->host = host();
+  sup->host_arm = bit(registers_.out().control, D::C::control_arm);
+  sup->arm = in.arm;
+  sup->disarm = registers_.out().disarm;
+  sup->axis_silent = in.axis_silent;
+  sup->axis_blocked = in.axis_blocked;
+}
+
+template <class D, bool ReadBack>
 bool FeltgateCore<D, ReadBack>::asks(const In& in) const {
-  const std::uint32_t control = registers_.out().control;
-  return (bit(control, D::C::control_host) ? bit(control, D::C::control_arm) : in.arm) &&
-         !registers_.out().disarm;
+  typename Supervisor<D>::In sup;
+  ask(in, &sup);
+  return sup.asks();
 }
 
 /// The scene that control word or panel ask for.
@@ -23,9 +33,7 @@ template <class D, bool ReadBack>
 std::uint8_t FeltgateCore<D, ReadBack>::wanted_scene(const In& in) const {
   const std::uint32_t control = registers_.out().control;
   return static_cast<std::uint8_t>(
-      bit(control, D::C::control_host)
-          ? field<D::C::control_scene, D::C::control_scene_width>(control)
-          : in.scene);
+      host() ? field<D::C::control_scene, D::C::control_scene_width>(control) : in.scene);
 }
 
 /// What stands instead of the scene's torque; while another axis tests itself, 0.

@@ -68,7 +68,7 @@ template <class D, bool ReadBack>
 bool FeltgateCore<D, ReadBack>::outside_trips(const In& in) const {
   const bool late = kLaw && in.law_late && (renders_law() || wanted_scene(in) == Map::S::law);
   if (!in.axis_fault && !late) return false;
-  return supervisor_.out().gates_enable || (asks(in) && supervisor_.ready());
+  return supervisor_.out().gates_enable || (asks(in) && ready());
 }
 
 /// As long as the inputs hold, `clocks` clocks from now change neither the duty in force nor the
@@ -190,7 +190,9 @@ void FeltgateCore<D, ReadBack>::pass_tick(const In& in, OnSnapshot&& on_snapshot
 /// Arming and scene in the last clock of a tick.
 template <class D, bool ReadBack>
 void FeltgateCore<D, ReadBack>::end_of_tick(const In& in) {
-  supervisor_.at_end(supervisor_words_, asks(in) && !in.axis_silent, false, false, in.axis_blocked);
+  typename Supervisor<D>::In sup;
+  ask(in, &sup);
+  supervisor_.at_end(supervisor_words_, sup);
   if (renders_law() && in.law_restart) wave_.restart();
   out_.scene = wanted_scene(in);
 }

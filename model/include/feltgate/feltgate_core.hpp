@@ -64,8 +64,7 @@ class FeltgateCore {
     // Each sees the others' registers before the edge.
     typename Supervisor<D>::In sup = supervisor_inputs(clock_);
     sup.tick = tick;
-    sup.arm = asks(in) && !in.axis_silent;
-    sup.axis_blocked = in.axis_blocked;
+    ask(in, &sup);
     if (renders_law() && in.law_late && supervisor_.out().gates_enable) {
       sup.trips |= fault_bit(Fault::engine);
     }
@@ -87,7 +86,7 @@ class FeltgateCore {
     core_steps::for_each_step_of(clock_, [&](Step step) { take<true>(step, in, decoder_.out()); });
     if (self_test_.failed()) sup.trips |= fault_bit(Fault::self_test);
     supervisor_.clock(sup);
-    const QuadDecoder::In d = decoder_inputs(in, zero, clear);
+    const QuadDecoder::In d = decoder_inputs(in, zero, clear && !sup.asks());
     if (!decoder_.settled(d)) decoder_.clock(d);
 
     const bool committed = tick && registers_.out().reg_busy;
@@ -147,7 +146,7 @@ class FeltgateCore {
   bool measured() const { return clock_ == after(T::tau_hat); }
   /// In the clock to come the position becomes 0.
   bool zeroed() const { return clock_ == D::clocks_per_tick - 1 && registers_.sets_zero(); }
-  bool ready() const { return supervisor_.ready(); }
+  bool ready() const { return supervisor_.ready(host()); }
   /// No write or command waits for the end of the tick.
   bool at_rest() const { return registers_.at_rest(); }
   /// Register writes carried out so far.
@@ -196,6 +195,9 @@ class FeltgateCore {
         field<D::C::control_mode, D::C::control_mode_width>(registers_.out().control));
   }
 
+  bool host() const { return bit(registers_.out().control, D::C::control_host); }
+  /// Who asks the supervisor for what.
+  void ask(const In& in, typename Supervisor<D>::In* sup) const;
   /// What the wave brings to the supervisor in clock c of the tick; its words come from the RAM as
   /// the bus would bring them.
   typename Supervisor<D>::In supervisor_inputs(int c) const {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/supervisor.sv: arming, seven causes of fault, the gates. Estimated current [1,8,8] A,
-// I2t sum [0,31,2] A^2 tick. Documentation: docs/blocks/supervisor.md
+// Twin of rtl/supervisor.sv: arming, seven of the fourteen causes of fault, the gates. Estimated
+// current [1,8,8] A, I2t sum [0,31,2] A^2 tick. Documentation: docs/blocks/supervisor.md
 #pragma once
 
 #include <cstdint>
@@ -61,8 +61,11 @@ class Supervisor {
   struct In {
     bool tick = false;  ///< last clock of a tick
     bool period_start =
-        false;  ///< of the PWM; left out where ticks cannot stand, as in the core's twin
-    bool arm = false;
+        false;          ///< of the PWM; left out where ticks cannot stand, as in the core's twin
+    bool host = false;  ///< the host has the say, not the panel
+    bool host_arm = false;      ///< its request
+    bool arm = false;           ///< the panel's
+    bool disarm = false;        ///< no request counts in this tick
     bool stop = false;          ///< was seen since the last clock, however shortly
     bool clear_faults = false;  ///< only in the clock of tick
     bool kick = false;          ///< only in the clock of tick
@@ -73,7 +76,10 @@ class Supervisor {
     std::uint32_t param = 0;
     std::int64_t product = 0;
     std::uint16_t trips = 0;    ///< causes of other blocks, by bit
+    bool axis_silent = false;   ///< another axis does not ask
     bool axis_blocked = false;  ///< another axis is not ready
+    /// What is asked for by whoever has the say.
+    bool asks() const { return (host ? host_arm : arm) && !disarm; }
   };
   struct Out {
     std::int32_t current_estimate = 0;  ///< raw, A
@@ -113,8 +119,8 @@ class Supervisor {
     sum_ = heat;
   }
   const Out& out() const { return out_; }
-  /// Nothing speaks against arming.
-  bool ready() const { return out_.first_fault == 0 && !stop_2_ && !out_.unkicked; }
+  /// Nothing speaks against arming by whoever has the say.
+  bool ready(bool host) const { return able() && (host ? host_counts_ : panel_counts_); }
 
   void clock(const In& in) {
     const bool live = out_.gates_enable;
@@ -128,7 +134,7 @@ class Supervisor {
     if (in.encoder_error) errors_ = errors_ == kBorne ? 0 : errors_ + 1;
     if (in.tick) {
       forgive(!in.encoder_error);
-      end_tick(in.arm, in.clear_faults, in.kick, trip, in.axis_blocked);
+      end_tick(in, trip);
     } else if (trip != 0) {
       latch(trip);
       out_.gates_enable = false;
@@ -194,12 +200,10 @@ class Supervisor {
     return !kWatchdogLast && silent(words) && trip(Fault::watchdog);
   }
   /// The last clock; returns whether the watchdog closed the gates in it.
-  bool at_end(const Words& words, bool arm, bool clear_faults = false, bool kick = false,
-              bool axis_blocked = false) {
+  bool at_end(const Words& words, const In& in) {
     const bool trips = kWatchdogLast && silent(words);
     forgive(true);
-    end_tick(arm, clear_faults, kick, trips ? fault_bit(Fault::watchdog) : std::uint16_t{0},
-             axis_blocked);
+    end_tick(in, trips ? fault_bit(Fault::watchdog) : std::uint16_t{0});
     return trips;
   }
 
@@ -226,7 +230,11 @@ class Supervisor {
     if (at_heat(words)) fell = heat_clock;
     if (at_polarity(words, in.velocity, in.current_ref)) fell = polarity_clock;
     if (at_watchdog(words)) fell = watchdog_clock;
-    if (at_end(words, in.arm, in.clear_faults, in.kick)) fell = watchdog_clock;
+    In last;
+    last.arm = in.arm;
+    last.clear_faults = in.clear_faults;
+    last.kick = in.kick;
+    if (at_end(words, last)) fell = watchdog_clock;
     return fell;
   }
 
@@ -331,16 +339,21 @@ class Supervisor {
     }
     out_.faults |= trip;
   }
+  /// No fault, no stop, no kick that is missing.
+  bool able() const { return out_.first_fault == 0 && !stop_2_ && !out_.unkicked; }
   /// Commands, arming and disarming; `trip` are the faults of the same clock.
-  void end_tick(bool arm, bool clear_faults, bool kick, std::uint16_t trip, bool axis_blocked) {
-    const bool arms = arm && !asked_ && ready() && !axis_blocked;
-    const bool armed = (arms || (arm && out_.gates_enable)) && trip == 0;
-    kickless_ticks_ = kick || !out_.gates_enable ? 0 : (kickless_ticks_ + 1) & kKicklessMask;
-    if (clear_faults && !arm) out_.faults = 0, out_.first_fault = 0;
+  void end_tick(const In& in, std::uint16_t trip) {
+    const bool asks = in.asks() && !in.axis_silent;
+    const bool arms = asks && !asked_ && ready(in.host) && !in.axis_blocked;
+    const bool armed = (arms || (asks && out_.gates_enable)) && trip == 0;
+    host_counts_ = !in.host_arm || (host_counts_ && in.host && able());
+    panel_counts_ = !in.arm || (panel_counts_ && !in.host && able());
+    kickless_ticks_ = in.kick || !out_.gates_enable ? 0 : (kickless_ticks_ + 1) & kKicklessMask;
+    if (in.clear_faults && !in.asks()) out_.faults = 0, out_.first_fault = 0;
     if (trip != 0) latch(trip);
     out_.gates_enable = out_.armed = armed;
-    asked_ = arm;
-    if (kick) awake_ = true, out_.unkicked = false;
+    asked_ = asks;
+    if (in.kick) awake_ = true, out_.unkicked = false;
   }
 
   Out out_;
@@ -348,8 +361,10 @@ class Supervisor {
   bool stop_1_ = true;
   bool stop_2_ = true;
   bool tick_before_ = false;
-  int tickless_ = 0;    ///< periods of the PWM that began since the last tick
-  bool asked_ = true;   ///< the request of the tick before: high after a reset
+  int tickless_ = 0;          ///< periods of the PWM that began since the last tick
+  bool asked_ = true;         ///< the request of the tick before, of all axes: high after a reset
+  bool host_counts_ = false;  ///< the host's request has been low since it might have armed nothing
+  bool panel_counts_ = false;
   bool awake_ = false;  ///< the watchdog has been kicked
   int errors_ = 0;      ///< of the encoder, not forgiven yet
   std::uint32_t forgive_ticks_ = 0;

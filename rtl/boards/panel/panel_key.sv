@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // One key for four orders. Pressed while armed: stop; by a fault where not this key has armed. Pressed and released within LongPressClocks
-// while stopped: arm. Held for LongPressClocks: set zero (one clock), never arm; with a fault, clear the
+// while stopped: arm; a request that has not armed after LongPressClocks, or that was armed and is no more, is forgotten. Held for LongPressClocks: set zero (one clock), never arm; with a fault, clear the
 // faults (one clock) and leave the zero. What blocks takes the request to arm away, so that arming
 // again needs a new press. Documentation: docs/boards/panel.md
 `default_nettype none
@@ -26,10 +26,10 @@ module panel_key #(
   localparam int HELD_BITS = $clog2(LongPressClocks + 1);
   localparam logic [HELD_BITS-1:0] LONG_PRESS = LongPressClocks[HELD_BITS-1:0];
 
-  logic                 down, down_q;
+  logic                 down, down_q, armed_q;
   logic                 spent_q;  // this press has done its work; its release does nothing
   logic                 arm_q, stop_q, set_zero_q, clear_faults_q;
-  logic [HELD_BITS-1:0] held_q;
+  logic [HELD_BITS-1:0] held_q;   // clocks since the key has moved, up to LongPressClocks
 
   // Counts as down after reset: a key held through it must be let go before it means anything.
   panel_debounce #(.Width(1), .HoldBits(HoldBits), .ResetValue(1)) u_debounce (
@@ -42,6 +42,7 @@ module panel_key #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       down_q         <= 1'b1;
+      armed_q        <= 1'b0;
       spent_q        <= 1'b1;
       arm_q          <= 1'b0;
       stop_q         <= 1'b0;
@@ -50,6 +51,7 @@ module panel_key #(
       held_q         <= LONG_PRESS;
     end else begin
       down_q         <= down;
+      armed_q        <= armed_i;
       set_zero_q     <= 1'b0;
       clear_faults_q <= 1'b0;
       if (down && !down_q) begin
@@ -67,8 +69,11 @@ module panel_key #(
       end else if (!down && down_q) begin
         arm_q  <= !spent_q;
         stop_q <= 1'b0;
+        held_q <= '0;
+      end else if (!down && held_q != LONG_PRESS) begin
+        held_q <= held_q + 1'b1;
       end
-      if (fault_i || blocked_i) arm_q <= 1'b0;
+      if (fault_i || blocked_i || (!armed_i && (armed_q || held_q == LONG_PRESS))) arm_q <= 1'b0;
     end
   end
 

@@ -44,10 +44,12 @@ module feltgate_linked #(
   logic fault_q;
 
   // A stop while armed is a fault until it is cleared by the panel, or by a host, for which the three
-  // encoder lines at once stand. B and Z without A stand for a host that has armed.
-  logic clear, host_arm;
+  // encoder lines at once stand. B and Z without A stand for a host that has armed, A and B without
+  // Z for one that has the say and has not.
+  logic clear, host_arm, host_say;
   assign clear = clear_faults_i || (enc_a_i && enc_b_i && enc_z_i);
   assign host_arm = enc_b_i && enc_z_i && !enc_a_i;
+  assign host_say = enc_a_i && enc_b_i && !enc_z_i;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) fault_q <= 1'b0;
@@ -60,7 +62,7 @@ module feltgate_linked #(
   assign gate_b_lo_o = scene_i == 4'd14;
   assign uart_tx_o   = ^{inputs_i, uart_rx_i};
   assign faults_o    = {10'd0, fault_q, 5'd0};
-  assign armed_o     = (arm_i || host_arm) && !fault_q;
+  assign armed_o     = (arm_i || host_arm) && !host_say && !fault_q;
   assign limits_o    = {4'd0, !armed_o, 3'd0, set_zero_i, 3'd0};
 
   assign position_o  = {20'd0, {3{enc_z_i}}, 7'd0, enc_b_i, enc_a_i ^ enc_b_i};

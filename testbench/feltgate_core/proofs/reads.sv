@@ -55,7 +55,9 @@ module reads_proof (
   (* hierconn *) wire [L-1:0] \u_core.u_dob.wave_i ;
   (* hierconn *) wire [L-1:0] \u_core.u_snapshot.wave_i ;
   (* hierconn *) wire [L-1:0] \u_core.u_operand_bus.wave_i ;
-  (* hierconn *) wire \u_core.asks_o ;
+  (* hierconn *) wire \u_core.clear ;
+  (* hierconn *) wire \u_core.u_supervisor.host_i ;
+  (* hierconn *) wire \u_core.u_supervisor.host_arm_i ;
   (* hierconn *) wire \u_core.zeroed_o ;
   (* hierconn *) wire \u_core.restart ;
   (* hierconn *) wire \u_core.host_stop ;
@@ -131,6 +133,9 @@ module reads_proof (
   (* hierconn *) wire [L-1:0] \u_other.u_snapshot.wave_i ;
   (* hierconn *) wire [L-1:0] \u_other.u_operand_bus.wave_i ;
   (* hierconn *) wire \u_other.asks_o ;
+  (* hierconn *) wire \u_other.clear ;
+  (* hierconn *) wire \u_other.u_supervisor.host_i ;
+  (* hierconn *) wire \u_other.u_supervisor.host_arm_i ;
   (* hierconn *) wire \u_other.zeroed_o ;
   (* hierconn *) wire \u_other.restart ;
   (* hierconn *) wire \u_other.host_stop ;
@@ -152,7 +157,8 @@ module reads_proof (
         \u_core.armed_o == \u_other.armed_o && \u_core.region_high == \u_other.region_high &&
         \u_core.eased == \u_other.eased && \u_core.testing == \u_other.testing &&
         \u_core.word_valid_o == \u_other.word_valid_o && \u_core.word_slot_o == \u_other.word_slot_o &&
-        \u_core.word_data_o == \u_other.word_data_o );
+        \u_core.word_data_o == \u_other.word_data_o && \u_core.clear == \u_other.clear &&
+        \u_core.asks_o == \u_other.asks_o );
     if (past_ok_q) assume (\u_core.u_registers.fetch_q == \u_other.u_registers.fetch_q );
   end
 
@@ -215,7 +221,9 @@ module reads_proof (
           \u_core.u_hold_timer.wave_i == \u_other.u_hold_timer.wave_i &&
           \u_core.u_velocity_n.wave_i == \u_other.u_velocity_n.wave_i &&
           \u_core.u_dob.wave_i == \u_other.u_dob.wave_i && \u_core.u_snapshot.wave_i == \u_other.u_snapshot.wave_i &&
-          \u_core.u_operand_bus.wave_i == \u_other.u_operand_bus.wave_i && \u_core.asks_o == \u_other.asks_o &&
+          \u_core.u_operand_bus.wave_i == \u_other.u_operand_bus.wave_i &&
+          \u_core.u_supervisor.host_i == \u_other.u_supervisor.host_i &&
+          \u_core.u_supervisor.host_arm_i == \u_other.u_supervisor.host_arm_i &&
           \u_core.zeroed_o == \u_other.zeroed_o && \u_core.restart == \u_other.restart &&
           \u_core.host_stop == \u_other.host_stop && \u_core.word_error == \u_other.word_error &&
           \u_core.refused == \u_other.refused && \u_core.scene_q == \u_other.scene_q );

@@ -114,7 +114,7 @@ module writes_proof (
       waits_a_tick_at_most: assert (!busy || busy_q < 10'(N));
       commands_once: assert (
           \u_core.u_supervisor.clear_faults_i == (last && to_command && data_q[feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS]) &&
-          \u_core.u_quad_decoder.clear_error_i == \u_core.u_supervisor.clear_faults_i &&
+          \u_core.u_quad_decoder.clear_error_i == (\u_core.u_supervisor.clear_faults_i && !\u_core.asks_o ) &&
           \u_core.u_supervisor.kick_i == (last && to_command && data_q[feltgate_map_pkg::B_COMMAND_KICK]));
       zero_once: assert (
           zeroed == (last && (zero_due_q || (to_command && data_q[feltgate_map_pkg::B_COMMAND_SET_ZERO]))) &&

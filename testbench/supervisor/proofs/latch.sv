@@ -10,7 +10,10 @@ module latch_proof (
     input logic                                           rst_ni,
     input logic                                           tick_i,
     input logic                                           period_start_i,
+    input logic                                           host_i,
+    input logic                                           host_arm_i,
     input logic                                           arm_i,
+    input logic                                           disarm_i,
     input logic                                           stop_i,
     input logic                                           clear_faults_i,
     input logic                                           kick_i,
@@ -21,6 +24,7 @@ module latch_proof (
     input logic        [                             31:0] param_i,
     input logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     input logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,
+    input logic                                           axis_silent_i,
     input logic                                           axis_blocked_i
 );
   `include "reset.svh"
@@ -33,12 +37,23 @@ module latch_proof (
 
   (* hierconn *) wire \u_dut.asked_q ;
   wire asked = \u_dut.asked_q ;
+  (* hierconn *) wire \u_dut.host_counts_q ;
+  (* hierconn *) wire \u_dut.panel_counts_q ;
   (* hierconn *) wire [1:0] \u_dut.stop_q ;
   wire [1:0] stop = \u_dut.stop_q ;
 
-  logic after_q, gates_q, armed_q, tick_q, arm_q, clear_q, stop_seen_q, unkicked_q, kicked_q, blocked_q;
+  logic after_q, gates_q, armed_q, tick_q, asks_q, silent_q, clear_q, stop_seen_q, unkicked_q, kicked_q, blocked_q;
   logic [2:0] cleared_q;  // gates_clear_o one, two, three clocks ago
-  logic asked_then_q;  // the request at the end of the tick before; high after a reset
+  // What the host, the panel and the one of them who has the say ask for: now, and at the end of the last tick.
+  // A disarm takes away the request of who has the say.
+  logic asks, host_asks, panel_asks, asked_then_q, host_then_q, panel_then_q, silent_then_q;
+  assign host_asks  = host_arm_i && !(host_i && disarm_i);
+  assign panel_asks = arm_i && !(!host_i && disarm_i);
+  assign asks       = (host_i ? host_asks : panel_asks);
+  // Whether a line has been low since a reset, a fault, a stop, a kick that is missing, and since the other had the say.
+  logic host_low_q, panel_low_q, able;
+  assign able = faults == '0 && !stop[1] && !unkicked;
+  logic rose_q, low_since_q;  // what opens the gates now
   logic asked_last_q;
   logic [FaultsW-1:0] faults_q, trip_q, trips_q;
   logic [ FirstW-1:0] first_q;
@@ -46,8 +61,11 @@ module latch_proof (
     gates_q  <= gates;
     armed_q  <= armed;
     tick_q   <= tick_i;
-    arm_q    <= arm_i;
-    clear_q  <= clear_faults_i && !arm_i;
+    asks_q   <= asks;
+    silent_q <= axis_silent_i;
+    clear_q  <= clear_faults_i && !asks;
+    rose_q   <= silent_then_q || !(host_i ? host_then_q : panel_then_q);
+    low_since_q <= host_i ? host_low_q : panel_low_q;
     faults_q <= faults;
     first_q  <= first;
     trip_q   <= trip;
@@ -61,11 +79,25 @@ module latch_proof (
     if (!rst_ni) begin
       after_q      <= 1'b0;
       asked_then_q <= 1'b1;
+      host_then_q   <= 1'b1;
+      panel_then_q  <= 1'b1;
+      silent_then_q <= 1'b0;
+      host_low_q    <= 1'b0;
+      panel_low_q   <= 1'b0;
       cleared_q    <= 3'b000;
       kicked_q     <= 1'b0;
     end else begin
       after_q <= 1'b1;
-      if (tick_i) asked_then_q <= arm_i;
+      if (tick_i) begin
+        asked_then_q  <= asks && !axis_silent_i;
+        host_then_q   <= host_asks;
+        panel_then_q  <= panel_asks;
+        silent_then_q <= axis_silent_i;
+        if (!host_arm_i) host_low_q <= 1'b1;
+        else if (!host_i || !able) host_low_q <= 1'b0;
+        if (!arm_i) panel_low_q <= 1'b1;
+        else if (host_i || !able) panel_low_q <= 1'b0;
+      end
       cleared_q <= {cleared_q[1:0], gates_clear};
       if (kick_i) kicked_q <= 1'b1;
     end
@@ -93,10 +125,16 @@ module latch_proof (
       first_cause_is_the_lowest: assert (!(clear_q || first_q == '0) || trip_q == '0 ||
                                          (FaultsW'(1) << first) == lowest_bit);
       no_gates_beside_a_fault: assert (!gates || faults == '0);
-      no_arming_by_itself: assert (!(gates && !gates_q) || (tick_q && arm_q && !asked_last_q &&
+      no_arming_by_itself: assert (!(gates && !gates_q) || (tick_q && asks_q && !silent_q && !asked_last_q &&
                                    faults_q == '0 && trip_q == '0 && !stop_seen_q && !unkicked_q && !blocked_q));
-      inside_ready: assert (ready_o == (faults == '0 && !stop[1] && !unkicked));
-      disarms_with_the_request: assert (!(tick_q && !arm_q) || (!gates && !armed));
+      rising_request_opens: assert (!(gates && !gates_q) || rose_q);
+      low_before_it_opens: assert (!(gates && !gates_q) || low_since_q);
+      inside_ready: assert (ready_o == (able && (host_i ? host_low_q : panel_low_q)));
+      inside_counts: assert (\u_dut.host_counts_q == host_low_q && \u_dut.panel_counts_q == panel_low_q);
+      inside_who_asked: assert (((!host_then_q || !host_low_q) && (!panel_then_q || !panel_low_q)) ||
+                                asked_then_q || silent_then_q);
+      clears_where_nobody_asks: assert (clear_o == (clear_faults_i && !asks) && asks_o == asks);
+      disarms_with_the_request: assert (!(tick_q && (!asks_q || silent_q)) || (!gates && !armed));
       armed_in_ticks_only: assert (tick_q || armed == armed_q);
       estimate_in_its_clock: assert (estimate_due_q || estimate == estimate_q);
       stop_closes_gates: assert (!cleared_q[2] || !gates);

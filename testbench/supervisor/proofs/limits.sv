@@ -10,7 +10,10 @@ module limits_proof (
     input logic                                           rst_ni,
     input logic        [                              8:0] start_i,  // where in a tick a reset ends
     input logic                                           period_start_i,
+    input logic                                           host_i,
+    input logic                                           host_arm_i,
     input logic                                           arm_i,
+    input logic                                           disarm_i,
     input logic                                           stop_i,
     input logic                                           clear_faults_i,
     input logic                                           kick_i,
@@ -20,6 +23,7 @@ module limits_proof (
     input logic        [                             31:0] param_i,
     input logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     input logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,
+    input logic                                           axis_silent_i,
     input logic                                           axis_blocked_i,
     input logic                                           watch_i    // from here on errors are counted
 );

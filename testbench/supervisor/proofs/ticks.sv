@@ -9,7 +9,10 @@ module ticks_proof (
     input logic                                           rst_ni,
     input logic        [                             11:0] start_i,  // where in a period of the PWM a reset ends
     input logic                                           tick_i,
+    input logic                                           host_i,
+    input logic                                           host_arm_i,
     input logic                                           arm_i,
+    input logic                                           disarm_i,
     input logic                                           stop_i,
     input logic                                           clear_faults_i,
     input logic                                           kick_i,
@@ -20,6 +23,7 @@ module ticks_proof (
     input logic        [                             31:0] param_i,
     input logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     input logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,
+    input logic                                           axis_silent_i,
     input logic                                           axis_blocked_i
 );
   `include "reset.svh"

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate_core: panel and host take the say from each other, and neither arms by that.
+// Documentation: docs/blocks/feltgate_core.md
+#include "core_life.hpp"
+
+using namespace feltgate::test;
+using feltgate::Fault;
+using D = feltgate::test::Design;
+
+namespace {
+
+constexpr std::uint32_t kArm = 1u << C::control_arm;
+constexpr std::uint32_t kPanel = kHost & ~(1u << C::control_host);
+
+bool opens(Life& s, int ticks) {
+  for (int k = 0; k < ticks; ++k) {
+    s.ticks(1);
+    if (s.out().gates_enable) return true;
+  }
+  return false;
+}
+
+/// The panel's request falls and rises.
+bool key_arms(Life& s) {
+  s.in.arm = false;
+  s.ticks(2);
+  s.in.arm = true;
+  s.ticks(1);
+  return s.out().gates_enable;
+}
+
+}  // namespace
+
+TEST_CASE("say: the host gives it back, and what the panel asked for before does not arm") {
+  Life s;
+  s.ticks(2);
+  REQUIRE(key_arms(s));
+  s.write(C::control, kHost | kArm);
+  CHECK(s.out().gates_enable);  // it stays armed
+  s.write(C::control, kHost);
+  CHECK_FALSE(s.out().gates_enable);
+  s.write(C::control, kPanel);
+  CHECK_FALSE(opens(s, 20));
+  CHECK(key_arms(s));
+  s.play();
+}
+
+TEST_CASE("say: the panel asks while the host has the say, and is given it later") {
+  Life s;
+  s.write(C::control, kHost);
+  s.in.arm = true;
+  CHECK_FALSE(opens(s, 3));
+  s.write(C::control, kPanel);
+  CHECK_FALSE(opens(s, 20));
+  CHECK(key_arms(s));
+  s.play();
+}
+
+TEST_CASE("say: the panel asks through a stop, the host takes the say, clears and gives it back") {
+  Life s;
+  s.ticks(2);
+  REQUIRE(key_arms(s));
+  s.in.stop = true;
+  s.ticks(1);
+  s.in.stop = false;
+  s.ticks(1);
+  REQUIRE(s.only(Fault::stop));
+  s.write(C::control, kHost);
+  s.command(C::command_clear_faults);
+  CHECK(s.out().faults == 0);
+  s.write(C::control, kPanel);
+  CHECK_FALSE(opens(s, 20));
+  CHECK(key_arms(s));
+  s.play();
+}
+
+TEST_CASE("say: a host that asks before it has the say asks in vain") {
+  Life s;
+  s.write(C::control, kPanel | kArm);
+  CHECK_FALSE(opens(s, 3));
+  s.write(C::control, kHost | kArm);
+  CHECK_FALSE(opens(s, 20));
+  s.write(C::control, kHost);
+  s.write(C::control, kHost | kArm);
+  CHECK(opens(s, 1));
+  s.write(C::control, kPanel);  // nobody asks at the panel
+  s.ticks(1);
+  CHECK_FALSE(s.out().gates_enable);
+  s.write(C::control, kHost | kArm);  // its bit was low: one word does
+  CHECK(opens(s, 1));
+  s.play();
+}
+
+TEST_CASE("say: a clear of faults while armed leaves what the encoder has shown") {
+  if (D::index_counts == 0) return;
+  Life s;
+  s.arm(D::S::free);
+  const auto index = [&s] {
+    s.in.encoder.z = true;
+    s.clocks(20);
+    s.in.encoder.z = false;
+    s.clocks(20);
+  };
+  index();
+  s.move(100, 40);  // a slip: the index comes again where it cannot be
+  s.command(C::command_clear_faults);
+  CHECK(s.out().armed);
+  index();
+  s.ticks(3);
+  CHECK(s.only(Fault::index));
+  s.play();
+}

@@ -206,6 +206,14 @@ std::string cpp_formula(const std::string& postfix,
       const std::string b = take(), a = take();
       stack.push_back(word == "min" ? fmt::format("({1} < {0} ? {1} : {0})", a, b)
                                     : fmt::format("({0} < {1} ? {1} : {0})", a, b));
+    } else if (word == "not") {
+      stack.push_back("(!" + take() + ")");
+    } else if (word == "?") {
+      const std::string no = take(), yes = take();
+      stack.push_back(fmt::format("({} ? {} : {})", take(), yes, no));
+    } else if (word == "<" || word == "and" || word == "or") {
+      const std::string b = take(), a = take();
+      stack.push_back("(" + a + (word == "<" ? " < " : word == "and" ? " && " : " || ") + b + ")");
     } else if (word == "+" || word == "-" || word == "*" || word == "/") {
       const std::string b = take(), a = take();
       stack.push_back("(" + a + " " + word + " " + b + ")");

@@ -43,15 +43,23 @@ double evaluate_formula(const std::string& formula, const ValueOf& value_of) {
       stack.push_back(std::sin(take()));
     } else if (word == "cos") {
       stack.push_back(std::cos(take()));
+    } else if (word == "not") {
+      stack.push_back(take() == 0 ? 1 : 0);
+    } else if (word == "?") {
+      const double no = take(), yes = take();
+      stack.push_back(take() != 0 ? yes : no);
     } else if (word == "+" || word == "-" || word == "*" || word == "/" || word == "min" ||
-               word == "max") {
+               word == "max" || word == "<" || word == "and" || word == "or") {
       const double b = take(), a = take();
       stack.push_back(word == "+"     ? a + b
                       : word == "-"   ? a - b
                       : word == "*"   ? a * b
                       : word == "/"   ? a / b
                       : word == "min" ? std::min(a, b)
-                                      : std::max(a, b));
+                      : word == "max" ? std::max(a, b)
+                      : word == "<"   ? (a < b ? 1 : 0)
+                      : word == "and" ? (a != 0 && b != 0 ? 1 : 0)
+                                      : (a != 0 || b != 0 ? 1 : 0));
     } else {
       stack.push_back(value_of(word));
     }

@@ -16,6 +16,19 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+std::string number(double value) {
+  return value < 0 ? fmt::format("{:.17g} neg", -value) : fmt::format("{:.17g}", value);
+}
+
+/// The element that an index names, of those from `first` to `last`: halves are told apart.
+std::string one_of(const std::vector<double>& values, std::size_t first, std::size_t last,
+                   const std::string& index) {
+  if (first == last) return number(values[first]);
+  const std::size_t middle = (first + last) / 2;
+  return fmt::format("{} {} < {} {} ?", index, middle + 1, one_of(values, first, middle, index),
+                     one_of(values, middle + 1, last, index));
+}
+
 /// A node of parameters in postfix, for ImageWord::formula.
 std::string postfix(const Law& law, NodeId id) {
   const Node& n = law.nodes[at(id)];
@@ -23,7 +36,7 @@ std::string postfix(const Law& law, NodeId id) {
   const auto two = [&](const char* op) { return arg(0) + " " + arg(1) + " " + op; };
   switch (n.op) {
     case Op::constant:
-      return n.value < 0 ? fmt::format("{:.17g} neg", -n.value) : fmt::format("{:.17g}", n.value);
+      return number(n.value);
     case Op::parameter: {
       const Parameter& p = law.parameters[at(n.index)];
       return p.derived >= 0 ? postfix(law, p.derived) : p.name;
@@ -52,9 +65,23 @@ std::string postfix(const Law& law, NodeId id) {
       return arg(0) + " cos";
     case Op::reciprocal:
       return "1 " + arg(0) + " /";
+    case Op::less:
+      return two("<");
+    case Op::both:
+      return two("and");
+    case Op::either:
+      return two("or");
+    case Op::opposite:
+      return arg(0) + " not";
+    case Op::select:
+      return arg(0) + " " + arg(1) + " " + arg(2) + " ?";
+    case Op::element: {
+      const std::vector<double>& values = law.arrays[at(n.index)].values;
+      return one_of(values, 0, values.size() - 1, arg(0));
+    }
     default:
       throw Refused(n.place, "the host cannot compute this from parameters",
-                    "write it without conditions");
+                    "write it without a table");
   }
 }
 

@@ -338,14 +338,7 @@ std::vector<char> fixed_nodes(const Law& law) {
         break;
       case Op::input:
       case Op::state:
-      case Op::lookup:
-      case Op::element:
       case Op::line_read:
-      case Op::less:
-      case Op::both:
-      case Op::either:
-      case Op::opposite:
-      case Op::select:
         break;
       default:
         fixed[i] = 1;

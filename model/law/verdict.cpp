@@ -132,8 +132,9 @@ Verdict verdict(const Compiled& c, const Measured& m) {
     const double bound = m.all_inputs ? c.bound.as_set[o] : c.bound.output[o];
     if (o < m.output.size() && !(m.output[o] <= bound * (1 + 1e-9) + 1e-9)) {
       v.failures.push_back(
-          fmt::format("{}: {:.3g} Nm from the law was measured, the bound is {:.3g}", name,
-                      m.output[o], bound));
+          fmt::format("{}: {:.3g} Nm from the law was measured, the bound is {:.3g}: an error of "
+                      "the compiler, not of the law; please report it",
+                      name, m.output[o], bound));
     }
     const double share = c.bound.output[o] / spans[o].width();
     if (c.bound.output[o] > lsb && share > kLargeShare) {

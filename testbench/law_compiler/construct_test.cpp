@@ -116,6 +116,49 @@ TEST_CASE("phases, delay lines and events run on as the law does") {
   require_within(c, true);
 }
 
+// A sum of parameters alone with a condition, or an element, that is multiplied.
+TEST_CASE("what only depends on parameters keeps its terms") {
+  const std::string way = "let way = if side < 0 then -1 else 1\n";
+  const std::string parameters =
+      "param p = 1 in 0.1 .. 1\nparam side = 1 in -1 .. 1\nparam k = 1 in 0 .. 3 whole\n"
+      "array steps = [0.1, -0.2, 0.05, 0.3]\n";
+  const std::vector<std::string> formulas = {
+      "sgn(p) * p + 0.01",
+      "sgn(side) * p + 0.1",
+      "if position > 0.5 then way * p + 0.1 else 0",
+      "if position > 0.5 then 2 * (way * p + 0.1) else -p * (way - 0.25)",
+      "p * (steps[k] + 0.1)",
+      "steps[k]",
+      "steps[k + side] * clamp(position, -1, 1)",
+      "clamp(position, -1, 1) * (if p < side and side < 0.9 then p else side - 0.3)",
+      "min(clamp(position, -1, 1), 2 * (if not (p < 0.3) or side < 0 then p else way + 0.2))"};
+  for (const std::string& formula : formulas) {
+    INFO(formula);
+    // Every name is used, and nothing of it is seen.
+    const std::string text = parameters + way + "out torque = 1 Nm * (" + formula +
+                             " + 0 * (p + side + k + way + steps[0]))\n";
+    const Compiled c = compiled(text);
+    CHECK(c.bound.output[0] < 2e-4);
+    require_within(c, false);
+  }
+}
+
+TEST_CASE("an event's value that only depends on parameters keeps its terms") {
+  const Compiled c = compiled(
+      "param p = 0.5 in -1 .. 1\nevent hit(2 * (sgn(p) * p + 0.25)) when position > 0.5\n"
+      "out torque = 0.1 Nm * clamp(position, -1, 1)\n");
+  EngineMemory memory;
+  memory.program = c.image.program;
+  memory.data = c.image.data;
+  memory.table = c.image.table;
+  Machine machine(memory);
+  MachineInputs inputs{};
+  inputs[0] = 400;
+  const MachineRun hit = machine.run(0, inputs);
+  REQUIRE(hit.events.size() == 1);
+  CHECK(hit.events[0].value * c.image.events[0].scale == Approx(1.5).margin(1e-4));
+}
+
 TEST_CASE("an event is one run's: where its condition becomes true") {
   const Compiled c = compiled(
       "event hit(velocity) when position > 0.5\nevent low(position) when position < -1\n"

@@ -109,7 +109,11 @@ TEST_CASE("a formula is postfix") {
   CHECK(evaluate_formula("a b *", value) == 12);
   CHECK(evaluate_formula("1 a b + /", value) == 1.0 / 7);
   CHECK(evaluate_formula("a neg b max sqrt", value) == 2);
+  CHECK(evaluate_formula("a b < 5 6 ?", value) == 5);
+  CHECK(evaluate_formula("a b < not a 3 < not and 5 6 ?", value) == 6);
+  CHECK(evaluate_formula("b a < a 4 < or 5 6 ?", value) == 5);
   CHECK_THROWS(evaluate_formula("a b", value));
+  CHECK_THROWS(evaluate_formula("a b < 5 ?", value));
   CHECK_THROWS(evaluate_formula("a *", value));
 }
 

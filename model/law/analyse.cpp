@@ -27,6 +27,7 @@ namespace analysis {
 CellFacts Analysis::run() {
   facts_.steps.resize(program_.steps.size());
   facts_.margin.assign(program_.steps.size(), 0);
+  wrong_.assign(program_.steps.size(), 0);
   if (explain_) facts_.reasons.resize(program_.steps.size());
   facts_.output_error.assign(law_.outputs.size(), 0);
   facts_.output_apart.assign(law_.outputs.size(), 0);
@@ -41,6 +42,8 @@ CellFacts Analysis::run() {
     step_ = static_cast<int>(i);
     why_ = {};
     Fact f = result(program_.steps[i]);
+    // Two whole numbers are apart by a whole number.
+    if (program_.steps[i].whole) f.error = std::floor(f.error);
     narrow_by_law(program_.steps[i], &f);
     if (explain_) facts_.reasons[i] = why_;
     if (f.words.empty()) facts_.reachable = false;
@@ -57,6 +60,12 @@ CellFacts Analysis::run() {
   }
   states();
   return facts_;
+}
+
+void Analysis::margin(double words) {
+  facts_.margin[at(step_)] = words;
+  const bool wider = margins_ != nullptr && words > (*margins_)[at(step_)];
+  wrong_[at(step_)] = step_ == swap_ || wider ? 1 : 0;
 }
 
 Fact Analysis::operand(const Operand& o, double extra) {
@@ -169,8 +178,15 @@ Fact Analysis::result(const Step& s) {
       return checked(
           {{acc.words.lo + m.words.lo, acc.words.hi + m.words.hi}, raised_sum(acc.error, m.error)});
     }
-    case EngineOp::mlw:
-      return wrapped(multiplied(s, x, y, false));
+    case EngineOp::mlw: {
+      Fact f = wrapped(multiplied(s, x, y, false));
+      if (s.floors < 0) return f;
+      // Beside a whole number both may round down to another one; else to the same.
+      f.error = 0;
+      if (x.error > 0) margin(x.error);
+      if (wrong(step_)) f.error = std::ceil(x.error / power(s.mode)) + 1;
+      return f;
+    }
     case EngineOp::min: {
       const Fact f{least(x.words, y.words), std::max(x.error, y.error)};
       if (x.words.hi + x.error <= y.words.lo - y.error) return only(x, 1);
@@ -249,8 +265,9 @@ void Analysis::require(const Fact& f, double lower, double upper, double scale, 
 
 CellFacts analyse(const Law& law, const Target& target, const Program& program, const Cell& cell,
                   const std::vector<double>& state_error, int swap, const std::vector<Span>* spans,
-                  bool explain) {
-  return analysis::Analysis(law, target, program, cell, state_error, swap, spans, explain).run();
+                  bool explain, const std::vector<double>* margins) {
+  return analysis::Analysis(law, target, program, cell, state_error, swap, spans, explain, margins)
+      .run();
 }
 
 }  // namespace feltgate::law

@@ -39,8 +39,9 @@ Fact Analysis::table_result(const Step& s, const Fact& x) {
     if (x.words.lo < 0 || x.words.hi >= 4096.0 * static_cast<double>(t.words.size())) {
       fail("its index can leave the line");
     }
-    return {t.values,
-            state_error_[law_.states.size() + at(t.line)] / program_.lines[at(t.line)].scale};
+    const double error =
+        state_error_[law_.states.size() + at(t.line)] / program_.lines[at(t.line)].scale;
+    return {t.values, error + (x.error > 0 ? t.values.width() : 0)};
   }
   const double first = std::floor(x.words.lo / 4096) + s.offset - t.low;
   const double end = std::floor(x.words.hi / 4096) + s.offset - t.low;
@@ -71,8 +72,8 @@ Fact Analysis::table_result(const Step& s, const Fact& x) {
     if (x.error > 0) f.error += t.jump * (1 + (near ? 0 : x.error / 4096));
     f.error = raised(f.error + 0.5);
   } else if (x.error > 0) {
-    facts_.margin[at(step_)] = x.error;
-    if (swap_ == step_) f.error += t.values.width();
+    margin(x.error);
+    if (wrong(step_)) f.error += t.values.width();
   }
   return f;
 }
@@ -114,7 +115,7 @@ Fact Analysis::selected(const Step& s, const Fact& x, const Fact& y) {
     if (c.mode == 3) f.words = hull(given(s.x, c, false), given(s.y, c, true));
   }
   // The law may have gone the other way even where the words are sure.
-  if (std::find(sources_.begin(), sources_.end(), swap_) != sources_.end()) {
+  if (std::any_of(sources_.begin(), sources_.end(), [this](int c) { return wrong(c); })) {
     f.error = std::max(x.error, y.error) +
               std::max(std::fabs(x.words.hi - y.words.lo), std::fabs(y.words.hi - x.words.lo));
   }
@@ -129,8 +130,8 @@ Fact Analysis::flipped(const Fact& x, const Fact& y) {
     f.words = hull(y.words, -y.words);
   }
   if (x.error > 0 && x.words.lo <= x.error && x.words.hi >= -x.error) {
-    facts_.margin[at(step_)] = x.error;
-    if (swap_ == step_) f.error += 2 * y.words.size();
+    margin(x.error);
+    if (wrong(step_)) f.error += 2 * y.words.size();
   }
   return f;
 }
@@ -157,10 +158,17 @@ Fact Analysis::compared(const Step& s, const Fact& x, const Fact& y) {
   sources_.push_back(step_);
   // Truth values of comparisons that were kept bring their own.
   if (s.y.from == From::step && program_.steps[at(s.y.index)].op == EngineOp::cmp) {
-    sources_.push_back(s.y.index);
+    const std::vector<int>& more = kept_[s.y.index];
+    sources_.insert(sources_.end(), more.begin(), more.end());
   }
+  kept_[step_] = sources_;
   const double apart = std::max(y.words.lo - x.words.hi, x.words.lo - y.words.hi);
-  if (apart <= x.error + y.error) facts_.margin[at(step_)] = x.error + y.error;
+  // The law compares with the number itself, which is beside its word.
+  double beside = 0;
+  for (const Operand& o : {s.x, s.y}) {
+    if (o.from == From::constant) beside += std::fabs(program_.constants[at(o.index)] - o.exact);
+  }
+  if (apart <= x.error + y.error + beside) margin(x.error + y.error);
   return {flag_, 0};
 }
 

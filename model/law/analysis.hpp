@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,7 @@ class Analysis {
  public:
   Analysis(const Law& law, const Target& target, const Program& program, const Cell& cell,
            const std::vector<double>& state_error, int swap, const std::vector<Span>* spans,
-           bool explain)
+           bool explain, const std::vector<double>* margins)
       : law_(law),
         target_(target),
         program_(program),
@@ -38,12 +39,17 @@ class Analysis {
         state_error_(state_error),
         swap_(swap),
         explain_(explain),
+        margins_(margins),
         spans_(spans != nullptr ? *spans : ranges(law, cell)) {}
   CellFacts run();
 
  private:
   void fail(const std::string& reason) { facts_.unproven.push_back({step_, -1, reason}); }
 
+  /// Of the step at hand, words within which law and words may go different ways.
+  void margin(double words);
+  /// Whether they go different ways there, in what is looked at.
+  bool wrong(int step) const { return swap_ >= 0 && wrong_[at(step)] != 0; }
   Fact operand(const Operand& o, double extra);
   Fact checked(const Fact& f);
   Fact multiplied(const Step& s, const Fact& x, const Fact& y, bool rounds);
@@ -70,12 +76,15 @@ class Analysis {
   const std::vector<double>& state_error_;
   int swap_;
   bool explain_;
+  const std::vector<double>* margins_;
   Reason why_;  ///< of the step at hand
   std::vector<Span> spans_;
   CellFacts facts_;
   int step_ = 0;
   Span flag_{0, 1};
-  std::vector<int> sources_;
+  std::vector<char> wrong_;
+  std::vector<int> sources_;              ///< comparisons that the flag is made of
+  std::map<int, std::vector<int>> kept_;  ///< the same of every comparison's result
 };
 
 }  // namespace feltgate::law::analysis

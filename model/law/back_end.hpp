@@ -117,6 +117,8 @@ class BackEnd {
   void flag(NodeId condition);
   int raise(NodeId condition, bool opposite);
   bool simple(NodeId condition, bool opposite) const;
+  Operand threshold(double exact, bool above);
+  Value compared(NodeId leaf, int side, double scale, double* error);
   void compare(NodeId leaf, int mode);
 
   // functions.cpp
@@ -139,6 +141,9 @@ class BackEnd {
   void events();
   void states();
   bool whole(NodeId id) const;
+  /// What is a whole number, in words of 1; what is rounded down to one.
+  Operand whole_word(NodeId id);
+  Operand rounded_down(NodeId id);
   Value next_state(const State& s, double scale);
   double state_unit(NodeId id, int depth) const;
   void finish();

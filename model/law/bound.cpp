@@ -93,12 +93,12 @@ class Bounds {
   }
 
  private:
-  CellFacts facts(const Cell& c, int swap = -1) const {
-    return limited(analyse(law_, target_, program_, c, errors_, swap));
+  CellFacts facts(const Cell& c) const {
+    return limited(analyse(law_, target_, program_, c, errors_));
   }
 
-  CellFacts whole_facts(const Cell& c, int swap = -1) const {
-    return limited(analyse(law_, target_, program_, c, errors_, swap, &whole_));
+  CellFacts whole_facts(const Cell& c) const {
+    return limited(analyse(law_, target_, program_, c, errors_, -1, &whole_));
   }
 
   /// A search of formats goes by the errors themselves, as they do not end at a range.
@@ -225,10 +225,12 @@ class Bounds {
         }
         continue;
       }
-      const CellFacts swapped = whole_facts(whole, static_cast<int>(i));
+      const CellFacts swapped = limited(analyse(law_, target_, program_, whole, errors_,
+                                                static_cast<int>(i), &whole_, false, &base.margin));
       Strip s;
       s.condition = program_.steps[i].condition;
       s.step = static_cast<int>(i);
+      s.floors = program_.steps[i].floors;
       s.place = program_.steps[i].place;
       const double own = program_.steps[i].margin_scale;
       s.width = base.margin[i] * (own != 0 ? own : program_.steps[i].scale);

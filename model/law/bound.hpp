@@ -55,17 +55,20 @@ struct CellFacts {
 std::string beyond_text(double value, double lower, double upper);
 
 /// `state_error`: how far the states may be from the law's before the run, SI. `swap`: that
-/// comparison may go wrong, so what it selects may be off by all that it chooses from; -1: none.
-/// `spans`: the ranges of the law over the cell where they are known already. `explain`: with
+/// comparison may go wrong, so what it selects may be off by all that it chooses from, and with it
+/// every comparison whose margin is then wider than in `margins`, which are those without; -1:
+/// none. `spans`: the ranges of the law over the cell where they are known already. `explain`: with
 /// CellFacts::reasons.
 CellFacts analyse(const Law& law, const Target& target, const Program& program, const Cell& cell,
                   const std::vector<double>& state_error, int swap = -1,
-                  const std::vector<Span>* spans = nullptr, bool explain = false);
+                  const std::vector<Span>* spans = nullptr, bool explain = false,
+                  const std::vector<double>* margins = nullptr);
 
 /// A comparison beside which outputs may differ by more than the bound.
 struct Strip {
   NodeId condition = -1;
   int step = -1;  ///< Program::steps
+  NodeId floors = -1;  ///< >= 0: where this node's value is beside a whole number
   Place place;
   double width = 0;  ///< either side, in `unit`
   Unit unit;

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Truth values: comparisons that set the flag. Documentation: docs/law-compiler.md
+#include <cmath>
+
 #include "law/back_end.hpp"
 
 namespace feltgate::law {
@@ -14,9 +16,9 @@ void BackEnd::lower_leaves(NodeId condition) {
       if (!is_fixed(a)) (void)value(a);
     }
     const double scale = common_scale(condition, n.arguments, 0, false);
-    for (const NodeId a : n.arguments) {
+    for (const int side : {0, 1}) {
       double error = 0;
-      (void)at_scale(a, scale, &error);
+      (void)compared(condition, side, scale, &error);
     }
     return;
   }
@@ -26,12 +28,31 @@ void BackEnd::lower_leaves(NodeId condition) {
   for (const NodeId a : n.arguments) lower_leaves(a);
 }
 
+/// A word is below a number where it is below the next whole one, and above a number where it is
+/// above the whole one before.
+Operand BackEnd::threshold(double exact, bool above) {
+  const double near = std::nearbyint(exact);
+  const bool whole = std::fabs(exact - near) <= 1e-12 * std::fabs(exact);
+  Operand o = constant(whole ? near : above ? std::ceil(exact) : std::floor(exact));
+  o.exact = exact;
+  return o;
+}
+
+/// A side of a comparison, as a word or constant of this scale.
+Value BackEnd::compared(NodeId leaf, int side, double scale, double* error) {
+  const NodeId id = node(leaf).arguments[static_cast<std::size_t>(side)];
+  Term term;
+  if (is_fixed(id)) gather(id, true, term);
+  if (!is_fixed(id) || !term.fixed.empty()) return at_scale(id, scale, error);
+  return {threshold(term.number / scale, side == 1), scale, std::fabs(term.number)};
+}
+
 void BackEnd::compare(NodeId leaf, int mode) {
   const Node& n = node(leaf);
   const double scale = common_scale(leaf, n.arguments, 0, false);
   double x_error = 0, y_error = 0;
-  const Value x = at_scale(n.arguments[0], scale, &x_error);
-  const Value y = at_scale(n.arguments[1], scale, &y_error);
+  const Value x = compared(leaf, 0, scale, &x_error);
+  const Value y = compared(leaf, 1, scale, &y_error);
   Step& s = emit(EngineOp::cmp, mode, x.operand, y.operand, scale, leaf);
   s.x_error = x_error;
   s.y_error = y_error;

@@ -18,8 +18,9 @@ Value BackEnd::element(NodeId id) {
   const Node& n = node(id);
   const Array& array = law_.arrays[at(n.index)];
   const double last_index = static_cast<double>(array.values.size()) - 1;
-  Value v = value(n.arguments[0]);
   const Span range = span(n.arguments[0]);
+  Value v = whole(n.arguments[0]) ? Value{whole_word(n.arguments[0]), 1, range.size()}
+                                  : value(n.arguments[0]);
   v = align(v, 1.0 / 4096, n.arguments[0]);
   if (range.lo < 0) {
     emit(EngineOp::max, 0, v.operand, constant(0), v.scale, id);
@@ -57,6 +58,7 @@ Value BackEnd::element(NodeId id) {
   s.table = index;
   s.node = id;
   s.condition = id;
+  s.floors = n.arguments[0];
   s.margin_scale = v.scale;
   return {last(), scale, 0};
 }

@@ -64,6 +64,7 @@ class Search {
     try {
       c.program = lower(law_, target_, spans_, c.choice);
       mark_primary(law_, c.program);
+      require_whole(c.program);
       const Bound b = bound(law_, target_, c.program, 0, &spans_);
       c.cost = cost(law_, target_, c.program, b, spans_);
       c.unproven = b.unproven;
@@ -73,6 +74,20 @@ class Search {
     made_ = std::move(c.choice.made);
     c.choice.made.clear();
     return c;
+  }
+
+  /// Where a whole state counts on it, a whole parameter's words stand for whole numbers.
+  void require_whole(const Program& program) const {
+    const bool any = std::any_of(program.steps.begin(), program.steps.end(),
+                                 [](const Step& s) { return s.whole; });
+    for (const Word& w : program.words) {
+      const Node& n = law_.nodes[static_cast<std::size_t>(w.nodes[0])];
+      if (!any || !w.primary || !law_.parameters[static_cast<std::size_t>(n.index)].whole) continue;
+      const double words = 1 / std::fabs(w.scale);
+      if (std::fabs(words - std::nearbyint(words)) > 1e-9 * words || words < 0.5) {
+        throw Unfit("a whole parameter counts in parts of one", w.nodes[0]);
+      }
+    }
   }
 
   static bool keep(Candidate& best, Candidate&& c) {

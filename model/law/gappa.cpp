@@ -38,7 +38,7 @@ std::vector<GappaLemma> Cutter::run() {
 
 bool Cutter::plain(int i) const {
   const Step& s = steps_[at(i)];
-  if (why(i).between || !why(i).law.empty()) return false;
+  if (why(i).between || !why(i).law.empty() || s.whole) return false;
   return (s.op == EngineOp::add && (s.mode & 1) == 0) || s.op == EngineOp::sub ||
          s.op == EngineOp::mul || s.op == EngineOp::mac;
 }
@@ -217,7 +217,10 @@ void Cutter::require(const std::string& word, const std::string& law) {
     wanted_.insert(steps_[at(n_)].node);
   }
   if (!wraps(fact(n_))) want(fmt::format("{} {}", word, within(fact(n_).words)));
-  if (word != law) want(fmt::format("{} - {} {}", word, law, within(fact(n_).error)));
+  // Of whole numbers, less than the next one; what is rounded down is alike beyond its margin.
+  const Step& s = steps_[at(n_)];
+  const double e = s.whole ? down(fact(n_).error + 1) : fact(n_).error;
+  if (word != law && s.floors < 0) want(fmt::format("{} - {} {}", word, law, within(e)));
   if (goals_.empty()) want("0 in [0,0]");
 }
 

@@ -55,9 +55,7 @@ Value BackEnd::line_read(NodeId id) {
         throw Refused(n.place, "a delay that only depends on parameters",
                       "make it a state or a mailbox, or a number");
       }
-      const Value v = align(value(n.arguments[0]), 1 / place, n.arguments[0]);
-      emit(EngineOp::mlw, 1, v.operand, constant(1), 1, id);
-      emit(EngineOp::max, 0, last(), constant(1), 1, id);
+      emit(EngineOp::max, 0, rounded_down(n.arguments[0]), constant(1), 1, id);
       emit(EngineOp::min, 0, last(), constant(length), 1, id);
       emit(EngineOp::mul, 0, last(), constant(place), 1 / place, id);
       ago = last();

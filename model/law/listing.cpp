@@ -70,9 +70,11 @@ std::string strips(const Compiled& c) {
     const std::string unit = text_of(strip.unit);
     s += fmt::format("strip: line {}, column {}: ", strip.place.line, strip.place.column) +
          fmt::format(
-             "within {:.3g}{}{} of equal the comparison may go either way; outputs may "
-             "then differ by {:.3g} Nm\n",
-             strip.width, unit.empty() ? "" : " ", unit, jump);
+             "within {:.3g}{}{} of {} may go either way; outputs may then differ by "
+             "{:.3g} Nm\n",
+             strip.width, unit.empty() ? "" : " ", unit,
+             strip.floors >= 0 ? "a whole number what is rounded down" : "equal the comparison",
+             jump);
   }
   return s;
 }

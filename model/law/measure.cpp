@@ -81,7 +81,8 @@ class Meter {
     const MachineRun& run = machine_.run_seen(
         c_.target.thread, inputs, 100000, [&](int address, std::int32_t x, std::int32_t y) {
           const Strip* s = strips_[at(address - c_.target.thread * EngineMap::thread_words)];
-          otherwise = otherwise || (s != nullptr && crossed(*s, x, y));
+          otherwise =
+              otherwise || (s != nullptr && crossed(*s, x, y) && (free_running || shows(*s)));
         });
     ++result_.runs;
     if (otherwise) {
@@ -119,17 +120,25 @@ class Meter {
                                               : std::ldexp(1.0, -c_.target.torque.fraction);
   }
 
+  /// What only the next run shows is no matter where that begins as the words say.
+  static bool shows(const Strip& s) {
+    return std::any_of(s.jump.begin(), s.jump.end(), [](double j) { return j > 0; });
+  }
   /// The law, within the strip, goes the other way than an instruction with these operands.
   bool crossed(const Strip& s, std::int32_t x, std::int32_t y) const {
     const Node& n = c_.law.nodes[at(s.condition)];
-    const double a = law_.value(n.arguments[0]), width = s.width * (1 + 1e-9);
-    if (n.op == Op::element) {
-      const double most = static_cast<double>(c_.law.arrays[at(n.index)].values.size()) - 1;
-      const double index = std::clamp(std::floor(a), 0.0, most);
+    const double width = s.width * (1 + 1e-9);
+    if (s.floors >= 0) {
+      const double a = law_.value(s.floors);
+      double index = std::floor(a);
+      if (n.op == Op::element) {
+        const double most = static_cast<double>(c_.law.arrays[at(n.index)].values.size()) - 1;
+        index = std::clamp(index, 0.0, most);
+      }
       return std::fabs(a - std::nearbyint(a)) <= width && std::floor(x / 4096.0) != index;
     }
     if (n.op != Op::less) return false;
-    const double b = law_.value(n.arguments[1]);
+    const double a = law_.value(n.arguments[0]), b = law_.value(n.arguments[1]);
     const bool turns = c_.program.steps[at(s.step)].op == EngineOp::abs;
     return std::fabs(a - b) <= width && (x < (turns ? 0 : y)) != (a < b);
   }

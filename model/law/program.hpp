@@ -47,6 +47,8 @@ struct Step {
   int skip = 0;        ///< of BRF: steps that it may pass over
   int condition = -1;  ///< of CMP and SEL: the law's node of the condition
   double margin_scale = 0;  ///< of what ABS takes the sign from, where not `scale`
+  NodeId floors = -1;       ///< this node's value is rounded down here to a whole number
+  bool whole = false;       ///< the law's value is a whole number of words
   Place place;
 };
 

@@ -99,8 +99,10 @@ bool BackEnd::whole(NodeId id) const {
   switch (n.op) {
     case Op::constant:
       return std::floor(n.value) == n.value;
-    case Op::parameter:
-      return law_.parameters[at(n.index)].whole;
+    case Op::parameter: {
+      const Parameter& p = law_.parameters[at(n.index)];
+      return p.derived >= 0 ? whole(p.derived) : p.whole;
+    }
     case Op::state:
       return law_.states[at(n.index)].whole;
     case Op::select:
@@ -119,19 +121,37 @@ bool BackEnd::whole(NodeId id) const {
   }
 }
 
+Operand BackEnd::whole_word(NodeId id) {
+  double error = 0;
+  Operand o = is_fixed(id) ? at_scale(id, 1, &error).operand : align(value(id), 1, id).operand;
+  if (o.from == From::word) {
+    emit(EngineOp::add, 0, o, constant(0), 1, id);
+    o = last();
+  }
+  if (o.from == From::step) program_.steps[at(o.index)].whole = true;
+  return o;
+}
+
+Operand BackEnd::rounded_down(NodeId id) {
+  constexpr double fine = 1.0 / 4096;
+  if (node(id).op == Op::constant) return constant(std::floor(node(id).value));
+  double error = 0;
+  const Value v = at_scale(id, fine, &error);
+  Step& s = emit(EngineOp::mlw, 1, v.operand, constant(1), 1, id);
+  s.floors = id;
+  s.condition = id;
+  s.margin_scale = fine;
+  return last();
+}
+
 Value BackEnd::next_state(const State& s, double scale) {
   double error = 0;
   if (s.whole) {
     // Rounded down, as the file's language does.
-    if (is_fixed(s.next)) return at_scale(s.next, scale, &error);
-    const Value v = value(s.next);
-    if (same_scale(v.scale, 1)) {
-      if (!whole(s.next)) throw Unfit("a value that is rounded down needs fraction bits", s.next);
-      return align(v, scale, s.next);
-    }
-    const Value fine = align(v, 1.0 / 4096, s.next);
-    emit(EngineOp::mlw, 1, fine.operand, constant(1), 1, s.next);
-    return align({last(), 1, v.size}, scale, s.next);
+    const double size = span(s.next).size();
+    if (is_fixed(s.next) && whole(s.next)) return at_scale(s.next, scale, &error);
+    const Operand down = whole(s.next) ? whole_word(s.next) : rounded_down(s.next);
+    return align({down, 1, size}, scale, s.next);
   }
   Value v = at_scale(s.next, scale, &error);
   if (!s.phase) return v;
@@ -143,7 +163,7 @@ Value BackEnd::next_state(const State& s, double scale) {
   }
   const Operand turn = constant(width / scale);
   if (n.hi >= s.range.upper) {
-    const Operand end = constant(s.range.upper / scale);
+    const Operand end = threshold(s.range.upper / scale, true);
     emit(EngineOp::sub, 0, v.operand, turn, scale, s.next);
     const Operand less = last();
     emit(EngineOp::cmp, 0, v.operand, end, scale, s.next).condition = s.next;
@@ -151,7 +171,7 @@ Value BackEnd::next_state(const State& s, double scale) {
     v.operand = last();
   }
   if (n.lo < s.range.lower) {
-    const Operand end = constant(s.range.lower / scale);
+    const Operand end = threshold(s.range.lower / scale, true);
     emit(EngineOp::add, 0, v.operand, turn, scale, s.next);
     const Operand more = last();
     emit(EngineOp::cmp, 0, v.operand, end, scale, s.next).condition = s.next;

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Where words and law may go different ways: nowhere but within a strip that is told.
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+
+#include "law/measure.hpp"
+
+namespace feltgate::law {
+namespace {
+
+Compiled compiled(const std::string& text) { return compile_text(text, "x.law", Target{}); }
+
+/// Few runs are left out, the others within the bound.
+void require_within(const Compiled& c, std::int64_t runs) {
+  const Measured m = measure(c, 5, runs);
+  INFO("measured " << m.output[0] << ", bound " << c.bound.output[0]);
+  CHECK(m.in_strips * 20 <= m.runs);
+  CHECK(m.output[0] <= c.bound.output[0] * (1 + 1e-9) + 1e-8);
+  CHECK(c.bound.output[0] < 5e-5);
+}
+
+// A comparison that only changes another one, and truth values that are kept for a while.
+TEST_CASE("comparisons of comparisons have strips") {
+  const std::string parameters = "param q = 0 in -1 .. 1\n";
+  for (const std::string formula :
+       {"if (if 0.02 s * velocity < position - q then 1 + q else q - 1) < 0.3 * q then 0.5 else "
+        "-0.5",
+        "if (if 0.02 s * velocity < position - q then q else 0.9) > 0.5 * q + 0.2 and position < 1 "
+        "then 0.5 else -0.5",
+        "sgn((if 0.02 s * velocity < 0.7 * position then 1 else -1) * 0.3 + 0.2 * q)",
+        "if (0.02 s * velocity < 0.7 * position or 0.03 s * velocity > q) and"
+        " (0.05 s * velocity < 0.3 * position or 0.07 s * velocity > 2 * q) then 0.5 else -0.5"}) {
+    INFO(formula);
+    const Compiled c = compiled(parameters + "out torque = 1 Nm * (" + formula + ")\n");
+    require_within(c, 20000);
+  }
+}
+
+// What is exact is compared exactly, however coarse its step: four comparisons, either side.
+void require_thresholds(const std::string& declared, const std::string& what,
+                        const std::vector<double>& thresholds) {
+  for (const double threshold : thresholds) {
+    for (const char* comparison : {"<", "<=", ">", ">="}) {
+      for (const bool left : {false, true}) {
+        const std::string number = fmt::format("({})", threshold);
+        const std::string condition =
+            left ? number + comparison + what : what + comparison + number;
+        INFO(declared << condition);
+        const Compiled c =
+            compiled(declared + "out torque = if " + condition + " then 0.4 Nm else -0.3 Nm\n");
+        require_within(c, 600);
+      }
+    }
+  }
+}
+
+TEST_CASE("whole states are compared as the law does") {
+  const std::pair<int, int> ranges[] = {{0, 1}, {0, 3}, {-2, 2}, {-5, -1}, {1, 7}, {0, 100}};
+  for (const auto& [low, high] : ranges) {
+    const std::string declared = fmt::format(
+        "state stage = {0} in {0} .. {1} whole\n"
+        "next stage = if position > 0.3 then {0} + 1 else if position < -0.3 then {0} else "
+        "min(stage + 1, {1})\n",
+        low, high);
+    require_thresholds(declared, "stage", {low + 0.5, high - 0.5, low + 0.25, high - 1.0});
+  }
+}
+
+TEST_CASE("what else is exact is compared as the law does") {
+  require_thresholds("", "position", {0.5, -0.1234, 0.0007});
+  require_thresholds("", "(velocity * 1 s)", {0.0000003, -2.7});
+  require_thresholds("state stage = 0 in 0 .. 5 whole\nnext stage = clamp(3 * position, 0, 5)\n",
+                     "stage", {0.5, 2.75});
+  require_thresholds(
+      "param k = 2 in 0 .. 5 whole\nstate stage = 0 in 0 .. 5 whole\n"
+      "next stage = if position > 0 then k else 0\n",
+      "stage", {0.5, 2.75});
+  require_thresholds("phase turned = 0.2 in 0.1 .. 1.3\nnext turned = turned + 0.07\n", "turned",
+                     {0.5, 1.03});
+  require_thresholds(
+      "param k = 2 in 0 .. 5 whole\nparam edge = 0.5 in 0 .. 5\n"
+      "state stage = 0 in 0 .. 5 whole\nnext stage = min(stage + 1, k)\n",
+      "(edge - stage)", {0.5});
+}
+
+TEST_CASE("a delay that is computed has a strip") {
+  const Compiled c = compiled(
+      "rate = 40 kHz\nline past[10] in -1 .. 1 Nm\n"
+      "next past = clamp(position, -1, 1) * 1 Nm\n"
+      "out torque = past[clamp(3 + 0.37 * velocity * 1 s, 1, 9)]\n");
+  CHECK(c.bound.strips.size() == 1);
+  require_within(c, 20000);
+}
+
+}  // namespace
+}  // namespace feltgate::law

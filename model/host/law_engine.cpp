@@ -69,6 +69,7 @@ EngineStatus LawEngine::status() {
   s.late = bit(words[0], E::S::status_late);
   s.mailbox_late = bit(words[0], E::S::status_mailbox_late);
   s.overrun = bit(words[0], E::S::status_overrun);
+  s.dropped = bit(words[0], E::S::status_dropped);
   s.bank = bit(words[0], E::S::status_bank) ? 1 : 0;
   s.refused_word = static_cast<int>(words[1]);
   return s;
@@ -280,10 +281,22 @@ void LawEngine::commit(const std::vector<law::HostWord>& writes) {
     }
     return s;
   };
-  (void)wait("the engine is still busy with the commit before; does the law run?");
+  constexpr std::uint32_t commits = 1, forgets = 2;  // bits of H::commit
+  const auto complete = [&](const EngineStatus& s) {
+    if (!s.dropped) return;
+    write(H::commit, forgets);
+    throw Refused(
+        "a word for the engine was dropped: another program commits sets of parameters at the same "
+        "time; end that one, and set the parameters again");
+  };
+  if (wait("the engine is still busy with the commit before; does the law run?").dropped) {
+    write(H::commit, forgets);
+  }
   for (const law::HostWord& w : writes) write(w.address, w.data);
-  write(H::commit, 1);
+  complete(status());
+  write(H::commit, commits);
   const EngineStatus s = wait("the engine does not finish the commit");
+  complete(s);
   if (!s.refused) return;
   std::string name = fmt::format("word {}", s.refused_word);
   for (const law::ImageWord& w : image_->words) {

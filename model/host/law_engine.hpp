@@ -29,6 +29,8 @@ struct EngineStatus {
   bool mailbox_late = false;  ///< the law's mailbox was not fed in time: no torque until it is
   bool overrun = false;       ///< a start found its thread still running, since the load
   int bank = 0;               ///< that is in force
+  bool dropped =
+      false;  ///< a parameter or a commit came while a set was being committed: not taken
   int refused_word = 0;  ///< parameter word 0 to 31 that the last refused commit was refused for
 };
 

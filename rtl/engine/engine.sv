@@ -47,16 +47,17 @@ module engine #(
   logic [5:0] mailbox_first_q;
   logic [15:0] max_age_q, mailbox_age_q;
   logic [31:0] crc_q;
-  logic overrun_q;
+  logic overrun_q, dropped_q;
 
-  logic of_register, write_register, open_register, write_run, write_divider, commit;
+  logic of_register, write_register, open_register, write_run, write_divider, to_commit, commit;
   assign of_register    = addr_i[11:9] == feltgate_engine_pkg::H_HIGH[11:9];
   assign write_register = write_i && !busy_o && of_register;
   assign open_register  = write_register && !locked_i;
   assign write_run      = open_register && addr_i == feltgate_engine_pkg::H_RUN;
   assign write_divider  = open_register && addr_i >= feltgate_engine_pkg::H_DIVIDER0 &&
                           addr_i <= feltgate_engine_pkg::H_DIVIDER3;
-  assign commit = write_register && addr_i == feltgate_engine_pkg::H_COMMIT && wdata_i[0];
+  assign to_commit      = write_register && addr_i == feltgate_engine_pkg::H_COMMIT;
+  assign commit         = to_commit && wdata_i[0];
 
   logic armed_q, enter, overrun;
   logic [3:0] first_q, request, running, run;
@@ -66,6 +67,9 @@ module engine #(
   logic clearing;  // the lines
   assign run = clearing ? 4'd0 : run_q;
   logic bank;
+  logic committing, parameter_write, drops;
+  assign parameter_write = addr_i[11:6] == {3'd0, feltgate_engine_pkg::D_PARAMETER[8:6]};
+  assign drops = committing && write_i && !busy_o && (parameter_write || commit);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       high_q      <= '0;
@@ -76,6 +80,7 @@ module engine #(
       mailbox_age_q   <= Reset[feltgate_engine_pkg::B_RESET_MAILBOX_AGE+:16];
       crc_q       <= Reset[feltgate_engine_pkg::B_RESET_CRC+:32];
       overrun_q   <= 1'b0;
+      dropped_q   <= 1'b0;
       armed_q     <= 1'b0;
       first_q     <= '1;
     end else begin
@@ -88,29 +93,35 @@ module engine #(
       if (open_register && addr_i == feltgate_engine_pkg::H_MAILBOX_AGE) mailbox_age_q <= wdata_i[15:0];
       if (open_register && addr_i == feltgate_engine_pkg::H_CRC) crc_q <= wdata_i;
       overrun_q <= (overrun_q || overrun) && !write_run;
+      dropped_q <= drops || (dropped_q && !(to_commit && wdata_i[1]));
       if (started) first_q[thread5] <= 1'b0;
       if (enter) first_q <= '1;
     end
   end
 
   // A word of the host for a memory waits for a turn without an instruction.
-  logic waits_q, waits_program_q, waits_table_q, may_write, parameter_write;
+  logic waits_q, waits_program_q, waits_table_q, may_write;
   logic [8:0] address_q;
   logic [31:0] data_q;
+  logic [2:0] lands_q;  // a word on its way into its memory
   logic free, input_wanted, input_taken, host_taken, line_taken;
-  logic checking, committing, minus;
+  logic checking, minus;
   logic [8:0] commit_address, input_address, line_address;
   logic [31:0] input_word;
-  assign parameter_write = addr_i[11:6] == {3'd0, feltgate_engine_pkg::D_PARAMETER[8:6]};
   assign may_write = addr_i[11:9] == 3'd0 ? (parameter_write ? !committing
                          : !locked_i && (addr_i[8] || addr_i[5:0] < 6'(feltgate_engine_pkg::INPUT_FIRST)))
                      : !locked_i && addr_i[11:9] <= 3'd2;
   assign host_taken  = waits_q && free && !input_wanted;
   assign input_taken = input_wanted && free;
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) waits_q <= 1'b0;
-    else if (host_taken) waits_q <= 1'b0;
-    else if (write_i && !busy_o && may_write) waits_q <= 1'b1;
+    if (!rst_ni) begin
+      waits_q <= 1'b0;
+      lands_q <= '0;
+    end else begin
+      if (host_taken) waits_q <= 1'b0;
+      else if (write_i && !busy_o && may_write) waits_q <= 1'b1;
+      lands_q <= {lands_q[1:0], host_taken};
+    end
   end
   always_ff @(posedge clk_i) begin
     if (write_i && !busy_o) begin
@@ -267,7 +278,7 @@ module engine #(
       .clk_i(clk_i),
       .rst_ni(rst_ni),
       .commit_i(commit),
-      .wait_i(crc_busy),
+      .wait_i(crc_busy || lands_q != '0),
       .tick_i(tick_i),
       .beat_i(beat),
       .negative_i(result[31]),
@@ -301,7 +312,7 @@ module engine #(
       .clk_i(clk_i),
       .rst_ni(rst_ni),
       .start_i(crc_start_i),
-      .wait_i(checking),
+      .wait_i(checking || waits_q),  // a word that waits is in the sum
       .beat_i(beat),
       .word_i({crc_program ? program_high_q : high_read_q, result}),
       .line_base_i(line_base_q),
@@ -352,6 +363,7 @@ module engine #(
     status[feltgate_engine_pkg::B_STATUS_OVERRUN]      = overrun_q;
     status[feltgate_engine_pkg::B_STATUS_MAILBOX_LATE] = mailbox_late;
     status[feltgate_engine_pkg::B_STATUS_RUNNING+:4]   = running;
+    status[feltgate_engine_pkg::B_STATUS_DROPPED]      = dropped_q;
   end
   assign busy_o = waits_q || checking || crc_busy || clearing;
   always_ff @(posedge clk_i) begin

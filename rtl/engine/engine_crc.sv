@@ -65,7 +65,7 @@ module engine_crc (
       if (start_i) waits_q <= 1'b1;
       read_q <= reads_o;
       if (!reads_o && !read_q && waits_q && !wait_i) begin
-        waits_q   <= start_i;
+        waits_q   <= 1'b0;  // also for a start in this clock: all is read after it
         reads_o   <= 1'b1;
         good_o    <= 1'b0;
         part_q    <= Program;

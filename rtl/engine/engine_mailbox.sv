@@ -21,7 +21,7 @@ module engine_mailbox (
   logic [15:0] age_q;
   logic late_q, ends;
   assign late_o = late_q && watched_i;
-  assign ends   = tick_i && step_i && age_q == max_age_i;
+  assign ends   = tick_i && step_i && age_q >= max_age_i;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       age_q   <= '0;

@@ -87,7 +87,7 @@ module engine_outputs #(
       if (fresh || enter_i || !watched_i) age_q <= '0;
       else if (tick_i) age_q <= age_q + 16'd1;
       if (enter_i || !watched_i) late_o <= 1'b0;
-      else if (tick_i && !fresh && age_q == max_age_i) late_o <= 1'b1;
+      else if (tick_i && !fresh && age_q >= max_age_i) late_o <= 1'b1;
     end
   end
 endmodule

@@ -110,6 +110,7 @@ package feltgate_engine_pkg;
   localparam int B_STATUS_MAILBOX_LATE = 7;
   localparam int B_STATUS_RUNNING = 8;
   localparam int W_STATUS_RUNNING = 4;
+  localparam int B_STATUS_DROPPED = 12;
   localparam logic [11:0] H_REFUSED_WORD = 12'ha0b;
   localparam logic [11:0] H_MAILBOX_FIRST = 12'ha0c;
   localparam logic [11:0] H_MAILBOX_AGE = 12'ha0d;

@@ -129,6 +129,41 @@ TEST_CASE("engine: without a commit in its time the torques are 0, until the nex
   }
 }
 
+TEST_CASE(
+    "engine: an age lowered below the one that has passed is over with the next tick or step") {
+  for (const std::uint32_t lowered : {0U, 1U, 8U, 9U}) {
+    Fed device(1000);
+    device.set(0, 300);
+    REQUIRE(device.commit() == 1);
+    REQUIRE(device.until_fresh() > 0);
+    device.clock(10 * 64 * kTick);
+    CHECK(device.out().torque[0] == 300);
+    device.write(H::mailbox_age, lowered);
+    const int ticks = device.until_late(200);
+    INFO("lowered to " << lowered << ", ticks " << ticks);
+    CHECK(ticks >= 0);
+    CHECK(ticks <= 64);
+    device.clock(2);
+    CHECK(device.out().torque[0] == 0);
+    device.play();
+  }
+  // Outputs: a run that never ends.
+  EngineMemory m;
+  program(m, 0, {word(EngineOp::brf, 1, 0, 0)});
+  for (const std::uint32_t lowered : {0U, 1U, 98U, 99U}) {
+    LoadedDevice device(m);
+    device.write(H::max_age, 1000);
+    device.write(H::run, 1);
+    device.clock(100 * kTick);
+    CHECK_FALSE(device.out().late);
+    device.write(H::max_age, lowered);
+    device.clock(kTick);
+    INFO("lowered to " << lowered);
+    CHECK(device.out().late);
+    device.play();
+  }
+}
+
 TEST_CASE("engine: a mailbox that is fed in time is never late, one that there is not neither") {
   Fed device(2);
   for (int k = 0; k < 30; ++k) {

@@ -222,6 +222,39 @@ TEST_CASE("engine by runs: a mailbox becomes too old, and is fed") {
   }
 }
 
+TEST_CASE("engine by runs: an age is lowered below the one that has passed") {
+  for (const bool runs : {false, true}) {
+    Pair<1> p(9);
+    start(p, counting(5), runs, 1);
+    p.write(H::mailbox_first, 3);
+    p.write(H::mailbox_age, 1000);
+    p.commit();
+    p.ticks(20 * EngineMap::mailbox_step);
+    CHECK((p.now().torque[0] != 0) == runs);
+    p.write(H::mailbox_age, 2);
+    p.ticks(EngineMap::mailbox_step + 1);
+    CHECK(p.by_event.watch().stale);
+    CHECK(p.now().torque[0] == 0);
+    p.look();
+  }
+  // Runs of twelve ticks, each twenty: lowered between the tick that one is due with and its start.
+  for (int delay = 0; delay < 20; ++delay) {
+    Pair<1> p(7, 1000);
+    start(p, counting(100), 1, 20);
+    p.ticks(100);
+    const auto runs = [&p] { return p.by_clock.clocked().running(0); };
+    while (runs()) p.run(1);
+    while (!runs()) p.run(1);
+    p.run(delay);
+    CHECK_FALSE(p.now().late);
+    p.write(H::max_age, 4);
+    p.ticks(3);
+    INFO("delay " << delay);
+    CHECK(p.now().late);
+    p.look();
+  }
+}
+
 TEST_CASE("engine by runs: begun anew at every start, at any clock of a tick") {
   for (const int thread : {0, 1, 3}) {
     for (int length = 1; length < 20; ++length) {

@@ -8,15 +8,18 @@
 #include <Vfeltgate_axes.h>
 
 #include <string>
+#include <type_traits>
 
 #include "engines/rtl_axes_ports.hpp"
 #include "feltgate/feltgate_axes.hpp"
 #include "feltgate/generated/lever_law.hpp"
+#include "feltgate/generated/pantograph_law.hpp"
 #include "lock_step.hpp"
 
 namespace feltgate::test {
 
-using Design = LeverLaw;
+// With the engine a velocity of fewer bits than its words.
+using Design = std::conditional_t<ENGINE != 0, PantographLaw, LeverLaw>;
 constexpr int kAxes = AXES;
 constexpr bool kEngine = ENGINE != 0;
 using AxesTwin = FeltgateAxes<Design, kAxes, true, kEngine>;

@@ -53,6 +53,32 @@ TEST_CASE("engine: a law on two axes, each with its torque, two ticks after the 
   s.play();
 }
 
+TEST_CASE("engine: a law is given velocities with their signs") {
+  static_assert(D::f.velocity.width() < 32, "else there is no sign to lose");
+  using Op = EngineOp;
+  for (int n = 0; n < kAxes; ++n) {
+    // -100, parameter 0, on both axes while axis n turns down.
+    EngineMemory m = kLaw;
+    program(
+        m, 0,
+        {to(0, Op::min, kVelocity + EngineMap::input_axis_words * n, kConstant),
+         word(Op::max, 0, 0, kParameter, EngineTarget::output, 0), out(1, Op::max, 0, kParameter)});
+    LawLife s;
+    s.load(m, image_crc(m));
+    s.arm_law();
+    const auto turn_until = [&](bool up, auto&& reached) {
+      for (int k = 0; k < 100 && !reached(s.out(n).velocity); ++k) s.step(n, up), s.ticks(3);
+      CHECK(reached(s.out(n).velocity));
+      s.ticks(3);
+    };
+    turn_until(true, [](std::int64_t v) { return v > 0; });
+    for (int a = 0; a < kAxes; ++a) CHECK(s.out(a).tau_ref == 0);
+    turn_until(false, [](std::int64_t v) { return v < -10'000; });
+    for (int a = 0; a < kAxes; ++a) CHECK(s.out(a).tau_ref == -100);
+    s.play();
+  }
+}
+
 TEST_CASE(
     "engine: arming waits for the CRC, which must be that of the image in the scene of laws") {
   LawLife s;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ template <class D>
 class BoardInProcess : public host::Transport {
  public:
   void write(const std::uint8_t* data, std::size_t size) override {
+    if (before_write) before_write(std::vector<std::uint8_t>(data, data + size));
     for (std::size_t n = 0; n < size; ++n) {
       if (left == 0) throw host::LinkLost("wire: cut");
       if (left > 0) --left;
@@ -53,6 +55,7 @@ class BoardInProcess : public host::Transport {
   LinkedIn in;
   std::int64_t left = -1;  ///< bytes until the wire is cut; -1: it is not
   double lost = 0;         ///< share of bytes to the board
+  std::function<void(const std::vector<std::uint8_t>&)> before_write;
 
  private:
   std::vector<std::uint8_t> received_;

@@ -4,92 +4,10 @@
 // Laws in a board's engine, the host's library against the twin: loaded, cut off, refused, set,
 // felt, told.
 #include "catch.hpp"
-
-#include <fmt/format.h>
-
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <functional>
-#include <memory>
-#include <string>
-
-#include "board_in_process.hpp"
-#include "design/law_target.hpp"
-#include "feltgate/generated/lever.hpp"
-#include "feltgate/generated/lever_law.hpp"
-#include "host/capture.hpp"
-#include "host/law_engine.hpp"
-#include "law/compile.hpp"
-
-namespace {
+#include "law_on_board.hpp"
 
 using namespace feltgate;
-using host::LawEngine;
-
-template <class D>
-const design::Elaborated& design_of() {
-  static const host::KnownDesign known = host::read_known_design(
-      FELTGATE_ROOT, std::string(FELTGATE_ROOT "/rtl/designs/") + D::name + ".toml");
-  return known.design;
-}
-
-law::Image compiled(const std::string& text, const std::string& name = "test") {
-  return law::compile_text(text, name, design::law_target(design_of<LeverLaw>())).image;
-}
-
-const law::Image& spring() {
-  static const law::Image image = compiled(
-      "param stiffness = 0.25 Nm/rad in 0 .. 1 Nm/rad\n"
-      "param rest = 0 rad in -1 .. 1 rad\n"
-      "event beyond(position) when position > 0.01\n"
-      "event below(velocity) when position < -0.01\n"
-      "out torque = -stiffness * (position - rest)\n",
-      "spring");
-  return image;
-}
-const law::Image& damper() {
-  static const law::Image image = compiled(
-      "param damping = 0.01 Nm s/rad in 0 .. 0.1 Nm s/rad\n"
-      "out torque = -damping * velocity\n",
-      "damper");
-  return image;
-}
-
-template <class D>
-struct OnWire {
-  std::unique_ptr<test::BoardInProcess<D>> wire = std::make_unique<test::BoardInProcess<D>>();
-  host::Link link{*wire};
-  host::Device device{link, host::read_board(link), design_of<D>()};
-};
-struct OnBoard : OnWire<LeverLaw> {
-  LawEngine engine{device};
-
-  void arm() {
-    device.set("self_test_pulse", 0);
-    device.set("watchdog_ticks", 100000000);
-    device.arm("law", false);
-  }
-  bool armed() { return wire->board.out().core.armed; }
-  double torque() {
-    return std::ldexp(wire->board.out().core.tau_ref, -LeverLaw::f.torque.fraction);
-  }
-  /// Until a ramp is over.
-  void settle() { wire->run(10'000 * std::int64_t{LeverLaw::clocks_per_tick}); }
-};
-
-std::string told(const std::function<void()>& run) {
-  try {
-    run();
-    return "nothing";
-  } catch (const std::exception& e) {
-    return e.what();
-  }
-}
-
-constexpr double count_rad = 2 * 3.14159265358979 / 4096;
-
-}  // namespace
+using namespace feltgate::test;
 
 TEST_CASE("host law: loaded, armed, felt, changed while it runs") {
   OnBoard b;
@@ -127,6 +45,75 @@ TEST_CASE("host law: loaded, armed, felt, changed while it runs") {
   CHECK(b.engine.load(damper()).written == 0);
   b.device.arm("law", false);
   CHECK(b.armed());
+}
+
+TEST_CASE("host law: none is loaded while the host asks for a motor that is not armed yet") {
+  OnBoard b;
+  b.engine.load(spring());
+  // The check of a law whose CRC is another never lets it arm.
+  b.link.write(EngineMap::port_first + EngineMap::H::crc, 0);
+  constexpr std::uint32_t asks = 1u << LeverLaw::C::control_host | 1u << LeverLaw::C::control_arm;
+  const std::uint32_t control =
+      (b.link.read(LeverLaw::C::control) & ~(0xfu << LeverLaw::C::control_scene)) |
+      static_cast<std::uint32_t>(LeverLaw::S::law) << LeverLaw::C::control_scene;
+  b.link.write(LeverLaw::C::control, control | asks);
+  b.wire->run(20'000 * std::int64_t{LeverLaw::clocks_per_tick});
+  REQUIRE_FALSE(b.armed());
+  CHECK(told([&] { b.engine.load(damper()); }) ==
+        "the motor is asked to arm, and its law is locked: disarm first");
+  CHECK(b.engine.holds(spring()));
+  // Either alone asks for nothing.
+  for (const int bit : {LeverLaw::C::control_host, LeverLaw::C::control_arm}) {
+    b.link.write(LeverLaw::C::control, (control & ~asks) | 1u << bit);
+    b.wire->run(5 * std::int64_t{LeverLaw::clocks_per_tick});
+    CHECK(b.engine.load(bit == LeverLaw::C::control_host ? damper() : spring()).written > 0);
+  }
+}
+
+TEST_CASE("host law: a set of which a word was dropped is not committed, and it is told") {
+  OnBoard b;
+  b.engine.load(spring());
+  constexpr int base = EngineMap::port_first, own = EngineMap::thread_words;
+  constexpr int word = base + law::Image::parameter_base;
+  // Another program, whose commit a run that does not end keeps under way for some time.
+  const auto program = static_cast<int>(EngineMap::H::program);
+  EngineInstruction loop;
+  loop.op = EngineOp::brf;
+  loop.mode = 1;
+  loop.b = own;
+  const std::uint64_t code = engine_encode(loop);
+  b.link.write(base + EngineMap::H::high, static_cast<std::uint32_t>(code >> 32));
+  b.link.write(base + program + own, static_cast<std::uint32_t>(code));
+  const auto meddle = [&b] {
+    host::Link other(*b.wire);
+    other.write(base + EngineMap::H::run, 3);
+    b.wire->run(500);
+    other.write(base + EngineMap::H::commit, 1);
+    b.wire->run(3000);
+    other.write(word, 0);
+    other.write(base + EngineMap::H::run, 1);
+  };
+  // What was dropped before concerns nobody.
+  meddle();
+  REQUIRE(b.engine.status().dropped);
+  CHECK(std::abs(b.engine.set({{"stiffness", 0.5}})[0] - 0.5) < 1e-4);
+  CHECK_FALSE(b.engine.status().dropped);
+  // In the middle of a set.
+  b.wire->before_write = [&](const std::vector<std::uint8_t>& frame) {
+    const bool first =
+        frame.size() > 4 && frame[1] == LinkMap::kind_write && (frame[3] | frame[4] << 8) == word;
+    if (!first) return;
+    b.wire->before_write = nullptr;
+    meddle();
+  };
+  CHECK(told([&] {
+          b.engine.set({{"stiffness", 0.75}});
+        }).find("was dropped: another program") != std::string::npos);
+  CHECK_FALSE(b.wire->before_write);
+  CHECK_FALSE(b.engine.status().dropped);
+  CHECK(std::abs(b.engine.get("stiffness") - 0.75) > 0.1);
+  CHECK(std::abs(b.engine.set({{"stiffness", 0.75}})[0] - 0.75) < 1e-4);
+  CHECK(std::abs(b.engine.get("stiffness") - 0.75) < 1e-4);
 }
 
 TEST_CASE("host law: a load that is cut off at any point leaves nothing that arms") {

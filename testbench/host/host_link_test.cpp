@@ -128,6 +128,18 @@ TEST_CASE("host link: late answers are not taken for the next one's") {
   CHECK(p.link.counts().stray > 0);
 }
 
+TEST_CASE("host link: an answer of another address is none") {
+  Noise noise;
+  noise.other = 1;
+  BoardOnPipe p(noise);
+  for (std::uint32_t n = 0; n < 20; ++n) {
+    REQUIRE(p.link.read(LinkMap::A::identity) == 0x46454c54);
+    p.link.write(some_parameter, n);
+    REQUIRE(p.link.read(some_parameter) == n);
+  }
+  CHECK(p.link.counts().stray >= 60);
+}
+
 TEST_CASE("host link: garbage and a running stream before the first request") {
   BoardOnPipe p;
   p.link.write(LinkMap::A::stream_words, 0xfff);

@@ -285,6 +285,12 @@ void SoftwareBoard::take(const Bytes& f) {
   if (noise_.delay_s > 0) {
     std::this_thread::sleep_for(std::chrono::duration<double>(noise_.delay_s));
   }
+  if (chance(random_, noise_.other)) {
+    Bytes other = reply;
+    other[2 + (random_.bits() & 1)] ^= 1;
+    other.back() ^= 0xff;
+    send(other);
+  }
   send(reply);
 }
 

@@ -24,6 +24,7 @@ struct Noise {
   double flip = 0;     ///< of the bytes: one bit of it
   double halve = 0;    ///< of the board's frames: only its first half is sent
   double junk = 0;     ///< of the board's frames: random bytes come before it
+  double other = 0;    ///< of the board's replies: one of another address comes before it
   double delay_s = 0;  ///< before every reply
 };
 

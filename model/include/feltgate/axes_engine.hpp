@@ -62,7 +62,9 @@ class AxesEngine {
   bool runs_whole() const { return runs_.on(); }
   /// Whether the wave of the tick measured last began with a torque that may jump.
   bool restarted() const { return restarted_; }
-  /// It would not take every write.
+  /// The port takes no write, whatever the address.
+  bool port_busy() const { return out_.busy; }
+  /// It would not take every write, or drop it.
   bool busy() const { return out_.busy || runs_.committing(); }
 
   void reset() {

@@ -143,11 +143,11 @@ class Engine {
     const bool step = in.tick_count % EngineMap::mailbox_step == 0;
     mailbox_.clock(
         {in.tick, step, watches_mailbox(), r.mailbox_age, commit_.taken(in.tick), commit_.differs});
-    commit_.clock({asks, was_crc_busy, in.tick, beat, barrel_.result() < 0, inputs_.running,
-                   r.mailbox_first});
+    commit_.clock({asks, was_crc_busy || r.lands != 0, in.tick, beat, barrel_.result() < 0,
+                   inputs_.running, r.mailbox_first});
     const unsigned high = crc_.reads_program() ? r.program_high : r.table_high;
     const std::uint32_t result = static_cast<std::uint32_t>(barrel_.result());
-    crc_.clock({in.crc_start, was_checking, beat, std::uint64_t{high} << 32 | result,
+    crc_.clock({in.crc_start, was_checking || r.waits, beat, std::uint64_t{high} << 32 | result,
                 barrel_.memory.line_base, r.crc});
     const bool overrun = inputs_.due_again(run);
     lines_.clock(enter, line_base, line_free);
@@ -169,8 +169,11 @@ class Engine {
     barrel_.clock(to);
     r.written = next;
 
+    r.lands = (r.lands << 1 & 7U) | (host_taken ? 1U : 0U);
     if (host_taken) r.waits = false;
     if (write) take(in, bank, was_committing);
+    if (write && addr == H::commit && (in.wdata & 2U) != 0) r.dropped = false;
+    if (write && was_committing && (asks || of_parameters(in.addr))) r.dropped = true;
     r.overrun = (r.overrun || overrun) && !write_run;
     if (started) r.first &= ~(1U << thread);
     if (enter) r.first = 15;
@@ -196,10 +199,11 @@ class Engine {
     unsigned high = 0, run = 0, max_age = 0, first = 15, mailbox_age = 0;
     int mailbox_first = EngineMap::parameter_words;
     std::uint32_t crc = 0;
-    bool armed = false, overrun = false;
+    bool armed = false, overrun = false, dropped = false;
     bool waits = false, waits_program = false, waits_table = false;
     int address = 0;
     std::uint32_t data = 0;
+    unsigned lands = 0;  ///< a word on its way into its memory
     bool beat = false;
     std::uint32_t program = 0, read = 0;
     unsigned program_high = 0, table_high = 0;
@@ -215,6 +219,7 @@ class Engine {
     reset();
   }
   static bool in_registers(unsigned addr) { return addr >> 9 == EngineMap::H::high >> 9; }
+  static bool of_parameters(unsigned addr) { return addr / 64 == EngineMap::D::parameter / 64; }
   bool watches_mailbox() const {
     return (registers_.mailbox_first & EngineMap::parameter_words) == 0;
   }
@@ -268,7 +273,7 @@ class Engine {
   void take(const In& in, int bank, bool committing) {
     Registers& r = registers_;
     const unsigned region = in.addr >> 9;
-    const bool parameter = in.addr / 64 == EngineMap::D::parameter / 64;
+    const bool parameter = of_parameters(in.addr);
     const bool input = in.addr < EngineMap::D::exchange &&
                        in.addr % EngineMap::private_words >= EngineMap::input_first;
     r.waits_program = (in.addr & EngineMap::H::program) != 0;
@@ -320,7 +325,7 @@ class Engine {
            at(crc_.busy(), S::status_crc_busy) | at(crc_.good, S::status_crc_good) |
            at(outputs_.late, S::status_late) | at(commit_.bank != 0, S::status_bank) |
            at(registers_.overrun, S::status_overrun) | at(mailbox_late(), S::status_mailbox_late) |
-           inputs_.running << S::status_running;
+           inputs_.running << S::status_running | at(registers_.dropped, S::status_dropped);
   }
 
   In last_;

@@ -94,7 +94,7 @@ class EngineMailbox {
 
   void clock(const In& in) {
     const bool counts = in.tick && in.step;
-    const bool ends = counts && age_ == in.max_age;
+    const bool ends = counts && age_ >= in.max_age;
     jumps = in.taken ? in.differs || late(in.watched) : ends && in.watched && !late_;
     late_ = (late_ || ends) && !in.taken;
     if (in.taken) {

@@ -168,7 +168,7 @@ class EngineOutputs {
     fresh = renewed && !in.clear;
     if (in.enter || !in.watched) {
       late = false;
-    } else if (in.tick && !renewed && age_ == in.max_age) {
+    } else if (in.tick && !renewed && age_ >= in.max_age) {
       late = true;
     }
     if (renewed || in.enter || !in.watched) {
@@ -244,7 +244,7 @@ class EngineCrc {
       good = ~sum == in.wanted;
     }
     if (begins) {
-      waits_ = in.start;
+      waits_ = false;
       reads = true;
       good = false;
       part_ = address = beats_ = 0;

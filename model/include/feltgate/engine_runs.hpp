@@ -72,7 +72,7 @@ class EngineRuns {
     if (run_ == 0) return true;
     const Coming& next = comes_.front();
     const bool renewed = coming_ > 0 && next.clock <= at && next.renews(state_.renewed);
-    if (!late_ && (renewed ? 0 : state_.age) == engine_.registers_.max_age) return false;
+    if (!late_ && (renewed ? 0 : state_.age) >= engine_.registers_.max_age) return false;
     // A run whose inputs come late is known with the next tick: too late if it is a short one.
     if (shortest_ >= ticks_.long_run() || (state_.count > 1 && !state_.due)) return true;
     const std::int64_t ready = std::max(at + 2 + thread_, end_ + 1);
@@ -172,7 +172,7 @@ class EngineRuns {
   /// Whether the mailbox becomes too old in clock n of a tick.
   bool mail_ends(std::int64_t n) const {
     return !state_.mail_late && ticks_.count_at(n) % EngineMap::mailbox_step == 0 &&
-           state_.mail_age == engine_.registers_.mailbox_age;
+           state_.mail_age >= engine_.registers_.mailbox_age;
   }
   void count_mail(std::int64_t n) {
     state_.mail_late |= mail_ends(n);

@@ -102,7 +102,7 @@ bool EngineRuns<AxisCount, TorqueW>::at_start(const In& in) const {
   if ((r.run & (r.run - 1)) != 0 || engine_.busy() || engine_.commit_.committing() ||
       engine_.crc_.read_ || in.armed != r.armed || in.tick || engine_.mailbox_.jumps ||
       inputs.counting_ || inputs.loading_ || inputs.written_ || inputs.due_ != 0 || outputs.ends_ ||
-      w.data || w.program || w.table || stage(4).writes_data) {
+      w.data || w.program || w.table || r.lands != 0 || stage(4).writes_data) {
     return false;
   }
   for (const auto& axis : outputs.axes_) {

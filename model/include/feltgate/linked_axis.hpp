@@ -77,7 +77,7 @@ class LinkedAxis {
   void show() {
     out_ = axes_.out().axis[0];
     out_.reg_rdata = axes_.out().reg_rdata;
-    engine_busy_ = axes_.glue().busy();
+    engine_busy_ = axes_.glue().port_busy();
   }
 
   FeltgateAxes<D, 1, true, true> axes_;

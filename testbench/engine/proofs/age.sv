@@ -17,10 +17,10 @@ module age_proof (
     input logic               output_i,
     input logic               last_i,
     input logic        [ 1:0] thread_i,
-    input logic        [ 1:0] number_i
+    input logic        [ 1:0] number_i,
+    input logic        [15:0] max_age_i
 );
   `include "reset.svh"
-  (* anyconst *) logic [15:0] max_age_i;
   always_comb assume (!clear_i || enter_i);  // both are a write of run
 
   localparam int W = feltgate_pkg::TORQUE_W;
@@ -54,8 +54,14 @@ module age_proof (
     said2_q  <= said_q;
   end
 
-  // Ticks since the last fresh result.
+  // Ticks since the last fresh result; what max_age was with the last tick.
   logic [16:0] quiet_q;
+  logic [15:0] allowed_q;
+  logic ticked_q;
+  always_ff @(posedge clk_i) begin
+    allowed_q <= max_age_i;
+    ticked_q  <= tick_i;
+  end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       quiet_q    <= '0;
@@ -81,7 +87,7 @@ module age_proof (
 
   always_comb begin
     if (rst_ni && past_ok_q) begin
-      late_in_time: assert (late || fresh || quiet_q <= {1'b0, max_age_i});
+      late_in_time: assert (!ticked_q || late || fresh || quiet_q <= {1'b0, allowed_q});
       late_stays: assert (!late_q || late || forgives_q);
       torque_at_an_end: assert (torque == torque_q || ended2_q || cleared_q);
       zero_without_mailbox: assert (!zeroed_q || torque == '0);

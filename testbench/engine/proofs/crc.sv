@@ -63,7 +63,7 @@ module crc_proof (
       {asked_q, checks_q, checked_q, done_q, good_q} <= '0;
       {words_q, stood_q, bits_q} <= '0;
     end else begin
-      asked_q   <= start_i || (asked_q && !begins);
+      asked_q   <= (start_i || asked_q) && !begins;
       checked_q <= checks_q;
       done_q    <= ends;
       if (begins) {checks_q, good_q, words_q, stood_q} <= {1'b1, 1'b0, 11'd0, 2'd0};

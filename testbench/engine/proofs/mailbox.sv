@@ -11,10 +11,10 @@ module mailbox_proof (
     input logic tick_i,
     input logic step_i,
     input logic taken_i,
-    input logic differs_i
+    input logic differs_i,
+    input logic [15:0] max_age_i
 );
   `include "reset.svh"
-  (* anyconst *) logic [15:0] max_age_i;
   (* anyconst *) logic watched_i;
   logic late, jumps, late_q, taken_q, differs_q;
   engine_mailbox u_dut (
@@ -25,8 +25,14 @@ module mailbox_proof (
   (* hierconn *) wire [15:0] \u_dut.age_q ;
   (* hierconn *) wire \u_dut.late_q ;
 
-  // Steps since the last commit.
+  // Steps since the last commit; what max_age was with the last step.
   logic [16:0] quiet_q;
+  logic [15:0] allowed_q;
+  logic stepped_q;
+  always_ff @(posedge clk_i) begin
+    allowed_q <= max_age_i;
+    stepped_q <= tick_i && step_i;
+  end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       quiet_q   <= '0;
@@ -44,11 +50,11 @@ module mailbox_proof (
 
   always_comb begin
     if (rst_ni && past_ok_q) begin
-      late_in_time: assert (!watched_i || late || quiet_q <= {1'b0, max_age_i});
+      late_in_time: assert (!watched_i || !stepped_q || late || quiet_q <= {1'b0, allowed_q});
       late_stays: assert (!late_q || late || taken_q);
       ramps: assert (jumps || (late == late_q && !differs_q));
       mailbox_alone: assert (!jumps || late != late_q || differs_q);
-      inside_age: assert (\u_dut.late_q || (quiet_q == {1'b0, \u_dut.age_q } && \u_dut.age_q <= max_age_i));
+      inside_age: assert (\u_dut.late_q || quiet_q == {1'b0, \u_dut.age_q });
       becomes_late: cover (late && !late_q && max_age_i == 16'd1);
       is_fed_again: cover (late_q && !late && jumps);
     end

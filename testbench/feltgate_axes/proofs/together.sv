@@ -75,6 +75,14 @@ module together_proof (
   (* hierconn *) wire [11:0] \u_dut.g_axis[2].u_core.reg_addr_i ;
   (* hierconn *) wire [31:0] \u_dut.g_axis[2].u_core.reg_wdata_i ;
   (* hierconn *) wire [31:0] \u_dut.g_axis[2].u_core.reg_rdata_o ;
+  (* hierconn *) wire [feltgate_pkg::VELOCITY_W-1:0] \u_dut.g_axis[0].u_core.velocity_o ;
+  (* hierconn *) wire [feltgate_pkg::TORQUE_W-1:0] \u_dut.g_axis[0].u_core.tau_hat_o ;
+  (* hierconn *) wire [feltgate_pkg::VELOCITY_W-1:0] \u_dut.g_axis[1].u_core.velocity_o ;
+  (* hierconn *) wire [feltgate_pkg::TORQUE_W-1:0] \u_dut.g_axis[1].u_core.tau_hat_o ;
+  (* hierconn *) wire [feltgate_pkg::VELOCITY_W-1:0] \u_dut.g_axis[2].u_core.velocity_o ;
+  (* hierconn *) wire [feltgate_pkg::TORQUE_W-1:0] \u_dut.g_axis[2].u_core.tau_hat_o ;
+  (* hierconn *) wire [95:0] \u_dut.g_engine.u_engine.velocity_i ;
+  (* hierconn *) wire [95:0] \u_dut.g_engine.u_engine.tau_hat_i ;
   (* hierconn *) wire \u_dut.g_engine.u_engine.unchecked_o ;
   (* hierconn *) wire \u_dut.g_engine.u_engine.unfit_o ;
   (* hierconn *) wire \u_dut.g_engine.u_engine.reg_busy_o ;
@@ -88,7 +96,10 @@ module together_proof (
   // Axis n is bit n.
   logic [2:0] hears_fault, silent, blocked, beside, waits, asks, ready, testing, writes, busies, arms, stops;
   logic [35:0] addresses;
-  logic [95:0] data, words;
+  logic [95:0] data, words, velocities, torques;
+  // A word of the engine, of a number of fewer bits.
+  assign velocities = {32'($signed(\u_dut.g_axis[2].u_core.velocity_o )), 32'($signed(\u_dut.g_axis[1].u_core.velocity_o )), 32'($signed(\u_dut.g_axis[0].u_core.velocity_o ))};
+  assign torques = {32'($signed(\u_dut.g_axis[2].u_core.tau_hat_o )), 32'($signed(\u_dut.g_axis[1].u_core.tau_hat_o )), 32'($signed(\u_dut.g_axis[0].u_core.tau_hat_o ))};
   assign hears_fault = {\u_dut.g_axis[2].u_core.axis_fault_i , \u_dut.g_axis[1].u_core.axis_fault_i , \u_dut.g_axis[0].u_core.axis_fault_i };
   assign silent = {\u_dut.g_axis[2].u_core.axis_silent_i , \u_dut.g_axis[1].u_core.axis_silent_i , \u_dut.g_axis[0].u_core.axis_silent_i };
   assign blocked = {\u_dut.g_axis[2].u_core.axis_blocked_i , \u_dut.g_axis[1].u_core.axis_blocked_i , \u_dut.g_axis[0].u_core.axis_blocked_i };
@@ -134,6 +145,7 @@ module together_proof (
       engine_side: assert (\u_dut.g_engine.u_engine.reg_write_i == write_i && \u_dut.g_engine.u_engine.reg_wdata_i == wdata_i &&
                            \u_dut.g_engine.u_engine.reg_read_i == read_i);
       engine_hears_all: assert (\u_dut.g_engine.u_engine.asks_i == asks && \u_dut.g_engine.u_engine.reg_addr_i == addr_i);
+      engine_is_given_signs: assert (\u_dut.g_engine.u_engine.velocity_i == velocities && \u_dut.g_engine.u_engine.tau_hat_i == torques);
       a_test: cover (testing[2] && waits == 3'd0 && beside == 3'd3);
       a_fault: cover (faults == 3'd4 && hears_fault == 3'd3);
     end

@@ -15,7 +15,6 @@ void bind_chain(py::module_& m);       ///< one design in one arithmetic, tick b
 void bind_twin(py::module_& m);        ///< the core's twin by its pins
 void bind_recordings(py::module_& m);  ///< encoder edges
 void bind_runs(py::module_& m);        ///< closed loop and replay
-void bind_host(py::module_& m);        ///< a board on a serial port
 void bind_bounds(py::module_& m);      ///< proven bounds
 
 }  // namespace feltgate::python

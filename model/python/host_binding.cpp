@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A board on a serial port for Python: values in units, arming, stream and capture as arrays.
-// Documentation: docs/python.md, docs/host.md
+// The extension module feltgate._host, a board on a serial port for Python: values in units,
+// arming, stream and capture as arrays. Documentation: docs/python.md, docs/host.md
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -12,7 +12,8 @@
 #include "host/keep_alive.hpp"
 #include "host/law_engine.hpp"
 #include "law/compile.hpp"
-#include "python/bindings.hpp"
+#include "python/arrays.hpp"
+#include "python/errors.hpp"
 
 namespace feltgate::python {
 namespace {
@@ -336,7 +337,9 @@ class PyDevice {
 
 }  // namespace
 
-void bind_host(py::module_& m) {
+PYBIND11_MODULE(_host, m) {
+  m.doc() = "The host's side of the link, and the compiler of laws: imported with feltgate.Device.";
+  py::register_exception_translator(translate);
   py::register_exception<host::LinkLost>(m, "LinkLost", PyExc_ConnectionError);
   py::register_exception<host::Refused>(m, "Refused", PyExc_RuntimeError);
   py::class_<PyDevice>(m, "Device")

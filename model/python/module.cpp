@@ -2,27 +2,12 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The extension module feltgate._core. Documentation: docs/python.md
-#include "config/toml_reader.hpp"
 #include "engines/engine.hpp"
 #include "python/bindings.hpp"
+#include "python/errors.hpp"
 #include "python/extra_designs.hpp"
-#include "traces/error.hpp"
 
 namespace feltgate::python {
-namespace {
-
-// A file that cannot be used is a ValueError, like every other unusable input.
-void translate(std::exception_ptr thrown) {
-  try {
-    if (thrown) std::rethrow_exception(thrown);
-  } catch (const config::ConfigError& e) {
-    PyErr_SetString(PyExc_ValueError, e.what());
-  } catch (const traces::TraceError& e) {
-    PyErr_SetString(PyExc_ValueError, e.what());
-  }
-}
-
-}  // namespace
 
 PYBIND11_MODULE(_core, m) {
   m.doc() = "The C++ side of the package feltgate.";
@@ -37,7 +22,6 @@ PYBIND11_MODULE(_core, m) {
   bind_recordings(m);
   bind_bounds(m);
   bind_runs(m);
-  bind_host(m);
 }
 
 }  // namespace feltgate::python

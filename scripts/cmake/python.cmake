@@ -56,6 +56,8 @@ endforeach()
 file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/designs/extra_designs.inc" CONTENT "${extra_names}")
 
 file(GLOB sources CONFIGURE_DEPENDS "${FELTGATE_ROOT}/model/python/*.cpp")
+set(host "${FELTGATE_ROOT}/model/python/host_binding.cpp")
+list(REMOVE_ITEM sources "${host}")
 pybind11_add_module(feltgate_python MODULE NO_EXTRAS ${sources} ${extra_sources})
 set_target_properties(feltgate_python PROPERTIES OUTPUT_NAME _core)
 target_compile_options(feltgate_python PRIVATE ${FELTGATE_ENGINE_OPTIONS})
@@ -65,9 +67,32 @@ foreach(source IN LISTS extra_sources)
   get_filename_component(folder "${source}" DIRECTORY)
   target_include_directories(feltgate_python PRIVATE "${folder}")
 endforeach()
-target_link_libraries(feltgate_python PRIVATE feltgate_loop feltgate_hostlink fmt::fmt)
+target_link_libraries(feltgate_python PRIVATE feltgate_loop fmt::fmt)
 
-install(TARGETS feltgate_python LIBRARY DESTINATION feltgate COMPONENT python EXCLUDE_FROM_ALL)
+# The host's side of the link with the compiler of laws, loaded when it is used.
+pybind11_add_module(feltgate_python_host MODULE NO_EXTRAS "${host}")
+set_target_properties(feltgate_python_host PROPERTIES OUTPUT_NAME _host)
+target_compile_options(feltgate_python_host PRIVATE ${FELTGATE_WARNINGS} -O1)
+target_link_libraries(feltgate_python_host PRIVATE feltgate_hostlink feltgate_traces fmt::fmt)
+
+if(FELTGATE_PYTHON)
+  # pip compiles once and on two cores: what reads files and laws is not in a loop, and its headers are
+  # read once for each library.
+  file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/toml_parser.cpp"
+    CONTENT "#define TOML_IMPLEMENTATION\n#include <toml++/toml.h>\n")
+  target_sources(feltgate_config PRIVATE "${PROJECT_BINARY_DIR}/toml_parser.cpp")
+  target_compile_definitions(feltgate_config PUBLIC TOML_HEADER_ONLY=0)
+  set(read_once <algorithm> <cmath> <map> <optional> <sstream> <string> <vector> <fmt/format.h>)
+  foreach(library bounds law traces plant_files)
+    target_compile_options(feltgate_${library} PRIVATE -O1)
+  endforeach()
+  foreach(library law design traces)
+    target_precompile_headers(feltgate_${library} PRIVATE ${read_once})
+  endforeach()
+  target_precompile_headers(feltgate_python PRIVATE "${FELTGATE_ROOT}/model/python/arrays.hpp")
+endif()
+
+install(TARGETS feltgate_python feltgate_python_host LIBRARY DESTINATION feltgate COMPONENT python EXCLUDE_FROM_ALL)
 install(DIRECTORY "${FELTGATE_ROOT}/model/python/feltgate" DESTINATION . COMPONENT python EXCLUDE_FROM_ALL
   FILES_MATCHING PATTERN "*.py" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
 # The folders keep their places, so that FELTGATE_ROOT may name a repository instead.

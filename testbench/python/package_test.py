@@ -183,6 +183,13 @@ class Installed(unittest.TestCase):
         said = (ROOT / "CITATION.cff").read_text()
         self.assertIn(f"version: {feltgate.__version__}", said)
 
+    def test_the_host_is_loaded_when_it_is_used(self):
+        code = ("import sys, feltgate; print('feltgate._host' in sys.modules); feltgate.Device; "
+                "print('feltgate._host' in sys.modules, hasattr(feltgate, 'Devise'))")
+        said = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True,
+                              text=True).stdout
+        self.assertEqual(said.split(), ["False", "True", "False"])
+
     def test_everything_public_is_explained(self):
         for name in feltgate.__all__:
             thing = getattr(feltgate, name)

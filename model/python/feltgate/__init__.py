@@ -22,8 +22,9 @@ bounds    the proven worst case of each error
 Unusable input raises ValueError, whose message names the mend. Ctrl-C ends a long run.
 """
 
+from typing import TYPE_CHECKING, Any
+
 from feltgate._core import version as __version__
-from feltgate._device import Device, LinkLost, Refused
 from feltgate._files import designs, plants, root, scenes
 from feltgate._hand import Hand
 from feltgate._models import Chain, Plant, Twin, bounds, count_rad, formats, laws, parameters
@@ -31,8 +32,19 @@ from feltgate._recording import Recording
 from feltgate._results import Acted, ErrorFigure, Expected, Felt, Peak, Result, Signals
 from feltgate._runs import Scene, replay, run
 
+if TYPE_CHECKING:
+    from feltgate._device import Device, LinkLost, Refused
+
 __all__ = [
     "Acted", "Chain", "Device", "ErrorFigure", "Expected", "Felt", "Hand", "LinkLost", "Peak",
     "Plant", "Recording", "Refused", "Result", "Scene", "Signals", "Twin", "bounds", "count_rad", "designs", "formats", "laws",
     "parameters", "plants", "replay", "root", "run", "scenes",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Device, LinkLost and Refused come with a second module, which is loaded when it is used."""
+    if name in ("Device", "LinkLost", "Refused"):
+        from feltgate import _device  # pylint: disable=import-outside-toplevel
+        return getattr(_device, name)
+    raise AttributeError(f"module 'feltgate' has no attribute '{name}'")

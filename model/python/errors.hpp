@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What the extension modules say in Python of errors of C++. Documentation: docs/python.md
+#pragma once
+
+#include <exception>
+
+#include "config/toml_reader.hpp"
+#include "python/arrays.hpp"
+#include "traces/error.hpp"
+
+namespace feltgate::python {
+
+/// A file that cannot be used is a ValueError, like every other unusable input.
+inline void translate(std::exception_ptr thrown) {
+  try {
+    if (thrown) std::rethrow_exception(thrown);
+  } catch (const config::ConfigError& e) {
+    PyErr_SetString(PyExc_ValueError, e.what());
+  } catch (const traces::TraceError& e) {
+    PyErr_SetString(PyExc_ValueError, e.what());
+  }
+}
+
+}  // namespace feltgate::python

@@ -39,7 +39,9 @@ run_logged() {
 
 # Holds a lock for the rest of the build, so that two starts at once do not build into each other.
 lock_build() {
-  mkdir -p "$STATE"
+  { mkdir -p "$STATE" && : >>"$STATE/lock" && [[ -w $BUILD ]]; } 2>/dev/null ||
+    die "the build folder $BUILD cannot be written, for it is another user's or read-only;" \
+      'build in one of your own: FELTGATE_BUILD=~/feltgate-build ./feltgate ...'
   exec 9>"$STATE/lock"
   flock -n 9 && return
   say "another feltgate builds in $BUILD; waiting for it"

@@ -142,8 +142,9 @@ def main(argv=None):
     folder = (arguments.out or runs.build_folder() / "demo").resolve()
     began = time.monotonic()
     interrupts.end_on_signals()
+    folders = contextlib.ExitStack()
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        folders.enter_context(outputs.new_folder(folder))
         found, unreadable, where = find_recordings(arguments.traces)
         scenes, devices = scene_jobs(arguments.all)
         replays = [recordings.job(r, i, "lever", REPLAY_SCENE) for i, r in enumerate(found, 1)]
@@ -197,6 +198,8 @@ def main(argv=None):
         return 2
     except KeyboardInterrupt as error:
         return interrupts.tell("demo", error)
+    finally:
+        folders.close()
     for line in demo.unreadable:
         print(f"demo: could not read {line}", file=sys.stderr)
     for line in demo.wrong:

@@ -9,6 +9,7 @@ Documentation: docs/figures.md
 """
 
 import argparse
+import contextlib
 import json
 import sys
 from pathlib import Path
@@ -96,8 +97,9 @@ def main():
     designs = (arguments.design,) if arguments.design else DESIGNS
     jobs = all_figures.jobs(designs)
     interrupts.end_on_signals()
+    folders = contextlib.ExitStack()
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        folders.enter_context(outputs.new_folder(folder))
         with Progress(jobs) as progress:
             found = runs.run_all(jobs, folder / "data", progress)
         drawn = all_figures.draw(found, designs, png=True)
@@ -107,6 +109,8 @@ def main():
         return 2
     except KeyboardInterrupt as error:
         return interrupts.tell("figures", error)
+    finally:
+        folders.close()
     wrong = faults(found)
     for line in wrong:
         print(f"figures: {line}", file=sys.stderr)

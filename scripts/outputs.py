@@ -2,6 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Files that appear whole or not at all, as those of the program. Documentation: docs/json.md"""
 
+import contextlib
 import json
 import os
 import stat
@@ -76,6 +77,21 @@ def check_folder(parser, option, path):
     """Ends with 2, before the work, where an option's folder cannot be one."""
     if path and Path(path).exists() and not Path(path).is_dir():
         parser.error(f"{option} {path}: is no folder; give a folder's name")
+
+
+@contextlib.contextmanager
+def new_folder(path):
+    """A folder that is made where it is not there, and goes again where nothing came into it."""
+    path = Path(path)
+    made = [one for one in (path, *path.parents) if not one.exists()]
+    path.mkdir(parents=True, exist_ok=True)
+    try:
+        yield path
+    finally:
+        inside = [one for one in path.rglob("*") if one.is_dir()] if made else []
+        for one in (*sorted(inside, reverse=True), *made):
+            with contextlib.suppress(OSError):
+                one.rmdir()
 
 
 def write_json(path, value):

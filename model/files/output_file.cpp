@@ -6,6 +6,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -105,7 +106,8 @@ void OutputFile::commit() {
   beside_.reset();
 }
 
-OutputFolder::OutputFolder(const std::string& option, const std::string& path) {
+OutputFolder::OutputFolder(const std::string& option, const std::string& path,
+                           const std::string& last) {
   const auto refuse = [&](const std::string& why) {
     for (auto made = made_.rbegin(); made != made_.rend(); ++made) rmdir(made->c_str());
     throw std::invalid_argument(fmt::format("{} {}: {}", option, path, why));
@@ -128,9 +130,20 @@ OutputFolder::OutputFolder(const std::string& option, const std::string& path) {
   if (access(path.c_str(), W_OK | X_OK) != 0) {
     refuse(fmt::format("cannot be written: {}; choose another folder", std::strerror(errno)));
   }
+  if (last.empty()) return;
+  lock_ = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const bool taken = lock_ < 0 || (flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK);
+  const bool used = fs::exists(fs::path(path) / last);
+  if (taken || used) {
+    if (lock_ >= 0) close(lock_);
+    refuse(taken ? "another run writes there; choose another folder, or wait for its end"
+                 : fmt::format("holds the {} of a run before; choose another folder, or remove it",
+                               last));
+  }
 }
 
 OutputFolder::~OutputFolder() {
+  if (lock_ >= 0) close(lock_);
   for (auto made = made_.rbegin(); made != made_.rend(); ++made) rmdir(made->c_str());
 }
 
@@ -158,8 +171,8 @@ OutputFile* Outputs::open(const std::string& option, const std::string& path) {
   return files_.back().get();
 }
 
-void Outputs::folder(const std::string& option, const std::string& path) {
-  if (!path.empty()) folders_.push_back(std::make_unique<OutputFolder>(option, path));
+void Outputs::folder(const std::string& option, const std::string& path, const std::string& last) {
+  if (!path.empty()) folders_.push_back(std::make_unique<OutputFolder>(option, path, last));
 }
 
 void Outputs::reads(const std::string& path) {

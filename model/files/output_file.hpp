@@ -55,17 +55,20 @@ class OutputFile {
   std::unique_ptr<Unfinished> unfinished_, beside_;
 };
 
-/// A folder that is made where it is not there; while it is empty, it goes again with this.
+/// A folder that is made where it is not there; while it is empty, it goes again with this. One for
+/// a single run has a file `last` that ends it, and is locked for this program.
 class OutputFolder {
  public:
-  /// Throws std::invalid_argument where it cannot be made or written.
-  OutputFolder(const std::string& option, const std::string& path);
+  /// Throws std::invalid_argument where it cannot be made or written, or `last` is not empty and
+  /// another program has the folder or a run before has ended in it.
+  OutputFolder(const std::string& option, const std::string& path, const std::string& last);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
  private:
   std::vector<std::string> made_;  ///< by this, the outermost first
+  int lock_ = -1;
   std::vector<std::unique_ptr<Unfinished>> unfinished_;
 };
 
@@ -75,8 +78,8 @@ class Outputs {
   /// The output of an option, nullptr where no path is given. Throws std::invalid_argument where it
   /// cannot be written, or would overwrite another output or what reads() named.
   OutputFile* open(const std::string& option, const std::string& path);
-  /// A folder for outputs; nothing where no path is given.
-  void folder(const std::string& option, const std::string& path);
+  /// A folder for outputs; of a single run with `last`. Nothing where no path is given.
+  void folder(const std::string& option, const std::string& path, const std::string& last = "");
   /// A file that the command reads: no output may replace it. Before open().
   void reads(const std::string& path);
   /// Where text for people goes: stdout, or stderr when an output goes to stdout.

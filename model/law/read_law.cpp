@@ -129,7 +129,10 @@ Law read_law(const std::string& path, double rate_hz) {
     throw LawError(path, {{{0, 0}, "there is no such file", "give the path of a .law file"}});
   }
   std::ifstream in(path, std::ios::binary);
-  if (!in.is_open() || std::filesystem::is_directory(path)) {
+  if (std::filesystem::is_directory(status)) {
+    throw LawError(path, {{{0, 0}, "is a folder", "give the path of a .law file in it"}});
+  }
+  if (!in.is_open()) {
     throw LawError(path, {{{0, 0}, "cannot be read", "give the path of a .law file"}});
   }
   const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());

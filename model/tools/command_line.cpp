@@ -75,7 +75,9 @@ void refuse_empty_words(int argc, char** argv) {
   }
 }
 
+/// After what stdout still holds: where both go to one place, what went wrong is the last line.
 void complain(const CLI::App& app, const std::string& what) {
+  std::fflush(stdout);
   std::fputs(fmt::format("{}: {}\n", app.get_name(), what).c_str(), stderr);
 }
 

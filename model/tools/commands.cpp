@@ -36,6 +36,14 @@ bool is_path(const std::string& name) {
   return name.find('/') != std::string::npos || fs::path(name).extension() == ".toml";
 }
 
+void refuse_folder(const std::string& name, const std::string& names) {
+  std::error_code ignored;
+  if (fs::is_directory(name, ignored)) {
+    throw std::invalid_argument(
+        fmt::format("{}: is a folder; give a file in it, or a name in {}", name, names));
+  }
+}
+
 std::string text_of(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -84,10 +92,7 @@ std::string find_file(const std::string& name, const std::string& folder) {
   if (is_path(name)) {
     std::error_code error;
     const fs::file_status status = fs::status(name, error);
-    if (fs::is_directory(status)) {
-      throw std::invalid_argument(
-          fmt::format("{}: is a folder; give a file in it, or a name in {}", name, folder));
-    }
+    refuse_folder(name, folder);
     if (!fs::exists(status)) {
       throw std::invalid_argument(
           fmt::format("{}: there is no such file; {}", name, near_path(name, folder)));
@@ -103,6 +108,8 @@ std::string find_file(const std::string& name, const std::string& folder) {
 }
 
 std::string find_law(const std::string& name) {
+  const bool path_like = name.find_first_not_of('.') == std::string::npos || is_path(name);
+  if (path_like) refuse_folder(name, "rtl/laws");
   if (name.find('/') != std::string::npos || fs::path(name).extension() == ".law") return name;
   const fs::path folder = fs::path(repository()) / "rtl/laws", path = folder / (name + ".law");
   if (fs::exists(path)) return path.string();

@@ -160,7 +160,7 @@ int run(const RunArguments& a) {
   outputs.reads(plant_path);
   for (const auto& phase : scenario.hand.phases) outputs.reads(phase.trace.file);
   outputs.reads(find_file(a.design, "rtl/designs"));
-  outputs.folder("--report", a.report);
+  outputs.folder("--report", a.report, "report.html");
   files::OutputFile* json = outputs.open("--json", a.json);
   files::OutputFile* csv = outputs.open("--csv", a.csv);
   files::OutputFile* fst = outputs.open("--fst", a.fst);

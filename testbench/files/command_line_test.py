@@ -58,6 +58,21 @@ class CommandLine(Bench):
                 self.refused(*words, said=(f"the word after {words[-2]} is empty",))
         self.refused("run", "short.toml", "--report=", said=("--report= has no value",))
 
+    def test_a_folder_is_no_law(self):
+        for path in (".", "..", "./", self.folder):
+            self.refused("law", path, said=(f"{path}: is a folder; give a file in it",))
+
+    def test_a_binary_table_reaches_no_terminal(self):
+        table = b"\xff\x9b\x1b[2J,A\xc3\xa9,\xc3(,\x80\n" + bytes(range(128, 200)) + b"\n"
+        self.path("binary.csv").write_bytes(table)
+        self.given.add("binary.csv")
+        for command in (("replay",), ("import",)):
+            process = self.start(*command, "binary.csv", *(("x.vec",) if command == ("import",) else ()))
+            out, err = process.communicate(timeout=20)
+            self.assertEqual((process.returncode, out), (2, b""), err)
+            self.assertIn("A\u00e9", err.decode())  # UTF-8 is what a terminal takes
+            self.assertNotRegex(err.decode(), r"[\x00-\x09\x0b-\x1f\x7f-\x9f]")
+
     def test_abbreviations(self):
         for command in ("figures", "synth", "demo"):
             with self.subTest(command):

@@ -9,6 +9,7 @@ Documentation: docs/json.md
 import ctypes
 import json
 import os
+import signal
 import stat
 import subprocess
 import threading
@@ -151,6 +152,33 @@ class InPlace(Bench):
         self.assertEqual(json.loads(done.out)["scene"], "short")
         names = {p.name for p in self.path("out").iterdir()}
         self.assertEqual(names, {"short.json", "short.csv", "report.html"})
+
+
+    def test_two_runs_into_one_folder(self):
+        """The second one would replace what the first one said; at the same time or after it."""
+        self.assertEqual(self.run_it("--report", "out").returncode, 0)
+        before = {p.name: p.read_bytes() for p in self.path("out").iterdir()}
+        done = self.run_it("--report", "out/", scene="long.toml")
+        self.assert_refused(done, "--report out/: holds the report.html of a run before; choose")
+        self.assertEqual({p.name: p.read_bytes() for p in self.path("out").iterdir()}, before)
+        first = self.start("run", "long.toml", "--engine", "twin", "--report", "new/both")
+        self.addCleanup(first.communicate)
+        self.addCleanup(first.kill)
+        while not list(self.folder.rglob("*.part")):
+            self.assertIsNone(first.poll())
+        done = self.run_it("--report", "new/both")
+        self.assert_refused(done, "--report new/both: another run writes there; choose another")
+        first.send_signal(signal.SIGINT)
+        first.wait()
+        self.assertFalse(self.path("new").exists())
+
+    def test_what_failed_is_the_last_line(self):
+        with open(self.path("all"), "wb") as both:
+            done = self.run_it("--csv", "/dev/full", stdout=both, stderr=subprocess.STDOUT)
+        self.assertEqual(done.returncode, 2)
+        lines = self.path("all").read_text().splitlines()
+        self.assertGreater(len(lines), 5)
+        self.assertIn("--csv /dev/full: could not be written whole", lines[-1])
 
 
 class Refused(Bench):

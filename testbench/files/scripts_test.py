@@ -115,9 +115,19 @@ class Scripts(Bench):
                 words = ("--traces", str(self.pids), "--out", "out", "--jobs", "2")
                 process = self.script("demo.py", *words)
                 self.ends(process, number, "demo: interrupted", count=2)
-                self.assertFalse(list(self.path("out").rglob("*.html")))
+                self.assertFalse(self.path("out").exists(), "an empty folder stayed")
                 for path in self.pids.iterdir():
                     path.unlink()
+
+    def test_figures(self):
+        self.path("mine").mkdir()
+        for folder, stays in (("new/deep", False), ("mine", True)):
+            process = self.script("figures.py", "-o", folder)
+            self.ends(process, signal.SIGINT, "figures: interrupted")
+            self.assertEqual(self.path(folder).exists(), stays)
+            for path in self.pids.iterdir():
+                path.unlink()
+        self.assertFalse(self.path("new").exists())
 
     def test_explore(self):
         for number in (signal.SIGINT, signal.SIGTERM):

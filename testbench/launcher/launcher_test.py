@@ -38,6 +38,16 @@ class FirstStart(Machine):
         self.assertEqual(done.returncode, 2)
         self.assertIn("no python3", done.stderr)
 
+    def test_the_build_folder_of_another_user(self):
+        """Whose lock cannot be opened, as by permissions, which mean nothing to root."""
+        (self.repository / "build/launcher/lock").mkdir(parents=True)
+        done = self.start("--yes", "run", "membrane")
+        self.assertEqual(done.returncode, 2)
+        said = [line for line in done.stderr.splitlines() if "build folder" in line]
+        self.assertEqual(len(said), 1, done.stderr)
+        self.assertIn("another user's or read-only; build in one of your own: FELTGATE_BUILD=", said[0])
+        self.assertNotIn("build.sh", done.stderr)
+
     def test_the_second_start_asks_and_configures_nothing(self):
         self.assertEqual(self.start("--yes", "run", "membrane").returncode, 0)
         self.log()

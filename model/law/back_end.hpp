@@ -128,8 +128,12 @@ class BackEnd {
   Value limited(Value v, const Node& n, NodeId id);
   Value element(NodeId id);
   void count_tables();
-  Operand phase(NodeId id, double turn);
+  static int value_fraction(const TableRequest& r);
+  Operand phase(NodeId id, double turn, double period, bool far);
   int place_table(const std::string& key, const TableUse& table);
+
+  // periodic.cpp
+  Value periodic(NodeId id);
 
   // lines.cpp
   void begin_lines();

@@ -98,9 +98,14 @@ std::string points(const Table& t) {
 std::string table(const Law& law, int index) {
   const Table& t = law.tables[at(index)];
   std::string s = fmt::format(
-      "  /// The law's table `{}`, exact; beyond {:.6g} .. {:.6g} it stays.\n"
+      "  /// The law's table `{}`, exact; beyond {:.6g} .. {:.6g} it {}.\n"
       "  template <class T>\n  static T {}(T x) {{\n",
-      t.name, t.domain.lower, t.domain.upper, cpp_table_name(law, index));
+      t.name, t.domain.lower, t.domain.upper, t.periodic ? "repeats" : "stays",
+      cpp_table_name(law, index));
+  if (t.periodic) {
+    s += fmt::format("    x -= T({1}) * law::floor_of((x - T({0})) / T({1}));\n",
+                     cpp_number(t.domain.lower), cpp_number(t.domain.upper - t.domain.lower));
+  }
   s += fmt::format("    x = x < T({0}) ? T({0}) : x > T({1}) ? T({1}) : x;\n",
                    cpp_number(t.domain.lower), cpp_number(t.domain.upper));
   if (!t.points.empty()) return s + points(t);

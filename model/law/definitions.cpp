@@ -2,7 +2,13 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Lowering of what lies in the engine's table: tables, arrays, lines.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
 #include "law/lowering.hpp"
+#include "law/ranges.hpp"
 
 namespace feltgate::law {
 
@@ -36,6 +42,27 @@ void Lowering::refuse_changing(NodeId body, const Statement& s) {
            "a table holds a function of its variable and of constants; multiply outside of it");
     return;
   }
+}
+
+/// A periodic table that would jump from its end to its begin.
+void Lowering::refuse_open(const Table& t, const Statement& s) {
+  if (!diagnostics_.empty()) return;
+  double first = 0, last = 0, size = 0;
+  try {
+    first = table_value(law_, t, t.domain.lower);
+    last = table_value(law_, t, t.domain.upper);
+    size = table_jet(law_, t, {t.domain.lower, t.domain.upper}).v.size();
+  } catch (const Refused& refused) {
+    report(s.name_offset, refused.reason, refused.mend);
+    return;
+  }
+  const double most = std::max({std::fabs(first), std::fabs(last), size < infinity ? size : 0});
+  if (std::fabs(last - first) <= 1e-12 * most) return;
+  const auto shown = [most](double x) { return std::fabs(x) <= 1e-12 * most ? 0 : x; };
+  report(s.name_offset,
+         fmt::format("the periodic table {} begins with {:.6g} and ends with {:.6g}",
+                     quoted(s.name), shown(first), shown(last)),
+         "let it end as it begins: what jumps is a comparison outside of it");
 }
 
 void Lowering::table(const Statement& s) {
@@ -87,6 +114,8 @@ void Lowering::table(const Statement& s) {
     }
     if (t.body != kNone) {
       refuse_changing(t.body, s);
+      if (s.periodic) refuse_open(t, s);
+      t.periodic = s.periodic;
       law_.tables.push_back(t);
       symbol.index = index;
     }

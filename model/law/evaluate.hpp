@@ -13,7 +13,8 @@
 
 namespace feltgate::law {
 
-/// How a table answers: by its formula (an argument outside of its domain is taken to its end), or
+/// How a table answers: by its formula (an argument outside of its domain is taken to its end, of a
+/// periodic one by whole periods into it), or
 /// as the engine does, linear between samples. A table without a number of segments is exact.
 enum class Tables { exact, sampled };
 
@@ -177,6 +178,7 @@ template <class N>
 N Evaluation<N>::table(std::size_t index, N x) const {
   const Range domain = law_.tables[index].domain;
   const N lower = number(domain.lower), upper = number(domain.upper);
+  if (law_.tables[index].periodic) x -= (upper - lower) * floor_of((x - lower) / (upper - lower));
   const N inside = x < lower ? lower : x > upper ? upper : x;
   if (samples_[index].empty()) return exact(index, inside);
   return through(samples_[index], domain, inside);

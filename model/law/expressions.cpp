@@ -153,6 +153,7 @@ NodeId Lowering::step_time(Place place) {
 
 NodeId Lowering::given_value(const Expression& e, const std::string& name, int axis) {
   const Place place = at(e.offset);
+  if (name == "true" || name == "false") return graph_.truth(name == "true", place);
   if (name == "pi") return graph_.constant(kPi, kNumber, place);
   if (name == "dt") return step_time(place);
   const Source source = name == "position"   ? Source::position
@@ -255,27 +256,37 @@ NodeId Lowering::binary(const Expression& e) {
 NodeId Lowering::compare(const Expression& e) {
   const Place place = at(e.offset);
   ExpressionPtr left = e.arguments[0];
-  if (e.name == "==" || e.name == "!=") {
-    report(e.offset, "\"" + e.name + "\" between numbers that are never quite the same",
-           "compare with <, <=, > or >=");
-    return kNone;
-  }
   // a < b < c: both comparisons.
   NodeId before = kNone;
   const bool chained =
-      left->kind == Expression::Kind::binary && left->name.find_first_of("<>") != std::string::npos;
+      left->kind == Expression::Kind::binary && left->name.find_first_of("<>=") != std::string::npos;
   if (chained) {
     before = value_of(left);
     left = left->arguments[1];
   }
   NodeId a = number_of(left), b = number_of(e.arguments[1]);
   if (!fit(a, b, *left, *e.arguments[1], e.offset, e.name)) return kNone;
+  if (e.name == "==" || e.name == "!=") {
+    const NodeId c = equal(e, a, b);
+    return chained ? graph_.both(before, c, place) : c;
+  }
   const bool swapped = e.name[0] == '>';
   const bool or_equal = e.name.size() == 2;
   // a <= b is not b < a.
   NodeId c = swapped != or_equal ? graph_.less(b, a, place) : graph_.less(a, b, place);
   if (or_equal) c = graph_.opposite(c, place);
   return chained ? graph_.both(before, c, place) : c;
+}
+
+NodeId Lowering::equal(const Expression& e, NodeId a, NodeId b) {
+  if (!graph_.node(a).whole || !graph_.node(b).whole) {
+    report(e.offset, "\"" + e.name + "\" between numbers that are never quite the same",
+           "compare with <, <=, > or >=, or make both whole");
+    return kNone;
+  }
+  const Place place = at(e.offset);
+  const NodeId differ = graph_.either(graph_.less(a, b, place), graph_.less(b, a, place), place);
+  return e.name == "==" ? graph_.opposite(differ, place) : differ;
 }
 
 NodeId Lowering::power(const Expression& e) {

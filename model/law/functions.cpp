@@ -125,6 +125,20 @@ Value BackEnd::limited(Value v, const Node& n, NodeId id) {
   return v;
 }
 
+/// Bits behind the point that a table's values can have: a value has 20 bits and a slope 16.
+int BackEnd::value_fraction(const TableRequest& r) {
+  double step = 0, largest = 0, before = 0;
+  for (int i = 0; i <= r.count; ++i) {
+    const double x = std::clamp((r.low + i) * r.argument_scale * 4096, r.domain.lo, r.domain.hi);
+    const double f = r.function({x, x}).v.middle();
+    if (i > 0) step = std::max(step, std::fabs(f - before));
+    largest = std::max(largest, std::fabs(f));
+    before = f;
+  }
+  const double room = std::min(524200 / std::max(largest, 1e-30), 32700 / std::max(step, 1e-30));
+  return std::min(30, static_cast<int>(std::floor(std::log2(room))));
+}
+
 Value BackEnd::function(NodeId id) {
   const Node& n = node(id);
   const NodeId argument = n.arguments[0];
@@ -132,6 +146,7 @@ Value BackEnd::function(NodeId id) {
     throw Refused(n.place, "the table's argument only depends on parameters",
                   "write the function instead of the table; the host computes it");
   }
+  if (n.op == Op::lookup && law_.tables[at(n.index)].periodic) return periodic(id);
   Span range = span(argument);
   const bool user = n.op == Op::lookup;
   const Table* table = user ? &law_.tables[at(n.index)] : nullptr;
@@ -198,17 +213,7 @@ Value BackEnd::function(NodeId id) {
   r.low = first(scale);
   r.count = count(scale);
   r.limit = 524287;
-  // A value has 20 bits and a slope 16.
-  double step = 0, largest = 0, before = 0;
-  for (int i = 0; i <= r.count; ++i) {
-    const double x = std::clamp((r.low + i) * scale * 4096, range.lo, range.hi);
-    const double f = r.function({x, x}).v.middle();
-    if (i > 0) step = std::max(step, std::fabs(f - before));
-    largest = std::max(largest, std::fabs(f));
-    before = f;
-  }
-  const double room = std::min(524200 / std::max(largest, 1e-30), 32700 / std::max(step, 1e-30));
-  const int fraction = std::min(30, static_cast<int>(std::floor(std::log2(room))));
+  const int fraction = value_fraction(r);
   // A table through points, as an array, is there once: its first reader chooses for all.
   const std::string memory = fmt::format("points {}", n.index);
   const auto same = memory_scales_.find(memory);
@@ -241,24 +246,28 @@ Value BackEnd::function(NodeId id) {
   return {last(), r.value_scale, 0};
 }
 
-/// The argument in turns of 1/`turn` words, modulo 2^32 words.
-Operand BackEnd::phase(NodeId id, double turn) {
+/// The argument in turns of 1/`turn` words, modulo 2^32 words; a turn is `period`. `far`:
+/// whole factors wrap too, however many turns it has been.
+Operand BackEnd::phase(NodeId id, double turn, double period, bool far) {
   std::vector<Term> terms;
   collect(id, 1, true, terms);
   std::vector<Multiply> products;
   std::vector<Addend> addends;
   for (const Term& t : terms) {
-    const double number = t.number / (2 * pi) / turn;  // words per unit of the factors
+    const double number = t.number / period / turn;  // words per unit of the factors
     if (t.factors.empty()) {
       if (t.fixed.empty()) {
         const double words = number - std::nearbyint(number * turn) / turn;
         if (std::fabs(words) > 2147483647.0) throw Unfit("a phase does not fit", id);
         addends.push_back({constant(words), 1, std::fabs(words - std::nearbyint(words))});
       } else {
-        if (fixed_size(t.fixed) * std::fabs(number) > 2147483000.0) {
-          throw Unfit("a phase parameter does not fit in 32 bits", id);
-        }
-        addends.push_back({{From::word, word(t.fixed, 1 / number)}, 1, 0});
+        // One of many turns has fewer bits, and MLW drops its whole ones.
+        double by = 1;
+        while (fixed_size(t.fixed) * std::fabs(number) / by > 2147483000.0) by *= 2;
+        if (by > 65536) throw Unfit("a phase parameter does not fit in 32 bits", id);
+        const Operand own{From::word, word(t.fixed, by / number)};
+        if (by == 1) addends.push_back({own, 1, 0});
+        if (by > 1) products.push_back({own, constant(by), 0, 0});
       }
       continue;
     }
@@ -269,7 +278,13 @@ Operand BackEnd::phase(NodeId id, double turn) {
     while (size * std::fabs(ratio) > 131071) {
       const double by =
           std::min(65536.0, std::exp2(std::ceil(std::log2(size * std::fabs(ratio) / 131071))));
-      v = align(v, v.scale / by, id);
+      const double whole = std::nearbyint(ratio);
+      if (far && t.fixed.empty() && same_scale(ratio, whole) && std::fmod(whole, by) == 0) {
+        emit(EngineOp::mlw, 0, v.operand, constant(by), v.scale / by, id).turns = true;
+        v = {last(), v.scale / by, v.size};
+      } else {
+        v = align(v, v.scale / by, id);
+      }
       ratio = number * v.scale;
     }
     if (t.fixed.empty()) {
@@ -335,7 +350,7 @@ Value BackEnd::sine(NodeId id) {
   if (known != table_keys_.end()) {
     x = {From::step, known->second};
   } else {
-    x = phase(n.arguments[0], turn);
+    x = phase(n.arguments[0], turn, 2 * pi, false);
     if (bits < 9) {
       // The upper bits of the turn, an index and 12 bits.
       const int drop = 20 - bits;

@@ -40,8 +40,11 @@ TableProof table_proof(const Compiled& c, int step) {
   const Step& s = c.program.steps[at(step)];
   const TableUse& t = c.program.tables[at(s.table)];
   const Node& n = c.law.nodes[at(s.node)];
-  const double word = t.wraps ? std::ldexp(1.0, -21) : argument_scale(c, s);
   const Table* own = n.op == Op::lookup ? &c.law.tables[at(n.index)] : nullptr;
+  const bool periodic = own != nullptr && own->periodic;
+  const double word = t.wraps    ? std::ldexp(1.0, -21)
+                      : periodic ? s.argument_scale
+                                 : argument_scale(c, s);
   const auto function = [&](const Span& x) {
     const Jet j{x, {1, 1}, {0, 0}};
     switch (n.op) {
@@ -66,7 +69,7 @@ TableProof table_proof(const Compiled& c, int step) {
   const double low = t.wraps ? 0 : reach.lo + 4096.0 * s.offset;
   const double high = t.wraps ? 4096.0 * 512 - 1 : reach.hi + 4096.0 * s.offset;
   Span domain = {low * word, high * word};
-  if (own != nullptr) domain = {own->domain.lower, own->domain.upper};
+  if (own != nullptr && !periodic) domain = {own->domain.lower, own->domain.upper};
   TableProof proof;
   for (std::size_t i = 0; i < t.words.size(); ++i) {
     const double value = engine_table_value(t.words[i]), slope = engine_table_slope(t.words[i]);

@@ -305,6 +305,7 @@ struct Put {
 const Put<&Statement::value> put_value{};
 
 const auto put_whole = [](auto& context) { x3::_val(context).whole = true; };
+const auto put_periodic = [](auto& context) { x3::_val(context).periodic = true; };
 const auto put_element = [](auto& context) {
   x3::_val(context).elements.push_back(x3::_attr(context));
 };
@@ -334,13 +335,15 @@ const auto mailbox = begin<S::mailbox>("mailbox") > name[put_name] > defined > r
                      max_age_ > expression[Put<&Statement::age>()];
 const auto state = begin<S::state>("state") > name[put_name] > defined > ranged > whole;
 const auto phase = begin<S::phase>("phase") > name[put_name] > defined > ranged;
+const auto boolean = begin<S::boolean>("bool") > name[put_name] > defined;
 const auto let = begin<S::let>("let") > name[put_name] > defined;
 const auto var = begin<S::var>("var") > name[put_name] > defined;
 const auto set = begin<S::set>("set") > name[put_name] > defined;
 const auto next = begin<S::next>("next") > name[put_name] > defined;
 const auto numbers = open_index > (expression[put_element] % ',') > close_index > unit[put_unit];
 const auto table = begin<S::table>("table") > name[put_name] > open > name[put_variable] > close >
-                   on_ > open_index > expression[Put<&Statement::lower>()] > comma >
+                   -x3::omit[plain("periodic")][put_periodic] > on_ > open_index >
+                   expression[Put<&Statement::lower>()] > comma >
                    expression[Put<&Statement::upper>()] > close_index > is_or_through >
                    ((plain("through") > numbers) |
                     (defined >
@@ -358,8 +361,8 @@ const auto event = begin<S::event>("event") > name[put_name] >
 const auto rate = begin<S::rate>("rate") > defined;
 const auto require = begin<S::require>("require") > expression[Put<&Statement::condition>()];
 
-const auto statement_def = param | mailbox | state | phase | let | var | set | next | table |
-                           array | line | loop | out | event | rate | require;
+const auto statement_def = param | mailbox | state | phase | boolean | let | var | set | next |
+                           table | array | line | loop | out | event | rate | require;
 BOOST_SPIRIT_DEFINE(statement)
 
 }  // namespace

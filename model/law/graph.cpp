@@ -15,6 +15,39 @@ namespace {
 constexpr std::size_t kMostNodes = 20'000;
 constexpr double kLargest = 1e300;
 
+/// Whether a node is surely a whole number.
+bool is_whole(const Law& law, const Node& n) {
+  const auto index = static_cast<std::size_t>(n.index);
+  const auto argument = [&](std::size_t i) {
+    return law.nodes[static_cast<std::size_t>(n.arguments[i])].whole;
+  };
+  switch (n.op) {
+    case Op::constant:
+      return std::floor(n.value) == n.value;
+    case Op::parameter:
+      return law.parameters[index].whole;
+    case Op::state:
+      return law.states[index].whole;
+    case Op::element: {
+      const std::vector<double>& all = law.arrays[index].values;
+      return std::all_of(all.begin(), all.end(), [](double x) { return std::floor(x) == x; });
+    }
+    case Op::select:
+      return argument(1) && argument(2);
+    case Op::negate:
+    case Op::absolute:
+      return argument(0);
+    case Op::add:
+    case Op::subtract:
+    case Op::multiply:
+    case Op::minimum:
+    case Op::maximum:
+      return argument(0) && argument(1);
+    default:
+      return false;
+  }
+}
+
 bool any_none(std::initializer_list<NodeId> ids) {
   return std::any_of(ids.begin(), ids.end(), [](NodeId id) { return id == kNone; });
 }
@@ -43,6 +76,7 @@ NodeId Graph::make(Op op, std::vector<NodeId> arguments, const Unit& unit, Place
   n.truth = truth;
   n.unit = unit;
   n.place = place;
+  n.whole = is_whole(law_, n);
   law_.nodes.push_back(std::move(n));
   fixed_.push_back(fixed);
   const auto id = static_cast<NodeId>(law_.nodes.size()) - 1;

@@ -68,6 +68,7 @@ struct Node {
   int index = -1;    ///< where `op` says so
   double value = 0;  ///< of a constant
   bool truth = false;
+  bool whole = false;  ///< surely a whole number
   Unit unit;
   Place place;
 };
@@ -119,6 +120,7 @@ struct Table {
   NodeId body = -1;            ///< of points: a constant of their unit
   std::vector<double> points;  ///< at equal distances over the domain; empty: a formula
   int segments = 0;            ///< 0: the compiler chooses; of points one less than there are
+  bool periodic = false;       ///< goes on beyond its ends as it began; they are the same
   Place place;
 };
 

@@ -33,6 +33,7 @@ class Lowering {
   void define(const Statement& s, Symbol symbol);
   void parameter(const Statement& s);
   void state(const Statement& s);
+  void boolean(const Statement& s);
   void let(const Statement& s);
   void set(const Statement& s);
   void next(const Statement& s);
@@ -49,6 +50,7 @@ class Lowering {
   void require(NodeId condition, bool holds, std::size_t offset);
   // statements.cpp
   void refuse_changing(NodeId body, const Statement& s);
+  void refuse_open(const Table& table, const Statement& s);
   void note_unused(const std::map<std::string, Symbol>& symbols);
   void check_ends(const Statement* last);
 
@@ -78,6 +80,7 @@ class Lowering {
   NodeId unary(const Expression& e);
   NodeId binary(const Expression& e);
   NodeId compare(const Expression& e);
+  NodeId equal(const Expression& e, NodeId a, NodeId b);
   NodeId power(const Expression& e);
   NodeId choice(const Expression& e);
   NodeId reduce(const Expression& e);

@@ -80,8 +80,10 @@ class Body {
         return exponential(arg(0));
       case Op::lookup: {
         const Table& t = law_.tables[at(n.index)];
-        const Jet a =
-            most(least(arg(0), constant_jet(t.domain.upper)), constant_jet(t.domain.lower));
+        Jet a = arg(0);
+        if (!t.periodic) {
+          a = most(least(a, constant_jet(t.domain.upper)), constant_jet(t.domain.lower));
+        }
         const Jet inner = table_jet(law_, t, a.v);
         return chain(a, inner.v, inner.d1, inner.d2);
       }
@@ -131,8 +133,8 @@ class Ranges {
 
   Span lookup(const Node& n, const Span& a) const {
     const Table& t = law_.tables[at(n.index)];
-    const Span x = {std::clamp(a.lo, t.domain.lower, t.domain.upper),
-                    std::clamp(a.hi, t.domain.lower, t.domain.upper)};
+    Span x = {t.domain.lower, t.domain.upper};
+    if (!t.periodic) x = {std::clamp(a.lo, x.lo, x.hi), std::clamp(a.hi, x.lo, x.hi)};
     Span r{1, 0};
     constexpr int pieces = 24;
     for (int i = 0; i < pieces; ++i) {
@@ -283,11 +285,34 @@ Jet points_jet(const Table& table, const Span& x) {
   return j;
 }
 
+Jet within(const Law& law, const Table& table, const Span& argument) {
+  if (!table.points.empty()) return points_jet(table, argument);
+  return Body(law, table, {argument, {1, 1}, {0, 0}}).jet(table.body);
+}
+
+/// Of a periodic table, wherever its argument is. Beyond its end by no more than doubles' rounding
+/// is no matter.
+Jet around(const Law& law, const Table& table, const Span& argument) {
+  const Span domain{table.domain.lower, table.domain.upper};
+  const double period = domain.width();
+  const auto joined = [&](const Span& a, const Span& b) {
+    const Jet first = within(law, table, a), second = within(law, table, b);
+    return either_of(first, second, hull(first.v, second.v));
+  };
+  if (!(argument.width() < period)) return joined(domain, domain);
+  const double back = period * std::floor((argument.lo - domain.lo) / period + 1e-12);
+  const Span x{std::max(domain.lo, argument.lo - back), argument.hi - back};
+  if (x.hi <= domain.hi + 1e-12 * period) {
+    const double hi = std::clamp(x.hi, x.lo, std::max(x.lo, domain.hi));
+    return within(law, table, both_of({x.lo, hi}, domain));
+  }
+  return joined({x.lo, domain.hi}, {domain.lo, std::min(domain.hi, x.hi - period)});
+}
+
 }  // namespace
 
 Jet table_jet(const Law& law, const Table& table, const Span& argument) {
-  if (!table.points.empty()) return points_jet(table, argument);
-  return Body(law, table, {argument, {1, 1}, {0, 0}}).jet(table.body);
+  return table.periodic ? around(law, table, argument) : within(law, table, argument);
 }
 
 double table_value(const Law& law, const Table& table, double argument) {

@@ -32,6 +32,7 @@ constexpr std::pair<const char*, const char*> kForms[] = {
     {"set", "set NAME = EXPRESSION"},
     {"state", "state NAME = VALUE UNIT in LOWER .. UPPER UNIT"},
     {"phase", "phase NAME = VALUE in LOWER .. UPPER"},
+    {"bool", "bool NAME = false"},
     {"next", "next NAME = EXPRESSION"},
     {"table", "table NAME(x) on [LOWER, UPPER] = EXPRESSION with 256 segments"},
     {"array", "array NAME = [1, 2, 3] UNIT"},

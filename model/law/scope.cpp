@@ -10,7 +10,8 @@ namespace {
 
 const std::vector<std::string> kFunctions{"min", "max",  "clamp", "abs",     "sgn", "sin",
                                           "cos", "sqrt", "exp",   "lowpass", "sum"};
-const std::vector<std::string> kValues{"position", "velocity", "tau_hat", "torque", "pi", "dt"};
+const std::vector<std::string> kValues{"position", "velocity", "tau_hat", "torque",
+                                       "pi",       "dt",       "true",    "false"};
 
 bool holds(const std::vector<std::string>& all, const std::string& name) {
   return std::find(all.begin(), all.end(), name) != all.end();

@@ -64,6 +64,8 @@ void Lowering::statement(const Statement& s) {
     case Kind::state:
     case Kind::phase:
       return state(s);
+    case Kind::boolean:
+      return boolean(s);
     case Kind::let:
     case Kind::var:
       return let(s);
@@ -161,6 +163,29 @@ void Lowering::state(const Statement& s) {
   define(s, symbol);
 }
 
+/// A whole state, 0 or 1; what reads it compares.
+void Lowering::boolean(const Statement& s) {
+  const NodeId first = truth_of(s.value);
+  Symbol symbol;
+  if (first != kNone && !graph_.is_constant(first)) {
+    report(s.value->offset, "the first value of " + quoted(s.name) + " is not constant",
+           "write bool " + s.name + " = false");
+  } else if (first != kNone) {
+    State state;
+    state.name = s.name;
+    state.initial = graph_.node(first).value;
+    state.range = {0, 1};
+    state.whole = true;
+    state.place = at(s.name_offset);
+    symbol.index = static_cast<int>(law_.states.size());
+    law_.states.push_back(state);
+    symbol.node = graph_.less(graph_.constant(0, kNumber, state.place),
+                              graph_.leaf(Op::state, symbol.index, kNumber, state.place),
+                              state.place);
+  }
+  define(s, symbol);
+}
+
 void Lowering::let(const Statement& s) {
   defining_ = s.name;
   Symbol symbol;
@@ -189,15 +214,16 @@ void Lowering::set(const Statement& s) {
 }
 
 void Lowering::next(const Statement& s) {
-  const NodeId value = number_of(s.value);
   Symbol* const symbol = scope_.find(s.name);
-  const bool is_state =
-      symbol != nullptr && (symbol->kind == Kind::state || symbol->kind == Kind::phase);
+  const bool is_truth = symbol != nullptr && symbol->kind == Kind::boolean;
+  const NodeId value = is_truth ? truth_of(s.value) : number_of(s.value);
+  const bool is_state = symbol != nullptr && (symbol->kind == Kind::state ||
+                                              symbol->kind == Kind::phase || is_truth);
   if (!is_state && (symbol == nullptr || symbol->kind != Kind::line)) {
     std::vector<std::string> names;
     for (const State& state : law_.states) names.push_back(state.name);
     for (const Line& line : law_.lines) names.push_back(line.name);
-    report(s.name_offset, quoted(s.name) + " is no state, phase or line",
+    report(s.name_offset, quoted(s.name) + " is no state, phase, bool or line",
            config::did_you_mean(s.name, names) + "write above: state " + s.name + " = ...");
     return;
   }
@@ -207,6 +233,12 @@ void Lowering::next(const Statement& s) {
   }
   if (symbol->index < 0 || value == kNone) return;
   const auto index = static_cast<std::size_t>(symbol->index);
+  if (is_truth) {
+    const Place place = at(s.value->offset);
+    law_.states[index].next = graph_.select(value, graph_.constant(1, kNumber, place),
+                                            graph_.constant(0, kNumber, place), place);
+    return;
+  }
   const Unit unit = is_state ? law_.states[index].unit : law_.lines[index].unit;
   const NodeId written = number_in(s.value, unit, quoted(s.name));
   (is_state ? law_.states[index].next : law_.lines[index].written) = written;

@@ -49,6 +49,7 @@ struct Statement {
     set,
     state,
     phase,
+    boolean,
     next,
     table,
     array,
@@ -70,6 +71,7 @@ struct Statement {
   ExpressionPtr index;      ///< out torque[index]; line NAME[length]
   ExpressionPtr segments;   ///< of a table
   bool whole = false;
+  bool periodic = false;                ///< of a table
   std::vector<ExpressionPtr> elements;  ///< of an array
   UnitValue unit;                       ///< behind an array
   std::string unit_text;

@@ -84,6 +84,20 @@ TEST_CASE("conditions") {
   CHECK(truth("not not position < 1", 0) == 1);
   CHECK(truth("if position < 1 then position < 0 else position > 2", -1) == 1);
   CHECK(truth("if position < 1 then position < 0 else position > 2", 1.5) == 0);
+  const auto counted = [](const std::string& c, int n) {
+    return torque_of("param p = 3 in -5 .. 5 whole\nstate n = " + std::to_string(n) +
+                     " in -9 .. 9 whole\nnext n = n\nout torque = 1 Nm * (if " + c +
+                     " then 1 else p - p)");
+  };
+  for (const int n : {2, 3, 4, -3}) {
+    CHECK(counted("n == 3", n) == (n == 3));
+    CHECK(counted("n != 3", n) == (n != 3));
+    CHECK(counted("p == n", n) == (n == 3));
+    CHECK(counted("not n == p", n) == (n != 3));
+    CHECK(counted("abs(-n) + 1 == 2 * min(p, 2)", n) == (n * n == 9));
+    CHECK(counted("0 < n == p", n) == (n == 3));
+    CHECK(counted("n == p < 4", n) == (n == 3));
+  }
   CHECK(at("if position < 0 then -1 else if position < 1 then 0 else 1", 0.5) == 0);
   CHECK(at("2 * (if position < 0 then 3 else 4)", -1) == 6);
 }
@@ -176,6 +190,25 @@ TEST_CASE("a phase wraps, a whole state is rounded down") {
   CHECK(whole.torque({}) == 2);
 }
 
+TEST_CASE("a bool is a condition that is kept") {
+  Running<> law(
+      law_of("bool held = true\nbool was = false\nnext was = held\n"
+             "next held = position > 1 or held and position > 0\nvar any = false\n"
+             "set any = held or was\n"
+             "out torque = 1 Nm * ((if held then 1 else 0) + (if any then 10 else 0))"));
+  const auto of = [&](double x) { return law.torque({{"position", x}}); };
+  CHECK(of(-1) == 11);
+  CHECK(of(0.5) == 10);
+  CHECK(of(0.5) == 0);
+  CHECK(of(2) == 0);
+  CHECK(of(0.5) == 11);
+  CHECK(of(-1) == 11);
+  CHECK(of(-1) == 10);
+  CHECK(of(-1) == 0);
+  law.evaluation().reset();
+  CHECK(of(-1) == 11);
+}
+
 TEST_CASE("lowpass: its step response is exact at every rate") {
   for (const double rate : {1e3, 1e5}) {
     Running<> law(
@@ -227,6 +260,26 @@ TEST_CASE("tables through points: linear between them, sampled or not") {
   }
   Running<> units(law_of("table f(x) on [0, 1] through [1 Nm, 2 Nm]\nout torque = f(position)"));
   CHECK(units.torque({{"position", 0.5}}) == Approx(1.5));
+}
+
+TEST_CASE("periodic tables go on as they began") {
+  const std::string points =
+      "table f(x) periodic on [1, 3] through [10, 30, 20, 0, 10] mNm\nout torque = f(position)";
+  Running<> exact(law_of(points)), sampled(law_of(points), Tables::sampled);
+  for (Running<>* one : {&exact, &sampled}) {
+    for (const double turns : {0.0, 2.0, -2.0, 2000.0, -64.0}) {
+      CHECK(one->torque({{"position", 1.0 + turns}}) == Approx(0.010));
+      CHECK(one->torque({{"position", 1.25 + turns}}) == Approx(0.020));
+      CHECK(one->torque({{"position", 2.75 + turns}}) == Approx(0.005));
+    }
+  }
+  Running<> formula(
+      law_of("table f(x) periodic on [-0.5, 0.5] = x^2\ntable q(x) on [-9, 9] = f(x + 0.25)\n"
+             "out torque = 1 Nm * (f(position) + 10 * q(position))"));
+  for (const double x : {-0.4, 0.1, 0.3, 7.2, -8.9}) {
+    const double a = x - std::nearbyint(x), b = x + 0.25 - std::nearbyint(x + 0.25);
+    CHECK(formula.torque({{"position", x}}) == Approx(a * a + 10 * b * b));
+  }
 }
 
 TEST_CASE("arrays: constants in loops, elements by number at run time") {

@@ -199,10 +199,11 @@ const Bad kMeaning[] = {
      "1:7: the state \"q\" has no next; write below: next q = ..."},
     {"line l[3] in -1 .. 1 Nm\nout torque = l[1]",
      "1:6: nothing is written into the line \"l\"; write below: next l = ..."},
-    {"next q = 1" OUT, "1:6: \"q\" is no state, phase or line; write above: state q = ..."},
+    {"next q = 1" OUT, "1:6: \"q\" is no state, phase, bool or line; write above: state q = ..."},
     {"state sum_of = 0 Nm in -1 .. 1 Nm\nnext sumof = sum_of\nout torque = sum_of",
      "1:7: the state \"sum_of\" has no next; write below: next sum_of = ...\n"
-     "2:6: \"sumof\" is no state, phase or line; did you mean \"sum_of\"? write above: state sumof "
+     "2:6: \"sumof\" is no state, phase, bool or line; did you mean \"sum_of\"? write above: state "
+     "sumof "
      "= ..."},
     {"state q = 0 Nm in -1 .. 1 Nm\nnext q = q\nnext q = 0\nout torque = q",
      "3:6: a second next of \"q\"; write one: next NAME = if ..."},
@@ -257,6 +258,16 @@ const Bad kMeaning[] = {
      "= EXPRESSION with 256 segments"},
     {"table f(x) on [0, 1] through [1]\nout torque = 1 Nm * f(position)",
      "1:7: a table through one point; a line needs two, at the table's ends"},
+    {"table f(x) periodic on [0, 1] through [1, 3, 2]\nout torque = 1 Nm * f(position)",
+     "1:7: the periodic table \"f\" begins with 1 and ends with 2; let it end as it begins: what "
+     "jumps is a comparison outside of it"},
+    {"table f(x) periodic on [0, 3] = sin(x)\nout torque = 1 Nm * f(position)",
+     "1:7: the periodic table \"f\" begins with 0 and ends with 0.14112; let it end as it begins: "
+     "what jumps is a comparison outside of it"},
+    {"table f(x) periodic on [0, 1 turn] = cos(x)\nout torque = 1 Nm * f(position)", "read"},
+    {"table f(x) periodic [0, 1] = 1\nout torque = 1 Nm * f(position)",
+     "1:21: expected \"on\", found \"[\"; the form is: table NAME(x) on [LOWER, UPPER] = "
+     "EXPRESSION with 256 segments"},
     {"table f(x) on [0, 1] through [1 Nm, 2 N]\nout torque = f(position)",
      "1:37: elements in Nm and in N; write the unit once, behind the bracket"},
     {"param k = 1 in 0 .. 2\ntable f(x) on [0, 1] through [1, k]\nout torque = 1 Nm * f(position)",
@@ -320,7 +331,11 @@ const Bad kMeaning[] = {
      "1:14: a condition and a number as the two values of an if; both must be numbers, or both "
      "conditions"},
     {"out torque = if position == 1 then 1 Nm else 0",
-     "1:26: \"==\" between numbers that are never quite the same; compare with <, <=, > or >="},
+     "1:26: \"==\" between numbers that are never quite the same; compare with <, <=, > or >=, or "
+     "make both whole"},
+    {"param p = 1 in 0 .. 2 whole\nout torque = if p / 2 != 1 then 1 Nm else 0",
+     "2:23: \"!=\" between numbers that are never quite the same; compare with <, <=, > or >=, or "
+     "make both whole"},
     {"out torque = if position and velocity then 1 Nm else 0",
      "1:17: a number where a condition must stand; compare it: x > 0\n"
      "1:30: a number where a condition must stand; compare it: x > 0"},
@@ -332,6 +347,17 @@ const Bad kMeaning[] = {
     {"out torque = sum(tau_hat)",
      "1:14: a sum without a range; write sum(i in 0 .. 3: EXPRESSION)"},
     {"out torque = abs(tau_hat, 1)", "1:14: abs with 2 arguments; write abs(x)"},
+    {"bool q = 1\nnext q = q\nout torque = if q then 1 Nm else 0",
+     "1:10: a number where a condition must stand; compare it: x > 0"},
+    {"bool q = position > 1\nnext q = q\nout torque = if q then 1 Nm else 0",
+     "1:19: the first value of \"q\" is not constant; write bool q = false"},
+    {"bool q = false\nnext q = 1\nout torque = if q then 1 Nm else 0",
+     "2:10: a number where a condition must stand; compare it: x > 0"},
+    {"bool q = false\nnext q = q\nout torque = 1 Nm * q",
+     "3:21: a condition where a number must stand; write if CONDITION then 1 else 0"},
+    {"bool q in 0 .. 1" OUT, "1:8: expected \"=\", found \"in\"; the form is: bool NAME = false"},
+    {"bool q = false\nout torque = if q then 1 Nm else 0",
+     "1:6: the state \"q\" has no next; write below: next q = ..."},
     // loops and events
     {"out torque = sum(i in 3 .. 0: tau_hat)",
      "1:23: the loop's range is upside down: 3 .. 0; write 0 .. 3"},

@@ -78,6 +78,37 @@ const std::map<std::string, Sample> samples = {
       "-3)\n"
       "out torque = if inside then 0.2 Nm else -0.1 Nm\n",
       10, 2e-5}},
+    {"whole values that are the same, or not",
+     {"state n = 3 in -9 .. 9 whole\nmailbox p = 3 in -5 .. 5 whole max_age 1 s\n"
+      "next n = if n == p or position > 1 then max(n - 1, -9) else min(n + 1, 9)\n"
+      "out torque = (if n != 2 * p - 1 then 0.2 Nm else -0.1 Nm) + 0.01 Nm * clamp(position, -1, "
+      "1)\n",
+      30, 5e-5}},
+    {"a periodic table through points, of the position",
+     {"param scale = 1 in 0 .. 1\n"
+      "table cogging(q) periodic on [0, 1 turn] through [0, 4, 6, 1, -5, -4, 0, 3, 5, 2, -6, -3, "
+      "0] "
+      "mNm\n"
+      "out torque = scale * cogging(position)\n",
+      5, 4e-5}},
+    {"periodic tables: an odd number of points, one read twice, a formula beside a sine",
+     {"param a = 0.3 rad in -3 .. 3 rad\n"
+      "table rough(q) periodic on [-0.3, 0.6] through [10, 30, -20, 10] mNm\n"
+      "table wave(q) periodic on [0.1, 0.5] = 0.03 Nm * (q - 0.1) * (0.5 - q) / 0.04\n"
+      "out torque = rough(position) + rough(2 * position - a) + wave(position) * sin(7 * "
+      "position)\n",
+      28, 6e-5}},
+    {"a periodic table of a speed",
+     {"table wave(q) periodic on [0, 2] = 0.03 Nm * abs(q - 1)\n"
+      "out torque = wave(0.1 s * velocity)\n",
+      6, 5e-5}},
+    {"bools: a latch with both thresholds, and one that follows it",
+     {"param high = 0.2 in 0.1 .. 1\nparam low = -0.1 in -1 .. 0\n"
+      "bool held = true\nbool was = false\nnext was = held\n"
+      "next held = position > high or held and position > low\n"
+      "out torque = (if held and not was then 0.2 Nm else -0.1 Nm) + 0.01 Nm * clamp(position, -1, "
+      "1)\n",
+      20, 5e-5}},
     {"two states that change places",
      {"state a = 0.1 in -1 .. 1\nstate b = -0.2 in -1 .. 1\n"
       "next a = b\nnext b = a\n"
@@ -157,6 +188,28 @@ TEST_CASE("an event's value that only depends on parameters keeps its terms") {
   const MachineRun hit = machine.run(0, inputs);
   REQUIRE(hit.events.size() == 1);
   CHECK(hit.events[0].value * c.image.events[0].scale == Approx(1.5).margin(1e-4));
+}
+
+TEST_CASE("a periodic table follows the position without drift, however far") {
+  const Compiled c = compiled(
+      "table rough(q) periodic on [0, 1 turn / 8] through [10, 30, -20, 10] mNm\n"
+      "table wave(q) periodic on [0, 1 turn] = 0.03 Nm * sin(q)^3\n"
+      "out torque = rough(position) + wave(position)\n");
+  EngineMemory memory;
+  memory.program = c.image.program;
+  memory.data = c.image.data;
+  memory.table = c.image.table;
+  Machine machine(memory);
+  const auto torque = [&](std::int64_t position) {
+    MachineInputs inputs{};
+    inputs[0] = static_cast<std::int32_t>(position);
+    return machine.run(0, inputs).outputs[0];
+  };
+  for (std::int64_t p = 0; p < 4096; p += 37) {
+    for (const std::int64_t turns : {1L, -1L, 12345L, -524288L, 524287L}) {
+      CHECK(torque(p + 4096 * turns) == torque(p));
+    }
+  }
 }
 
 TEST_CASE("an event is one run's: where its condition becomes true") {

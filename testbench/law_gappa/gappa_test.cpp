@@ -137,6 +137,16 @@ TEST_CASE("a bound that is too small is not proven", "[defects]") {
               6);
 }
 
+TEST_CASE("Gappa proves what the language brings along") {
+  const Prover gappa;
+  for (const char* name : {"cogging", "equal", "latch"}) {
+    require_all(gappa,
+                compile_file(fmt::format("{}/testbench/law_cpp/laws/{}.law", FELTGATE_ROOT, name),
+                             Target{}),
+                2);
+  }
+}
+
 TEST_CASE("Gappa proves random laws") {
   const Prover gappa;
   int compiled = 0;

@@ -53,9 +53,11 @@ CellFacts Analysis::run() {
     for (std::size_t o = 0; s.output >= 0 && o < law_.outputs.size(); ++o) {
       if (law_.outputs[o].axis != s.output) continue;
       const Span law = spans_[at(law_.outputs[o].value)];
-      facts_.output_error[o] = f.error * s.scale;
+      // What goes out counts in the torque's LSB, though the step may be of a part of it.
+      const double lsb = std::ldexp(1.0, -target_.torque.fraction);
+      facts_.output_error[o] = f.error * lsb;
       facts_.output_apart[o] =
-          raised(std::max(f.words.hi * s.scale - law.lo, law.hi - f.words.lo * s.scale));
+          raised(std::max(f.words.hi * lsb - law.lo, law.hi - f.words.lo * lsb));
     }
   }
   states();

@@ -242,7 +242,9 @@ class Bounds {
         s.jump.push_back(swapped.output_error[o] - base.output_error[o]);
         any = std::max(any, s.jump.back());
       }
-      if (any > 0 || !law_.states.empty()) b->strips.push_back(s);
+      // What states keep and events tell is off as well.
+      const bool more = !law_.states.empty() || !law_.events.empty();
+      if (any > 0 || more) b->strips.push_back(s);
     }
   }
 

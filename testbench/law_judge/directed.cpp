@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+#include "generate.hpp"
+
+namespace feltgate::judge {
+
+namespace {
+
+Node times(double factor, const Node& x) { return number(factor) * x; }
+
+Law of(Law law, const Node& torque) {
+  law.torques.push_back(torque);
+  return law;
+}
+
+/// Sums of parameters alone, a condition in a product.
+void parameters_alone(std::vector<Directed>& all) {
+  {
+    Law l;
+    const Node p = l.param("p", 1, 0.1, 1);
+    all.push_back({"a sign times its parameter, and a number", of(l, sgn(p) * p + 0.01)});
+  }
+  for (const bool far : {false, true}) {
+    Law l;
+    const Node strength = l.param("strength", 0.2, 0, 1), face = l.param("face", 0, -1, 1);
+    const Node way = choose(position() < face, number("1"), number("-1"));
+    const Node x = way * strength + 0.1;
+    all.push_back({"a way times a strength, and a number",
+                   of(l, far ? choose(velocity() > number("0"), x, number("0")) : x)});
+  }
+  {
+    Law l;
+    const Node p = l.param("p", 1, 0.1, 1);
+    l.torques.push_back(limited(position(), -1, 1));
+    l.events.push_back({"told", sgn(p) * p + 0.01, position() > p});
+    all.push_back({"the same as an event's value", l});
+  }
+  {
+    Law l;
+    const Node which = l.param("which", 1, 0, 3, true), p = l.param("p", 1, 0.1, 1);
+    l.arrays.push_back({"list", {0.1, -0.25, 0.5, 0.3}});
+    const Node element = make(Kind::element, {which}, 0, "list");
+    all.push_back({"an element times a parameter, and a number", of(l, element * p + 0.1)});
+    all.push_back({"an element and a parameter", of(l, element + p)});
+  }
+}
+
+/// Comparisons of whole states with what lies between whole numbers, and with whole ones.
+void whole_states(std::vector<Directed>& all) {
+  const Kind kinds[] = {Kind::less, Kind::less_equal, Kind::more, Kind::more_equal};
+  for (const char* threshold : {"0.5", "1.5", "2.5", "1", "0.25"}) {
+    for (const Kind kind : kinds) {
+      for (const bool turned : {false, true}) {
+        for (const double lower : {0.0, -2.0}) {
+          Law l;
+          const Node stage = l.state("stage", 0, lower, 3, true), at = number(threshold);
+          const Node more = choose(position() > number("0"), number("1"), number("-1"));
+          l.states[0].next = make(Kind::clamp, {stage + more, number(lower, 0), number("3")});
+          const Node is = turned ? make(kind, {at, stage}) : make(kind, {stage, at});
+          all.push_back({std::string("a whole state beside ") + threshold,
+                         of(l, choose(is, number("0.25"), number("-0.5")))});
+        }
+      }
+    }
+  }
+}
+
+/// What goes out as another one's word under another scale.
+void renamed(std::vector<Directed>& all) {
+  all.push_back(
+      {"four times a sine", of({}, number("4") * make(Kind::sine, {number("24") * position()}))});
+  const Node x =
+      make(Kind::root,
+           {number("0.1") + make(Kind::absolute, {limited(times(0.02, velocity()), -1, 1)})});
+  all.push_back({"four times a root", of({}, number("4") * x)});
+}
+
+void nested(std::vector<Directed>& all) {
+  Law l;
+  const Node q = l.param("q", 0, -1, 1);
+  const Node inner = choose(number("0.02") * velocity() < position() - q, number("1") + q, q - 1);
+  all.push_back({"a comparison that another one decides",
+                 of(l, choose(inner < number("0.3") * q, number("0.5"), number("-0.5")))});
+  const Node twice = choose(inner < number("0.3") * q, number("0.2") + q, q - 0.7);
+  all.push_back(
+      {"two of them", of(l, choose(twice < number("0.1"), number("0.5"), number("-0.5")))});
+}
+
+/// Every part of a sine's argument loses the bits below its last one, all in one direction.
+void dropped(std::vector<Directed>& all) {
+  const Node turn = make(Kind::number, {}, -1, "(2 * pi)", 6.283185307179586476925286766559L);
+  const auto exact = [](double c) { return number(fmt::format("{:.20g}", c)); };
+  Node sum;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Node speed = exact((1201 + 2 * axis) / 4096.0) * velocity(axis);
+    sum = sum ? sum + speed : speed;
+    sum = sum + exact((1205 - 2 * axis) / 131072.0) * tau_hat(axis);
+  }
+  all.push_back({"a sine of six products", of({}, number("4") * make(Kind::sine, {turn * sum}))});
+}
+
+/// What only the end of a table's last piece reaches.
+void last_piece(std::vector<Directed>& all) {
+  Law l;
+  l.tables.push_back({"curve", 0, 2, {}, {0, 0.1, 0.1, 0.1, 4}, 0});
+  const Node curve = make(Kind::table, {position()}, 0, "curve");
+  all.push_back(
+      {"the end of a table", of(l, choose(curve < number("3.9"), number("0.25"),
+                                          times(0.1, make(Kind::sine, {times(3, position())}))))});
+}
+
+/// Factors that words fill, and by their error would leave.
+void full_factors(std::vector<Directed>& all) {
+  for (const char* middle :
+       {"0.49998", "0.49999", "0.499992", "0.499994", "0.499996", "0.499998"}) {
+    const Node peak = make(Kind::sine, {number("256") * position()});
+    const Node factor = times(0.5, peak) + number(middle);
+    const Node other = velocity() / number("1024") + limited(position(1), -1, 1);
+    all.push_back({"a factor of all 18 bits", of({}, times(0.5, factor * other))});
+  }
+}
+
+}  // namespace
+
+std::vector<Directed> tight_laws() {
+  std::vector<Directed> all;
+  dropped(all);
+  last_piece(all);
+  full_factors(all);
+  return all;
+}
+
+std::vector<Directed> directed_laws() {
+  std::vector<Directed> all;
+  parameters_alone(all);
+  whole_states(all);
+  nested(all);
+  renamed(all);
+  return all;
+}
+
+}  // namespace feltgate::judge

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Laws as trees of the test's own: printed as text for the compiler, and evaluated in long double
+// from docs/laws.md alone. Nothing of model/law is used here.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace feltgate::judge {
+
+using Real = long double;
+
+// clang-format off
+enum class Kind {
+  number, param, input, state, line, let, counter,  // leaves
+  add, subtract, multiply, divide, power, negate, minimum, maximum, clamp, absolute,
+  sine, cosine, root, exponential, table, element, sign, choice, sum,
+  less, less_equal, more, more_equal, both, either, opposite
+};
+// clang-format on
+
+struct Tree;
+using Node = std::shared_ptr<const Tree>;
+
+struct Tree {
+  Kind kind = Kind::number;
+  std::string text;  ///< of a number; name of all else that has one
+  Real value = 0;    ///< of a number; lower end of a sum's counter, whose upper end is `index`
+  int index = -1;    ///< in the law's list of what it names; a power; how many runs ago of a line
+  std::vector<Node> parts;
+};
+
+inline Node make(Kind kind, std::vector<Node> parts, int index = -1, std::string text = "",
+                 Real value = 0) {
+  return std::make_shared<const Tree>(Tree{kind, std::move(text), value, index, std::move(parts)});
+}
+/// The value is that of the text, as every reader of a decimal takes it.
+inline Node number(const std::string& text) {
+  return make(Kind::number, {}, -1, text, std::strtod(text.c_str(), nullptr));
+}
+inline Node number(double value, int digits = 3) {
+  Node n = number(fmt::format("{:.{}f}", value < 0 ? -value : value, digits));
+  return value < 0 ? make(Kind::negate, {n}) : n;
+}
+inline Node operator+(const Node& a, const Node& b) { return make(Kind::add, {a, b}); }
+inline Node operator-(const Node& a, const Node& b) { return make(Kind::subtract, {a, b}); }
+inline Node operator*(const Node& a, const Node& b) { return make(Kind::multiply, {a, b}); }
+inline Node operator/(const Node& a, const Node& b) { return make(Kind::divide, {a, b}); }
+inline Node operator+(const Node& a, double b) { return a + number(b); }
+inline Node operator-(const Node& a, double b) { return a - number(b); }
+inline Node operator*(double a, const Node& b) { return number(a) * b; }
+inline Node operator<(const Node& a, const Node& b) { return make(Kind::less, {a, b}); }
+inline Node operator>(const Node& a, const Node& b) { return make(Kind::more, {a, b}); }
+inline Node operator<=(const Node& a, const Node& b) { return make(Kind::less_equal, {a, b}); }
+inline Node operator>=(const Node& a, const Node& b) { return make(Kind::more_equal, {a, b}); }
+inline Node sgn(const Node& a) { return make(Kind::sign, {a}); }
+inline Node limited(const Node& a, double lower, double upper) {
+  return make(Kind::clamp, {a, number(lower), number(upper)});
+}
+inline Node choose(const Node& condition, const Node& a, const Node& b) {
+  return make(Kind::choice, {condition, a, b});
+}
+
+struct Param {
+  std::string name, unit;  ///< `unit` stands behind its numbers; empty: none
+  Real to_si = 1;
+  double initial = 0, lower = 0, upper = 1;  ///< in `unit`
+  bool whole = false, mailbox = false;
+};
+struct State {
+  std::string name;
+  double initial = 0, lower = 0, upper = 1;
+  bool whole = false, phase = false;
+  Node next;
+  Node follows, frequency;  ///< of a lowpass, which is a state without a line of its own
+};
+struct Table {
+  std::string name;
+  double lower = 0, upper = 1;
+  Node body;  ///< of Kind::counter, the variable
+  std::vector<double> points;
+  int segments = 0;  ///< 0: the compiler chooses
+};
+struct Array {
+  std::string name;
+  std::vector<double> values;
+};
+struct Line {
+  std::string name;
+  int length = 4;
+  double lower = -1, upper = 1;
+  Node written;
+};
+struct Let {
+  std::string name;
+  Node value;
+};
+struct Event {
+  std::string name;
+  Node value, condition;
+};
+
+/// A law; what no output, event, state or line needs is not printed.
+struct Law {
+  double rate_khz = 0;
+  std::vector<Param> params;
+  std::vector<State> states;  ///< declared ones first, then lowpasses in the order of `lets`
+  std::vector<Table> tables;
+  std::vector<Array> arrays;
+  std::vector<Line> lines;
+  std::vector<Let> lets;
+  std::vector<Node> torques;  ///< of axis 0, 1, 2
+  std::vector<Event> events;
+
+  Node param(const std::string& name, double initial, double lower, double upper,
+             bool whole = false) {
+    params.push_back({name, "", 1, initial, lower, upper, whole, false});
+    return make(Kind::param, {}, static_cast<int>(params.size()) - 1, name);
+  }
+  Node state(const std::string& name, double initial, double lower, double upper,
+             bool whole = false) {
+    states.push_back({name, initial, lower, upper, whole, false, {}, {}, {}});
+    return make(Kind::state, {}, static_cast<int>(states.size()) - 1, name);
+  }
+};
+
+/// The inputs, three for each axis.
+inline Node position(int axis = 0) {
+  return make(Kind::input, {}, 3 * axis,
+              axis == 0 ? "position" : fmt::format("position[{}]", axis));
+}
+inline Node velocity(int axis = 0) {
+  return make(Kind::input, {}, 3 * axis + 1,
+              axis == 0 ? "velocity" : fmt::format("velocity[{}]", axis));
+}
+inline Node tau_hat(int axis = 0) {
+  return make(Kind::input, {}, 3 * axis + 2,
+              axis == 0 ? "tau_hat" : fmt::format("tau_hat[{}]", axis));
+}
+
+/// The text of a law. Every comparison, sgn and element of an array begins a line of its own, so
+/// that a line says which one it is.
+class Printer {
+ public:
+  explicit Printer(const Law& law);
+  const std::string& text() const { return text_; }
+  /// Of what canonical() gives: the lines that it is on.
+  const std::map<std::string, std::set<int>>& lines() const { return lines_; }
+  bool needed(const std::string& name) const { return needed_.count(name) != 0; }
+
+ private:
+  std::string of(const Node& n);
+  std::string mark(const Node& n);
+  void need(const Node& n);
+  void declare();
+  std::string ends(const std::string& unit, double initial, double lower, double upper) const;
+
+  const Law& law_;
+  std::set<std::string> needed_;
+  std::string text_;
+  std::vector<std::string> marks_;
+  std::map<std::string, std::set<int>> lines_;
+};
+
+/// A comparison as a < b, or an element's index, its lets written in full.
+std::string canonical(const Law& law, const Node& n);
+
+/// What a run decided, and how near it was to deciding otherwise.
+struct Decision {
+  long key = 0;
+  const std::string* canonical = nullptr;
+  long taken = 0;      ///< 0, 1; of an element the index
+  long other = 0;      ///< the nearest other
+  Real distance = 0;   ///< of the operands from where it would turn
+  Real rounding = 0;   ///< within which doubles may tell equal operands apart
+  bool exact = false;  ///< both sides are whole by the law itself: nothing is near
+};
+
+struct Outcome {
+  std::vector<Real> torques, states, written, events;
+  std::vector<char> holds;  ///< the events' conditions
+  std::vector<Decision> decisions;
+};
+
+/// The law's memory and surroundings before a run, SI.
+struct Before {
+  std::vector<Real> params, inputs, states;
+  std::vector<std::vector<Real>> lines;  ///< [line][k]: what was written k + 1 runs ago
+  Real rate_hz = 1;
+};
+
+/// One run in long double. `forced`: decisions that are made so, whatever their operands say.
+class Evaluator {
+ public:
+  explicit Evaluator(const Law& law) : law_(law) {}
+  Outcome run(const Before& before, const std::map<long, long>& forced);
+
+ private:
+  struct Known {
+    long number;
+    std::string canonical;
+  };
+  Real of(const Node& n);
+  bool truth(const Node& n);
+  bool less(const Node& n, const Node& a, const Node& b);
+  Real element(const Node& n);
+  Real table(const Table& t, Real x);
+  Real filtered(const State& s, Real y);
+  long decide(const Node& n, long taken, long other, Real distance, Real size, bool exact);
+  bool whole(const Node& n) const;
+
+  const Law& law_;
+  std::map<const Tree*, Known> known_;
+  std::map<std::string, long> numbers_;
+  const Before* before_ = nullptr;
+  const std::map<long, long>* forced_ = nullptr;
+  std::vector<Decision> decisions_;
+  std::set<long> seen_;
+  Real variable_ = 0;
+  int counter_ = -1;
+};
+
+}  // namespace feltgate::judge

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What the compiler tells of a law's comparisons, and the inputs that a run is given.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "feltgate/random.hpp"
+#include "law/compile.hpp"
+#include "law_tree.hpp"
+
+namespace feltgate::judge {
+
+/// The strips of the compiler's answer, by the comparison that is on their line.
+class Strips {
+ public:
+  Strips(const Printer& printer, const feltgate::law::Compiled& c) {
+    for (const law::Strip& s : c.bound.strips) {
+      if (s.condition < 0) continue;
+      const int line = c.law.nodes[static_cast<std::size_t>(s.condition)].place.line;
+      for (const auto& [comparison, lines] : printer.lines()) {
+        if (lines.count(line) == 0) continue;
+        double& width = widths_[comparison];
+        width = std::max(width, s.width);
+        std::vector<double>& jump = jumps_[comparison];
+        jump.resize(s.jump.size());
+        for (std::size_t k = 0; k < jump.size(); ++k) jump[k] += s.jump[k];
+      }
+    }
+  }
+
+  /// To either side of where the comparison turns; 0: it has none.
+  double width(const Decision& d) const {
+    const auto found = widths_.find(*d.canonical);
+    return found == widths_.end() ? 0 : found->second;
+  }
+  /// How far an output may be off in it, Nm; only of one that has a width.
+  double jump(const Decision& d, std::size_t output) const {
+    return jumps_.at(*d.canonical)[output];
+  }
+
+ private:
+  std::map<std::string, double> widths_;
+  std::map<std::string, std::vector<double>> jumps_;
+};
+
+/// What is wrong with a parameter's word: it is its value, and near to what the file says.
+inline std::string wrong_word(const Param& param, const feltgate::law::ImageWord& w,
+                              std::int32_t word, bool initial) {
+  const double step = std::fabs(w.scale), unit = static_cast<double>(param.to_si);
+  const double value = word * w.scale, lower = param.lower * unit, upper = param.upper * unit;
+  const double near = 1e-9 * (upper - lower);
+  if (!(value >= lower - near && value <= upper + near)) return param.name + " is out of its range";
+  if (param.whole && !(std::fabs(value - std::nearbyint(value)) <= 1e-9)) {
+    return param.name + " is no whole number";
+  }
+  if (initial && !(std::fabs(value - param.initial * unit) <= step * (1 + 1e-9))) {
+    return fmt::format("{} begins at {} in place of {}", param.name, value, param.initial * unit);
+  }
+  const double a = w.lower * w.scale, b = w.upper * w.scale;
+  if (!(std::min(a, b) <= lower + step && std::max(a, b) >= upper - step)) {
+    return param.name + " does not reach the ends of its range";
+  }
+  return "";
+}
+
+/// Words of the inputs of three axes.
+using Inputs = std::array<std::int64_t, 9>;
+
+/// Of any size, ends among them.
+inline void random_inputs(const feltgate::law::Target& target, SplitMix64& random, Inputs* words) {
+  for (std::size_t i = 0; i < words->size(); ++i) {
+    const Format f = i % 3 == 1 ? target.velocity : target.torque;
+    const std::int64_t end =
+        i % 3 == 0 ? 131072 : (std::int64_t{1} << (f.integer + f.fraction)) - 1;
+    const std::int64_t spread = (end >> random.below(20)) + 1, corner = random.below(32);
+    const std::int64_t any = random.below(2 * spread + 1) - spread;
+    (*words)[i] = corner == 0 ? -end : corner == 1 ? end : std::clamp(any, -end, end);
+  }
+}
+
+inline Real input_si(const feltgate::law::Target& target, std::size_t input, std::int64_t word) {
+  const double scale = input % 3 == 0   ? target.count_rad()
+                       : input % 3 == 1 ? std::ldexp(1.0, -target.velocity.fraction)
+                                        : std::ldexp(1.0, -target.torque.fraction);
+  return static_cast<Real>(word) * scale;
+}
+
+}  // namespace feltgate::judge

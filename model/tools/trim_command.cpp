@@ -91,6 +91,7 @@ std::string verdict(const trim::PartReport& p) {
 
 std::string text_of(const trim::Report& r, const Scenario& scene, const TrimArguments& a) {
   std::ostringstream s;
+  for (const std::string& b : r.trimmed_run.broken) s << "trimmed, not as expected: " << b << "\n";
   s << "scene " << scene.name << ", design " << a.options.design << ", plant " << scene.plant
     << "\n"
     << fmt::format("tolerance {:.3g} % of peak and of rms, means over {:.3g} ms\n",
@@ -116,7 +117,6 @@ std::string text_of(const trim::Report& r, const Scenario& scene, const TrimArgu
       "states of the plant {} -> {}; CPU per simulated second {:.3g} -> {:.3g} s, {:.3g} times\n",
       r.full_run.states, r.trimmed_run.states, cost(r.full_run), cost(r.trimmed_run),
       cost(r.full_run) / cost(r.trimmed_run));
-  for (const std::string& b : r.trimmed_run.broken) s << "trimmed, not as expected: " << b << "\n";
   if (!r.smaller()) s << "nothing can be left out within the tolerance\n";
   s << fmt::format("search: {} runs, {:.3g} s of CPU time\n", r.runs, r.cpu_s);
   return s.str();
@@ -219,7 +219,7 @@ int run_trim(TrimArguments& a) {
 
   if (json != nullptr) json->write(json_of(report, scene, a));
   if (!a.quiet) outputs.say(text_of(report, scene, a));
-  const bool found = report.holds && report.smaller();
+  const bool found = report.holds && report.smaller() && report.trimmed_run.broken.empty();
   if (output != nullptr) {
     if (found) {
       output->write(trim::scene_text(scene, report.trimmed, comment_of(report, scene, a)));
@@ -245,7 +245,8 @@ void add_trim(CLI::App& app, int* exit_code) {
       "kept within the\ntolerance on the scene's own motion and on others (docs/trim.md).\n"
       "  feltgate trim membrane                           one percent\n"
       "  feltgate trim damper --tolerance 5% -o fast.toml && feltgate run fast.toml\n"
-      "Exit code: 0 a smaller model was found, 1 nothing can be left out, 2 unusable input.");
+      "Exit code: 0 a smaller model was found, 1 nothing can be left out or an expectation is "
+      "broken,\n2 unusable input.");
   sub->add_option("scene", a->scene, "scene")->required()->type_name("SCENE");
   sub->add_option("--tolerance", a->tolerance, "share of the full model's peak and of its rms")
       ->type_name("SHARE")

@@ -81,6 +81,17 @@ class CommandLine(Bench):
                 self.assertEqual(process.returncode, 2, said)
                 self.assertIn("unrecognized arguments: --desig", said)
 
+    def test_trim_ends_in_a_set_that_breaks_an_expectation(self):
+        scene = (ROOT / "testbench/trim/push.toml").read_text(encoding="utf-8")
+        self.path("push.toml").write_text(scene + '[[expect]]\nfigure = "faults"\nlow = 1\n')
+        self.given.add("push.toml")
+        words = ("--tolerance", "20%", "--unseen", "1", "-o", "trimmed.toml")
+        process = self.start("trim", "push.toml", *words)
+        out = process.communicate(timeout=60)[0].decode()
+        self.assertEqual(process.returncode, 1, out)
+        self.assertRegex(out, r"^trimmed, not as expected: .*faults")
+        self.assert_only()
+
     def test_how_long_trim_runs(self):
         self.refused("trim", "wall", "--duration", "1e-9", said=("shorter than 10 windows",))
         self.refused("trim", "wall", "--duration", "5", said=("the scene is over after",))

@@ -52,6 +52,9 @@ LiveLoop::LiveLoop(const std::string& design, const plant::Parameters& plant)
       clock_hz_(static_cast<double>(core_.design().clock_hz)),
       plan_(plan_for(plant, core_.design())),
       mean_(core_.design().pwm_period, plan_.phase()),
+      motor_(core_.design(), plant.motor.torque_constant_nm_a),
+      limit_nm_(motor_.limit_nm()),
+      hand_nm_rad_(plant::Impedance{}.stiffness_n_m * plant.lever.radius_m * plant.lever.radius_m),
       pins_(plant_.encoder().pins()) {
   core_.lead().keep_gate_times(false);
   control();
@@ -60,7 +63,9 @@ LiveLoop::LiveLoop(const std::string& design, const plant::Parameters& plant)
 void LiveLoop::control() {
   // A host's wall is a set-point that is written again and again.
   const bool by_host = scene_ == "wall" && host_ticks_ > 1;
-  core_.set_control(design().scene_number(by_host ? "setpoint" : scene_), 0, armed_);
+  const bool let_go = scene_ == "setpoint" && !held();
+  const std::string scene = by_host ? "setpoint" : let_go ? "free" : scene_;
+  core_.set_control(design().scene_number(scene), 0, armed_);
 }
 
 void LiveLoop::select(const std::string& scene) {
@@ -69,6 +74,12 @@ void LiveLoop::select(const std::string& scene) {
   }
   scene_ = scene;
   control();
+}
+
+void LiveLoop::set(const std::string& parameter, double value) {
+  core_.set_parameter(parameter, value);
+  motor_.note(parameter, value);
+  if (parameter == WarmMotor::limit) limit_nm_ = value;
 }
 
 void LiveLoop::run_law(std::unique_ptr<SceneLaw> law) {
@@ -113,7 +124,21 @@ void LiveLoop::hold(Grip grip) {
   if (grip == Grip::fingertip) phase.impedance = fingertip;
   plant_.take(phase);
   hand_rad_ = wanted_rad_ = plant_.observables().theta_rad;
+  control();
   plan_.stir(core_.lead().now(), 2 * design().clocks_per_tick);
+}
+
+void LiveLoop::spare_motor() {
+  const double limit = motor_.limit_nm();
+  if (limit == limit_nm_) return;
+  core_.set_parameter(WarmMotor::limit, limit);
+  limit_nm_ = limit;
+}
+
+double LiveLoop::within_reach(double wanted_rad) const {
+  if (grip_ == Grip::strong) return wanted_rad;
+  const double at_rad = plant_.observables().theta_rad, reach_rad = gentle_nm() / hand_nm_rad_;
+  return std::clamp(wanted_rad, at_rad - reach_rad, at_rad + reach_rad);
 }
 
 void LiveLoop::advance(std::int64_t ticks, int every) {
@@ -122,8 +147,9 @@ void LiveLoop::advance(std::int64_t ticks, int every) {
   const Clock begin = core_.lead().now();
   const Clock end = begin + ticks * design().clocks_per_tick;
   const double span_s = static_cast<double>(end - begin) / clock_hz_;
-  if (!held()) wanted_rad_ = hand_rad_;
-  const double rate = span_s > 0 ? (wanted_rad_ - hand_rad_) / span_s : 0;
+  const double target_rad = held() ? within_reach(wanted_rad_) : hand_rad_;
+  const double rate = span_s > 0 ? (target_rad - hand_rad_) / span_s : 0;
+  spare_motor();
   bool steered = false;
   while (core_.lead().now() < end) {
     const Clock now = core_.lead().now();
@@ -135,7 +161,7 @@ void LiveLoop::advance(std::int64_t ticks, int every) {
       steered = true;
     }
   }
-  hand_rad_ = wanted_rad_;
+  hand_rad_ = target_rad;
 }
 
 const std::vector<EncoderEvent>& LiveLoop::through_the_wires(
@@ -177,6 +203,7 @@ void LiveLoop::host(const Snapshot& s) {
 
 void LiveLoop::tick(const Snapshot& s) {
   last_ = s;
+  motor_.pass(s.voltage, s.velocity);
   if (s.faults != 0 && armed_) arm(false);  // as a panel does: nothing arms again by itself
   if (host_ticks_ > 1 && scene_ == "wall" && ticks_ % host_ticks_ == 0) host(s);
   const double float_nm = core_.rider(0)->out().tau_hat_nm;
@@ -196,7 +223,7 @@ std::vector<ScriptRow> follow_script(const std::string& design, const plant::Par
   LiveLoop loop(design, plant);
   loop.select("wall");
   loop.arm(true);
-  loop.hold(Grip::hand);
+  loop.hold(Grip::strong);
   std::vector<ScriptRow> rows;
   for (int frame = 0; frame < frames; ++frame) {
     const double way = frame < in    ? frame / static_cast<double>(in)

@@ -14,6 +14,7 @@
 #include "loop/ensemble.hpp"
 #include "loop/scene_law.hpp"
 #include "loop/step_plan.hpp"
+#include "page/warm_motor.hpp"
 #include "plant/period_mean.hpp"
 #include "plant/plant.hpp"
 
@@ -22,8 +23,9 @@ namespace feltgate::page {
 /// What breaks between core and plant.
 enum class Break { none, channel_dead, encoder_swapped, motor_swapped, supply_low };
 
-/// How the lever is held: with a hand that has mass and damping, or lightly with a fingertip.
-enum class Grip { none, hand, fingertip };
+/// How the lever is held: with a hand that has mass and damping, or lightly with a fingertip. Both
+/// give way where they would push harder than the motor holds for good; a strong hand does not.
+enum class Grip { none, hand, fingertip, strong };
 
 /// One tick as a reader sees it; times in seconds since the start.
 struct Sample {
@@ -48,10 +50,11 @@ class LiveLoop {
   LiveLoop(const std::string& design, const plant::Parameters& plant);
 
   const DesignInfo& design() const { return core_.design(); }
-  /// By name. Errors: std::invalid_argument.
+  /// By name. The scene `setpoint` acts while the lever is held: a free lever would only get
+  /// faster. Errors: std::invalid_argument.
   void select(const std::string& scene);
   /// A parameter in its unit. Errors: std::invalid_argument.
-  void set(const std::string& parameter, double value) { core_.set_parameter(parameter, value); }
+  void set(const std::string& parameter, double value);
   /// The host loads this law for the scene `law`, whose parameters set() knows too; once, before
   /// the first advance().
   void run_law(std::unique_ptr<SceneLaw> law);
@@ -67,7 +70,8 @@ class LiveLoop {
   /// The hand takes the lever where it is, or lets it go.
   void hold(Grip grip);
   bool held() const { return grip_ != Grip::none; }
-  /// Where the hand wants to be when the next advance() ends, rad; it moves there evenly.
+  /// Where the hand wants to be when the next advance() ends, rad; it moves there evenly, as far as
+  /// it does not give way.
   void lead(double theta_rad) { wanted_rad_ = theta_rad; }
 
   /// Runs for so many ticks and keeps every `every`-th as a sample.
@@ -78,6 +82,10 @@ class LiveLoop {
   /// The last tick's.
   const Snapshot& snapshot() const { return last_; }
   const plant::Observables& observables() const { return plant_.observables(); }
+  /// Of the motor's torque, which the host lowers while the motor is warm, Nm.
+  double torque_limit_nm() const { return limit_nm_; }
+  /// What a hand that gives way pushes with at most, when it rests, Nm.
+  double gentle_nm() const { return 0.9 * motor_.cool_nm(); }
   double time_s() const { return static_cast<double>(core_.lead_const().now()) / clock_hz_; }
   /// Largest difference of tau_hat between the core's bits and double since the last call, Nm.
   double take_difference();
@@ -87,6 +95,8 @@ class LiveLoop {
   void tick(const Snapshot& s);
   void control();
   void host(const Snapshot& s);
+  void spare_motor();
+  double within_reach(double wanted_rad) const;
   const std::vector<EncoderEvent>& through_the_wires(const std::vector<EncoderEvent>& events);
 
   plant::Plant plant_;
@@ -95,6 +105,9 @@ class LiveLoop {
   double clock_hz_;
   StepPlan plan_;
   plant::PeriodMean mean_;
+  WarmMotor motor_;
+  double limit_nm_;     ///< that is written
+  double hand_nm_rad_;  ///< stiffness of a hand at the lever
   std::string scene_ = "free";
   bool armed_ = false;
   Grip grip_ = Grip::none;

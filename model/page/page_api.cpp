@@ -110,6 +110,8 @@ class Loop {
     out.set("position", s.position);
     out.set("theta_rad", loop_.observables().theta_rad);
     out.set("difference_nm", loop_.take_difference());
+    out.set("torque_limit_nm", loop_.torque_limit_nm());
+    out.set("gentle_nm", loop_.gentle_nm());
     return out;
   }
   val parameters() const {

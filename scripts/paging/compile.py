@@ -31,6 +31,7 @@ FILES = (
     "loop/engine_choice.cpp",
     "loop/step_plan.cpp",
     "shape/rhombus.cpp",
+    "stability/dominant_poles.cpp",
     "stability/linear_loop.cpp",
 )
 PLANTS = ("p24", "p48", "linear")

@@ -30,9 +30,12 @@ class Device {
     this.figure = document.createElement("figure");
     this.figure.innerHTML = `<svg viewBox="0 0 500 400" tabindex="0" role="slider" aria-label="Lever of design ${this.name}: the hand's angle in rad"
       aria-valuemin="-1.5" aria-valuemax="1.5" aria-valuenow="0"><g class="under"></g><g class="objects"></g><g class="over"></g></svg>
+      <div class="alarm" role="alert" hidden><span></span> <button type="button">Recover</button></div>
       <figcaption><span class="name"></span> <span class="state" role="status"></span><div class="equation"></div></figcaption>`;
     this.figure.querySelector(".name").textContent = `Design ${this.name}`;
     this.svg = this.figure.querySelector("svg");
+    this.alarm = this.figure.querySelector(".alarm");
+    this.alarm.querySelector("button").onclick = recover;
     this.parts = Object.fromEntries(["under", "objects", "over"].map((n) => [n, this.figure.querySelector("." + n)]));
     let scale = `<path class="scale" d="${path(arc(-1.55, 1.55, LENGTH + 16))}"/>`;
     for (let mark = -1.5; mark <= 1.51; mark += 0.5) {
@@ -64,6 +67,13 @@ class Device {
     this.held = held;
     this.loop.hold(held ? page.grip : 0);
     this.svg.classList.toggle("held", held);
+  }
+
+  /** Forgets its faults now, and arms with the next frame: the core is to see the request low first. */
+  recover() {
+    this.loop.stop(false);
+    this.loop.clearFaults();
+    this.rearm = true;
   }
 
   point(event) {
@@ -101,26 +111,36 @@ class Device {
     if (last >= 0) SAMPLE.forEach((n, i) => (this.now[n] = samples[last + i]));
     this.status = this.loop.status();
     this.difference = Math.max(this.difference, this.status.difference_nm);
+    if (this.rearm && !said) {
+      this.rearm = false;
+      this.loop.arm(true);
+    }
     return said;
   }
 
   draw(values) {
-    const s = { ...this.now, tau: this.now.tau_ref }, g = this.geometry || {};
+    const s = { ...this.now, tau: this.now.tau_ref, held: this.held }, g = this.geometry || {};
     this.parts.objects.innerHTML = drawing(this.scene, g, s);
     const [hx, hy] = at(s.theta, LENGTH), newton = s.torque / RADIUS_M;
     let over = `<path class="lever" d="${ray(s.theta, 0, LENGTH)}"/><circle class="hub" cx="${CENTRE[0]}" cy="${CENTRE[1]}" r="16"/><circle class="knob" cx="${hx}" cy="${hy}" r="12"/>`;
     if (this.held) {
-      const [gx, gy] = at(this.lead, LENGTH);
+      const [gx, gy] = at(s.hand, LENGTH);
       over += `<path class="handline" d="${path([[hx, hy], [gx, gy]])}"/><circle class="handring" cx="${gx}" cy="${gy}" r="19"/>`;
     }
     over += force_at([hx, hy], s.theta, newton, 18, 90);
+    if (!this.status.armed) over += `<text class="off" x="${hx}" y="${hy - 26}">motor off</text>`;
     over += `<text x="12" y="24">${fixed(newton, 2)} N at the handle</text><text x="12" y="42">${fixed(s.theta)} rad</text>`;
     this.parts.over.innerHTML = over;
     const state = this.figure.querySelector(".state"), st = this.status;
-    const text = st.faults ? `fault: ${st.faults}` + (FAULTS[st.faults] ? ` (${FAULTS[st.faults]})` : "") : st.armed ? "armed" + (st.limits ? `, limited: ${st.limits}` : "") : "disarmed";
+    const warm = st.torque_limit_nm < this.words.torque_limit - 0.001 ? `; the motor is warm and gives up to ${fixed(st.torque_limit_nm / RADIUS_M, 1)} N` : "";
+    const fault = st.faults && `fault: ${st.faults}` + (FAULTS[st.faults] ? ` (${FAULTS[st.faults]})` : "");
+    const text = fault || (st.armed ? "armed" + (st.limits ? `, limited: ${st.limits}` : "") + warm : "disarmed");
     if (state.textContent !== text) {
       state.textContent = text;
-      state.className = "state " + (st.faults ? "fault" : st.armed ? "armed" : "");
+      state.className = "state " + (fault ? "fault" : st.armed ? "armed" : "");
+      this.svg.classList.toggle("faulted", !!fault);
+      this.alarm.hidden = !fault;
+      this.alarm.firstChild.textContent = `${text[0].toUpperCase()}${text.slice(1)}. The motor is off: the handle is loose.`;
     }
     const law = SCENES[this.scene].law({ ...values, ...g }, s);
     this.figure.querySelector(".equation").textContent =

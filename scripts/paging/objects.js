@@ -5,22 +5,23 @@ const SCENES = {
   free: { title: "free", sliders: [], law: () => "τ = 0" },
   setpoint: {
     title: "constant torque",
-    sliders: [{ name: "setpoint_torque", label: "torque", unit: "Nm", low: -0.4, high: 0.4, value: 0.1 }],
-    law: (v) => `τ = τ₀ = ${fixed(v.setpoint_torque)} Nm`,
+    sliders: [{ name: "setpoint_torque", label: "torque", unit: "Nm", low: -0.4, high: 0.4, value: 0.07 }],
+    law: (v, s) => (s.held ? `τ = τ₀ = ${fixed(v.setpoint_torque)} Nm` : `τ = 0: nobody holds the lever
+τ₀ = ${fixed(v.setpoint_torque)} Nm would only make it faster`),
   },
   membrane: {
     title: "membrane",
-    sliders: [{ name: "membrane_torque", label: "torque", unit: "Nm", low: 0, high: 0.5, value: 0.4 }],
+    sliders: [{ name: "membrane_torque", label: "torque", unit: "Nm", low: 0, high: 0.5, value: 0.07 }],
     law: (v, s) => `τ = ∓τₘ between the faces ${fixed(v.lower)} and ${fixed(v.upper)} rad\nτₘ = ${fixed(v.membrane_torque)} Nm, θ = ${fixed(s.theta)} rad`,
   },
   spring_compression: {
     title: "spring, pressed",
-    sliders: [{ name: "compression_stiffness", label: "stiffness", unit: "Nm/rad", per_count: true, low: 0, high: 1.9, value: 1 }],
+    sliders: [{ name: "compression_stiffness", label: "stiffness", unit: "Nm/rad", per_count: true, low: 0, high: 1.9, value: 0.3 }],
     law: (v, s) => `τ = K (θc − θ) below θc\n  = ${fixed(v.compression_stiffness)} · (${fixed(v.contact)} − ${fixed(s.theta)})`,
   },
   spring_tension: {
     title: "spring, stretched",
-    sliders: [{ name: "tension_stiffness", label: "stiffness", unit: "Nm/rad", per_count: true, low: 0, high: 1.9, value: 0.5 }],
+    sliders: [{ name: "tension_stiffness", label: "stiffness", unit: "Nm/rad", per_count: true, low: 0, high: 1.9, value: 0.15 }],
     law: (v, s) => `τ = −K (θ − θ₀)\n  = −${fixed(v.tension_stiffness)} · (${fixed(s.theta)} − ${fixed(v.rest)})`,
   },
   damper: {
@@ -30,12 +31,12 @@ const SCENES = {
   },
   charge_attract: {
     title: "charge, attracts",
-    sliders: [{ name: "attract_strength", label: "strength", unit: "Nm rad²", per_count2: true, low: 0, high: 0.04, value: 0.02 }],
+    sliders: [{ name: "attract_strength", label: "strength", unit: "Nm rad²", per_count2: true, slope: "attract_core_slope", low: 0, high: 0.04, value: 0.003 }],
     law: (v, s) => `τ = −C d/|d|³, linear within ${fixed(v.core)} rad\n  C = ${fixed(v.attract_strength, 4)} Nm rad², d = ${fixed(s.theta - v.centre)} rad`,
   },
   charge_repel: {
     title: "charge, repels",
-    sliders: [{ name: "repel_strength", label: "strength", unit: "Nm rad²", per_count2: true, low: 0, high: 0.04, value: 0.02 }],
+    sliders: [{ name: "repel_strength", label: "strength", unit: "Nm rad²", per_count2: true, slope: "repel_core_slope", low: 0, high: 0.04, value: 0.003 }],
     law: (v, s) => `τ = C d/|d|³, linear within ${fixed(v.core)} rad\n  C = ${fixed(v.repel_strength, 4)} Nm rad², d = ${fixed(s.theta - v.centre)} rad`,
   },
   wall: {

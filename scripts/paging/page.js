@@ -31,6 +31,7 @@ function place_devices() {
   $("stages").textContent = "";
   const designs = page.scene === "law" ? [LAW_DESIGN] : [$("first").value, $("second").value].filter(Boolean);
   designs.forEach((design, n) => place_device(n, design));
+  $("grip").options[0].textContent = `a hand, up to ${fixed(page.devices[0].loop.status().gentle_nm / RADIUS_M, 1)} N`;
 }
 
 /** A law that compiles is felt at once, with the values that it says. */
@@ -56,6 +57,9 @@ function apply_values(device) {
     }
     const word = slider.per_count ? value * rad : slider.per_count2 ? value / rad ** 2 : value;
     say(device.set(slider.name, Math.min(word, device.ranges[slider.name].high)));
+    // Within its core a charge is a spring that reaches the charge's torque at the core's edge.
+    const core = slider.slope && geometry(page.scene, device.words, rad).core;
+    if (core) say(device.set(slider.slope, Math.min((value / core ** 3) * rad, device.ranges[slider.slope].high)));
   }
   const g = geometry("wall", device.words, rad);
   device.loop.hostWall(page.values.rate || 1, g.contact, page.values.wall_stiffness || 4, page.values.wall_damping || 0);
@@ -227,6 +231,15 @@ function run_timed(passed, act) {
   act();
   const used = (performance.now() - begin) / 1000;
   if (used > 0) page.speed += (page.speed ? 0.05 : 1) * (passed / used - page.speed);
+}
+
+/** Out of every fault: what is broken is mended, which starts the devices anew, for counts were lost. */
+function recover() {
+  $("stop").setAttribute("aria-pressed", false);
+  if ($("break").value !== "0") {
+    $("break").value = "0";
+    place_devices();
+  } else devices((d) => d.recover());
 }
 
 /** The others stand still; a tab's device is made when it is first opened. */

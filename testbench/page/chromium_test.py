@@ -66,6 +66,74 @@ class Lever(PageTest):
         self.assertLess(self.now()["theta"], 0.52)
         self.assertFalse(self.js("return feltgate.devices[0].held"))
 
+    def moved(self, seconds, lead, held="true"):
+        """Frames of a mouse at `lead`, a formula of k, without waiting for the screen."""
+        for begin in range(0, 60 * seconds, 240):
+            faults = self.js(
+                f"const d = feltgate.devices[0];"
+                f"for (let k = {begin}; k < {begin + 240}; ++k) {{"
+                f"  if (d.held !== ({held})) d.take({held});"
+                f"  d.aim({lead}); d.advance(16667);"
+                f"}} return d.status.faults"
+            )
+            self.assertEqual(faults, "", f"{lead} after {begin / 60} s")
+
+    def test_a_minute_at_the_mouse_brings_no_fault(self):
+        radios = self.driver.find_elements(By.CSS_SELECTOR, "#scenes input:not([value=law])")
+        for radio in radios if WHOLE else radios[-1:]:
+            scene = radio.get_attribute("value")
+            radio.click()
+            self.until("return feltgate.devices[0].scene === arguments[0]", scene)
+            self.moved(24, "Math.min(1.45, k / 60)")
+            if scene == "wall":
+                self.assertLess(self.now()["theta"], 0.6)
+                self.assertLess(self.now()["torque"], -0.05)
+            self.moved(16, "0.75 + 0.75 * Math.sin(k / 10)")
+            self.moved(20, "1.4 * Math.sin(k / 13) * Math.sin(k / 47)", "k % 90 < 60")
+
+    def test_a_fault_shows_at_the_handle_and_one_button_recovers(self):
+        alarm = self.driver.find_element(By.CSS_SELECTOR, ".alarm")
+        self.assertFalse(alarm.is_displayed())
+        self.js("const s = document.getElementById('grip'); s.value = 3; s.oninput()")
+        for broken in ("0", "1"):
+            self.js("feltgate.devices[0].take(true)")
+            if broken == "0":
+                self.driver.find_element(By.ID, "stop").click()
+            else:
+                self.js("const s = document.getElementById('break'); s.value = 1; s.oninput()")
+                for lead in (0.2, 0.4, 0.1, 0.5):
+                    self.js("feltgate.devices[0].aim(arguments[0])", lead)
+                    self.passed(0.3)
+            alarm = self.driver.find_element(By.CSS_SELECTOR, ".alarm")
+            self.until("return !document.querySelector('.alarm').hidden")
+            self.assertIn("The motor is off", alarm.text)
+            self.assertIn("motor off", self.stage().text)
+            self.assertIn("faulted", self.stage().get_attribute("class"))
+            colour = "return getComputedStyle(document.querySelector(arguments[0]))[arguments[1]]"
+            red = self.js(colour, ".alarm", "color")
+            self.assertEqual(self.js(colour, ".knob", "fill"), red)
+            alarm.find_element(By.TAG_NAME, "button").click()
+            self.until("return feltgate.devices[0].status && feltgate.devices[0].status.armed")
+            self.passed(0.2)
+            self.assertEqual(self.js("return feltgate.devices[0].status.faults"), "")
+            self.assertTrue(self.js("return document.querySelector('.alarm').hidden"))
+            self.assertNotEqual(self.js(colour, ".knob", "fill"), red)
+
+    def test_nothing_is_wider_than_a_phone(self):
+        size = {"width": 390, "height": 844, "deviceScaleFactor": 1, "mobile": True}
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+        self.addCleanup(self.driver.execute_cdp_cmd, "Emulation.clearDeviceMetricsOverride", {})
+        shown = "return document.getElementById(arguments[0]).getBoundingClientRect().bottom"
+        for part in ("what", "begin"):
+            self.assertLess(self.js(shown, part), 420)
+        bottom = "return document.querySelector('#stages svg').getBoundingClientRect().bottom"
+        self.assertLess(self.js(bottom), 844)
+        self.js("document.querySelector('#scenes input[value=law]').click()")
+        for tab in self.driver.find_elements(By.CSS_SELECTOR, "[role=tab]"):
+            self.js("arguments[0].click()", tab)
+            width = self.js("return document.documentElement.scrollWidth")
+            self.assertLessEqual(width, 390, tab.text)
+
     def test_keys(self):
         stage = self.stage()
         stage.send_keys(Keys.ARROW_RIGHT * 10)
@@ -158,6 +226,8 @@ class Lever(PageTest):
             self.assertTrue(self.driver.find_element(By.ID, "law-error").get_property("hidden"))
 
     def test_a_dead_channel_is_a_fault(self):
+        # Noticed in quick motion.
+        self.js("const s = document.getElementById('grip'); s.value = 3; s.oninput()")
         self.js("feltgate.devices[0].take(true)")
         self.js("const s = document.getElementById('break'); s.value = 1; s.oninput()")
         for lead in (0.2, 0.4, 0.1, 0.5):

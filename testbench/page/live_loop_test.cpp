@@ -54,7 +54,7 @@ LiveLoop armed_wall(const std::string& design = "lever") {
   LiveLoop loop(design, plant_named("p24"));
   loop.select("wall");
   loop.arm(true);
-  loop.hold(Grip::hand);
+  loop.hold(Grip::strong);
   return loop;
 }
 
@@ -77,6 +77,39 @@ TEST_CASE("a wall holds the handle back, and the hand feels what the wall does")
   CHECK(loop.observables().theta_rad < 0.45);
   loop.hold(Grip::hand);  // where it is now
   CHECK(std::abs(loop.observables().hand_torque_nm) < 1e-9);
+}
+
+TEST_CASE("a hand gives way where the motor would get too hot, and a warm motor gives less") {
+  const auto after = [](Grip grip, double seconds) {
+    LiveLoop loop("lever", plant_named("p24"));
+    loop.select("wall");
+    loop.arm(true);
+    loop.hold(grip);
+    lead_to(loop, 1.4, 0.5, seconds);
+    REQUIRE(loop.snapshot().armed);
+    CHECK(loop.snapshot().faults == 0);
+    return std::pair{loop.samples().back(), loop.torque_limit_nm()};
+  };
+  const auto [gentle, whole_nm] = after(Grip::hand, 4);
+  CHECK(gentle.angle_rad < 0.55);
+  CHECK(gentle.torque_nm == Approx(-0.0863).margin(0.008));
+  CHECK(whole_nm == Approx(0.5).margin(1e-4));
+  const auto [strong, lowered_nm] = after(Grip::strong, 4);  // the fault was after 2.8 s
+  CHECK(lowered_nm < 0.2);
+  CHECK(std::abs(strong.torque_nm) < 0.2);
+}
+
+TEST_CASE("a constant torque acts while the lever is held") {
+  LiveLoop loop("lever", plant_named("p24"));
+  loop.select("setpoint");
+  loop.set("setpoint_torque", 0.1);
+  loop.arm(true);
+  loop.advance(1'000'000, 100);
+  CHECK(loop.snapshot().faults == 0);
+  CHECK(loop.observables().theta_rad == 0);
+  loop.hold(Grip::hand);
+  loop.advance(200'000, 100);
+  CHECK(loop.samples().back().torque_nm == Approx(0.1).margin(0.006));
 }
 
 TEST_CASE("the hand is led evenly, and a lever without a scene follows") {

@@ -102,6 +102,7 @@ class Pieces {
   Pieces(const Law& law, const Target& target, const Program& whole, const Bound& b, int pieces)
       : law_(law),
         spans_(ranges(law, whole_cell(law, target))),
+        needed_(law.nodes.size(), 0),
         wide_(law.nodes.size(), 0),
         users_(law.nodes.size(), 0),
         widths_(law.nodes.size()),
@@ -115,6 +116,7 @@ class Pieces {
     int count = 0;
     for (const NodeId id : needed(law)) {
       const Node& n = law.nodes[at(id)];
+      needed_[at(id)] = 1;
       for (const NodeId a : n.arguments) ++users_[at(a)];
       if (!has_pieces(n.op) || fixed[at(id)] != 0) continue;
       const Span x = spans_[at(n.arguments[0])];
@@ -136,7 +138,7 @@ class Pieces {
       const auto id = static_cast<NodeId>(i);
       if (wide_[i] != 0) {
         to_.push_back(pieces(id, to_[at(n.arguments[0])], spans_[at(n.arguments[0])]));
-      } else if (n.op == Op::minimum || n.op == Op::maximum) {
+      } else if ((n.op == Op::minimum || n.op == Op::maximum) && needed_[i] != 0) {
         to_.push_back(limited(id, {-infinity, infinity}));
       } else {
         to_.push_back(copied(n));
@@ -244,7 +246,9 @@ class Pieces {
         return pieces(id, cut, inside);
       }
     }
-    return cut_off(to_[at(id)], n, spans_[at(id)], keep);
+    // The node that run() is at has no copy yet.
+    const NodeId made = at(id) < to_.size() ? to_[at(id)] : copied(n);
+    return cut_off(made, n, spans_[at(id)], keep);
   }
 
   NodeId pieces(NodeId id, NodeId argument, const Span& x) {
@@ -271,6 +275,7 @@ class Pieces {
 
   const Law& law_;
   const std::vector<Span> spans_;
+  std::vector<char> needed_;  ///< has a span: not so what is only within a table's formula
   std::vector<char> wide_;
   std::vector<int> users_;
   std::vector<Widths> widths_;

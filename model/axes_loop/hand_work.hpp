@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "feltgate/largest.hpp"
 #include "loop/felt.hpp"
 
 namespace feltgate {
@@ -18,8 +19,8 @@ class HandWork {
     const double more_j = work_j - net_j_;
     net_j_ = work_j;
     (more_j > 0 ? energy_.taken_from_hand_j : given_j_) += more_j;
-    energy_.peak_from_hand_j = std::max(energy_.peak_from_hand_j, net_j_);
-    energy_.peak_to_hand_j = std::max(energy_.peak_to_hand_j, -net_j_);
+    energy_.peak_from_hand_j = larger(energy_.peak_from_hand_j, net_j_);
+    energy_.peak_to_hand_j = larger(energy_.peak_to_hand_j, -net_j_);
   }
   double net_j() const { return net_j_; }
   FeltEnergy energy() const {

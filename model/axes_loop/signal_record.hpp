@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "feltgate/largest.hpp"
+
 namespace feltgate {
 
 class SignalRecord {
@@ -16,11 +18,11 @@ class SignalRecord {
   explicit SignalRecord(std::int64_t ticks)
       : late_(ticks - ticks / 4), last_(std::min(ticks - 1, ticks - ticks / 10)) {}
   void add(double value) {
-    low_ = std::min(low_, value);
-    high_ = std::max(high_, value);
+    low_ = smaller(low_, value);
+    high_ = larger(high_, value);
     if (tick_ >= late_) {
-      late_low_ = std::min(late_low_, value);
-      late_high_ = std::max(late_high_, value);
+      late_low_ = smaller(late_low_, value);
+      late_high_ = larger(late_high_, value);
     }
     if (tick_ >= last_) {
       sum_ += value;

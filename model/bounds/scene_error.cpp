@@ -11,6 +11,7 @@
 
 #include "bounds/error_bounds.hpp"
 #include "config/nearest.hpp"
+#include "feltgate/largest.hpp"
 
 namespace feltgate::bounds::detail {
 
@@ -139,7 +140,7 @@ double scene_error(const ChainNumbers& c, const InputRegion& region, Level level
   }
   double worst = 0;
   for (const std::string& s : c.scenes) {
-    worst = std::max(worst, scenes.error(s, error, velocity, region.law_nm).upper());
+    worst = larger(worst, scenes.error(s, error, velocity, region.law_nm).upper());
   }
   return worst;
 }

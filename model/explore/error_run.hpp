@@ -13,6 +13,7 @@
 #include "explore/measurement.hpp"
 #include "explore/stimulus.hpp"
 #include "feltgate/generated/causes.hpp"
+#include "feltgate/largest.hpp"
 #include "feltgate/scenes.hpp"
 #include "reference/chain.hpp"
 
@@ -82,7 +83,7 @@ class ErrorRun {
     for (std::int64_t k = 0; k < ticks; ++k) {
       const auto before = counts(motion, k < D::m1 ? 0 : k - D::m1);
       const double size = std::abs(counts(motion, k) - before) * ExactGain<D>::velocity_gain_rad_s;
-      m->raw_velocity_rad_s = std::max(m->raw_velocity_rad_s, size);
+      m->raw_velocity_rad_s = larger(m->raw_velocity_rad_s, size);
     }
   }
 

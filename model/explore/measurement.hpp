@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "feltgate/largest.hpp"
+
 namespace feltgate::explore {
 
 /// A parameter of the point, a line of the generator's values.txt.
@@ -33,10 +35,9 @@ struct Error {
 
   void add(double deviation, const char* motion) {
     const double size = std::abs(deviation);
-    if (size > worst) {
-      worst = size;
-      worst_in = motion;
-    }
+    const double now = larger(worst, size);
+    if (now != worst) worst_in = motion;
+    worst = now;
     sum_squares += size * size;
     ++count;
   }

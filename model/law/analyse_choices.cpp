@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "feltgate/largest.hpp"
 #include "law/analysis.hpp"
 
 namespace feltgate::law {
@@ -27,7 +28,7 @@ bool Analysis::blend(const Step& s, Fact* f) {
   if (a.words.lo < 0 || a.words.hi > p) return false;
   const auto error = [&](double share) { return (1 - share) * y.error + share * x.error; };
   f->words = hull(x.words, y.words);
-  f->error = std::max(error(a.words.lo / p), error(a.words.hi / p)) +
+  f->error = larger(error(a.words.lo / p), error(a.words.hi / p)) +
              a.error * (difference.words.size() + difference.error) / p + 0.5;
   f->error = raised(f->error);
   return true;
@@ -62,7 +63,7 @@ Fact Analysis::table_result(const Step& s, const Fact& x) {
     if (near && !t.wraps) f.error = 0;
     for (double i = from; !t.wraps && i <= to; ++i) {
       const auto k = static_cast<std::size_t>(i);
-      if (near) f.error = std::max(f.error, t.errors[k] + t.steep[k] * x.error);
+      if (near) f.error = larger(f.error, t.errors[k] + t.steep[k] * x.error);
       const double v = engine_table_value(t.words[k]), rise = engine_table_slope(t.words[k]);
       if (part && i >= first && i <= end)
         f.words = hull(f.words, hull({v, v}, {v + rise, v + rise}));
@@ -116,7 +117,7 @@ Fact Analysis::selected(const Step& s, const Fact& x, const Fact& y) {
   }
   // The law may have gone the other way even where the words are sure.
   if (std::any_of(sources_.begin(), sources_.end(), [this](int c) { return wrong(c); })) {
-    f.error = std::max(x.error, y.error) +
+    f.error = larger(x.error, y.error) +
               std::max(std::fabs(x.words.hi - y.words.lo), std::fabs(y.words.hi - x.words.lo));
   }
   return f;

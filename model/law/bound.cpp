@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "feltgate/largest.hpp"
+
 namespace feltgate::law {
 
 namespace {
@@ -16,7 +18,7 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 double worst(const CellFacts& f) {
   if (!f.reachable) return 0;
   double w = 0;
-  for (const double e : f.output_error) w = std::max(w, e);
+  for (const double e : f.output_error) w = larger(w, e);
   return w + 1e6 * static_cast<double>(f.unproven.size());
 }
 
@@ -73,15 +75,15 @@ class Bounds {
     for (const Leaf& l : leaves_) {
       if (!l.facts.reachable) continue;
       for (std::size_t o = 0; o < b.output.size(); ++o) {
-        b.output[o] = std::max(b.output[o], l.facts.output_error[o]);
+        b.output[o] = larger(b.output[o], l.facts.output_error[o]);
       }
       for (std::size_t s = 0; s < b.words.size(); ++s) {
         b.words[s] = hull(b.words[s], l.facts.steps[s].words);
-        b.errors[s] = std::max(b.errors[s], l.facts.steps[s].error);
-        b.margins[s] = std::max(b.margins[s], l.facts.margin[s]);
+        b.errors[s] = larger(b.errors[s], l.facts.steps[s].error);
+        b.margins[s] = larger(b.margins[s], l.facts.margin[s]);
       }
       for (std::size_t k = 0; k < b.drift.size(); ++k) {
-        b.drift[k] = std::max(b.drift[k], l.facts.state_error[k]);
+        b.drift[k] = larger(b.drift[k], l.facts.state_error[k]);
       }
       if (b.unproven.empty()) b.unproven = l.facts.unproven;
     }
@@ -127,7 +129,7 @@ class Bounds {
       std::vector<double> next = errors_;
       for (std::size_t k = 0; k < errors_.size(); ++k) {
         const double to = f.state_error[k];
-        if (!(to > errors_[k])) continue;
+        if (to <= errors_[k]) continue;
         more = true;
         next[k] = to;
         // Where errors shrink by a factor from run to run, the sum of all is known.
@@ -240,7 +242,7 @@ class Bounds {
       double any = 0;
       for (std::size_t o = 0; o < base.output_error.size(); ++o) {
         s.jump.push_back(swapped.output_error[o] - base.output_error[o]);
-        any = std::max(any, s.jump.back());
+        any = larger(any, s.jump.back());
       }
       // What states keep and events tell is off as well.
       const bool more = !law_.states.empty() || !law_.events.empty();

@@ -9,6 +9,7 @@
 
 #include "law/lowering.hpp"
 #include "law/ranges.hpp"
+#include "law/table_values.hpp"
 
 namespace feltgate::law {
 
@@ -113,10 +114,19 @@ void Lowering::table(const Statement& s) {
       t.segments = static_cast<int>(t.points.size()) - 1;
     }
     if (t.body != kNone) {
+      const std::size_t before = diagnostics_.size();
       refuse_changing(t.body, s);
       if (s.periodic) refuse_open(t, s);
       t.periodic = s.periodic;
       law_.tables.push_back(t);
+      const NoNumber none = diagnostics_.size() == before ? no_number(law_, t) : NoNumber{};
+      if (none.node != kNone) {
+        diagnostics_.add(
+            graph_.node(none.node).place,
+            fmt::format("in the table {} this is no number at {:.6g}", quoted(s.name), none.x),
+            "let the table end where its formula does, or limit what it is of, e.g. "
+            "sqrt(max(x, 0))");
+      }
       symbol.index = index;
     }
   }

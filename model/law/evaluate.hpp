@@ -51,11 +51,12 @@ class Evaluation {
   N value(NodeId id) const { return values_[at(id)]; }
   /// A table at x, as runs see it.
   N table(std::size_t index, N x) const;
+  /// A node from the values of its arguments.
+  N compute(const Node& n, const std::vector<N>& values) const;
 
  private:
   static std::size_t at(NodeId id) { return static_cast<std::size_t>(id); }
   N number(double x) const { return static_cast<N>(x); }
-  N compute(const Node& n, const std::vector<N>& values) const;
   N exact(std::size_t table, N x) const;
   /// The line through samples at equal distances, at a place within the domain.
   template <class Sample>

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "feltgate/largest.hpp"
 #include "law/gappa_cutter.hpp"
 
 namespace feltgate::law {
@@ -46,7 +47,7 @@ void Cutter::table() {
   const auto beside = [&](const std::vector<double>& of, double i) {
     double most = 0;
     for (double k = std::max(0.0, i - reach); k <= std::min(last, i + reach); ++k) {
-      most = std::max(most, of[static_cast<std::size_t>(k)]);
+      most = larger(most, of[static_cast<std::size_t>(k)]);
     }
     return most;
   };
@@ -57,7 +58,7 @@ void Cutter::table() {
     // |line(x) - f(X)| <= |line(x) - f(x)| + |f'| |x - X|, x a word in i, f' also of what is
     // beside.
     const double moved = e > 0 ? up(beside(proof.gradient, i) * e) : 0;
-    apart = std::max(apart, up(proof.error[static_cast<std::size_t>(i)] + moved));
+    apart = larger(apart, up(proof.error[static_cast<std::size_t>(i)] + moved));
     values = hull(values, proof.values[static_cast<std::size_t>(i)]);
   }
   if (e > 0) {
@@ -65,8 +66,8 @@ void Cutter::table() {
     // Lines may jump at seams.
     double too = 0;
     for (double i = std::max(0.0, first - reach); i <= std::min(last, to + reach); ++i) {
-      too = std::max(
-          too, up(proof.between[static_cast<std::size_t>(i)] + up(beside(proof.rise, i) * e)));
+      too = larger(too,
+                   up(proof.between[static_cast<std::size_t>(i)] + up(beside(proof.rise, i) * e)));
     }
     apart = std::min(apart, up(too + up(t.jump * (1 + std::floor(e / 4096)))));
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "feltgate/largest.hpp"
 #include "law/gappa.hpp"
 
 namespace feltgate::law {
@@ -80,7 +81,7 @@ TableProof table_proof(const Compiled& c, int step) {
       const double x = std::clamp((first + f) * word, domain.lo, domain.hi);
       const Span exact = function({x, x}).v * (1 / s.scale);
       const double there = value + slope * f / 4096;  // exact in a double
-      error = std::max({error, up(there - exact.lo), up(exact.hi - there)});
+      error = larger(error, larger(up(there - exact.lo), up(exact.hi - there)));
       line = hull(line, {there, there});
     }
     proof.error.push_back(error);
@@ -98,7 +99,7 @@ TableProof table_proof(const Compiled& c, int step) {
       const double x = std::clamp((first + f) * word, domain.lo, domain.hi);
       const Span exact = function({x, x}).v * (1 / s.scale);
       const double there = value + slope * f / 4096;
-      everywhere = std::max({everywhere, up(there - exact.lo), up(exact.hi - there)});
+      everywhere = larger(everywhere, larger(up(there - exact.lo), up(exact.hi - there)));
     }
     const double bend = part.empty() ? 0 : function(part).d2.size() * word * word / 8 / s.scale;
     proof.between.push_back(up(everywhere + up(up(bend))));

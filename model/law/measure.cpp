@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "engine/machine.hpp"
+#include "feltgate/largest.hpp"
 #include "feltgate/random.hpp"
 #include "law/evaluate.hpp"
 #include "law/load.hpp"
@@ -92,7 +93,7 @@ class Meter {
     for (std::size_t o = 0; o < result_.output.size(); ++o) {
       const double torque =
           run.outputs[at(c_.law.outputs[o].axis)] * std::ldexp(1.0, -c_.target.torque.fraction);
-      result_.output[o] = std::max(result_.output[o], std::fabs(torque - law_.outputs()[o]));
+      result_.output[o] = larger(result_.output[o], std::fabs(torque - law_.outputs()[o]));
     }
   }
 

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "feltgate/largest.hpp"
+
 namespace feltgate::law {
 
 namespace {
@@ -88,7 +90,7 @@ TableUse make_table(const TableRequest& r) {
     if (i > 0) {
       const std::uint64_t before = t.words.back();
       const int there = engine_table_value(before) + engine_table_slope(before);
-      t.jump = std::max(t.jump, std::fabs(static_cast<double>(s.value - there)));
+      t.jump = larger(t.jump, std::fabs(static_cast<double>(s.value - there)));
     }
     t.words.push_back(engine_table_word(s.value, s.slope));
     t.values = hull(t.values, {static_cast<double>(std::min(s.value, s.value + s.slope)),
@@ -109,7 +111,7 @@ TableUse make_table(const TableRequest& r) {
       halved = halved || looks > 0;
     }
     t.errors.push_back(up(error * (1 + 1e-9)));
-    t.error = std::max(t.error, t.errors.back());
+    t.error = larger(t.error, t.errors.back());
   }
   const auto slope = [&t](std::size_t i) {
     return std::fabs(static_cast<double>(engine_table_slope(t.words[i]))) / fraction;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "feltgate/largest.hpp"
 #include "figures.hpp"
 
 namespace feltgate {
@@ -118,8 +119,8 @@ class FeltMeter {
     const double work_j = hand_nm * omega_rad_s * dt_s;
     (work_j > 0 ? taken_j_ : returned_j_) += work_j;
     const double net_j = taken_j_ + returned_j_;
-    if (net_j > highest_j_) highest_j_ = net_j;
-    if (net_j < lowest_j_) lowest_j_ = net_j;
+    highest_j_ = larger(highest_j_, net_j);
+    lowest_j_ = smaller(lowest_j_, net_j);
     hand_nm_s_ += hand_nm * dt_s;
   }
   /// A tick of the core; torques in Nm, bits as in a snapshot.

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "feltgate/largest.hpp"
+
 namespace feltgate {
 
 void StepSamples::add(double value) {
@@ -15,8 +17,8 @@ void StepSamples::add(double value) {
   } else {
     Block& b = blocks_.back();
     const double off = value - b.mean;
-    b.low = std::min(b.low, value);
-    b.high = std::max(b.high, value);
+    b.low = smaller(b.low, value);
+    b.high = larger(b.high, value);
     b.mean += off / static_cast<double>(within + 1);
     b.squares += off * (value - b.mean);
   }
@@ -65,7 +67,7 @@ StepResponse StepSamples::response(double sample_s, double tau_ref_nm) const {
     if (above > band || below > band) {
       settled = static_cast<std::int64_t>(i) * per_block_ + samples_of(i);
     }
-    beyond = std::max(beyond, step >= 0 ? above : below);
+    beyond = larger(beyond, step >= 0 ? above : below);
   }
   r.settling_ms = 1e3 * sample_s * static_cast<double>(settled);
   r.overshoot_pct = step == 0 ? 0.0 : 100.0 * beyond / std::abs(step);

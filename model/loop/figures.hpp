@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "feltgate/largest.hpp"
+
 namespace feltgate {
 
 /// Largest and root-mean-square difference of a signal from its reference.
@@ -17,7 +19,7 @@ class ErrorFigure {
  public:
   void add(double error) {
     const double magnitude = std::abs(error);
-    if (magnitude > max_) max_ = magnitude;
+    max_ = larger(max_, magnitude);
     sum_of_squares_ += error * error;
     ++count_;
   }

@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "config/toml_reader.hpp"
+#include "feltgate/largest.hpp"
 #include "loop/drag.hpp"
 #include "loop/ensemble.hpp"
 #include "loop/expectations.hpp"
@@ -34,8 +35,8 @@ namespace {
 struct Range {
   double low = 1e300, high = -1e300;
   void add(double v) {
-    low = std::min(low, v);
-    high = std::max(high, v);
+    low = smaller(low, v);
+    high = larger(high, v);
   }
 };
 

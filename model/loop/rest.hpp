@@ -12,6 +12,7 @@
 #include <string>
 
 #include "../engines/engine.hpp"
+#include "feltgate/largest.hpp"
 
 namespace feltgate {
 
@@ -23,8 +24,8 @@ class Spread {
     const double off = v - mean_;
     mean_ += off / static_cast<double>(n_);
     squares_ += off * (v - mean_);
-    low_ = std::min(low_, v);
-    high_ = std::max(high_, v);
+    low_ = smaller(low_, v);
+    high_ = larger(high_, v);
   }
   double mean() const { return mean_; }
   /// Root-mean-square distance from the mean.

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "config/toml_reader.hpp"
+#include "feltgate/largest.hpp"
 
 namespace feltgate {
 
@@ -77,10 +78,10 @@ void RunBounds::add() {
   make_worse(worst_, b);
   for (std::size_t i = 0; i < sources.size(); ++i) {
     SourceBound& s = sources_[i];
-    s.velocity_rad_s = std::max(s.velocity_rad_s, sources[i].velocity_rad_s);
-    s.tau_hat_nm = std::max(s.tau_hat_nm, sources[i].tau_hat_nm);
-    s.tau_ref_nm = std::max(s.tau_ref_nm, sources[i].tau_ref_nm);
-    s.current_a = std::max(s.current_a, sources[i].current_a);
+    s.velocity_rad_s = larger(s.velocity_rad_s, sources[i].velocity_rad_s);
+    s.tau_hat_nm = larger(s.tau_hat_nm, sources[i].tau_hat_nm);
+    s.tau_ref_nm = larger(s.tau_ref_nm, sources[i].tau_ref_nm);
+    s.current_a = larger(s.current_a, sources[i].current_a);
   }
   if (!lost_) return;
   const ErrorBound none{endless, endless, endless};

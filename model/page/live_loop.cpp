@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engines/fnv1a.hpp"
+#include "feltgate/largest.hpp"
 #include "loop/scenario.hpp"
 #include "plant/drive.hpp"
 
@@ -207,7 +208,7 @@ void LiveLoop::tick(const Snapshot& s) {
   if (s.faults != 0 && armed_) arm(false);  // as a panel does: nothing arms again by itself
   if (host_ticks_ > 1 && scene_ == "wall" && ticks_ % host_ticks_ == 0) host(s);
   const double float_nm = core_.rider(0)->out().tau_hat_nm;
-  difference_nm_ = std::max(difference_nm_, std::abs(core_.torque_nm(s.tau_hat) - float_nm));
+  difference_nm_ = larger(difference_nm_, std::abs(core_.torque_nm(s.tau_hat) - float_nm));
   if (ticks_++ % every_ != 0) return;
   const plant::Observables& o = plant_.observables();
   samples_.push_back({static_cast<double>(ticks_) / static_cast<double>(design().tick_hz),

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "feltgate/generated/causes.hpp"
+#include "feltgate/largest.hpp"
 
 namespace feltgate::rates {
 
@@ -203,7 +204,7 @@ void Continuous::tick(const Row* rows) {
     a.error.add(off_nm);
     a.sum_nm += off_nm;
     error_.add(off_nm);
-    largest_nm_ = std::max(largest_nm_, std::fabs(a.ideal_nm));
+    largest_nm_ = larger(largest_nm_, std::fabs(a.ideal_nm));
     if (setting_.floor) floor_.add(a.of_counts_nm - a.ideal_nm);
   }
 }

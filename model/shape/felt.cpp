@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "feltgate/largest.hpp"
+
 namespace feltgate::shape {
 
 namespace {
@@ -77,7 +79,7 @@ Felt around(const law::Law& law, const Curve& curve, double stiffness, double de
   Felt f;
   f.rms_error = std::sqrt(squares / static_cast<double>(path.size())) / size;
   for (std::size_t i = 1; i < forces.size(); ++i) {
-    f.most_step = std::max(f.most_step, length(forces[i] - forces[i - 1]) / size);
+    f.most_step = larger(f.most_step, length(forces[i] - forces[i - 1]) / size);
   }
   f.jumps = jumps(forces);
   f.pen_m = path;

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <random>
 
+#include "feltgate/largest.hpp"
+
 namespace feltgate::stability {
 
 namespace {
@@ -63,12 +65,12 @@ Rest rest_in_wall(const design::Elaborated& design, const plant::Parameters& pla
       torque.add(loop.tau_ref_nm());
       motor.add(loop.motor_torque_nm());
       low = std::min(low, loop.position());
-      high = std::max(high, loop.position());
+      high = larger(high, loop.position());
     }
     out.quiet += high == low;
-    out.counts = std::max(out.counts, high - low);
-    out.torque_rms_nm = std::max(out.torque_rms_nm, torque.rms());
-    out.motor_torque_rms_nm = std::max(out.motor_torque_rms_nm, motor.rms());
+    out.counts = larger(out.counts, high - low);
+    out.torque_rms_nm = larger(out.torque_rms_nm, torque.rms());
+    out.motor_torque_rms_nm = larger(out.motor_torque_rms_nm, motor.rms());
   }
   return out;
 }

@@ -9,6 +9,7 @@
 
 #include "bench/report.hpp"
 #include "bench/work_bounds.hpp"
+#include "feltgate/largest.hpp"
 #include "files/output_file.hpp"
 #include "tools/checks.hpp"
 #include "tools/commands.hpp"
@@ -32,9 +33,9 @@ bench::ErrorLimits bounds_of(const std::vector<bench::Work>& works) {
   bench::ErrorLimits worst;
   for (const bench::Work& work : works) {
     const bounds::ErrorBounds b = bench::work_bounds(e, work);
-    worst.velocity_rad_s = std::max(worst.velocity_rad_s, b.velocity_rad_s.against_reference);
-    worst.tau_hat_nm = std::max(worst.tau_hat_nm, b.tau_hat_nm.against_reference);
-    worst.torque_nm = std::max(worst.torque_nm, b.torque_nm.against_reference);
+    worst.velocity_rad_s = larger(worst.velocity_rad_s, b.velocity_rad_s.against_reference);
+    worst.tau_hat_nm = larger(worst.tau_hat_nm, b.tau_hat_nm.against_reference);
+    worst.torque_nm = larger(worst.torque_nm, b.torque_nm.against_reference);
   }
   return worst;
 }

@@ -15,6 +15,7 @@
 
 #include "bounds/error_bounds.hpp"
 #include "config/toml_reader.hpp"
+#include "feltgate/largest.hpp"
 
 namespace {
 
@@ -47,7 +48,7 @@ int main(int argc, char** argv) {
         continue;
       }
       for (std::size_t k = 0; k < worst.size(); ++k) {
-        worst[k].second = std::max(worst[k].second, found[k]);
+        worst[k].second = larger(worst[k].second, found[k]);
       }
     }
     for (const auto& [name, bound] : worst) j["bound_" + name] = bound;

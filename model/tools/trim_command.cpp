@@ -11,6 +11,7 @@
 #include <sstream>
 #include <thread>
 
+#include "feltgate/largest.hpp"
 #include "files/json_text.hpp"
 #include "files/output_file.hpp"
 #include "loop/scenario_check.hpp"
@@ -171,7 +172,7 @@ std::string json_of(const trim::Report& r, const Scenario& scene, const TrimArgu
 std::string comment_of(const trim::Report& r, const Scenario& scene, const TrimArguments& a) {
   std::ostringstream s;
   double worst = r.own.worst();
-  for (const trim::UnseenReport& u : r.unseen) worst = std::max(worst, u.difference.worst());
+  for (const trim::UnseenReport& u : r.unseen) worst = larger(worst, u.difference.worst());
   s << "Written on " << today() << " by: feltgate trim " << scene.name << " --design "
     << a.options.design << " --tolerance " << a.tolerance << "\n"
     << "effects off: " << joined(off(scene, r.trimmed)) << "\n"

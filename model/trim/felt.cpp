@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "feltgate/largest.hpp"
 #include "plant/plant.hpp"
 
 namespace feltgate::trim {
@@ -53,8 +54,8 @@ Loss loss(const std::vector<double>& reference, const std::vector<double>& other
   double peak = least, worst = 0, squares = 0, error_squares = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const double error = other[i] - reference[i];
-    peak = std::max(peak, std::abs(reference[i]));
-    worst = std::max(worst, std::abs(error));
+    peak = larger(peak, std::abs(reference[i]));
+    worst = larger(worst, std::abs(error));
     squares += reference[i] * reference[i];
     error_squares += error * error;
   }

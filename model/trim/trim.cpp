@@ -10,6 +10,7 @@
 #include <optional>
 #include <thread>
 
+#include "feltgate/largest.hpp"
 #include "trim/motions.hpp"
 
 namespace feltgate::trim {
@@ -184,8 +185,8 @@ class Search {
         Model without = out_.trimmed;
         set_part(without, part.name, false);
         // Errors that cancel on this motion need not on another: the sum of all alone counts too.
-        part.so_far = std::max(sum_ + part.alone.worst(),
-                               compare(own_.full, runner_.run(own_.motion, without)).worst());
+        part.so_far = larger(sum_ + part.alone.worst(),
+                             compare(own_.full, runner_.run(own_.motion, without)).worst());
         part.dropped = fits(part.so_far);
         if (part.dropped) {
           out_.trimmed = without;
@@ -301,7 +302,7 @@ class Search {
     double least = 1e300;
     for (const Return& r : returns()) {
       double worst = 0;
-      for (const Difference& d : differences(motions, r.model)) worst = std::max(worst, d.worst());
+      for (const Difference& d : differences(motions, r.model)) worst = larger(worst, d.worst());
       // The gates cost ten times what all else does: they must mend clearly more.
       const bool gates_back = r.part != nullptr && r.part->name == gates;
       if (worst >= (gates_back && best ? 0.5 : 1.0) * least) continue;

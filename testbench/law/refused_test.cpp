@@ -181,6 +181,18 @@ const Bad kMeaning[] = {
     {"let a = 1 Nm\nout torque = a(2)", "2:14: \"a\" is no function; between factors stands *"},
     {"let a = 1 Nm\nout torque = a[2]",
      "2:14: \"a\" has no elements; only arrays and lines have: NAME[k]"},
+    {"table f(x) on [-1, 1] = sqrt(x)\nout torque = 1 Nm * f(position)",
+     "1:25: in the table \"f\" this is no number at -1; let the table end where its formula does, "
+     "or "
+     "limit what it is of, e.g. sqrt(max(x, 0))"},
+    {"table f(x) on [-1, 1] = 2 * max(0, sqrt(x))\nout torque = 1 Nm * f(position)",
+     "1:36: in the table \"f\" this is no number at -1; let the table end where its formula does, "
+     "or "
+     "limit what it is of, e.g. sqrt(max(x, 0))"},
+    {"table f(x) on [-1, 3] = if x > 2 then 1 else 1 / x\nout torque = 1 Nm * f(position)",
+     "1:48: in the table \"f\" this is no number at 0; let the table end where its formula does, "
+     "or "
+     "limit what it is of, e.g. sqrt(max(x, 0))"},
     {"table f(x) on [0, 1] = x\nout torque = 1 Nm * f",
      "2:21: the table \"f\" without its argument; write f(...)"},
     {"array f = [1, 2]\nout torque = 1 Nm * f",

@@ -6,9 +6,11 @@
 #include "law/verdict.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 
+#include "feltgate/largest.hpp"
 #include "law/diagnostics.hpp"
 #include "law/listing.hpp"
 
@@ -123,6 +125,30 @@ TEST_CASE("values of a parameter that its step does not keep are told") {
                                    "clamp(tiny * position, -1, 1)\n"),
                           {})),
              Contains("tiny: of -1e+03 .. -1e-06 only values from"));
+}
+
+TEST_CASE("a largest error that is no number stays one, and fails") {
+  const double none = std::nan("");
+  CHECK(larger(1.0, 2.0) == 2);
+  CHECK(larger(2.0, 1.0) == 2);
+  CHECK(smaller(1.0, 2.0) == 1);
+  CHECK(smaller(2.0, 1.0) == 1);
+  for (const double x : {-1.0, 1.0}) {
+    CHECK(std::isnan(larger(none, x)));
+    CHECK(std::isnan(larger(x, none)));
+    CHECK(std::isnan(smaller(none, x)));
+    CHECK(std::isnan(smaller(x, none)));
+  }
+  const Compiled c = compiled("out torque = 0.1 Nm * clamp(position, -1, 1)\n");
+  Measured m = measure(c, 1, 100);
+  CHECK(verdict(c, m).failures.empty());
+  m.output[0] = none;
+  CHECK(verdict(c, m).failures.size() == 1);
+}
+
+TEST_CASE("a table that an if keeps from what is no number is one") {
+  CHECK(refusal("table f(x) on [-1, 1] = if x < 0 then 0 else sqrt(x)\n"
+                "out torque = 0.1 Nm * f(position)\n") == "compiled");
 }
 
 }  // namespace

@@ -64,7 +64,6 @@ class Search {
     try {
       c.program = lower(law_, target_, spans_, c.choice);
       mark_primary(law_, c.program);
-      require_whole(c.program);
       const Bound b = bound(law_, target_, c.program, 0, &spans_);
       c.cost = cost(law_, target_, c.program, b, spans_);
       c.unproven = b.unproven;
@@ -74,20 +73,6 @@ class Search {
     made_ = std::move(c.choice.made);
     c.choice.made.clear();
     return c;
-  }
-
-  /// Where a whole state counts on it, a whole parameter's words stand for whole numbers.
-  void require_whole(const Program& program) const {
-    const bool any = std::any_of(program.steps.begin(), program.steps.end(),
-                                 [](const Step& s) { return s.whole; });
-    for (const Word& w : program.words) {
-      const Node& n = law_.nodes[static_cast<std::size_t>(w.nodes[0])];
-      if (!any || !w.primary || !law_.parameters[static_cast<std::size_t>(n.index)].whole) continue;
-      const double words = 1 / std::fabs(w.scale);
-      if (std::fabs(words - std::nearbyint(words)) > 1e-9 * words || words < 0.5) {
-        throw Unfit("a whole parameter counts in parts of one", w.nodes[0]);
-      }
-    }
   }
 
   static bool keep(Candidate& best, Candidate&& c) {
@@ -212,6 +197,15 @@ double cost(const Law& law, const Target& target, const Program& program, const 
   return c;
 }
 
+namespace {
+
+bool divides_one(double scale) {
+  const double words = 1 / std::fabs(scale);
+  return words > 0.5 && std::fabs(words - std::nearbyint(words)) <= 1e-9 * words;
+}
+
+}  // namespace
+
 void mark_primary(const Law& law, Program& program) {
   for (std::size_t i = 0; i < program.words.size(); ++i) {
     Word& w = program.words[i];
@@ -220,10 +214,13 @@ void mark_primary(const Law& law, Program& program) {
     if (n.op != Op::parameter || law.parameters[static_cast<std::size_t>(n.index)].derived >= 0) {
       continue;
     }
+    // A whole number is one in the word that says it.
+    const bool whole = law.parameters[static_cast<std::size_t>(n.index)].whole;
+    if (whole && !divides_one(w.scale)) continue;
     bool finest = true;
     for (std::size_t k = 0; k < program.words.size(); ++k) {
       const Word& o = program.words[k];
-      if (k == i || o.nodes != w.nodes) continue;
+      if (k == i || o.nodes != w.nodes || (whole && !divides_one(o.scale))) continue;
       const double mine = std::fabs(w.scale), other = std::fabs(o.scale);
       if (other < mine || (other == mine && k < i)) finest = false;
     }

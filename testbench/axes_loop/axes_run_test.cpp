@@ -11,6 +11,7 @@
 #include "axes_fixture.hpp"
 #include "catch.hpp"
 #include "config/toml_reader.hpp"
+#include "feltgate/largest.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
@@ -95,7 +96,7 @@ TEST_CASE("another shape under the pen: torques ramp, step by step") {
       // Before the change the hand moves by counts, which are no matter of the ramp.
       if (rows.of(i, "time_s") <= scene.scenario.events.at(0).at_s) continue;
       const double step = std::abs(rows.of(i, asked) - rows.of(i - 1, asked));
-      most = std::max(most, step);
+      most = feltgate::larger(most, step);
       moved += step > 0 ? 1 : 0;
     }
     INFO(asked << ": " << most << " Nm in a tick");

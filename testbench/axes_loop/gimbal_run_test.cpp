@@ -11,6 +11,7 @@
 #include "axes_fixture.hpp"
 #include "catch.hpp"
 #include "config/toml_reader.hpp"
+#include "feltgate/largest.hpp"
 #include "plant/gimbal/gimbal_mechanics.hpp"
 
 using namespace feltgate;
@@ -69,14 +70,14 @@ TEST_CASE("gimbal: a turn of 359 degrees is felt as the shorter way, by all thre
       at[n] = rows.of(k, "position_rad." + std::to_string(n));
     }
     const plant::GimbalPose pose = plant::gimbal_pose(at);
-    largest_rad = std::max(largest_rad, at[0]);
+    largest_rad = feltgate::larger(largest_rad, at[0]);
     // Where both ways are as short, a count decides.
     if (std::abs((to * pose.handle.inverse()).w) < 0.01) continue;
     const plant::GimbalJoints asked =
         pose.torque(plant::coupling_nm(set.at("stiffness"), to, pose.handle));
     for (std::size_t n = 0; n < 3; ++n) {
       const double nm = rows.of(k, "tau_ref_nm." + std::to_string(n));
-      worst_nm = std::max(worst_nm, std::abs(nm - asked[n]));
+      worst_nm = feltgate::larger(worst_nm, std::abs(nm - asked[n]));
     }
     ++compared;
   }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "engine/machine.hpp"
+#include "feltgate/largest.hpp"
 #include "law/compile.hpp"
 #include "law/host_machine.hpp"
 #include "law/load.hpp"
@@ -121,9 +122,9 @@ inline Motion play(const law::Compiled& law, const Bowing& b) {
       m.longest_s = std::max(m.longest_s, string.since_s());
     }
     m.sliding += string.state("stuck") > 0.5 ? 0 : 1.0 / (end - watch);
-    m.heard_m_s = std::max(m.heard_m_s, std::fabs(string.state("heard")));
+    m.heard_m_s = larger(m.heard_m_s, std::fabs(string.state("heard")));
     m.mean_nm += torque / (end - watch);
-    m.most_nm = std::max(m.most_nm, std::fabs(torque));
+    m.most_nm = larger(m.most_nm, std::fabs(torque));
   }
   return m;
 }

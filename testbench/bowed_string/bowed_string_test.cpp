@@ -10,6 +10,7 @@
 #include <cstdio>
 
 #include "catch.hpp"
+#include "feltgate/largest.hpp"
 #include "law/evaluate.hpp"
 
 using namespace feltgate;
@@ -84,7 +85,7 @@ TEST_CASE("at 1 kHz the string has no pitch of its own: slips come as the force 
     CHECK_FALSE(m.helmholtz());
     CHECK(m.shortest_s > 1.1 / BowedString::pitch_hz);
     least_s = std::min(least_s, m.shortest_s);
-    most_s = std::max(most_s, m.longest_s);
+    most_s = feltgate::larger(most_s, m.longest_s);
     CHECK(play(fast, kept(0.1, 0.2, force_n)).helmholtz());
   }
   CHECK(most_s > 1.5 * least_s);
@@ -110,7 +111,7 @@ TEST_CASE(
     same = same && real.happened(0) == words.slipped();
     if (same) {
       ++alike;
-      off_nm = std::max(off_nm, std::fabs(torque - real.outputs()[0]));
+      off_nm = feltgate::larger(off_nm, std::fabs(torque - real.outputs()[0]));
     }
     if (i < 20000) continue;
     word_slips += words.slipped() ? 1 : 0;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "feltgate/largest.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
@@ -85,7 +86,7 @@ TEST_CASE("dob: at stall tau_hat is the 500 rad/s low-pass of Ktn*I, within one 
     double worst = 0;
     for (std::size_t k = 0; k < tau_hat.size(); ++k) {
       const double exact_tau = -final * std::expm1(-kPole * 1e-6 * static_cast<double>(k + 1));
-      worst = std::max(worst, std::fabs(nm(tau_hat[k]) - exact_tau));
+      worst = feltgate::larger(worst, std::fabs(nm(tau_hat[k]) - exact_tau));
     }
     INFO("torque " << torque << " Nm, worst " << worst << " Nm");
     REQUIRE(worst <= std::ldexp(1.0, -16));
@@ -179,7 +180,7 @@ TEST_CASE("dob: distance from quad precision") {
     state = Law::Filter::next(state, si(Design::A::observer_a1) * difference);
     bool unused = false;
     const quad error = magnitude(exact(twin.tau_hat) - Law::tau_hat(state, inertia, &unused));
-    if (error > worst) worst = error;
+    worst = feltgate::larger(worst, error);
   }
   const quad bound = error_bound(largest_difference, 15, 20);
   INFO("worst " << static_cast<double>(worst) << " Nm, bound " << static_cast<double>(bound)

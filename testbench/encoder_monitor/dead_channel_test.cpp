@@ -8,6 +8,7 @@
 #include "catch.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"
+#include "feltgate/largest.hpp"
 #include "plant/plant_file.hpp"
 #include "plant/pushing_hand.hpp"
 #include "pressed_lever.hpp"
@@ -71,8 +72,8 @@ void break_at(double rad_s, int runs, std::uint64_t seed, Found* found) {
     found->missed += r.faults == 0;
     found->missed_changed += changed && r.faults == 0;
     if (r.faults == 0) continue;
-    found->worst_rad = std::max(found->worst_rad, r.travel_rad);
-    found->worst_s = std::max(found->worst_s, r.fault_s);
+    found->worst_rad = feltgate::larger(found->worst_rad, r.travel_rad);
+    found->worst_s = feltgate::larger(found->worst_s, r.fault_s);
   }
 }
 

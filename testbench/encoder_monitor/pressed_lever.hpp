@@ -15,6 +15,7 @@
 #include "feltgate/design_info.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/causes.hpp"
+#include "feltgate/largest.hpp"
 #include "plant/drive.hpp"
 #include "plant/plant.hpp"
 
@@ -170,7 +171,7 @@ Pressed press(const plant::Parameters& parameters, const Press& what) {
       seen.steps += o.position != position;
       seen.travel_rad += std::abs(s.theta_rad - before_rad);
       if (gates) {
-        seen.hand_nm = std::max(seen.hand_nm, std::abs(s.hand_torque_nm));
+        seen.hand_nm = larger(seen.hand_nm, std::abs(s.hand_torque_nm));
         seen.hand_nm_s += std::abs(s.hand_torque_nm) * step_s;
       }
     }

@@ -14,6 +14,7 @@
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"
+#include "feltgate/largest.hpp"
 #include "feltgate/while_armed.hpp"
 #include "mismatch.hpp"
 #include "reference/real_chain.hpp"
@@ -159,7 +160,7 @@ TEST_CASE("the chain in real arithmetic is near the chain in fixed point", "[cha
       for (int k = 0; k < 40'000; ++k) {
         in.position = in.travel = static_cast<std::int16_t>(300 * std::sin(2e-4 * k));
         for (RealChain* chain : {fixed.get(), quad.get(), real.get()}) chain->tick(in);
-        worst_velocity = std::max(
+        worst_velocity = feltgate::larger(
             worst_velocity, std::fabs(real->out().velocity_rad_s - quad->out().velocity_rad_s));
         worst_torque =
             std::max(worst_torque, std::fabs(real->out().tau_hat_nm - quad->out().tau_hat_nm));

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "extremes/table.hpp"
+#include "feltgate/largest.hpp"
 
 namespace feltgate::extremes {
 
@@ -145,8 +146,8 @@ Outcome device_time(const Settings& s, int minutes) {
     all.edges += part.edges;
     all.drift = std::max(all.drift, part.drift);
     all.lost_ticks = std::max(all.lost_ticks, part.lost_ticks);
-    all.velocity = std::max(all.velocity, part.velocity);
-    all.tau_hat = std::max(all.tau_hat, part.tau_hat);
+    all.velocity = larger(all.velocity, part.velocity);
+    all.tau_hat = larger(all.tau_hat, part.tau_hat);
     all.faults |= part.faults;
     all.disarmed += part.disarmed;
     if (i > 0) seams += differing(segments[i - 1].end, part.begin);

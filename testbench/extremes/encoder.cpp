@@ -8,6 +8,7 @@
 
 #include "extremes/decoder_pair.hpp"
 #include "extremes/table.hpp"
+#include "feltgate/largest.hpp"
 
 namespace feltgate::extremes {
 
@@ -142,10 +143,10 @@ Outcome wrap_16(const Settings&) {
       position = x.raw.position;
       widest = std::max<std::int64_t>(widest, std::abs(position));
       if (++k < settle) return;
-      low = std::min(low, x.core.velocity_rad_s);
-      high = std::max(high, x.core.velocity_rad_s);
-      real_low = std::min(real_low, x.real.velocity_rad_s);
-      real_high = std::max(real_high, x.real.velocity_rad_s);
+      low = smaller(low, x.core.velocity_rad_s);
+      high = larger(high, x.core.velocity_rad_s);
+      real_low = smaller(real_low, x.real.velocity_rad_s);
+      real_high = larger(real_high, x.real.velocity_rad_s);
     });
     const std::string in = std::string(" (") + design + ")";
     // 2^n counts of the window, whose number moves by one; the start has decayed by exp(-5.5).

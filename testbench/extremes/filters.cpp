@@ -11,6 +11,7 @@
 #include "extremes/dead_band.hpp"
 #include "extremes/lowpass_alone.hpp"
 #include "extremes/table.hpp"
+#include "feltgate/largest.hpp"
 
 namespace feltgate::extremes {
 
@@ -209,9 +210,9 @@ Outcome coefficient_zero(const Settings&) {
   double velocity = 0, current = 0, tau_hat = 0;
   int faults = 0;
   b.run(b.ticks(6e-3), [&](const Sample& x) {
-    velocity = std::max(velocity, std::abs(x.core.velocity_rad_s));
-    tau_hat = std::max(tau_hat, std::abs(x.core.tau_hat_nm));
-    current = std::max(current, std::abs(x.core.current_a));
+    velocity = larger(velocity, std::abs(x.core.velocity_rad_s));
+    tau_hat = larger(tau_hat, std::abs(x.core.tau_hat_nm));
+    current = larger(current, std::abs(x.core.current_a));
     faults |= x.raw.faults;
   });
   b.report(&o);
@@ -252,8 +253,8 @@ Outcome coefficient_max(const Settings&) {
     } else if (peak > 0 && fallen == 0 && x.core.velocity_rad_s <= peak * std::exp(-1)) {
       fallen = x.tick - at;
     }
-    current = std::max(current, std::abs(x.core.current_a));
-    voltage = std::max(voltage, std::abs(x.core.voltage_v));
+    current = larger(current, std::abs(x.core.current_a));
+    voltage = larger(voltage, std::abs(x.core.voltage_v));
     duty = std::max<std::int64_t>(duty, std::abs(x.raw.duty));
   });
   b.report(&o);

@@ -10,6 +10,7 @@
 #include "extremes/closed_loop.hpp"
 #include "extremes/table.hpp"
 #include "extremes/wide_design.hpp"
+#include "feltgate/largest.hpp"
 #include "stability/bit_loop.hpp"
 #include "stability/linear_loop.hpp"
 #include "stability/loop_poles.hpp"
@@ -115,7 +116,7 @@ LetGo let_go(const std::string& design, const plant::Parameters& plant,
     if (r.time_s < 0.0199) at_release = r.omega_rad_s;
     out.speed_ratio = at_release != 0 ? r.omega_rad_s / at_release : 1;
     if (r.time_s > seconds - 0.02) {
-      out.late_share = std::max(out.late_share, std::abs(r.current_a) / limit_a);
+      out.late_share = larger(out.late_share, std::abs(r.current_a) / limit_a);
     }
     if (r.faults != 0) out.late_share = 1;
   });

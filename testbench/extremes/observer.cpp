@@ -9,6 +9,7 @@
 
 #include "extremes/closed_loop.hpp"
 #include "extremes/table.hpp"
+#include "feltgate/largest.hpp"
 
 namespace feltgate::extremes {
 
@@ -61,7 +62,7 @@ Releases blocked(double seconds, Cores cores, Outcome* o) {
     const double error = tau_hat - release_nm, t = static_cast<double>(since) * 1e-6;
     // The observer sees the current of the tick before.
     const double moving = std::max(0.0, t - 1e-6);
-    e.excess_nm = std::max(e.excess_nm, std::abs(error) - std::abs(step) * std::exp(-moving / tau));
+    e.excess_nm = larger(e.excess_nm, std::abs(error) - std::abs(step) * std::exp(-moving / tau));
     if (std::abs(error) > 0.02 * std::abs(step)) e.settling_s = t;
     if (e.sign_ticks < 0 && current < 0) e.sign_ticks = since;
   };
@@ -193,9 +194,9 @@ Outcome rest(const Settings& s) {
     b.arm("free");
     double tau_hat = 0, duty = 0, real = 0;
     b.run(b.ticks(20e-3), [&](const Sample& x) {
-      tau_hat = std::max(tau_hat, std::abs(x.core.tau_hat_nm));
-      real = std::max(real, std::abs(x.real.tau_hat_nm));
-      duty = std::max(duty, std::abs(static_cast<double>(x.raw.duty)));
+      tau_hat = larger(tau_hat, std::abs(x.core.tau_hat_nm));
+      real = larger(real, std::abs(x.real.tau_hat_nm));
+      duty = larger(duty, std::abs(static_cast<double>(x.raw.duty)));
     });
     o.findings.push_back(finding(Cores::lock_step, "largest tau_hat, armed, never moved", "Nm",
                                  exactly(0), tau_hat, real));
@@ -209,9 +210,9 @@ Outcome rest(const Settings& s) {
     tau_hat = real = 0;
     b.run(b.ticks(20e-3), [&](const Sample& x) {
       states.insert({x.raw.velocity, x.raw.tau_hat, x.raw.current_ref, x.raw.duty});
-      velocity = std::max(velocity, std::abs(x.core.velocity_rad_s));
-      tau_hat = std::max(tau_hat, std::abs(x.core.tau_hat_nm));
-      real = std::max(real, std::abs(x.real.tau_hat_nm));
+      velocity = larger(velocity, std::abs(x.core.velocity_rad_s));
+      tau_hat = larger(tau_hat, std::abs(x.core.tau_hat_nm));
+      real = larger(real, std::abs(x.real.tau_hat_nm));
     });
     b.report(&o);
     const double band = 0.5 / -std::expm1(-500e-6) * std::exp2(-21);

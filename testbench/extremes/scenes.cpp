@@ -7,6 +7,7 @@
 
 #include "extremes/closed_loop.hpp"
 #include "extremes/table.hpp"
+#include "feltgate/largest.hpp"
 
 namespace feltgate::extremes {
 
@@ -46,8 +47,8 @@ Outcome charge_through_zero(const Settings&) {
       b.run(2 * reach + 4, [&](const Sample& x) {
         const int at = x.raw.position;
         const double expected = law(attract, at, raw ? 0 : 0.2);
-        worst = std::max(worst, std::abs(x.core.tau_ref_nm - expected));
-        real_worst = std::max(real_worst, std::abs(x.real.tau_ref_nm - expected));
+        worst = larger(worst, std::abs(x.core.tau_ref_nm - expected));
+        real_worst = larger(real_worst, std::abs(x.real.tau_ref_nm - expected));
         if (at == 0) {
           at_zero = x.core.tau_ref_nm;
           real_at_zero = x.real.tau_ref_nm;

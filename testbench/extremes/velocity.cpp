@@ -7,6 +7,7 @@
 
 #include "extremes/bench.hpp"
 #include "extremes/table.hpp"
+#include "feltgate/largest.hpp"
 
 namespace feltgate::extremes {
 
@@ -43,8 +44,8 @@ Outcome one_count_per_second(const Settings&) {
     std::int64_t at_peak = 0, fallen = 0, real_fallen = 0;
     b.run(b.ticks(12e-3), [&](const Sample& x) {
       if (x.core.velocity_rad_s > peak) at_peak = x.tick;
-      peak = std::max(peak, x.core.velocity_rad_s);
-      real_peak = std::max(real_peak, x.real.velocity_rad_s);
+      peak = larger(peak, x.core.velocity_rad_s);
+      real_peak = larger(real_peak, x.real.velocity_rad_s);
       if (fallen == 0 && peak > 0.1 && x.core.velocity_rad_s <= peak * std::exp(-1)) {
         fallen = x.tick - at_peak;
       }
@@ -98,8 +99,8 @@ std::pair<double, double> dither(Bench& b, std::int64_t half_ticks, int* positio
     low = std::min(low, x.raw.position);
     high = std::max(high, x.raw.position);
     if (++k <= first) return;
-    worst = std::max(worst, std::abs(x.core.velocity_rad_s));
-    real = std::max(real, std::abs(x.real.velocity_rad_s));
+    worst = larger(worst, std::abs(x.core.velocity_rad_s));
+    real = larger(real, std::abs(x.real.velocity_rad_s));
   });
   *positions = high - low;
   return {worst, real};

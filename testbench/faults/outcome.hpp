@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <string>
 
+#include "feltgate/largest.hpp"
+
 namespace feltgate::faults {
 
 enum class Class {
@@ -83,10 +85,10 @@ class TorqueJudge {
     const double e = torque(faulty_, omega_rad_s) - torque(sound_, omega_rad_s);
     if (faulty.both > o->both_clocks) o->both_clocks = faulty.both;
     const double motor = std::abs(motor_.mean());
-    if (motor > o->motor_peak_nm) o->motor_peak_nm = motor;
+    o->motor_peak_nm = larger(o->motor_peak_nm, motor);
     // What remains after the gates went off is a free lever.
     if (faulty_.on() || !flagged) {
-      if (std::abs(e) > o->peak_nm) o->peak_nm = std::abs(e);
+      o->peak_nm = larger(o->peak_nm, std::abs(e));
       o->integral_nm_s += std::abs(e) * 1e-6;
     }
     over_ = motor > l_.unsafe_share * l_.torque_nm ? over_ + 1 : 0;

@@ -11,6 +11,7 @@
 #include "../extremes/dead_band.hpp"
 #include "catch.hpp"
 #include "feltgate/fixed.hpp"
+#include "feltgate/largest.hpp"
 
 namespace {
 
@@ -194,7 +195,7 @@ TEST_CASE("the rounding error stays below its worst-case bound, and comes near i
     const std::int64_t x = (k / 50000) % 2 == 0 ? 3 : -3;
     filter.step(Sample::from_raw(x));
     exact += a * (static_cast<double>(x) * 2048.0 - exact);
-    worst = std::max(worst, std::abs(static_cast<double>(filter.state().raw()) - exact));
+    worst = feltgate::larger(worst, std::abs(static_cast<double>(filter.state().raw()) - exact));
   }
   INFO("worst " << worst << " of " << bound << " state LSB");
   CHECK(worst <= bound);

@@ -7,6 +7,7 @@
 #include "../pantograph/image_axes.hpp"
 #include "catch.hpp"
 #include "feltgate/generated/lever_law.hpp"
+#include "feltgate/largest.hpp"
 #include "gimbal_fixture.hpp"
 #include "plant/drive.hpp"
 
@@ -54,7 +55,7 @@ TEST_CASE("the compiled law asks for J transposed times the coupling, everywhere
         const GimbalJoints asked = p.torque(coupling_nm(stiffness, target, p.handle));
         for (std::size_t i = 0; i < 3; ++i) {
           const double nm = std::ldexp(raw[i], -design.torque.fraction);
-          worst_nm = std::max(worst_nm, std::abs(nm - asked[i]));
+          worst_nm = feltgate::larger(worst_nm, std::abs(nm - asked[i]));
         }
       }
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "catch.hpp"
+#include "feltgate/largest.hpp"
 #include "gimbal_fixture.hpp"
 
 using namespace feltgate;
@@ -177,9 +178,9 @@ TEST_CASE("without friction energy and outer momentum are constant over 10 s", "
   for (int i = 0; i < 250000; ++i) {
     mechanics.step(s, {}, 40e-6);
     if (i % 8 != 0) continue;
-    worst_j = std::max(worst_j, std::abs(mechanics.stored_j(s) - begin_j));
-    worst = std::max(worst, std::abs(momentum() - begin));
-    most_rad = std::max(most_rad, std::abs(s.theta_rad[1]));
+    worst_j = feltgate::larger(worst_j, std::abs(mechanics.stored_j(s) - begin_j));
+    worst = feltgate::larger(worst, std::abs(momentum() - begin));
+    most_rad = feltgate::larger(most_rad, std::abs(s.theta_rad[1]));
   }
   INFO("energy within " << worst_j / begin_j << ", momentum within " << worst / begin);
   CHECK(worst_j / begin_j < 1e-6);

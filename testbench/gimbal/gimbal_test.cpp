@@ -7,6 +7,7 @@
 
 #include "catch.hpp"
 #include "config/toml_reader.hpp"
+#include "feltgate/largest.hpp"
 #include "gimbal_fixture.hpp"
 #include "plant/sampled_law.hpp"
 
@@ -85,8 +86,8 @@ TEST_CASE("all work is accounted for", "[gimbal]") {
     plant.advance({Bridge::averaged(d), Bridge::averaged(-d), Bridge::averaged(0.05)}, 250);
     const GimbalSeen& s = plant.seen();
     const double in_j = s.hand_work_j + s.motor_work_j - s.dry_j - s.viscous_j - s.stop_j;
-    worst_j = std::max(worst_j, std::abs(plant.stored_j() - begin_j - in_j));
-    most_rad = std::max(most_rad, s.theta_rad[1]);
+    worst_j = feltgate::larger(worst_j, std::abs(plant.stored_j() - begin_j - in_j));
+    most_rad = feltgate::larger(most_rad, s.theta_rad[1]);
   }
   CHECK(worst_j < 1e-10);
   CHECK(most_rad > p.stops.most_rad);

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "catch.hpp"
+#include "feltgate/largest.hpp"
 #include "feltgate/random.hpp"
 #include "law_case.hpp"
 
@@ -107,7 +108,7 @@ TEST_CASE("material: friction stays within its cone, and only takes") {
         std::clamp(x + 2e-3 * (static_cast<double>(random.below(2001)) / 1000 - 1), 0.6, 1.4);
     const double torque = m.at(to);
     CHECK(std::abs(torque) <= 0.2 + 1e-12);
-    most = std::max(most, std::abs(torque));
+    most = feltgate::larger(most, std::abs(torque));
     taken -= (torque + before) / 2 * (to - x);
     CHECK(taken > -0.2 * 0.2 / 4);  // what the bristle may still hold, and a step
     x = to;

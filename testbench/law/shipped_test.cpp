@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "catch.hpp"
+#include "feltgate/largest.hpp"
 #include "law_case.hpp"
 
 using namespace feltgate::law;
@@ -113,7 +114,7 @@ double sampling_error(const std::string& name, double reach) {
   double most = 0;
   for (double x = -reach; x < reach; x += 0.00213) {
     const double off = exact.torque({{"position", x}}) - sampled.torque({{"position", x}});
-    most = std::max(most, std::abs(off));
+    most = feltgate::larger(most, std::abs(off));
   }
   return most;
 }

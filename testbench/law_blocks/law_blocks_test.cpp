@@ -14,6 +14,7 @@
 
 #include "engine/machine.hpp"
 #include "feltgate/generated/lever.hpp"
+#include "feltgate/largest.hpp"
 #include "feltgate/scene_charge.hpp"
 #include "feltgate/scene_wall.hpp"
 #include "law/compile.hpp"
@@ -126,7 +127,7 @@ TEST_CASE("the wall as a law is within a last bit of the block, at every positio
       for (std::int32_t position = -end; position <= end; ++position) {
         const std::int64_t block = in_torque_format(Wall::torque(words, position, velocity).raw());
         const std::int64_t apart = std::abs(law.torque(position, raw) - block);
-        worst = std::max(worst, apart);
+        worst = larger(worst, apart);
         pushing += block < 0 && block > -torque_end ? 1 : 0;
         different += apart > 0 ? 1 : 0;
         ++all;
@@ -162,7 +163,7 @@ std::array<std::int64_t, 2> charges_apart(const std::string& name, double core_r
         const std::int64_t block = Charge::torque(words, own > 0, position).raw();
         const std::int64_t apart = std::abs(law.torque(position, 0) - block);
         std::int64_t& w = worst[std::abs(position - middle) <= reach ? 0 : 1];
-        w = std::max(w, apart);
+        w = larger(w, apart);
       }
     }
   }

@@ -23,17 +23,18 @@ class RandomLaw {
     s += fmt::format("param q = 0 in -{:.3f} .. 1\n", random_.between(0.5, 2));
     const bool memory = random_.below(3) == 0;
     if (memory) {
-      s += "state m = 0.25 in -2 .. 2\n";
+      s += "state kept = 0.25 in -2 .. 2\n";
       state_ = true;
     }
     std::string first = expression(2), out = expression(3);
     if (memory) {
-      s += random_.below(2) == 0 ? fmt::format("next m = clamp({}, -2, 2)\n", first)
-                                 : fmt::format("next m = m + {:.3f} * (clamp({}, -2, 2) - m)\n",
-                                               random_.between(0.01, 1), first);
+      s += random_.below(2) == 0
+               ? fmt::format("next kept = clamp({}, -2, 2)\n", first)
+               : fmt::format("next kept = kept + {:.3f} * (clamp({}, -2, 2) - kept)\n",
+                             random_.between(0.01, 1), first);
     }
     s += fmt::format("out torque = 1 Nm * clamp({} + 0 * (p + q) + {}, -4, 4)\n", out,
-                     memory ? "0.5 * m" : "0");
+                     memory ? "0.5 * kept" : "0");
     return s;
   }
 
@@ -54,7 +55,7 @@ class RandomLaw {
       case 5:
         return fmt::format("(position / {:.2f})", random_.between(50, 300));
       default:
-        return "m";
+        return "kept";
     }
   }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "law/measure.hpp"
 
@@ -84,6 +85,20 @@ TEST_CASE("what else is exact is compared as the law does") {
       "param k = 2 in 0 .. 5 whole\nparam edge = 0.5 in 0 .. 5\n"
       "state stage = 0 in 0 .. 5 whole\nnext stage = min(stage + 1, k)\n",
       "(edge - stage)", {0.5});
+}
+
+TEST_CASE("a whole parameter is a whole number, whatever multiplies it") {
+  const Compiled c = compiled(
+      "array list = [0.1, -0.2, 0.05, 0.3]\nparam count = 1 in 0 .. 3 whole\n"
+      "state stage = 0 in 0 .. 3 whole\nnext stage = min(stage + 1, count)\n"
+      "out torque = 1 Nm * (0.1807 * count * clamp(position, -1, 1) + list[count] + 0.1 * "
+      "stage)\n");
+  for (const ImageWord& w : c.image.words) {
+    if (w.name != "count") continue;
+    CHECK(w.initial * w.scale == 1);
+    CHECK(std::floor(w.upper * w.scale) == 3);
+  }
+  require_within(c, 5000);
 }
 
 TEST_CASE("a delay that is computed has a strip") {

@@ -4,6 +4,7 @@
 // The C++ of laws in double and binary128: the law's own evaluation. Documentation:
 // docs/law-compiler.md
 #include "catch.hpp"
+#include "feltgate/largest.hpp"
 #include "feltgate/quad.hpp"
 #include "law/evaluate.hpp"
 #include "law_cpp_bench.hpp"
@@ -49,13 +50,13 @@ struct AgainstGraph {
       for (std::size_t o = 0; o < Own::outputs.size(); ++o) {
         const law::LawOutput& of = Own::outputs[o];
         const T torque = own.output(static_cast<std::size_t>(of.axis)) * static_cast<T>(of.scale);
-        worst = std::max(worst, std::fabs(static_cast<double>(torque - graph.outputs()[o])));
+        worst = larger(worst, std::fabs(static_cast<double>(torque - graph.outputs()[o])));
       }
       for (std::size_t e = 0; e < Own::events.size(); ++e) {
         REQUIRE(own.happened()[e].happened == graph.happened(e));
         if (!graph.happened(e)) continue;
         const T value = own.happened()[e].value * static_cast<T>(Own::events[e].scale);
-        worst = std::max(worst, std::fabs(static_cast<double>(value - graph.event_value(e))));
+        worst = larger(worst, std::fabs(static_cast<double>(value - graph.event_value(e))));
       }
       REQUIRE(worst <= limit_nm);
     }

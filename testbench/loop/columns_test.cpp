@@ -4,6 +4,7 @@
 // Columns of a run: fixed beside float and double, nothing where there is none, and the table of
 // the documentation. Documentation: docs/json.md
 #include "loop/columns.hpp"
+#include "feltgate/largest.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +40,7 @@ Table table_of(const std::string& engines, int every) {
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
   double worst = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, std::abs(a[i] - b[i]));
+  for (std::size_t i = 0; i < a.size(); ++i) worst = feltgate::larger(worst, std::abs(a[i] - b[i]));
   return worst;
 }
 

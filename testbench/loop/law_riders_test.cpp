@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "catch.hpp"
+#include "feltgate/largest.hpp"
 #include "law_loop/scene_law.hpp"
 #include "loop/engine_choice.hpp"
 #include "loop_fixture.hpp"
@@ -53,9 +54,9 @@ Ridden ride(const std::string& scene, const std::string& law) {
   options.row = [&](const Row& r) {
     for (std::size_t n = 1; n < r.engines.size(); ++n) {
       const double off_nm = r.engines[n].tau_ref_nm - r.engines[0].tau_ref_nm;
-      all.rider_nm = std::max(all.rider_nm, std::fabs(off_nm));
+      all.rider_nm = feltgate::larger(all.rider_nm, std::fabs(off_nm));
     }
-    all.largest_nm = std::max(all.largest_nm, std::fabs(r.engines[0].tau_ref_nm));
+    all.largest_nm = feltgate::larger(all.largest_nm, std::fabs(r.engines[0].tau_ref_nm));
   };
   all.result = run_on_p24(s, options);
   return all;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "catch.hpp"
+#include "feltgate/largest.hpp"
 #include "page/live_loop.hpp"
 #include "page/user_law.hpp"
 #include "plant/plant_file.hpp"
@@ -79,7 +80,7 @@ TEST_CASE("page: torque over a turn, parameters and table of a law") {
     const auto curve = law.curve(4097);
     for (std::size_t n = 0; n < curve.size(); ++n) {
       const double rad = 2 * M_PI * (static_cast<double>(n) / 4096 - 0.5);
-      most = std::max(most, std::abs(curve[n] + amplitude * std::sin(clicks * rad)));
+      most = larger(most, std::abs(curve[n] + amplitude * std::sin(clicks * rad)));
     }
     return most;
   };

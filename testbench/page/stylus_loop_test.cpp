@@ -10,6 +10,7 @@
 
 #include "axes_loop/axes_scene.hpp"
 #include "catch.hpp"
+#include "feltgate/largest.hpp"
 #include "law/compile.hpp"
 #include "page/stylus_loop.hpp"
 
@@ -153,8 +154,8 @@ TEST_CASE("page: on a sphere the sent normal lags by the pose's age times speed 
         const Vec3 pen = loop.pen_m();
         const double turned_rad_s =
             plant::length(plant::cross(pen, loop.velocity_m_s())) / plant::dot(pen, pen);
-        worst_rad = std::max(worst_rad, std::abs(loop.tilt_rad() - turned_rad_s * loop.age_s()));
-        largest_rad = std::max(largest_rad, loop.tilt_rad());
+        worst_rad = larger(worst_rad, std::abs(loop.tilt_rad() - turned_rad_s * loop.age_s()));
+        largest_rad = larger(largest_rad, loop.tilt_rad());
         oldest_s = std::max(oldest_s, loop.age_s());
         youngest_s = std::min(youngest_s, loop.age_s());
       }

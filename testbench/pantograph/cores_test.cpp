@@ -7,6 +7,7 @@
 
 #include "catch.hpp"
 #include "feltgate/generated/lever_law.hpp"
+#include "feltgate/largest.hpp"
 #include "image_axes.hpp"
 #include "law_axes.hpp"
 #include "loop/axes_twin.hpp"
@@ -84,7 +85,7 @@ TEST_CASE("a program can only ask: ramp, limit and stop are the cores'", "[cores
   double most_step_nm = 0.0, last_nm = 0.0;
   loop.run(clocks_of(0.12), [&](const Pantograph&) {
     const double nm = std::ldexp(cores.out(0).tau_ref, -design_info<LeverLaw>().torque.fraction);
-    most_step_nm = std::max(most_step_nm, nm - last_nm);
+    most_step_nm = feltgate::larger(most_step_nm, nm - last_nm);
     last_nm = nm;
   });
   CHECK(most_step_nm < 5.0 * 5e-6 + 0x1p-16);  // 5 Nm/s, seen every 5 us
@@ -126,10 +127,10 @@ TEST_CASE("the compiled law: its force at the pen is the linkage's, its place wi
                       std::ldexp(raw[1], -design.torque.fraction)};
       const Joints asked = p.torque({0.0, stiffness * depth_m});
       for (std::size_t i = 0; i < 2; ++i) {
-        worst_nm = std::max(worst_nm, std::abs(nm[i] - asked[i]));
+        worst_nm = feltgate::larger(worst_nm, std::abs(nm[i] - asked[i]));
       }
       // Height that the law must have seen to ask for this: its force along y.
-      worst_m = std::max(worst_m, std::abs(depth_m - p.force(nm).y / stiffness));
+      worst_m = feltgate::larger(worst_m, std::abs(depth_m - p.force(nm).y / stiffness));
     }
   }
   INFO("height within " << 1e6 * worst_m << " um (a count is 153 um), torque within "

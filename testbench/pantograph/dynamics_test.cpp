@@ -4,6 +4,7 @@
 // Mass matrix against differentiated places of the links, energy, momentum, convergence.
 // docs/pantograph.md
 #include "catch.hpp"
+#include "feltgate/largest.hpp"
 #include "pantograph_fixture.hpp"
 
 using namespace feltgate;
@@ -149,7 +150,7 @@ TEST_CASE("without friction the energy is constant over 10 s", "[dynamics]") {
       if (i % 8 != 0) continue;
       const double now = c.mechanics.stored_j(c.state);
       least = std::min(least, now);
-      most = std::max(most, now);
+      most = feltgate::larger(most, now);
       const double between = c.state.theta_rad[1] - c.state.theta_rad[0];
       const AngleStops& s = c.turns > 0 ? elastic : near;
       const bool touches = between < s.least_rad || between > s.most_rad;

@@ -3,6 +3,7 @@
 //
 // The hand at the pen: closed forms, phases, balance of all energies. docs/pantograph.md
 #include "catch.hpp"
+#include "feltgate/largest.hpp"
 #include "pantograph_fixture.hpp"
 
 using namespace feltgate;
@@ -124,7 +125,7 @@ TEST_CASE("all work is accounted for: hand, motors, friction, stops", "[pen]") {
   for (int i = 0; i < 240000; ++i) {
     plant.advance({Bridge::averaged(0.05 * std::sin(1e-3 * i)), Bridge::averaged(-0.04)}, 250);
     least_between = std::min(least_between, plant.seen().theta_rad[1] - plant.seen().theta_rad[0]);
-    worst_j = std::max(worst_j, std::abs(out_of_balance_j(plant, begin_j)));
+    worst_j = feltgate::larger(worst_j, std::abs(out_of_balance_j(plant, begin_j)));
   }
   const PantographSeen& s = plant.seen();
   CHECK(worst_j < 1e-10);

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "catch.hpp"
+#include "feltgate/largest.hpp"
 #include "pantograph_fixture.hpp"
 
 using namespace feltgate;
@@ -76,7 +77,7 @@ TEST_CASE("no contact ever adds energy, whatever the step", "[stops]") {
       for (int i = 0; i < 20000; ++i) {
         mechanics.step(s, {}, dt);
         const double now = mechanics.stored_j(s);
-        most_gain = std::max(most_gain, now - last);
+        most_gain = feltgate::larger(most_gain, now - last);
         last = now;
       }
       CHECK(most_gain < 1e-9 * begin);
@@ -103,7 +104,7 @@ TEST_CASE("a hand that leans on a stop and trembles gets no energy from it", "[s
       pressed = pressed || between(s) < stops.least_rad;
       // What the hand gave is there, or lost in the stop, which never gives.
       const double there = mechanics.stored_j(s) - begin + mechanics.stop_loss_j();
-      worst = std::max(worst, std::abs(there - s.hand_work_j));
+      worst = feltgate::larger(worst, std::abs(there - s.hand_work_j));
     }
     CHECK(worst < 1e-9);
     CHECK(pressed);

@@ -4,6 +4,7 @@
 // A law around the pantograph, sampled and late: a wall and drag felt by a hand. docs/pantograph.md
 #include "plant/pantograph/two_axis_loop.hpp"
 #include "catch.hpp"
+#include "feltgate/largest.hpp"
 #include "pantograph_fixture.hpp"
 
 using namespace feltgate;
@@ -169,7 +170,7 @@ TEST_CASE("drag: the force against the motion is drag times speed", "[loop]") {
     // Without the force that bends the cranks' motion into a straight line: that of no law.
     const LinkagePose pose = now.linkage().pose(now.seen().theta_rad);
     const Vec2 law = pose.force(now.seen().motor_nm);
-    worst = std::max(worst, length(law + 20.0 * Vec2{0.06, 0.02}));
+    worst = feltgate::larger(worst, length(law + 20.0 * Vec2{0.06, 0.02}));
   });
   CHECK(worst < 5e-3);
   CHECK(plant.seen().hand_n.x == Approx(20.0 * 0.06).epsilon(0.02));

@@ -3,6 +3,7 @@
 //
 // H-bridge, dead time, free-wheeling and supply. docs/plant.md
 #include "catch.hpp"
+#include "feltgate/largest.hpp"
 #include "plant/period_mean.hpp"
 #include "plant_fixture.hpp"
 
@@ -105,7 +106,7 @@ TEST_CASE("averaged and switched bridge agree", "[bridge]") {
           continue;
         }
         CHECK(error_nm < 1e-3);
-        worst_nm = std::max(worst_nm, error_nm);
+        worst_nm = feltgate::larger(worst_nm, error_nm);
         without_nm =
             std::max(without_nm, std::abs(fine.torque_nm - averaged(ideal, drive, duty).torque_nm));
       }

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "catch.hpp"
+#include "feltgate/largest.hpp"
 #include "plant/period_mean.hpp"
 #include "plant_fixture.hpp"
 
@@ -66,7 +67,7 @@ double cord_error(const Parameters& p, Clock step, const std::vector<StateValue>
   const std::array<double, 4> scale{0.3 / 30.0, 1.0, 10.0, 1e-4};
   double worst = 0.0;
   for (std::size_t i = 0; i < scale.size(); ++i) {
-    worst = std::max(worst, std::abs(state[i].value - reference[i].value) / scale[i]);
+    worst = feltgate::larger(worst, std::abs(state[i].value - reference[i].value) / scale[i]);
   }
   return worst;
 }

@@ -3,6 +3,7 @@
 //
 // How stiff a plant may be for its step, and what ends a run that nothing can show. docs/plant.md
 #include "plant/stiffness.hpp"
+#include "feltgate/largest.hpp"
 
 #include <complex>
 
@@ -30,7 +31,7 @@ double largest_speed(const Parameters& p, const Effects& on, const HandPhase& ph
   try {
     for (int i = 0; i < 4000; ++i) {
       plant.advance(volts(p, i < 100 ? 5.0 : 0.0), 25);
-      if (i >= 3000) largest = std::max(largest, std::abs(plant.observables().omega_rad_s));
+      if (i >= 3000) largest = feltgate::larger(largest, std::abs(plant.observables().omega_rad_s));
     }
   } catch (const MotionError&) {
     return INFINITY;

@@ -10,6 +10,7 @@
 
 #include "catch.hpp"
 #include "feltgate/generated/causes.hpp"
+#include "feltgate/largest.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
@@ -298,7 +299,7 @@ TEST_CASE("ramp: within one LSB of quad precision, which is the floor") {
     fixed.move(step);
     real.move(exact(step));
     const quad error = (real.tau_ref() - exact(fixed.tau_ref())) / lsb(Torque::format.fraction);
-    worst = std::max(worst, error);
+    worst = feltgate::larger(worst, error);
     least = std::min(least, error);
     ramping += fixed.limit_ramp();
     if (fixed.limit_torque() != real.limit_torque() || fixed.limit_ramp() != real.limit_ramp()) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "catch.hpp"
+#include "feltgate/largest.hpp"
 #include "feltgate/quad.hpp"
 #include "scenes_bench.hpp"
 
@@ -34,7 +35,7 @@ class Comparison {
     const Quad lsb = Quad{1} / static_cast<Quad>(std::int64_t{1} << kTorque.fraction);
     const Quad error = real_.tau_ref() / lsb - static_cast<Quad>(fixed_.tau_ref().raw());
     const double size = static_cast<double>(error < 0 ? -error : error);
-    worst = std::max(worst, size);
+    worst = larger(worst, size);
     acting += fixed_.tau_ref().raw() != 0;
     limited += fixed_.limit_torque();
   }

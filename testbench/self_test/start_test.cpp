@@ -13,6 +13,7 @@
 #include "catch.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"
+#include "feltgate/largest.hpp"
 #include "random.hpp"
 
 namespace {
@@ -110,7 +111,7 @@ void start(const Start& how, Wiring wiring, Tally& tally) {
   REQUIRE((fault || rig.out().faults == 0));
   tally.faults += fault ? 1 : 0;
   ++tally.results[static_cast<std::size_t>(rig.device.core().self_test_result())];
-  tally.most_rad = std::max(tally.most_rad, std::fabs(rig.lever().theta_rad - begin_rad));
+  tally.most_rad = feltgate::larger(tally.most_rad, std::fabs(rig.lever().theta_rad - begin_rad));
   if (fault)
     tally.most_s =
         std::max(tally.most_s,

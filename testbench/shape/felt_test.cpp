@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "catch.hpp"
+#include "feltgate/largest.hpp"
 #include "shape_case.hpp"
 
 using namespace feltgate;
@@ -112,7 +113,7 @@ TEST_CASE("a texture: a sine of the way along the outline, square to it") {
     REQUIRE(f.x == Approx(wanted_n).margin(1e-6));
     CHECK(std::fabs(f.y) < 1e-6);
     least = std::min(least, f.x);
-    most = std::max(most, f.x);
+    most = feltgate::larger(most, f.x);
   }
   CHECK(least == Approx(50 * 1.8e-3).epsilon(1e-2));
   CHECK(most == Approx(50 * 2.2e-3).epsilon(1e-2));
@@ -170,7 +171,7 @@ TEST_CASE("friction on a texture: its share of what presses there, on crest and 
     INFO("at " << y);
     REQUIRE(-f.y < 0.3 * f.x * (1 + 1e-6));
     least = std::min(least, -f.y / f.x);
-    most = std::max(most, -f.y / f.x);
+    most = feltgate::larger(most, -f.y / f.x);
   }
   CHECK(most == Approx(0.3).epsilon(1e-3));
   CHECK(least > 0.2);  // where the crest comes nearer it has not slipped so far
@@ -201,7 +202,7 @@ TEST_CASE("friction: anchored by the way along the outline, corners and first ve
       INFO("edge " << edge << ", " << part << " of 4");
       // Between vertices the direction is up to 1 % short.
       REQUIRE(pull_n == Approx(std::min(0.5 * way_m, 0.1)).margin(2e-3));
-      most_n = std::max(most_n, pull_n);
+      most_n = feltgate::larger(most_n, pull_n);
       way_m += p.edge_m(edge) / 4;
     }
   }
@@ -256,7 +257,7 @@ TEST_CASE(
       const Point force = pen.at(in, settle), wanted = (nearest(c, in).at - in) * 50;
       INFO(names[k] << " at " << end(half).x << ", " << end(half).y << ": " << force.x << ", "
                     << force.y << " N instead of " << wanted.x << ", " << wanted.y);
-      worst = std::max(worst, length(force - wanted));
+      worst = feltgate::larger(worst, length(force - wanted));
       ++felt;
       // Another shape under the pen: first nothing, then what it has there.
       pen.set_parameter(2, k == 0 ? 5 : 0);
@@ -299,7 +300,7 @@ TEST_CASE("outside there is no force, wherever the pen comes from") {
         }
         double away = 0.05, most_n = 0;
         for (; !inside(at(angle, away)) && away > 0; away -= 0.2e-3) {
-          most_n = std::max(most_n, length(pen.at(at(angle, away), runs)));
+          most_n = feltgate::larger(most_n, length(pen.at(at(angle, away), runs)));
         }
         REQUIRE(away > 0);
         CHECK(most_n < 50 * 0.1e-3);  // a polygon's edge is that near to its curve

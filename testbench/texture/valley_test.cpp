@@ -10,6 +10,7 @@
 #include <iostream>
 
 #include "catch.hpp"
+#include "feltgate/largest.hpp"
 #include "texture_case.hpp"
 
 using namespace feltgate;
@@ -59,7 +60,7 @@ double swing_m(Normals normals) {
     }
     if (run > runs * 2 / 3) {
       least = std::min(least, x[0]);
-      most = std::max(most, x[0]);
+      most = feltgate::larger(most, x[0]);
     }
   }
   return most - least;

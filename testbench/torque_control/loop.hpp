@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "feltgate/dob.hpp"
+#include "feltgate/largest.hpp"
 #include "feltgate/words.hpp"
 #include "wave_bus.hpp"
 
@@ -130,8 +131,8 @@ struct Worst {
 
  private:
   static bool raise(double* worst, double* largest, quad error, quad bound, quad unit) {
-    *worst = std::max(*worst, static_cast<double>(magnitude(error) / unit));
-    *largest = std::max(*largest, static_cast<double>(bound / unit));
+    *worst = larger(*worst, static_cast<double>(magnitude(error) / unit));
+    *largest = larger(*largest, static_cast<double>(bound / unit));
     return magnitude(error) <= bound;
   }
 };

@@ -4,6 +4,7 @@
 // Trim: off means not computed, the trimmed set holds on motions nobody searched on, a set that is
 // too loose is refused. Documentation: docs/trim.md
 #include "trim/trim.hpp"
+#include "feltgate/largest.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -35,7 +36,7 @@ trim::Model averaged(const Scenario& s, int step_clocks = 250) {
 
 double worst_of(const std::vector<trim::UnseenReport>& motions) {
   double worst = 0;
-  for (const trim::UnseenReport& u : motions) worst = std::max(worst, u.difference.worst());
+  for (const trim::UnseenReport& u : motions) worst = feltgate::larger(worst, u.difference.worst());
   return worst;
 }
 

@@ -3,6 +3,7 @@
 //
 // velocity_n: RTL against twin and plain integers on every clock; gain error of the N-method, first
 // ticks after reset, counter wrap, and distance from quad precision. docs/blocks/velocity_n.md
+#include "feltgate/largest.hpp"
 #include "velocity_bench.hpp"
 
 #include <cmath>
@@ -121,7 +122,7 @@ TEST_CASE("velocity_n: right from the first tick after reset") {
     } else if (sampled(in)) {
       // The velocity on the port belongs to the tick before.
       const quad error = magnitude(exact_velocity - quad{rad_s(sign_extend<32>(rtl.velocity_o))});
-      if (error > worst) worst = error;
+      worst = feltgate::larger(worst, error);
       const std::int64_t begun = tick < Design::m1 ? 0 : (tick - Design::m1) / ticks;
       const auto counts = static_cast<quad>(tick / ticks - begun);
       exact_velocity += a1 * (counts * static_cast<quad>(kRadSPerCount) - exact_velocity);
@@ -161,7 +162,7 @@ TEST_CASE("velocity_n: distance from quad precision") {
     if (magnitude(difference) > largest) largest = magnitude(difference);
     state = Law::Filter::next(state, a1 * difference);
     const quad error = magnitude(exact(chain.step.velocity) - state);
-    if (error > worst) worst = error;
+    worst = feltgate::larger(worst, error);
   }
   INFO("worst " << static_cast<double>(worst) << " rad/s, bound "
                 << static_cast<double>(error_bound(largest)));

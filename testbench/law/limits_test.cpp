@@ -19,7 +19,7 @@ TEST_CASE("every message names the file, and what() holds all of them") {
     CHECK(std::string(error.what()).find("\nfolder/bad.law:2:9: unknown") != std::string::npos);
   }
   const std::string folder = FELTGATE_ROOT "/rtl/laws";
-  CHECK_THROWS_WITH(read_law(folder), folder + ": cannot be read; give the path of a .law file");
+  CHECK_THROWS_WITH(read_law(folder), folder + ": is a folder; give the path of a .law file in it");
   CHECK_THROWS_WITH(read_law(folder + "/nothing.law"),
                     folder + "/nothing.law: there is no such file; give the path of a .law file");
 }

@@ -77,16 +77,18 @@ Value BackEnd::line_read(NodeId id) {
 
 void BackEnd::write_lines() {
   std::vector<Value> values;
+  std::vector<double> errors(law_.lines.size(), 0);
   for (std::size_t i = 0; i < law_.lines.size(); ++i) {
-    double error = 0;
-    values.push_back(at_scale(law_.lines[i].written, program_.lines[i].scale, &error));
+    values.push_back(at_scale(law_.lines[i].written, program_.lines[i].scale, &errors[i]));
   }
   for (std::size_t i = 0; i < law_.lines.size(); ++i) {
     LineUse& use = program_.lines[i];
     const NodeId written = law_.lines[i].written;
     const Operand pointer{From::state, use.pointer};
     const Operand zero = constant(0);
-    emit(EngineOp::add, 0, values[i].operand, zero, use.scale, written).node = written;
+    Step& kept = emit(EngineOp::add, 0, values[i].operand, zero, use.scale, written);
+    kept.x_error = errors[i];
+    kept.node = written;
     use.written = last();
     emit(EngineOp::tst, 0, pointer, {}, use.scale, written).table = use.table;
     emit(EngineOp::add, 0, pointer, constant(place), 1 / place, written);

@@ -154,6 +154,11 @@ Value BackEnd::next_state(const State& s, double scale) {
     return align({down, 1, size}, scale, s.next);
   }
   Value v = at_scale(s.next, scale, &error);
+  if (error > 0) {
+    // A number that is no word: what it lacks is the state's error.
+    emit(EngineOp::add, 0, v.operand, constant(0), scale, s.next).x_error = error;
+    v.operand = last();
+  }
   if (!s.phase) return v;
   const double width = s.range.upper - s.range.lower;
   const Span n = span(s.next);

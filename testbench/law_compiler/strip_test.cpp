@@ -101,6 +101,24 @@ TEST_CASE("a whole parameter is a whole number, whatever multiplies it") {
   require_within(c, 5000);
 }
 
+TEST_CASE("a number that a state or a line keeps is known as it is kept") {
+  for (const char* text :
+       {"state kept = 0.25 in -2 .. 2\nnext kept = 1.3\nout torque = 1 Nm * sin(18 * position + "
+        "kept)\n",
+        "state kept = 0.25 in -2 .. 2\nnext kept = if position > 0 then 1.3 else 0.7\n"
+        "out torque = 1 Nm * sin(18 * position + kept)\n",
+        "rate = 40 kHz\nline past[5] in -1 .. 1\nnext past = 0.77\n"
+        "out torque = 1 Nm * past[3] + 0.1 Nm * sin(position)\n"}) {
+    INFO(text);
+    const Compiled c = compiled(text);
+    REQUIRE(c.bound.states_bounded);
+    const Measured m = measure(c, 7, 5000, true);
+    INFO("measured " << m.output[0] << ", bound " << c.bound.output[0]);
+    CHECK(m.output[0] <= c.bound.output[0] * (1 + 1e-9) + 1e-8);
+    CHECK(c.bound.output[0] < 2e-3);
+  }
+}
+
 TEST_CASE("a delay that is computed has a strip") {
   const Compiled c = compiled(
       "rate = 40 kHz\nline past[10] in -1 .. 1 Nm\n"

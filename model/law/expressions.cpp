@@ -285,7 +285,8 @@ NodeId Lowering::equal(const Expression& e, NodeId a, NodeId b) {
     return kNone;
   }
   const Place place = at(e.offset);
-  const NodeId differ = graph_.either(graph_.less(a, b, place), graph_.less(b, a, place), place);
+  NodeId differ = graph_.less(a, b, place);
+  differ = graph_.either(differ, graph_.less(b, a, place), place);
   return e.name == "==" ? graph_.opposite(differ, place) : differ;
 }
 

@@ -34,6 +34,15 @@ class ErrorFigure {
   std::int64_t count_ = 0;
 };
 
+/// Smallest and largest value seen.
+struct SignalRange {
+  double low = 1e300, high = -1e300;
+  void add(double v) {
+    low = smaller(low, v);
+    high = larger(high, v);
+  }
+};
+
 /// One torque step.
 struct StepResponse {
   double tau_ref_nm = 0;

@@ -13,7 +13,6 @@
 #include <stdexcept>
 
 #include "config/toml_reader.hpp"
-#include "feltgate/largest.hpp"
 #include "loop/drag.hpp"
 #include "loop/ensemble.hpp"
 #include "loop/expectations.hpp"
@@ -30,15 +29,6 @@
 namespace feltgate {
 
 namespace {
-
-/// Smallest and largest value seen.
-struct Range {
-  double low = 1e300, high = -1e300;
-  void add(double v) {
-    low = smaller(low, v);
-    high = larger(high, v);
-  }
-};
 
 /// The torques from a step of the reference to the next event.
 struct StepRecord {
@@ -375,7 +365,7 @@ class ScenarioRun {
   std::int64_t ticks_ = 0, stale_ticks_ = 0, stale_from_ = 0;
   int faults_ = 0;
   double absorbed_j_ = 0;
-  Range tau_ref_, tau_hat_, velocity_, theta_;
+  SignalRange tau_ref_, tau_hat_, velocity_, theta_;
   std::int32_t position_ = 0;  ///< counts, as the core showed it last
   HostFeed feed_;
   Rest rest_;

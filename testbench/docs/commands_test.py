@@ -13,6 +13,7 @@ import os
 import re
 import resource
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -156,6 +157,8 @@ def main():
                 continue
             seen.add(once)
             began = time.monotonic()
+            # A folder takes the report of one run.
+            shutil.rmtree(folder / "out", ignore_errors=True)
             wrong, spent = wrong_with(line, names, folder)
             total += spent
             if wrong:

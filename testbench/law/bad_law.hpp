@@ -17,5 +17,5 @@ struct Bad {
 
 inline void check(const Bad& bad) {
   INFO(bad.text);
-  CHECK(messages_of(bad.text) == bad.messages);
+  CHECK(feltgate::law::messages_of(bad.text) == bad.messages);
 }

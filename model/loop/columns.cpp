@@ -38,8 +38,9 @@ constexpr RowColumn plant_columns[] = {
     {"omega_rad_s", "rad/s", "its velocity", &Row::omega_rad_s, plant_digits},
     {"motor_torque_nm", "Nm", "torque of the plant's motor, averaged over each PWM period",
      &Row::motor_torque_nm, plant_digits},
-    {"hand_torque_nm", "Nm", "torque of the hand on the lever", &Row::hand_torque_nm,
-     plant_digits}};
+    {"hand_torque_nm", "Nm", "torque of the hand on the lever", &Row::hand_torque_nm, plant_digits},
+    {"hand_felt_nm", "Nm", "its mean over the last 1 ms that is over, which is what a hand feels",
+     &Row::hand_felt_nm, plant_digits}};
 constexpr RowColumn position_column = {"position_rad", "rad", "the core's count as an angle",
                                        &Row::position_rad, 0};
 

@@ -23,7 +23,7 @@ struct EngineSignals {
 struct Row : EngineSignals {
   double time_s = 0;
   // Of the plant; 0 in a replay, which has no columns for them.
-  double theta_rad = 0, omega_rad_s = 0, motor_torque_nm = 0, hand_torque_nm = 0;
+  double theta_rad = 0, omega_rad_s = 0, motor_torque_nm = 0, hand_torque_nm = 0, hand_felt_nm = 0;
   double position_rad = 0;  ///< the core's count
   int limits = 0, faults = 0;
   bool law_stale = false;  ///< a mailbox of the law that is rendered is too old: no torque

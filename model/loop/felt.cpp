@@ -38,7 +38,8 @@ void FeltMeter::end_window() {
   const double ticks = static_cast<double>(window_ticks_);
   const std::int64_t begin = ticks_ - window_ticks_;
   motor_.add(motor_sum_nm_ / ticks, begin);
-  hand_.add(hand_nm_s_ / (ticks * tick_s_), begin);
+  window_hand_nm_ = hand_nm_s_ / (ticks * tick_s_);
+  hand_.add(window_hand_nm_, begin);
   motor_error_.add((motor_sum_nm_ - asked_sum_nm_) / ticks);
   hand_nm_s_ = motor_sum_nm_ = asked_sum_nm_ = 0;
   window_left_ = window_ticks_;

@@ -138,6 +138,9 @@ class FeltMeter {
     if (--window_left_ == 0) end_window();
   }
 
+  /// Mean of the hand's torque over the last felt_window_s that is over, Nm; 0 before the first.
+  double hand_nm() const { return window_hand_nm_; }
+
   /// Expectations and errors are left empty.
   Felt felt();
 
@@ -158,6 +161,7 @@ class FeltMeter {
   std::int64_t window_left_;  ///< ticks
   std::int64_t ticks_ = 0;
   double hand_nm_s_ = 0, motor_sum_nm_ = 0, asked_sum_nm_ = 0;  ///< of the window so far
+  double window_hand_nm_ = 0;
   double taken_j_ = 0, returned_j_ = 0, highest_j_ = 0, lowest_j_ = 0;
   Highest asked_, commanded_, motor_, hand_;
   ErrorFigure motor_error_;

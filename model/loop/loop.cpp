@@ -251,6 +251,7 @@ class ScenarioRun {
       r.time_s = static_cast<double>(ticks_) / static_cast<double>(core_.design().tick_hz);
       r.omega_rad_s = then(o.omega_rad_s, before_.omega_rad_s);
       r.hand_torque_nm = then(o.hand_torque_nm, before_.hand_torque_nm);
+      r.hand_felt_nm = felt_.hand_nm();
       core_.fill(r, s);
       options_.row(r);
     }

@@ -36,6 +36,7 @@ Segment read_segment(config::TomlReader table, const std::string& unit, bool ste
     table.fail("kind", fmt::format("an imposed {} cannot step", unit == "m" ? "place" : "angle"),
                "use ramp or minimum_jerk");
   }
+  segment.line = table.line("kind");
   segment.duration_s = table.number("duration_s", config::kPositive);
   if (segment.kind == Segment::Kind::kSine) {
     segment.amplitude = table.number("amplitude_" + unit, kWay);

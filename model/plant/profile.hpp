@@ -21,6 +21,7 @@ struct Segment {
   double amplitude = 0.0;  ///< sine, around a centre that makes its first value continuous
   double frequency_hz = 0.0;
   double phase_rad = 0.0;  ///< pi/2 starts and ends at rest
+  int line = 0;            ///< of the scene file; 0: not of a file
 };
 
 using Profile = std::vector<Segment>;

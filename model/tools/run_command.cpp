@@ -19,6 +19,7 @@
 #include "loop/bounded.hpp"
 #include "loop/event_lines.hpp"
 #include "loop/scenario_check.hpp"
+#include "loop/speed_jumps.hpp"
 #include "plant/plant_file.hpp"
 #include "tools/checks.hpp"
 #include "tools/commands.hpp"
@@ -207,6 +208,7 @@ int run(const RunArguments& a) {
   RunLabels labels{"scene", plant.name, "", scenario.step_clocks, effects_off(scenario)};
   labels.differing = stability::differing_constants(elaborated.design, plant, scenario.effects);
   labels.plant_as_named = scenario.plant;
+  labels.speed_jumps = speed_jumps(scenario, plant);
   const auto arms = [](const Event& e) { return e.arm.value_or(false); };
   if (scenario.arm_s >= scenario.duration_s &&
       std::none_of(scenario.events.begin(), scenario.events.end(), arms)) {

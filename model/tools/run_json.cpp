@@ -123,6 +123,7 @@ std::string run_json(const RunResult& r, const RunLabels& labels) {
     j["plant_step_clocks"] = labels.step_clocks;
     j["plant_longest_step_clocks"] = r.longest_step_clocks;
     j["effects_off"] = labels.effects_off;
+    if (!labels.speed_jumps.empty()) j["speed_jumps"] = labels.speed_jumps;
     for (const stability::Constant& c : labels.differing) {
       j["plant_differs"].push_back(
           {{"constant", c.key}, {"design", c.of_design}, {"plant", c.of_plant}});

@@ -29,6 +29,7 @@ struct RunLabels {
   std::vector<std::string> effects_off = {};        ///< of the plant
   std::vector<stability::Constant> differing = {};  ///< constants in which design and plant differ
   std::string plant_as_named = {};                  ///< by the user, for the command that mends it
+  std::vector<std::string> speed_jumps = {};        ///< of the hand, a sentence each
   double never_armed_s = 0;  ///< arm_s of a scene that is over before; 0: none
 };
 

@@ -228,6 +228,7 @@ std::string run_text(const RunResult& r, const RunLabels& labels) {
                         r.simulated_s / r.engines.front().busy_s);
   }
   text += step_table(r) + felt_text(r) + stale_line(r.law_stale);
+  for (const std::string& jump : labels.speed_jumps) text += fmt::format("note: {}\n", jump);
   if (labels.never_armed_s > 0) {
     text += fmt::format("note: the motor never arms: arm_s = {:g}, and the scene ends at {:g} s\n",
                         labels.never_armed_s, r.simulated_s);

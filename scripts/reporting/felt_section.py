@@ -41,7 +41,8 @@ def lines(summary):
             f"{joule(energy['given_to_hand_j'])} back"
         )
     told += acted(felt.get("limits", {}), "limit")
-    return told + acted(felt.get("faults", {}), "fault")
+    told += acted(felt.get("faults", {}), "fault")
+    return told + summary.get("speed_jumps", [])
 
 
 def allowed(expectation):

@@ -54,7 +54,7 @@ def of_run(summary, csv):
         angle,
         csv["tau_ref_nm"],
         csv["motor_torque_nm"] if moved else None,
-        csv["hand_torque_nm"] if moved else None,
+        csv["hand_felt_nm"] if moved else None,
         float(csv["time_s"][-1]),
     )
     return part(whole, *around(whole))

@@ -9,6 +9,7 @@ from reporting.run_section import ENGINE_NAMES, closed_loop, room
 from reporting.runs import design
 
 QUAD = {"linewidth": 0.6, "alpha": 0.5}  # lets the RTL through where both swing too fast
+FELT_S = 1e-3  # as in model/loop/felt.hpp
 
 
 def lsb(design_name, signal):
@@ -128,13 +129,26 @@ def difference_picture(name, summary, csv):
     return plots.finish(figure, f"{name}-difference")
 
 
+def felt_rows(csv):
+    """(position, hand's torque, torque asked for) of each FELT_S of a run: a hand does not feel
+    apart what is shorter. Rows that lie further apart are taken as they are."""
+    window = np.floor(csv["time_s"] / FELT_S + 1e-6)
+    first = np.flatnonzero(np.diff(window, prepend=-1.0))  # row of each window
+    rows = np.diff(first, append=len(window))
+    if rows.max() < 2:
+        return csv["theta_rad"], csv["hand_felt_nm"], csv["tau_ref_nm"]
+    position, asked = (
+        (np.add.reduceat(csv[c], first) / rows)[:-1] for c in ("theta_rad", "tau_ref_nm")
+    )
+    return position, csv["hand_felt_nm"][first[1:]], asked
+
+
 def loop_picture(name, csv):
     """What the hand feels over where it is: a spring is a line, friction and damping an area."""
     figure, (axes,) = plots.stacked("What the hand meets", [2.9])
-    position = csv["theta_rad"]
-    armed = csv["time_s"] > 0
-    plots.draw(axes, position[armed], csv["hand_torque_nm"][armed], "hand", "hand on the lever")
-    plots.draw(axes, position, -csv["tau_ref_nm"], "ideal", "against the torque reference")
+    position, hand, asked = felt_rows(csv)
+    plots.draw(axes, position, hand, "hand", "hand on the lever, means over 1 ms")
+    plots.draw(axes, position, -asked, "ideal", "against the torque reference")
     axes.set_xlabel("position, rad")
     axes.set_ylabel("torque, Nm")
     plots.legend(axes)

@@ -5,12 +5,15 @@
 #include "loop/felt.hpp"
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "catch.hpp"
 #include "design/design.hpp"
 #include "engines/engine.hpp"
 #include "loop/bounded.hpp"
 #include "loop/figures.hpp"
+#include "loop/speed_jumps.hpp"
 #include "loop_fixture.hpp"
 
 namespace {
@@ -127,6 +130,77 @@ TEST_CASE("a scene: energy, errors within their bounds, expectations by name") {
   CHECK(!r.felt.expectations[5].kept());
   CHECK(r.felt.expectations[5].figure == "tau_ref_min_nm");
   CHECK(r.broken.size() == 1);
+}
+
+TEST_CASE("the column of what a hand feels has the peak that the text tells, and no blow") {
+  Scenario scene = shipped_scene("wall");
+  scene.duration_s = 0.05;
+  plant::Segment jump;  // from rest to 2 rad/s at once
+  jump.kind = plant::Segment::Kind::kRamp;
+  jump.duration_s = 0.0405;
+  jump.to = 0.081;
+  scene.hand.phases.resize(1);
+  scene.hand.phases[0].profile = {jump};
+  scene.hand.phases[0].duration_s = 0.0405;
+  scene.expectations.clear();
+  RunOptions options;
+  options.engine = "twin";
+  double felt = 0, row = 0;
+  options.row = [&](const Row& r) {
+    felt = larger(felt, std::abs(r.hand_felt_nm));
+    row = larger(row, std::abs(r.hand_torque_nm));
+  };
+  const RunResult r = run_on_p24(scene, options);
+  CHECK(felt == std::abs(r.felt.torque.hand.value));
+  CHECK(felt < 1.5);
+  CHECK(row > 50);
+}
+
+TEST_CASE("a jump of the speed that the hand imposes is told with line, size and mend") {
+  const auto told = [](const std::string& phases, bool dynamics = true) {
+    const std::string path =
+        std::filesystem::temp_directory_path().string() + "/feltgate_jump_scene.toml";
+    std::ofstream(path) << "title = \"t\"\nabout = \"a\"\nduration_s = 2\n[core]\nscene = "
+                           "\"free\"\n[hand]\n"
+                        << phases;
+    Scenario scene = read_scenario(path);
+    resolve_effects(scene, p24().effects);
+    scene.effects.hand_dynamics = dynamics;
+    std::vector<std::string> all = speed_jumps(scene, p24());
+    for (std::string& one : all) one.erase(0, one.rfind("feltgate_jump_scene"));
+    return all;
+  };
+  const std::string phase = "[[hand.phase]]\nkind = \"prescribed\"\nmotion = [\n";
+  const std::string at_rest =
+      "{ kind = \"minimum_jerk\", duration_s = 0.1, to_rad = 0.2 },\n"
+      "{ kind = \"sine\", duration_s = 0.5, amplitude_rad = 0.1, frequency_hz = 2, phase_rad = "
+      "1.5707963 },\n";
+  CHECK(told(phase + at_rest + "]\n").empty());
+  const auto ramp =
+      told(phase + at_rest + "{ kind = \"ramp\", duration_s = 0.1, to_rad = 0.4 },\n]\n");
+  REQUIRE(ramp.size() == 2);
+  CHECK(ramp[0].rfind("feltgate_jump_scene.toml:12: the hand's speed jumps by 2 rad/s at 0.6 s, "
+                      "which costs the hand",
+                      0) == 0);
+  CHECK(ramp[0].find("kind = \"minimum_jerk\"") != std::string::npos);
+  CHECK(ramp[1].find("jumps by -2 rad/s at 0.7 s") != std::string::npos);
+  // Cut off in its middle, where it is fastest: 30/16 of its mean speed.
+  const std::string cut =
+      "[[hand.phase]]\nkind = \"prescribed\"\nduration_s = 0.05\nmotion = "
+      "[{ kind = \"minimum_jerk\", duration_s = 0.1, to_rad = 0.2 }]\n";
+  CHECK(told(cut + "[[hand.phase]]\nkind = \"free\"\n").empty());
+  const auto locked = told(cut + "[[hand.phase]]\nkind = \"locked\"\n");
+  REQUIRE(locked.size() == 1);
+  CHECK(locked[0].find("toml:12: the hand's speed jumps by -3.75 rad/s at 0.05 s") !=
+        std::string::npos);
+  // After a phase in which the lever is free nobody knows its speed.
+  CHECK(told("[[hand.phase]]\nkind = \"free\"\nduration_s = 0.1\n" + phase + at_rest + "]\n")
+            .empty());
+  const std::string arm =
+      "[[hand.phase]]\nkind = \"impedance\"\nmotion = [{ kind = \"ramp\", "
+      "duration_s = 3, to_rad = 3 }]\n";
+  CHECK(told(arm).empty());
+  CHECK(told(arm, false).size() == 1);  // its end comes after the scene's
 }
 
 TEST_CASE("engines by name: lists, their order, and what compares them") {

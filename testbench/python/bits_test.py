@@ -16,7 +16,7 @@ import feltgate
 ROOT = Path(os.environ["FELTGATE_ROOT"])
 PROGRAM = Path(os.environ["FELTGATE_BUILD"]) / "feltgate"
 # The program prints the plant's values with nine digits, the core's whole.
-ROUNDED = ("theta_rad", "omega_rad_s", "motor_torque_nm", "hand_torque_nm")
+ROUNDED = ("theta_rad", "omega_rad_s", "motor_torque_nm", "hand_torque_nm", "hand_felt_nm")
 ENGINES = "twin,float,double,quad"
 
 

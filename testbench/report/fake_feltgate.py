@@ -16,7 +16,7 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 COUNT_RAD = 2 * np.pi / 4096
-PLANT = ("theta_rad", "omega_rad_s", "motor_torque_nm", "hand_torque_nm")
+PLANT = ("theta_rad", "omega_rad_s", "motor_torque_nm", "hand_torque_nm", "hand_felt_nm")
 SIGNALS = ("velocity_rad_s", "tau_ref_nm", "tau_hat_nm", "torque_nm", "current_a", "voltage_v")
 QUAD = ("quad_velocity_rad_s", "quad_tau_hat_nm", "quad_torque_nm", "quad_current_a")
 CORE = ("time_s", "position_rad", *SIGNALS, "duty", "limits", "faults", *QUAD)
@@ -104,7 +104,8 @@ def run(options):
     torque = low_pass(motor_constant * (voltage - dead) / resistance, dt, 5000)
     data = dict.fromkeys(COLUMNS, np.zeros_like(time))
     data |= {"time_s": time, "theta_rad": theta, "omega_rad_s": omega, "motor_torque_nm": torque}
-    data |= {"hand_torque_nm": -torque, "position_rad": np.round(theta / COUNT_RAD) * COUNT_RAD}
+    data |= {"hand_torque_nm": -torque, "hand_felt_nm": -torque}
+    data |= {"position_rad": np.round(theta / COUNT_RAD) * COUNT_RAD}
     data |= {"velocity_rad_s": velocity, "tau_ref_nm": reference, "tau_hat_nm": tau_hat}
     data |= {"current_a": current, "voltage_v": voltage, "duty": voltage / 24}
     data |= {"torque_nm": constant * current, "quad_torque_nm": constant * current}

@@ -110,7 +110,7 @@ class Cards(Recorded):
             ("angle_deg", "theta_rad", 180 / np.pi),
             ("asked_mnm", "tau_ref_nm", 1e3),
             ("felt_mnm", "motor_torque_nm", 1e3),
-            ("hand_mnm", "hand_torque_nm", 1e3),
+            ("hand_mnm", "hand_felt_nm", 1e3),
         ):
             true = scale * np.interp(time, csv["time_s"], csv[column])
             self.assertLess(np.abs(np.array(data[key]) - true).max(), 2.0, key)

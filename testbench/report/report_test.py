@@ -13,11 +13,14 @@ import subprocess
 import sys
 import time
 import unittest
+from unittest import mock
+
+import numpy as np
 
 from bench import ROOT, SCRIPTS, Bench  # isort: skip (puts scripts/ on the path)
 import demo
 from markup import Markup, width_px
-from reporting import glossary
+from reporting import glossary, plots, run_pictures
 
 
 class Report(Bench):
@@ -46,6 +49,31 @@ class Report(Bench):
         # Pictures first, tables folded.
         self.assertLess(self.page().index('class="card"'), self.page().index("<table"))
         self.assertLess(self.page().index("<img"), self.page().index("<table"))
+
+    def test_what_the_hand_meets_is_what_it_feels(self):
+        csv = {
+            "time_s": np.arange(1000) * 1e-4,
+            "theta_rad": np.linspace(0, 1, 1000),
+            "tau_ref_nm": np.linspace(0, -2, 1000),
+            "hand_torque_nm": np.linspace(0, 2, 1000),
+        }
+        csv["hand_torque_nm"][500] = -500  # one row at a jump of the hand
+        window = csv["hand_torque_nm"].reshape(-1, 10).mean(axis=1)
+        csv["hand_felt_nm"] = np.repeat(np.concatenate([[0], window[:-1]]), 10)
+        csv["hand_felt_nm"][510:520] = 0.5  # the blow itself lasts for less than a row
+        with mock.patch.object(plots, "draw") as draw:
+            run_pictures.loop_picture("jump", csv)
+        (_, position, hand, *_), _ = draw.call_args_list[0]
+        self.assertLess(np.abs(hand - 2 * position)[np.arange(99) != 50].max(), 1e-9)
+        self.assertEqual(hand[50], 0.5)
+        _, there, asked, *_ = draw.call_args_list[1][0]
+        self.assertLess(np.abs(asked - 2 * there).max(), 1e-9)
+        sparse = {name: values[::20] for name, values in csv.items()}
+        self.assertEqual(len(run_pictures.felt_rows(sparse)[0]), 50)
+
+    def test_a_jump_of_the_hand_is_told(self):
+        self.report(change=lambda s: s.update(speed_jumps=["x.toml:7: the hand's speed jumps"]))
+        self.assertIn("x.toml:7: the hand&#x27;s speed jumps", self.page())
 
     def test_steps_have_a_table(self):
         self.report("torque_step")

@@ -141,6 +141,7 @@ class Result(Columns):
     omega_rad_s: Floats  #: its velocity, rad/s; not in a replay
     motor_torque_nm: Floats  #: of the plant's motor, averaged over each PWM period, Nm; not in a replay
     hand_torque_nm: Floats  #: of the hand on the lever, Nm; not in a replay
+    hand_felt_nm: Floats  #: its mean over the last 1 ms that is over, Nm; not in a replay
     position_rad: Floats  #: the core's count as an angle, rad
     velocity_rad_s: Floats  #: these seven as in Signals, of the engine that drove the motor
     tau_ref_nm: Floats

@@ -39,6 +39,9 @@ NodeId Lowering::call(const Expression& e) {
   if (e.name == "cos") return trigonometric(e, Op::cosine);
   if (e.name == "sqrt") return root(e);
   if (e.name == "lowpass") return lowpass(e);
+  if (e.name == "floor") return floor_call(e);
+  if (e.name == "mod") return mod(e);
+  if (e.name == "noise") return noise(e);
   if (e.name == "abs") {
     return takes(e, 1, "abs(x)") ? graph_.absolute(number_of(e.arguments[0]), at(e.offset)) : kNone;
   }

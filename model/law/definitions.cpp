@@ -89,8 +89,7 @@ void Lowering::table(const Statement& s) {
            "write on [LOWER, UPPER]");
     good = false;
   }
-  if (unit_symbol(s.variable) || is_function(s.variable) || is_given_value(s.variable) ||
-      s.variable == s.name) {
+  if (unit_symbol(s.variable) || is_reserved(s.variable) || s.variable == s.name) {
     report(s.name_offset, "the table's variable " + quoted(s.variable) + " has a meaning already",
            "choose another name");
     good = false;

@@ -36,7 +36,7 @@ Value BackEnd::element(NodeId id) {
   const auto same = memory_scales_.find(memory);
   const double scale = same != memory_scales_.end()
                            ? same->second
-                           : chosen_scale(id, 1, largest_fraction(id, 1, size), size);
+                           : chosen_scale(id, 1, n.whole ? 0 : largest_fraction(id, 1, size), size);
   memory_scales_[memory] = scale;
   const std::string key = fmt::format("array {} {:.17g}", n.index, scale);
   auto found = table_keys_.find(key);
@@ -45,9 +45,9 @@ Value BackEnd::element(NodeId id) {
     TableUse t;
     t.what = array.name;
     t.proof = "rounded numbers";
-    t.error = 0.5;
     for (const double a : array.values) {
       const auto w = static_cast<std::int32_t>(std::lround(a / scale));
+      if (w * scale != a) t.error = 0.5;
       t.words.push_back(static_cast<std::uint32_t>(w));
       t.values =
           t.words.size() == 1 ? Span{double(w), double(w)} : hull(t.values, {double(w), double(w)});

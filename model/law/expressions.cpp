@@ -258,8 +258,8 @@ NodeId Lowering::compare(const Expression& e) {
   ExpressionPtr left = e.arguments[0];
   // a < b < c: both comparisons.
   NodeId before = kNone;
-  const bool chained =
-      left->kind == Expression::Kind::binary && left->name.find_first_of("<>=") != std::string::npos;
+  const bool chained = left->kind == Expression::Kind::binary &&
+                       left->name.find_first_of("<>=") != std::string::npos;
   if (chained) {
     before = value_of(left);
     left = left->arguments[1];

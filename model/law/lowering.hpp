@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "law/ranges.hpp"
 #include "law/scope.hpp"
 
 namespace feltgate::law {
@@ -101,6 +102,14 @@ class Lowering {
   NodeId lowpass(const Expression& e);
   bool takes(const Expression& e, std::size_t count, const char* form);
 
+  // made_calls.cpp
+  Span range_of(NodeId id, const Expression& e);
+  NodeId floored(NodeId x, const Expression& e);
+  NodeId floor_call(const Expression& e);
+  NodeId mod(const Expression& e);
+  NodeId noise(const Expression& e);
+  std::string own_name(std::string name, Place place);
+
   NodeId step_time(Place place);
   Place at(std::size_t offset) const { return places_.of(offset); }
   void report(std::size_t offset, std::string what, std::string mend) {
@@ -117,6 +126,9 @@ class Lowering {
   std::string defining_;                  ///< the name whose definition is being read
   std::map<std::string, Place> defined_;  ///< every name of the file, for "before its definition"
   std::map<std::pair<NodeId, NodeId>, NodeId> filters_;
+  std::map<int, NodeId> noises_;  ///< by their seed
+  int floor_array_ = -1;
+  int ranged_ = 0;
   std::set<std::string> has_next_;
   std::vector<std::pair<std::string, Place>> unused_;
   bool any_out_ = false;

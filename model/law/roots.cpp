@@ -162,7 +162,9 @@ Value BackEnd::next_state(const State& s, double scale) {
   if (!s.phase) return v;
   const double width = s.range.upper - s.range.lower;
   const Span n = span(s.next);
-  if (n.lo < s.range.lower - width || n.hi > s.range.upper + width) {
+  // A sum of two phases lies below two turns; its range is rounded up.
+  const double most = width * (1 + 1e-12);
+  if (n.lo < s.range.lower - most || n.hi > s.range.upper + most) {
     throw Refused(s.place, "the phase can step by more than a whole turn in a run",
                   "limit its rate with clamp, or run the law faster");
   }

@@ -10,6 +10,8 @@ namespace {
 
 const std::vector<std::string> kFunctions{"min", "max",  "clamp", "abs",     "sgn", "sin",
                                           "cos", "sqrt", "exp",   "lowpass", "sum"};
+/// Names that a law may take for its own.
+const std::vector<std::string> kFreeFunctions{"floor", "mod", "noise"};
 const std::vector<std::string> kValues{"position", "velocity", "tau_hat", "torque",
                                        "pi",       "dt",       "true",    "false"};
 
@@ -41,13 +43,19 @@ std::vector<std::string> Scope::names() const {
   return all;
 }
 
-bool is_function(const std::string& name) { return holds(kFunctions, name); }
+bool is_function(const std::string& name) {
+  return holds(kFunctions, name) || holds(kFreeFunctions, name);
+}
+bool is_reserved(const std::string& name) {
+  return holds(kFunctions, name) || holds(kValues, name);
+}
 bool is_given_value(const std::string& name) { return holds(kValues, name); }
 
 const std::vector<std::string>& given_names() {
   static const std::vector<std::string> all = [] {
     std::vector<std::string> names = kValues;
     names.insert(names.end(), kFunctions.begin(), kFunctions.end());
+    names.insert(names.end(), kFreeFunctions.begin(), kFreeFunctions.end());
     return names;
   }();
   return all;

@@ -44,6 +44,8 @@ class Scope {
 /// Functions and values that the language brings along.
 bool is_function(const std::string& name);
 bool is_given_value(const std::string& name);
+/// Of those, what no value of a law may be called.
+bool is_reserved(const std::string& name);
 const std::vector<std::string>& given_names();
 
 }  // namespace feltgate::law

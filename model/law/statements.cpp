@@ -104,7 +104,7 @@ void Lowering::define(const Statement& s, Symbol symbol) {
     return;
   }
   // Defined even so: one message is enough.
-  if (is_function(s.name) || is_given_value(s.name)) {
+  if (is_reserved(s.name)) {
     report(s.name_offset, quoted(s.name) + " is a name that the language brings along",
            "choose another name");
   } else if (unit_symbol(s.name)) {
@@ -179,9 +179,9 @@ void Lowering::boolean(const Statement& s) {
     state.place = at(s.name_offset);
     symbol.index = static_cast<int>(law_.states.size());
     law_.states.push_back(state);
-    symbol.node = graph_.less(graph_.constant(0, kNumber, state.place),
-                              graph_.leaf(Op::state, symbol.index, kNumber, state.place),
-                              state.place);
+    symbol.node =
+        graph_.less(graph_.constant(0, kNumber, state.place),
+                    graph_.leaf(Op::state, symbol.index, kNumber, state.place), state.place);
   }
   define(s, symbol);
 }
@@ -217,8 +217,8 @@ void Lowering::next(const Statement& s) {
   Symbol* const symbol = scope_.find(s.name);
   const bool is_truth = symbol != nullptr && symbol->kind == Kind::boolean;
   const NodeId value = is_truth ? truth_of(s.value) : number_of(s.value);
-  const bool is_state = symbol != nullptr && (symbol->kind == Kind::state ||
-                                              symbol->kind == Kind::phase || is_truth);
+  const bool is_state =
+      symbol != nullptr && (symbol->kind == Kind::state || symbol->kind == Kind::phase || is_truth);
   if (!is_state && (symbol == nullptr || symbol->kind != Kind::line)) {
     std::vector<std::string> names;
     for (const State& state : law_.states) names.push_back(state.name);

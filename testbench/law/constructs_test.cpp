@@ -65,6 +65,61 @@ TEST_CASE("functions") {
   CHECK(at("sin(pi / 6) + cos(0) + sqrt(4) + exp(0)") == Approx(4.5));
 }
 
+TEST_CASE("floor and mod") {
+  for (const double x : {-4.5, -2.0, -0.25, 0.0, 0.75, 3.0, 4.99}) {
+    CHECK(at("floor(clamp(position, -5, 5))", x) == std::floor(x));
+    CHECK(at("floor(2 * clamp(position, -5, 5) + 0.5)", x) == std::floor(2 * x + 0.5));
+    CHECK(at("mod(clamp(position, -5, 5), 1.5)", x) == Approx(x - 1.5 * std::floor(x / 1.5)));
+    CHECK(at("mod(clamp(position, -5, 5), 90 deg) / 90 deg", x) ==
+          Approx(2 * x / kPi - std::floor(2 * x / kPi)));
+  }
+  CHECK(at("floor(2.7) + floor(-2.7)") == -1);
+  CHECK(at("floor(clamp(position, 0, 5))", 9) == 5);
+  for (const int n : {-7, -3, -1, 0, 2, 5, 9}) {
+    const std::string state =
+        "state n = " + std::to_string(n) + " in -9 .. 9 whole\nnext n = n\nout torque = 1 Nm * ";
+    CHECK(torque_of(state + "mod(n, 3)") == n - 3 * std::floor(n / 3.0));
+    CHECK(torque_of(state + "(if mod(n, 3) == 2 then 1 else 0)") == (n + 9) % 3 / 2);
+    CHECK(torque_of(state + "floor(n)") == n);
+  }
+  // 49 times 1/49 is less than 1.
+  CHECK(torque_of("state n = 49 in 0 .. 98 whole\nnext n = n\nout torque = 1 Nm * mod(n, 49)") ==
+        0);
+}
+
+TEST_CASE("noise: even from -1 to 1, without an echo, another for each seed") {
+  constexpr int runs = 1 << 16;
+  const auto row = [](int seed) {
+    Running<> law(law_of("out torque = 1 Nm * noise(" + std::to_string(seed) + ") + 0 * tau_hat"));
+    std::vector<double> all;
+    for (int i = 0; i < runs; ++i) all.push_back(law.torque({}));
+    return all;
+  };
+  const auto together = [](const std::vector<double>& a, const std::vector<double>& b, int later) {
+    double sum = 0;
+    for (std::size_t i = 0; i + static_cast<std::size_t>(later) < a.size(); ++i) {
+      sum += a[i] * b[i + static_cast<std::size_t>(later)];
+    }
+    return 3 * sum / runs;  // 1 of a row with itself
+  };
+  const std::vector<double> first = row(1);
+  for (const int seed : {0, 1, 2, 77, 9999}) {
+    const std::vector<double> one = row(seed);
+    std::vector<int> counts(16);
+    for (const double x : one) {
+      REQUIRE(-1 <= x);
+      REQUIRE(x < 1);
+      ++counts[static_cast<std::size_t>((x + 1) * 8)];
+    }
+    for (const int c : counts) CHECK(c == Approx(runs / 16).epsilon(0.1));
+    CHECK(together(one, one, 0) == Approx(1).epsilon(0.02));
+    for (int later = 1; later < 300; ++later) CHECK(std::fabs(together(one, one, later)) < 0.05);
+    if (seed != 1) CHECK(std::fabs(together(first, one, 0)) < 0.05);
+  }
+  Running<> twice(law_of("out torque = 1 Nm * (noise(3) - noise(3)) + tau_hat"));
+  CHECK(twice.law().states.size() == 2);
+}
+
 TEST_CASE("conditions") {
   const auto truth = [](const std::string& c, double x) {
     return at("if " + c + " then 1 else 0", x);

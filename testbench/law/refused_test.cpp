@@ -44,7 +44,10 @@ const Bad kMeaning[] = {
      "1:21: unknown function \"sinn\"; did you mean \"sin\"?"},
     {"out torque = 1 Nm * tan(position)",
      "1:21: unknown function \"tan\"; there are min, max, clamp, abs, sgn, sin, cos, sqrt, exp, "
-     "lowpass, sum, and what table defines above"},
+     "lowpass, sum, floor, mod, noise, and what table defines above"},
+    {"let floor = 1\nout torque = 1 Nm * floor", "read"},
+    {"let floor = 1\nout torque = 1 Nm * floor(position)",
+     "2:21: \"floor\" is no function; between factors stands *"},
     {"out torque = 1 Nm * qqq",
      "1:21: unknown name \"qqq\"; define it above with param, let or state"},
     {"out torque = 1 Nm * b\nlet b = 1",
@@ -218,6 +221,26 @@ const Bad kMeaning[] = {
      "1:21: the square root of a number below 0; its argument must be 0 or more"},
     {"out torque = 1 Nm * exp(1000)",
      "1:21: a value that is not finite; numbers lie between -1e300 and 1e300"},
+    {"out torque = 1 Nm * floor(position)",
+     "1:21: floor of what has no end; limit it with clamp to 64 of them; what repeats for ever is "
+     "a periodic table"},
+    {"out torque = 1 Nm * floor(clamp(position, 0, 64))",
+     "1:21: floor of what takes 65 whole numbers; limit it with clamp to 64 of them; what repeats "
+     "for ever is a periodic table"},
+    {"out torque = 1 Nm * mod(position, 1)",
+     "1:21: mod of what has no end; limit it with clamp to 64 of them; what repeats for ever is a "
+     "periodic table"},
+    {"out torque = 1 Nm * floor(clamp(tau_hat, 0, 1 Nm))",
+     "1:27: the argument of floor is in a number, not in Nm; check the formula's units, factor by "
+     "factor"},
+    {"param a = 1 in 0 .. 2\nout torque = 1 Nm * floor(a)",
+     "2:21: floor of what only depends on parameters; make a parameter of it, which may be whole"},
+    {"param a = 1 in 1 .. 2\nout torque = 1 Nm * mod(clamp(position, 0, 1), a)",
+     "2:48: the period of mod is no constant above 0; write mod(x, 15 deg)"},
+    {"param a = 1 in 0 .. 2\nout torque = 1 Nm * noise(a)",
+     "2:27: the seed of noise is not constant; it may hold numbers, pi, dt and lets made of them"},
+    {"out torque = 1 Nm * noise(0.5)",
+     "1:27: the seed of noise is no whole number from 0 to 9999; write one of 0 .. 9999"},
     {"out torque = 1 Nm * position^9",
      "1:30: a power that is no whole number from 1 to 8 or -8 to -1; write products of smaller "
      "powers"},

@@ -102,6 +102,14 @@ const std::map<std::string, Sample> samples = {
      {"table wave(q) periodic on [0, 2] = 0.03 Nm * abs(q - 1)\n"
       "out torque = wave(0.1 s * velocity)\n",
       6, 5e-5}},
+    {"floor and mod of a position, mod of a whole state",
+     {"state n = 3 in 0 .. 9 whole\nnext n = if position > 1 then max(n - 1, 0) else min(n + 1, "
+      "9)\n"
+      "let x = clamp(position, -2, 2)\n"
+      "out torque = 0.01 Nm * floor(5 * x) + 0.1 Nm * mod(x, 20 deg) + 0.01 Nm * mod(n, 3)\n",
+      40, 5e-5}},
+    {"noise beside a position",
+     {"out torque = 0.02 Nm * noise(7) * clamp(position, 0, 1)\n", 20, 5e-5}},
     {"bools: a latch with both thresholds, and one that follows it",
      {"param high = 0.2 in 0.1 .. 1\nparam low = -0.1 in -1 .. 0\n"
       "bool held = true\nbool was = false\nnext was = held\n"

@@ -140,7 +140,7 @@ TEST_CASE("a bound that is too small is not proven", "[defects]") {
 
 TEST_CASE("Gappa proves what the language brings along") {
   const Prover gappa;
-  for (const char* name : {"cogging", "equal", "latch"}) {
+  for (const char* name : {"cogging", "counts", "equal", "latch", "rough"}) {
     require_all(gappa,
                 compile_file(fmt::format("{}/testbench/law_cpp/laws/{}.law", FELTGATE_ROOT, name),
                              Target{}),

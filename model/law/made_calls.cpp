@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Lowering of functions that are made of others: nothing behind the reader knows them.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "law/lowering.hpp"
+
+namespace feltgate::law {
+
+namespace {
+
+constexpr int kMostWhole = 64;    ///< whole numbers that floor tells apart
+constexpr int kMostRanged = 128;  ///< calls that look at their argument's range
+
+}  // namespace
+
+/// What a node can be by what the file declares; an input can be anything.
+Span Lowering::range_of(NodeId id, const Expression& e) {
+  if (++ranged_ > kMostRanged) {
+    report(e.offset, fmt::format("more than {} calls of floor and mod", kMostRanged),
+           "make the loops shorter; the engine's program has 512");
+    throw TooLong();
+  }
+  Law part = law_;
+  part.outputs = {Output{"", 0, id, {}}};
+  part.events.clear();
+  Cell cell;
+  cell.inputs.assign(part.inputs.size(), whole_line());
+  for (const Parameter& p : part.parameters)
+    cell.parameters.push_back({p.range.lower, p.range.upper});
+  for (State& s : part.states) {
+    s.next = kNone;
+    cell.states.push_back(s.follows == kNone ? Span{s.range.lower, s.range.upper} : whole_line());
+  }
+  for (Line& l : part.lines) l.written = kNone;
+  return ranges(part, cell)[static_cast<std::size_t>(id)];
+}
+
+/// An element of the whole numbers, by the number itself.
+NodeId Lowering::floored(NodeId x, const Expression& e) {
+  const Place place = at(e.offset);
+  if (x == kNone || graph_.node(x).whole) return x;
+  if (graph_.is_constant(x))
+    return graph_.constant(std::floor(graph_.node(x).value), kNumber, place);
+  if (graph_.is_fixed(x)) {
+    report(e.offset, e.name + " of what only depends on parameters",
+           "make a parameter of it, which may be whole");
+    return kNone;
+  }
+  const Span range = range_of(x, e);
+  const double first = std::floor(range.lo), count = std::floor(range.hi) - first + 1;
+  if (!(count <= kMostWhole)) {
+    report(
+        e.offset,
+        count < infinity ? fmt::format("{} of what takes {:.6g} whole numbers", e.name, count)
+                         : e.name + " of what has no end",
+        fmt::format("limit it with clamp to {} of them; what repeats for ever is a periodic table",
+                    kMostWhole));
+    return kNone;
+  }
+  if (floor_array_ < 0) {
+    floor_array_ = static_cast<int>(law_.arrays.size());
+    law_.arrays.push_back({own_name("floor", place), kNumber, {}, place});
+  }
+  std::vector<double>& all = law_.arrays[static_cast<std::size_t>(floor_array_)].values;
+  while (static_cast<double>(all.size()) < count) all.push_back(static_cast<double>(all.size()));
+  const NodeId from = graph_.constant(first, kNumber, place);
+  return graph_.add(graph_.element(floor_array_, graph_.subtract(x, from, place), place), from,
+                    place);
+}
+
+NodeId Lowering::floor_call(const Expression& e) {
+  if (!takes(e, 1, "floor(x)")) return kNone;
+  return floored(number_in(e.arguments[0], kNumber, "the argument of floor"), e);
+}
+
+/// x - m floor(x / m), from 0 to m.
+NodeId Lowering::mod(const Expression& e) {
+  if (!takes(e, 2, "mod(x, 15 deg)")) return kNone;
+  const ExpressionPtr &ex = e.arguments[0], &em = e.arguments[1];
+  const Place place = at(e.offset);
+  NodeId x = number_of(ex), m = number_of(em);
+  if (!fit(x, m, *ex, *em, em->offset, "and")) return kNone;
+  const Node period = graph_.node(m);
+  if (!graph_.is_constant(m) || !(period.value > 0)) {
+    report(em->offset, "the period of mod is no constant above 0", "write mod(x, 15 deg)");
+    return kNone;
+  }
+  NodeId inside = x;
+  if (graph_.node(x).whole && period.whole) {
+    // Between the whole numbers, where nothing is rounded to the other side.
+    inside = graph_.add(x, graph_.constant(0.5, kNumber, place), place);
+  }
+  const NodeId periods = floored(graph_.divide(inside, m, place), e);
+  const NodeId rest = graph_.subtract(x, graph_.multiply(m, periods, place), place);
+  const NodeId zero = graph_.constant(0, period.unit, place);
+  return graph_.smaller(graph_.larger(rest, zero, place), m, place);
+}
+
+/// A name for a table or array of the language's own, which the file has not.
+std::string Lowering::own_name(std::string name, Place place) {
+  while (defined_.count(name) != 0) name += "_";
+  defined_.emplace(name, place);
+  return name;
+}
+
+/// A phase that steps by another, which steps by a constant: it takes all values equally often, and
+/// over many runs has nothing to do with itself some runs before.
+NodeId Lowering::noise(const Expression& e) {
+  if (!takes(e, 1, "noise(1)")) return kNone;
+  const Place place = at(e.offset);
+  const int seed = whole_of(e.arguments[0], "the seed of noise", 0, 9999);
+  const auto known = noises_.find(seed);
+  if (known != noises_.end()) return known->second;
+  const auto number = [&](double value) { return graph_.constant(value, kNumber, place); };
+  // Parts of a turn in 2^-20: each seed has its own.
+  const auto part = [](double x) { return std::floor((x - std::floor(x)) * 0x1p20) * 0x1p-20; };
+  const double irrational = part(0.6180339887498949 + seed * 0.0137719);
+  const double step = std::floor(irrational * 0x1p19) * 0x1p-19 + 0x1p-20;  // odd
+  NodeId before = number(step);
+  for (int i = 0; i < 2; ++i) {
+    State s;
+    s.name = fmt::format("noise_{}{}", seed, i == 0 ? "_step" : "");
+    s.initial = part((seed + 1) * (i == 0 ? 0.7548776662466927 : 0.5698402909980532));
+    s.range = {0, 1};
+    s.phase = true;
+    s.place = place;
+    const auto index = static_cast<int>(law_.states.size());
+    law_.states.push_back(s);
+    const NodeId now = graph_.leaf(Op::state, index, kNumber, place);
+    law_.states[static_cast<std::size_t>(index)].next = graph_.add(now, before, place);
+    has_next_.insert(s.name);
+    before = now;
+  }
+  return noises_[seed] =
+             graph_.subtract(graph_.multiply(number(2), before, place), number(1), place);
+}
+
+}  // namespace feltgate::law

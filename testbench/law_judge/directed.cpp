@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
+#include <cmath>
+
 #include "generate.hpp"
 
 namespace feltgate::judge {
@@ -86,6 +88,38 @@ void nested(std::vector<Directed>& all) {
       {"two of them", of(l, choose(twice < number("0.1"), number("0.5"), number("-0.5")))});
 }
 
+/// What is rounded down to whole numbers, and noise.
+void rounded_down(std::vector<Directed>& all) {
+  const auto floor = [](const Node& x) { return make(Kind::floor, {x}); };
+  const auto mod = [](const Node& x, const Node& m) { return make(Kind::modulo, {x, m}); };
+  const Node x = limited(position(), -2, 2);
+  all.push_back({"floor of a position", of({}, times(0.05, floor(times(5, x) + 0.3)))});
+  all.push_back({"mod of a position", of({}, mod(x, number("0.35")))});
+  {
+    Law l;
+    const Node p = l.param("p", 1, 0.1, 3);
+    all.push_back({"floor of a product, in a condition",
+                   of(l, choose(floor(p * x) < number("1"), number("0.5"), times(0.1, x)))});
+  }
+  {
+    Law l;
+    const Node n = l.state("n", 3, -9, 9, true);
+    l.states[0].next =
+        make(Kind::clamp, {n + choose(velocity() > number("0"), number("1"), number("-1")),
+                           number(-9.0, 0), number("9")});
+    all.push_back({"mod of a whole state",
+                   of(l, times(0.1, mod(n, number("3"))) + times(0.01, mod(n - 4, number("7"))))});
+  }
+  {
+    Law l;
+    const double first = std::floor(8 * 0.5698402909980532 * 0x1p20) * 0x1p-20 - 4;
+    l.states.push_back({"noise_7", first, 0, 1, false, true, {}, {}, {}});
+    const Node noise = make(Kind::noise, {}, 0, "7");
+    all.push_back({"noise beside a position",
+                   of(l, noise * limited(position(), 0, 1) + times(0.1, mod(x, number("0.7"))))});
+  }
+}
+
 /// Every part of a sine's argument loses the bits below its last one, all in one direction.
 void dropped(std::vector<Directed>& all) {
   const Node turn = make(Kind::number, {}, -1, "(2 * pi)", 6.283185307179586476925286766559L);
@@ -136,6 +170,7 @@ std::vector<Directed> directed_laws() {
   whole_states(all);
   nested(all);
   renamed(all);
+  rounded_down(all);
   return all;
 }
 

@@ -30,6 +30,8 @@ bool Evaluator::whole(const Node& n) const {
       return law_.states[at(n->index)].whole;
     case Kind::let:
       return whole(law_.lets[at(n->index)].value);
+    case Kind::floor:
+      return true;
     case Kind::add:
     case Kind::subtract:
     case Kind::multiply:
@@ -38,6 +40,7 @@ bool Evaluator::whole(const Node& n) const {
     case Kind::maximum:
     case Kind::clamp:
     case Kind::absolute:
+    case Kind::modulo:
       return all(0);
     case Kind::choice:
       return all(1);
@@ -114,6 +117,15 @@ Real Evaluator::element(const Node& n) {
   return values[at(decide(n, taken, other, std::fabs(x - near), std::fabs(x), exact))];
 }
 
+/// x rounded down, which is what it decides of.
+Real Evaluator::floored(const Node& n, Real x) {
+  const bool exact = whole(n->parts[0]) && (n->parts.size() < 2 || whole(n->parts[1]));
+  const Real near = std::nearbyint(x);
+  const auto down = static_cast<long>(std::floor(x));
+  const auto other = static_cast<long>(x >= near ? near - 1 : near);
+  return static_cast<Real>(decide(n, down, other, std::fabs(x - near), std::fabs(x), exact));
+}
+
 Real Evaluator::table(const Table& t, Real x) {
   const Real inside = std::clamp(x, static_cast<Real>(t.lower), static_cast<Real>(t.upper));
   if (t.body) {
@@ -184,6 +196,14 @@ Real Evaluator::of(const Node& n) {
       return table(law_.tables[at(n->index)], arg(0));
     case Kind::element:
       return element(n);
+    case Kind::floor:
+      return floored(n, arg(0));
+    case Kind::modulo: {
+      const Real x = arg(0), period = arg(1);
+      return std::clamp(x - period * floored(n, x / period), Real{0}, period);
+    }
+    case Kind::noise:
+      return 2 * before_->states[at(n->index)] - 1;
     case Kind::sign:
       return less(n, n->parts[0], {}) ? -1 : 1;
     case Kind::choice: {

@@ -127,6 +127,9 @@ class Judge {
     held_.assign(law_.events.size(), 0);
   }
 
+  bool noise(std::size_t k) const {
+    return state_index_[k] >= 0 && !law_.states[k].next && !law_.states[k].follows;
+  }
   int address(std::size_t state) const {
     return c_.target.thread * EngineMap::private_words + c_.assembled.state_address[state];
   }
@@ -245,6 +248,9 @@ class Judge {
 
   void after(const Outcome& o) {
     before_.states = o.states;
+    for (std::size_t k = 0; k < law_.states.size(); ++k) {
+      if (noise(k)) before_.states[k] = state(at(state_index_[k]));
+    }
     for (std::size_t k = 0; k < law_.lines.size(); ++k) {
       before_.lines[k].insert(before_.lines[k].begin(), o.written[k]);
       before_.lines[k].pop_back();
@@ -309,9 +315,9 @@ class Judge {
       one(fmt::format("torque {}", axis), torque, o.torques[axis], c_.bound.output[k], 0);
     }
     for (std::size_t k = 0; k < law_.states.size(); ++k) {
-      if (state_index_[k] < 0) continue;
-      const std::size_t i = at(state_index_[k]);
       const State& s = law_.states[k];
+      if (state_index_[k] < 0 || noise(k)) continue;
+      const std::size_t i = at(state_index_[k]);
       const double bound = s.whole                   ? 0
                            : c_.bound.states_bounded ? c_.bound.state[i]
                                                      : c_.bound.drift[i];

@@ -21,7 +21,7 @@ using Real = long double;
 enum class Kind {
   number, param, input, state, line, let, counter,  // leaves
   add, subtract, multiply, divide, power, negate, minimum, maximum, clamp, absolute,
-  sine, cosine, root, exponential, table, element, sign, choice, sum,
+  sine, cosine, root, exponential, table, element, sign, choice, sum, floor, modulo, noise,
   less, less_equal, more, more_equal, both, either, opposite
 };
 // clang-format on
@@ -78,7 +78,7 @@ struct State {
   std::string name;
   double initial = 0, lower = 0, upper = 1;
   bool whole = false, phase = false;
-  Node next;
+  Node next;  ///< none, and no lowpass: a noise, whose every value is taken as the words have it
   Node follows, frequency;  ///< of a lowpass, which is a state without a line of its own
 };
 struct Table {
@@ -169,7 +169,7 @@ class Printer {
   std::map<std::string, std::set<int>> lines_;
 };
 
-/// A comparison as a < b, or an element's index, its lets written in full.
+/// A comparison as a < b, an element's index, a floor or a mod, its lets written in full.
 std::string canonical(const Law& law, const Node& n);
 
 /// What a run decided, and how near it was to deciding otherwise.
@@ -211,6 +211,7 @@ class Evaluator {
   bool truth(const Node& n);
   bool less(const Node& n, const Node& a, const Node& b);
   Real element(const Node& n);
+  Real floored(const Node& n, Real x);
   Real table(const Table& t, Real x);
   Real filtered(const State& s, Real y);
   long decide(const Node& n, long taken, long other, Real distance, Real size, bool exact);

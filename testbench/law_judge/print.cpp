@@ -72,6 +72,12 @@ std::string written(const Law& law, const Node& n, const Mark& mark, const Let& 
       return call(n->text);
     case Kind::element:
       return mark(n) + n->text + "[" + p[0] + "]";
+    case Kind::floor:
+      return mark(n) + call("floor");
+    case Kind::modulo:
+      return mark(n) + call("mod");
+    case Kind::noise:
+      return "noise(" + n->text + ")";
     case Kind::sign:
       return mark(n) + call("sgn");
     case Kind::choice:
@@ -108,6 +114,8 @@ std::string full(const Law& law, const Node& n) {
 std::string canonical(const Law& law, const Node& n) {
   std::string a = full(law, n->parts[0]);
   if (n->kind == Kind::element) return n->text + "[" + a + "]";
+  if (n->kind == Kind::floor) return "floor(" + a + ")";
+  if (n->kind == Kind::modulo) return "mod(" + a + ", " + full(law, n->parts[1]) + ")";
   std::string b = n->kind == Kind::sign ? "0" : full(law, n->parts[1]);
   // a > b is b < a, and a <= b is its opposite: one comparison.
   if (n->kind == Kind::more || n->kind == Kind::less_equal) std::swap(a, b);

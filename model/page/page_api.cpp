@@ -72,7 +72,7 @@ class Loop {
       loop_.set(name, value);
     });
   }
-  /// Torque over a turn, an array of doubles.
+  /// Torque over a turn up and back, an array of doubles.
   val law_curve(int points) const {
     val list = val::array();
     for (const double nm : law_->curve(points)) list.call<void>("push", nm);

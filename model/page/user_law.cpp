@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "law/host_machine.hpp"
 #include "law/listing.hpp"
@@ -66,12 +67,18 @@ std::vector<double> UserLaw::curve(int points) const {
   const int turn = static_cast<int>(std::lround(2 * law::pi / design_.count_rad));
   const std::int32_t top = (1 << (design_.torque.width() - 1)) - 1;
   std::vector<double> torques;
-  for (int k = 0; k < points; ++k) {
+  const auto at = [&](int k) {
     law::MachineInputs inputs{};
     inputs[0] = turn * k / (points - 1) - turn / 2;
-    const std::int32_t word = machine.run(0, inputs).outputs[0];
+    std::int32_t word = machine.run(0, inputs).outputs[0];
+    for (int run = 1; run < 16; ++run) {
+      const std::int32_t before = std::exchange(word, machine.run(0, inputs).outputs[0]);
+      if (word == before) break;
+    }
     torques.push_back(std::ldexp(std::clamp(word, -top - 1, top), -design_.torque.fraction));
-  }
+  };
+  for (int k = 0; k < points; ++k) at(k);
+  for (int k = points; k-- > 0;) at(k);
   return torques;
 }
 

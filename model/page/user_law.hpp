@@ -40,8 +40,10 @@ class UserLaw {
 
   /// For curve(). Errors: std::invalid_argument for an unknown name or a value out of its range.
   void set(const std::string& name, double value);
-  /// Torques in Nm at `points` positions, the first and the last half a turn from 0: words of the
-  /// program, one run each, from below. Velocity and tau_hat are 0. States go on from run to run.
+  /// Torques in Nm at `points` positions, the first and the last half a turn from 0, on the way up
+  /// and then, as many, on the way back down: words of the program. Velocity and tau_hat are 0.
+  /// States go on from run to run, so a law that remembers has two ways; at each place it runs
+  /// until its torque stays, 16 times at most.
   std::vector<double> curve(int points) const;
 
  private:

@@ -69,7 +69,27 @@ class LawEditor {
   }
 }
 
-/** Torque against position over a turn, as the words of the program say it, and where the lever is. */
+/** A head of an arrow in the middle of each stretch where the two ways are apart: up to the right, back to the left. */
+function way_arrows(pen, up, back, x, y, apart) {
+  const head = (n, ways, sign) => {
+    const from = Math.max(0, n - 4), to = Math.min(ways.length - 1, n + 4);
+    pen.save();
+    pen.translate(x(n), y(ways[n]));
+    pen.rotate(Math.atan2(y(ways[to]) - y(ways[from]), x(to) - x(from)) + (sign < 0 ? Math.PI : 0));
+    pen.beginPath(); pen.moveTo(6, 0); pen.lineTo(-4, 5); pen.lineTo(-4, -5); pen.fill();
+    pen.restore();
+  };
+  for (let n = 0; n < up.length; ++n) {
+    if (Math.abs(up[n] - back[n]) < apart) continue;
+    const first = n;
+    while (n + 1 < up.length && Math.abs(up[n + 1] - back[n + 1]) >= apart) ++n;
+    if (x(n) - x(first) < 3) continue;
+    head(Math.round((first + n) / 2), up, 1);
+    head(Math.round((first + n) / 2), back, -1);
+  }
+}
+
+/** Torque against position over a turn, up and back, as the words of the program say it, and where the lever is. */
 function draw_turn(device) {
   const { pen, width, height, colour } = cleared($("turn"));
   if (!width) return;
@@ -79,7 +99,9 @@ function draw_turn(device) {
   const x = (rad) => left + ((rad + Math.PI) / (2 * Math.PI)) * (right - left), y = (nm) => (top + bottom) / 2 - (nm / most) * ((bottom - top) / 2);
   pen.strokeStyle = colour("--line");
   pen.fillStyle = colour("--faint");
-  pen.fillText("torque over a turn at rest, Nm", left + 6, 15);
+  const up = device.turn.slice(0, TURN_POINTS), back = device.turn.slice(TURN_POINTS).reverse(), apart = most / 100;
+  const loop = up.some((nm, n) => Math.abs(nm - back[n]) >= apart);
+  pen.fillText(`torque over a turn at rest, Nm${loop ? ", up and back: arrows tell the way" : ""}`, left + 6, 15);
   for (const rad of [-3, -2, -1, 0, 1, 2, 3]) {
     pen.beginPath(); pen.moveTo(x(rad), top); pen.lineTo(x(rad), bottom); pen.stroke();
     pen.fillText(rad === 0 ? "0 rad" : `${fixed(rad, 0)}`, x(rad) - 4, height - 5);
@@ -88,14 +110,15 @@ function draw_turn(device) {
     pen.beginPath(); pen.moveTo(left, y(nm)); pen.lineTo(right, y(nm)); pen.stroke();
     pen.fillText(nm.toFixed(2), 4, y(nm) + 4);
   }
-  pen.strokeStyle = colour("--blue");
+  const x_of = (n) => x(-Math.PI + (2 * Math.PI * n) / (TURN_POINTS - 1));
+  pen.strokeStyle = pen.fillStyle = colour("--blue");
   pen.lineWidth = 1.5;
-  pen.beginPath();
-  device.turn.forEach((nm, n) => {
-    const at_x = x(-Math.PI + (2 * Math.PI * n) / (TURN_POINTS - 1));
-    if (n) pen.lineTo(at_x, y(nm)); else pen.moveTo(at_x, y(nm));
-  });
-  pen.stroke();
+  for (const way of loop ? [up, back] : [up]) {
+    pen.beginPath();
+    way.forEach((nm, n) => { if (n) pen.lineTo(x_of(n), y(nm)); else pen.moveTo(x_of(n), y(nm)); });
+    pen.stroke();
+  }
+  if (loop) way_arrows(pen, up, back, x_of, y, apart);
   pen.lineWidth = 1;
   pen.strokeStyle = pen.fillStyle = colour("--red");
   const theta = Math.atan2(Math.sin(device.now.theta), Math.cos(device.now.theta));

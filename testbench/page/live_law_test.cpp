@@ -78,9 +78,11 @@ TEST_CASE("page: torque over a turn, parameters and table of a law") {
   const auto off = [&](double amplitude, double clicks) {
     double most = 0;
     const auto curve = law.curve(4097);
-    for (std::size_t n = 0; n < curve.size(); ++n) {
+    REQUIRE(curve.size() == 2 * 4097);
+    for (std::size_t n = 0; n < 4097; ++n) {
       const double rad = 2 * M_PI * (static_cast<double>(n) / 4096 - 0.5);
       most = larger(most, std::abs(curve[n] + amplitude * std::sin(clicks * rad)));
+      most = larger(most, std::abs(curve[n] - curve[2 * 4097 - 1 - n]));
     }
     return most;
   };
@@ -88,6 +90,24 @@ TEST_CASE("page: torque over a turn, parameters and table of a law") {
   law.set("amplitude", 0.1);
   law.set("clicks", 7);
   CHECK(off(0.1, 7) < 1e-4);
+}
+
+TEST_CASE("page: a law that remembers has a torque for each way over the turn") {
+  // A stalk that latches beyond 0.3 rad and springs back within 0.2 rad.
+  const UserLaw law(shipped("turn_switch"), design());
+  const int points = 1441;
+  const auto curve = law.curve(points);
+  const auto at = [&](double rad, bool up) {
+    const int n = static_cast<int>(std::lround((rad / (2 * M_PI) + 0.5) * (points - 1)));
+    return curve[static_cast<std::size_t>(up ? n : 2 * points - 1 - n)];
+  };
+  CHECK(std::abs(at(0.25, true) + 0.25) < 0.005);  // to the middle
+  CHECK(std::abs(at(0.25, false) - 0.1) < 0.005);  // to its place, 0.35 rad
+  CHECK(std::abs(at(-0.25, true) + 0.1) < 0.005);  // came from -pi: latched
+  CHECK(std::abs(at(-0.25, false) - 0.25) < 0.005);
+  for (const double rad : {-1.0, -0.1, 0.1, 1.0}) {
+    CHECK(std::abs(at(rad, true) - at(rad, false)) < 1e-4);
+  }
 }
 
 TEST_CASE("page: what is wrong with a law has its place") {

@@ -18,14 +18,18 @@ namespace {
 
 const std::vector<std::string> kModes{"closed_loop", "open_loop", "voltage"};
 
-std::map<std::string, double> read_values(const toml::table& table, config::TomlReader reader) {
-  std::map<std::string, double> values;
+/// Numbers into `values`, texts such as "4 Nm/deg" into `amounts`.
+void read_values(const toml::table& table, config::TomlReader reader,
+                 std::map<std::string, double>* values,
+                 std::map<std::string, std::string>* amounts) {
   for (const auto& [key, node] : table) {
-    (void)node;
     const std::string name(key.str());
-    values[name] = reader.number(name, config::kAnyNumber);
+    if (node.is_string()) {
+      (*amounts)[name] = reader.text(name);
+    } else {
+      (*values)[name] = reader.number(name, config::kAnyNumber);
+    }
   }
-  return values;
 }
 
 Event read_event(config::TomlReader r, const toml::table& table, double duration_s) {
@@ -43,7 +47,7 @@ Event read_event(config::TomlReader r, const toml::table& table, double duration
   if (r.has("arm")) e.arm = r.flag("arm");
   if (r.has("stop")) e.stop = r.flag("stop");
   if (r.has("set")) {
-    e.set = read_values(*table["set"].as_table(), r.section("set"));
+    read_values(*table["set"].as_table(), r.section("set"), &e.set, &e.amounts);
   }
   if (r.has("step_nm")) e.step_nm = r.number("step_nm", config::kAnyNumber);
   r.finish();
@@ -122,8 +126,9 @@ Scenario read(const toml::table& root, const std::string& path,
   }
   if (top.has("parameters")) {
     const config::TomlReader reader = top.section("parameters");
-    s.parameters = read_values(*root["parameters"].as_table(), reader);
+    read_values(*root["parameters"].as_table(), reader, &s.parameters, &s.amounts);
     for (const auto& [name, value] : s.parameters) s.parameter_lines[name] = reader.line(name);
+    for (const auto& [name, text] : s.amounts) s.parameter_lines[name] = reader.line(name);
   }
   const auto events = top.sections("event");
   for (std::size_t i = 0; i < events.size(); ++i) {

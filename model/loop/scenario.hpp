@@ -31,8 +31,9 @@ struct Event {
   std::optional<int> mode;
   std::optional<bool> arm;
   std::optional<bool> stop;
-  std::map<std::string, double> set;  ///< parameters in their units
-  std::optional<double> step_nm;      ///< a torque step to this reference begins here
+  std::map<std::string, double> set;           ///< parameters in their units
+  std::map<std::string, std::string> amounts;  ///< further ones with units: resolve_amounts()
+  std::optional<double> step_nm;               ///< a torque step to this reference begins here
 };
 
 /// A bound on one figure of the run.
@@ -66,6 +67,7 @@ struct Scenario {
   int mode = 0;
   double arm_s = 0;
   std::map<std::string, double> parameters;    ///< set before arming, in their units
+  std::map<std::string, std::string> amounts;  ///< further ones with units: resolve_amounts()
   std::map<std::string, int> parameter_lines;  ///< of those that the file sets
   std::vector<Event> events;                   ///< in order of time
   double feed_hz = 0;  ///< how often the host sends the mailbox anew; 0: it does not

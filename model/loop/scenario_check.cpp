@@ -14,6 +14,7 @@
 
 #include "config/toml_reader.hpp"
 #include "feltgate/while_armed.hpp"
+#include "law/amount.hpp"
 
 namespace feltgate {
 
@@ -158,7 +159,45 @@ int scene_number(const DesignInfo& design, const std::string& name) {
   throw config::ConfigError(design.unknown_scene(name));
 }
 
+std::optional<double> parameter_in(const std::string& name, const std::string& text,
+                                   const DesignInfo& design, const SceneLaw* law) {
+  const bool of_law = law != nullptr && law->has(name);
+  const ParameterInfo* of_core = design.find(name);
+  if (!of_law && of_core == nullptr) return {};
+  return law::amount_in(text, of_law ? law->unit(name) : of_core->unit,
+                        {design.count_rad, 1 / static_cast<double>(design.tick_hz)});
+}
+
+void resolve_amounts(Scenario& s, const DesignInfo& design, const SceneLaw* law) {
+  const auto resolve = [&](std::map<std::string, std::string>& amounts,
+                           std::map<std::string, double>& values, const auto& line_of) {
+    for (const auto& [name, text] : amounts) {
+      try {
+        // Of an unknown name check_asked() says what there is.
+        values[name] = parameter_in(name, text, design, law).value_or(0);
+      } catch (const std::invalid_argument& error) {
+        throw config::ConfigError(
+            fmt::format("{}:{}: {}: {}", s.path, line_of(name), name, error.what()));
+      }
+    }
+    amounts.clear();
+  };
+  resolve(s.amounts, s.parameters,
+          [&](const std::string& name) { return s.parameter_lines.at(name); });
+  for (Event& e : s.events) {
+    resolve(e.amounts, e.set, [&](const std::string&) { return e.line; });
+  }
+}
+
+bool has_amounts(const Scenario& s) {
+  return !s.amounts.empty() || std::any_of(s.events.begin(), s.events.end(),
+                                           [](const Event& e) { return !e.amounts.empty(); });
+}
+
 void check_asked(const Scenario& s, const DesignInfo& design, const SceneLaw* law) {
+  if (has_amounts(s)) {
+    throw config::ConfigError(s.path + ": values with units are not taken here; write numbers");
+  }
   check_scene(s, s.scene_line, s.scene, design);
   Requirements requirements(s, law);
   for (const auto& [name, value] : s.parameters) {

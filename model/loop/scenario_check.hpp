@@ -4,6 +4,9 @@
 // What a scene asks of design and plant, checked before a run. Documentation: docs/scenes.md
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "../engines/engine.hpp"
 #include "scenario.hpp"
 #include "scene_law.hpp"
@@ -12,6 +15,16 @@ namespace feltgate {
 
 /// Number of a torque law. Throws config::ConfigError with the laws that the design has.
 int scene_number(const DesignInfo& design, const std::string& name);
+
+/// A parameter's value as someone writes it, with a unit or without (law/amount.hpp), in the unit
+/// of the law or of the design; none: neither has the parameter. Throws std::invalid_argument.
+std::optional<double> parameter_in(const std::string& name, const std::string& text,
+                                   const DesignInfo& design, const SceneLaw* law);
+
+/// Makes numbers of the values that the file gives with units; after that there are none. Errors:
+/// config::ConfigError "file:line: what; mend".
+void resolve_amounts(Scenario& scenario, const DesignInfo& design, const SceneLaw* law = nullptr);
+bool has_amounts(const Scenario& scenario);
 
 /// Every scene that is named is in the design, every parameter that is set is one of the law or of
 /// the design and fits its word, and the plant's step is short enough for each phase of the hand

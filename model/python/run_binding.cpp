@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "loop/bounded.hpp"
+#include "loop/scenario_check.hpp"
 #include "python/bindings.hpp"
 #include "python/design_names.hpp"
 #include "python/plant_binding.hpp"
@@ -32,6 +33,7 @@ py::dict run(Scenario scenario, const PyPlant& plant, const What& what,
              const std::map<std::string, double>& set, std::optional<double> duration_s,
              const plant::Hand* hand, const py::object& progress) {
   const DesignInfo design = design_named(what.design);
+  resolve_amounts(scenario, design);
   for (const auto& [name, value] : set) {
     quantise_parameter(parameter_of(design, name), value);
     scenario.parameters[name] = value;

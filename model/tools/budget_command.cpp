@@ -111,6 +111,7 @@ int run(const BudgetArguments& a) {
   resolve_effects(scenario, plant.effects);
   const auto e = elaborate(design::read_design(find_file(a.design, "rtl/designs")),
                            design::read_registers(repository() + "/rtl/registers.toml"));
+  resolve_amounts(scenario, design_named(e.design.name));
   files::Outputs outputs;
   outputs.reads(scenario.path);
   outputs.reads(plant_path);

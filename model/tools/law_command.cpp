@@ -22,6 +22,7 @@
 #include "law/verdict.hpp"
 #include "tools/commands.hpp"
 #include "tools/law_target.hpp"
+#include "tools/made_law.hpp"
 
 namespace feltgate {
 
@@ -164,7 +165,8 @@ int run(const LawArguments& a) {
                 (a.listing ? law::listing(c) : ""));
   }
   outputs.commit();
-  return again.open.empty() && law::verdict(c, m).failures.empty() ? exit_ok : exit_failed;
+  const int code = end_of(law::verdict(c, m));
+  return again.open.empty() ? code : exit_failed;
 }
 
 }  // namespace

@@ -8,13 +8,21 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <stdexcept>
 #include <string>
 
+#include "law/verdict.hpp"
 #include "tools/commands.hpp"
 
 namespace feltgate {
+
+/// The exit code of a command that makes a law; what failed is said once more, as the last lines.
+inline int end_of(const law::Verdict& verdict) {
+  for (const std::string& f : verdict.failures) fmt::print(stderr, "feltgate: failed: {}\n", f);
+  return verdict.failures.empty() ? exit_ok : exit_failed;
+}
 
 /// What make() returns; what it finds wrong is told with the file it comes from.
 template <class Make>

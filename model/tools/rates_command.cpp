@@ -14,6 +14,7 @@
 #include "axes_loop/axes_run.hpp"
 #include "config/toml_reader.hpp"
 #include "files/output_file.hpp"
+#include "law_loop/scene_law.hpp"
 #include "loop/scenario_check.hpp"
 #include "plant/plant_file.hpp"
 #include "rates/rates.hpp"
@@ -83,6 +84,7 @@ Wanted wanted_device(const std::string& path, const RatesArguments& a, files::Ou
   if (const AxesDesignMakers* made = made_for(*w.device)) {
     const DesignInfo design = made->info();
     const auto law = make_axes_law(w.law.path, design, axes_of(*w.device));
+    resolve_amounts(w.device->scenario, design, &law->host());
     check_asked(s, design, &law->host());
     if (w.device->plane) PlaneHost::check(*w.device->plane, path, law->host());
   }
@@ -102,6 +104,11 @@ Wanted wanted(const std::string& name, const RatesArguments& a, files::Outputs& 
   const std::string plant_path = find_file(w.scene.plant, "vectors/plants");
   w.plant = plant::read_plant_file(plant_path);
   resolve_effects(w.scene, w.plant.effects);
+  if (w.scene.scene != "law") resolve_amounts(w.scene, design_named(rates::block_design));
+  if (has_amounts(w.scene)) {
+    const DesignInfo& design = design_named(rates::law_design);
+    resolve_amounts(w.scene, design, make_scene_law(w.law.path, design).get());
+  }
   if (w.scene.scene != "law") check_scenario(w.scene, w.plant, design_named(rates::block_design));
   outputs.reads(path);
   outputs.reads(plant_path);

@@ -77,6 +77,7 @@ int run_axes_scene(const AxesArguments& a) {
   }
   const DesignInfo design = made->info();
   const std::unique_ptr<AxesLaw> law = law_of(scene, design);
+  resolve_amounts(scene.scenario, design, &law->host());
   apply_settings(a.set, design, &law->host(), scene.scenario);
   check_asked(scene.scenario, design, &law->host());
   if (scene.plane) PlaneHost::check(*scene.plane, a.scene_path, law->host());

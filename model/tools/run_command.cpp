@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "files/output_file.hpp"
-#include "law/amount.hpp"
 #include "law_loop/scene_law.hpp"
 #include "loop/bounded.hpp"
 #include "loop/event_lines.hpp"
@@ -58,18 +57,11 @@ void apply_settings(const std::vector<std::string>& set, const DesignInfo& desig
       throw std::invalid_argument("--set " + item + ": " + name +
                                   " is given twice; leave one of them out");
     }
-    const bool of_law = law != nullptr && law->has(name);
-    const ParameterInfo* of_core = design.find(name);
-    if (!of_law && of_core == nullptr) {
-      scenario.parameters[name] = 0;  // check_asked() says what there is
-    } else {
-      try {
-        scenario.parameters[name] =
-            law::amount_in(item.substr(at + 1), of_law ? law->unit(name) : of_core->unit,
-                           {design.count_rad, 1 / static_cast<double>(design.tick_hz)});
-      } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument(fmt::format("--set {}: {}", item, error.what()));
-      }
+    try {
+      // Of an unknown name check_asked() says what there is.
+      scenario.parameters[name] = parameter_in(name, item.substr(at + 1), design, law).value_or(0);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(fmt::format("--set {}: {}", item, error.what()));
     }
     scenario.parameter_lines.erase(name);  // an error in it is none of the file
   }
@@ -144,6 +136,7 @@ int run(const RunArguments& a) {
   resolve_effects(scenario, plant.effects);
   const DesignInfo& design = design_named(a.design);
   const std::unique_ptr<SceneLaw> law = law_of(scenario, design);
+  resolve_amounts(scenario, design, law.get());
   apply_settings(a.set, design, law.get(), scenario);
   check_scenario(scenario, plant, design, law.get());
 

@@ -156,11 +156,12 @@ int run_several(const ShapeArguments& a) {
                                                        names, a.vertices, 1e3 * a.radius_m)));
   const law::Compiled c =
       law::compile_text(text, a.out.empty() ? "shapes.law" : a.out, law_target(a.design));
-  said += "\n" + law::report(c, law::measure(c, 1, 20000));
+  const law::Measured m = law::measure(c, 1, 20000);
+  said += "\n" + law::report(c, m);
   if (file != nullptr) file->write(text);
   if (!a.quiet) outputs.say(said);
   outputs.commit();
-  return exit_ok;
+  return end_of(law::verdict(c, m));
 }
 
 int run(const ShapeArguments& a) {
@@ -185,6 +186,7 @@ int run(const ShapeArguments& a) {
   const law::Compiled c = law::compile_text(text, a.out.empty() ? stem + ".law" : a.out, design);
   std::string said = fmt::format("{}: {} corners in the file, {:.1f} mm around, {} vertices\n", svg,
                                  d.read.size(), 1e3 * curve.length_m, a.vertices);
+  law::Verdict verdict;
   if (a.table) {
     said +=
         fmt::format("\n{:<8} {:>8} {:>12} {:>8} {:>10} {:>12} {:>12} {:>6}\n", "law", "vertices",
@@ -201,7 +203,9 @@ int run(const ShapeArguments& a) {
         "change of force\nin a step, turns of its direction beyond 30 degrees in a step\n",
         1e3 * depth_m, 1e3 * step_m);
   } else {
-    said += "\n" + law::report(c, law::measure(c, 1, 20000));
+    const law::Measured m = law::measure(c, 1, 20000);
+    said += "\n" + law::report(c, m);
+    verdict = law::verdict(c, m);
   }
   if (file != nullptr) file->write(text);
   if (path_file != nullptr) {
@@ -209,7 +213,7 @@ int run(const ShapeArguments& a) {
   }
   if (!a.quiet) outputs.say(said);
   outputs.commit();
-  return exit_ok;
+  return end_of(verdict);
 }
 
 }  // namespace
@@ -230,8 +234,9 @@ void add_shape(CLI::App& app, int* exit_code) {
       "two.law\n"
       "  feltgate law ./fish.law\n"
       "Of several shapes the law's parameter `shape` chooses one, 0 the first, while it is felt.\n"
-      "Exit code: 0 all well, 2 unusable input: no path, several, an open one, one that crosses\n"
-      "itself, out of reach, an edge too short for the radius; nothing is written then.");
+      "Exit code: 0 all well, 1 what was measured of the law is not what was proven, 2 unusable\n"
+      "input: no path, several, an open one, one that crosses itself, out of reach, an edge too\n"
+      "short for the radius; nothing is written then.");
   sub->add_option("svg", a->svgs, "SVG files with one closed outline each; up to seven in one law")
       ->required()
       ->expected(-1)

@@ -116,16 +116,19 @@ int run(const TextureArguments& a) {
   const law::Compiled c = law::compile_text(text, a.out.empty() ? stem + ".law" : a.out, design);
   std::string said = fmt::format("{}: {} x {} pixels, ", a.png, image.width, image.height);
   said += a.field ? std::string("all of them\n") : fmt::format("row {}\n", row);
+  law::Verdict verdict;
   if (a.table) {
     said += of_file(a.png, [&] { return firmness_table(shares, r, design); });
   } else {
-    said += "\n" + law::report(c, law::measure(c, 1, 20000));
+    const law::Measured m = law::measure(c, 1, 20000);
+    said += "\n" + law::report(c, m);
+    verdict = law::verdict(c, m);
   }
   if (file != nullptr) file->write(text);
   if (path_file != nullptr) path_file->write(path_of(c, shares, r));
   if (!a.quiet) outputs.say(said);
   outputs.commit();
-  return exit_ok;
+  return end_of(verdict);
 }
 
 }  // namespace
@@ -148,8 +151,9 @@ void add_texture(CLI::App& app, int* exit_code) {
       "  feltgate texture vectors/textures/valley.png --field --texel 2mm --depth 8mm -o "
       "valley.law\n"
       "Stiffness, damping, depth and place stay parameters that the host may change.\n"
-      "Exit code: 0 all well, 2 unusable input: no PNG, a broken one, 16 bits, 1 x 1 pixels, more\n"
-      "than the law holds, too steep; nothing is written then.");
+      "Exit code: 0 all well, 1 what was measured of the law is not what was proven, 2 unusable\n"
+      "input: no PNG, a broken one, 16 bits, 1 x 1 pixels, more than the law holds, too steep;\n"
+      "nothing is written then.");
   sub->add_option("png", a->png, "the image")->required()->type_name("FILE");
   sub->add_option("-o,--output", a->out, "the law file")->type_name("FILE");
   sub->add_option("--row", a->row, "which row, 0 the upper one; the middle one unless told")

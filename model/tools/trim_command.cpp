@@ -188,6 +188,7 @@ int run_trim(TrimArguments& a) {
   a.options.window_s = 1e-3 * a.window_ms;
   Scenario scene = read_scenario(find_file(a.scene, "vectors/scenes"));
   require_no_law(scene, "trim");
+  resolve_amounts(scene, design_named(a.options.design));
   if (!a.plant.empty()) scene.plant = a.plant;
   constexpr double fewest_windows = 10;  // fewer say nothing of a scene
   if (a.duration_s > 0 && a.duration_s < fewest_windows * a.options.window_s) {

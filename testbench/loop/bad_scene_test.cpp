@@ -3,12 +3,14 @@
 //
 // Scenes that cannot be run: each is refused, or ended, with file, line and what to change.
 // Documentation: docs/scenes.md, docs/plant.md
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
 #include "catch.hpp"
 #include "config/toml_reader.hpp"
 #include "loop/loop.hpp"
+#include "loop/scenario_check.hpp"
 #include "plant/plant_file.hpp"
 
 namespace {
@@ -19,7 +21,8 @@ const std::string kHead =
     "title = \"t\"\nabout = \"a\"\nduration_s = 0.02\n[core]\nscene = \"free\"\n";  // 5 lines
 
 /// The message of a scene's text, read and run with the twin; empty where all goes well.
-std::string told(const std::string& text, const std::string& plant_change = "") {
+std::string told(const std::string& text, const std::string& plant_change = "",
+                 bool resolve = true) {
   const std::string folder = std::filesystem::temp_directory_path().string();
   const std::string path = folder + "/feltgate_bad_scene.toml";
   std::ofstream(path) << text;
@@ -34,6 +37,7 @@ std::string told(const std::string& text, const std::string& plant_change = "") 
     if (plant_change == "light") p.lever.inertia_kg_m2 = 1e-12;
     Scenario scene = read_scenario(path);
     resolve_effects(scene, p.effects);
+    if (resolve) resolve_amounts(scene, design_named("lever"));
     RunOptions options;
     options.engine = "twin";
     (void)run_scenario(scene, p, options);
@@ -54,6 +58,35 @@ std::string hand(const std::string& phase) { return kHead + "[hand]\n[[hand.phas
 }  // namespace
 
 TEST_CASE("a good scene runs to its end", "[bad_scene]") { CHECK(told(kHead) == ""); }
+
+TEST_CASE("a parameter may have its unit behind it, and one of something else has its line") {
+  const auto with = [](const std::string& value) {
+    return kHead + "[parameters]\nwall_stiffness = " + value +
+           "\n[[event]]\nat_s = 0.01\nset = { wall_stiffness = " + value + " }\n";
+  };
+  std::ofstream("amounts.toml") << with("\"0.1 Nm/deg\"");
+  Scenario scene = read_scenario("amounts.toml");
+  std::filesystem::remove("amounts.toml");
+  CHECK(has_amounts(scene));
+  const DesignInfo& design = design_named("lever");
+  resolve_amounts(scene, design);
+  CHECK(!has_amounts(scene));
+  // In Nm/count, as `get` prints it.
+  const double wanted = 0.1 * 180 / M_PI * design.count_rad;
+  CHECK(scene.parameters.at("wall_stiffness") == Approx(wanted).epsilon(1e-12));
+  CHECK(scene.events[0].set.at("wall_stiffness") == Approx(wanted).epsilon(1e-12));
+
+  CHECK(told(with("\"0.1 Nm/deg\"")) == "");
+  CHECK(told(with("\"0.001\"")) == "");
+  expect(told(with("\"0.1 Nm\"")), "7: wall_stiffness: ", "write");
+  expect(told(with("\"stiff\"")), "7: wall_stiffness: ", "give one");
+  expect(told(with("\"90 Nm/deg\"")), "7: ", "wall_stiffness");
+  expect(told(kHead + "[parameters]\nwall_stifness = \"1 Nm/rad\"\n"), "7: ", "wall_stiffness");
+  expect(told(kHead + "[[event]]\nat_s = 0.01\nset = { wall_stiffness = \"1 kg\" }\n"),
+         "7: wall_stiffness: ", "write");
+  // Nobody runs a scene whose amounts were left out.
+  CHECK(told(with("\"0.1 Nm/deg\""), "", false).find("write numbers") != std::string::npos);
+}
 
 TEST_CASE("what is stiff beyond the step is refused before the run", "[bad_scene]") {
   expect(told(hand("kind = \"impedance\"\nmass_kg = 1e-6\n"

@@ -1,23 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Designs that are not in rtl/designs but were given to the build of the Python package
-// (FELTGATE_EXTRA_DESIGNS). Documentation: docs/python.md
+// Designs beyond lever and paper: presets, and files that were given to the build of the Python
+// package (FELTGATE_EXTRA_DESIGNS). They are in a module of their own, _designs, which is loaded
+// when the first of them is asked for. Documentation: docs/python.md
 #pragma once
 
+#include <vector>
+
 #include "engines/engine.hpp"
+#include "python/arrays.hpp"
 
 namespace feltgate::python {
 
-#define FELTGATE_DESIGN(name) DesignMakers name##_makers();
-#include "extra_designs.inc"
-#undef FELTGATE_DESIGN
+/// Makers of a design that the module _designs has.
+inline const DesignMakers& loaded(const std::string& name) {
+  const py::gil_scoped_acquire hold;
+  static const std::vector<DesignMakers>* all = nullptr;
+  if (all == nullptr) {
+    const py::capsule made = py::module_::import("feltgate._designs").attr("makers");
+    all = made.get_pointer<const std::vector<DesignMakers>>();
+  }
+  for (const DesignMakers& d : *all) {
+    if (d.name == name) return d;
+  }
+  throw std::logic_error("feltgate._designs has no " + name + "; install the package again");
+}
 
 /// Makes them known to make_engine() and make_real_chain(); returns their names.
 inline std::vector<std::string> add_extra_designs() {
   std::vector<std::string> names;
-#define FELTGATE_DESIGN(name)  \
-  add_design(name##_makers()); \
+#define FELTGATE_DESIGN(name)                                                      \
+  add_design({#name, [](const std::string& k) { return loaded(#name).engine(k); }, \
+              [](const std::string& k) { return loaded(#name).chain(k); },         \
+              [] { return loaded(#name).info(); }});                               \
   names.emplace_back(#name);
 #include "extra_designs.inc"
 #undef FELTGATE_DESIGN

@@ -58,16 +58,25 @@ file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/designs/extra_designs.inc" CONTENT 
 file(GLOB sources CONFIGURE_DEPENDS "${FELTGATE_ROOT}/model/python/*.cpp")
 set(host "${FELTGATE_ROOT}/model/python/host_binding.cpp")
 list(REMOVE_ITEM sources "${host}")
-pybind11_add_module(feltgate_python MODULE NO_EXTRAS ${sources} ${extra_sources})
-set_target_properties(feltgate_python PROPERTIES OUTPUT_NAME _core)
-target_compile_options(feltgate_python PRIVATE ${FELTGATE_ENGINE_OPTIONS})
+# Loops over ticks are in the libraries; what binds them is optimised as far as that compiles fast.
+pybind11_add_module(feltgate_python MODULE NO_EXTRAS ${sources})
+set_target_properties(feltgate_python PROPERTIES OUTPUT_NAME _core UNITY_BUILD ${FELTGATE_PYTHON} UNITY_BUILD_BATCH_SIZE 6)
+target_compile_options(feltgate_python PRIVATE ${FELTGATE_WARNINGS} -O1)
 target_compile_definitions(feltgate_python PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
 target_include_directories(feltgate_python PRIVATE "${PROJECT_BINARY_DIR}/designs")
+target_link_libraries(feltgate_python PRIVATE feltgate_loop fmt::fmt)
+
+# Designs beyond lever and paper, loaded when one is used.
+pybind11_add_module(feltgate_python_designs MODULE NO_EXTRAS
+  "${FELTGATE_ROOT}/model/python/designs/module.cpp" ${extra_sources})
+set_target_properties(feltgate_python_designs PROPERTIES OUTPUT_NAME _designs)
+target_compile_options(feltgate_python_designs PRIVATE ${FELTGATE_ENGINE_OPTIONS})
+target_include_directories(feltgate_python_designs PRIVATE "${PROJECT_BINARY_DIR}/designs")
 foreach(source IN LISTS extra_sources)
   get_filename_component(folder "${source}" DIRECTORY)
-  target_include_directories(feltgate_python PRIVATE "${folder}")
+  target_include_directories(feltgate_python_designs PRIVATE "${folder}")
 endforeach()
-target_link_libraries(feltgate_python PRIVATE feltgate_loop fmt::fmt)
+target_link_libraries(feltgate_python_designs PRIVATE feltgate_engines fmt::fmt)
 
 # The host's side of the link with the compiler of laws, loaded when it is used.
 pybind11_add_module(feltgate_python_host MODULE NO_EXTRAS "${host}")
@@ -76,23 +85,26 @@ target_compile_options(feltgate_python_host PRIVATE ${FELTGATE_WARNINGS} -O1)
 target_link_libraries(feltgate_python_host PRIVATE feltgate_hostlink feltgate_traces fmt::fmt)
 
 if(FELTGATE_PYTHON)
-  # pip compiles once and on two cores: what reads files and laws is not in a loop, and its headers are
-  # read once for each library.
+  # pip compiles once and on two cores: what reads files and laws is not in a loop, and headers are
+  # read once for several sources.
   file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/toml_parser.cpp"
     CONTENT "#define TOML_IMPLEMENTATION\n#include <toml++/toml.h>\n")
   target_sources(feltgate_config PRIVATE "${PROJECT_BINARY_DIR}/toml_parser.cpp")
   target_compile_definitions(feltgate_config PUBLIC TOML_HEADER_ONLY=0)
-  set(read_once <algorithm> <cmath> <map> <optional> <sstream> <string> <vector> <fmt/format.h>)
-  foreach(library bounds law traces plant_files)
+  set_source_files_properties("${PROJECT_BINARY_DIR}/toml_parser.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  foreach(library bounds law traces plant_files units)
     target_compile_options(feltgate_${library} PRIVATE -O1)
   endforeach()
-  foreach(library law design traces)
-    target_precompile_headers(feltgate_${library} PRIVATE ${read_once})
+  foreach(library law design)
+    target_precompile_headers(feltgate_${library} PRIVATE
+      <algorithm> <cmath> <map> <optional> <sstream> <string> <vector> <fmt/format.h>)
   endforeach()
-  target_precompile_headers(feltgate_python PRIVATE "${FELTGATE_ROOT}/model/python/arrays.hpp")
+  foreach(library config loop plant_files traces)
+    set_target_properties(feltgate_${library} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  endforeach()
 endif()
 
-install(TARGETS feltgate_python feltgate_python_host LIBRARY DESTINATION feltgate COMPONENT python EXCLUDE_FROM_ALL)
+install(TARGETS feltgate_python feltgate_python_designs feltgate_python_host LIBRARY DESTINATION feltgate COMPONENT python EXCLUDE_FROM_ALL)
 install(DIRECTORY "${FELTGATE_ROOT}/model/python/feltgate" DESTINATION . COMPONENT python EXCLUDE_FROM_ALL
   FILES_MATCHING PATTERN "*.py" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
 # The folders keep their places, so that FELTGATE_ROOT may name a repository instead.

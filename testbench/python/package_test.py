@@ -183,6 +183,16 @@ class Installed(unittest.TestCase):
         said = (ROOT / "CITATION.cff").read_text()
         self.assertIn(f"version: {feltgate.__version__}", said)
 
+    def test_designs_beyond_lever_and_paper_are_loaded_when_one_is_used(self):
+        code = ("import sys, feltgate; there = lambda: 'feltgate._designs' in sys.modules;"
+                "feltgate.Chain('lever'); feltgate.designs(); print(there());"
+                "feltgate.Twin('fast'); print(there())")
+        said = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True,
+                              text=True).stdout
+        self.assertEqual(said.split(), ["False", "True"])
+        with self.assertRaisesRegex(ValueError, "nonsense"):
+            feltgate.Chain("exact", "nonsense")
+
     def test_the_host_is_loaded_when_it_is_used(self):
         code = ("import sys, feltgate; print('feltgate._host' in sys.modules); feltgate.Device; "
                 "print('feltgate._host' in sys.modules, hasattr(feltgate, 'Devise'))")

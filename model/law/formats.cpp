@@ -163,6 +163,14 @@ double cost(const Law& law, const Target& target, const Program& program, const 
         size = std::max(size, b.words[static_cast<std::size_t>(o.index)].size());
     }
     strips += 0.5 * std::max(0.0, std::log2(b.margins[i] / size * 65536));
+    // One as wide as all that is compared decides nothing.
+    if (s.condition < 0 || law.nodes[static_cast<std::size_t>(s.condition)].op != Op::less)
+      continue;
+    double compared = 0;
+    for (const NodeId a : law.nodes[static_cast<std::size_t>(s.condition)].arguments)
+      compared = std::max(compared, spans[static_cast<std::size_t>(a)].size());
+    const double width = b.margins[i] * std::fabs(s.margin_scale != 0 ? s.margin_scale : s.scale);
+    if (4 * width > compared) strips += 20;
   }
   double drifts = 0;
   // A state whose error the outputs do not show counts in its own range.

@@ -77,6 +77,25 @@ void renamed(std::vector<Directed>& all) {
   all.push_back({"four times a root", of({}, number("4") * x)});
 }
 
+/// A format that holds nothing of what is compared costs an instruction less.
+void coarse(std::vector<Directed>& all) {
+  Law l;
+  const Node p = l.param("p", 0.898, 0.1, 1.686), hold = l.param("hold", 0.1, 0, 0.8);
+  const Node speed = limited(times(0.02, velocity()), -2, 2);
+  const Node pull = limited(times(0.5, tau_hat()), -2, 2);
+  const Node high = make(Kind::maximum, {number("0.2"), limited(position(), -2.98, 0.814)});
+  const Node low = position() / number("295") - limited(position(), -0.3, 2.8);
+  const Node inner =
+      choose(pull * speed >= speed + speed * limited(position(), -1.282, 0.335), high, low);
+  const Node face = make(Kind::minimum, {number("1.258"), limited(position(), -2, 2)});
+  const auto far = [](double least, const Node& x) {
+    return number(least) + make(Kind::absolute, {x});
+  };
+  all.push_back({"a comparison behind another one, and its format",
+                 of(l, choose(speed + inner > face, hold / far(0.426, position() / number("299")),
+                              speed / far(0.991, p)))});
+}
+
 void nested(std::vector<Directed>& all) {
   Law l;
   const Node q = l.param("q", 0, -1, 1);
@@ -86,6 +105,7 @@ void nested(std::vector<Directed>& all) {
   const Node twice = choose(inner < number("0.3") * q, number("0.2") + q, q - 0.7);
   all.push_back(
       {"two of them", of(l, choose(twice < number("0.1"), number("0.5"), number("-0.5")))});
+  coarse(all);
 }
 
 /// What is rounded down to whole numbers, and noise.
@@ -120,17 +140,15 @@ void rounded_down(std::vector<Directed>& all) {
   }
 }
 
-/// Every part of a sine's argument loses the bits below its last one, all in one direction.
+/// What a turn drops is between two words of a table's argument, always below, and steep lines of a
+/// table that is exact show it.
 void dropped(std::vector<Directed>& all) {
-  const Node turn = make(Kind::number, {}, -1, "(2 * pi)", 6.283185307179586476925286766559L);
-  const auto exact = [](double c) { return number(fmt::format("{:.20g}", c)); };
-  Node sum;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Node speed = exact((1201 + 2 * axis) / 4096.0) * velocity(axis);
-    sum = sum ? sum + speed : speed;
-    sum = sum + exact((1205 - 2 * axis) / 131072.0) * tau_hat(axis);
+  Law l;
+  l.tables.push_back({"saw", 0, 1, {}, {0, 4, 0}, 0, true});
+  for (const char* factor : {"0.02", "0.0171"}) {
+    const Node x = number(factor) * velocity();
+    all.push_back({"a steep table in turns", of(l, make(Kind::table, {x}, 0, "saw"))});
   }
-  all.push_back({"a sine of six products", of({}, number("4") * make(Kind::sine, {turn * sum}))});
 }
 
 /// What only the end of a table's last piece reaches.

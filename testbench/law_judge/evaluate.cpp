@@ -92,6 +92,14 @@ bool Evaluator::truth(const Node& n) {
       return !less(n, p[1], p[0]);
     case Kind::more_equal:
       return !less(n, p[0], p[1]);
+    case Kind::equal:
+    case Kind::differs: {
+      const bool same = std::nearbyint(of(p[0])) == std::nearbyint(of(p[1]));
+      const bool is = same == (n->kind == Kind::equal);
+      return decide(n, is ? 1 : 0, is ? 0 : 1, 0, 0, true) != 0;
+    }
+    case Kind::state:
+      return before_->states[at(n->index)] != 0;
     // Both sides, so that all that is compared is known.
     case Kind::both: {
       const bool a = truth(p[0]), b = truth(p[1]);
@@ -127,13 +135,15 @@ Real Evaluator::floored(const Node& n, Real x) {
 }
 
 Real Evaluator::table(const Table& t, Real x) {
+  const Real period = static_cast<Real>(t.upper) - t.lower;
+  if (t.periodic) x -= period * std::floor((x - t.lower) / period);
   const Real inside = std::clamp(x, static_cast<Real>(t.lower), static_cast<Real>(t.upper));
   if (t.body) {
     variable_ = inside;
     return of(t.body);
   }
   const auto segments = static_cast<Real>(t.points.size() - 1);
-  const Real place = (inside - t.lower) / (static_cast<Real>(t.upper) - t.lower) * segments;
+  const Real place = (inside - t.lower) / period * segments;
   const Real first = std::min(std::floor(place), segments - 1);
   const Real from = t.points[at(static_cast<long>(first))],
              to = t.points[at(static_cast<long>(first) + 1)];
@@ -245,7 +255,7 @@ Outcome Evaluator::run(const Before& before, const std::map<long, long>& forced)
     if (s.follows) {
       next = filtered(s, before.states[k]);
     } else if (s.next) {
-      next = of(s.next);
+      next = s.truth ? (truth(s.next) ? 1 : 0) : of(s.next);
     }
     if (s.whole) next = std::floor(next);
     const Real width = static_cast<Real>(s.upper) - s.lower;

@@ -55,6 +55,8 @@ class Generator {
       law_.params.push_back({"hold", "mNm", 1e-3, 100, 0, 800, false, false});
       params_.push_back(make(Kind::param, {}, last(law_.params), "hold"));
     }
+    // Over decades: by the host's functions alone.
+    if (one_in(4)) wide_ = law_.param("wide", 1, 0.01, 100);
     count_ = law_.param("count", 1, 0, 4, true);
     if (shape_ == Shape::memory && one_in(3)) {
       law_.params.push_back({"fed", "", 1, 0, -1, 1, false, true});
@@ -71,6 +73,11 @@ class Generator {
     if (shape_ == Shape::whole_states || (all && one_in(2))) {
       stages_.push_back(law_.state("stage", 0, 0, 3, true));
       if (one_in(3)) stages_.push_back(law_.state("side", 1, -2, 2, true));
+    }
+    if ((all || shape_ == Shape::whole_states) && one_in(2)) {
+      const double first = below(2);
+      law_.states.push_back({"held", first, 0, 1, true, false, {}, {}, {}, true});
+      held_ = make(Kind::state, {}, last(law_.states), "held");
     }
     if (all || one_in(6)) kept_.push_back(law_.state("kept", 0.25, -2, 2));
     if (all && one_in(2)) {
@@ -127,6 +134,8 @@ class Generator {
         t.upper = (first + count - 1) * step;
         t.segments = 0;
         for (int i = 0; i < count; ++i) t.points.push_back(between(-1.5, 1.5));
+        t.periodic = one_in(2);
+        if (t.periodic) t.points.back() = t.points.front();
       }
     }
     law_.tables.push_back(t);
@@ -150,6 +159,10 @@ class Generator {
           make(Kind::clamp, {s + up - down, number(state.lower, 0), number(state.upper, 0)});
     }
     for (State& s : law_.states) {
+      if (s.truth) {
+        const Node to = condition(1);
+        s.next = one_in(2) ? to : make(Kind::either, {condition(0), make(Kind::both, {held_, to})});
+      }
       if (s.name == "kept") {
         const Node self = make(Kind::state, {}, static_cast<int>(&s - law_.states.data()), "kept");
         const Node to = limited(expression(2), -2, 2);
@@ -218,6 +231,17 @@ class Generator {
 
   /// Of parameters and numbers alone, so that the host computes it.
   Node fixed(int depth) {
+    if (wide_ && one_in(4)) {
+      const Node limit = value(0.5, 3);
+      switch (below(3)) {
+        case 0:
+          return make(Kind::minimum, {make(Kind::root, {wide_}), limit});
+        case 1:
+          return make(Kind::minimum, {number("1") / wide_, limit});
+        default:
+          return make(Kind::exponential, {make(Kind::negate, {wide_})});
+      }
+    }
     if (depth == 0) return one_in(3) ? value(0.1, 2) : one_in(4) ? count_ : some(params_);
     const Node a = fixed(depth - 1), b = fixed(depth - 1);
     switch (below(9)) {
@@ -245,8 +269,13 @@ class Generator {
       const Node with = one_in(4)   ? count_
                         : one_in(2) ? number(fmt::format("{}.5", below(3)))
                                     : number(fmt::format("{}", below(4)));
+      if (one_in(3) && with->text.find('.') == std::string::npos) {
+        const Node other = one_in(3) ? with + some(stages_) : with;
+        return make(one_in(2) ? Kind::equal : Kind::differs, {some(stages_), other});
+      }
       return compared(some(stages_), with);
     }
+    if (held_ && one_in(4)) return held_;
     if (depth > 0 && one_in(4)) {
       const Node a = condition(depth - 1), b = condition(depth - 1);
       return one_in(3) ? make(Kind::opposite, {a})
@@ -263,7 +292,7 @@ class Generator {
   Node expression(int depth) {
     if (depth == 0) return leaf();
     const Node a = expression(depth - 1), b = expression(depth - 1);
-    switch (below(15)) {
+    switch (below(16)) {
       case 0:
       case 1:
         return a + b;
@@ -295,8 +324,14 @@ class Generator {
       case 13:
         return choose(make(Kind::both, {compared(position(axis()), some(params_)), condition(0)}),
                       a, b);
-      default:
+      case 14:
         return sgn(moving() - some(params_)) * a;
+      default: {
+        // Not where inputs often are, at 0.
+        const Node x = limited(a, -3, 3) + value(0.05, 0.25);
+        return one_in(2) ? value(0.1, 0.5) * make(Kind::floor, {value(0.5, 4) * x})
+                         : make(Kind::modulo, {x, value(0.3, 2)});
+      }
     }
   }
 
@@ -336,7 +371,7 @@ class Generator {
   Shape shape_;
   Law law_;
   std::vector<Node> params_, kept_, stages_;
-  Node count_, mailbox_, let_, curve_;
+  Node count_, wide_, held_, mailbox_, let_, curve_;
   int phase_ = -1, axis_ = 0;
 };
 

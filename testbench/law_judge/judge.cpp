@@ -22,15 +22,6 @@ using feltgate::law::ImageWord;
 
 std::size_t at(long i) { return static_cast<std::size_t>(i); }
 
-/// Where the compiler has what has this name; -1: nowhere.
-template <class List>
-long index(const List& list, const std::string& name) {
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    if (list[k].name == name) return static_cast<long>(k);
-  }
-  return -1;
-}
-
 class Judge {
  public:
   Judge(const Law& law, const Printer& printer, const Compiled& c, std::uint64_t seed)
@@ -125,6 +116,10 @@ class Judge {
     before_.lines.clear();
     for (const Line& l : law_.lines) before_.lines.emplace_back(at(l.length), Real{0});
     held_.assign(law_.events.size(), 0);
+    for (std::size_t k = 0; k < law_.states.size(); ++k) {
+      if (c_.bound.states_bounded || state_index_[k] < 0 || noise(k)) continue;
+      before_.states[k] = first(law_.states[k], c_.program.states[at(state_index_[k])]);
+    }
   }
 
   bool noise(std::size_t k) const {
@@ -242,6 +237,7 @@ class Judge {
       turned = explain(o, {}, 0) || told(o);
       (aimed ? verdict_.aimed_turned : verdict_.turned) += 1;
       if (!turned) fail(difference_ + near(o));
+      if (verdict_.first_turned.empty()) verdict_.first_turned = difference_ + near(o);
     }
     return turned;
   }

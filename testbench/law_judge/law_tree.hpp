@@ -22,7 +22,7 @@ enum class Kind {
   number, param, input, state, line, let, counter,  // leaves
   add, subtract, multiply, divide, power, negate, minimum, maximum, clamp, absolute,
   sine, cosine, root, exponential, table, element, sign, choice, sum, floor, modulo, noise,
-  less, less_equal, more, more_equal, both, either, opposite
+  less, less_equal, more, more_equal, equal, differs, both, either, opposite
 };
 // clang-format on
 
@@ -80,6 +80,7 @@ struct State {
   bool whole = false, phase = false;
   Node next;  ///< none, and no lowpass: a noise, whose every value is taken as the words have it
   Node follows, frequency;  ///< of a lowpass, which is a state without a line of its own
+  bool truth = false;       ///< a bool: whole, in 0 .. 1, and `next` is a condition
 };
 struct Table {
   std::string name;
@@ -87,6 +88,7 @@ struct Table {
   Node body;  ///< of Kind::counter, the variable
   std::vector<double> points;
   int segments = 0;  ///< 0: the compiler chooses
+  bool periodic = false;
 };
 struct Array {
   std::string name;

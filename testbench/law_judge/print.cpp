@@ -93,6 +93,10 @@ std::string written(const Law& law, const Node& n, const Mark& mark, const Let& 
       return infix(mark(n) + ">");
     case Kind::more_equal:
       return infix(mark(n) + ">=");
+    case Kind::equal:
+      return infix(mark(n) + "==");
+    case Kind::differs:
+      return infix(mark(n) + "!=");
     case Kind::both:
       return infix("and");
     case Kind::either:
@@ -117,14 +121,17 @@ std::string canonical(const Law& law, const Node& n) {
   if (n->kind == Kind::floor) return "floor(" + a + ")";
   if (n->kind == Kind::modulo) return "mod(" + a + ", " + full(law, n->parts[1]) + ")";
   std::string b = n->kind == Kind::sign ? "0" : full(law, n->parts[1]);
+  if (n->kind == Kind::equal) return a + " == " + b;
+  if (n->kind == Kind::differs) return a + " != " + b;
   // a > b is b < a, and a <= b is its opposite: one comparison.
   if (n->kind == Kind::more || n->kind == Kind::less_equal) std::swap(a, b);
   return a + " < " + b;
 }
 
 std::string Printer::mark(const Node& n) {
+  // The text before it is known when all is printed: an operand may be printed first.
   marks_.push_back(canonical(law_, n));
-  return "\x01";
+  return fmt::format("\x01{}\x02", marks_.size() - 1);
 }
 
 std::string Printer::of(const Node& n) {
@@ -168,6 +175,10 @@ void Printer::declare() {
   }
   for (const State& m : law_.states) {
     if (!needed(m.name) || m.follows) continue;
+    if (m.truth) {
+      s += "bool " + m.name + (m.initial != 0 ? " = true\n" : " = false\n");
+      continue;
+    }
     s += (m.phase ? "phase " : "state ") + m.name + " = " + ends("", m.initial, m.lower, m.upper) +
          (m.whole ? " whole" : "") + "\n";
   }
@@ -186,7 +197,8 @@ void Printer::declare() {
   }
   for (const Table& t : law_.tables) {
     if (!needed(t.name)) continue;
-    s += fmt::format("table {}(x) on [{:.4f}, {:.4f}] ", t.name, t.lower, t.upper);
+    s += fmt::format("table {}(x) {}on [{:.4f}, {:.4f}] ", t.name, t.periodic ? "periodic " : "",
+                     t.lower, t.upper);
     s += t.body ? "= " + of(t.body) : "through " + numbers(t.points);
     if (t.segments > 0) s += fmt::format(" with {} segments", t.segments);
     s += "\n";
@@ -224,13 +236,19 @@ Printer::Printer(const Law& law) : law_(law) {
   }
   declare();
   int line = 1;
-  std::size_t next = 0;
-  for (char& c : text_) {
-    if (c == '\n') ++line;
-    if (c != '\x01') continue;
-    c = '\n';
-    lines_[marks_[next++]].insert(++line);
+  std::string text;
+  for (std::size_t i = 0; i < text_.size(); ++i) {
+    if (text_[i] == '\x01') {
+      const std::size_t end = text_.find('\x02', i);
+      lines_[marks_[std::stoul(text_.substr(i + 1, end - i - 1))]].insert(++line);
+      text += '\n';
+      i = end;
+    } else {
+      if (text_[i] == '\n') ++line;
+      text += text_[i];
+    }
   }
+  text_ = text;
 }
 
 }  // namespace feltgate::judge

@@ -50,6 +50,15 @@ class Strips {
   std::map<std::string, std::vector<double>> jumps_;
 };
 
+/// Where the compiler has what has this name; -1: nowhere.
+template <class List>
+long index(const List& list, const std::string& name) {
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (list[k].name == name) return static_cast<long>(k);
+  }
+  return -1;
+}
+
 /// What is wrong with a parameter's word: it is its value, and near to what the file says.
 inline std::string wrong_word(const Param& param, const feltgate::law::ImageWord& w,
                               std::int32_t word, bool initial) {
@@ -68,6 +77,13 @@ inline std::string wrong_word(const Param& param, const feltgate::law::ImageWord
     return param.name + " does not reach the ends of its range";
   }
   return "";
+}
+
+/// Where a state's bound is of one run from it as it stands: what its first word says, no number
+/// where that is not what the file says.
+inline Real first(const State& s, const feltgate::law::StateUse& use) {
+  const Real word = use.initial * static_cast<Real>(use.scale);
+  return std::fabs(word - s.initial) <= use.scale ? word : std::nanl("");
 }
 
 /// Words of the inputs of three axes.

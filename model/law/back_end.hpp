@@ -129,7 +129,7 @@ class BackEnd {
   Value element(NodeId id);
   void count_tables();
   static int value_fraction(const TableRequest& r);
-  Operand phase(NodeId id, double turn, double period, bool far);
+  Operand phase(NodeId id, double turn, double period);
   int place_table(const std::string& key, const TableUse& table);
 
   // periodic.cpp
@@ -144,7 +144,6 @@ class BackEnd {
   void outputs();
   void events();
   void states();
-  bool whole(NodeId id) const;
   /// What is a whole number, in words of 1; what is rounded down to one.
   Operand whole_word(NodeId id);
   Operand rounded_down(NodeId id);

@@ -13,6 +13,7 @@ namespace feltgate::law {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr double kFastest = 1.8;  ///< of a lowpass's frequency beside the rate: exp(-2 pi 1.8)
 
 }  // namespace
 
@@ -141,6 +142,19 @@ NodeId Lowering::lowpass(const Expression& e) {
   if (!graph_.is_fixed(f)) {
     report(e.offset, "a lowpass whose frequency changes during a run",
            "make the frequency a constant or a param");
+    return kNone;
+  }
+  const Node frequency = graph_.node(f);
+  const double highest =
+      frequency.op == Op::parameter
+          ? law_.parameters[static_cast<std::size_t>(frequency.index)].range.upper
+          : frequency.value;
+  // Then the next value is the input's by all bits that a factor has.
+  if (highest > kFastest * law_.rate_hz) {
+    report(e.offset,
+           fmt::format("a lowpass of {:.6g} Hz in a law that runs at {:.6g} Hz, which passes all",
+                       highest, law_.rate_hz),
+           fmt::format("write a frequency to {:.6g} Hz, or no lowpass", law_.rate_hz / 2));
     return kNone;
   }
   const NodeId turns = graph_.multiply(

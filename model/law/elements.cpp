@@ -19,8 +19,8 @@ Value BackEnd::element(NodeId id) {
   const Array& array = law_.arrays[at(n.index)];
   const double last_index = static_cast<double>(array.values.size()) - 1;
   const Span range = span(n.arguments[0]);
-  Value v = whole(n.arguments[0]) ? Value{whole_word(n.arguments[0]), 1, range.size()}
-                                  : value(n.arguments[0]);
+  Value v = node(n.arguments[0]).whole ? Value{whole_word(n.arguments[0]), 1, range.size()}
+                                       : value(n.arguments[0]);
   v = align(v, 1.0 / 4096, n.arguments[0]);
   if (range.lo < 0) {
     emit(EngineOp::max, 0, v.operand, constant(0), v.scale, id);
@@ -37,6 +37,7 @@ Value BackEnd::element(NodeId id) {
   const double scale = same != memory_scales_.end()
                            ? same->second
                            : chosen_scale(id, 1, n.whole ? 0 : largest_fraction(id, 1, size), size);
+  if (n.whole && scale > 1) throw Unfit("a whole element counts in ones", id);
   memory_scales_[memory] = scale;
   const std::string key = fmt::format("array {} {:.17g}", n.index, scale);
   auto found = table_keys_.find(key);

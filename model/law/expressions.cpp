@@ -103,10 +103,20 @@ bool Lowering::fit(NodeId& a, NodeId& b, const Expression& ea, const Expression&
     b = graph_.constant(0, ua, at(offset));
   } else {
     report(offset, unit_words(ea, a) + " " + joint + " " + unit_words(eb, b) + ": units differ",
-           "both sides need the same unit");
+           unit_mend(a, b, ub == kNumber ? unit_words(ea, a) : unit_words(eb, b)));
     return false;
   }
   return true;
+}
+
+/// How two units become the same; `unit` is of the side that is no number, where one is.
+std::string Lowering::unit_mend(NodeId a, NodeId b, std::string unit) {
+  if (unit == "1/s") unit = "rad/s";
+  for (const NodeId id : {a, b}) {
+    if (!graph_.is_constant(id) || !(graph_.node(id).unit == kNumber)) continue;
+    return fmt::format("write {:.6g} {}", graph_.node(id).value, unit);
+  }
+  return "both sides need the same unit";
 }
 
 NodeId Lowering::unknown(const Expression& e, const char* what, bool functions) {

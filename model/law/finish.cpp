@@ -4,9 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "law/host_range.hpp"
+#include "law/ranges.hpp"
 #include "law/units.hpp"
 
 namespace feltgate::law {
@@ -14,25 +17,6 @@ namespace feltgate::law {
 namespace {
 
 using Ids = std::vector<NodeId>;
-
-/// Calls `use` with every place that keeps a node's number.
-template <class Use>
-void each_root(Law& law, Use use) {
-  for (State& s : law.states) {
-    use(s.next);
-    use(s.follows);
-  }
-  for (Table& t : law.tables) {
-    use(t.argument);
-    use(t.body);
-  }
-  for (Line& l : law.lines) use(l.written);
-  for (Output& o : law.outputs) use(o.value);
-  for (Event& e : law.events) {
-    use(e.value);
-    use(e.condition);
-  }
-}
 
 /// Copies the nodes that are needed: by a run (device), or by the host for a derived word.
 class Finish {
@@ -50,6 +34,7 @@ class Finish {
   }
 
   void run() {
+    narrow_parameters();
     each_root(law_, [&](NodeId& id) {
       if (id != kNone) on_device_[index(id)] = true;
     });
@@ -77,6 +62,32 @@ class Finish {
 
  private:
   static std::size_t index(NodeId id) { return static_cast<std::size_t>(id); }
+
+  /// Ranges of parameters end where no set beyond keeps what is required of two of them, or of one.
+  /// The file's own value stays inside: one that breaks a requirement is told with it.
+  void narrow_parameters() {
+    const auto limit = [&](NodeId id) {
+      const Node& n = law_.nodes[index(id)];
+      if (n.op == Op::parameter) return law_.parameters[index(n.index)].range;
+      if (n.op == Op::constant) return Range{n.value, n.value};
+      return Range{-infinity, infinity};
+    };
+    const auto narrow = [&](NodeId id, double lower, double upper) {
+      const Node& n = law_.nodes[index(id)];
+      if (n.op != Op::parameter) return;
+      Parameter& p = law_.parameters[index(n.index)];
+      if (p.whole) lower = std::ceil(lower), upper = std::floor(upper);
+      const Range r{std::max(p.range.lower, std::min(lower, p.initial)),
+                    std::min(p.range.upper, std::max(upper, p.initial))};
+      if (r.lower < r.upper) p.range = r;
+    };
+    for (std::size_t round = 0; round < law_.requirements.size(); ++round) {
+      for (const Requirement& r : law_.requirements) {
+        narrow(r.smaller, -infinity, limit(r.larger).upper);
+        narrow(r.larger, limit(r.smaller).lower, infinity);
+      }
+    }
+  }
 
   /// After their formulas; long ones may look alike.
   void name_derived() {
@@ -126,6 +137,12 @@ class Finish {
     const Node& n = nodes_[index(id)];
     try {
       ranges_[index(id)] = host_range(law_, n, ranges_);
+      Range& range = ranges_[index(id)];
+      for (Requirement r : law_.requirements) {
+        r.smaller = host_[index(r.smaller)];
+        r.larger = host_[index(r.larger)];
+        narrow_difference(n, r, &range.lower, &range.upper);
+      }
     } catch (const NoRange& error) {
       diagnostics_.add(n.place, error.what, error.mend);
     }
@@ -143,6 +160,7 @@ class Finish {
     word.op = Op::parameter;
     word.index = static_cast<int>(law_.parameters.size()) - 1;
     word.unit = n.unit;
+    word.whole = n.whole;
     word.place = n.place;
     return push(word);
   }

@@ -11,6 +11,25 @@
 
 namespace feltgate::law {
 
+/// Calls `use` with every place from which a run's nodes are reached; kNone among them.
+template <class Use>
+void each_root(Law& law, Use use) {
+  for (State& s : law.states) {
+    use(s.next);
+    use(s.follows);
+  }
+  for (Table& t : law.tables) {
+    use(t.argument);
+    use(t.body);
+  }
+  for (Line& l : law.lines) use(l.written);
+  for (Output& o : law.outputs) use(o.value);
+  for (Event& e : law.events) {
+    use(e.value);
+    use(e.condition);
+  }
+}
+
 /// `graph` made the nodes of `law`, and is of no use afterwards.
 void finish(Law& law, const Graph& graph, Diagnostics& diagnostics);
 

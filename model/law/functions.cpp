@@ -142,10 +142,6 @@ int BackEnd::value_fraction(const TableRequest& r) {
 Value BackEnd::function(NodeId id) {
   const Node& n = node(id);
   const NodeId argument = n.arguments[0];
-  if (is_fixed(argument)) {
-    throw Refused(n.place, "the table's argument only depends on parameters",
-                  "write the function instead of the table; the host computes it");
-  }
   if (n.op == Op::lookup && law_.tables[at(n.index)].periodic) return periodic(id);
   Span range = span(argument);
   const bool user = n.op == Op::lookup;
@@ -246,9 +242,9 @@ Value BackEnd::function(NodeId id) {
   return {last(), r.value_scale, 0};
 }
 
-/// The argument in turns of 1/`turn` words, modulo 2^32 words; a turn is `period`. `far`:
-/// whole factors wrap too, however many turns it has been.
-Operand BackEnd::phase(NodeId id, double turn, double period, bool far) {
+/// The argument in turns of 1/`turn` words, modulo 2^32 words; a turn is `period`. Every factor
+/// wraps, however many turns it has been: a word times a whole number, by MLW.
+Operand BackEnd::phase(NodeId id, double turn, double period) {
   std::vector<Term> terms;
   collect(id, 1, true, terms);
   std::vector<Multiply> products;
@@ -274,17 +270,13 @@ Operand BackEnd::phase(NodeId id, double turn, double period, bool far) {
     Value v = value(t.factors[0]);
     for (std::size_t i = 1; i < t.factors.size(); ++i) v = product(v, value(t.factors[i]), id);
     double ratio = number * v.scale;
+    const Value before = v;
     const double size = t.fixed.empty() ? 1 : fixed_size(t.fixed);
     while (size * std::fabs(ratio) > 131071) {
       const double by =
           std::min(65536.0, std::exp2(std::ceil(std::log2(size * std::fabs(ratio) / 131071))));
-      const double whole = std::nearbyint(ratio);
-      if (far && t.fixed.empty() && same_scale(ratio, whole) && std::fmod(whole, by) == 0) {
-        emit(EngineOp::mlw, 0, v.operand, constant(by), v.scale / by, id).turns = true;
-        v = {last(), v.scale / by, v.size};
-      } else {
-        v = align(v, v.scale / by, id);
-      }
+      emit(EngineOp::mlw, 0, v.operand, constant(by), v.scale / by, id).turns = true;
+      v = {last(), v.scale / by, v.size};
       ratio = number * v.scale;
     }
     if (t.fixed.empty()) {
@@ -293,11 +285,11 @@ Operand BackEnd::phase(NodeId id, double turn, double period, bool far) {
       const double left =
           ratio - std::ldexp(program_.constants[at(m.y.index)], -EngineMap::shifts[m.mode]);
       if (std::fabs(left) * v.size / v.scale > 0.5 && m.y_error > 0) {
-        // What the first factor left over, with bits of its own.
+        // What the first factor left over, with bits of its own; it is no whole number of what has
+        // wrapped.
         products.back().y_error = 0;
         products.back().y.exact = program_.constants[at(m.y.index)];
-        Value rest = v;
-        products.push_back(by_number(rest, left, id));
+        products.push_back(by_number(before, left * before.scale / v.scale, id));
       }
     } else {
       Multiply m;
@@ -350,7 +342,7 @@ Value BackEnd::sine(NodeId id) {
   if (known != table_keys_.end()) {
     x = {From::step, known->second};
   } else {
-    x = phase(n.arguments[0], turn, 2 * pi, false);
+    x = phase(n.arguments[0], turn, 2 * pi);
     if (bits < 9) {
       // The upper bits of the turn, an index and 12 bits.
       const int drop = 20 - bits;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "law/ranges.hpp"
 #include "law/units.hpp"
 
 namespace feltgate::law {
@@ -308,7 +309,13 @@ NodeId Graph::function(Op op, NodeId a, Place place) {
 }
 
 NodeId Graph::lookup(int table, NodeId a, const Unit& unit, Place place) {
-  return a == kNone ? kNone : make(Op::lookup, {a}, unit, place, table);
+  if (a == kNone || !is_constant(a)) {
+    return a == kNone ? kNone : make(Op::lookup, {a}, unit, place, table);
+  }
+  const Table& t = law_.tables[static_cast<std::size_t>(table)];
+  const double x = node(a).value;
+  const double inside = t.periodic ? x : std::clamp(x, t.domain.lower, t.domain.upper);
+  return constant(table_value(law_, t, inside), unit, place);
 }
 
 NodeId Graph::element(int array, NodeId a, Place place) {

@@ -104,7 +104,8 @@ Range host_range(const Law& law, const Node& n, const std::vector<Range>& ranges
     case Op::line_read:
       break;
   }
-  throw NoRange{"a formula of parameters that cannot be bounded", "write it without a table"};
+  throw NoRange{"a table of what only depends on parameters",
+                "write its formula in its place; the host computes that"};
 }
 
 }  // namespace feltgate::law

@@ -165,6 +165,12 @@ struct Requirement {
   Place place;
 };
 
+/// A name that nothing uses.
+struct Unused {
+  std::string name;
+  Place place;
+};
+
 /// Parsed, its units checked, its loops unrolled, equal nodes merged, constants folded.
 struct Law {
   std::string name;
@@ -181,6 +187,7 @@ struct Law {
   std::vector<Output> outputs;
   std::vector<Event> events;
   std::vector<Requirement> requirements;
+  std::vector<Unused> unused;  ///< in the order of the file
   std::vector<Node> nodes;
 };
 

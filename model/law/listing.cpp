@@ -110,6 +110,14 @@ std::string report(const Compiled& c, const Measured& m) {
                      c.bound.output[o] / lsb, c.bound.as_set[o],
                      m.output.empty() ? 0.0 : m.output[o]);
   }
+  const std::vector<Span> spans = ranges(c.law, whole_cell(c.law, c.target));
+  const double end = std::ldexp(1.0, c.target.torque.integer);
+  for (const Output& output : c.law.outputs) {
+    const Span& law = spans[at(output.value)];
+    if (law.size() <= end) continue;
+    s += fmt::format("line {}: the law gives {:.4g} .. {:.4g} Nm; torque ends at {:.4g} Nm\n",
+                     output.place.line, law.lo, law.hi, end);
+  }
   if (!c.bound.states_bounded) {
     s += "a state's error has no end by itself: bounds are of one run from the states as they "
          "stand\n";

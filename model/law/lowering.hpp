@@ -90,6 +90,7 @@ class Lowering {
   bool fit(NodeId& a, NodeId& b, const Expression& ea, const Expression& eb, std::size_t offset,
            const std::string& joint);
   std::string unit_words(const Expression& e, NodeId node);
+  std::string unit_mend(NodeId a, NodeId b, std::string unit);
 
   // calls.cpp
   NodeId call(const Expression& e);
@@ -130,7 +131,6 @@ class Lowering {
   int floor_array_ = -1;
   int ranged_ = 0;
   std::set<std::string> has_next_;
-  std::vector<std::pair<std::string, Place>> unused_;
   bool any_out_ = false;
   bool rate_read_ = false;
   int loops_ = 0;

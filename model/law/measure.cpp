@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "engine/machine.hpp"
 #include "feltgate/largest.hpp"
 #include "feltgate/random.hpp"
 #include "law/evaluate.hpp"
+#include "law/formula.hpp"
 #include "law/load.hpp"
 
 namespace feltgate::law {
@@ -32,13 +34,18 @@ class Meter {
     set([](const ImageWord& w) { return static_cast<double>(w.initial); });
   }
 
-  /// Word of each parameter by `choose`, in both.
+  /// Word of each parameter by `choose`, in both; as they were, where the law requires others.
   template <class Choose>
   void set(const Choose& choose) {
     std::vector<double> values;
+    std::map<std::string, double> named;
     for (const ImageWord& w : c_.image.words) {
-      if (w.formula.empty()) values.push_back(choose(w) * w.scale);
+      if (!w.formula.empty()) continue;
+      values.push_back(choose(w) * w.scale);
+      named[w.name] = values.back();
     }
+    const auto value_of = [&named](const std::string& name) { return named.at(name); };
+    if (!broken_requirement(c_.image, value_of).empty()) return;
     const std::vector<std::int32_t> words = parameter_words(c_.image, values);
     for (int bank = 0; bank < 2; ++bank) {
       for (int i = 0; i < 32; ++i) machine_.set_parameter(i, words[at(i)]);

@@ -46,7 +46,7 @@ Value BackEnd::periodic(NodeId id) {
     throw Refused(table.place, "the first point is no whole number of segments from 0",
                   fmt::format("let the table {} begin at 0", table.name));
   }
-  const Operand turns = phase(n.arguments[0], std::ldexp(1.0, -32), period, true);
+  const Operand turns = phase(n.arguments[0], std::ldexp(1.0, -32), period);
   // The upper bits of the turn, an index and 12 bits.
   constexpr int drop = 27;  // of mode 3
   Step& index = emit(EngineOp::mlw, 3, turns, constant(std::ldexp(segments, drop - 20)),

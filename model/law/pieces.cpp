@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "feltgate/engine_ops.hpp"
+#include "law/finish.hpp"
 #include "law/ranges.hpp"
 
 namespace feltgate::law {
@@ -146,20 +147,7 @@ class Pieces {
     }
     const auto move = [this](NodeId& id) { id = id < 0 ? id : to_[at(id)]; };
     for (Parameter& p : made_.parameters) move(p.derived);
-    for (State& s : made_.states) {
-      move(s.follows);
-      move(s.next);
-    }
-    for (Table& t : made_.tables) {
-      move(t.argument);
-      move(t.body);
-    }
-    for (Line& l : made_.lines) move(l.written);
-    for (Output& o : made_.outputs) move(o.value);
-    for (Event& e : made_.events) {
-      move(e.value);
-      move(e.condition);
-    }
+    each_root(made_, move);
     for (Requirement& r : made_.requirements) {
       move(r.smaller);
       move(r.larger);

@@ -175,8 +175,12 @@ class Ranges {
         const Span sum = arg(0) + arg(1);
         return between(n, &r) ? both_of(r, sum) : sum;
       }
-      case Op::subtract:
-        return n.arguments[0] == n.arguments[1] ? Span{0, 0} : arg(0) - arg(1);
+      case Op::subtract: {
+        if (n.arguments[0] == n.arguments[1]) return {0, 0};
+        Span d = arg(0) - arg(1);
+        for (const Requirement& r : law_.requirements) narrow_difference(n, r, &d.lo, &d.hi);
+        return d;
+      }
       case Op::multiply:
         return n.arguments[0] == n.arguments[1] ? square(arg(0)) : arg(0) * arg(1);
       case Op::negate:
@@ -230,6 +234,13 @@ class Ranges {
 };
 
 }  // namespace
+
+void narrow_difference(const Node& n, const Requirement& r, double* lower, double* upper) {
+  if (n.op != Op::subtract) return;
+  const NodeId x = n.arguments[0], y = n.arguments[1];
+  if (x == r.larger && y == r.smaller) *lower = std::max(*lower, 0.0);
+  if (x == r.smaller && y == r.larger) *upper = std::min(*upper, 0.0);
+}
 
 Cell whole_cell(const Law& law, const Target& target) {
   Cell cell;

@@ -41,6 +41,9 @@ std::vector<Span> ranges(const Law& law, const Cell& cell);
 Jet table_jet(const Law& law, const Table& table, const Span& argument);
 double table_value(const Law& law, const Table& table, double argument);
 
+/// x - y is not below 0 where y <= x is required; the same nodes, in the same numbers.
+void narrow_difference(const Node& n, const Requirement& r, double* lower, double* upper);
+
 /// Nodes that outputs, events and states need, arguments before users.
 std::vector<NodeId> needed(const Law& law);
 

@@ -93,34 +93,6 @@ void BackEnd::events() {
   }
 }
 
-/// Whether a node's value is a whole number, whatever its format.
-bool BackEnd::whole(NodeId id) const {
-  const Node& n = node(id);
-  switch (n.op) {
-    case Op::constant:
-      return std::floor(n.value) == n.value;
-    case Op::parameter: {
-      const Parameter& p = law_.parameters[at(n.index)];
-      return p.derived >= 0 ? whole(p.derived) : p.whole;
-    }
-    case Op::state:
-      return law_.states[at(n.index)].whole;
-    case Op::select:
-      return whole(n.arguments[1]) && whole(n.arguments[2]);
-    case Op::negate:
-    case Op::absolute:
-      return whole(n.arguments[0]);
-    case Op::add:
-    case Op::subtract:
-    case Op::multiply:
-    case Op::minimum:
-    case Op::maximum:
-      return whole(n.arguments[0]) && whole(n.arguments[1]);
-    default:
-      return false;
-  }
-}
-
 Operand BackEnd::whole_word(NodeId id) {
   double error = 0;
   Operand o = is_fixed(id) ? at_scale(id, 1, &error).operand : align(value(id), 1, id).operand;
@@ -149,8 +121,8 @@ Value BackEnd::next_state(const State& s, double scale) {
   if (s.whole) {
     // Rounded down, as the file's language does.
     const double size = span(s.next).size();
-    if (is_fixed(s.next) && whole(s.next)) return at_scale(s.next, scale, &error);
-    const Operand down = whole(s.next) ? whole_word(s.next) : rounded_down(s.next);
+    if (is_fixed(s.next) && node(s.next).whole) return at_scale(s.next, scale, &error);
+    const Operand down = node(s.next).whole ? whole_word(s.next) : rounded_down(s.next);
     return align({down, 1, size}, scale, s.next);
   }
   Value v = at_scale(s.next, scale, &error);

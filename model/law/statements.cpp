@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "feltgate/nearest.hpp"
@@ -44,10 +45,10 @@ void Lowering::run(const std::vector<Statement>& statements) {
   for (const Statement& s : statements) statement(s);
   check_ends(statements.empty() ? nullptr : &statements.back());
   note_unused(scope_.close());
-  if (!diagnostics_.empty()) return;  // what is wrong may be why a name is not used
-  for (const auto& [name, place] : unused_) {
-    diagnostics_.add(place, quoted(name) + " is never used", "use it, or take the line out");
-  }
+  const auto before = [](const Unused& a, const Unused& b) {
+    return std::tie(a.place.line, a.place.column) < std::tie(b.place.line, b.place.column);
+  };
+  std::sort(law_.unused.begin(), law_.unused.end(), before);
 }
 
 void Lowering::statement(const Statement& s) {
@@ -323,7 +324,12 @@ void Lowering::rate(const Statement& s) {
 
 void Lowering::note_unused(const std::map<std::string, Symbol>& symbols) {
   for (const auto& [name, symbol] : symbols) {
-    if (!symbol.used) unused_.emplace_back(name, symbol.place);
+    // A loop's body is read once for each round.
+    const auto same = [&, place = symbol.place](const Unused& u) {
+      return u.place.line == place.line && u.place.column == place.column;
+    };
+    const bool known = std::any_of(law_.unused.begin(), law_.unused.end(), same);
+    if (!symbol.used && !known) law_.unused.push_back({name, symbol.place});
   }
 }
 

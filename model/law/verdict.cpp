@@ -143,6 +143,11 @@ Verdict verdict(const Compiled& c, const Measured& m) {
           c.bound.output[o], 100 * share, spans[o].lo, spans[o].hi, mend(c.program, c.bound)));
     }
   }
+  for (const Unused& u : c.law.unused) {
+    v.warnings.push_back(
+        fmt::format("line {}, column {}: \"{}\" is never used; use it, or take it out",
+                    u.place.line, u.place.column, u.name));
+  }
   runs_left_out(m, &v);
   parameters(c, &v);
   return v;

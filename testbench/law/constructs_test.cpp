@@ -87,6 +87,14 @@ TEST_CASE("floor and mod") {
         0);
 }
 
+TEST_CASE("a table of a number is a number") {
+  CHECK(torque_of("table f(x) on [0, 1] = x^2\nout torque = 1 Nm * (f(0.3) + f(7))") ==
+        Approx(1.09));
+  CHECK(
+      torque_of("table f(x) periodic on [0, 1] through [0, 2, 0]\nout torque = 1 Nm * f(-3.75)") ==
+      Approx(1));
+}
+
 TEST_CASE("noise: even from -1 to 1, without an echo, another for each seed") {
   constexpr int runs = 1 << 16;
   const auto row = [](int seed) {

@@ -25,7 +25,11 @@ const Bad kMeaning[] = {
      "1:14: Nm or rad: units differ; both sides need the same unit"},
     {"out torque = max(1 Nm, 2 N)", "1:24: Nm and N: units differ; both sides need the same unit"},
     {"out torque = clamp(tau_hat, -1, 1 Nm)",
-     "1:29: Nm and a number: units differ; both sides need the same unit"},
+     "1:29: Nm and a number: units differ; write -1 Nm"},
+    {"let v = velocity\nout torque = if v > 50 then 1 Nm else 0",
+     "2:19: 1/s > a number: units differ; write 50 rad/s"},
+    {"out torque = if 2 < velocity then 1 Nm else 0",
+     "1:19: a number < rad/s: units differ; write 2 rad/s"},
     {"out torque = 1 Nm * sin(velocity)",
      "1:25: the angle is in a number, not in rad/s; check the formula's units, factor by factor"},
     {"out torque = 1 Nm * exp(1 m)",
@@ -91,12 +95,18 @@ const Bad kMeaning[] = {
      "2:21: \"f\" without the number of its element; write f[1]"},
     {"table f(sin) on [0, 1] = sin\nout torque = 1 Nm * f(position)",
      "1:7: the table's variable \"sin\" has a meaning already; choose another name"},
-    // what is not used or missing
-    {"param a = 1 Nm in 0 .. 2 Nm" OUT, "1:7: \"a\" is never used; use it, or take the line out"},
-    {"let a = 1" OUT, "1:5: \"a\" is never used; use it, or take the line out"},
-    {"table f(x) on [0, 1] = x" OUT, "1:7: \"f\" is never used; use it, or take the line out"},
-    {"for i in 0 .. 1 { let a = i }" OUT,
-     "1:23: \"a\" is never used; use it, or take the line out"},
+    {"table f(x) on [0, 1] = x\nparam p = 0 in 0 .. 1\nout torque = f(p) * tau_hat",
+     "3:14: a table of what only depends on parameters; write its formula in its place; the host "
+     "computes that"},
+    // names that are none
+    {"let s = 1" OUT, "1:5: \"s\" is a unit and no name; choose another name"},
+    {"let m = 1" OUT, "1:5: \"m\" is a unit and no name; choose another name"},
+    {"let mm = 1" OUT, "1:5: \"mm\" is a unit and no name; choose another name"},
+    {"let sum = 1" OUT,
+     "1:5: \"sum\" is a name that the language brings along; choose another name"},
+    {"let phase = 1" OUT,
+     "1:5: \"phase\" is a word of the language and no name; choose another name"},
+    // what is missing
     {"let a = 1 Nm", "1:1: the law has no output; write out torque = ..."},
     {"", "1:1: the law has no output; write out torque = ..."},
     {"state q = 0 Nm in -1 .. 1 Nm\nout torque = q",
@@ -204,6 +214,12 @@ const Bad kMeaning[] = {
      "1:14: dt and filters need a rate; write above: rate = 40 kHz"},
     {"rate = 1 kHz\nout torque = lowpass(tau_hat, 0 Hz)",
      "2:14: a lowpass whose frequency is not above 0; write lowpass(x, 144 Hz)"},
+    {"rate = 40 kHz\nout torque = lowpass(tau_hat, 10 MHz)",
+     "2:14: a lowpass of 1e+07 Hz in a law that runs at 40000 Hz, which passes all; write a "
+     "frequency to 20000 Hz, or no lowpass"},
+    {"rate = 40 kHz\nparam f = 1 kHz in 0.1 .. 80 kHz\nout torque = lowpass(tau_hat, f)",
+     "3:14: a lowpass of 80000 Hz in a law that runs at 40000 Hz, which passes all; write a "
+     "frequency to 20000 Hz, or no lowpass"},
     {"rate = 1 kHz\nout torque = lowpass(tau_hat, velocity)",
      "2:14: a lowpass whose frequency changes during a run; make the frequency a constant or a "
      "param"},

@@ -8,6 +8,7 @@
 #include "catch.hpp"
 #include "law/compile.hpp"
 #include "law/load.hpp"
+#include "law/measure.hpp"
 #include "law_case.hpp"
 
 using namespace feltgate::law;
@@ -98,4 +99,32 @@ TEST_CASE("require: a material whose dynamic friction is above its static one") 
   CHECK(told([&] { p.set("damping", -1); }).find("damping = -1") == 0);
   CHECK(told([&] { p.set("damping", -1); }).find("is out of its range; law material takes 0 to ") !=
         std::string::npos);
+}
+
+TEST_CASE("require: ranges end where no set can be beyond") {
+  const std::string both = "param a = 1 in 0 .. 4\nparam b = 2 in -1 .. 3\n";
+  const auto range = [&](const std::string& requirement, std::size_t p) {
+    return law_of(both + requirement + "\nout torque = (a + b) * tau_hat").parameters.at(p).range;
+  };
+  CHECK(range("require a <= b", 0).upper == 3);
+  CHECK(range("require a <= b", 1).lower == 0);
+  CHECK(range("require a < 1.5 and 0.5 <= b", 0).upper == 1.5);
+  CHECK(range("require a < 1.5 and 0.5 <= b", 1).lower == 0.5);
+  CHECK(range("require a <= b and b <= 2.5", 0).upper == 2.5);
+  // What the file's own values break is told, with them.
+  CHECK(range("require b <= a", 1).upper == 3);
+  CHECK(range("require 2 <= a", 0).lower == 1);
+}
+
+TEST_CASE("require: a difference that is required not to be below 0 is none") {
+  const std::string both = "param a = 1 in 0 .. 4\nparam b = 2 in 0 .. 4\nrequire a <= b\n";
+  const Compiled root =
+      compiled(both + "out torque = 0.1 Nm * sqrt(b - a) * clamp(position, -1, 1)");
+  const Compiled share = compiled(both + "out torque = 0.1 Nm / (b - a + 0.5)");
+  for (const Compiled& c : {root, share}) {
+    const Measured m = measure(c, 1, 20000, false);
+    CHECK(m.output[0] <= c.bound.output[0] * (1 + 1e-9) + 1e-9);
+  }
+  CHECK(messages_of(both + "out torque = 0.1 Nm * sqrt(a - b)")
+            .find("the square root of parameters that may be below 0") != std::string::npos);
 }

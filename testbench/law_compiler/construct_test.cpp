@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Every construct of the language as instructions: within the bound, and bounded at all.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <map>
 
@@ -216,6 +218,32 @@ TEST_CASE("a periodic table follows the position without drift, however far") {
   for (std::int64_t p = 0; p < 4096; p += 37) {
     for (const std::int64_t turns : {1L, -1L, 12345L, -524288L, 524287L}) {
       CHECK(torque(p + 4096 * turns) == torque(p));
+    }
+  }
+}
+
+TEST_CASE("a sine beside another table follows the position, however far") {
+  const std::pair<const char*, double> factors[] = {{"24", 1e-3}, {"7.3", 1e-3}, {"p", 1e-3}};
+  for (const auto& [factor, most] : factors) {
+    const Compiled c = compiled(fmt::format(
+        "param p = 3.3 in 0 .. 100\n"
+        "table flat(q) on [0, 1] = exp(-q)\n"
+        "out torque = 1 Nm * sin({} * position) * flat(clamp(velocity / (1 rad/s), 0, 1))"
+        "+ 0 Nm * p\n",
+        factor));
+    EngineMemory memory;
+    memory.program = c.image.program;
+    memory.data = c.image.data;
+    memory.table = c.image.table;
+    Machine machine(memory);
+    const double by = factor[0] == 'p' ? c.image.words.at(0).initial * c.image.words.at(0).scale
+                                       : std::atof(factor);
+    for (const std::int64_t p : {0L, 1000L, 1L << 27, (1L << 28) + 777, -(1L << 30), 2147483647L}) {
+      MachineInputs inputs{};
+      inputs[0] = static_cast<std::int32_t>(p);
+      const double angle = std::fmod(by * static_cast<double>(p) / 4096, 1.0) * 2 * pi;
+      INFO(factor << " times " << p);
+      CHECK(std::fabs(machine.run(0, inputs).outputs[0] * 0x1p-16 - std::sin(angle)) < most);
     }
   }
 }

@@ -127,6 +127,33 @@ TEST_CASE("values of a parameter that its step does not keep are told") {
              Contains("tiny: of -1e+03 .. -1e-06 only values from"));
 }
 
+TEST_CASE("names that nothing uses are told, and are no matter for what is used") {
+  const std::string used = "out torque = 0.1 Nm * clamp(position, -1, 1)\n";
+  for (const char* unused :
+       {"param a = 1 Nm in 0 .. 2 Nm\n", "mailbox a = 0 in -1 .. 1 max_age 5 ms\n", "let a = 1\n",
+        "let a = 2 * velocity\n", "var a = 1\n", "state a = 0 in -1 .. 1\nnext a = 0.5 * a\n",
+        "state a = 0 in -1 .. 1\nnext a = clamp(position, -1, 1)\n",
+        "phase a = 0 in 0 .. 1\nnext a = 0.25\n", "bool a = true\nnext a = position > 1\n",
+        "table a(x) on [0, 1] = x\n", "array a = [1, 2]\n",
+        "line a[3] in -1 .. 1\nnext a = clamp(position, -1, 1)\n",
+        "for i in 0 .. 3 { let a = i }\n"}) {
+    INFO(unused);
+    const Compiled c = compiled(unused + used);
+    const Verdict v = verdict(c, measure(c, 1, 1000, false));
+    CHECK(v.failures.empty());
+    const bool own = std::string(unused).find("a = 0.5 * a") != std::string::npos;
+    REQUIRE(v.warnings.size() == (own ? 0 : 1));
+    if (!own) CHECK_THAT(v.warnings[0], Contains("\"a\" is never used; use it, or take it out"));
+  }
+}
+
+TEST_CASE("torque beyond its format is told with the law's range") {
+  const Compiled c = compiled("param a = 1 Nm in 0 .. 100 Nm\nout torque = a\n");
+  CHECK_THAT(report(c, {}), Contains("line 2: the law gives 0 .. 100 Nm; torque ends at 16 Nm"));
+  const Compiled within = compiled("param a = 1 Nm in 0 .. 16 Nm\nout torque = a\n");
+  CHECK_THAT(report(within, {}), !Contains("torque ends"));
+}
+
 TEST_CASE("a largest error that is no number stays one, and fails") {
   const double none = std::nan("");
   CHECK(larger(1.0, 2.0) == 2);

@@ -93,7 +93,7 @@ module feltgate_core #(
   logic [ 3:0] scene_wanted, scene_q;
   logic [ 1:0] mode;
   logic host, clear_faults, kick, region_high;
-  logic clear, disarm, host_stop, restart, refused, unkicked, word_error, testing, paused, law, self_test_trip;
+  logic clear, disarm, host_stop, restart, refused, arms, unkicked, word_error, testing, paused, law, self_test_trip;
   logic moved, beyond, frozen, eased, channel_trip, index_trip, flip_trip;
   assign host         = control[feltgate_map_pkg::B_CONTROL_HOST];
   assign mode         = control[feltgate_map_pkg::B_CONTROL_MODE+:feltgate_map_pkg::W_CONTROL_MODE];
@@ -114,7 +114,7 @@ module feltgate_core #(
       .tick_i(tick),
       .reg_addr_i(reg_addr_i), .reg_wdata_i(reg_wdata_i), .reg_write_i(reg_write_i),
       .reg_rdata_o(reg_rdata_o), .reg_busy_o(reg_busy_o),
-      .armed_i(armed_o), .set_zero_i(set_zero_i),
+      .armed_i(armed_o || arms), .set_zero_i(set_zero_i),
       .slot_fetch_i(slot_fetch), .scene_slot_fetch_i(scene_slot_fetch),
       .scene_i(scene_q),
       .region_high_i(region_high), .eased_i(eased), .testing_i(testing),
@@ -284,7 +284,7 @@ module feltgate_core #(
       .clk_i(clk_i), .rst_ni(rst_ni),
       .tick_i(tick), .period_start_i(period_start),
       .host_i(host), .host_arm_i(control[feltgate_map_pkg::B_CONTROL_ARM]), .arm_i(arm_i), .disarm_i(disarm),
-      .asks_o(asks_o), .ready_o(ready_o), .axis_silent_i(axis_silent_i), .axis_blocked_i(axis_blocked_i),
+      .asks_o(asks_o), .arms_o(arms), .ready_o(ready_o), .axis_silent_i(axis_silent_i), .axis_blocked_i(axis_blocked_i),
       .stop_i(stop_i),
       .clear_faults_i(clear_faults), .clear_o(clear), .kick_i(kick),
       .encoder_error_i(illegal),

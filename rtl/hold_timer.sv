@@ -25,7 +25,7 @@ module hold_timer (
   logic strong_q, holds, expired, unit;
   assign unit    = tick_count_i[feltgate_map_pkg::HOLD_UNIT_BITS-1:0] == '0;
   assign holds   = armed_i && !moved_i;
-  assign expired = param_i[31:W] == '0 && units_q >= param_i[W-1:0];
+  assign expired = param_i[31] || (param_i[31:W] == '0 && units_q >= param_i[W-1:0]);  // a negative word is 0
 
   always_ff @(posedge clk_i) begin
     if (wave_i[feltgate_map_pkg::T_HOLD_STRONG]) strong_q <= beyond_i;

@@ -36,12 +36,13 @@ module ramp (
   assign tau_ref_o = ramp_q[W-1:Fine];
 
   // How far the reference is above the target.
-  // A negative step counts as 0, and while frozen every step.
+  // A step is one bit at least, also where the word is 0 or negative; while frozen it is 0.
   logic signed [W:0] excess_q;
   logic      [W-2:0] step_q;
   always_ff @(posedge clk_i) begin
     if (wave_i[Excess]) begin
-      if (param_i[W-1] || frozen_i) step_q <= '0;
+      if (frozen_i) step_q <= '0;
+      else if (param_i[W-1] || param_i[W-2:0] == '0) step_q <= (W - 1)'(1);
       else step_q <= param_i[W-2:0];
       excess_q <= {(TorqueW + 1)'(tau_ref_o) - (TorqueW + 1)'($signed(limited_i[TorqueW-1:0])),
                    ramp_q[Fine-1:0]};

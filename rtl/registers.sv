@@ -21,7 +21,7 @@ module registers #(
   output logic [31:0] reg_rdata_o,
   output logic        reg_busy_o,          // a write waits for the end of the tick; none is taken
 
-  input  logic        armed_i,             // changes only after tick_i
+  input  logic        armed_i,             // or about to be, in the clock of tick_i
   input  logic        set_zero_i,          // the panel's, one clock
   input  logic [5:0]  slot_fetch_i,
   input  logic        scene_slot_fetch_i,

@@ -33,6 +33,7 @@ module supervisor (
   output logic               gates_clear_o,    // asynchronous: the stop, from its first edge until it is dealt with
   output logic               unkicked_o,       // arming waits for the first kick
   output logic               asks_o,           // the request of whoever has the say
+  output logic               arms_o,           // in the clock of tick_i: armed from the next one on
   output logic               ready_o,          // nothing speaks against arming
   output logic               clear_o,          // clear_faults_i, where it acts: while nothing is asked for
   input  logic               axis_silent_i,    // another axis does not ask
@@ -324,6 +325,8 @@ module supervisor (
   assign ready_o = able && (host_i ? host_counts_q : panel_counts_q);
   assign may_arm = !asked_q && ready_o && !axis_blocked_i;
   assign arms    = asks && (gates_enable_o || may_arm) && !any_trip;  // or stays armed
+
+  assign arms_o = arms;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

@@ -27,7 +27,7 @@ void sample(Work* work, const std::string& design) {
   play(*engine, work->inputs, [&](const Snapshot& s) {
     for (; applied < static_cast<std::size_t>(s.writes); ++applied) {
       const HostWrite& w = work->inputs.writes[applied];
-      if (host.write(w.address, w.data)) {
+      if (host.write(w.address, w.data, s.armed)) {
         work->writes.push_back({work->ticks.size(), w.address, w.data, w.value});
       }
     }

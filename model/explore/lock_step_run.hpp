@@ -89,7 +89,7 @@ class LockStepRun {
   }
   /// The write that the core has carried out, for the chain.
   void carry_out() {
-    if (host_.write(pending_.address, pending_.word)) {
+    if (host_.write(pending_.address, pending_.word, core_.twin().out().armed)) {
       chain_.words().set_raw(pending_.address, pending_.word);
     }
   }

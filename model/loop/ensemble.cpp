@@ -90,7 +90,7 @@ void Ensemble::ride(const Snapshot& s) {
   for (; writes_applied_ < s.writes && !pending_.empty(); ++writes_applied_) {
     const HostWrite w = pending_.front();
     pending_.pop_front();
-    if (w.address >= axes_engine || !host_.write(w.address, w.data)) continue;
+    if (w.address >= axes_engine || !host_.write(w.address, w.data, s.armed)) continue;
     for (Rider& r : riders_) r.chain->set_parameter(w.address, w.value);
     if (passenger_ != nullptr) passenger_->set_parameter(w.address, w.value);
   }

@@ -63,7 +63,7 @@ class Beside {
       if (core_.out().snapshot_valid) tick(seen);
       if (core_.writes() != before) {
         ++seen.writes;
-        if (host_.write(waiting_.address, waiting_.word, disarmed)) {
+        if (host_.write(waiting_.address, waiting_.word, core_.out().armed, disarmed)) {
           chain_->set_word(waiting_.address, waiting_.word);
         }
       }

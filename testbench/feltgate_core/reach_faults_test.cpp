@@ -29,6 +29,24 @@ TEST_CASE("core: the watchdog is fed by a kick alone, and by one beside a clear"
   }
 }
 
+TEST_CASE("core: a jump of the speed trips once the estimate has come to the limit") {
+  Life s;
+  s.arm(D::S::free);
+  int ticks = 0;
+  for (; s.out().faults == 0 && ticks < 3000; ++ticks) {  // 2397 rad/s, a count every 32 clocks
+    for (int at = 0; at < kTick; ++at) {
+      if ((ticks * kTick + at) % 32 == 0) s.step(true);
+      s.clocks(1);
+    }
+  }
+  INFO(ticks << " ticks");
+  CHECK(s.only(Fault::speed));
+  // Its low-pass of 2 ms, up to 613.6 of the 1024 rad/s that it can show.
+  CHECK(ticks > 1900);
+  CHECK(ticks < 2000);
+  s.play();
+}
+
 TEST_CASE("core: heat is that of the voltage less the back-EMF") {
   const auto design = [](int address) {
     for (const auto& p : D::parameters) {

@@ -93,6 +93,30 @@ TEST_CASE("say: a host that asks before it has the say asks in vain") {
   s.play();
 }
 
+TEST_CASE("say: what is written in the tick in which the motor arms is held or refused") {
+  constexpr std::uint32_t kMode = 3u << C::control_mode;
+  constexpr std::uint32_t kVoltage = std::uint32_t{feltgate::Map::mode_voltage} << C::control_mode;
+  Life s;
+  s.write(A::self_test_pulse, 39);
+  s.write(C::control, (kPanel & ~kMode) | kVoltage);
+  s.ticks(2);
+  s.in.arm = true;
+  s.write(C::control, kPanel & ~kMode);  // closed loop, of which nothing was tested
+  CHECK(s.out().gates_enable);
+  CHECK((s.read(C::control) & kMode) == kVoltage);
+  s.in.arm = false;
+  s.ticks(1);
+  s.write(C::control, kPanel & ~kMode);
+  CHECK((s.read(C::control) & kMode) == 0);
+  s.in.arm = true;
+  s.write(A::self_test_pulse, 0);
+  CHECK(s.out().gates_enable);
+  CHECK(s.read(A::self_test_pulse) == 39);
+  s.ticks(5);
+  CHECK(s.out().tau_ref == 0);  // the test goes on
+  s.play();
+}
+
 TEST_CASE("say: a clear of faults while armed leaves what the encoder has shown") {
   if (D::index_counts == 0) return;
   Life s;

@@ -174,7 +174,7 @@ TEST_CASE("hold_timer: a count, a weak torque or a pause in time begins anew") {
 
 TEST_CASE("hold_timer: a time of 2^13 units or more is for ever") {
   constexpr std::uint32_t kFirst = 1u << Map::hold_bits;
-  for (const std::uint32_t time : {kFirst, kFirst + 3, 0x80000000u, 0xffffffffu}) {
+  for (const std::uint32_t time : {kFirst, kFirst + 3, 0x40000000u, 0x7fffffffu}) {
     for (const bool eased :
          play(ticks(2 * static_cast<int>(kFirst) + 9, {true, false, true, 0, time}))) {
       if (eased) FAIL("eased with " << time);
@@ -184,6 +184,13 @@ TEST_CASE("hold_timer: a time of 2^13 units or more is for ever") {
       play(ticks(static_cast<int>(kFirst) + 9, {true, false, true, 0, kFirst - 1}));
   for (std::size_t k = 0; k < longest.size(); ++k) {
     if (longest[k] != (k >= kFirst - 1)) FAIL("after " << k);
+  }
+}
+
+TEST_CASE("hold_timer: a negative time is none") {
+  for (const std::uint32_t time : {0x80000000u, 0xffffffffu}) {
+    for (const bool eased : play(ticks(5, {true, false, true, 0, time}))) REQUIRE(eased);
+    for (const bool eased : play(ticks(5, {true, false, false, 0, time}))) REQUIRE_FALSE(eased);
   }
 }
 

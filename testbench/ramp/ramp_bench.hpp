@@ -166,7 +166,7 @@ struct ChainBeside {
     if (!ramped && (tau > most || tau < -most)) return "beyond the limit";
     const std::int64_t fine = std::int64_t{1} << kFine;
     if (ramped &&
-        moved > ((w.relief.frozen ? 0 : std::max<std::int64_t>(step, 0)) + fine - 1) / fine) {
+        moved > ((w.relief.frozen ? 0 : std::max<std::int64_t>(step, 1)) + fine - 1) / fine) {
       return "faster than the ramp";
     }
     return nullptr;

@@ -233,11 +233,14 @@ TEST_CASE("ramp: disarming takes the torque away at once") {
   for (std::size_t n = 50; n < seen.size(); ++n) REQUIRE(seen[n].tau == 0);
 }
 
-TEST_CASE("ramp: a negative step counts as 0") {
-  const auto seen = play([](std::int64_t k) { return wave(20000, k < 5 ? 300 * kWhole : -9); }, 60);
-  for (std::size_t n = 5; n < seen.size(); ++n) {
-    REQUIRE(seen[n].tau == 1500);
-    REQUIRE(seen[n].ramp);
+TEST_CASE("ramp: a step of 0 or less is one LSB of the fine reference") {
+  for (const std::int64_t step : {0, -9}) {
+    const auto seen =
+        play([=](std::int64_t k) { return wave(20000, k < 5 ? 300 * kWhole : step); }, 1100);
+    for (std::size_t n = 5; n < seen.size(); ++n) {
+      REQUIRE(seen[n].tau == 1500 + static_cast<std::int64_t>(n - 4) / kWhole);
+      REQUIRE(seen[n].ramp);
+    }
   }
 }
 

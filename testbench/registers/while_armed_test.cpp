@@ -41,27 +41,34 @@ TEST_CASE("while armed: a host disarms by what it says, others do not") {
 TEST_CASE("while armed: the control word's fields hold") {
   HostBeside host(mode(1));
   CHECK(host.mode() == 1);
-  CHECK_FALSE(host.write(C::control, armed_by_host | mode(2)));
+  CHECK_FALSE(host.write(C::control, armed_by_host | mode(2), false));
   CHECK(host.mode() == 2);
   host.restart(true, S::wall);
-  CHECK_FALSE(host.write(C::control, armed_by_host | mode(3)));
+  CHECK_FALSE(host.write(C::control, armed_by_host | mode(3), true));
   CHECK(host.mode() == 2);
   // Without the host's say nothing disarms.
-  CHECK_FALSE(host.write(C::control, mode(3)));
+  CHECK_FALSE(host.write(C::control, mode(3), true));
   CHECK(host.mode() == 2);
   SECTION("until it disarms") {
-    CHECK_FALSE(host.write(C::control, bit(C::control_host) | mode(3)));
+    CHECK_FALSE(host.write(C::control, bit(C::control_host) | mode(3), true));
     CHECK(host.mode() == 3);
   }
   SECTION("or a disarm came in the same tick") {
-    CHECK_FALSE(host.write(C::control, armed_by_host | mode(3), true));
+    CHECK_FALSE(host.write(C::control, armed_by_host | mode(3), true, true));
     CHECK(host.mode() == 3);
   }
   SECTION("or it is disarmed") {
     host.restart(false, S::wall);
-    CHECK_FALSE(host.write(C::control, armed_by_host | mode(0)));
+    CHECK_FALSE(host.write(C::control, armed_by_host | mode(0), false));
     CHECK(host.mode() == 0);
   }
+}
+
+TEST_CASE("while armed: what is carried out as it is armed comes too late") {
+  HostBeside host(mode(2));
+  CHECK_FALSE(host.write(C::control, armed_by_host | mode(1), true));
+  CHECK(host.mode() == 2);
+  CHECK_FALSE(host.write(A::torque_constant, 1, true));
 }
 
 TEST_CASE("while armed: the mode has its bits and no others") {
@@ -74,34 +81,34 @@ TEST_CASE("while armed: before the first tick it is disarmed, free, and no ramp 
   HostBeside host(0);
   CHECK_FALSE(host.restart(false, S::free));
   HostBeside other(0);
-  CHECK(other.write(A::torque_constant, 1));
+  CHECK(other.write(A::torque_constant, 1, false));
   CHECK_FALSE(other.restart(false, S::free));
   // Scene 0 is in force: words of other numbers do not begin a ramp.
   HostBeside third(0);
-  CHECK(third.write(A::wall_stiffness, 1));
-  CHECK(third.write(32 * S::membrane + 1, 1));
+  CHECK(third.write(A::wall_stiffness, 1, false));
+  CHECK(third.write(32 * S::membrane + 1, 1, false));
   CHECK_FALSE(third.restart(false, S::free));
 }
 
 TEST_CASE("while armed: parameters that a chain is to take, and ramps that begin") {
   HostBeside host(0);
   host.restart(true, S::wall);
-  CHECK_FALSE(host.write(A::torque_constant, 1));
+  CHECK_FALSE(host.write(A::torque_constant, 1, true));
   CHECK_FALSE(host.restart(true, S::wall));
-  CHECK(host.write(A::ramp_step, 1));
+  CHECK(host.write(A::ramp_step, 1, true));
   CHECK_FALSE(host.restart(true, S::wall));
-  CHECK(host.write(A::wall_stiffness, 1));
+  CHECK(host.write(A::wall_stiffness, 1, true));
   CHECK(host.restart(true, S::wall));
   CHECK_FALSE(host.restart(true, S::wall));
   // A ramp that has been asked for stays so, whatever comes in the same tick.
-  CHECK(host.write(A::torque_limit, 1));
-  CHECK(host.write(A::ramp_step, 1));
+  CHECK(host.write(A::torque_limit, 1, true));
+  CHECK(host.write(A::ramp_step, 1, true));
   CHECK(host.restart(true, S::wall));
   host.restart(false, S::wall);
-  CHECK(host.write(A::torque_constant, 1));
-  CHECK(host.write(C::control - 1, 1));  // the last parameter
-  CHECK_FALSE(host.write(C::control, 0));
-  CHECK_FALSE(host.write(C::command + 1, 1));  // neither a parameter nor control or command
+  CHECK(host.write(A::torque_constant, 1, false));
+  CHECK(host.write(C::control - 1, 1, false));  // the last parameter
+  CHECK_FALSE(host.write(C::control, 0, false));
+  CHECK_FALSE(host.write(C::command + 1, 1, false));  // neither a parameter nor control or command
 }
 
 TEST_CASE("while armed: a new zero begins a ramp, but where the torque is an input") {
@@ -109,19 +116,19 @@ TEST_CASE("while armed: a new zero begins a ramp, but where the torque is an inp
     INFO("scene " << scene);
     HostBeside host(0);
     host.restart(true, scene);
-    CHECK_FALSE(host.write(C::command, ~bit(C::command_set_zero)));
+    CHECK_FALSE(host.write(C::command, ~bit(C::command_set_zero), true));
     CHECK_FALSE(host.restart(true, scene));
-    CHECK_FALSE(host.write(C::command, bit(C::command_set_zero)));
+    CHECK_FALSE(host.write(C::command, bit(C::command_set_zero), true));
     CHECK(host.restart(true, scene) == (scene == S::wall));
     host.zero();
     CHECK(host.restart(true, scene) == (scene == S::wall));
     // Not the commands: the same bits in another word.
-    CHECK_FALSE(host.write(C::control, ~std::uint32_t{0}));
+    CHECK_FALSE(host.write(C::control, ~std::uint32_t{0}, true));
     CHECK_FALSE(host.restart(true, scene));
   }
   HostBeside host(0);
   host.restart(true, S::setpoint);
-  host.write(A::torque_limit, 1);
+  host.write(A::torque_limit, 1, true);
   host.zero();
   CHECK(host.restart(true, S::setpoint));
 }

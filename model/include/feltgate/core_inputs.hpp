@@ -45,13 +45,14 @@ TestPulse FeltgateCore<D, ReadBack>::pulse(const In& in) const {
 
 template <class D, bool ReadBack>
 typename Registers<D, ReadBack>::In FeltgateCore<D, ReadBack>::register_inputs(const In& in,
-                                                                               bool tick) const {
+                                                                               bool tick,
+                                                                               bool held) const {
   typename Registers<D, ReadBack>::In reg;
   reg.tick = tick;
   reg.reg_addr = in.reg_addr;
   reg.reg_wdata = in.reg_wdata;
   reg.reg_write = in.reg_write;
-  reg.armed = out_.armed;
+  reg.armed = held;
   reg.set_zero = in.set_zero;
   reg.scene = out_.scene;
   if (registers_.flipped()) {  // the parameter bus is not kept up otherwise

@@ -86,15 +86,16 @@ class FeltgateCore {
     core_steps::for_each_step_of(clock_, [&](Step step) { take<true>(step, in, decoder_.out()); });
     if (self_test_.failed()) sup.trips |= fault_bit(Fault::self_test);
     supervisor_.clock(sup);
+    const bool held = out_.armed || supervisor_.out().armed;
     const QuadDecoder::In d = decoder_inputs(in, zero, clear && !sup.asks());
     if (!decoder_.settled(d)) decoder_.clock(d);
 
     const bool committed = tick && registers_.out().reg_busy;
-    const int written = registers_.parameter_waiting(out_.armed);
+    const int written = registers_.parameter_waiting(held);
     if (tick && (registers_.restarts(out_.scene) || (renders_law() && in.law_restart))) {
       wave_.restart();
     }
-    registers_.clock(register_inputs(in, tick));
+    registers_.clock(register_inputs(in, tick, held));
     if (tick) {
       out_.scene = scene;
       if (committed) {
@@ -289,7 +290,7 @@ class FeltgateCore {
     }
   }
 
-  typename Registers<D, ReadBack>::In register_inputs(const In& in, bool tick) const;
+  typename Registers<D, ReadBack>::In register_inputs(const In& in, bool tick, bool held) const;
   QuadDecoder::In decoder_inputs(const In& in, bool zero, bool clear) const;
   Pwm::In pwm_inputs(bool enable, std::int16_t duty) const;
   std::uint8_t wanted_scene(const In& in) const;

@@ -17,7 +17,8 @@ class HoldTimerLaw {
   /// be held, the count of ticks and the word hold_time.
   void tick(bool armed, bool moved, bool strong, std::uint32_t tick, std::uint32_t hold_time) {
     const bool holds = armed && !moved;
-    const bool expired = hold_time < kLongest && units_ >= hold_time;
+    const bool negative = hold_time >> 31 != 0;  // as 0
+    const bool expired = negative || (hold_time < kLongest && units_ >= hold_time);
     const bool whole = (tick & ((1u << Map::hold_unit_bits) - 1)) == 0;
     eased_ = holds && (eased_ || (strong && expired));
     if (!holds || !strong) {

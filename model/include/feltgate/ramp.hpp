@@ -68,7 +68,7 @@ class RampLaw {
     target_ = target;
     limit_torque_ = armed_ && beyond;
   }
-  /// The reference's way to the target. A negative step counts as 0. The tick in which the target
+  /// The reference's way to the target. A step is one LSB at least. The tick in which the target
   /// is found to be within one step ends the ramp; the reference moves on with the next. Frozen,
   /// the reference follows towards 0 only; of two torques of different signs it keeps the positive
   /// one.
@@ -80,7 +80,8 @@ class RampLaw {
       reference_ = quantise<N, Ramp, Round::truncate, Overflow::wrap>(target_);
       return;
     }
-    if (step < Ramp{} || relief_.frozen) step = Ramp{};
+    if (step <= Ramp{}) step = least();
+    if (relief_.frozen) step = Ramp{};
     const auto excess = reference_ - target_;
     if (excess <= step && -excess <= step) {
       ramping_ = false;
@@ -109,6 +110,14 @@ class RampLaw {
   }
 
  private:
+  /// One LSB of the reference.
+  static Ramp least() {
+    if constexpr (N::is_fixed) {
+      return N::template from_raw<D::f.ramp.key()>(1);
+    } else {
+      return Ramp(1.0 / (1 << D::f.ramp.fraction));
+    }
+  }
   /// Beyond every limit, or at it.
   static Torque most() {
     if constexpr (N::is_fixed) {

@@ -33,7 +33,7 @@ class Registers {
     std::uint16_t reg_addr = 0;
     std::uint32_t reg_wdata = 0;
     bool reg_write = false;  ///< held until a clock in which out().reg_busy is low
-    bool armed = false;
+    bool armed = false;      ///< or about to be, in the clock of tick
     bool set_zero = false;  ///< the panel's
     std::uint8_t slot_fetch = 0;
     bool scene_slot_fetch = false;

@@ -50,16 +50,17 @@ class HostBeside {
   explicit HostBeside(std::uint32_t control_reset) : control_(control_reset) {}
 
   /// A write that the core has carried out since the tick last seen; returns whether a parameter is
-  /// to be set. `disarmed`: a disarm came in the same tick.
-  bool write(int address, std::uint32_t word, bool disarmed = false) {
+  /// to be set. `armed`: whether the core is since. `disarmed`: a disarm came in the same tick.
+  bool write(int address, std::uint32_t word, bool armed, bool disarmed = false) {
+    armed = armed || armed_;
     if (address == Map::C::control) {
-      control_ = control_after(control_, word, armed_ && !disarmed && !disarms(word));
+      control_ = control_after(control_, word, armed && !disarmed && !disarms(word));
     } else if (address == Map::C::command) {
       if (((word >> Map::C::command_set_zero) & 1U) != 0) zero();
     } else if (address < 512) {
       const WhileArmed effect = while_armed(address, scene_);
       if (effect == WhileArmed::ramps) restart_ = true;
-      return !armed_ || effect != WhileArmed::refused;
+      return !armed || effect != WhileArmed::refused;
     }
     return false;
   }

@@ -22,12 +22,13 @@ module writes_proof (
   (* hierconn *) wire [11:0] \u_core.u_registers.reg_addr_i ;
   (* hierconn *) wire [35:0] \u_core.u_registers.g_read.parameter_q ;
   (* hierconn *) wire [ControlW-1:0] \u_core.control ;
+  (* hierconn *) wire \u_core.arms ;
   wire [ControlW-1:0] control = \u_core.control ;
   wire lands = \u_core.u_registers.lands ;
 
   // What a parameter that waits must be refused for, and what a control word may not change.
   logic refuse, holds;
-  assign refuse = armed && at_q[11:6] == 6'd0 && feltgate_map_pkg::REFUSED_WHILE_ARMED[at_q[5:0]];
+  assign refuse = (armed || \u_core.arms ) && at_q[11:6] == 6'd0 && feltgate_map_pkg::REFUSED_WHILE_ARMED[at_q[5:0]];
   assign holds  = armed && !disarm_due_q;
 
   // The word of an address, whichever that is, as it was written last; and what the slot of this clock asks for.
@@ -98,7 +99,7 @@ module writes_proof (
     wanted_control = control_q;
     if (control_due_q) begin
       wanted_control[Held-1:0] = data_then_q[Held-1:0];
-      if (!holds_q) wanted_control[ControlW-1:Held] = data_then_q[ControlW-1:Held];
+      if (!holds_q && !armed) wanted_control[ControlW-1:Held] = data_then_q[ControlW-1:Held];
     end
     if (disarmed_q) begin
       wanted_control[Host] = 1'b1;

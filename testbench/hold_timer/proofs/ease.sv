@@ -40,7 +40,7 @@ module ease_proof (
   assign now  = wave_i[feltgate_map_pkg::T_HOLD];
   assign held = armed_i && !moved_i;
   assign unit = tick_count_i[feltgate_map_pkg::HOLD_UNIT_BITS-1:0] == '0;
-  assign due  = held && strong_q && 32'(units_q) >= param_i;
+  assign due  = held && strong_q && (param_i[31] || 32'(units_q) >= param_i);
   always_ff @(posedge clk_i) begin
     if (wave_i[feltgate_map_pkg::T_HOLD_STRONG]) strong_q <= beyond_i;
     eased_q <= eased;
@@ -62,7 +62,7 @@ module ease_proof (
           in_reach_q <= 1'b1;
         end else begin
           if (unit) units_q <= (units_q + 1'b1) | {units_q[Bits], {Bits{1'b0}}};
-          if (param_i >= 32'd1 << Bits) in_reach_q <= 1'b0;
+          if (!param_i[31] && param_i >= 32'd1 << Bits) in_reach_q <= 1'b0;
         end
       end
     end

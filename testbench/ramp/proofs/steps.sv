@@ -61,7 +61,7 @@ module steps_proof (
   logic began_q, ramps_q, done_q, limited_q, after_q, torque_due_q, zero_q;
   logic signed [TorqueW-1:0] tau_q;
   logic signed [W:0] step_word;
-  assign step_word = param_i[W-1] ? '0 : $signed({2'b0, param_i[W-2:0]});
+  assign step_word = (param_i[W-1] || param_i[W-2:0] == '0) ? (W + 1)'(1) : $signed({2'b0, param_i[W-2:0]});
   always_ff @(posedge clk_i) begin
     if (wave[Excess]) begin
       target_q <= $signed({limited_i[TorqueW-1], limited_i[TorqueW-1:0], {Fine{1'b0}}});

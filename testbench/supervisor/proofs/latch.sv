@@ -42,7 +42,7 @@ module latch_proof (
   (* hierconn *) wire [1:0] \u_dut.stop_q ;
   wire [1:0] stop = \u_dut.stop_q ;
 
-  logic after_q, gates_q, armed_q, tick_q, asks_q, silent_q, clear_q, stop_seen_q, unkicked_q, kicked_q, blocked_q;
+  logic after_q, gates_q, armed_q, arms_q, tick_q, asks_q, silent_q, clear_q, stop_seen_q, unkicked_q, kicked_q, blocked_q;
   logic [2:0] cleared_q;  // gates_clear_o one, two, three clocks ago
   // What the host, the panel and the one of them who has the say ask for: now, and at the end of the last tick.
   // A disarm takes away the request of who has the say.
@@ -62,6 +62,7 @@ module latch_proof (
     armed_q  <= armed;
     tick_q   <= tick_i;
     asks_q   <= asks;
+    arms_q   <= arms_o;
     silent_q <= axis_silent_i;
     clear_q  <= clear_faults_i && !asks;
     rose_q   <= silent_then_q || !(host_i ? host_then_q : panel_then_q);
@@ -136,6 +137,7 @@ module latch_proof (
       clears_where_nobody_asks: assert (clear_o == (clear_faults_i && !asks) && asks_o == asks);
       disarms_with_the_request: assert (!(tick_q && (!asks_q || silent_q)) || (!gates && !armed));
       armed_in_ticks_only: assert (tick_q || armed == armed_q);
+      armed_as_told: assert (!tick_q || armed == arms_q);
       estimate_in_its_clock: assert (estimate_due_q || estimate == estimate_q);
       stop_closes_gates: assert (!cleared_q[2] || !gates);
       unkicked_until_a_kick: assert (unkicked == (feltgate_pkg::REQUIRE_WATCHDOG != 0 && !kicked_q));

@@ -87,6 +87,18 @@ TEST_CASE("floor and mod") {
         0);
 }
 
+TEST_CASE("names that nothing uses are noted, in the order of the file, each once") {
+  const Law law = law_of(
+      "param z = 1 in 0 .. 2\nlet used = 1\nfor i in 0 .. 2 { let a = i }\n"
+      "table b(x) on [0, 1] = x\nout torque = used * tau_hat");
+  REQUIRE(law.unused.size() == 3);
+  CHECK(law.unused[0].name == "z");
+  CHECK(law.unused[1].name == "a");
+  CHECK(law.unused[1].place.line == 3);
+  CHECK(law.unused[2].name == "b");
+  CHECK(law_of("let used = 1\nout torque = used * tau_hat").unused.empty());
+}
+
 TEST_CASE("a table of a number is a number") {
   CHECK(torque_of("table f(x) on [0, 1] = x^2\nout torque = 1 Nm * (f(0.3) + f(7))") ==
         Approx(1.09));

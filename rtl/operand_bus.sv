@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The operand bus: who holds a clock of the wave drives it. What is held longer enters by a copy that
-// is 0 outside its clocks, so that the bus is but an or.
+// The operand bus: the block that owns a clock of the wave drives it. A value that is held longer enters
+// through a copy that is 0 outside its clocks, so the bus needs only an or.
 // Documentation: docs/blocks/operand_bus.md
 
 `default_nettype none

@@ -49,9 +49,10 @@ module ramp (
     end
   end
 
-  // One step towards the target, or all of it. The tick in which the distance is found to be within
-  // one step ends the ramp; the reference moves on with the next. Frozen, what grows, or would change its
-  // sign from above, goes by steps too: for either direction this is known before the direction is.
+  // The reference moves by one step towards the target, or by the whole distance. The tick whose distance
+  // is within one step ends the ramp; the reference moves on with the next tick. While frozen the step is 0,
+  // and a reference takes it that would grow, or would fall from above 0 to below 0. This is decided for
+  // both directions before the direction is known.
   logic signed [W:0] step, change, beyond;
   logic signed [W-1:0] change_q;
   logic ramping_q, active, frozen, steps_down_q, steps_up_q, stepping, stepping_q;

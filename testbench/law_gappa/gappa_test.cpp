@@ -13,11 +13,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "../law_compiler/random_laws.hpp"
 #include "feltgate/largest.hpp"
 #include "feltgate/random.hpp"
 #include "files/program.hpp"
 #include "law/diagnostics.hpp"
+#include "random_laws.hpp"
 
 namespace feltgate::law {
 namespace {

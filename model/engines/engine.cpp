@@ -15,47 +15,24 @@
 
 namespace feltgate {
 
-#define FELTGATE_DESIGN(name)                     \
-  DesignInfo make_##name##_info();                \
-  std::unique_ptr<Engine> make_##name##_twin();   \
-  std::unique_ptr<Device> make_##name##_device(); \
-  std::unique_ptr<RealChain> make_##name##_chain(const std::string&);
-#include "designs.inc"
-#undef FELTGATE_DESIGN
-
 namespace {
 
-std::vector<DesignMakers>& further_designs() {
+std::vector<DesignMakers>& designs() {
   static std::vector<DesignMakers> list;
   return list;
 }
 
-const DesignMakers* further(const std::string& design) {
-  for (const DesignMakers& d : further_designs()) {
+RtlMaker rtl_engines = nullptr;  // set before main() where the Verilated cores are linked
+
+const DesignMakers* find(const std::string& design) {
+  for (const DesignMakers& d : designs()) {
     if (d.name == design) return &d;
   }
   return nullptr;
 }
 
-}  // namespace
-
-void add_design(const DesignMakers& design) {
-  if (further(design.name) == nullptr) further_designs().push_back(design);
-}
-
-std::vector<std::string> design_names() {
-  return {
-#define FELTGATE_DESIGN(name) #name,
-#include "designs.inc"
-#undef FELTGATE_DESIGN
-  };
-}
-
-namespace {
-
-RtlMaker rtl_engines = nullptr;  // set before main() where the Verilated cores are linked
-
-[[noreturn]] void unknown_design(const std::string& design) {
+const DesignMakers& makers_of(const std::string& design) {
+  if (const DesignMakers* d = find(design)) return *d;
   throw std::invalid_argument(
       fmt::format("design \"{0}\" is not built in; choose one of {1}, a preset (fast, balanced, "
                   "exact) by way of ./feltgate, which builds it, or add rtl/designs/{0}.toml and "
@@ -63,11 +40,26 @@ RtlMaker rtl_engines = nullptr;  // set before main() where the Verilated cores 
                   design, fmt::join(design_names(), ", ")));
 }
 
-[[noreturn]] void unknown_engine(const std::string& kind) {
-  throw std::invalid_argument("engine \"" + kind + "\" is unknown; choose rtl, twin or lockstep");
+}  // namespace
+
+void add_design(const DesignMakers& design) {
+  if (find(design.name) == nullptr) designs().push_back(design);
 }
 
-std::unique_ptr<Engine> make_rtl(const std::string& design, const std::string& kind) {
+std::vector<std::string> design_names() {
+  std::vector<std::string> names;
+  for (const DesignMakers& d : designs()) {
+    if (!d.preset) names.push_back(d.name);
+  }
+  return names;
+}
+
+void provide_rtl_engines(RtlMaker maker) { rtl_engines = maker; }
+
+std::unique_ptr<Engine> make_rtl_engine(const std::string& design, const std::string& kind) {
+  if (kind != "rtl" && kind != "lockstep") {
+    throw std::invalid_argument("engine \"" + kind + "\" is unknown; choose rtl, twin or lockstep");
+  }
   if (rtl_engines != nullptr) return rtl_engines(design, kind);
   throw std::invalid_argument(
       fmt::format("engine \"{}\" of design {}: the RTL is not built into this program; choose the "
@@ -76,48 +68,23 @@ std::unique_ptr<Engine> make_rtl(const std::string& design, const std::string& k
                   kind, design));
 }
 
-}  // namespace
-
-void provide_rtl_engines(RtlMaker maker) { rtl_engines = maker; }
-
 std::unique_ptr<Engine> make_engine(const std::string& design, const std::string& kind) {
-  const bool rtl = kind == "rtl" || kind == "lockstep";
-  if (const DesignMakers* d = further(design)) return d->engine(kind);
-#define FELTGATE_DESIGN(name)                        \
-  if (design == #name) {                             \
-    if (rtl) return make_rtl(design, kind);          \
-    if (kind == "twin") return make_##name##_twin(); \
-    unknown_engine(kind);                            \
-  }
-#include "designs.inc"
-#undef FELTGATE_DESIGN
-  unknown_design(design);
+  return makers_of(design).engine(kind);
 }
 
-DesignInfo design_named(const std::string& design) {
-  if (const DesignMakers* d = further(design)) return d->info();
-#define FELTGATE_DESIGN(name) \
-  if (design == #name) return make_##name##_info();
-#include "designs.inc"
-#undef FELTGATE_DESIGN
-  unknown_design(design);
-}
+DesignInfo design_named(const std::string& design) { return makers_of(design).info(); }
 
 std::unique_ptr<Device> make_device(const std::string& design) {
-#define FELTGATE_DESIGN(name) \
-  if (design == #name) return make_##name##_device();
-#include "designs.inc"
-#undef FELTGATE_DESIGN
-  unknown_design(design);
+  const DesignMakers& d = makers_of(design);
+  if (d.device != nullptr) return d.device();
+  throw std::invalid_argument(
+      fmt::format("design {} has no device here; choose one of {}, or use "
+                  "TwinDevice of its generated header",
+                  design, fmt::join(design_names(), ", ")));
 }
 
 std::unique_ptr<RealChain> make_real_chain(const std::string& design, const std::string& kind) {
-  if (const DesignMakers* d = further(design)) return d->chain(kind);
-#define FELTGATE_DESIGN(name) \
-  if (design == #name) return make_##name##_chain(kind);
-#include "designs.inc"
-#undef FELTGATE_DESIGN
-  unknown_design(design);
+  return makers_of(design).chain(kind);
 }
 
 void Engine::trace(const std::string&, Clock, Clock) {

@@ -134,21 +134,28 @@ std::vector<std::string> design_names();
 /// Throws like make_engine().
 DesignInfo design_named(const std::string& design);
 
-/// A design that is not in rtl/designs (those of tests): makers by kind, as the functions
-/// make_engine, make_real_chain and design_named know them. design_names() does not list it.
+/// What the functions above know of a design, and make_device(), which needs `device`. Added before
+/// main() by what is linked: feltgate_engines adds those of rtl/designs that are no presets, a
+/// program of a preset adds that one. design_names() lists no preset.
+class Device;
 class RealChain;
 struct DesignMakers {
   std::string name;
   std::unique_ptr<Engine> (*engine)(const std::string& kind);
   std::unique_ptr<RealChain> (*chain)(const std::string& kind);
   DesignInfo (*info)();
+  std::unique_ptr<Device> (*device)() = nullptr;
+  bool preset = true;
 };
+/// The first of a name stays.
 void add_design(const DesignMakers& design);
 
 /// Makes "rtl" and "lockstep" of the designs built in. Set by the library feltgate_rtl before
 /// main(); nobody else needs to.
 using RtlMaker = std::unique_ptr<Engine> (*)(const std::string& design, const std::string& kind);
 void provide_rtl_engines(RtlMaker maker);
+/// Calls it. Throws std::invalid_argument where the library is not linked, and for another kind.
+std::unique_ptr<Engine> make_rtl_engine(const std::string& design, const std::string& kind);
 
 /// Integer of a parameter for a value in its unit, rounded to nearest.
 /// Throws std::invalid_argument when it does not fit, with the range.

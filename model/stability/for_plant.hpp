@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A design and a plant: where their constants differ, and the design that has the plant's.
+// The design that has the constants of a plant.
 // Documentation: docs/designs.md
 #pragma once
 
@@ -10,25 +10,9 @@
 
 #include "design/design.hpp"
 #include "plant/parameters.hpp"
+#include "stability/constants.hpp"
 
 namespace feltgate::stability {
-
-/// A constant that design and plant both have.
-struct Constant {
-  std::string name, unit;
-  std::string key;  ///< "section.key" of the design file
-  double of_design = 0, of_plant = 0;
-  /// The plant's against the design's, 0.1: a tenth more. Infinite where the design has 0.
-  double excess() const;
-};
-
-/// Constants further apart than this are told.
-constexpr double noticeable = 0.01;
-
-/// Those of `plant` that the voltage law, the observer or the encoder of `d` counts on and that
-/// differ noticeably; an effect that is off in `effects` does not count.
-std::vector<Constant> differing_constants(const design::Design& d, const plant::Parameters& plant,
-                                          const plant::Effects& effects);
 
 /// A design for a plant, not written yet.
 struct PlantDesign {

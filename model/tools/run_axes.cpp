@@ -13,9 +13,11 @@
 #include <stdexcept>
 
 #include "files/output_file.hpp"
+#include "law_loop/scene_law.hpp"
 #include "loop/scenario_check.hpp"
 #include "tools/commands.hpp"
 #include "tools/csv.hpp"
+#include "tools/run_laws.hpp"
 #include "tools/run_output.hpp"
 
 namespace feltgate {
@@ -58,8 +60,6 @@ void show_mismatch(const AxesScene& scene, AxesRunOptions again, const AxesResul
   waveform.commit();
   tell_mismatch(result.first_mismatch, waveform.path());
 }
-
-}  // namespace
 
 int run_axes_scene(const AxesArguments& a) {
   AxesScene scene = read_axes_scene(
@@ -118,5 +118,13 @@ int run_axes_scene(const AxesArguments& a) {
   }
   return result.mismatches == 0 && result.broken.empty() ? exit_ok : exit_failed;
 }
+
+/// Linked is known: before main().
+[[maybe_unused]] const bool known = [] {
+  law_scenes() = {make_scene_law, run_axes_scene};
+  return true;
+}();
+
+}  // namespace
 
 }  // namespace feltgate

@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "files/output_file.hpp"
-#include "law_loop/scene_law.hpp"
 #include "loop/bounded.hpp"
 #include "loop/event_lines.hpp"
 #include "loop/scenario_check.hpp"
@@ -23,7 +22,7 @@
 #include "tools/checks.hpp"
 #include "tools/commands.hpp"
 #include "tools/csv.hpp"
-#include "tools/run_axes.hpp"
+#include "tools/run_laws.hpp"
 #include "tools/run_output.hpp"
 
 namespace feltgate {
@@ -31,6 +30,12 @@ namespace feltgate {
 namespace {
 
 namespace fs = std::filesystem;
+
+[[noreturn]] void refuse_laws(const std::string& at) {
+  throw std::invalid_argument(
+      at +
+      "this program runs scenes of the core alone; ./feltgate run builds the one that runs laws");
+}
 
 struct RunArguments {
   std::string scene, design = "lever", plant, engine = "all", report, json, csv, fst, record,
@@ -67,6 +72,11 @@ void apply_settings(const std::vector<std::string>& set, const DesignInfo& desig
   }
 }
 
+LawScenes& law_scenes() {
+  static LawScenes all;
+  return all;
+}
+
 std::string law_file(const Scenario& s) {
   const bool path = s.law.find('/') != std::string::npos || fs::path(s.law).extension() == ".law";
   if (path) return (fs::path(s.path).parent_path() / s.law).string();
@@ -94,7 +104,8 @@ std::unique_ptr<SceneLaw> law_of(const Scenario& s, const DesignInfo& design) {
     throw std::invalid_argument(fmt::format(
         "{}design {} has no engine for a law; use --design lever_law", at, design.name));
   }
-  return make_scene_law(law_file(s), design);
+  if (law_scenes().law == nullptr) refuse_laws(at);
+  return law_scenes().law(law_file(s), design);
 }
 
 /// A row for each run of the law.
@@ -122,8 +133,9 @@ int run(const RunArguments& a) {
       throw std::invalid_argument(fmt::format(
           "{} is for scenes of one lever, and {} names a device; leave it out", option, a.scene));
     }
-    return run_axes_scene({scene_path, a.design, a.engine, a.json, a.csv, a.fst, a.set, a.seed,
-                           a.every, a.quiet, a.columns});
+    if (law_scenes().axes == nullptr) refuse_laws(scene_path + ": ");
+    return law_scenes().axes({scene_path, a.design, a.engine, a.json, a.csv, a.fst, a.set, a.seed,
+                              a.every, a.quiet, a.columns});
   }
   if (a.columns) {
     fmt::print("{}", columns_markdown());

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "loop/loop.hpp"
-#include "stability/for_plant.hpp"
+#include "stability/constants.hpp"
 
 namespace feltgate {
 

@@ -5,7 +5,7 @@
 # too. docs/board.md
 include_guard(GLOBAL)
 
-feltgate_library(feltgate_board_parts board EXCEPT "/rtl_cores" feltgate_loop)
+feltgate_library(feltgate_board_parts board EXCEPT "/rtl_cores" feltgate_engines feltgate_loop)
 set(board_designs ${FELTGATE_DESIGNS} lever_law)  # also the preset with an engine
 set(registrations "")
 foreach(design IN LISTS board_designs)

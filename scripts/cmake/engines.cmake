@@ -35,8 +35,16 @@ function(feltgate_type_of design variable)
   set(${variable} "${type}" PARENT_SCOPE)
 endfunction()
 
-add_library(feltgate_engines STATIC "${FELTGATE_ROOT}/model/engines/engine.cpp"
+# What a tick leaves as words the next one takes as words: in pairs they would wait for the store.
+set(FELTGATE_ENGINE_OPTIONS ${FELTGATE_WARNINGS} -O3 -fno-tree-slp-vectorize)
+# The registry alone, for what leaves the choice of the designs to the program.
+add_library(feltgate_registry STATIC "${FELTGATE_ROOT}/model/engines/engine.cpp"
   "${FELTGATE_ROOT}/model/engines/axes_cores.cpp")
+target_compile_options(feltgate_registry PRIVATE ${FELTGATE_WARNINGS})
+target_link_libraries(feltgate_registry PUBLIC feltgate_model PRIVATE fmt::fmt)
+feltgate_export(registry)
+
+add_library(feltgate_engines STATIC "${FELTGATE_ROOT}/model/engines/built_in_designs.cpp")
 set(FELTGATE_DESIGNS "")
 set(registrations "")
 foreach(path IN LISTS designs)
@@ -49,13 +57,17 @@ foreach(path IN LISTS designs)
   set(FELTGATE_TYPE_${design} ${type})
   list(APPEND FELTGATE_DESIGNS ${design})
   feltgate_for_design(design_engines.cpp.in "${PROJECT_BINARY_DIR}/engines/${design}_engines.cpp")
-  target_sources(feltgate_engines PRIVATE "${PROJECT_BINARY_DIR}/engines/${design}_engines.cpp")
+  # Objects, so that a program may take one design alone.
+  add_library(design_${design} OBJECT "${PROJECT_BINARY_DIR}/engines/${design}_engines.cpp")
+  target_compile_options(design_${design} PRIVATE ${FELTGATE_ENGINE_OPTIONS})
+  target_link_libraries(design_${design} PRIVATE feltgate_model fmt::fmt)
+  target_sources(feltgate_engines PRIVATE $<TARGET_OBJECTS:design_${design}>)
   string(APPEND registrations "FELTGATE_DESIGN(${design})\n")
 endforeach()
 file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/engines/designs.inc" CONTENT "${registrations}")
-target_link_libraries(feltgate_engines PUBLIC feltgate_model PRIVATE fmt::fmt)
+target_link_libraries(feltgate_engines PUBLIC feltgate_registry PRIVATE fmt::fmt)
+# An archive's member is linked where something asks for it: this asks for the registration.
+target_link_options(feltgate_engines INTERFACE "LINKER:--undefined=feltgate_built_in_designs")
 target_include_directories(feltgate_engines PRIVATE "${PROJECT_BINARY_DIR}/engines")
-# What a tick leaves as words the next one takes as words: in pairs they would wait for the store.
-set(FELTGATE_ENGINE_OPTIONS ${FELTGATE_WARNINGS} -O3 -fno-tree-slp-vectorize)
 target_compile_options(feltgate_engines PRIVATE ${FELTGATE_ENGINE_OPTIONS})
 feltgate_export(engines)

@@ -77,9 +77,9 @@ feltgate_sim_library(design design feltgate_config)
 
 feltgate_sim_library(bounds bounds feltgate_design Boost::headers)
 
-# Laws as files: reader, evaluation, compiler. The grammar is Boost.Spirit X3, in one source.
 # Amounts with units are of use without laws.
 feltgate_sim_library(units law ONLY "/(amount|units)\\.cpp$")
+# Laws as files: reader, evaluation, compiler. The grammar is Boost.Spirit X3, in one source.
 feltgate_library(feltgate_law law EXCEPT "/(amount|units)\\.cpp$" feltgate_units Boost::headers)
 include(laws)
 
@@ -111,7 +111,7 @@ endif()
 
 include(engines)
 feltgate_sim_library(loop loop
-  feltgate_engines feltgate_plant_files feltgate_traces feltgate_bounds feltgate_units)
+  feltgate_registry feltgate_plant_files feltgate_traces feltgate_bounds feltgate_units)
 # Laws in a loop: the engine's image, and the law in real numbers beside it.
 feltgate_library(feltgate_law_loop law_loop feltgate_law feltgate_shipped_laws feltgate_loop)
 # Devices of several axes with their laws, in one loop.
@@ -129,7 +129,7 @@ endforeach()
 
 add_library(feltgate_sim INTERFACE)
 target_link_libraries(feltgate_sim INTERFACE
-  feltgate_loop feltgate_linkage_files feltgate_gimbal_files)
+  feltgate_engines feltgate_loop feltgate_linkage_files feltgate_gimbal_files)
 feltgate_export(sim)
 
 # sc_modules of twin and motor: headers. SystemC itself is looked for by who links them.

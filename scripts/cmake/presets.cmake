@@ -25,7 +25,7 @@ foreach(design IN LISTS FELTGATE_PRESETS)
   target_compile_options(preset_${design} PRIVATE ${FELTGATE_ENGINE_OPTIONS})
   target_link_libraries(preset_${design} PRIVATE ${libraries} core_${design})
   add_executable(feltgate_${design}
-    $<TARGET_OBJECTS:preset_${design}> $<TARGET_OBJECTS:feltgate>)
+    $<TARGET_OBJECTS:preset_${design}> $<TARGET_OBJECTS:feltgate> $<TARGET_OBJECTS:feltgate_run_parts>)
   target_link_libraries(feltgate_${design} PRIVATE ${libraries} core_${design})
   set_target_properties(core_${design} preset_${design} feltgate_${design} PROPERTIES EXCLUDE_FROM_ALL ON)
 endforeach()

@@ -64,7 +64,7 @@ set_target_properties(feltgate_python PROPERTIES OUTPUT_NAME _core UNITY_BUILD $
 target_compile_options(feltgate_python PRIVATE ${FELTGATE_WARNINGS} -O1)
 target_compile_definitions(feltgate_python PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
 target_include_directories(feltgate_python PRIVATE "${PROJECT_BINARY_DIR}/designs")
-target_link_libraries(feltgate_python PRIVATE feltgate_loop fmt::fmt)
+target_link_libraries(feltgate_python PRIVATE feltgate_engines feltgate_loop fmt::fmt)
 
 # Designs beyond lever and paper, loaded when one is used.
 pybind11_add_module(feltgate_python_designs MODULE NO_EXTRAS
@@ -76,7 +76,7 @@ foreach(source IN LISTS extra_sources)
   get_filename_component(folder "${source}" DIRECTORY)
   target_include_directories(feltgate_python_designs PRIVATE "${folder}")
 endforeach()
-target_link_libraries(feltgate_python_designs PRIVATE feltgate_engines fmt::fmt)
+target_link_libraries(feltgate_python_designs PRIVATE feltgate_registry fmt::fmt)
 
 # The host's side of the link with the compiler of laws, loaded when it is used.
 pybind11_add_module(feltgate_python_host MODULE NO_EXTRAS "${host}")

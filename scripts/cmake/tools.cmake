@@ -16,7 +16,9 @@ target_compile_options(feltgate_command_line PRIVATE ${FELTGATE_WARNINGS} -O1)
 target_compile_definitions(feltgate_command_line PRIVATE
   FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}" FELTGATE_VERSION="${PROJECT_VERSION}")
 target_link_libraries(feltgate_command_line PUBLIC feltgate_files feltgate_design CLI11::CLI11
-  PRIVATE feltgate_law fmt::fmt)
+  PRIVATE feltgate_registry feltgate_units fmt::fmt)
+# CLI11's header is eight seconds of the compiler: read once.
+target_precompile_headers(feltgate_command_line PRIVATE <CLI/CLI.hpp> <fmt/format.h>)
 
 # feltgate_program(<name> <sources> [libraries...])
 function(feltgate_program name sources)
@@ -31,18 +33,20 @@ endfunction()
 # What the programs of design points share; scripts/exploring/point.py compiles the rest.
 feltgate_library(feltgate_explore explore feltgate_plant_files nlohmann_json::nlohmann_json)
 
-feltgate_library(feltgate_budget budget feltgate_loop)
+feltgate_library(feltgate_budget budget feltgate_engines feltgate_loop)
 target_include_directories(feltgate_budget PRIVATE "${PROJECT_BINARY_DIR}/engines")
 foreach(design IN LISTS FELTGATE_DESIGNS)
   set(type ${FELTGATE_TYPE_${design}})
   feltgate_for_design(design_budget.cpp.in "${PROJECT_BINARY_DIR}/engines/${design}_budget.cpp")
   target_sources(feltgate_budget PRIVATE "${PROJECT_BINARY_DIR}/engines/${design}_budget.cpp")
 endforeach()
-feltgate_library(feltgate_trim trim feltgate_loop)
+feltgate_library(feltgate_trim trim feltgate_engines feltgate_loop)
 
+# Where the constants of design and plant differ.
+feltgate_library(feltgate_constants stability ONLY "/constants\\.cpp$" feltgate_plant_files feltgate_design)
 # Eigen's own warnings are not ours: its headers are system headers.
-feltgate_library(feltgate_stability stability feltgate_engines feltgate_plant_files feltgate_design
-  Eigen3::Eigen)
+feltgate_library(feltgate_stability stability EXCEPT "/constants\\.cpp$"
+  feltgate_constants feltgate_engines Eigen3::Eigen)
 target_link_libraries(feltgate_stability PRIVATE nlohmann_json::nlohmann_json)
 
 # Scenes at several rates.
@@ -62,7 +66,7 @@ target_link_libraries(feltgate_identify PRIVATE nlohmann_json::nlohmann_json)
 target_compile_options(feltgate_calibrate PRIVATE -O1)
 target_compile_options(feltgate_identify PRIVATE -O1)
 # The page for a browser: what runs natively of it; scripts/page.py compiles it for the browser.
-feltgate_library(feltgate_page page EXCEPT "_api" feltgate_loop feltgate_design feltgate_law_loop
+feltgate_library(feltgate_page page EXCEPT "_api" feltgate_engines feltgate_loop feltgate_design feltgate_law_loop
   feltgate_axes_loop feltgate_shape)
 # Presets of several axes, for `feltgate rates` of all scenes.
 set(FELTGATE_AXES_PRESETS "")
@@ -86,7 +90,7 @@ foreach(design fast lever_law ${FELTGATE_AXES_PRESETS})
   # Objects: what registers the engine stays in every program that takes them.
   add_library(twin_${design} OBJECT EXCLUDE_FROM_ALL "${PROJECT_BINARY_DIR}/engines/${design}_twin.cpp")
   target_compile_options(twin_${design} PRIVATE ${FELTGATE_ENGINE_OPTIONS})
-  target_link_libraries(twin_${design} PRIVATE feltgate_engines fmt::fmt)
+  target_link_libraries(twin_${design} PRIVATE feltgate_registry fmt::fmt)
 endforeach()
 set(page_twins $<TARGET_OBJECTS:twin_fast> $<TARGET_OBJECTS:twin_lever_law>)
 add_executable(feltgate_page_data EXCLUDE_FROM_ALL
@@ -106,9 +110,36 @@ feltgate_program(feltgate_generate generate_main.cpp feltgate_design)
 file(GLOB tool_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/tools"
   "${FELTGATE_ROOT}/model/tools/*.cpp")
 list(FILTER tool_sources EXCLUDE REGEX "_main\\.cpp$|^(checks|commands|command_line)\\.cpp$")
+# A first scene: nothing that it does not use. The RTL is a minute more, so it is left out where none
+# is asked for.
+set(run_sources csv.cpp replay_command.cpp run_command.cpp run_json.cpp run_text.cpp)
+list(TRANSFORM run_sources PREPEND "${FELTGATE_ROOT}/model/tools/")
+set(run_libraries feltgate_command_line feltgate_loop feltgate_constants feltgate_files
+  nlohmann_json::nlohmann_json fmt::fmt)
+add_library(feltgate_run_parts OBJECT ${run_sources})
+target_compile_options(feltgate_run_parts PRIVATE ${FELTGATE_WARNINGS} -O1)
+target_compile_definitions(feltgate_run_parts PRIVATE
+  FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}" FELTGATE_VERSION="${PROJECT_VERSION}")
+target_precompile_headers(feltgate_run_parts REUSE_FROM feltgate_command_line)
+target_link_libraries(feltgate_run_parts PRIVATE ${run_libraries})
+feltgate_program(feltgate_twin run_main.cpp ${run_libraries})
+feltgate_program(feltgate_run run_main.cpp ${run_libraries} core_lever)
+foreach(program feltgate_twin feltgate_run)
+  target_sources(${program} PRIVATE $<TARGET_OBJECTS:feltgate_run_parts> $<TARGET_OBJECTS:design_lever>
+    "${FELTGATE_ROOT}/model/engines/built_in_designs.cpp")
+  target_include_directories(${program} PRIVATE "${PROJECT_BINARY_DIR}/engines/lever_alone")
+endforeach()
+target_sources(feltgate_run PRIVATE $<TARGET_OBJECTS:rtl_lever>
+  "${FELTGATE_ROOT}/model/engines/rtl_engines.cpp")
+file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/engines/lever_alone/designs.inc"
+  CONTENT "FELTGATE_DESIGN(lever)\n")
+set_target_properties(feltgate_twin feltgate_run PROPERTIES EXCLUDE_FROM_ALL ON)
+
+list(REMOVE_ITEM tool_sources csv.cpp replay_command.cpp run_command.cpp run_json.cpp run_text.cpp)
 feltgate_program(feltgate "feltgate_main.cpp;${tool_sources}"
   feltgate_rtl feltgate_files feltgate_budget feltgate_law feltgate_shape feltgate_texture feltgate_axes_loop feltgate_law_loop feltgate_loop feltgate_stability feltgate_rates feltgate_trim feltgate_design
   feltgate_command_line nlohmann_json::nlohmann_json)
+target_sources(feltgate PRIVATE $<TARGET_OBJECTS:feltgate_run_parts>)
 
 include(presets)
 

@@ -26,6 +26,7 @@ HEADERS = {
 FOLDERS = ("page", "plant", "config", "design", "law", "law_loop")
 FILES = (
     "axes_loop/plane_host.cpp",
+    "engines/built_in_designs.cpp",
     "engines/engine.cpp",
     "loop/ensemble.cpp",
     "loop/engine_choice.cpp",

@@ -127,12 +127,25 @@ class Presets(Machine):
         self.installed(*BUILD_PACKAGES)
         self.assertEqual(self.built("run", "membrane", "--design", "fast"), [["feltgate_fast"]])
         self.assertIn("program feltgate_fast run membrane --design fast\n", self.said)
-        self.assertEqual(self.built("run", "membrane"), [["feltgate"]])
-        self.assertIn("program feltgate run membrane\n", self.said)
+        self.assertEqual(self.built("run", "membrane"), [["feltgate_run"]])
+        self.assertIn("program feltgate_run run membrane\n", self.said)
         self.assertEqual(self.built("run", "wall", "--design=exact"), [["feltgate_exact"]])
         self.assertEqual(self.built("stability", "balanced"), [["feltgate_balanced"]])
         self.assertEqual(self.built("design", "fast"), [["feltgate"]])
-        self.assertEqual(self.built("run", "wall", "--design", "faster"), [["feltgate"]])
+        self.assertEqual(self.built("run", "wall", "--design", "paper"), [["feltgate"]])
+        self.assertEqual(self.built("run", "wall", "--design", "my/own.toml"), [["feltgate"]])
+        # That none has the name is said by any program.
+        self.assertEqual(self.built("run", "wall", "--design", "faster"), [["feltgate_run"]])
+
+    def test_a_run_without_rtl_builds_none(self):
+        self.installed(*BUILD_PACKAGES)
+        for engine, program in (
+            ("twin", "twin"), ("twin,double", "twin"), ("all", "run"), ("twin,rtl", "run"), ("lockstep", "run"),
+        ):
+            with self.subTest(engine):
+                self.assertEqual(self.built("run", "membrane", "--engine", engine), [[f"feltgate_{program}"]])
+                self.assertEqual(self.built("replay", f"--engine={engine}", "a.csv"), [[f"feltgate_{program}"]])
+        self.assertEqual(self.built("import", "a.sr"), [["feltgate_twin"]])
 
     def test_a_scene_with_a_law_takes_the_design_with_an_engine(self):
         self.installed(*BUILD_PACKAGES)

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Registers the designs of rtl/designs that are no presets. Who links feltgate_engines has them.
+// Documentation: docs/architecture.md
+#include "engines/engine.hpp"
+
+namespace feltgate {
+
+#define FELTGATE_DESIGN(name) DesignMakers name##_makers();
+#include "designs.inc"
+#undef FELTGATE_DESIGN
+
+}  // namespace feltgate
+
+/// What scripts/cmake/engines.cmake has the linker ask for, so that this file is linked.
+extern "C" {
+extern const bool feltgate_built_in_designs;
+const bool feltgate_built_in_designs = [] {
+#define FELTGATE_DESIGN(name) feltgate::add_design(feltgate::name##_makers());
+#include "designs.inc"
+#undef FELTGATE_DESIGN
+  return true;
+}();
+}

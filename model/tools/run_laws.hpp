@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What feltgate run needs for scenes with a law or a device of several axes. A program for scenes
+// of the core alone leaves it out. Documentation: docs/architecture.md
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "loop/scene_law.hpp"
+
+namespace feltgate {
+
+/// Options of `feltgate run` that a scene of several axes takes.
+struct AxesArguments {
+  std::string scene_path, design, engine, json, csv, fst;
+  std::vector<std::string> set;
+  std::uint64_t seed = 1;
+  int every = 0;  ///< 0: sane_every()
+  bool quiet = false;
+  bool columns = false;  ///< print their names alone
+};
+
+/// Set before main() by run_axes.cpp, where it is linked.
+struct LawScenes {
+  /// As make_scene_law().
+  std::unique_ptr<SceneLaw> (*law)(const std::string& path, const DesignInfo& design) = nullptr;
+  /// Runs and prints; the exit code.
+  int (*axes)(const AxesArguments& arguments) = nullptr;
+};
+/// Those of this program.
+LawScenes& law_scenes();
+
+}  // namespace feltgate

@@ -15,12 +15,12 @@ LABELS = {"name": "LABELS", "value": ["unit"]}
 
 class FirstStart(Machine):
     def test_python_is_looked_up_after_it_was_installed(self):
-        for words in (("run", "membrane"), ("demo",)):
+        for program, *words in (("feltgate_run", "run", "membrane"), ("feltgate", "demo")):
             with self.subTest(words):
                 self.setUp()
                 done = self.start("--yes", *words)
                 self.assertEqual(done.returncode, 0, done.stderr)
-                self.assertIn(f"program feltgate {' '.join(words)}\n", done.stdout)
+                self.assertIn(f"program {program} {' '.join(words)}\n", done.stdout)
                 self.assertIn("python works", done.stdout)
                 configured = [c for c in self.log() if c.startswith("cmake ") and " -S " in c]
                 self.assertEqual(len(configured), 1)

@@ -91,6 +91,8 @@ RULES = (
     Rule(r"scripts/defects\.py copy", "BY", "repository.defects_test"),
     Rule(r"sbatch .*scripts/explore\.sbatch", "NAMED"),
     Rule(r"(?:cp|mv|cd|git checkout|quartus_sh|openFPGALoader|dask-worker)", "NAMED"),
+    Rule(r"c\+\+ -std=c\+\+17 -Imodel/include docs/examples/tick_loop\.cpp", "WHOLE"),
+    Rule(r"a\.out", "WHOLE"),
     Rule(r"cmake -S \. -B build", "NAMED"),
     Rule(r"cmake -S \. -B build-aarch64", "BY", "aarch64"),
     Rule(r"cmake -S \. -B build-library|cmake --(?:build|install)", "BY", "package"),

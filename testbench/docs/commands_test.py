@@ -71,6 +71,8 @@ def argv_of(line, rule, folder):
         return [str(CONFIGURED) if word == "build" else word for word in words]
     if words[0].endswith(".py"):
         return [sys.executable, *words]
+    if words[0] in ("c++", "./a.out"):
+        return words
     return program_of(words, folder)
 
 

@@ -303,7 +303,11 @@ module feltgate_core #(
       .faults_o(faults_o), .first_fault_o(first_fault_o)
   );
 
-  pwm #(.Period(feltgate_pkg::PWM_PERIOD), .DeadClocks(feltgate_pkg::DEAD_CLOCKS)) u_pwm (
+  pwm #(
+    .Period(feltgate_pkg::PWM_PERIOD),
+    .DeadClocks(feltgate_pkg::DEAD_CLOCKS),
+    .ShortestClocks(feltgate_pkg::SHORTEST_CLOCKS)
+  ) u_pwm (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .clear_i(gates_clear),
       .enable_i(gates_enable),

@@ -8,8 +8,9 @@
 `default_nettype none
 
 module pwm #(
-  parameter int Period     = 1000,  // clocks, even, 4 to 4094
-  parameter int DeadClocks = 25     // clocks, 1 to 64
+  parameter int Period         = 1000,  // clocks, even, 4 to 4094
+  parameter int DeadClocks     = 25,    // clocks, 1 to 64
+  parameter int ShortestClocks = 1      // of a pulse at a gate, 1 to 255
 ) (
   input  logic               clk_i,
   input  logic               rst_ni,
@@ -32,6 +33,10 @@ module pwm #(
   end
   if (!(DeadClocks >= 1 && DeadClocks <= 64)) begin : g_check_dead_time
     DEAD_CLOCKS_must_be_1_to_64 missing ();
+  end
+  if (!(ShortestClocks >= 1 && ShortestClocks <= 255 &&
+        (ShortestClocks == 1 || 2 * (DeadClocks + ShortestClocks) <= Period))) begin : g_check_shortest
+    SHORTEST_CLOCKS_must_be_1_to_255_and_with_DEAD_CLOCKS_half_a_period_at_most missing ();
   end
   endgenerate
 
@@ -87,6 +92,26 @@ module pwm #(
     end
   end
 
+  // No gate gets a pulse shorter than ShortestClocks. A high one is left out (sign-magnitude) or made longer (antiphase, in
+  // which both legs always switch); a low one is made longer.
+  logic signed [13:0] whole_d;
+
+  generate
+  if (ShortestClocks == 1) begin : g_any_pulse
+    assign whole_d = threshold_d;
+  end else begin : g_whole_pulses
+    localparam logic signed [13:0] DEAD_TIME = 14'(DeadClocks);
+    localparam logic signed [13:0] LEAST     = 14'(DeadClocks + ShortestClocks);
+    localparam logic signed [13:0] MOST      = 14'(Period - DeadClocks - ShortestClocks);
+    always_comb begin
+      whole_d = threshold_d;
+      if (threshold_d > MOST) whole_d = MOST;
+      else if (threshold_d < LEAST && antiphase_q) whole_d = LEAST;
+      else if (threshold_d < LEAST && threshold_d > DEAD_TIME) whole_d = DEAD_TIME;
+    end
+  end
+  endgenerate
+
   logic signed [13:0] threshold_q;
   logic               antiphase_q2, switch_b_q2;
 
@@ -96,7 +121,7 @@ module pwm #(
       antiphase_q2 <= 1'b0;
       switch_b_q2  <= 1'b0;
     end else begin
-      threshold_q  <= threshold_d;
+      threshold_q  <= whole_d;
       antiphase_q2 <= antiphase_q;
       switch_b_q2  <= switch_b_q;
     end

@@ -31,7 +31,8 @@ ALONE = (
 ).split()
 # Parameters that the core sets and a block alone would not have.
 BLOCK_PARAMETERS = {
-    "pwm": {"Period": "feltgate_pkg::PWM_PERIOD", "DeadClocks": "feltgate_pkg::DEAD_CLOCKS"},
+    "pwm": {"Period": "feltgate_pkg::PWM_PERIOD", "DeadClocks": "feltgate_pkg::DEAD_CLOCKS",
+        "ShortestClocks": "feltgate_pkg::SHORTEST_CLOCKS"},
     "sequencer": {"ClocksPerTick": "feltgate_pkg::CLOCKS_PER_TICK"},
 }
 

@@ -37,7 +37,7 @@ struct Design {
   double voltage_ramp_v_s = 2400;  ///< of direct voltage mode
   std::int64_t pwm_hz = 0;
   int pwm_mode = 0, motor_polarity = 0;
-  double dead_time_s = 0, supply_v = 0;
+  double dead_time_s = 0, shortest_pulse_s = 0, supply_v = 0;
   double diode_drop_v = 0;
   bool compensate_dead_time = false;
   double overspeed_rad_s = 0, nominal_current_a = 0, i2t_budget_a2_s = 0;
@@ -71,6 +71,7 @@ struct Design {
   /// A time in the units of the self-test, SELF_TEST_UNIT_BITS of ticks.
   double self_test_units(double seconds) const;
   int dead_clocks() const;
+  int shortest_clocks() const;  ///< of a pulse at a gate
   /// Of engine_max_age_s, at least one; 0 without an engine.
   int engine_max_age_ticks() const;
   double tick_s() const { return 1.0 / static_cast<double>(tick_hz); }

@@ -67,6 +67,7 @@ std::vector<Constant> constants(const Elaborated& e) {
       {"index_counts", d.has_index ? 4 * d.lines : 0, "counts from index to index; 0: not checked"},
       {"pwm_period", d.pwm_period_clocks(), "clocks"},
       {"dead_clocks", d.dead_clocks(), "clocks"},
+      {"shortest_clocks", d.shortest_clocks(), "clocks, of a pulse at a gate"},
       {"scene_mask", scene_mask(e), "bit n: scene n is built"},
       {"control_reset", control_reset(e), "control word after reset"},
       {"coefficient_bits", d.coefficient_bits,

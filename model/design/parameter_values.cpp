@@ -15,6 +15,13 @@ double low_pass_a1(double cutoff_rad_s, double tick_s) {
   return -std::expm1(-cutoff_rad_s * tick_s);
 }
 
+// A bootstrap driver lives on the pulses of the low gate: the low gate of each leg that switches
+// gets its shortest one in every period. Half a period where the period is too short for that.
+double duty_limit(const Design& d) {
+  const int period = d.pwm_period_clocks(), legs = d.pwm_mode == 1 ? 2 : 1;
+  return std::max(period / 2, period - legs * (d.dead_clocks() + d.shortest_clocks()));
+}
+
 }  // namespace
 
 std::map<std::string, Value> parameter_values(const Design& d) {
@@ -87,7 +94,7 @@ std::map<std::string, Value> parameter_values(const Design& d) {
       {"voltage_window",
        {std::min(d.resistance_ohm * current_a + dead_v, d.supply_v), "motor.resistance_ohm"}},
       {"duty_gain", {d.pwm_period_clocks() / d.supply_v, "pwm.supply_v"}},
-      {"duty_limit", {static_cast<double>(d.pwm_period_clocks()), "pwm.frequency_hz"}},
+      {"duty_limit", {duty_limit(d), "pwm.frequency_hz"}},
       {"watchdog_ticks", {std::ceil(d.watchdog_s * tick_hz), "supervisor.watchdog_s"}},
       {"self_test_torque", {d.self_test_nm, "self_test.torque_nm"}},
       {"self_test_quiet",

@@ -201,6 +201,12 @@ int Design::dead_clocks() const {
   return static_cast<int>(std::lround(dead_time_s * static_cast<double>(clock_hz)));
 }
 
+int Design::shortest_clocks() const {
+  // Rounded up, but for what the product of the two loses.
+  const double clocks = std::ceil(shortest_pulse_s * static_cast<double>(clock_hz) - 1e-6);
+  return std::max(1, static_cast<int>(clocks));
+}
+
 void Design::fail(const std::string& key, const std::string& what, const std::string& mend) const {
   auto at = lines_of.find(key);
   if (at == lines_of.end()) at = lines_of.find(key.substr(0, key.find('.')));
@@ -289,6 +295,17 @@ Design design_of(const toml::table& root, const std::string& path) {
     d.pwm_mode = static_cast<int>(r.choice("mode", {"sign_magnitude", "locked_antiphase"}));
     d.motor_polarity = static_cast<int>(r.integer("polarity", 0, 1));
     d.dead_time_s = r.number("dead_time_s", {0.0, 1e-5});
+    if (r.has("shortest_pulse_s")) {
+      d.shortest_pulse_s = r.number("shortest_pulse_s", {0.0, 5e-6});
+      if (d.shortest_clocks() > 255 ||
+          (d.shortest_clocks() > 1 &&
+           2 * (d.dead_clocks() + d.shortest_clocks()) > d.pwm_period_clocks())) {
+        r.fail("shortest_pulse_s",
+               "the shortest pulse is longer than 255 clocks, or with the dead time than half a "
+               "period",
+               "shorten it, or choose a lower frequency_hz");
+      }
+    }
     d.diode_drop_v = r.number("diode_drop_v", {0.0, 5.0});
     d.compensate_dead_time = r.integer("compensate_dead_time", 0, 1) == 1;
     d.supply_v = r.number("supply_v", {1.0, 31.9});

@@ -27,6 +27,7 @@ BridgeModel::BridgeModel(const Drive& drive, const SupplyParameters& supply,
       dead_time_(effects.dead_time && drive.dead_time_s > 0.0),
       hard_(!effects.inductance),
       dead_fraction_(drive.dead_time_s * drive.pwm_hz),
+      least_(drive.shortest_s > 0 ? (drive.dead_time_s + drive.shortest_s) * drive.pwm_hz : 0),
       ripple_a_v_(0.5 / (motor.inductance_h * drive.pwm_hz)),
       antiphase_(drive.switching == Drive::Switching::kLockedAntiphase) {
   if (!(drive.clock_hz > 0.0) || !(drive.pwm_hz > 0.0) || !(drive.dead_time_s >= 0.0) ||
@@ -42,8 +43,18 @@ double BridgeModel::dead_share(double on_share, double against_share) const {
   return std::min(dead_fraction_, on_share);
 }
 
-void BridgeModel::hold(double duty, double bus_v) {
+// The duty without pulses that the PWM leaves out or makes longer (docs/blocks/pwm.md).
+double BridgeModel::whole_pulses(double duty) const {
   const double d = std::clamp(duty, -1.0, 1.0);
+  if (least_ <= 0.0) return d;
+  if (antiphase_) return 2.0 * std::clamp(0.5 * (1.0 + d), least_, 1.0 - least_) - 1.0;
+  double on = std::min(std::abs(d), 1.0 - least_);
+  if (on < least_) on = std::min(on, dead_fraction_);
+  return std::copysign(on, d);
+}
+
+void BridgeModel::hold(double duty, double bus_v) {
+  const double d = whole_pulses(duty);
   held_ = {};
   held_.duty = duty;
   held_.bus_v = bus_v;

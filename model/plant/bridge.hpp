@@ -47,6 +47,7 @@ struct Drive {
   double clock_hz = 50e6;
   double pwm_hz = 20e3;
   double dead_time_s = 0.5e-6;  ///< turn-on of each gate comes this much late, turn-off does not
+  double shortest_s = 0;        ///< shortest pulse that the PWM gives a gate; 0: any
   Switching switching = Switching::kSignMagnitude;
 };
 
@@ -89,6 +90,7 @@ class BridgeModel {
   };
 
   double dead_share(double on_share, double against_share) const;
+  double whole_pulses(double duty) const;
   void hold(double duty, double bus_v);
   BridgeVoltage unaveraged(const Bridge& bridge) const;
   // With valley and peak of opposite sign each edge finds the current already where it must go:
@@ -104,6 +106,7 @@ class BridgeModel {
   bool dead_time_;
   bool hard_;             ///< no inductance, hence no ripple that would soften the dead time
   double dead_fraction_;  ///< dead time over PWM period
+  double least_;          ///< dead time and shortest pulse over PWM period; 0: pulses of any length
   double ripple_a_v_;     ///< half peak-to-peak ripple per volt of bus and unit of D*(1-D)
   bool antiphase_;
   Held held_;

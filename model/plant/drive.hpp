@@ -15,6 +15,7 @@ inline Drive drive_of(const DesignInfo& d) {
   drive.clock_hz = static_cast<double>(d.clock_hz);
   drive.pwm_hz = drive.clock_hz / d.pwm_period;
   drive.dead_time_s = d.dead_clocks / drive.clock_hz;
+  if (d.shortest_clocks > 1) drive.shortest_s = d.shortest_clocks / drive.clock_hz;
   drive.switching =
       d.pwm_mode == 1 ? Drive::Switching::kLockedAntiphase : Drive::Switching::kSignMagnitude;
   return drive;

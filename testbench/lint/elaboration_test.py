@@ -48,6 +48,7 @@ BAD = (
     ("core", "CLOCKS_PER_TICK", 40, "CLOCKS_PER_TICK_must_hold_the_wave"),
     ("core", "T_SNAPSHOT", 48, "the_last_word_must_be_stored_before_the_tick_ends"),
     ("core", "DEAD_CLOCKS", 0, "DEAD_CLOCKS_must_be_1_to_64"),
+    ("core", "SHORTEST_CLOCKS", 0, "SHORTEST_CLOCKS_must_be_1_to_255"),
     ("core", "INDEX_COUNTS", 4095, "INDEX_COUNTS_must_be_a_power_of_two"),
     ("core", "M1", 0, "M1_must_be_1_to_32767"),
     ("core", "VELOCITY_SHIFT", 10, "the_velocity_must_have_room_for_its_counts"),

@@ -4,6 +4,7 @@
 // H-bridge, dead time, free-wheeling and supply. docs/plant.md
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
+#include "feltgate/pwm.hpp"
 #include "plant/period_mean.hpp"
 #include "plant_fixture.hpp"
 
@@ -75,6 +76,33 @@ Means averaged(const Parameters& p, const Drive& drive, double duty) {
 }
 
 }  // namespace
+
+TEST_CASE("an averaged duty has the pulses that the PWM gives", "[bridge]") {
+  constexpr int period = 1000, dead = 25, shortest = 10;
+  Parameters p = shipped("p24");
+  p.effects.inductance = false;  // no ripple that would soften the dead time
+  Drive drive;
+  drive.pwm_hz = drive.clock_hz / period;
+  drive.shortest_s = shortest / drive.clock_hz;
+  const Pwm pwm(period, dead, shortest);
+  for (const bool antiphase : {false, true}) {
+    drive.switching =
+        antiphase ? Drive::Switching::kLockedAntiphase : Drive::Switching::kSignMagnitude;
+    BridgeModel bridge(drive, p.supply, p.motor, p.effects);
+    for (int duty = -period; duty <= period; duty += 2) {  // an odd one is cut in antiphase
+      Pwm::In in;
+      in.enable = true;
+      in.mode = antiphase;
+      in.duty = static_cast<std::int16_t>(duty);
+      const Pwm::OnTimes on = pwm.on_times(in);
+      const BridgeVoltage v =
+          bridge.voltage(Bridge::averaged(static_cast<double>(duty) / period), 24, 1);
+      // A current from A to B: A is high while its high gate is on, B while its low one is off.
+      CAPTURE(antiphase, duty);
+      CHECK(v.share_positive * period == Approx(on.a_hi - (period - on.b_lo)).margin(1e-9));
+    }
+  }
+}
 
 TEST_CASE("averaged and switched bridge agree", "[bridge]") {
   const Parameters p = shipped("p24");

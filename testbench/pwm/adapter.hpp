@@ -36,10 +36,11 @@ using PwmBench = LockStep<Vpwm, Pwm, PwmAdapter>;
 /// Watches the gates of the RTL alone, clock by clock.
 class BridgeGuard {
  public:
-  explicit BridgeGuard(int dead_clocks) : dead_clocks_(dead_clocks) {}
+  BridgeGuard(int dead_clocks, int shortest_clocks)
+      : dead_clocks_(dead_clocks), shortest_clocks_(shortest_clocks) {}
 
   struct Totals {
-    std::int64_t turn_ons = 0, disables = 0, duties = 0;
+    std::int64_t turn_ons = 0, disables = 0, duties = 0, whole_pulses = 0;
   };
 
   const char* operator()(const Pwm::In& in, const Vpwm& rtl, bool in_reset) {
@@ -51,8 +52,19 @@ class BridgeGuard {
       totals.disables += was_enabled_ ? 1 : 0;
     }
     was_enabled_ = in.enable && !in_reset;
+    // What opens or closes the gates, or changes the wiring, may cut the pulse that it meets.
+    const bool cuts =
+        in_reset || !in.enable || in.clear || in.mode != mode_ || in.polarity != polarity_;
+    if (cuts) last_cut_ = clock_;
+    mode_ = in.mode;
+    polarity_ = in.polarity;
     for (int gate = 0; gate < 4; ++gate) {
       if (!on[gate]) {
+        // Taken with the next period, at the gates a few clocks and a dead time later.
+        if (was_on_[gate] && on_since_[gate] > last_cut_ + 2 * period_ + dead_clocks_) {
+          if (clock_ - on_since_[gate] < shortest_clocks_) return "no pulse is too short";
+          ++totals.whole_pulses;
+        }
         was_on_[gate] = false;
         continue;
       }
@@ -62,6 +74,7 @@ class BridgeGuard {
       if (on[gate ^ 1]) return "never both gates of a leg";
       if (!was_on_[gate]) {
         ++totals.turn_ons;
+        on_since_[gate] = clock_;
         if (clock_ - last_on_[gate ^ 1] <= dead_clocks_) return "dead time between two gates";
         if (clock_ - last_disabled_ < dead_clocks_) return "dead time after enable";
       }
@@ -81,8 +94,11 @@ class BridgeGuard {
   Totals totals;
 
  private:
-  int dead_clocks_;
-  std::int64_t clock_ = 0;
+  static constexpr int period_ = PWM_PERIOD;
+  int dead_clocks_, shortest_clocks_;
+  bool mode_ = false, polarity_ = false;
+  std::int64_t clock_ = 0, last_cut_ = 0;
+  std::int64_t on_since_[4] = {};
   std::int64_t last_on_[4] = {-1000, -1000, -1000, -1000};
   bool was_on_[4] = {};
   std::int64_t last_disabled_ = 0;

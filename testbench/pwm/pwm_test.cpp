@@ -16,6 +16,7 @@ namespace {
 
 constexpr int kPeriod = PWM_PERIOD;
 constexpr int kDead = PWM_DEAD;
+constexpr int kShortest = PWM_SHORTEST;
 // Every duty of a short period; of a long one the ends, the dead time, odd and even.
 std::vector<int> duties() {
   std::vector<int> list;
@@ -62,7 +63,7 @@ Gates record(const Stimulus& stimulus, std::int64_t clocks) {
     gates.b_lo.push_back(rtl.gate_b_lo_o != 0);
     return fine;
   };
-  PwmBench bench("pwm", 1, Pwm(kPeriod, kDead));
+  PwmBench bench("pwm", 1, Pwm(kPeriod, kDead, kShortest));
   bench.run(stimulus, clocks + PwmBench::kFirstReset, {}, watch);
   return gates;
 }
@@ -79,8 +80,16 @@ TEST_CASE("pwm: on-times are exact for every duty, mode and polarity") {
         CAPTURE(mode, polarity, duty);
         // Written out from the definition, apart from the twin.
         const int d = std::min(kPeriod, std::max(-kPeriod, polarity ? -duty : duty));
-        const int a = mode ? (kPeriod + d - (d & 1)) / 2 : std::max(d, 0);
-        const int b = mode ? kPeriod - a : std::max(-d, 0);
+        // Clocks wanted high without a pulse that is too short.
+        const auto whole = [mode](int high) {
+          if (kShortest == 1) return high;
+          const bool no_high = high > kDead && high < kDead + kShortest && !mode;
+          if (no_high) return kDead;
+          const int least = mode ? kDead + kShortest : 0;
+          return std::max(least, std::min(high, kPeriod - kDead - kShortest));
+        };
+        const int a = whole(mode ? (kPeriod + d - (d & 1)) / 2 : std::max(d, 0));
+        const int b = mode ? kPeriod - a : whole(std::max(-d, 0));
         const auto on = [](int share) {
           return share == kPeriod ? kPeriod : std::max(0, share - kDead);
         };
@@ -88,7 +97,7 @@ TEST_CASE("pwm: on-times are exact for every duty, mode and polarity") {
         REQUIRE(Gates::count(gates.a_lo, from, kPeriod) == on(kPeriod - a));
         REQUIRE(Gates::count(gates.b_hi, from, kPeriod) == on(b));
         REQUIRE(Gates::count(gates.b_lo, from, kPeriod) == on(kPeriod - b));
-        const Pwm::OnTimes form = Pwm(kPeriod, kDead).on_times(in);
+        const Pwm::OnTimes form = Pwm(kPeriod, kDead, kShortest).on_times(in);
         REQUIRE(form.a_hi == on(a));
         REQUIRE(form.a_lo == on(kPeriod - a));
         REQUIRE(form.b_hi == on(b));
@@ -99,7 +108,8 @@ TEST_CASE("pwm: on-times are exact for every duty, mode and polarity") {
 }
 
 TEST_CASE("pwm: pulses are centred in the period to half a clock") {
-  for (int duty = kDead + 1; duty < kPeriod; duty += kPeriod < 100 ? 1 : 97) {
+  const int most = kShortest == 1 ? kPeriod - 1 : kPeriod - kDead - kShortest;
+  for (int duty = kDead + kShortest; duty <= most; duty += kPeriod < 100 ? 1 : 97) {
     const Pwm::In in = steady(false, false, duty);
     const Gates gates = record([in](std::int64_t) { return in; }, 4 * kPeriod);
     const int from = 2 * kPeriod + 3;  // where the gates' period begins
@@ -149,18 +159,19 @@ TEST_CASE("pwm: everything at random, no shoot-through, dead time kept") {
   std::uint64_t seed = 20;
   for (const int calm : {2 * kDead, 3 * kPeriod, 40 * kPeriod}) {
     BridgeGuard::Totals totals;
-    const auto watch = [guard = BridgeGuard(kDead), &totals](const Pwm::In& in, const Vpwm& rtl,
-                                                             const Pwm&, bool in_reset) mutable {
+    const auto watch = [guard = BridgeGuard(kDead, kShortest), &totals](
+                           const Pwm::In& in, const Vpwm& rtl, const Pwm&, bool in_reset) mutable {
       const char* broken = guard(in, rtl, in_reset);
       totals = guard.totals;
       return broken;
     };
-    PwmBench bench("pwm", ++seed, Pwm(kPeriod, kDead));
+    PwmBench bench("pwm", ++seed, Pwm(kPeriod, kDead, kShortest));
     bench.run(Chaos{Random(seed), {}, static_cast<std::uint32_t>(calm)}, scaled_clocks(4'000'000),
               ResetPlan{20'000}, watch);
     REQUIRE(totals.turn_ons > 2000);
     REQUIRE(totals.disables > 30);
     REQUIRE(totals.duties > 1000);
+    if (calm > kPeriod) REQUIRE(totals.whole_pulses > 100);
   }
 }
 

@@ -16,7 +16,8 @@ namespace feltgate {
 
 class CoreGates {
  public:
-  CoreGates(int period, int dead_clocks) : pwm_(period, dead_clocks) {}
+  CoreGates(int period, int dead_clocks, int shortest_clocks = 1)
+      : pwm_(period, dead_clocks, shortest_clocks) {}
 
   void reset() {
     pwm_.reset();

@@ -32,7 +32,7 @@ struct CommandBits {
 struct DesignInfo {
   const char* name = "";
   std::int64_t clock_hz = 0, tick_hz = 0;
-  int clocks_per_tick = 0, pwm_period = 0, dead_clocks = 0, pwm_mode = 0;
+  int clocks_per_tick = 0, pwm_period = 0, dead_clocks = 0, shortest_clocks = 1, pwm_mode = 0;
   int m1 = 0;                  ///< ticks of the N-method's window
   double rad_s_per_count = 0;  ///< what it makes of a count in that window
   double count_rad = 0, supply_v = 0;
@@ -101,6 +101,7 @@ DesignInfo design_info() {
   i.clocks_per_tick = D::clocks_per_tick;
   i.pwm_period = D::pwm_period;
   i.dead_clocks = D::dead_clocks;
+  i.shortest_clocks = D::shortest_clocks;
   i.pwm_mode = (D::control_reset >> D::C::control_pwm_mode) & 1;
   i.m1 = D::m1;
   i.rad_s_per_count = D::velocity_gain == 0

@@ -366,7 +366,7 @@ class FeltgateCore {
   typename Supervisor<D>::Words supervisor_words_;
   SelfTestLaw self_test_;
   SelfTestLaw::Words self_test_words_;
-  CoreGates gates_{D::pwm_period, D::dead_clocks};
+  CoreGates gates_{D::pwm_period, D::dead_clocks, D::shortest_clocks};
   std::int64_t operand_v_ = 0, operand_w_ = 0;
   std::int64_t writes_ = 0;
   int clock_ = 0;       ///< of the tick

@@ -45,8 +45,10 @@ class Pwm {
     int a_hi, a_lo, b_hi, b_lo;
   };
 
-  /// `period` in clocks: even, 4 to 4094. `dead_clocks`: 1 to 64.
-  explicit Pwm(int period = 1000, int dead_clocks = 25) : period_(period), dead_(dead_clocks - 1) {
+  /// `period` in clocks: even, 4 to 4094. `dead_clocks`: 1 to 64. `shortest_clocks`: of a pulse at
+  /// a gate, 1 to 255; above 1 with the dead time at most half a period.
+  explicit Pwm(int period = 1000, int dead_clocks = 25, int shortest_clocks = 1)
+      : period_(period), dead_(dead_clocks - 1), shortest_(shortest_clocks) {
     reset();
   }
 
@@ -167,8 +169,18 @@ class Pwm {
     c.antiphase = in.mode;
     c.switch_b = (in.duty < 0) != in.polarity;
     const int twice = period_ + (in.polarity ? -in.duty : in.duty);
-    c.threshold = in.mode ? (twice - (twice & 1)) / 2 : (in.duty < 0 ? -in.duty : in.duty);
+    c.threshold =
+        whole(in.mode ? (twice - (twice & 1)) / 2 : (in.duty < 0 ? -in.duty : in.duty), in.mode);
     return c;
+  }
+  /// Clocks wanted high without a pulse shorter than shortest_: a high one is left out or, in
+  /// antiphase, made longer; a low one is made longer.
+  int whole(int threshold, bool antiphase) const {
+    if (shortest_ == 1) return threshold;
+    const int dead = dead_ + 1, least = dead + shortest_;
+    if (threshold > period_ - least) return period_ - least;
+    if (threshold >= least) return threshold;
+    return antiphase ? least : std::min(threshold, dead);
   }
   /// Legs A and B wanted high in this clock of the carrier Period, Period-2 .. 2, 1, 3 .. Period-1.
   std::array<bool, 2> wanted() const {
@@ -183,6 +195,7 @@ class Pwm {
 
   int period_;
   int dead_;      // DeadClocks - 1
+  int shortest_;  // ShortestClocks
   int time_ = 0;  // clocks since the carrier's first
   Command taken_;
   Command command_;

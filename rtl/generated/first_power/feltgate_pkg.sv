@@ -17,6 +17,7 @@ package feltgate_pkg;
   localparam int INDEX_COUNTS = 4096;  // counts from index to index; 0: not checked
   localparam int PWM_PERIOD = 1000;  // clocks
   localparam int DEAD_CLOCKS = 25;  // clocks
+  localparam int SHORTEST_CLOCKS = 10;  // clocks, of a pulse at a gate
   localparam int SCENE_MASK = 1021;  // bit n: scene n is built
   localparam int CONTROL_RESET = 0;  // control word after reset
   localparam int COEFFICIENT_BITS = 17;  // bits of a coefficient's mantissa, without its sign
@@ -33,7 +34,7 @@ package feltgate_pkg;
   localparam int ENGINE = 0;  // 1: programs give the torque of the scene law
   localparam int ENGINE_MAX_AGE = 0;  // ticks without a fresh torque that are borne
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
-  localparam logic [31:0] DESIGN_CRC = 32'h201a2cd3;  // by which a host knows the design
+  localparam logic [31:0] DESIGN_CRC = 32'h258ab7cb;  // by which a host knows the design
 
   // Widths (W) and fraction bits (F) of the signals.
   localparam int POSITION_W = 32;  // [1,31,0]
@@ -164,7 +165,7 @@ package feltgate_pkg;
       9'd35: parameter_reset = 32'd15974;  // dead_voltage
       9'd39: parameter_reset = 32'd31113;  // voltage_window
       9'd40: parameter_reset = 32'd85333;  // duty_gain
-      9'd45: parameter_reset = 32'd1000;  // duty_limit
+      9'd45: parameter_reset = 32'd965;  // duty_limit
       9'd46: parameter_reset = 32'd100000;  // watchdog_ticks
       9'd51: parameter_reset = 32'd3277;  // self_test_torque
       9'd37: parameter_reset = 32'd157;  // self_test_quiet

@@ -254,8 +254,8 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_DUTY_LIMIT 0x02du  /* largest on-time in a PWM period [clock] */
 #define FELTGATE_DUTY_LIMIT_VALUE(word) feltgate_value((word), 31, 0, 1.0)
 #define FELTGATE_DUTY_LIMIT_WORD(value) feltgate_word((value), 1.0, 0.0, 2147483647.0)
-#define FELTGATE_DUTY_LIMIT_DEFAULT 1000.0
-#define FELTGATE_DUTY_LIMIT_RESET 0x000003e8u
+#define FELTGATE_DUTY_LIMIT_DEFAULT 974.0
+#define FELTGATE_DUTY_LIMIT_RESET 0x000003ceu
 
 #define FELTGATE_WATCHDOG_TICKS 0x02eu  /* host watchdog: longest time between two kicks; asleep until the first [tick] */
 #define FELTGATE_WATCHDOG_TICKS_VALUE(word) feltgate_value((word), 31, 0, 1.0)

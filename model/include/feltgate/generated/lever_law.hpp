@@ -31,6 +31,7 @@ struct LeverLaw {
   static constexpr int index_counts = 4096;  // counts from index to index; 0: not checked
   static constexpr int pwm_period = 1000;  // clocks
   static constexpr int dead_clocks = 25;  // clocks
+  static constexpr int shortest_clocks = 1;  // clocks, of a pulse at a gate
   static constexpr int scene_mask = 1029;  // bit n: scene n is built
   static constexpr int control_reset = 0;  // control word after reset
   static constexpr int coefficient_bits = 17;  // bits of a coefficient's mantissa, without its sign
@@ -47,7 +48,7 @@ struct LeverLaw {
   static constexpr int engine = 1;  // 1: programs give the torque of the scene law
   static constexpr int engine_max_age = 1000;  // ticks without a fresh torque that are borne
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
-  static constexpr std::uint32_t design_crc = 0xeba07fc6;  // by which a host knows the design
+  static constexpr std::uint32_t design_crc = 0x35fd53bb;  // by which a host knows the design
 
   /// Formats of the parameters.
   struct P {
@@ -195,7 +196,7 @@ struct LeverLaw {
       {"duty_gain", "clock/V", A::duty_gain, P::duty_gain,
        41.666666666666664, 85333},
       {"duty_limit", "clock", A::duty_limit, P::duty_limit,
-       1000.0, 1000},
+       974.0, 974},
       {"watchdog_ticks", "tick", A::watchdog_ticks, P::watchdog_ticks,
        100000.0, 100000},
       {"self_test_torque", "Nm", A::self_test_torque, P::self_test_torque,

@@ -303,15 +303,11 @@ module feltgate_core #(
       .faults_o(faults_o), .first_fault_o(first_fault_o)
   );
 
-  pwm #(
-    .Period(feltgate_pkg::PWM_PERIOD),
-    .DeadClocks(feltgate_pkg::DEAD_CLOCKS),
-    .ShortestClocks(feltgate_pkg::SHORTEST_CLOCKS)
-  ) u_pwm (
+  pwm #(.Period(feltgate_pkg::PWM_PERIOD), .DeadClocks(feltgate_pkg::DEAD_CLOCKS),
+        .ShortestClocks(feltgate_pkg::SHORTEST_CLOCKS)) u_pwm (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .clear_i(gates_clear),
-      .enable_i(gates_enable),
-      .mode_i(control[feltgate_map_pkg::B_CONTROL_PWM_MODE]),
+      .enable_i(gates_enable), .mode_i(control[feltgate_map_pkg::B_CONTROL_PWM_MODE]),
       .polarity_i(control[feltgate_map_pkg::B_CONTROL_MOTOR_POLARITY]),
       .duty_i(duty_o),
       .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o), .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "loop/scenario.hpp"
+#include "scenario.hpp"
 
 namespace feltgate {
 

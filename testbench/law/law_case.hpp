@@ -4,6 +4,7 @@
 // Short ways to a law and its numbers, for tests. Documentation: docs/laws.md
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -88,5 +89,13 @@ class Running {
   Law law_;
   Evaluation<N> evaluation_;
 };
+
+/// The torque of a text at x = position; no number where it cannot be read.
+inline double torque_of(const std::string& text, double x = 0) {
+  const std::string messages = messages_of(text);
+  UNSCOPED_INFO(messages);
+  if (messages != "read") return std::nan("");
+  return Running<>(law_of(text)).torque({{"position", x}});
+}
 
 }  // namespace feltgate::law

@@ -217,8 +217,7 @@ class Bounds {
   }
 
   void strips(const Cell& whole, Bound* b) const {
-    const CellFacts base =
-        limited(analyse(law_, target_, program_, whole, errors_, -1, &whole_, true));
+    const CellFacts base = analyse(law_, target_, program_, whole, errors_, -1, &whole_, true);
     if (!base.reachable) return;
     for (std::size_t i = 0; i < program_.steps.size(); ++i) {
       if (base.margin[i] <= 0) {
@@ -227,8 +226,9 @@ class Bounds {
         }
         continue;
       }
-      const CellFacts swapped = limited(analyse(law_, target_, program_, whole, errors_,
-                                                static_cast<int>(i), &whole_, false, &base.margin));
+      const CellFacts swapped = analyse(law_, target_, program_, whole, errors_,
+                                        static_cast<int>(i), &whole_, false, &base.margin);
+      const CellFacts most = limited(swapped);
       Strip s;
       s.condition = program_.steps[i].condition;
       s.step = static_cast<int>(i);
@@ -241,12 +241,15 @@ class Bounds {
       }
       double any = 0;
       for (std::size_t o = 0; o < base.output_error.size(); ++o) {
-        s.jump.push_back(swapped.output_error[o] - base.output_error[o]);
-        any = larger(any, s.jump.back());
+        // Whether it matters at all is asked before outputs are limited; the jump is beyond the
+        // bound.
+        const double more = swapped.output_error[o] - base.output_error[o];
+        any = larger(any, more);
+        s.jump.push_back(more > 0 ? larger(0.0, most.output_error[o] - b->output[o]) : 0.0);
       }
       // What states keep and events tell is off as well.
-      const bool more = !law_.states.empty() || !law_.events.empty();
-      if (any > 0 || more) b->strips.push_back(s);
+      const bool kept = !law_.states.empty() || !law_.events.empty();
+      if (!(any <= 0) || kept) b->strips.push_back(s);
     }
   }
 

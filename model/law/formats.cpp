@@ -163,12 +163,15 @@ double cost(const Law& law, const Target& target, const Program& program, const 
         size = std::max(size, b.words[static_cast<std::size_t>(o.index)].size());
     }
     strips += 0.5 * std::max(0.0, std::log2(b.margins[i] / size * 65536));
-    // One as wide as all that is compared decides nothing.
-    if (s.condition < 0 || law.nodes[static_cast<std::size_t>(s.condition)].op != Op::less)
-      continue;
-    double compared = 0;
-    for (const NodeId a : law.nodes[static_cast<std::size_t>(s.condition)].arguments)
+    // One as wide as all that is compared, or as a whole number that is rounded down, decides
+    // nothing.
+    if (s.condition < 0) continue;
+    const Node& condition = law.nodes[static_cast<std::size_t>(s.condition)];
+    double compared = condition.op == Op::less ? 0 : 1;
+    for (const NodeId a : condition.arguments) {
+      if (condition.op != Op::less) break;
       compared = std::max(compared, spans[static_cast<std::size_t>(a)].size());
+    }
     const double width = b.margins[i] * std::fabs(s.margin_scale != 0 ? s.margin_scale : s.scale);
     if (4 * width > compared) strips += 20;
   }

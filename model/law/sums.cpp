@@ -106,6 +106,11 @@ BackEnd::Multiply BackEnd::by_number(const Value& v, double ratio, NodeId id) {
     chosen = c;
     if (is_whole(c) && c != 0) break;
   }
+  // A factor below 1 would lose what the product has: in two steps instead.
+  if (std::fabs(chosen) < 1 && std::fabs(ratio) * v.size / v.scale >= 1) {
+    const Value less = align(v, v.scale * 65536, id);
+    return by_number(less, ratio * 65536, id);
+  }
   m.y = constant(chosen);
   m.y_error = is_whole(chosen) ? 0 : std::fabs(chosen - std::nearbyint(chosen));
   return m;

@@ -10,6 +10,7 @@
 
 #include "engines/engine.hpp"
 #include "python/arrays.hpp"
+#include "reference/real_chain.hpp"
 
 namespace feltgate::python {
 

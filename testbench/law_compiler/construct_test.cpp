@@ -292,6 +292,23 @@ TEST_CASE("the first run has the initial values, every entry again") {
   CHECK(torque() == Approx(0.3).margin(2e-5));
 }
 
+// A whole state's sum is made in a step of 2^-30 here; to come down to ones takes two products.
+TEST_CASE("a whole state keeps its value through a fine sum") {
+  const Compiled c = compiled(
+      "param count = 1 in 0 .. 4 whole\nstate stage = 0 in 0 .. 3 whole\n"
+      "state side = 1 in -2 .. 2 whole\nstate kept = 0.25 in -2 .. 2\nline past[6] in -2 .. 2\n"
+      "next stage = clamp(stage + (if 3 >= stage then 1 else 0) - (if stage != count + side then 1 "
+      "else 0), 0, 3)\n"
+      "next side = clamp(side + (if stage == count + stage then 1 else 0) - (if side != count then "
+      "1 else 0), -2, 2)\n"
+      "next kept = kept + 0.511 * (clamp(past[2] * side + stage * side, -2, 2) - kept)\n"
+      "next past = clamp(0.243 * floor(0.717 * (stage + 0.153)) - exp(clamp(stage, -2, 1)), -2, "
+      "2)\n"
+      "out torque = 1 Nm * (if 0.02 s * velocity + side < position / 122.417 then 0.947 else "
+      "sqrt(0.632 + abs(kept)))\n");
+  for (std::size_t i = 0; i < 2; ++i) CHECK(c.bound.state[i] == 0);
+}
+
 TEST_CASE("compiling is repeatable") {
   for (const char* name : {"charge", "pantograph"}) {
     const std::string path = std::string(FELTGATE_ROOT) + "/rtl/laws/" + name + ".law";

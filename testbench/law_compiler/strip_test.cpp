@@ -128,5 +128,19 @@ TEST_CASE("a delay that is computed has a strip") {
   require_within(c, 20000);
 }
 
+// The format of tau_hat's limit is too coarse for what is rounded down, and the output's bound ends
+// at its range: the strip is there all the same, with the jump beyond the bound.
+TEST_CASE("a bound that ends at the output's range hides no strip") {
+  const Compiled c = compiled(
+      "state kept = 0.25 in -2 .. 2\nlet t = clamp(0.5 * (tau_hat / (1 Nm)), -2, 2)\n"
+      "next kept = clamp(clamp(position, -0.603, 0.262) - t - (t - t), -2, 2)\n"
+      "out torque = 1 Nm * (abs(clamp(kept, -1.5, 1.5)^2) + max(0.323 * floor(3.608 * (clamp(t, "
+      "-3, "
+      "3) + 0.191)), mod(clamp(clamp(0.02 * (velocity * (1 s)), -2, 2), -3, 3) + 0.094, "
+      "1.561)))\n");
+  for (const Strip& s : c.bound.strips) CHECK(c.bound.output[0] + s.jump[0] > 4.35);
+  CHECK(c.bound.strips.size() == 2);
+}
+
 }  // namespace
 }  // namespace feltgate::law

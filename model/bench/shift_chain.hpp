@@ -176,7 +176,7 @@ class ShiftChain {
     if (!limit_ramp) {
       reference_ = target;
     } else {
-      const Word step = p_.ramp_step < 0 ? 0 : p_.ramp_step;  // .24
+      const Word step = p_.ramp_step < 1 ? 1 : p_.ramp_step;  // .24
       const Word excess = reference_ - target;
       if (excess <= step && -excess <= step) {
         ramping_ = false;

@@ -134,24 +134,10 @@ Fact Analysis::checked(const Fact& f) {
   return f;
 }
 
-/// What it is a rounding of: through steps that only rescale, by a number above 0.
-Operand Analysis::origin(Operand o) const {
-  while (o.from == From::step) {
-    const Step& s = program_.steps[at(o.index)];
-    if (s.op != EngineOp::mul || s.y.from != From::constant ||
-        program_.constants[at(s.y.index)] <= 0)
-      break;
-    o = s.x;
-  }
-  return o;
-}
-
 Fact Analysis::multiplied(const Step& s, const Fact& x, const Fact& y, bool rounds) {
   if (y.words.lo < -131072 || y.words.hi > 131071) fail("a factor can leave 18 bits");
   const double p = power(s.mode);
-  // Two roundings of one value have no unlike signs, and both grow with it: their product is as a
-  // square.
-  const Span product = exact_product(x.words, y.words, origin(s.x) == origin(s.y));
+  const Span product = exact_product(x.words, y.words, s.x == s.y);
   Fact f;
   const double half = rounds && s.mode > 0 ? 0.5 : 0;
   f.words = {std::floor(product.lo / p + half), std::floor(product.hi / p + half)};

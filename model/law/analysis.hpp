@@ -52,7 +52,6 @@ class Analysis {
   bool wrong(int step) const { return swap_ >= 0 && wrong_[at(step)] != 0; }
   Fact operand(const Operand& o, double extra);
   Fact checked(const Fact& f);
-  Operand origin(Operand o) const;
   Fact multiplied(const Step& s, const Fact& x, const Fact& y, bool rounds);
   /// y + a * (x - y) with a in 0 .. 1: between x and y, and their errors do not add.
   bool blend(const Step& s, Fact* f);

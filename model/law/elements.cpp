@@ -36,7 +36,7 @@ Value BackEnd::element(NodeId id) {
   const auto same = memory_scales_.find(memory);
   const double scale = same != memory_scales_.end()
                            ? same->second
-                           : chosen_scale(id, 1, n.whole ? 0 : largest_fraction(id, 1, size), size);
+                           : chosen_scale(id, 1, largest_fraction(id, 1, size), size);
   if (n.whole && scale > 1) throw Unfit("a whole element counts in ones", id);
   memory_scales_[memory] = scale;
   const std::string key = fmt::format("array {} {:.17g}", n.index, scale);

@@ -133,7 +133,9 @@ target_sources(feltgate_run PRIVATE $<TARGET_OBJECTS:rtl_lever>
   "${FELTGATE_ROOT}/model/engines/rtl_engines.cpp")
 file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/engines/lever_alone/designs.inc"
   CONTENT "FELTGATE_DESIGN(lever)\n")
-set_target_properties(feltgate_twin feltgate_run PROPERTIES EXCLUDE_FROM_ALL ON)
+if(NOT FELTGATE_TESTS)
+  set_target_properties(feltgate_twin feltgate_run PROPERTIES EXCLUDE_FROM_ALL ON)
+endif()
 
 list(REMOVE_ITEM tool_sources csv.cpp replay_command.cpp run_command.cpp run_json.cpp run_text.cpp)
 feltgate_program(feltgate "feltgate_main.cpp;${tool_sources}"

@@ -18,7 +18,8 @@ class HoldTimerLaw {
   void tick(bool armed, bool moved, bool strong, std::uint32_t tick, std::uint32_t hold_time) {
     const bool holds = armed && !moved;
     const bool negative = hold_time >> 31 != 0;  // as 0
-    const bool expired = negative || (hold_time < kLongest && units_ >= hold_time);
+    const bool over = hold_time < kLongest && units_ >= hold_time;
+    const bool expired = negative || over;
     const bool whole = (tick & ((1u << Map::hold_unit_bits) - 1)) == 0;
     eased_ = holds && (eased_ || (strong && expired));
     if (!holds || !strong) {

@@ -65,6 +65,7 @@ module reads_proof (
   (* hierconn *) wire \u_core.refused ;
   (* hierconn *) wire [3:0] \u_core.scene_q ;
   (* hierconn *) wire \u_core.armed_o ;
+  (* hierconn *) wire \u_core.arms ;
   (* hierconn *) wire \u_core.word_valid_o ;
   (* hierconn *) wire [5:0] \u_core.word_slot_o ;
   (* hierconn *) wire [31:0] \u_core.word_data_o ;
@@ -143,6 +144,7 @@ module reads_proof (
   (* hierconn *) wire \u_other.refused ;
   (* hierconn *) wire [3:0] \u_other.scene_q ;
   (* hierconn *) wire \u_other.armed_o ;
+  (* hierconn *) wire \u_other.arms ;
   (* hierconn *) wire \u_other.region_high ;
   (* hierconn *) wire \u_other.eased ;
   (* hierconn *) wire \u_other.testing ;
@@ -154,7 +156,8 @@ module reads_proof (
   // all that they got is; that is asserted below.
   always_comb begin
     assume (
-        \u_core.armed_o == \u_other.armed_o && \u_core.region_high == \u_other.region_high &&
+        \u_core.armed_o == \u_other.armed_o && \u_core.arms == \u_other.arms &&
+        \u_core.region_high == \u_other.region_high &&
         \u_core.eased == \u_other.eased && \u_core.testing == \u_other.testing &&
         \u_core.word_valid_o == \u_other.word_valid_o && \u_core.word_slot_o == \u_other.word_slot_o &&
         \u_core.word_data_o == \u_other.word_data_o && \u_core.clear == \u_other.clear &&

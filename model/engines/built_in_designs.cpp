@@ -13,13 +13,11 @@ namespace feltgate {
 
 }  // namespace feltgate
 
-/// What scripts/cmake/engines.cmake has the linker ask for, so that this file is linked.
-extern "C" {
-extern const bool feltgate_built_in_designs;
-const bool feltgate_built_in_designs = [] {
+/// What scripts/cmake/engines.cmake has the linker ask for, so that this file is linked. It runs
+/// before all constructors without a priority, so a global of a user may name a design.
+extern "C" [[gnu::constructor(200)]] void feltgate_built_in_designs();
+extern "C" void feltgate_built_in_designs() {
 #define FELTGATE_DESIGN(name) feltgate::add_design(feltgate::name##_makers());
 #include "designs.inc"
 #undef FELTGATE_DESIGN
-  return true;
-}();
 }

@@ -14,6 +14,7 @@ int main(int, char** argv) {  // argv[1]: a plant, such as plants/p24.toml of th
   const plant::Hand hand = plant::pushing_hand(0.2, 0.2);
   plant::Plant lever(motor, motor.effects, plant::drive_of(device->design()), hand);
   device->select("spring_tension");
+  device->set("self_test_pulse", 0);  // no self-test, for the hand pushes at once
   device->arm();
   for (int step = 1; step <= 1000000; ++step) {  // of 25 clocks, 0.5 us
     lever.advance(plant::Bridge::averaged(device->bridge_duty(), device->gates_enabled()), 25);

@@ -9,6 +9,7 @@
 int main() {
   feltgate::TwinDevice<feltgate::Lever> device;
   device.select("wall");
+  device.set("self_test_pulse", 0);  // no self-test, for the lever does not rest
   device.set("wall_contact", device.counts(0.2));
   device.arm();
   for (double angle_rad = 0; angle_rad < 0.3; angle_rad += 2e-6) {

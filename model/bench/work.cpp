@@ -79,6 +79,7 @@ Work slow_small_signals(const std::string& design, double seconds) {
            static_cast<std::uint32_t>(scene) << d.control.scene;
   };
   const int damper = d.scene_number("damper"), setpoint = d.scene_number("setpoint");
+  work.inputs.writes.push_back({0, d.find("self_test_pulse")->address, 0, 0});
   work.inputs.writes.push_back({0, d.control_address, control(true, damper), 0});
   // Gray code of a count that goes one up, one down, two up, two down, 0.1 to 40 ms apart.
   int count = 0;

@@ -43,7 +43,12 @@ const DesignMakers& makers_of(const std::string& design) {
 }  // namespace
 
 void add_design(const DesignMakers& design) {
-  if (find(design.name) == nullptr) designs().push_back(design);
+  for (DesignMakers& d : designs()) {
+    if (d.name != design.name) continue;
+    d = design;
+    return;
+  }
+  designs().push_back(design);
 }
 
 std::vector<std::string> design_names() {

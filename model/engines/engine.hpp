@@ -147,7 +147,7 @@ struct DesignMakers {
   std::unique_ptr<Device> (*device)() = nullptr;
   bool preset = true;
 };
-/// The first of a name stays.
+/// The last of a name is the one that is made; those of rtl/designs come first.
 void add_design(const DesignMakers& design);
 
 /// Makes "rtl" and "lockstep" of the designs built in. Set by the library feltgate_rtl before

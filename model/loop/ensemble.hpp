@@ -49,6 +49,9 @@ class Ensemble {
   void set_parameters(const std::map<std::string, double>& values);
   /// Values of the law alone, by one commit; none: what stands is committed anew.
   void feed_law(const std::map<std::string, double>& values);
+  /// Switches off the self-test of a design that has it on from power-up: what is rendered then
+  /// begins with arming, as recordings and scenes ask for. `self_test_pulse` switches it on again.
+  void skip_self_test();
   void set_control(int scene, int mode, bool arm);
   void command(std::uint32_t bits);
   /// Register writes wait for their ticks.

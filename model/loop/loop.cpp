@@ -74,6 +74,7 @@ class ScenarioRun {
       *options_.inputs = {end, plant_.encoder().pins(), {}, {}};
       core_.note_writes(&options_.inputs->writes);
     }
+    core_.skip_self_test();
     core_.set_parameters(s_.parameters);
     core_.set_control(scene_, mode_, false);
     core_.lead().keep_gate_times(s_.switched);

@@ -58,6 +58,7 @@ LiveLoop::LiveLoop(const std::string& design, const plant::Parameters& plant)
       hand_nm_rad_(plant::Impedance{}.stiffness_n_m * plant.lever.radius_m * plant.lever.radius_m),
       pins_(plant_.encoder().pins()) {
   core_.lead().keep_gate_times(false);
+  core_.skip_self_test();
   control();
 }
 

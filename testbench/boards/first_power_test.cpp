@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The design first_power asks for no more than 0.05 Nm and 2 A in any scene, whatever the lever
-// does, and its self-test finds swapped channels; lever, in the same hands, asks for more.
+// does; lever, in the same hands, asks for more. From power-up both have the self-test on, which
+// finds swapped channels.
 // docs/boards/first-hour.md
 #include "feltgate/generated/first_power.hpp"
 
@@ -50,21 +51,11 @@ Most most_of(double swing_rad_s) {
   return most;
 }
 
-}  // namespace
-
-TEST_CASE("first_power: 0.05 Nm and 2 A are never exceeded, in no scene") {
-  const Most most = most_of<FirstPower>(20);
-  CHECK(most.armed > 9 * (kTicks - 10));
-  CHECK(most.torque_nm <= 0.05 + 1e-4);
-  CHECK(most.torque_nm > 0.045);
-  CHECK(most.current_a <= 2.0 + 1e-3);
-  CHECK(most.voltage_v < 3);
-}
-
-TEST_CASE(
-    "first_power: a lever that goes the wrong way in the first pulse is a fault before any scene") {
+/// A lever that goes the wrong way in the first pulse is a fault before any scene.
+template <class D>
+void check_wrong_way() {
   for (const double sign : {1.0, -1.0}) {
-    TwinDevice<FirstPower> device;
+    TwinDevice<D> device;
     device.select("setpoint");
     device.arm();
     double torque_nm = 0;
@@ -77,6 +68,22 @@ TEST_CASE(
     CHECK(faults == (sign < 0 ? "self_test" : ""));
     CHECK(torque_nm <= 0.05 + 1e-4);
   }
+}
+
+}  // namespace
+
+TEST_CASE("first_power: 0.05 Nm and 2 A are never exceeded, in no scene") {
+  const Most most = most_of<FirstPower>(20);
+  CHECK(most.armed > 9 * (kTicks - 10));
+  CHECK(most.torque_nm <= 0.05 + 1e-4);
+  CHECK(most.torque_nm > 0.045);
+  CHECK(most.current_a <= 2.0 + 1e-3);
+  CHECK(most.voltage_v < 3);
+}
+
+TEST_CASE("first_power, lever: from power-up the self-test finds swapped channels") {
+  check_wrong_way<FirstPower>();
+  check_wrong_way<Lever>();
 }
 
 TEST_CASE("first_power: the same hands get more from lever") {

@@ -41,6 +41,7 @@ void set_up(Device& d) {
   d.select("wall");
   d.set("wall_stiffness", 0.004);
   d.set("wall_contact", d.counts(0.3));
+  d.set("self_test_pulse", 0);
   d.set_control(Control::open_loop);
   d.arm();
 }
@@ -93,7 +94,7 @@ TEST_CASE("what an armed core drops is refused or waits, and arming for it") {
   const auto at = [&](int ticks) {
     for (int k = 0; k < ticks; ++k) d.tick({});
   };
-  set_up(d);  // asks to be armed while three writes wait
+  set_up(d);  // asks to be armed while writes wait
   at(6);
   REQUIRE(d.armed());
   REQUIRE(d.pending() == 0);

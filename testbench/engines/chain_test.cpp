@@ -52,7 +52,7 @@ class Beside {
     for (std::int64_t k = 0; k < clocks; ++k) {
       CoreIn in = stimulus_(k);
       // A chain knows no self-test.
-      if (in.reg_addr == D::A::self_test_pulse) in.reg_write = false;
+      if (in.reg_addr == D::A::self_test_pulse) in.reg_wdata = 0;
       if (in.reg_write && !core_.out().reg_busy) waiting_ = {in.reg_addr, in.reg_wdata};
       const std::int64_t before = core_.writes();
       const bool zero = zero_, disarmed = disarmed_;

@@ -6,7 +6,9 @@
 // has a seeded defect, which both must see. Documentation: docs/architecture.md
 #include "engines/lock_step_engine.hpp"
 
+#include <array>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "Vfeltgate_core.h"
@@ -33,11 +35,13 @@ std::vector<EncoderEvent> motion() {
   return events;
 }
 
-/// Armed by the host in the scene "charge_attract".
-std::uint32_t control_word() {
+/// Armed by the host in the scene "charge_attract", without a self-test: a write a tick.
+std::array<std::pair<int, std::uint32_t>, 2> host_writes() {
   const DesignInfo d = design_info<Lever>();
   const auto scene = static_cast<std::uint32_t>(d.scene_number("charge_attract"));
-  return d.control_reset | 1u << d.control.host | 1u << d.control.arm | scene << d.control.scene;
+  const std::uint32_t control =
+      d.control_reset | 1u << d.control.host | 1u << d.control.arm | scene << d.control.scene;
+  return {{{Lever::A::self_test_pulse, 0}, {Lever::C::control, control}}};
 }
 
 struct Found {
@@ -45,7 +49,7 @@ struct Found {
   Clock first = -1;
 };
 
-/// Clock by clock, with the write in the clock in which an engine issues it.
+/// Clock by clock, with the writes in the clocks in which an engine issues them.
 Found clock_by_clock(const std::vector<EncoderEvent>& events) {
   const auto rtl = std::make_unique<Rtl>();
   const auto twin = std::make_unique<FeltgateCore<Lever>>();
@@ -55,10 +59,12 @@ Found clock_by_clock(const std::vector<EncoderEvent>& events) {
   auto next = events.begin();
   for (Clock now = 0; now < clocks; ++now) {
     for (; next != events.end() && next->clock <= now; ++next) in.encoder = next->pins;
-    in.reg_write = now == host_write_clock;
-    if (in.reg_write) {
-      in.reg_addr = static_cast<std::uint16_t>(Lever::C::control);
-      in.reg_wdata = control_word();
+    in.reg_write = false;
+    for (std::size_t tick = 0; tick < 2; ++tick) {
+      if (now != static_cast<Clock>(tick) * Lever::clocks_per_tick + host_write_clock) continue;
+      in.reg_write = true;
+      in.reg_addr = static_cast<std::uint16_t>(host_writes()[tick].first);
+      in.reg_wdata = host_writes()[tick].second;
     }
     rtl->clock(in);
     twin->clock(in);
@@ -79,7 +85,7 @@ TEST_CASE("stretches of any length see the mismatches that a comparison clock by
   for (const Clock step : {Clock{25}, Clock{999}, Clock{50'000}}) {
     const auto engine = std::make_unique<LockStepEngine<Vfeltgate_core, Lever>>();
     engine->reset(seed, {});
-    engine->write(Lever::C::control, control_word());
+    for (const auto& [address, word] : host_writes()) engine->write(address, word);
     std::size_t snapshots = 0, sent = 0;
     while (engine->now() < clocks) {
       const Clock end = std::min(clocks, engine->now() + step);

@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include "core_coverage.hpp"
+#include "feltgate/design_info.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "random.hpp"
 
@@ -85,6 +86,10 @@ class CoreStimulus {
     if (!in_.reg_write) {
       if (random_.one_in(500)) look();
       return;
+    }
+    if (!test_written_) {  // else a design that has it on from power-up would do little else
+      test_written_ = true;
+      return write(D::A::self_test_pulse, 0);
     }
     if (plan_.empty() && random_.one_in(14)) make_plan();
     if (!plan_.empty()) {
@@ -332,6 +337,7 @@ class CoreStimulus {
   std::int64_t left_ = 0;
   std::int64_t spacing_ = 0, wait_ = 0;
   bool up_ = true, bad_cable_ = false, ramp_written_ = false;
+  bool test_written_ = design_info<D>().find("self_test_pulse")->raw == 0;
   bool chatters_ = false, many_indices_ = false, gathers_ = false;
   std::deque<Write> plan_;
   std::uint32_t rest_ = 0, zeros_ = 0;

@@ -86,6 +86,7 @@ TEST_CASE("core: sampled position to duty register in the clocks that the schedu
     in.reg_write = false;
     while (twin.clock_of_tick() != 0) twin.clock(in);
   };
+  write(D::A::self_test_pulse, 0);
   write(D::A::tension_stiffness, 0x1ffff);
   write(D::A::ramp_step, 0x7ffffff);
   write(D::C::control, static_cast<std::uint32_t>(D::control_reset) | 1u << D::C::control_host |

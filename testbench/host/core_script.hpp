@@ -87,6 +87,7 @@ class CoreScript {
     pulse(address, data);
   }
   /// Carried out.
+  CoreScript& skip_self_test() { return write(D::A::self_test_pulse, 0); }
   CoreScript& write(int address, std::int64_t data) {
     hold(address, static_cast<std::uint32_t>(data & 0xffffffff));
     return until(0);

@@ -44,6 +44,7 @@ struct Tick {
 
 /// Armed with `word` at `address`, which is written while disarmed.
 std::vector<Tick> under_load(int address, std::int64_t word, Script& s, int scene, int position) {
+  s.skip_self_test();
   s.write(A::ramp_step, (5 * kMilli) << kFine);
   s.write(A::tension_rest, -600 * 256);
   s.write(address, word);

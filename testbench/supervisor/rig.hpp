@@ -23,7 +23,7 @@ inline plant::Parameters motor_of(const std::string& name) {
   return plant::read_plant_file(std::string(FELTGATE_ROOT) + "/vectors/plants/" + name + ".toml");
 }
 
-/// One tick at a time; the bridge is averaged and takes the duty in force at the tick's begin.
+/// One tick at a time, without the self-test; the bridge is averaged and takes the duty in force at the tick's begin.
 template <class D>
 class Rig {
  public:
@@ -31,6 +31,7 @@ class Rig {
       : plant(motor, motor.effects, plant::drive_of(design_info<D>()), hand), wiring(w) {
     device.clock(seen(plant.encoder().pins()));
     plant.advance(plant::Bridge::off(), 1);
+    device.set("self_test_pulse", 0);
     for (int k = 0; k < 10; ++k) tick();
   }
   void tick() {

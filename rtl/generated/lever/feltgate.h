@@ -224,8 +224,8 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_SELF_TEST_PULSE 0x026u  /* self-test: length of the pulse, and of its opposite, 8 bits; 0 is no test [128 ticks] */
 #define FELTGATE_SELF_TEST_PULSE_VALUE(word) feltgate_value((word), 31, 0, 1.0)
 #define FELTGATE_SELF_TEST_PULSE_WORD(value) feltgate_word((value), 1.0, 0.0, 2147483647.0)
-#define FELTGATE_SELF_TEST_PULSE_DEFAULT 0.0
-#define FELTGATE_SELF_TEST_PULSE_RESET 0x00000000u
+#define FELTGATE_SELF_TEST_PULSE_DEFAULT 39.0
+#define FELTGATE_SELF_TEST_PULSE_RESET 0x00000027u
 
 #define FELTGATE_VOLTAGE_WINDOW 0x027u  /* how far the voltage may be from the back-EMF: R*Imax + dead voltage, at most the supply [V] */
 #define FELTGATE_VOLTAGE_WINDOW_VALUE(word) feltgate_value((word), 20, 1, 16384.0)

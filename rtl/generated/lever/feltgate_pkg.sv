@@ -34,7 +34,7 @@ package feltgate_pkg;
   localparam int ENGINE = 0;  // 1: programs give the torque of the scene law
   localparam int ENGINE_MAX_AGE = 0;  // ticks without a fresh torque that are borne
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
-  localparam logic [31:0] DESIGN_CRC = 32'h2dc715ef;  // by which a host knows the design
+  localparam logic [31:0] DESIGN_CRC = 32'h2cf34048;  // by which a host knows the design
 
   // Widths (W) and fraction bits (F) of the signals.
   localparam int POSITION_W = 32;  // [1,31,0]
@@ -169,7 +169,7 @@ package feltgate_pkg;
       9'd46: parameter_reset = 32'd100000;  // watchdog_ticks
       9'd51: parameter_reset = 32'd3277;  // self_test_torque
       9'd37: parameter_reset = 32'd157;  // self_test_quiet
-      9'd38: parameter_reset = 32'd0;  // self_test_pulse
+      9'd38: parameter_reset = 32'd39;  // self_test_pulse
       9'd41: parameter_reset = 32'd3;  // self_test_arms
       9'd74: parameter_reset = 32'd0;  // setpoint_torque
       9'd97: parameter_reset = 32'd83443;  // membrane_lower

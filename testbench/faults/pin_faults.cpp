@@ -295,6 +295,7 @@ PinResult run_pin_fault(const std::string& root, std::size_t kind, std::uint64_t
                                 static_cast<std::uint32_t>(c.scene) << D::C::control_scene |
                                 static_cast<std::uint32_t>(c.filter) << D::C::control_filter;
   std::vector<Word> setup = c.words;
+  if (!self_test) setup.insert(setup.begin(), {D::A::self_test_pulse, 0});
   setup.push_back({D::C::control, control});
   const std::size_t arm_at = self_test ? static_cast<std::size_t>(warm) : setup.size() + 1;
   const TorqueJudge::Motor motor = motor_of_plant(root);

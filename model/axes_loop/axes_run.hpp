@@ -44,6 +44,7 @@ struct AxesResult {
   std::map<std::string, double> figures;
   std::vector<Expected> expectations;
   std::vector<std::string> broken;  ///< expectations and bounds that do not hold, one line each
+  std::vector<std::string> speed_jumps;  ///< of a lever's hand, a sentence each
 };
 
 /// Where the end of a hand's own spring is to be, and how fast it goes on from there.

@@ -23,8 +23,8 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 /// Follows place and speed of the lever through the phases; NaN: only a run shows it.
 class Jumps {
  public:
-  Jumps(const Scenario& s, const plant::Parameters& p)
-      : s_(s), inertia_kg_m2_(p.lever.inertia_kg_m2), rad_(s.hand.initial_rad()) {}
+  Jumps(const Scenario& s, const plant::Hand& hand, double inertia_kg_m2)
+      : s_(s), inertia_kg_m2_(inertia_kg_m2), rad_(hand.initial_rad()) {}
 
   void add(const HandPhase& phase, bool last) {
     double left_s = last ? std::numeric_limits<double>::infinity() : phase.duration_s;
@@ -95,8 +95,13 @@ class Jumps {
 }  // namespace
 
 std::vector<std::string> speed_jumps(const Scenario& scenario, const plant::Parameters& plant) {
-  Jumps jumps(scenario, plant);
-  const auto& phases = scenario.hand.phases;
+  return speed_jumps(scenario, scenario.hand, plant.lever.inertia_kg_m2);
+}
+
+std::vector<std::string> speed_jumps(const Scenario& scenario, const plant::Hand& hand,
+                                     double inertia_kg_m2) {
+  Jumps jumps(scenario, hand, inertia_kg_m2);
+  const auto& phases = hand.phases;
   for (const HandPhase& phase : phases) jumps.add(phase, &phase == &phases.back());
   return jumps.all();
 }

@@ -16,6 +16,9 @@ namespace feltgate {
 /// with what to do. A jump from or to a speed that only a run shows, as after a phase "free", is
 /// not told. Valid after resolve_effects().
 std::vector<std::string> speed_jumps(const Scenario& scenario, const plant::Parameters& plant);
+/// The same of a hand that stands elsewhere than in the scenario, on a lever of this inertia.
+std::vector<std::string> speed_jumps(const Scenario& scenario, const plant::Hand& hand,
+                                     double inertia_kg_m2);
 
 constexpr double least_jump_rad_s = 1e-3;
 

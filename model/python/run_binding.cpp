@@ -7,6 +7,7 @@
 
 #include "loop/bounded.hpp"
 #include "loop/scenario_check.hpp"
+#include "loop/speed_jumps.hpp"
 #include "python/bindings.hpp"
 #include "python/design_names.hpp"
 #include "python/plant_binding.hpp"
@@ -62,6 +63,9 @@ py::dict run(Scenario scenario, const PyPlant& plant, const What& what,
   {
     const py::gil_scoped_release free;
     result = run_within_bounds(e, scenario, plant.constants(), options);
+  }
+  for (const std::string& jump : speed_jumps(scenario, plant.constants())) {
+    if (PyErr_WarnEx(PyExc_UserWarning, jump.c_str(), 1) != 0) throw py::error_already_set();
   }
   py::dict out = result_dict(result);
   out["columns"] = rows.take();

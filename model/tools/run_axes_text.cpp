@@ -93,6 +93,7 @@ std::string axes_text(const AxesResult& r) {
                       "end (mean)", "swing");
   for (const std::string& signal : signals_of(r)) text += range_line(r, signal);
   text += "\n" + energy_lines(r.energy) + expectation_lines(r.expectations);
+  for (const std::string& jump : r.speed_jumps) text += fmt::format("note: {}\n", jump);
   for (const std::string& broken : r.broken) text += fmt::format("not as expected: {}\n", broken);
   return text;
 }
@@ -130,6 +131,7 @@ std::string axes_json(const AxesResult& r) {
   }
   j["figures"] = r.figures;
   j["expectations"] = {{"checked", r.expectations.size()}, {"broken", r.broken}};
+  if (!r.speed_jumps.empty()) j["speed_jumps"] = r.speed_jumps;
   return files::json_text(j);
 }
 

@@ -72,6 +72,19 @@ const plant::Parameters& lever() {
 
 }  // namespace
 
+TEST_CASE("a jump of the speed that a lever's hand imposes is told") {
+  AxesScene scene = scene_named("coupled_levers");
+  scene.scenario.duration_s = 0.03;
+  scene.scenario.expectations.clear();
+  CHECK(run_scene(scene, "twin").speed_jumps.empty());
+  std::get<TwoLeversSetup>(scene.device).hand[0].phases[0].profile[1].kind =
+      plant::Segment::Kind::kRamp;
+  const std::vector<std::string> told = run_scene(scene, "twin").speed_jumps;
+  REQUIRE(told.size() == 1);
+  CHECK(told[0].find("coupled_levers.toml:25: the hand's speed jumps by 2 rad/s at 0.02 s") !=
+        std::string::npos);
+}
+
 TEST_CASE("coupled levers: a spring that the second one meets is felt, by its observer as it is") {
   // Position to position the law's spring is in series; 4.5 mNm of dry friction at 0.3 Nm are 1.5
   // %.

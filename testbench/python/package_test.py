@@ -8,6 +8,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import unittest
 from pathlib import Path
@@ -89,6 +90,15 @@ class Hands(unittest.TestCase):
         self.assertAlmostEqual(result.theta_rad[0], 0.2, places=3)
         half = np.searchsorted(result.time_s, 0.025)
         self.assertAlmostEqual(result.hand_torque_nm[half], 0.05, places=3)
+
+    def test_a_jump_of_the_speed_is_a_warning(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "jump.toml"
+            path.write_text('title = "t"\nabout = "a"\nduration_s = 0.02\n[core]\nscene = "free"\n'
+                            '[[hand.phase]]\nkind = "prescribed"\n'
+                            'motion = [{ kind = "ramp", duration_s = 0.02, to_rad = 0.02 }]\n')
+            with self.assertWarnsRegex(UserWarning, r"jump.toml:8: the hand's speed jumps by 1 "):
+                feltgate.run(path, engine="twin")
 
     def test_impedance_yields(self):
         angle_rad = np.linspace(0, 0.5, self.time_s.size)

@@ -96,7 +96,8 @@ def run(scene: Union[PathLike, Scene], design: str = "lever", engine: Engines = 
     seed        of what reset leaves open
     progress    is called with 0..1 now and then
 
-    What the scene expects is checked (Result.broken) unless hand or duration_s is given. Raises
+    What the scene expects is checked (Result.broken) unless hand or duration_s is given. Warns
+    (UserWarning) where the speed that the scene's hand imposes jumps. Raises
     ValueError for input that cannot be used, KeyboardInterrupt after Ctrl-C.
     """
     chosen = scene if isinstance(scene, Scene) else Scene(scene)

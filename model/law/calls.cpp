@@ -51,6 +51,11 @@ NodeId Lowering::call(const Expression& e) {
     return graph_.function(Op::exponential, number_in(e.arguments[0], kNumber, "the argument"),
                            at(e.offset));
   }
+  if (e.name == "log") {
+    if (!takes(e, 1, "log(x)")) return kNone;
+    return graph_.function(Op::logarithm, number_in(e.arguments[0], kNumber, "the argument"),
+                           at(e.offset));
+  }
   report(e.offset, "a sum without a range", "write sum(i in 0 .. 3: EXPRESSION)");
   return kNone;
 }

@@ -237,6 +237,8 @@ class Body {
         return begin + "1 / (" + argument + ")" + end;
       case Op::exponential:
         return begin + "law::exponential_of(" + argument + ")" + end;
+      case Op::logarithm:
+        return begin + "law::logarithm_of(" + argument + ")" + end;
       case Op::lookup:
         return begin + cpp_table_name(law_, n.index) + "(" + argument + ")" + end;
       case Op::element:

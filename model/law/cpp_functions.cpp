@@ -64,6 +64,8 @@ std::string expression(const Law& law, const Node& n) {
       return "1 / " + arg(0);
     case Op::exponential:
       return "law::exponential_of(" + arg(0) + ")";
+    case Op::logarithm:
+      return "law::logarithm_of(" + arg(0) + ")";
     case Op::lookup:
       return fmt::format("{}({})", cpp_table_name(law, n.index), arg(0));
     case Op::element:
@@ -187,6 +189,7 @@ std::string cpp_formula(const std::string& postfix,
                         const std::map<std::string, std::string>& values) {
   static const std::map<std::string, std::string> functions = {{"sqrt", "law::root_of"},
                                                                {"exp", "law::exponential_of"},
+                                                               {"log", "law::logarithm_of"},
                                                                {"sin", "law::sine_of"},
                                                                {"cos", "law::cosine_of"}};
   std::istringstream in(postfix);

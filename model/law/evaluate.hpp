@@ -255,6 +255,8 @@ N Evaluation<N>::compute(const Node& n, const std::vector<N>& values) const {
       return 1 / arg(0);
     case Op::exponential:
       return exponential_of(arg(0));
+    case Op::logarithm:
+      return logarithm_of(arg(0));
     case Op::lookup:
       return table(index, arg(0));
     case Op::line_read:

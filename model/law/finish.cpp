@@ -238,6 +238,8 @@ std::string text(const Law& law, NodeId id, int depth) {
       return "1/(" + arg(0) + ")";
     case Op::exponential:
       return call("exp");
+    case Op::logarithm:
+      return call("log");
     case Op::lookup:
       return call(law.tables[index].name.c_str());
     case Op::element:

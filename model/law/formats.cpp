@@ -90,8 +90,7 @@ class Search {
       if (now == best.choice.fraction.end()) continue;
       const int from = now->second;
       const Op op = law_.nodes[static_cast<std::size_t>(id)].op;
-      const bool table = op == Op::sine || op == Op::cosine || op == Op::root ||
-                         op == Op::reciprocal || op == Op::exponential || op == Op::lookup;
+      const bool table = op == Op::sine || op == Op::cosine || has_pieces(op) || op == Op::lookup;
       for (int by = 1; by <= (table ? 3 : 20); ++by) {
         for (const int to : {from - by, from + by}) {
           if (tried_ >= most_tried) return;

@@ -39,6 +39,8 @@ double evaluate_formula(const std::string& formula, const ValueOf& value_of) {
       stack.push_back(std::sqrt(take()));
     } else if (word == "exp") {
       stack.push_back(std::exp(take()));
+    } else if (word == "log") {
+      stack.push_back(std::log(take()));
     } else if (word == "sin") {
       stack.push_back(std::sin(take()));
     } else if (word == "cos") {

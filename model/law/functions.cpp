@@ -23,6 +23,8 @@ JetFunction function_of(const Law& law, const Node& n) {
       return [](const Span& x) { return inverse(Jet{x, {1, 1}, {0, 0}}); };
     case Op::exponential:
       return [](const Span& x) { return exponential(Jet{x, {1, 1}, {0, 0}}); };
+    case Op::logarithm:
+      return [](const Span& x) { return logarithm(Jet{x, {1, 1}, {0, 0}}); };
     default: {
       const Table& t = law.tables[at(n.index)];
       return [&law, &t](const Span& x) { return table_jet(law, t, x); };
@@ -39,7 +41,7 @@ void BackEnd::count_tables() {
     if (is_fixed(id)) continue;
     sines_ = sines_ || n.op == Op::sine;
     cosines_ = cosines_ || n.op == Op::cosine;
-    if (n.op == Op::root || n.op == Op::reciprocal || n.op == Op::exponential) {
+    if (has_pieces(n.op)) {
       others[{static_cast<int>(n.op), n.arguments[0]}] = 1;
     }
     if (n.op == Op::lookup) others[{1000 + n.index, 0}] = 1;
@@ -155,6 +157,10 @@ Value BackEnd::function(NodeId id) {
                   fmt::format("division by what goes from {:.4g} to {:.4g}", range.lo, range.hi),
                   "keep the divisor away from 0, e.g. max(x, 0.01)");
   }
+  if (n.op == Op::logarithm && range.lo <= 0) {
+    throw Refused(n.place, fmt::format("log of what can be {:.4g}", range.lo),
+                  "limit it, e.g. log(max(x, 0.01))");
+  }
   Value v = value(argument);
   if (user) range = both_of(range, {table->domain.lower, table->domain.upper});
   const int words = table_words_left_ / std::max(1, other_tables_);
@@ -230,6 +236,7 @@ Value BackEnd::function(NodeId id) {
       t.what = user                     ? table->name
                : n.op == Op::root       ? "sqrt"
                : n.op == Op::reciprocal ? "1/x"
+               : n.op == Op::logarithm  ? "log"
                                         : "exp";
       known = choice_.made.emplace(full, t).first;
     }

@@ -58,6 +58,8 @@ TableProof table_proof(const Compiled& c, int step) {
         return inverse(j);
       case Op::exponential:
         return exponential(j);
+      case Op::logarithm:
+        return logarithm(j);
       default:
         return table_jet(c.law, *own, x);
     }

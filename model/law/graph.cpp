@@ -301,6 +301,12 @@ NodeId Graph::function(Op op, NodeId a, Place place) {
                      "its argument must be 0 or more");
     return kNone;
   }
+  if (op == Op::logarithm) {
+    if (n.value > 0) return constant(std::log(n.value), unit, place);
+    diagnostics_.add(place, "the logarithm of a number that is not above 0",
+                     "its argument must be above 0");
+    return kNone;
+  }
   const double value = op == Op::sine     ? std::sin(n.value)
                        : op == Op::cosine ? std::cos(n.value)
                        : op == Op::root   ? std::sqrt(n.value)

@@ -49,7 +49,7 @@ class Graph {
   NodeId either(NodeId a, NodeId b, Place place);
   NodeId opposite(NodeId a, Place place);
   NodeId select(NodeId condition, NodeId yes, NodeId no, Place place);
-  /// sine, cosine, root, exponential
+  /// sine, cosine, root, exponential, logarithm
   NodeId function(Op op, NodeId a, Place place);
   NodeId lookup(int table, NodeId a, const Unit& unit, Place place);
   NodeId element(int array, NodeId a, Place place);

@@ -93,6 +93,12 @@ Range host_range(const Law& law, const Node& n, const std::vector<Range>& ranges
       const Range r = wider(std::exp(a.lower), std::exp(a.upper));
       return {std::max(0.0, r.lower), r.upper};
     }
+    case Op::logarithm:
+      if (a.lower <= 0) {
+        throw NoRange{"the logarithm of parameters that may be 0 or below",
+                      "begin their ranges above 0, or write log(max(x, 0.01))"};
+      }
+      return wider(std::log(a.lower), std::log(a.upper));
     case Op::element: {
       const auto& values = law.arrays[static_cast<std::size_t>(n.index)].values;
       const auto [low, high] = std::minmax_element(values.begin(), values.end());

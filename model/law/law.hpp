@@ -57,6 +57,7 @@ enum class Op : std::uint8_t {
   root,         ///< square root, argument >= 0
   reciprocal,   ///< 1/a, argument away from 0
   exponential,  ///< e^a
+  logarithm,    ///< natural, argument > 0
   lookup,       ///< Law::tables[index] at a: linear between its samples, clamped to its ends
   element,    ///< Law::arrays[index], element a (a whole number, rounded down), clamped to its ends
   line_read,  ///< Law::lines[index]: what was written b runs ago, b in 1 .. length; argument a is b

@@ -147,6 +147,7 @@ Value BackEnd::compute(NodeId id, double hint) {
     case Op::root:
     case Op::reciprocal:
     case Op::exponential:
+    case Op::logarithm:
     case Op::lookup:
       return function(id);
     case Op::element:

@@ -59,6 +59,8 @@ std::string postfix(const Law& law, NodeId id) {
       return arg(0) + " sqrt";
     case Op::exponential:
       return arg(0) + " exp";
+    case Op::logarithm:
+      return arg(0) + " log";
     case Op::sine:
       return arg(0) + " sin";
     case Op::cosine:

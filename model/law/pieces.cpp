@@ -17,10 +17,11 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-bool has_pieces(Op op) { return op == Op::root || op == Op::reciprocal || op == Op::exponential; }
-
 double value(Op op, double x) {
-  return op == Op::root ? std::sqrt(x) : op == Op::reciprocal ? 1 / x : std::exp(x);
+  return op == Op::root         ? std::sqrt(x)
+         : op == Op::reciprocal ? 1 / x
+         : op == Op::logarithm  ? std::log(x)
+                                : std::exp(x);
 }
 
 /// How far the function is from a line over a segment, looked at in a few places.
@@ -87,8 +88,9 @@ std::vector<double> cuts(Op op, const Span& x, int pieces, int segments, const W
   return best;
 }
 
-/// What the argument is within where the function's value, which is positive, is.
+/// What the argument is within where the function's value is, which is positive but of log.
 Span inverse_of(Op op, const Span& keep) {
+  if (op == Op::logarithm) return exponential(keep);
   const auto inverse = [op](double y) {
     return op == Op::root ? y * y : op == Op::reciprocal ? 1 / y : std::log(y);
   };
@@ -122,7 +124,8 @@ class Pieces {
       if (!has_pieces(n.op) || fixed[at(id)] != 0) continue;
       const Span x = spans_[at(n.arguments[0])];
       if (!(x.width() > 0 && x.width() < infinity && widths_[at(id)].whole > 0) ||
-          (n.op == Op::root && x.lo < 0) || (n.op == Op::reciprocal && x.lo <= 0 && x.hi >= 0)) {
+          (n.op == Op::root && x.lo < 0) || (n.op == Op::logarithm && x.lo <= 0) ||
+          (n.op == Op::reciprocal && x.lo <= 0 && x.hi >= 0)) {
         continue;
       }
       wide_[at(id)] = 1;
@@ -225,7 +228,8 @@ class Pieces {
       }
     }
     const bool positive = n.op != Op::reciprocal || spans_[at(n.arguments[0])].lo > 0;
-    if (alone && wide_[at(id)] != 0 && positive && keep.hi > 0) {
+    const bool reached = keep.hi > 0 || n.op == Op::logarithm;
+    if (alone && wide_[at(id)] != 0 && positive && reached) {
       const NodeId argument = n.arguments[0];
       const Span x = spans_[at(argument)];
       const Span left = inverse_of(n.op, keep), inside = both_of(x, left);

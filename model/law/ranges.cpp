@@ -78,6 +78,8 @@ class Body {
         return inverse(arg(0));
       case Op::exponential:
         return exponential(arg(0));
+      case Op::logarithm:
+        return logarithm(arg(0));
       case Op::lookup: {
         const Table& t = law_.tables[at(n.index)];
         Jet a = arg(0);
@@ -217,6 +219,8 @@ class Ranges {
         return inverse(arg(0));
       case Op::exponential:
         return exponential(arg(0));
+      case Op::logarithm:
+        return logarithm(arg(0));
       case Op::lookup:
         return lookup(n, arg(0));
       case Op::element:

@@ -33,6 +33,11 @@ struct Cell {
 /// Everything that the law declares or the design's formats hold.
 Cell whole_cell(const Law& law, const Target& target);
 
+/// A function that gets tables of the compiler's own.
+inline bool has_pieces(Op op) {
+  return op == Op::root || op == Op::reciprocal || op == Op::exponential || op == Op::logarithm;
+}
+
 /// Every node's range over the cell; truth values are parts of [0, 1]. Nodes that only the bodies
 /// of tables have are empty.
 std::vector<Span> ranges(const Law& law, const Cell& cell);

@@ -93,13 +93,19 @@ inline Span inverse(const Span& a) {
 inline Span root(const Span& a) {
   return {std::max(0.0, down(std::sqrt(std::max(a.lo, 0.0)))), up(std::sqrt(std::max(a.hi, 0.0)))};
 }
-/// The C library's exp, sin, cos err by less than a step; four are added.
+/// The C library's exp, log, sin, cos err by less than a step; four are added.
+inline double four_steps(double x, double way) {
+  for (int i = 0; i < 4; ++i) x = std::nextafter(x, way);
+  return x;
+}
 inline Span exponential(const Span& a) {
-  const auto out = [](double x, double way) {
-    for (int i = 0; i < 4; ++i) x = std::nextafter(x, way);
-    return x;
-  };
-  return {std::max(0.0, out(std::exp(a.lo), -infinity)), out(std::exp(a.hi), infinity)};
+  return {std::max(0.0, four_steps(std::exp(a.lo), -infinity)),
+          four_steps(std::exp(a.hi), infinity)};
+}
+/// Of what of it is above 0.
+inline Span logarithm(const Span& a) {
+  return {a.lo > 0 ? four_steps(std::log(a.lo), -infinity) : -infinity,
+          a.hi > 0 ? four_steps(std::log(a.hi), infinity) : infinity};
 }
 inline Span cosine(const Span& a) {
   if (!(a.width() < 6.28)) return {-1, 1};
@@ -142,6 +148,10 @@ inline Jet root(const Jet& a) {
 inline Jet exponential(const Jet& a) {
   const Span e = exponential(a.v);
   return chain(a, e, e, e);
+}
+inline Jet logarithm(const Jet& a) {
+  const Span i = inverse(a.v);
+  return chain(a, logarithm(a.v), i, -square(i));
 }
 inline Jet sine(const Jet& a) { return chain(a, sine(a.v), cosine(a.v), -sine(a.v)); }
 inline Jet cosine(const Jet& a) { return chain(a, cosine(a.v), -sine(a.v), -cosine(a.v)); }

@@ -52,9 +52,10 @@ TEST_CASE("functions") {
   CHECK(at("sin(position)", 1000) == Approx(std::sin(1000.0)));
   CHECK(at("cos(position)", 2) == Approx(std::cos(2.0)));
   CHECK(at("sqrt(position)", 2) == Approx(std::sqrt(2.0)));
+  CHECK(at("log(position)", 3) == Approx(std::log(3.0)));
   CHECK(at("exp(position)", -2) == Approx(std::exp(-2.0)));
   CHECK(at("pi") == Approx(kPi));
-  CHECK(at("sin(pi / 6) + cos(0) + sqrt(4) + exp(0)") == Approx(4.5));
+  CHECK(at("sin(pi / 6) + cos(0) + sqrt(4) + exp(0) + log(exp(1))") == Approx(5.5));
 }
 
 TEST_CASE("floor and mod") {

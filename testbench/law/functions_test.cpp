@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// sin, cos, exp, sqrt of binary128 against long double and against each other. Documentation:
+// sin, cos, exp, log, sqrt of binary128 against long double and against each other. Documentation:
 // docs/laws.md
 #include "feltgate/real_functions.hpp"
 
@@ -24,6 +24,7 @@ TEST_CASE("Quad: as long double, to its digits") {
     CHECK(off(sine_of(q), std::sin(x)) < 1e-18);
     CHECK(off(cosine_of(q), std::cos(x)) < 1e-18);
     CHECK(off(exponential_of(q), std::exp(x)) <= 1e-18 * std::exp(static_cast<double>(x)));
+    if (x > 0) CHECK(off(logarithm_of(q), std::log(x)) < 1e-18);
     CHECK(off(root_of(Quad{q * q}), std::fabs(x)) < 1e-17);
     CHECK(off(floor_of(q), std::floor(x)) == 0);
   }
@@ -36,6 +37,7 @@ TEST_CASE("Quad: against each other, to its own digits") {
     CHECK(off(s * s + c * c, 1) < 1e-31);
     CHECK(off(sine_of(2 * x), 2 * s * c) < 1e-31);
     CHECK(off(exponential_of(x) * exponential_of(-x), 1) < 1e-28);
+    CHECK(off(logarithm_of(exponential_of(x)), x) < 1e-30);
     const Quad r = root_of(x * x + 1);
     CHECK(off(r * r, x * x + 1) < 1e-30);
   }

@@ -34,6 +34,8 @@ const Bad kMeaning[] = {
      "1:25: the angle is in a number, not in rad/s; check the formula's units, factor by factor"},
     {"out torque = 1 Nm * exp(1 m)",
      "1:25: the argument is in a number, not in m; check the formula's units, factor by factor"},
+    {"out torque = 1 Nm * log(1 m)",
+     "1:25: the argument is in a number, not in m; check the formula's units, factor by factor"},
     {"out torque = 1 Nm * sqrt(1 m * 1 rad)",
      "1:21: the square root of m; its argument's unit must be a square: m^2, or a number"},
     {"table f(x) on [0 m, 1 m] = x\nout torque = 1 N * f(position)",
@@ -48,8 +50,9 @@ const Bad kMeaning[] = {
      "1:21: unknown function \"sinn\"; did you mean \"sin\"?"},
     {"out torque = 1 Nm * tan(position)",
      "1:21: unknown function \"tan\"; there are min, max, clamp, abs, sgn, sin, cos, sqrt, exp, "
-     "lowpass, sum, floor, mod, noise, and what table defines above"},
+     "lowpass, sum, floor, mod, noise, log, and what table defines above"},
     {"let floor = 1\nout torque = 1 Nm * floor", "read"},
+    {"let log = 1\nout torque = 1 Nm * log", "read"},
     {"let floor = 1\nout torque = 1 Nm * floor(position)",
      "2:21: \"floor\" is no function; between factors stands *"},
     {"out torque = 1 Nm * qqq",
@@ -231,6 +234,16 @@ const Bad kMeaning[] = {
     {"param a = 1 in -1 .. 2\nout torque = 1 Nm * sqrt(a)",
      "2:21: the square root of parameters that may be below 0; begin their ranges at 0, or write "
      "sqrt(max(x, 0))"},
+    {"param a = 1 in 0 .. 2\nout torque = 1 Nm * log(a)",
+     "2:21: the logarithm of parameters that may be 0 or below; begin their ranges above 0, or "
+     "write log(max(x, 0.01))"},
+    {"param a = 1 in 0.1 .. 2\nout torque = 1 Nm * log(a)", "read"},
+    {"table f(x) on [0, 1] = log(x)\nout torque = 1 Nm * f(position)",
+     "1:24: in the table \"f\" this is no number at 0; let the table end where its formula does, "
+     "or "
+     "limit what it is of, e.g. sqrt(max(x, 0))"},
+    {"out torque = 1 Nm * log(0)",
+     "1:21: the logarithm of a number that is not above 0; its argument must be above 0"},
     {"param a = 1 in 0 .. 1000\nout torque = 1 Nm * exp(a)",
      "2:21: a formula of parameters that gets too large; make the parameters' ranges smaller"},
     {"out torque = 1 Nm * sqrt(-1)",

@@ -57,6 +57,10 @@ const std::map<std::string, Sample> samples = {
      {"out torque = 0.1 Nm * sqrt(0.5 + abs(clamp(position, -1, 1)))"
       " / (1 + clamp(position, 0, 3)^2) * exp(-clamp(position, 0, 2))\n",
       24, 1e-3}},
+    {"a logarithm of what runs, one of a parameter",
+     {"param p = 1 in 0.01 .. 3\n"
+      "out torque = 0.1 Nm * (log(p) + log(0.5 + clamp(position, 0, 2)))\n",
+      8, 4e-4}},
     {"an odd factor of the position, sine beside another table",
      {"param a = 1 rad in -3 .. 3 rad\n"
       "out torque = 0.1 Nm * sin(7.3 * position + a) * sqrt(1 + cos(position)^2)\n",

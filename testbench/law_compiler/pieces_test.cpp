@@ -25,6 +25,8 @@ const char* const wide_laws[] = {
     "param gap = 0.01 in 0.001 .. 1\n"
     "out torque = 1 Nm * clamp(0.01 / (gap + abs(position)), 0.001, 1)\n",
     "out torque = 0.01 Nm * max(1 / min(position, -0.01), -20)\n",
+    "out torque = 0.1 Nm * clamp(log(0.001 + abs(position)), -5, 5)\n",
+    "out torque = 0.1 Nm * max(log(max(position, 0.0001)) + 2, -3)\n",
     "let x = velocity / (1 rad/s)\n"
     "out torque = 0.1 Nm * clamp(2 * exp(clamp(x, -100, 20)) - 1, -0.5, 0.5)\n",
     "let x = clamp(position, -20, 20)\nlet y = clamp(position[1], -20, 20)\n"

@@ -78,7 +78,11 @@ TEST_CASE("a max_age that the engine cannot count is refused with what it can") 
   CHECK(aged("4194.3 ms") == "compiled");
 }
 
-TEST_CASE("a root of what can be negative, a division by what can be zero") {
+TEST_CASE("a root of what can be negative, a division by what can be zero, a log of either") {
+  CHECK_THAT(refusal("out torque = 0.1 Nm * log(abs(position))\n"),
+             Contains("x.law:1:") && Contains("log of what can be 0; limit it, e.g. log(max("));
+  CHECK_THAT(refusal("out torque = 0.1 Nm * log(clamp(position, -1, 1))\n"),
+             Contains("log of what can be -1;"));
   CHECK_THAT(refusal("out torque = 0.1 Nm * sqrt(position)\n"), Contains("x.law:1:"));
   CHECK_THAT(refusal("out torque = 0.1 Nm / position\n"), Contains("x.law:1:"));
   // The length of an arrow is never the root of less than 0.

@@ -75,6 +75,12 @@ void renamed(std::vector<Directed>& all) {
       make(Kind::root,
            {number("0.1") + make(Kind::absolute, {limited(times(0.02, velocity()), -1, 1)})});
   all.push_back({"four times a root", of({}, number("4") * x)});
+  Law l;
+  const Node p = l.param("p", 1, 0.1, 3);
+  const Node y = number("0.05") + make(Kind::absolute, {limited(position(), -2, 2)});
+  all.push_back({"a logarithm of what runs beside one of a parameter",
+                 of(l, make(Kind::logarithm, {p}) * limited(position(), -1, 1) +
+                           make(Kind::logarithm, {y}))});
 }
 
 /// A format that holds nothing of what is compared costs an instruction less.

@@ -202,6 +202,8 @@ Real Evaluator::of(const Node& n) {
       return std::sqrt(arg(0));
     case Kind::exponential:
       return std::exp(arg(0));
+    case Kind::logarithm:
+      return std::log(arg(0));
     case Kind::table:
       return table(law_.tables[at(n->index)], arg(0));
     case Kind::element:

@@ -10,7 +10,7 @@ namespace {
 
 class Generator {
  public:
-  Generator(std::uint64_t seed, Shape shape) : random_(seed), shape_(shape) {}
+  Generator(std::uint64_t seed, Shape shape) : random_(seed), roots_(seed), shape_(shape) {}
 
   Law law() {
     parameters();
@@ -258,7 +258,7 @@ class Generator {
       case 6:
         return a / (value(0.3, 1) + make(Kind::absolute, {b}));
       case 7:
-        return make(Kind::root, {value(0.1, 1) + make(Kind::absolute, {a})});
+        return make(root_kind(), {value(0.1, 1) + make(Kind::absolute, {a})});
       default:
         return make(Kind::negate, {a});
     }
@@ -314,7 +314,7 @@ class Generator {
         return unless_tables(one_in(2) ? Kind::sine : Kind::cosine,
                              number(1.0 + below(20), 0) * position(axis()) + a);
       case 10:
-        return unless_tables(Kind::root, value(0.05, 1) + make(Kind::absolute, {a}));
+        return unless_tables(root_kind(), value(0.05, 1) + make(Kind::absolute, {a}));
       case 11:
         if (!law_.tables.empty()) return a - b;
         return a / (value(0.3, 1) + make(Kind::absolute, {b}));
@@ -335,6 +335,8 @@ class Generator {
     }
   }
 
+  /// A root or, in its place, a logarithm.
+  Kind root_kind() { return roots_.below(3) == 0 ? Kind::logarithm : Kind::root; }
   /// Table memory holds few of both.
   Node unless_tables(Kind function, const Node& x) const {
     return law_.tables.empty() ? make(function, {x}) : limited(x, -2, 2);
@@ -367,7 +369,7 @@ class Generator {
   }
 
   static constexpr Real pi = 3.14159265358979323846264338327950288L;
-  SplitMix64 random_;
+  SplitMix64 random_, roots_;
   Shape shape_;
   Law law_;
   std::vector<Node> params_, kept_, stages_;

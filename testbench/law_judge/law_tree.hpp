@@ -21,7 +21,7 @@ using Real = long double;
 enum class Kind {
   number, param, input, state, line, let, counter,  // leaves
   add, subtract, multiply, divide, power, negate, minimum, maximum, clamp, absolute,
-  sine, cosine, root, exponential, table, element, sign, choice, sum, floor, modulo, noise,
+  sine, cosine, root, exponential, logarithm, table, element, sign, choice, sum, floor, modulo, noise,
   less, less_equal, more, more_equal, equal, differs, both, either, opposite
 };
 // clang-format on

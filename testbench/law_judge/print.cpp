@@ -68,6 +68,8 @@ std::string written(const Law& law, const Node& n, const Mark& mark, const Let& 
       return call("sqrt");
     case Kind::exponential:
       return call("exp");
+    case Kind::logarithm:
+      return call("log");
     case Kind::table:
       return call(n->text);
     case Kind::element:

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// sin, cos, sqrt, exp and floor of double, long double and Quad; C++ has none of Quad. Those of
-// Quad are series, exact to about 1e-32 of the result's largest value. Documentation: docs/laws.md
+// sin, cos, sqrt, exp, log and floor of double, long double and Quad; C++ has none of Quad. Those
+// of Quad are series, exact to about 1e-32 of the result's largest value. Documentation:
+// docs/laws.md
 #pragma once
 
 #include <cmath>
@@ -105,6 +106,19 @@ N exponential_of(N x) {
     // exp - 1, so that squaring loses no digits.
     for (int i = 0; i < halvings; ++i) sum = sum * (sum + 2);
     return sum + 1;
+  }
+}
+
+/// Of x > 0 within the exponents of a double.
+template <class N>
+N logarithm_of(N x) {
+  if constexpr (kInLibrary<N>) {
+    return std::log(x);
+  } else {
+    if (!(x > 0)) return static_cast<N>(std::log(static_cast<double>(x)));
+    N y = static_cast<N>(std::log(static_cast<long double>(x)));
+    const N rest = x * exponential_of(-y) - 1;  // below 1e-18: two terms of log(1 + rest) do
+    return y + rest - rest * rest / 2;
   }
 }
 

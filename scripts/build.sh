@@ -61,7 +61,7 @@ configure() {
   if [[ $had_root && $had_root != "$ROOT" ]]; then fresh=(--fresh); fi
   run_logged "configuring" "$STATE/configure.log" cmake "${fresh[@]}" -S "$ROOT" -B "$BUILD" \
     -G Ninja -DCMAKE_BUILD_TYPE=Release -DFELTGATE_TESTS="$tests" \
-    -DPython3_EXECUTABLE="$FELTGATE_PYTHON" || return
+    -DFELTGATE_PACKAGES=OFF -DPython3_EXECUTABLE="$FELTGATE_PYTHON" || return
   printf '%s\n' "$tests" "$ROOT" "$FELTGATE_PYTHON" >"$STATE/configured"
 }
 

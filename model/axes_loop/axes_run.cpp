@@ -13,7 +13,6 @@
 #include <optional>
 #include <stdexcept>
 #include <type_traits>
-#include <utility>
 
 #include "axes_loop/axes_columns.hpp"
 #include "axes_loop/axes_engines.hpp"
@@ -26,7 +25,6 @@
 #include "loop/expectations.hpp"
 #include "loop/feed_clock.hpp"
 #include "loop/scenario_check.hpp"
-#include "loop/speed_jumps.hpp"
 #include "plant/axes_loop.hpp"
 #include "plant/drive.hpp"
 
@@ -372,16 +370,7 @@ AxesResult run_on(const AxesScene& scene, const Setup& setup, const AxesRunOptio
   const AxesDesignMakers* d = find_axes_design(options.design);
   const plant::Drive drive = d == nullptr ? plant::Drive{} : plant::drive_of(d->info());
   typename Setup::Plant plant(setup.parameters, scene.scenario.effects, drive, setup.hand);
-  AxesResult result = AxesRun<typename Setup::Plant>(scene, plant, options).run();
-  if constexpr (std::is_same_v<Setup, TwoLeversSetup>) {
-    for (const plant::Hand& hand : setup.hand) {
-      for (std::string& jump :
-           speed_jumps(scene.scenario, hand, setup.parameters.lever.lever.inertia_kg_m2)) {
-        result.speed_jumps.push_back(std::move(jump));
-      }
-    }
-  }
-  return result;
+  return AxesRun<typename Setup::Plant>(scene, plant, options).run();
 }
 
 }  // namespace
@@ -396,8 +385,10 @@ std::vector<std::string> axes_columns(const AxesScene& scene) {
 
 AxesResult run_axes(const AxesScene& scene, const AxesRunOptions& options) {
   try {
-    return std::visit([&](const auto& setup) { return run_on(scene, setup, options); },
-                      scene.device);
+    AxesResult result =
+        std::visit([&](const auto& setup) { return run_on(scene, setup, options); }, scene.device);
+    result.speed_jumps = speed_jumps(scene);
+    return result;
   } catch (const plant::MotionError& error) {
     throw config::ConfigError(scene.scenario.path + ": " + error.what());
   }

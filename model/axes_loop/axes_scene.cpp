@@ -8,8 +8,10 @@
 
 #include <filesystem>
 #include <type_traits>
+#include <utility>
 
 #include "config/toml_reader.hpp"
+#include "loop/speed_jumps.hpp"
 #include "plant/gimbal/gimbal_file.hpp"
 #include "plant/pantograph/pantograph_file.hpp"
 #include "plant/plant_file.hpp"
@@ -117,6 +119,19 @@ int axes_of(const AxesScene& scene) {
 const std::string& device_of(const AxesScene& scene) {
   return std::visit([](const auto& setup) -> const std::string& { return setup.parameters.name; },
                     scene.device);
+}
+
+std::vector<std::string> speed_jumps(const AxesScene& scene) {
+  std::vector<std::string> all;
+  const auto* levers = std::get_if<TwoLeversSetup>(&scene.device);
+  if (levers == nullptr) return all;
+  for (const plant::Hand& hand : levers->hand) {
+    const double inertia_kg_m2 = levers->parameters.lever.lever.inertia_kg_m2;
+    for (std::string& jump : speed_jumps(scene.scenario, hand, inertia_kg_m2)) {
+      all.push_back(std::move(jump));
+    }
+  }
+  return all;
 }
 
 }  // namespace feltgate

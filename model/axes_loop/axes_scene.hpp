@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "axes_loop/plane_host.hpp"
 #include "loop/scenario.hpp"
@@ -60,5 +61,8 @@ AxesScene read_axes_scene(const std::string& path,
 /// Axes of the device, and its name.
 int axes_of(const AxesScene& scene);
 const std::string& device_of(const AxesScene& scene);
+
+/// Where a hand on one of two levers imposes a speed that jumps: loop/speed_jumps.hpp.
+std::vector<std::string> speed_jumps(const AxesScene& scene);
 
 }  // namespace feltgate

@@ -93,7 +93,7 @@ RULES = (
     Rule(r"(?:cp|mv|cd|git checkout|quartus_sh|openFPGALoader|dask-worker)", "NAMED"),
     Rule(r"c\+\+ -std=c\+\+17 -Imodel/include docs/examples/tick_loop\.cpp", "WHOLE"),
     Rule(r"a\.out", "WHOLE"),
-    Rule(r"cmake -S \. -B build", "NAMED"),
+    Rule(r"cmake -S \. -B build|cmake --preset", "NAMED"),
     Rule(r"cmake -S \. -B build-aarch64", "BY", "aarch64"),
     Rule(r"cmake -S \. -B build-library|cmake --(?:build|install)", "BY", "package"),
     Rule(r"sudo apt-get install", "NAMED"),

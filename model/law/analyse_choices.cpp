@@ -59,14 +59,17 @@ Fact Analysis::table_result(const Step& s, const Fact& x) {
     // The segments that words reach, and one more each way for the law beside them.
     const double from = part ? std::max(0.0, first - 1) : 0;
     const double to = part ? std::min(last, end + 1) : last;
-    if (part) f.words = {infinity, -infinity};
+    if (!t.wraps) f.words = {infinity, -infinity};
     if (near && !t.wraps) f.error = 0;
     for (double i = from; !t.wraps && i <= to; ++i) {
       const auto k = static_cast<std::size_t>(i);
       if (near) f.error = larger(f.error, t.errors[k] + t.steep[k] * x.error);
       const double v = engine_table_value(t.words[k]), rise = engine_table_slope(t.words[k]);
-      if (part && i >= first && i <= end)
-        f.words = hull(f.words, hull({v, v}, {v + rise, v + rise}));
+      const auto line = [&, begin = 4096 * (i + t.low - s.offset)](double word) {
+        const double y = v + rise * std::clamp((word - begin) / 4096, 0.0, 1.0);
+        return Span{std::floor(y), std::ceil(y)};
+      };
+      if (i >= first && i <= end) f.words = hull(f.words, hull(line(x.words.lo), line(x.words.hi)));
     }
     if (!near || t.wraps) f.error += t.slope * x.error;
     // A seam between segments, or several.

@@ -129,10 +129,10 @@ Value BackEnd::limited(Value v, const Node& n, NodeId id) {
 
 /// Bits behind the point that a table's values can have: a value has 20 bits and a slope 16.
 int BackEnd::value_fraction(const TableRequest& r) {
+  const auto value = extended(r);
   double step = 0, largest = 0, before = 0;
   for (int i = 0; i <= r.count; ++i) {
-    const double x = std::clamp((r.low + i) * r.argument_scale * 4096, r.domain.lo, r.domain.hi);
-    const double f = r.function({x, x}).v.middle();
+    const double f = value((r.low + i) * r.argument_scale * 4096);
     if (i > 0) step = std::max(step, std::fabs(f - before));
     largest = std::max(largest, std::fabs(f));
     before = f;

@@ -28,7 +28,6 @@ struct TableProof {
   std::vector<double> gradient;  ///< of each segment: largest |function'|, words per word
   std::vector<double> between;   ///< as error, between words too; may be infinite
   std::vector<double> rise;      ///< of each segment's line: |slope|, words per word
-  std::vector<Span> values;      ///< of each segment's line
 };
 
 /// Of the step's table, an LRP's, over the words that its argument can be.

@@ -59,7 +59,14 @@ void Cutter::table() {
     // beside.
     const double moved = e > 0 ? up(beside(proof.gradient, i) * e) : 0;
     apart = larger(apart, up(proof.error[static_cast<std::size_t>(i)] + moved));
-    values = hull(values, proof.values[static_cast<std::size_t>(i)]);
+    const std::uint64_t line = t.words[static_cast<std::size_t>(i)];
+    const double begin = 4096.0 * (i + t.low - s.offset);
+    const double from = t.wraps ? 0 : std::max(0.0, x.lo - begin);
+    const double end = t.wraps ? 4095 : std::min(4095.0, x.hi - begin);
+    for (const double f : {from, end}) {
+      const double there = engine_table_value(line) + engine_table_slope(line) * f / 4096;
+      values = hull(values, {there, there});
+    }
   }
   if (e > 0) {
     // Or <= |line(x) - line(X)| + |line(X) - f(X)|, X in i: a line may rise less than its function.

@@ -78,16 +78,13 @@ TableProof table_proof(const Compiled& c, int step) {
     const double value = engine_table_value(t.words[i]), slope = engine_table_slope(t.words[i]);
     const double first = 4096.0 * (t.low + static_cast<double>(i));
     double error = 0;
-    Span line{infinity, -infinity};
     for (double f = std::max(0.0, low - first); f < 4096 && first + f <= high; ++f) {
       const double x = std::clamp((first + f) * word, domain.lo, domain.hi);
       const Span exact = function({x, x}).v * (1 / s.scale);
       const double there = value + slope * f / 4096;  // exact in a double
       error = larger(error, larger(up(there - exact.lo), up(exact.hi - there)));
-      line = hull(line, {there, there});
     }
     proof.error.push_back(error);
-    proof.values.push_back(line);
     const Span part = both_of({first * word, (first + 4096) * word}, domain);
     const double gradient = part.empty() ? 0 : function(part).d1.size() * word / s.scale;
     proof.gradient.push_back(up(up(gradient)));

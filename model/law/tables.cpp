@@ -61,16 +61,29 @@ double line_error(const TableRequest& r, const Segment& s, const Span& x, int de
 
 }  // namespace
 
+std::function<double(double)> extended(const TableRequest& r) {
+  const double width = r.argument_scale * fraction;
+  const auto at = [&r](double x) { return r.function({x, x}).v.middle(); };
+  const double first = std::ceil(r.domain.lo / width), last = std::floor(r.domain.hi / width);
+  const auto rise = [&](double end, double sample) {
+    const double part = sample - end;
+    if (first > last || std::fabs(part) < width * 1e-3) return 0.0;
+    return (at(sample) - at(end)) / part;
+  };
+  const double low = rise(r.domain.lo, first * width), high = rise(r.domain.hi, last * width);
+  return [&r, at, low, high](double x) {
+    const double inside = std::clamp(x, r.domain.lo, r.domain.hi);
+    return at(inside) + (x - inside) * (x < inside ? low : high);
+  };
+}
+
 TableUse make_table(const TableRequest& r) {
   TableUse t;
   t.low = r.low;
   t.values = {infinity, -infinity};
   bool halved = false;
   const double width = r.argument_scale * fraction;
-  const auto value = [&](double x) {
-    const double inside = std::clamp(x, r.domain.lo, r.domain.hi);
-    return r.function({inside, inside}).v.middle() / r.value_scale;
-  };
+  const auto value = [&, f = extended(r)](double x) { return f(x) / r.value_scale; };
   const double limit = r.limit;
   for (int i = 0; i < r.count; ++i) {
     const double from = (r.low + i) * width, to = from + width;
@@ -101,15 +114,10 @@ TableUse make_table(const TableRequest& r) {
     s.to = to;
     const Span inside = {std::clamp(from, r.domain.lo, r.domain.hi),
                          std::clamp(to, r.domain.lo, r.domain.hi)};
-    double error = 0;
-    if (inside.width() < width * 1e-3) {
-      // Only an end lies in it: the line leaves the end's value by no more than its slope.
-      error = std::fabs(value(inside.lo) - s.value) + std::abs(s.slope);
-    } else {
-      int looks = 0;
-      error = line_error(r, s, inside, 0, &looks);
-      halved = halved || looks > 0;
-    }
+    // Of one outside: where its line meets the domain's end.
+    int looks = 0;
+    const double error = line_error(r, s, inside, 0, &looks);
+    halved = halved || looks > 0;
     t.errors.push_back(up(error * (1 + 1e-9)));
     t.error = larger(t.error, t.errors.back());
   }

@@ -23,6 +23,10 @@ struct TableRequest {
   std::int32_t limit;     ///< largest size of a value
 };
 
+/// The function, and beyond its domain, where that ends inside a segment, the line of that segment:
+/// from the end to the sample within. `request` must outlive it.
+std::function<double(double)> extended(const TableRequest& request);
+
 /// Segments between samples, each moved so that its largest errors to both sides are equal.
 TableUse make_table(const TableRequest& request);
 

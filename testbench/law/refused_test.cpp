@@ -51,6 +51,8 @@ const Bad kMeaning[] = {
     {"out torque = 1 Nm * tan(position)",
      "1:21: unknown function \"tan\"; there are min, max, clamp, abs, sgn, sin, cos, sqrt, exp, "
      "lowpass, sum, floor, mod, noise, log, and what table defines above"},
+    {"out torque = 1 Nm * atan2(position[1], position)",
+     "1:21: unknown function \"atan2\"; docs/laws.md, Tables, has the angle of two axes as a law"},
     {"let floor = 1\nout torque = 1 Nm * floor", "read"},
     {"let log = 1\nout torque = 1 Nm * log", "read"},
     {"let floor = 1\nout torque = 1 Nm * floor(position)",

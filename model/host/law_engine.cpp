@@ -286,8 +286,8 @@ void LawEngine::commit(const std::vector<law::HostWord>& writes) {
     if (!s.dropped) return;
     write(H::commit, forgets);
     throw Refused(
-        "a word for the engine was dropped: another program commits sets of parameters at the same "
-        "time; end that one, and set the parameters again");
+        "a word for the engine was dropped: another program commits sets of parameters, or loads a "
+        "law, at the same time; end that one, and set the parameters again");
   };
   if (wait("the engine is still busy with the commit before; does the law run?").dropped) {
     write(H::commit, forgets);

@@ -67,7 +67,8 @@ module engine #(
   logic clearing;  // the lines
   assign run = clearing ? 4'd0 : run_q;
   logic bank;
-  logic committing, parameter_write, drops;
+  logic committing, parameter_write, drops, locked_out;
+  assign locked_out = locked_i && write_i && !busy_o && !parameter_write && addr_i[11:9] <= 3'd2;
   assign parameter_write = addr_i[11:6] == {3'd0, feltgate_engine_pkg::D_PARAMETER[8:6]};
   assign drops = committing && write_i && !busy_o && (parameter_write || commit);
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -93,7 +94,7 @@ module engine #(
       if (open_register && addr_i == feltgate_engine_pkg::H_MAILBOX_AGE) mailbox_age_q <= wdata_i[15:0];
       if (open_register && addr_i == feltgate_engine_pkg::H_CRC) crc_q <= wdata_i;
       overrun_q <= (overrun_q || overrun) && !write_run;
-      dropped_q <= drops || (dropped_q && !(to_commit && wdata_i[1]));
+      dropped_q <= drops || locked_out || (dropped_q && !(to_commit && wdata_i[1]));
       if (started) first_q[thread5] <= 1'b0;
       if (enter) first_q <= '1;
     end

@@ -70,6 +70,22 @@ TEST_CASE("engine: words of a set that is being committed are dropped and told")
   }
 }
 
+TEST_CASE("engine: a word that the lock refuses is told") {
+  LoadedDevice device(endless());
+  device.in.locked = true;
+  device.write(H::data + kParameter, 5);
+  CHECK_FALSE(device.status(S::status_dropped));
+  for (const int address : {H::program + 3, H::table + 3, H::data + kConstant}) {
+    const std::uint32_t before = device.read(address);
+    device.write(address, before + 1);
+    CHECK(device.status(S::status_dropped));
+    CHECK(device.read(address) == before);
+    device.write(H::commit, 2);
+    CHECK_FALSE(device.status(S::status_dropped));
+  }
+  device.play();
+}
+
 TEST_CASE("engine: a parameter written in the clock before the commit is of that set") {
   for (const std::int32_t value : {-1001, 1001, 400}) {
     for (int phase = 0; phase < 6; ++phase) {

@@ -139,6 +139,12 @@ Next start(const std::function<int(std::int64_t, const Seen&)>& step, SelfTestLa
 }
 int still(std::int64_t, const Seen&) { return 0; }
 
+/// A word of any size, most of them within the counter.
+std::uint32_t any(Random& random) {
+  const auto word = static_cast<std::uint32_t>(random.bits());
+  return random.one_in(4) ? word : word & 0xffU;
+}
+
 /// So many counts towards `sign` in the first pulse, one every 50 waves, none while pulse is 0.
 std::function<int(std::int64_t, const Seen&)> answers(int counts, int in_pulse = 1) {
   int left = counts, wait = 50;
@@ -181,8 +187,8 @@ TEST_CASE("self_test: random levers, words, times and resets") {
           w.words.quiet = random.below(4);
           w.words.pulse = random.below(6);
           w.words.arms = random.below(4);
-          if (random.one_in(5)) w.words.quiet = static_cast<std::uint32_t>(random.bits());
-          if (random.one_in(5)) w.words.pulse = static_cast<std::uint32_t>(random.bits());
+          if (random.one_in(5)) w.words.quiet = any(random);
+          if (random.one_in(5)) w.words.pulse = any(random);
         }
         return w;
       }
@@ -208,6 +214,26 @@ TEST_CASE("self_test: random levers, words, times and resets") {
   CAPTURE(results, tripped);
   for (const std::int64_t n : results) CHECK(n >= 20);
   CHECK(tripped >= 50);
+}
+
+TEST_CASE("self_test: a time beyond the counter is the longest") {
+  using Words = SelfTestLaw::Words;
+  const auto next = [](Words words) {
+    return [inner = start(still, words)](std::int64_t k, const Seen& before) {
+      Wave w = inner(k, before);
+      w.ticks = kUnit;
+      return w;
+    };
+  };
+  constexpr std::uint32_t most = 255;
+  for (const std::uint32_t word : {256U, 0x8000'0000U, 0xffff'ffffU}) {
+    const auto pulses = play(next({2, word, 3}), 2 * most + 40);
+    CHECK(waves_with(pulses, 1) == most + 1);
+    CHECK(waves_with(pulses, -1) == most + 1);
+    const auto quiet = play(next({word, 3, 3}), most + 40);
+    CHECK(waves_with(quiet, 1) == 4);
+    CHECK(quiet[most].pulse == 0);
+  }
 }
 
 TEST_CASE("self_test: the times are counted to the end of their words") {

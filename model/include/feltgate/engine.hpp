@@ -174,6 +174,7 @@ class Engine {
     if (write) take(in, bank, was_committing);
     if (write && addr == H::commit && (in.wdata & 2U) != 0) r.dropped = false;
     if (write && was_committing && (asks || of_parameters(in.addr))) r.dropped = true;
+    if (write && in.locked && !of_parameters(in.addr) && in.addr >> 9 <= 2) r.dropped = true;
     r.overrun = (r.overrun || overrun) && !write_run;
     if (started) r.first &= ~(1U << thread);
     if (enter) r.first = 15;

@@ -5,6 +5,7 @@
 // ticks. Documentation: docs/blocks/self_test.md
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "feltgate/generated/map.hpp"
@@ -109,8 +110,9 @@ class SelfTestLaw {
     *before = now;
     return other;
   }
+  /// A longer time is the longest that count_ can hold.
   bool reached(std::uint32_t word) const {
-    return count_ >= (word & ((1u << Map::self_test_count_bits) - 1));
+    return count_ >= std::min(word, (1u << Map::self_test_count_bits) - 1);
   }
   void add(unsigned step) {
     constexpr int end = Map::self_test_counts;

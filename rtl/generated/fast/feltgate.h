@@ -215,13 +215,13 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_HOLD_TORQUE_DEFAULT 0.25
 #define FELTGATE_HOLD_TORQUE_RESET 0x00004000u
 
-#define FELTGATE_SELF_TEST_QUIET 0x025u  /* self-test: so long no count before the pulse, 8 bits [128 ticks] */
+#define FELTGATE_SELF_TEST_QUIET 0x025u  /* self-test: so long no count before the pulse; above 255 it counts as 255 [128 ticks] */
 #define FELTGATE_SELF_TEST_QUIET_VALUE(word) feltgate_value((word), 31, 0, 1.0)
 #define FELTGATE_SELF_TEST_QUIET_WORD(value) feltgate_word((value), 1.0, 0.0, 2147483647.0)
 #define FELTGATE_SELF_TEST_QUIET_DEFAULT 157.0
 #define FELTGATE_SELF_TEST_QUIET_RESET 0x0000009du
 
-#define FELTGATE_SELF_TEST_PULSE 0x026u  /* self-test: length of the pulse, and of its opposite, 8 bits; 0 is no test [128 ticks] */
+#define FELTGATE_SELF_TEST_PULSE 0x026u  /* self-test: length of the pulse, and of its opposite; above 255 it counts as 255, 0 is no test [128 ticks] */
 #define FELTGATE_SELF_TEST_PULSE_VALUE(word) feltgate_value((word), 31, 0, 1.0)
 #define FELTGATE_SELF_TEST_PULSE_WORD(value) feltgate_word((value), 1.0, 0.0, 2147483647.0)
 #define FELTGATE_SELF_TEST_PULSE_DEFAULT 0.0

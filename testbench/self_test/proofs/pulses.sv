@@ -30,15 +30,16 @@ module pulses_proof (
 
   // The length of a pulse stays as it is while armed.
   logic armed_q;
-  logic [CountW-1:0] length_q, quiet_q;
+  logic [CountW-1:0] length_q, quiet_q, length;
+  assign length = param_i > 32'd255 ? 8'd255 : param_i[7:0];
   always_ff @(posedge clk_i) begin
     armed_q <= armed_i;
-    if (wave[feltgate_map_pkg::T_SELF_TEST_QUIET]) quiet_q <= param_i[CountW-1:0];
-    if (wave[feltgate_map_pkg::T_SELF_TEST_OVER]) length_q <= param_i[CountW-1:0];
+    if (wave[feltgate_map_pkg::T_SELF_TEST_QUIET]) quiet_q <= length;
+    if (wave[feltgate_map_pkg::T_SELF_TEST_OVER]) length_q <= length;
   end
   always_comb begin
     assume (tick_q || !rst_ni || armed_i == armed_q);
-    assume (!wave[feltgate_map_pkg::T_SELF_TEST_OVER] || !armed_i || param_i[CountW-1:0] == length_q);
+    assume (!wave[feltgate_map_pkg::T_SELF_TEST_OVER] || !armed_i || length == length_q);
   end
 
   logic busy, trip;

@@ -140,7 +140,7 @@ struct EngineMap {
     static constexpr int status_mailbox_late_width = 1;
     static constexpr int status_running = 8;  ///< bit per thread: it is in a run, or about to be
     static constexpr int status_running_width = 4;
-    static constexpr int status_dropped = 12;  ///< a word of parameters or a commit came while a set was being committed, and was not taken; cleared by bit 1 of commit
+    static constexpr int status_dropped = 12;  ///< a word was not taken: one of parameters or a commit while a set was being committed, or one for another memory while locked; cleared by bit 1 of commit
     static constexpr int status_dropped_width = 1;
   };
 };

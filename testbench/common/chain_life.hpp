@@ -57,6 +57,11 @@ class ChainLife {
     if (random_.one_in(9'000)) in_.mode = static_cast<int>(random_.below(3));
     if (random_.one_in(6'000))
       in_.position = static_cast<std::int32_t>(random_.between(-2000, 2000));
+    // At the design's ramp it would see hardly anything but ramps, behind which no position shows.
+    if (!ramp_written_ || random_.one_in(4'000)) {
+      ramp_written_ = true;
+      return Word{D::A::ramp_step, random_.below(1u << 18)};
+    }
     if (!random_.one_in(250)) return std::nullopt;
     const auto& p = D::parameters[random_.below(std::size(D::parameters))];
     // A filter's coefficient at random would hide the rest of the chain.
@@ -76,6 +81,7 @@ class ChainLife {
   Random random_;
   ChainIn in_;
   long tick_ = 0;
+  bool ramp_written_ = false;
 };
 
 struct ChainComparison {

@@ -8,7 +8,7 @@ Documentation: docs/explore.md
 import re
 
 from exploring import space
-from exploring.point import ALTERNATIVES, toml_value
+from exploring.point import ALTERNATIVES, toml_value, with_test_off
 
 
 def header(lines, section):
@@ -52,6 +52,7 @@ def design_text(root, point):
     """Text of the design file that a point stands for."""
     text = space.design_path(root, point["base"]).read_text(encoding="utf-8")
     lines = text.rstrip("\n").split("\n")
-    for key, value in point["set"].items():
+    changes = point["set"] if header(lines, "self_test") is None else with_test_off(point["set"])
+    for key, value in changes.items():
         put(lines, key, value)
     return "\n".join(lines) + "\n"

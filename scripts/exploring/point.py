@@ -50,10 +50,17 @@ def toml_value(value):
     return repr(value)
 
 
+def with_test_off(overrides):
+    """The self-test of a point is off unless it is set: its pulse is made for the base's tick."""
+    return {"self_test.mode": "off", **overrides}
+
+
 def design_text(base, overrides):
     """The design file of BASE (a name in rtl/designs or a path) with keys changed; None removes."""
     path = Path(base) if str(base).endswith(".toml") else ROOT / f"rtl/designs/{base}.toml"
     table = tomllib.loads(path.read_text(encoding="utf-8"))
+    if "self_test" in table:
+        overrides = with_test_off(overrides)
     for pair in ALTERNATIVES:
         for key, other in (pair, pair[::-1]):
             if overrides.get(key) is not None:

@@ -198,9 +198,14 @@ TEST_CASE("a self-test that cannot be answered is refused", "[design]") {
                 "the self-test's 0.6 Nm are more than the torque limit of 0.5 Nm; lower it");
   check_refused("lever", "quiet_ms = 20.0", "quiet_ms = 40.0", "quiet_ms",
                 "\"quiet_ms\" is 312 units of 128 ticks; choose 0.128 to 32.6 ms");
-  const std::string on =
-      replaced(file_text(design_path("lever")), "mode = \"off\"", "mode = \"on\"");
-  CHECK(design_error(on) == "no error");
+  for (const char* design : {"lever", "paper"}) {
+    const std::string text = file_text(design_path(design));
+    const bool on = text.find("mode = \"on\"") != std::string::npos;
+    const std::string off_word = "mode = \"off\"", on_word = "mode = \"on\"";
+    CHECK(design_error(text) == "no error");
+    CHECK(design_error(on ? replaced(text, on_word, off_word)
+                          : replaced(text, off_word, on_word)) == "no error");
+  }
 }
 
 TEST_CASE("a parameter that does not fit its word is refused", "[design]") {

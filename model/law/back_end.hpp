@@ -101,6 +101,8 @@ class BackEnd {
   // lower.cpp
   Value value(NodeId id, double hint = 0);
   Value compute(NodeId id, double hint);
+  bool breaks(const std::vector<NodeId>& fixed, double word_scale) const;
+  Value in_ones(const std::vector<NodeId>& fixed);
   Value at_scale(NodeId id, double scale, double* error);
   Value align(const Value& v, double scale, NodeId id);
   bool flips(NodeId id) const;

@@ -159,6 +159,20 @@ Value BackEnd::compute(NodeId id, double hint) {
   }
 }
 
+/// Whether a word of this scale cannot hold what it must: a whole parameter's value, as it is.
+bool BackEnd::breaks(const std::vector<NodeId>& fixed, double word_scale) const {
+  if (fixed.size() != 1) return false;
+  const Node& n = node(fixed[0]);
+  const double ones = 1 / word_scale;
+  return n.op == Op::parameter && n.whole &&
+         std::fabs(ones - std::nearbyint(ones)) > 1e-12 * std::fabs(ones);
+}
+
+/// A whole parameter's word.
+Value BackEnd::in_ones(const std::vector<NodeId>& fixed) {
+  return {{From::word, word(fixed, 1)}, 1, fixed_size(fixed)};
+}
+
 /// A fixed node as a word or constant of this scale; another node's value, aligned.
 Value BackEnd::at_scale(NodeId id, double scale, double* error) {
   *error = 0;
@@ -174,6 +188,13 @@ Value BackEnd::at_scale(NodeId id, double scale, double* error) {
     *error = std::fabs(exact - std::nearbyint(exact));
     if (*error < 1e-12 * std::fabs(exact)) *error = 0;
     return {constant(exact), scale, std::fabs(term.number)};
+  }
+  if (breaks(term.fixed, scale / term.number)) {
+    Value v = in_ones(term.fixed);
+    v.scale *= std::fabs(term.number);
+    v.size *= std::fabs(term.number);
+    v = align(v, scale, id);
+    return term.number < 0 ? negated(v, id) : v;
   }
   return {{From::word, word(term.fixed, scale / term.number)}, scale, span(id).size()};
 }

@@ -132,6 +132,10 @@ BackEnd::Multiply BackEnd::by_word(const Value& v, const Term& term, double scal
     const Value more = align(v, v.scale / 4096, id);
     return by_word(more, term, scale, id);
   }
+  if (breaks(term.fixed, word_scale)) {
+    const Value counted = product(v, in_ones(term.fixed), id);
+    return by_number(counted, counted.scale * term.number / scale, id);
+  }
   m.y = {From::word, word(term.fixed, word_scale)};
   return m;
 }
@@ -243,6 +247,10 @@ void BackEnd::add_term(const Term& term, double scale, NodeId id, Chain& chain) 
       const double s = scale / term.number;
       if (fixed_size(term.fixed) / std::fabs(s) > 2147483000.0) {
         throw Unfit("a parameter does not fit in 32 bits", id, scale);
+      }
+      if (breaks(term.fixed, s)) {
+        chain.products.push_back(by_number(in_ones(term.fixed), term.number / scale, id));
+        return;
       }
       // The sign of a plain word is the instruction's.
       a.operand = {From::word, word(term.fixed, std::fabs(s))};

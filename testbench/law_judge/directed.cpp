@@ -83,6 +83,28 @@ void renamed(std::vector<Directed>& all) {
                            make(Kind::logarithm, {y}))});
 }
 
+/// Whole parameters times numbers that no word of theirs can hold.
+void whole_parameters(std::vector<Directed>& all) {
+  Law l;
+  const Node count = l.param("count", 1, -2, 4, true);
+  const Node place = limited(position(), -1, 1), hold = l.param("hold", 0.1, 0, 0.8);
+  const Node p = l.param("p", 0.556, 0.1, 2.551), q = l.param("q", 0, -1.861, 1);
+  const Node wide = l.param("wide", 1, 0.01, 100), side = sgn(place - q);
+  const Node least = make(Kind::minimum, {number("1") / wide, number("1.918")});
+  const Node root = make(Kind::root, {number("0.829") + make(Kind::absolute, {least})});
+  for (const char* number_text : {"1.938", "0.0061", "-0.3"}) {
+    const Node factor = number(number_text);
+    all.push_back({"a whole parameter times a number", of(l, place + factor * count)});
+    all.push_back({"a whole parameter times a number beside a side",
+                   of(l, limited(side * (hold * least) + factor * count, -4, 4))});
+    all.push_back({"a whole parameter times a number and an input", of(l, factor * count * place)});
+    all.push_back({"a whole parameter times a number or another parameter",
+                   of(l, limited(choose(place >= p, p - q, factor * count), -4, 4))});
+    all.push_back({"a whole parameter by a number",
+                   of(l, limited(choose(place >= p, p + root, count / number("1.577")), -4, 4))});
+  }
+}
+
 /// A format that holds nothing of what is compared costs an instruction less.
 void coarse(std::vector<Directed>& all) {
   Law l;
@@ -100,6 +122,20 @@ void coarse(std::vector<Directed>& all) {
   all.push_back({"a comparison behind another one, and its format",
                  of(l, choose(speed + inner > face, hold / far(0.426, position() / number("299")),
                               speed / far(0.991, p)))});
+  Law m;
+  const Node tilt = m.param("tilt", 0.1745, -0.5236, 0.7854);
+  const Node pressed = m.param("hold", 0.1, 0, 0.8);
+  const Node way = times(0.02, limited(velocity(), -50, 50));
+  const Node wave = make(Kind::sine, {13 * position() + speed});
+  const Node other =
+      limited(position(), -0.441, 2.405) + make(Kind::sine, {14 * position() + pressed});
+  const Node moved =
+      limited(position(), -1.594, 1.014) + choose(wave > other, way + tilt, way / far(0.823, pull));
+  const Node turned = make(Kind::sine, {8 * position() + limited(position(), -1.716, 2.243)});
+  all.push_back(
+      {"a comparison behind a sine's, and its format",
+       of(m, choose(moved < turned, pressed / far(0.409, limited(position(), -0.473, 0.657)),
+                    number("0.623")))});
 }
 
 void nested(std::vector<Directed>& all) {
@@ -192,6 +228,7 @@ std::vector<Directed> directed_laws() {
   std::vector<Directed> all;
   parameters_alone(all);
   whole_states(all);
+  whole_parameters(all);
   nested(all);
   renamed(all);
   rounded_down(all);

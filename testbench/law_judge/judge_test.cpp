@@ -31,6 +31,7 @@ struct Total {
     const Printer printer(law);
     const std::string text = printer.text();
     INFO(name << ":\n" << text);
+    if (std::getenv("FELTGATE_SHOW") != nullptr) std::cout << name << ":\n" << text;
     ++laws;
     try {
       const law::Compiled c = law::compile_text(text, "random.law", law::Target{});

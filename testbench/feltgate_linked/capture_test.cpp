@@ -70,7 +70,8 @@ struct Session {
     constexpr std::uint32_t host = static_cast<std::uint32_t>(D::control_reset) |
                                    1U << D::C::control_host |
                                    static_cast<std::uint32_t>(D::S::wall) << D::C::control_scene;
-    const std::array<std::array<std::uint32_t, 2>, 11> writes{{
+    const std::array<std::array<std::uint32_t, 2>, 12> writes{{
+        {D::A::self_test_pulse, 0},
         {D::A::wall_contact, 30U << 8},
         {D::C::control, host},
         {D::C::control, host | 1U << D::C::control_arm},
@@ -123,9 +124,9 @@ struct Session {
     }
     asked = false;
     wait = 200;
-    if (step == 11 && words[0] != 4) return;
-    if (step == 12) seen->first = words[0];
-    if (step > 11) seen->replies.push_back(words);
+    if (step == 12 && words[0] != 4) return;
+    if (step == 13) seen->first = words[0];
+    if (step > 12) seen->replies.push_back(words);
     ++step;
   }
 };
@@ -137,7 +138,7 @@ TEST_CASE("feltgate_linked: a contact, captured and streamed, is that of the cor
   Session session;
   session.seen = seen;
   Bench bench("feltgate_linked", 1);
-  bench.run(session, 700'000);
+  bench.run(session, 720'000);
   REQUIRE(seen->over);
   REQUIRE(seen->replies.size() == 8);
   REQUIRE(seen->replies[0][1] == kRows);

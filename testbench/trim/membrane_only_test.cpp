@@ -53,6 +53,7 @@ std::int64_t largest_torque(int scene) {
     REQUIRE(pair.clock(in));
     in.reg_write = false;
   };
+  write(D::A::self_test_pulse, 0);
   write(D::A::ramp_step, 0x7ffffff);
   const std::uint32_t word = static_cast<std::uint32_t>(D::control_reset) |
                              1u << D::C::control_host |

@@ -56,6 +56,11 @@ def ninja(build, *arguments):
     return done.stdout
 
 
+def link_command(line):
+    """The linker's part of a line of `ninja -t commands`."""
+    return next(part for part in line.split(" && ") if " -o " in part)
+
+
 def dependencies(build, objects):
     """{object: the files that it was made of}."""
     found, at = {}, None
@@ -130,6 +135,10 @@ class Maker:
         )
         if link is None:
             raise BuildError(f"the build folder has no program {target}")
+        compiler = shlex.split(link_command(link))[0]
+        compiles = {  # Without a launcher such as ccache, whose options are none of the compiler's.
+            o: words[words.index(compiler) :] for o, words in compiles.items() if compiler in words
+        }
         made_of = dependencies(self.build, list(compiles))
         chosen = {o: w for o, w in compiles.items() if self.concerns(w[-1], made_of.get(o))}
         if not chosen:
@@ -197,8 +206,7 @@ class Maker:
 
     def link(self, target, compiles, link, selector):
         """The program from its objects made again and the others as they are."""
-        command = next(part for part in link.split(" && ") if " -o " in part)
-        words = shlex.split(command)
+        words = shlex.split(link_command(link))
         at = words.index("-o")
         out = self.folder / target
         mine = {o: str(self.objects[o]) for o in compiles}

@@ -37,8 +37,10 @@ class Judge {
     int filters = 0;
     for (const State& s : law.states) {
       const bool filter = s.follows && printer.needed(s.name);
-      state_index_.push_back(
-          index(c.law.states, filter ? fmt::format("lowpass_{}", ++filters) : s.name));
+      const long i = index(c.law.states, filter ? fmt::format("lowpass_{}", ++filters) : s.name);
+      const bool unread = i >= 0 && !is_read(c.program, i);
+      state_index_.push_back(unread ? -1 : i);
+      verdict_.unread_states += unread ? 1 : 0;
     }
     for (const Line& l : law.lines) line_index_.push_back(index(c.law.lines, l.name));
     set_parameters(true);

@@ -19,6 +19,7 @@ struct Verdict {
       0;  ///< where only a comparison within its declared strip explains the words
   std::string first_turned;                  ///< the first of those
   std::int64_t aimed = 0, aimed_turned = 0;  ///< the same of runs that were aimed at a comparison
+  int unread_states = 0;  ///< states that no step reads; their words are not judged
   double worst = 0;  ///< largest distance of a torque from its law, by the bound, without those
 };
 

@@ -50,6 +50,7 @@ struct Total {
       runs.turned += v.turned;
       runs.aimed += v.aimed;
       runs.aimed_turned += v.aimed_turned;
+      runs.unread_states += v.unread_states;
     } catch (const law::LawError& e) {
       ++refused;
       INFO(e.what());
@@ -95,7 +96,8 @@ TEST_CASE("random laws stay within their bounds") {
   WARN(total.laws << " laws, " << total.refused << " refused, " << total.failed << " wrong, "
                   << total.left_out << " left out in strips; " << r.runs << " runs, " << r.turned
                   << " explained by a strip; " << r.aimed << " aimed at a comparison, "
-                  << r.aimed_turned << " explained by its strip");
+                  << r.aimed_turned << " explained by its strip; " << r.unread_states
+                  << " states that no step reads");
   // Of few laws a share says little.
   CHECK(total.refused * 10 <= total.laws + 50);
   CHECK(total.left_out * 200 <= total.laws + 100);

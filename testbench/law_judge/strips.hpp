@@ -59,6 +59,14 @@ long index(const List& list, const std::string& name) {
   return -1;
 }
 
+/// Whether a step reads the state. The words of one that none reads need not follow the law: what
+/// should have read it is judged by itself.
+inline bool is_read(const feltgate::law::Program& program, long state) {
+  const feltgate::law::Operand o{feltgate::law::From::state, static_cast<int>(state)};
+  return std::any_of(program.steps.begin(), program.steps.end(),
+                     [&](const feltgate::law::Step& s) { return s.x == o || s.y == o; });
+}
+
 /// What is wrong with a parameter's word: it is its value, and near to what the file says.
 inline std::string wrong_word(const Param& param, const feltgate::law::ImageWord& w,
                               std::int32_t word, bool initial) {

@@ -40,8 +40,6 @@ using detail::Level;
 using detail::Pair;
 using detail::Rounding;
 
-constexpr double endless = std::numeric_limits<double>::infinity();
-
 Interval from_above(double x) { return Interval(x); }
 
 /// High-pass gains that were summed before; each takes some milliseconds.

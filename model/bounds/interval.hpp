@@ -12,6 +12,8 @@
 
 namespace feltgate::bounds {
 
+constexpr double endless = std::numeric_limits<double>::infinity();
+
 /// Rounding policy of Boost.Interval: round to nearest, then one step outward. To nearest errs by
 /// at most half a step, so the result is rigorous wherever IEEE arithmetic holds (no -ffast-math).
 struct Outward {

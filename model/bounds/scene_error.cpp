@@ -17,7 +17,6 @@ namespace feltgate::bounds::detail {
 
 namespace {
 
-constexpr double endless = std::numeric_limits<double>::infinity();
 constexpr double anything = 1e100;  ///< larger than any signal
 
 /// The scene laws of one design against one reference.

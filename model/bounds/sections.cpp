@@ -10,8 +10,6 @@ namespace feltgate::bounds {
 
 namespace {
 
-constexpr double endless = std::numeric_limits<double>::infinity();
-
 /// Around e.
 const Interval euler(2.718281828459045, 2.718281828459046);
 

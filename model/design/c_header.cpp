@@ -74,14 +74,6 @@ void field(std::ostringstream& s, const std::string& word, const Field& f) {
     << fmt::format("#define {}_MASK 0x{:08x}u\n", name, mask);
 }
 
-std::string exact(double v) { return fmt::format("{:.17g}", v); }
-
-std::string real(double v) {
-  std::string s = exact(v);
-  if (s.find_first_of(".en") == std::string::npos) s += ".0";
-  return s;
-}
-
 void conversions(std::ostringstream& s, const HostWord& w) {
   const std::string name = "FELTGATE_" + upper(w.name);
   const Format f = w.format;
@@ -89,11 +81,11 @@ void conversions(std::ostringstream& s, const HostWord& w) {
   const double high = std::ldexp(1.0, f.width() - f.sign) - 1;
   const double low = f.sign == 1 ? -high - 1 : 0;
   s << fmt::format("#define {}_VALUE(word) feltgate_value((word), {}, {}, {})\n", name, f.width(),
-                   f.sign, real(scale));
+                   f.sign, real_literal(scale));
   if (!w.writes) return;
-  s << fmt::format("#define {}_WORD(value) feltgate_word((value), {}, {}, {})\n", name, real(scale),
-                   real(low), real(high))
-    << fmt::format("#define {}_DEFAULT {}\n", name, real(w.si))
+  s << fmt::format("#define {}_WORD(value) feltgate_word((value), {}, {}, {})\n", name,
+                   real_literal(scale), real_literal(low), real_literal(high))
+    << fmt::format("#define {}_DEFAULT {}\n", name, real_literal(w.si))
     << fmt::format("#define {}_RESET 0x{:08x}u\n", name, static_cast<std::uint32_t>(w.reset));
 }
 
@@ -122,9 +114,9 @@ std::string c_header(const Elaborated& e) {
     << "#define FELTGATE_DESIGN_NAME \"" << d.name << "\"\n"
     << "#define FELTGATE_CLOCK_HZ " << d.clock_hz << "\n#define FELTGATE_TICK_HZ " << d.tick_hz
     << "\n#define FELTGATE_PWM_PERIOD " << d.pwm_period_clocks() << comment("[clock]")
-    << "#define FELTGATE_COUNT_RAD " << real(d.count_rad())
+    << "#define FELTGATE_COUNT_RAD " << real_literal(d.count_rad())
     << comment("one count; an angle in rad / FELTGATE_COUNT_RAD is in counts")
-    << "#define FELTGATE_SUPPLY_V " << real(d.supply_v) << "\n"
+    << "#define FELTGATE_SUPPLY_V " << real_literal(d.supply_v) << "\n"
     << "\n/* Words by their address. NAME_WORD(value) is the word of a value in its unit, "
        "NAME_VALUE(word) the value\n   of a word, NAME_DEFAULT and NAME_RESET what "
        "configuration leaves there. */\n";

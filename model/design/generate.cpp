@@ -18,12 +18,6 @@ namespace feltgate::design {
 
 namespace {
 
-std::string exact(double v) {
-  std::string s = fmt::format("{:.17g}", v);
-  if (s.find_first_of(".en") == std::string::npos) s += ".0";
-  return s;
-}
-
 std::string triple(Format f) {
   return fmt::format("{{{}, {}, {}}}", f.sign, f.integer, f.fraction);
 }
@@ -220,10 +214,10 @@ std::string cpp_header(const Elaborated& e) {
     << "  static constexpr const char* name = \"" << d.name << "\";\n"
     << "  static constexpr std::int64_t clock_hz = " << d.clock_hz << ";\n"
     << "  static constexpr std::int64_t tick_hz = " << d.tick_hz << ";\n"
-    << "  static constexpr double count_rad = " << exact(d.count_rad()) << ";\n"
+    << "  static constexpr double count_rad = " << real_literal(d.count_rad()) << ";\n"
     << "  static constexpr double velocity_gain_rad_s = "
-    << exact(d.exact_gain ? d.velocity_gain_rad_s() : 0.0) << ";\n"
-    << "  static constexpr double supply_v = " << exact(d.supply_v) << ";\n";
+    << real_literal(d.exact_gain ? d.velocity_gain_rad_s() : 0.0) << ";\n"
+    << "  static constexpr double supply_v = " << real_literal(d.supply_v) << ";\n";
   for (const Constant& c : constants(e)) {
     s << "  static constexpr int " << c.name << " = " << c.value << ";  // " << c.doc << "\n";
   }
@@ -261,8 +255,8 @@ std::string cpp_header(const Elaborated& e) {
     << "  static constexpr ParameterInfo parameters[] = {\n";
   for (const Word& w : e.words) {
     s << "      {\"" << w.parameter.name << "\", \"" << w.parameter.unit
-      << "\", A::" << w.parameter.name << ", P::" << w.parameter.name << ",\n       " << exact(w.si)
-      << ", " << w.raw << "},\n";
+      << "\", A::" << w.parameter.name << ", P::" << w.parameter.name << ",\n       "
+      << real_literal(w.si) << ", " << w.raw << "},\n";
   }
   s << "  };\n};\n\n}  // namespace feltgate\n";
   return s.str();
@@ -283,7 +277,7 @@ std::string memory_text(const Elaborated& e) {
 std::string values_text(const Elaborated& e) {
   std::ostringstream s;
   for (const Word& w : e.words) {
-    s << w.parameter.name << " " << w.parameter.address << " " << w.raw << " " << exact(w.si)
+    s << w.parameter.name << " " << w.parameter.address << " " << w.raw << " " << real_literal(w.si)
       << "\n";
   }
   return s.str();

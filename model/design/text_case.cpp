@@ -4,6 +4,8 @@
 // Names and heads of the generated files. Documentation: docs/designs.md
 #include "design/text_case.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -27,6 +29,12 @@ std::string camel(const std::string& name) {
     }
   }
   return out;
+}
+
+std::string real_literal(double v) {
+  std::string s = fmt::format("{:.17g}", v);
+  if (s.find_first_of(".en") == std::string::npos) s += ".0";
+  return s;
 }
 
 std::string generated_banner(const std::string& sources, const std::string& what) {

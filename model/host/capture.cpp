@@ -24,12 +24,6 @@ using M = LinkMap;
 constexpr int memory_row = M::columns;
 static_assert(M::any_event == 1u << EngineMap::event_bits, "above every event's number");
 
-int words_in(unsigned mask) {
-  int n = 0;
-  for (; mask != 0; mask &= mask - 1) ++n;
-  return n;
-}
-
 /// Bits of the causes in a list "speed,stop"; all of them for an empty one.
 std::uint32_t bits_of(const std::vector<design::Cause>& causes, std::string list,
                       const std::string& what) {

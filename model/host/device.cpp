@@ -30,12 +30,6 @@ constexpr double test_patience_s = 3.0;  ///< with one
 constexpr int wire_bits_per_byte = 10;
 constexpr double most_of_wire = 0.8;
 
-int words_in(unsigned mask) {
-  int n = 0;
-  for (; mask != 0; mask &= mask - 1) ++n;
-  return n;
-}
-
 void rest(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
 
 }  // namespace

@@ -5,6 +5,7 @@
 // docs/host.md
 #pragma once
 
+#include <bitset>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -17,6 +18,9 @@
 #include "host/quantity.hpp"
 
 namespace feltgate::host {
+
+/// Words of a capture whose mask this is: its set bits.
+inline int words_in(unsigned mask) { return static_cast<int>(std::bitset<32>(mask).count()); }
 
 /// The board refused: a fault stands, the motor is armed, arming did not happen. The text says why
 /// and what to do.

@@ -15,7 +15,6 @@ namespace feltgate::law {
 namespace {
 
 constexpr int registers = EngineMap::input_first;
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Assembly {
  public:

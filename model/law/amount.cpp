@@ -25,8 +25,6 @@ std::string si_text(std::string unit) {
   return unit;
 }
 
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-
 /// What scan_unit() does not tell of a unit's text.
 struct Rest {
   double factor = 1;    ///< of its words of the board

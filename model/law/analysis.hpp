@@ -15,7 +15,6 @@
 namespace feltgate::law::analysis {
 
 constexpr double word_low = -2147483648.0, word_high = 2147483647.0;
-inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A little more, where a sum of products was rounded: errors are upper bounds.
 inline double raised(double e) { return e * (1 + 0x1p-50); }

@@ -13,8 +13,6 @@ namespace feltgate::law {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 double worst(const CellFacts& f) {
   if (!f.reachable) return 0;
   double w = 0;

@@ -17,8 +17,6 @@ namespace feltgate::law {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// Filters have the range of what they follow, and that of their start, 0.
 void complete_states(Law& law, const Target& target) {
   for (State& s : law.states) {

@@ -15,8 +15,6 @@ namespace feltgate::law {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// As it stands between quotes: a file's name may hold anything.
 std::string escaped(const std::string& text) {
   std::string s;

@@ -17,8 +17,6 @@ namespace feltgate::law {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 class Body {
  public:
   explicit Body(const Compiled& c) : c_(c), law_(c.law), steps_(c.program.steps) {

@@ -14,8 +14,6 @@ namespace feltgate::law {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// Nodes of a table's body, arguments first.
 void body(const Law& law, NodeId id, std::set<NodeId>& nodes) {
   for (const NodeId a : law.nodes[at(id)].arguments) body(law, a, nodes);

@@ -10,10 +10,6 @@
 
 namespace feltgate::law {
 
-namespace {
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-}  // namespace
-
 Value BackEnd::element(NodeId id) {
   const Node& n = node(id);
   const Array& array = law_.arrays[at(n.index)];

@@ -55,7 +55,6 @@ class Evaluation {
   N compute(const Node& n, const std::vector<N>& values) const;
 
  private:
-  static std::size_t at(NodeId id) { return static_cast<std::size_t>(id); }
   N number(double x) const { return static_cast<N>(x); }
   N exact(std::size_t table, N x) const;
   /// The line through samples at equal distances, at a place within the domain.

@@ -13,7 +13,6 @@ namespace feltgate::law {
 namespace {
 
 constexpr int most_table_words = EngineMap::table_words;
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 JetFunction function_of(const Law& law, const Node& n) {
   switch (n.op) {

@@ -268,13 +268,13 @@ Gappa::Gappa(const Compiled& compiled) : compiled_(compiled) {
     // A turn's table is the same for all who use it.
     std::size_t same = 0;
     while (steps[same].table != steps[i].table) ++same;
-    const bool whole = compiled.program.tables[gappa::at(steps[i].table)].wraps;
+    const bool whole = compiled.program.tables[at(steps[i].table)].wraps;
     tables_[i] = whole && same < i ? tables_[same] : table_proof(compiled, static_cast<int>(i));
   }
 }
 
 std::vector<GappaLemma> Gappa::lemmas(int cell) const {
-  return gappa::Cutter(compiled_, compiled_.bound.parts[gappa::at(cell)], tables_, cell).run();
+  return gappa::Cutter(compiled_, compiled_.bound.parts[at(cell)], tables_, cell).run();
 }
 
 GappaCount prove_again(const Compiled& compiled, int cells,
@@ -295,7 +295,7 @@ GappaCount prove_again(const Compiled& compiled, int cells,
         known.emplace(l.text, good);
         if (!good) count.open.push_back(l.name);
       }
-      for (const int step : l.steps) (good ? seen : open)[gappa::at(step)] = 1;
+      for (const int step : l.steps) (good ? seen : open)[at(step)] = 1;
     }
   }
   count.lemmas = static_cast<int>(known.size());

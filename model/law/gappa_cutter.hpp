@@ -13,8 +13,6 @@
 
 namespace feltgate::law::gappa {
 
-inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 std::string number(double x);  ///< as Gappa reads it, exactly
 std::string within(const Span& s);
 std::string within(double e);

@@ -12,8 +12,6 @@ namespace feltgate::law {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// SI, or turns, of one word of what the step looks up.
 double argument_scale(const Compiled& c, const Step& s) {
   switch (s.x.from) {

@@ -25,9 +25,9 @@ std::string blank(const std::string& s) { return s.empty() ? "-" : s; }
 std::string unblank(const std::string& s) { return s == "-" ? "" : s; }
 
 /// Fields of a line, or what is wrong with it.
-class Line {
+class Fields {
  public:
-  Line(const std::string& text, int number) : in_(text), number_(number) {}
+  Fields(const std::string& text, int number) : in_(text), number_(number) {}
 
   template <class Value>
   Value take(const char* what) {
@@ -64,7 +64,7 @@ class Line {
   int number_;
 };
 
-ImageWord read_word(Line& line) {
+ImageWord read_word(Fields& line) {
   ImageWord w;
   w.word = static_cast<int>(line.index("word", 32));
   w.name = line.take<std::string>("name");
@@ -81,7 +81,7 @@ ImageWord read_word(Line& line) {
   return w;
 }
 
-ImageRequirement read_requirement(Line& line) {
+ImageRequirement read_requirement(Fields& line) {
   ImageRequirement r;
   r.smaller_name = line.take<std::string>("name");
   const auto comparison = line.take<std::string>("comparison");
@@ -98,7 +98,7 @@ ImageRequirement read_requirement(Line& line) {
   return r;
 }
 
-void read_line(Image& image, std::uint32_t& stored, Line& line) {
+void read_line(Image& image, std::uint32_t& stored, Fields& line) {
   const auto key = line.take<std::string>("key");
   if (key == "name") {
     image.name = line.take<std::string>("name");
@@ -214,7 +214,7 @@ Image read_image(const std::string& text) {
   std::string line;
   std::uint32_t stored = 0;
   for (int number = 1; std::getline(in, line); ++number) {
-    Line fields(line, number);
+    Fields fields(line, number);
     if (number == 1) {
       if (line != first_line)
         fields.fail(fmt::format("this is no law's image (\"{}\")", first_line));
@@ -223,9 +223,9 @@ Image read_image(const std::string& text) {
     if (!line.empty()) read_line(image, stored, fields);
   }
   if (image.line_base < 0 || image.line_base > 512)
-    Line("", 1).fail("line_base is not in 0 .. 512");
+    Fields("", 1).fail("line_base is not in 0 .. 512");
   if (stored != crc(image)) {
-    Line("", 1).fail(
+    Fields("", 1).fail(
         fmt::format("the CRC-32 is {:08x} where {:08x} is written", crc(image), stored));
   }
   return image;

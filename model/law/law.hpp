@@ -35,6 +35,9 @@ struct Range {
 /// A node's number in Law::nodes. Arguments come before their users.
 using NodeId = int;
 
+/// An index that is known not to be negative.
+inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
 enum class Op : std::uint8_t {
   constant,     ///< Node::value
   parameter,    ///< Law::parameters[index]: a parameter or a mailbox word, fixed during a run

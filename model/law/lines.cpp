@@ -11,7 +11,6 @@ namespace feltgate::law {
 
 namespace {
 constexpr double place = 4096;  // of an index in the word that TAB and TST take
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 void BackEnd::begin_lines() {

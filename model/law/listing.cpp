@@ -15,8 +15,6 @@ namespace feltgate::law {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 std::string parameters(const Compiled& c) {
   if (c.image.words.empty()) return {};
   std::string s = fmt::format("\n{:<14} {:>4} {:>12} {:>12} {:>12} {:>10}  {}\n", "parameter",

@@ -14,8 +14,6 @@ namespace feltgate::law {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 std::string number(double value) {
   return value < 0 ? fmt::format("{:.17g} neg", -value) : fmt::format("{:.17g}", value);
 }

@@ -19,8 +19,6 @@ namespace feltgate::law {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 class Meter {
  public:
   explicit Meter(const Compiled& c) : c_(c), law_(c.law), machine_(memory(c.image)) {

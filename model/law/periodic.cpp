@@ -13,8 +13,6 @@ namespace feltgate::law {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// The first segment follows on the last one: what is known of neighbours holds there too.
 void join_ends(TableUse& t, bool whole_segments) {
   const std::size_t last = t.words.size() - 1;

@@ -15,8 +15,6 @@ namespace feltgate::law {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 double value(Op op, double x) {
   return op == Op::root         ? std::sqrt(x)
          : op == Op::reciprocal ? 1 / x

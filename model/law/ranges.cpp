@@ -10,8 +10,6 @@ namespace feltgate::law {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 Span truth_of_less(const Span& a, const Span& b) {
   if (a.hi < b.lo) return {1, 1};
   if (a.lo >= b.hi) return {0, 0};

@@ -8,10 +8,6 @@
 
 namespace feltgate::law {
 
-namespace {
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-}  // namespace
-
 /// Unit of what a state will be fed with, so that it needs no conversion.
 double BackEnd::state_unit(NodeId id, int depth) const {
   if (depth == 0 || id < 0 || is_fixed(id)) return 0;

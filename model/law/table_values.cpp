@@ -15,8 +15,6 @@ namespace {
 
 constexpr int looks = 4096;  // equal parts of the domain, at whose ends it is looked at
 
-std::size_t at(NodeId id) { return static_cast<std::size_t>(id); }
-
 /// Nodes whose values do not go on where another one is chosen.
 bool chosen_from(const Node& n, const std::vector<double>& values, std::size_t argument) {
   return n.op != Op::select || argument == 0 ||

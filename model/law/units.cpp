@@ -32,7 +32,6 @@ constexpr Symbol kSymbols[] = {
     {"ohm", {{2, 1, -3, -2}}, 1, true},
 };
 
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 double prefix(char c) {

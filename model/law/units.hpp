@@ -26,6 +26,8 @@ struct UnitError {
   std::string what, mend;
 };
 
+inline bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
 /// One symbol, perhaps with a prefix n, u, m, k or M: "Nm", "kHz", "um".
 std::optional<UnitValue> unit_symbol(std::string_view symbol);
 /// The symbols without their prefixed forms, for suggestions.

@@ -15,8 +15,6 @@ namespace feltgate::law {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 constexpr double kTold = 0.05;    ///< share of runs that are left out: above, it is told
 constexpr double kTooMany = 0.5;  ///< above, the bound is one of too little
 constexpr double kKept = 0.01;  ///< the small end of a parameter's range that is kept worse is told

@@ -13,8 +13,6 @@
 namespace feltgate::plant {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586476925286766559;
-
 std::int64_t wrapped(std::int64_t value, std::int64_t modulus) {
   const std::int64_t rest = value % modulus;
   return rest < 0 ? rest + modulus : rest;

@@ -12,6 +12,8 @@
 
 namespace feltgate::plant {
 
+constexpr double kTwoPi = 6.283185307179586476925286766559;
+
 struct MotorParameters {
   double torque_constant_nm_a = 0.0;
   double back_emf_constant_v_s_rad = 0.0;

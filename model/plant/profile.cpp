@@ -8,10 +8,10 @@
 #include <limits>
 #include <utility>
 
+#include "plant/parameters.hpp"
+
 namespace feltgate::plant {
 namespace {
-
-constexpr double kTwoPi = 6.283185307179586476925286766559;
 
 // A sine is written around `start - amplitude*sin(phase)`, so that it begins at `start`.
 // `per_s` is 1/duration.

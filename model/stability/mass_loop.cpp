@@ -15,16 +15,16 @@ namespace {
 
 /// States: position, velocity, actuator force, command, position of the sample before; behind them
 /// the commands that wait for the end of the dead time, the newest last.
-enum : int { kX, kV, kForce, kCommand, kBefore, kScalars };
+enum : int { kX, kSpeed, kForce, kCommand, kBefore, kScalars };
 
 /// The plant for a time with the command held.
 Eigen::MatrixXd flow(const MassLoop& loop, double seconds, int size) {
   Eigen::MatrixXd rate = Eigen::MatrixXd::Zero(size, size);
-  rate(kX, kV) = 1;
-  rate(kV, kV) = -loop.friction / loop.mass;
+  rate(kX, kSpeed) = 1;
+  rate(kSpeed, kSpeed) = -loop.friction / loop.mass;
   // An ideal actuator leaves the state of a lagging one unused; it must not stand still.
   const bool lags = loop.actuator_s > 0;
-  rate(kV, lags ? kForce : kCommand) = 1 / loop.mass;
+  rate(kSpeed, lags ? kForce : kCommand) = 1 / loop.mass;
   rate(kForce, kForce) = -1 / (lags ? loop.actuator_s : loop.period_s);
   if (lags) rate(kForce, kCommand) = 1 / loop.actuator_s;
   return (rate * seconds).exp();

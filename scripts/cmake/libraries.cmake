@@ -36,6 +36,11 @@ foreach(room IN LISTS FELTGATE_ROOMS)
     SYMBOLIC)
 endforeach()
 
+# feltgate_unity(<target>): its sources share what they include.
+function(feltgate_unity name)
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ${FELTGATE_UNITY} UNITY_BUILD_BATCH_SIZE 6)
+endfunction()
+
 # feltgate_library(<name> <folder> [ONLY <regex>] [EXCEPT <regex>] [libraries...]): a static library
 # of the sources of model/<folder>, but a program's, whose names match.
 function(feltgate_library name folder)
@@ -51,6 +56,7 @@ function(feltgate_library name folder)
   add_library(${name} STATIC ${sources})
   target_compile_options(${name} PRIVATE ${FELTGATE_WARNINGS})
   target_link_libraries(${name} PUBLIC feltgate_model ${arg_UNPARSED_ARGUMENTS} PRIVATE fmt::fmt)
+  feltgate_unity(${name})
 endfunction()
 
 # feltgate_sim_library(<name> <folder> ...): the same, exported as feltgate::<name>.

@@ -28,6 +28,7 @@ function(feltgate_program name sources)
   target_compile_definitions(${name} PRIVATE
     FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}" FELTGATE_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${name} PRIVATE ${ARGN} fmt::fmt)
+  feltgate_unity(${name})
 endfunction()
 
 # What the programs of design points share; scripts/exploring/point.py compiles the rest.
@@ -62,6 +63,8 @@ feltgate_library(feltgate_calibrate host/calibrate feltgate_design feltgate_trac
 target_link_libraries(feltgate_calibrate PRIVATE nlohmann_json::nlohmann_json)
 feltgate_library(feltgate_identify host/identify feltgate_calibrate)
 target_link_libraries(feltgate_identify PRIVATE nlohmann_json::nlohmann_json)
+# In one source with others g++ 12 takes a matrix of Eigen for uninitialized.
+set_target_properties(feltgate_calibrate PROPERTIES UNITY_BUILD OFF)
 # Eigen, of some hundred readings.
 target_compile_options(feltgate_calibrate PRIVATE -O1)
 target_compile_options(feltgate_identify PRIVATE -O1)
@@ -121,6 +124,7 @@ target_compile_options(feltgate_run_parts PRIVATE ${FELTGATE_WARNINGS} -O1)
 target_compile_definitions(feltgate_run_parts PRIVATE
   FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}" FELTGATE_VERSION="${PROJECT_VERSION}")
 target_precompile_headers(feltgate_run_parts REUSE_FROM feltgate_command_line)
+feltgate_unity(feltgate_run_parts)
 target_link_libraries(feltgate_run_parts PRIVATE ${run_libraries})
 feltgate_program(feltgate_twin run_main.cpp ${run_libraries})
 feltgate_program(feltgate_run run_main.cpp ${run_libraries} core_lever)

@@ -20,7 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kWindow_s = 0.06, kShortest_s = 0.015;
-constexpr int kRounds = 30;
+constexpr int kCoastRounds = 30;
 constexpr double kSteepest_1_s = 1e3;
 
 /// The last windows in which the lever slows down: before them it still was driven.
@@ -65,7 +65,7 @@ class CoastFit {
   Regression run(double speed_rad_s, double damping_1_s, double friction_rad_s2,
                  double confidence) {
     p_ << angle_rad_.front(), speed_rad_s, damping_1_s, friction_rad_s2;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kCoastRounds; ++round) {
       const Regression step = regression(confidence);
       Eigen::Vector4d d;
       for (int k = 0; k < 4; ++k) d[k] = step.value(k);

@@ -5,12 +5,16 @@
 # Configures and builds out of tree with CMake and Ninja; Python venvs. Sourced by
 # feltgate. All messages go to stderr, so that the program's stdout stays its own.
 
-# Copies stdin to a log; shows its newest line on a terminal, or one line every ten seconds.
+# Copies stdin to a log; shows its newest line on a terminal, or one line every ten seconds. Lines
+# that begin with [DONE/ALL] tell how long the rest will take.
 show_progress() {
-  local label=$1 log=$2 line width=80 next=$((SECONDS + 10))
+  local label=$1 log=$2 line width=80 start=$SECONDS next=$((SECONDS + 10))
   if [[ -t 2 ]]; then width=$(tput cols 2>/dev/null || echo 80); fi
   while IFS= read -r line; do
     printf '%s\n' "$line" >&3
+    if [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]] && ((BASH_REMATCH[1] >= 5)); then
+      line="about $(((SECONDS - start) * (BASH_REMATCH[2] - BASH_REMATCH[1]) / BASH_REMATCH[1])) s left: $line"
+    fi
     if [[ -t 2 ]]; then
       printf '\r\033[K%.*s' $((width - 1)) "feltgate: $label: $line" >&2
     elif ((SECONDS >= next)); then
@@ -70,6 +74,9 @@ configure() {
 build() {
   lock_build
   configure "$1" || exit
+  if [[ ! -f $BUILD/.ninja_log && $2 != build.ninja ]]; then
+    say "building what '$command' needs (${*:2}) in $BUILD, once; later starts build what changed"
+  fi
   NINJA_STATUS='[%f/%t] ' run_logged "building" "$STATE/build.log" \
     ninja -C "$BUILD" "${@:2}" || exit
   exec 9>&-

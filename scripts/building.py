@@ -2,8 +2,14 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Targets of a build folder that is configured, for the commands that build what they run."""
 
+import fcntl
+import os
+import re
 import subprocess
 import sys
+import threading
+import time
+from pathlib import Path
 
 import interrupts
 
@@ -26,3 +32,73 @@ def make(command, build, targets, jobs):
     if done.returncode:
         last = log.read_text(encoding="utf-8", errors="replace").strip().splitlines()[-10:]
         raise BuildError("\n".join([f"the build failed; the whole log: {log}", *last]))
+
+
+class Beside:
+    """Programs that are built one after the other while the caller does other work. The launcher's
+    lock is held meanwhile. Left early, the build ends."""
+
+    def __init__(self, build, targets):
+        self.build, self.targets = Path(build), list(targets)
+        self.built, self.now, self.step, self.failure = set(), "", "", ""
+        self._process, self._ended = None, False
+        self._thread = threading.Thread(target=self._work, daemon=True)
+
+    def __enter__(self):
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_):
+        self._ended = True
+        if self._process is not None and self._process.poll() is None:
+            self._process.terminate()
+        self._thread.join()
+
+    def ready(self, program):
+        """Whether a program can be started: it is not to be built, or is built. BuildError where
+        it never will be."""
+        if program not in self.targets or program in self.built:
+            return True
+        if self.failure:
+            raise BuildError(self.failure)
+        return False
+
+    def wait(self, program):
+        """Until it can be started."""
+        while not self.ready(program):
+            time.sleep(0.2)
+
+    def text(self):
+        """What is being built, for a line of progress; "" where all is."""
+        return f"building {self.now} {self.step}".rstrip() if self.now else ""
+
+    def _work(self):
+        state = self.build / "launcher"
+        state.mkdir(exist_ok=True)
+        with open(state / "lock", "ab") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            for target in self.targets:
+                self.now = target
+                status = self._make(target, state / "build.log")
+                if self._ended:
+                    break
+                if status:
+                    self.failure = f"{target} was not built; the whole log: {state / 'build.log'}"
+                    break
+                self.built.add(target)
+        self.now = ""
+
+    def _make(self, target, log):
+        command = ["ninja", "-C", self.build, target]
+        with log.open("ab") as file, subprocess.Popen(
+            command,
+            env={**os.environ, "NINJA_STATUS": "[%f/%t] "},
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        ) as self._process:
+            for line in self._process.stdout:
+                file.write(line)
+                if found := re.match(rb"\[\d+/\d+\]", line):
+                    self.step = found[0].decode()
+        return self._process.returncode

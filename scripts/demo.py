@@ -17,11 +17,13 @@ import time
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
+import building
 import command_options
 import interrupts
 import outputs
 from outputs import write_whole
 from reporting import all_figures, demo_page, recordings, run_section, runs, stability_section
+from reporting.growing import Growing
 from reporting.progress import Progress, clock_text
 
 SCHEMA = "feltgate-demo/1"
@@ -109,6 +111,18 @@ def write(folder, demo):
     return path
 
 
+def warmed_up(workers):
+    """Processes that draw; they are there before there are threads."""
+    pool = ProcessPoolExecutor(workers, initializer=interrupts.leave_signals_to_the_parent)
+    pool.submit(int).result()
+    return pool
+
+
+def programs_to_build():
+    """Those that the launcher leaves to this script, so that scenes run meanwhile."""
+    return os.environ.get("FELTGATE_BUILD_BESIDE", "").split()
+
+
 def arguments_of(argv):
     parser = command_options.parser(
         "demo",
@@ -128,6 +142,7 @@ def arguments_of(argv):
     parser.add_argument(
         "--no-figures", action="store_true", help="leave out the runs that only the figures need"
     )
+    command_options.add_only_arguments(parser)
     arguments = parser.parse_args(argv)
     outputs.check_folder(parser, "-o", arguments.out)
     if arguments.traces and not Path(arguments.traces).is_dir():
@@ -139,6 +154,8 @@ def arguments_of(argv):
 
 def main(argv=None):
     arguments = arguments_of(argv)
+    if arguments.only_arguments:
+        return 0
     folder = (arguments.out or runs.build_folder() / "demo").resolve()
     began = time.monotonic()
     interrupts.end_on_signals()
@@ -157,27 +174,64 @@ def main(argv=None):
             f"{total:.0f} s of device time",
             file=sys.stderr,
         )
+        shown = [job.name for job in scenes + devices + replays]
         with contextlib.ExitStack() as beside:
+            pool = beside.enter_context(warmed_up(arguments.jobs))
+            builds = beside.enter_context(
+                building.Beside(runs.build_folder(), programs_to_build())
+            )
+            progress = beside.enter_context(Progress(jobs, beside=builds.text))
+
+            def so_far(drawn):
+                """The page of what is drawn."""
+                there = [name for name in shown if name in drawn]
+                return demo_page.document(
+                    demo_page.Demo(
+                        runs={name: ended[name] for name in there},
+                        scenes=[job.name for job in scenes if job.name in drawn],
+                        devices=[job.name for job in devices if job.name in drawn],
+                        replays=[job.name for job in replays if job.name in drawn],
+                        drawn=drawn,
+                        wrong=faults({name: ended[name] for name in there}),
+                        where=where,
+                        own=where == recordings.OWN,
+                        took_s=time.monotonic() - began,
+                        so_far=f"{progress.finished} of {progress.count} runs so far, about "
+                        f"{progress.left()} minutes to go. The demo writes this page again as its "
+                        "runs end: load it again to see more.",
+                    )
+                )
+
+            ended = {}
+            growing = Growing(pool, shown, folder / "demo.html", so_far)
+
+            def take(run):
+                ended[run.job.name] = run
+                growing.take(run)
+
+            done = runs.run_all(
+                jobs,
+                folder / "data",
+                progress,
+                arguments.jobs,
+                first=demo_page.CARDS,
+                ready=lambda job: builds.ready(runs.program_path(job.design).name),
+                ended=take,
+            )
+            builds.wait("feltgate")
             study = None
             if not arguments.no_figures:
                 study = beside.enter_context(stability_section.Study(folder))
-            with Progress(jobs) as progress:
-                done = runs.run_all(jobs, folder / "data", progress, arguments.jobs)
+            # The large ones first, so that no core waits for the last of them.
+            waiting = [] if arguments.no_figures else all_figures.start(pool, done, DESIGNS)
+            drawn = [figure.result() for figure in waiting]
+            shown_runs = growing.result()
             walls, complaint = study.result() if study else (None, "")
         unreadable += [
             f"{r.job.recording.title}: {r.complaint}"
             for r in done.values()
             if not r.ran and r.job.recording and not r.job.recording.sure
         ]
-        shown = [job.name for job in scenes + devices + replays if done[job.name].ran]
-        with ProcessPoolExecutor(
-            arguments.jobs, initializer=interrupts.leave_signals_to_the_parent
-        ) as pool:
-            # The large ones first, so that no core waits for the last of them.
-            waiting = [] if arguments.no_figures else all_figures.start(pool, done, DESIGNS)
-            pages = pool.map(demo_page.draw, [done[name] for name in shown])
-            drawn = [figure.result() for figure in waiting]
-            shown_runs = dict(zip(shown, pages, strict=True))
         demo = demo_page.Demo(
             runs=done,
             scenes=[job.name for job in scenes],
@@ -193,7 +247,7 @@ def main(argv=None):
             took_s=time.monotonic() - began,
         )
         path = write(folder, demo)
-    except OSError as error:
+    except (OSError, building.BuildError) as error:
         print(f"demo: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt as error:

@@ -61,6 +61,7 @@ class Demo:
     where: Path = None
     own: bool = False
     took_s: float = 0.0
+    so_far: str = ""  # of a page that is written while the runs go on
 
     @property
     def clocks(self):
@@ -221,7 +222,11 @@ def document(demo):
         "A DSP core that lets a hand feel things that are not there, tried in simulation: its "
         "SystemVerilog runs beside its bit-exact C++ twin, every output compared in every clock."
     )
-    body += page.verdict(demo.wrong, good) + headlines(demo) + cards(demo)
+    if demo.so_far and not demo.wrong:
+        body += page.paragraph(demo.so_far)
+    else:
+        body += page.verdict(demo.wrong, good)
+    body += headlines(demo) + cards(demo)
     body += devices(demo)
     body += page.section("tables", "All runs", tables(demo))
     if demo.figures:

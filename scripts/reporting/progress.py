@@ -94,8 +94,10 @@ class Steps(RedrawnLine):
 class Progress(RedrawnLine):
     """Thread-safe. Work is counted in device seconds; jobs under way count by the rate so far."""
 
-    def __init__(self, jobs, stream=None, width=None):
+    def __init__(self, jobs, stream=None, width=None, beside=None):
+        """`beside()` is the text of other work that goes on, or ""."""
         super().__init__(stream)
+        self.beside = beside or (lambda: "")
         self.total_s = sum(job.seconds for job in jobs)
         self.count = len(jobs)
         self.width = width
@@ -117,7 +119,7 @@ class Progress(RedrawnLine):
             if not self.live:
                 self.stream.write(
                     f"[{self.finished}/{self.count}] {job.name}: {describe(run)}, "
-                    f"{run.took_s:.1f} s, {self._left()} left\n"
+                    f"{run.took_s:.1f} s, {self._left()} left{self._beside()}\n"
                 )
                 self.stream.flush()
 
@@ -129,6 +131,11 @@ class Progress(RedrawnLine):
         now, rate = time.monotonic(), self._rate()
         return sum(min(0.95 * j.seconds, rate * (now - at)) for j, at in self.running.values())
 
+    def left(self):
+        """The time that the jobs will still take, as text."""
+        with self.lock:
+            return self._left()
+
     def _left(self):
         elapsed = time.monotonic() - self.began
         done = self.done_s + self._under_way()
@@ -136,12 +143,16 @@ class Progress(RedrawnLine):
             return "?"
         return clock_text(elapsed * (self.total_s - done) / done)
 
+    def _beside(self):
+        text = self.beside()
+        return f"; {text}" if text else ""
+
     def line(self):
         with self.lock:
             elapsed = time.monotonic() - self.began
             done = self.done_s + self._under_way()
             share = min(1.0, done / self.total_s) if self.total_s else 1.0
-            names = ", ".join(self.running)
+            names = ", ".join(self.running) + self._beside()
             text = (
                 f" {100 * share:3.0f} %  {self.finished}/{self.count}  "
                 f"{done / max(elapsed, 1e-9):.2f} s/s  {clock_text(elapsed)}, "

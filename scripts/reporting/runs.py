@@ -29,12 +29,21 @@ def build_folder():
     return Path(os.environ.get("FELTGATE_BUILD", ROOT / "build"))
 
 
-def program(design=""):
-    """Path of the built program, that of a design which has its own; a mistake here is the
-    caller's to report."""
+def program_path(design=""):
+    """Where the program of a design lies once it is built; of none, the program with every
+    command. feltgate_run has the design lever alone and is built before the others."""
     path = Path(os.environ.get("FELTGATE_PROGRAM") or build_folder() / "feltgate")
-    if design.endswith("_law") and path.name == "feltgate":
-        path = path.with_name(f"feltgate_{design}")
+    if path.name == "feltgate" and design.endswith("_law"):
+        return path.with_name(f"feltgate_{design}")
+    if path.name == "feltgate" and design == "lever":
+        small = path.with_name("feltgate_run")
+        return small if os.access(small, os.X_OK) else path
+    return path
+
+
+def program(design=""):
+    """Path of the built program; a mistake here is the caller's to report."""
+    path = program_path(design)
     if not os.access(path, os.X_OK):
         raise FileNotFoundError(f"{path}: not built; start it through ./feltgate, which builds it")
     return path
@@ -221,32 +230,61 @@ def start(job, folder, children):
     return run
 
 
-def run_all(jobs, folder, progress, workers=None):
-    """{name: Run} of all jobs, the longest first on every core. `progress` is told of each.
+class Queue:
+    """Jobs in the order in which they are to start; `ready(job)` says whether one can."""
+
+    POLL_S = 0.2
+
+    def __init__(self, jobs, ready):
+        self.jobs, self.ready = list(jobs), ready
+        self.lock = threading.Lock()
+
+    def next(self):
+        """The first that can start, waited for; None where none is left."""
+        while True:
+            with self.lock:
+                job = next((job for job in self.jobs if self.ready(job)), None)
+                if job is not None:
+                    self.jobs.remove(job)
+                if job is not None or not self.jobs:
+                    return job
+            time.sleep(self.POLL_S)
+
+    def clear(self):
+        with self.lock:
+            self.jobs.clear()
+
+
+def run_all(jobs, folder, progress, workers=None, *, first=(), ready=None, ended=None):
+    """{name: Run} of all jobs: those named in `first`, then the longest, on every core. `progress`
+    is told of each. `ready(job)` says whether its program is built, where that is going on;
+    `ended(run)` is called as each ends.
 
     An interrupt ends the programs that were started here, and no others.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    for design in {"", *(job.design for job in jobs)}:
-        program(design)  # complain once, not once per job
-    children, runs = Children(), {}
+    if ready is None:
+        for design in {"", *(job.design for job in jobs)}:
+            program(design)  # complain once, not once per job
+    order = sorted(jobs, key=lambda job: (job.name not in first, -job.seconds))
+    children, runs, queue = Children(), {}, Queue(order, ready or (lambda job: True))
 
-    def one(job):
-        if children.ended:
-            return Run(job, -1, "interrupted")
-        progress.begin(job)
-        run = start(job, folder, children)
-        progress.end(job, run)
-        return run
+    def work():
+        while (job := queue.next()) is not None:
+            progress.begin(job)
+            run = start(job, folder, children)
+            progress.end(job, run)
+            runs[job.name] = run
+            if ended:
+                ended(run)
 
-    ordered = sorted(jobs, key=lambda job: -job.seconds)
-    with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
+    workers = workers or os.cpu_count() or 1
+    with ThreadPoolExecutor(workers) as pool:
         try:
-            waiting = [pool.submit(one, job) for job in ordered]
-            for done in as_completed(waiting):
-                run = done.result()
-                runs[run.job.name] = run
+            for done in as_completed([pool.submit(work) for _ in range(workers)]):
+                done.result()
         except BaseException:
+            queue.clear()
             children.end()
             raise
-    return {job.name: runs[job.name] for job in jobs}
+    return {job.name: runs.get(job.name) or Run(job, -1, "interrupted") for job in jobs}

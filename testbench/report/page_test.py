@@ -8,6 +8,7 @@ Documentation: docs/figures.md
 
 import json
 import unittest
+from concurrent.futures import ThreadPoolExecutor
 from html import escape
 from types import SimpleNamespace
 from unittest import mock
@@ -29,7 +30,8 @@ from reporting import (
     sentences,
     time_chart,
 )
-from reporting.runs import read_csv
+from reporting.growing import Growing
+from reporting.runs import Job, Run, read_csv
 
 HOSTILE = '"><img src=x onerror=alert(1)></script><script>alert(2)</script><!--<script>'
 
@@ -257,6 +259,21 @@ class Room(Recorded):
             summary, csv = self.replay_of(steps)
             drawn[steps] = len(run_pictures.pictures("x", summary, csv))
         self.assertEqual(drawn, {3: 0, 99: 1, 4154: 2})
+
+    def test_the_page_grows(self):
+        drawn = demo_page.Drawn([], card="<div>first</div>")
+        pool, pages = ThreadPoolExecutor(1), []
+        with mock.patch.object(demo_page, "draw", lambda run: drawn):
+            growing = Growing(pool, ["a", "b"], self.folder / "demo.html",
+                              lambda found: pages.append(set(found)) or "page")
+            growing.EVERY_S = 0
+            for name in ("a", "unknown", "b"):
+                growing.take(Run(Job(name, (), 1.0), 0, summary={"x": 1}))
+            found = growing.result()
+            pool.shutdown()
+        self.assertEqual(set(found), {"a", "b"})
+        self.assertEqual(pages[-1] | {"a"}, {"a", "b"})
+        self.assertEqual((self.folder / "demo.html").read_text(), "page")
 
     def test_few_steps_are_a_line_of_the_demo(self):
         runs = {}

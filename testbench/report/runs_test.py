@@ -5,10 +5,12 @@
 
 import io
 import os
+import time
 import unittest
 from unittest import mock
 
 from bench import Bench  # isort: skip (puts scripts/ on the path)
+from building import Beside, BuildError
 from reporting import runs
 from reporting.progress import Progress
 
@@ -69,9 +71,63 @@ class Jobs(Bench):
         self.assertEqual(run.status, 2)
         self.assertIn("nowhere.sr", run.complaint)
 
+    def test_the_first_and_what_can_start_go_before_the_longest(self):
+        jobs = [runs.Job(n, ("run", "damper"), s) for n, s in (("a", 9), ("b", 5), ("c", 1))]
+        begun, free = [], set("bc")
+        with mock.patch.object(runs, "start", lambda job, *_: begun.append(job.name) or runs.Run(job, 0)):
+
+            def ended(run):
+                if run.job.name == "b":
+                    free.add("a")
+
+            runs.run_all(jobs, self.folder / "data", mock.MagicMock(), 1, first=("c",),
+                         ready=lambda job: job.name in free, ended=ended)
+        self.assertEqual(begun, ["c", "b", "a"])
+
+    def test_a_program_that_cannot_be_built_ends_all(self):
+        def ready(job):
+            raise BuildError("no")
+
+        with self.assertRaises(BuildError):
+            runs.run_all([runs.Job("a", (), 1.0)], self.folder / "data", mock.MagicMock(),
+                         ready=ready)
+
     def test_without_a_program(self):
         with self.assertRaisesRegex(FileNotFoundError, "not built"):
             self.run_all([], FELTGATE_PROGRAM=str(self.folder / "none"))
+
+
+class Building(Bench):
+    """Programs that are built while others run."""
+
+    def builds(self, script):
+        ninja = self.folder / "ninja"
+        ninja.write_text(f"#!/bin/sh\n{script}\n")
+        ninja.chmod(0o755)
+        path = mock.patch.dict(os.environ, PATH=f"{self.folder}:{os.environ['PATH']}")
+        path.start()
+        self.addCleanup(path.stop)
+        return Beside(self.folder, ["one", "two"])
+
+    def test_one_after_the_other(self):
+        with self.builds(f'echo "[7/9] $3"; echo $3 >> {self.folder}/done') as builds:
+            self.assertTrue(builds.ready("another"))
+            builds.wait("two")
+            self.assertTrue(builds.ready("one"))
+        self.assertEqual((self.folder / "done").read_text(), "one\ntwo\n")
+        self.assertEqual(builds.text(), "")
+
+    def test_a_failure_is_told(self):
+        with self.builds('test "$3" = one') as builds:
+            with self.assertRaisesRegex(BuildError, "two was not built; the whole log: .*build.log"):
+                builds.wait("two")
+            self.assertTrue(builds.ready("one"))
+
+    def test_left_early_it_ends(self):
+        with self.builds("exec sleep 300") as builds:
+            while builds._process is None:
+                time.sleep(0.01)
+        self.assertIsNotNone(builds._process.poll())
 
 
 class Bar(unittest.TestCase):

@@ -79,7 +79,11 @@ class Beside:
             fcntl.flock(lock, fcntl.LOCK_EX)
             for target in self.targets:
                 self.now = target
-                status = self._make(target, state / "build.log")
+                try:
+                    status = self._make(target, state / "build.log")
+                except OSError as error:
+                    self.failure = f"{target}: {error}"
+                    break
                 if self._ended:
                     break
                 if status:

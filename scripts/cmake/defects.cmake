@@ -70,6 +70,19 @@ function(feltgate_same_class target block library other)
   set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS "${stamp}")  # it compiles nothing itself
 endfunction()
 
+# feltgate_seeded_sources(<variable> <part>...): files that compile model/law/<part>.cpp from the copy that holds
+# the defects. The linker takes these before those of the library, which therefore are objects of their own.
+function(feltgate_seeded_sources variable)
+  set(seeded "")
+  foreach(part IN LISTS ARGN)
+    file(CONFIGURE OUTPUT "seeded_${part}.cpp" CONTENT "#include \"law/${part}.cpp\"\n")
+    list(APPEND seeded "${CMAKE_CURRENT_BINARY_DIR}/seeded_${part}.cpp")
+    set_source_files_properties("${FELTGATE_ROOT}/model/law/${part}.cpp" TARGET_DIRECTORY feltgate_law
+      PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endforeach()
+  set(${variable} "${seeded}" PARENT_SCOPE)
+endfunction()
+
 # feltgate_defect_program(<target> PATCHES p... SOURCES s... [LIBRARIES l...]): a Catch2 program of these
 # sources on headers that hold the statements of all patches; FELTGATE_DEFECT says which are executed.
 function(feltgate_defect_program target)

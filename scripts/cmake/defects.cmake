@@ -101,6 +101,7 @@ function(feltgate_defect_program target)
   # As quick to compile as -O0, nearly, and several times as quick to run.
   target_compile_options(${target} PRIVATE -w -O1)
   target_precompile_headers(${target} REUSE_FROM feltgate_catch_main)
+  feltgate_unity(${target})
   target_link_libraries(${target} PRIVATE
     feltgate_catch_main feltgate_model feltgate_chosen_defect ${arg_LIBRARIES})
 endfunction()

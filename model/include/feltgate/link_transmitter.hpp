@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/link/link_transmitter.sv: frames of two sources to bytes of the wire.
+// Twin of rtl/link/link_transmitter.sv: sends the frames of two sources as bytes on the line.
 // Documentation: docs/blocks/link_transmitter.md
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace feltgate {
 
-/// A byte of a frame, held until it is taken.
+/// A byte of a frame; the source holds it until it is taken.
 struct FrameByte {
   bool valid = false;
   std::uint8_t byte = 0;
@@ -33,9 +33,10 @@ class LinkTransmitter {
 
   void reset() { *this = LinkTransmitter(); }
   const Out& out() const { return out_; }
-  /// Nothing is under way.
+  /// No frame is being sent.
   bool idle() const { return state_ == State::idle; }
-  /// While the UART takes nothing, clock() changes nothing but for a new frame while idle().
+  /// Whether clock() changes nothing while the UART takes no byte. While idle() a new frame still
+  /// does.
   bool waits() const { return idle() || out_.valid; }
 
   void clock(const In& in) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/link/uart_rx.sv, clock by clock or from event to event.
+// Twin of rtl/link/uart_rx.sv; advances clock by clock, or several clocks at once with skip().
 // Documentation: docs/blocks/uart_rx.md
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace feltgate {
 
-/// What a phase accumulator adds per clock; 2^16 are a bit.
+/// Step of the phase accumulator per clock, rounded to nearest; 2^16 is one bit time.
 constexpr std::uint32_t uart_step(std::int64_t clock_hz, std::int64_t baud) {
   return static_cast<std::uint32_t>(((baud << 16) + clock_hz / 2) / clock_hz);
 }
@@ -22,8 +22,8 @@ class UartRx {
   };
   struct Out {
     std::uint8_t byte = 0;
-    bool valid = false;  ///< one clock
-    bool error = false;  ///< one clock
+    bool valid = false;  ///< high for one clock
+    bool error = false;  ///< high for one clock
   };
 
   explicit UartRx(std::uint32_t step) : step_(step) {}
@@ -53,13 +53,13 @@ class UartRx {
 
   const Out& out() const { return out_; }
 
-  /// So many clocks with the line held change no more than what skip() knows.
+  /// Number of clocks, with the line held at `rx`, that skip() may pass.
   std::int64_t quiet(bool rx) const {
     if (out_.valid || out_.error || seen_ != (rx ? 15U : 0U)) return 0;
     if (busy_) return (kBit - 1 - phase_) / step_;
     return ready_ == rx && phase_ == ((kBit / 2 + step_) & (kBit - 1)) && bit_ == 0 ? kForever : 0;
   }
-  /// As so many calls of clock() with the line held, at most quiet().
+  /// Equals `clocks` calls of clock() with the line held; `clocks` must not exceed quiet().
   void skip(std::int64_t clocks) {
     if (busy_) phase_ += static_cast<std::uint32_t>(clocks) * step_;
   }
@@ -67,7 +67,7 @@ class UartRx {
 
  private:
   static constexpr std::uint32_t kBit = 1U << 16;
-  /// Two of the three oldest levels.
+  /// Majority of the three oldest levels.
   bool line() const {
     const unsigned a = seen_ >> 1 & 1U, b = seen_ >> 2 & 1U, c = seen_ >> 3 & 1U;
     return a + b + c >= 2;

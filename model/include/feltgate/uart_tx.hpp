@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/link/uart_tx.sv, clock by clock or from event to event.
+// Twin of rtl/link/uart_tx.sv; advances clock by clock, or several clocks at once with skip().
 // Documentation: docs/blocks/uart_tx.md
 #pragma once
 
@@ -15,7 +15,7 @@ class UartTx {
  public:
   struct In {
     std::uint8_t byte = 0;
-    bool valid = false;  ///< held until ready
+    bool valid = false;  ///< must be held until ready
   };
   struct Out {
     bool ready = true;
@@ -43,10 +43,10 @@ class UartTx {
   const Out& out() const { return out_; }
   bool busy() const { return busy_; }
 
-  /// So many clocks without a byte to take change no more than what skip() knows.
+  /// Number of clocks, without a byte to take, that skip() may pass.
   std::int64_t quiet() const {
     if (!busy_) return phase_ == 0 ? UartRx::kForever : 0;
-    return (kBit - 1 - phase_) / step_;  // then a bit ends, and the last one is ready
+    return (kBit - 1 - phase_) / step_;  // then a bit ends; ready may rise first
   }
   void skip(std::int64_t clocks) {
     if (!busy_) return;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/engine/engine_barrel.sv, clock by clock: memories and four threads in turns.
-// Documentation: docs/blocks/engine.md
+// Twin of rtl/engine/engine_barrel.sv, clock by clock: the memories, and four threads that take
+// turns. Documentation: docs/blocks/engine.md
 #pragma once
 
 #include <array>
@@ -19,11 +19,11 @@ class EngineRuns;
 
 namespace feltgate {
 
-/// Clocked twin of the engine's machine.
+/// Clocked twin of the engine's processor.
 class EngineBarrel {
  public:
   struct In {
-    unsigned run = 0, request = 0, first = 0;  ///< a bit per thread
+    unsigned run = 0, request = 0, first = 0;  ///< one bit per thread
     int bank = 0;
     bool write_data = false, write_program = false, write_table = false;
     int write_address = 0;
@@ -36,7 +36,7 @@ class EngineBarrel {
 
   static constexpr int kSystem = 5;  ///< the turn in which the system reads
 
-  /// Contents of the memories; they outlive a reset.
+  /// Contents of the memories; a reset keeps them.
   EngineMemory memory;
 
   void reset() {
@@ -48,7 +48,7 @@ class EngineBarrel {
     acc_ = {};
   }
 
-  // What is seen within a clock.
+  // Values during a clock, before it ends.
   int thread5() const { return at_[5].turn & 3; }
   bool starts(unsigned run_request) const {
     return at_[5].turn < 4 && !at_[5].valid && (run_request >> thread5() & 1U) != 0;
@@ -91,23 +91,23 @@ class EngineBarrel {
   template <int AxisCount, int TorqueW>
   friend class law::EngineRuns;
 
-  /// An instruction, or a turn without one, on its way.
+  /// An instruction in the pipeline, or a turn without one.
   struct Turn {
     int turn = 0;
     bool valid = false;
-    bool flag = false, next_flag = false;  ///< before and after it
+    bool flag = false, next_flag = false;  ///< before and after the instruction
     int bank = 0, pc = 0, b = 0;
     std::uint64_t word = 0, table = 0;
     EngineInstruction i;
     std::int32_t x = 0, y = 0, result = 0;
     int table_address = 0;
     bool writes_data = false, writes_program = false, writes_table = false;
-    int address = 0;  ///< of data or program
+    int address = 0;  ///< address in data or program memory
     unsigned high = 0;
     std::uint32_t extra = 0;
   };
 
-  /// Words are read in the clock in which others are written: as they were.
+  /// The words before this clock's writes: a read in the same clock gives the old word.
   struct Before {
     int data_at = -1, program_at = -1, table_at = -1;
     std::int32_t data_word = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twins of the engine's parts around parameters, mailbox and lines, clock by clock.
+// Twins of the engine's parts for parameters, mailbox and delay lines, clock by clock.
 // Documentation: docs/blocks/engine.md
 #pragma once
 
@@ -14,7 +14,8 @@ class EngineRuns;
 
 namespace feltgate {
 
-/// Twin of rtl/engine/engine_commit.sv.
+/// Twin of rtl/engine/engine_commit.sv: checks a parameter set against its ranges, one word after
+/// another, and switches to the other bank with the next tick.
 class EngineCommit {
  public:
   struct In {
@@ -24,12 +25,12 @@ class EngineCommit {
   };
 
   int bank = 0;
-  bool differs = false;  ///< of the last commit: a word below mailbox_first
+  bool differs = false;  ///< the last commit changed a word below mailbox_first
   bool checking = false, refused = false;
   int refused_word = 0;
 
   bool committing() const { return wanted_ || checking || passed_ || old_ != 0; }
-  /// The other bank comes into force with the next clock.
+  /// Whether the other bank comes into force with the next clock.
   bool taken(bool tick) const { return passed_ && tick; }
   bool minus() const { return checking && (beat_ & 1) != 0; }
   int address() const {
@@ -79,7 +80,7 @@ class EngineCommit {
   unsigned old_ = 0;
 };
 
-/// Twin of rtl/engine/engine_mailbox.sv.
+/// Twin of rtl/engine/engine_mailbox.sv: the age of the mailbox, and when torques may jump.
 class EngineMailbox {
  public:
   struct In {
@@ -109,10 +110,10 @@ class EngineMailbox {
   friend class law::EngineRuns;
 
   unsigned age_ = 0;
-  bool late_ = true;  // nothing was fed
+  bool late_ = true;  // late after a reset: nothing was fed yet
 };
 
-/// Twin of rtl/engine/engine_lines.sv.
+/// Twin of rtl/engine/engine_lines.sv: clears the delay lines in table memory.
 class EngineLines {
  public:
   bool clearing = false;

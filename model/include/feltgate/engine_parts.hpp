@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twins of the engine's parts around the barrel, clock by clock: starts and inputs, outputs and
-// age, CRC, events. Documentation: docs/blocks/engine.md
+// their age, CRC, events. Documentation: docs/blocks/engine.md
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace feltgate {
 
-/// Twin of rtl/engine/engine_inputs.sv.
+/// Twin of rtl/engine/engine_inputs.sv: the dividers, the inputs and the starts of the threads.
 template <int AxisCount>
 class EngineInputs {
  public:
@@ -35,14 +35,14 @@ class EngineInputs {
 
   unsigned request = 0, running = 0;
 
-  /// Dividers and what is left of them are memory and stay.
+  /// Dividers and their counters are memory: a reset keeps them.
   void reset() {
     request = running = due_ = 0;
     counting_ = loading_ = written_ = false;
     counted_ = loaded_ = word_ = 0;
   }
 
-  /// As after power-up.
+  /// Sets the state after power-up.
   void configure(const std::array<unsigned, 4>& dividers) {
     for (std::size_t t = 0; t < dividers.size(); ++t) dividers_[t] = static_cast<int>(dividers[t]);
     counts_ = {};
@@ -60,7 +60,7 @@ class EngineInputs {
     const std::int32_t words[] = {position[n], velocity[n], tau_hat[n]};
     return static_cast<std::uint32_t>(words[word_ % 3]);
   }
-  /// A thread is due that waits already.
+  /// Whether a thread becomes due that is still waiting.
   bool due_again(unsigned run) const { return due(run) && (due_ >> counted_ & 1U) != 0; }
 
   void clock(const In& in) {
@@ -124,7 +124,7 @@ class EngineInputs {
   int counted_ = 0, loaded_ = 0, word_ = 0;
 };
 
-/// Twin of rtl/engine/engine_outputs.sv.
+/// Twin of rtl/engine/engine_outputs.sv: the torques, limited to their format, and their age.
 template <int AxisCount, int TorqueW>
 class EngineOutputs {
  public:
@@ -195,7 +195,7 @@ class EngineOutputs {
   unsigned renewed_ = 0, age_ = 0;
 };
 
-/// Twin of rtl/engine/engine_crc.sv.
+/// Twin of rtl/engine/engine_crc.sv: the CRC-32 of the memories' contents.
 class EngineCrc {
  public:
   struct In {
@@ -208,7 +208,7 @@ class EngineCrc {
   bool reads = false, done = false, good = false;
   int address = 0;
 
-  /// The sum is no register of a reset; it begins anew with each start.
+  /// A reset of the RTL does not touch the sum; each start sets it anew.
   void reset() { *this = EngineCrc{}; }
   bool busy() const { return waits_ || reads; }
   bool reads_program() const { return reads && part_ == 0; }
@@ -261,7 +261,7 @@ class EngineCrc {
   std::uint32_t sum_ = 0;
 };
 
-/// Twin of rtl/engine/engine_events.sv.
+/// Twin of rtl/engine/engine_events.sv: a queue of 16 events that wait for the host.
 class EngineEvents {
  public:
   struct Event {
@@ -270,13 +270,14 @@ class EngineEvents {
     std::uint32_t tick = 0;
   };
 
-  /// Told events that a simulation remembers, whoever takes them from the places; no hardware.
+  /// Number of events that the simulation remembers in `told`, also those already taken; not in
+  /// hardware.
   static constexpr std::size_t most_told = 65536;
 
   int count = 0, lost = 0;
   std::vector<Event> told;
 
-  /// What is in the places stays.
+  /// The contents of the queue's places stay.
   void reset() {
     first_ = count = lost = 0;
     told.clear();

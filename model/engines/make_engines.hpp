@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The engines of one design: RTL, twin, and both in lock-step. Needs the Verilated core; without it
-// twin_engine.hpp. Documentation: docs/architecture.md
+// use twin_engine.hpp. Documentation: docs/architecture.md
 #pragma once
 
 #include <memory>

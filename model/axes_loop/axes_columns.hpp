@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Columns of a run with several axes, as axes_columns() tells them. Documentation: docs/devices.md
+// Columns of a run with several axes, in the order of axes_columns(). Documentation:
+// docs/devices.md
 #pragma once
 
 #include <fmt/format.h>

@@ -21,7 +21,7 @@
 
 namespace feltgate {
 
-/// The control mode: how current and voltage are made from the torque.
+/// The control mode: current from torque and tau_hat; from torque alone; or a voltage set-point.
 enum class Control { closed_loop = 0, open_loop = 1, voltage = 2 };
 
 /// A parameter with the range of its word; all values are in `unit`.

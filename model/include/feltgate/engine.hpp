@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/engine/engine.sv, clock by clock. Documentation: docs/blocks/engine.md
+// Twin of rtl/engine/engine.sv, clock by clock: runs force laws as programs of four threads, which
+// start with ticks, and has a port for the host. Documentation: docs/blocks/engine.md
 #pragma once
 
 #include <algorithm>
@@ -28,14 +29,17 @@ class Engine {
     bool tick = false;    ///< one clock; the inputs belong to this tick and are held
     std::uint32_t tick_count = 0;
     typename Inputs::Axes position{}, velocity{}, tau_hat{};
-    bool crc_start = false;
-    unsigned addr = 0;  ///< 12 bits
+    bool crc_start = false;  ///< one clock: starts a check of the memories
+    unsigned addr = 0;       ///< 12 bits
     std::uint32_t wdata = 0;
     bool write = false;  ///< one clock, while not busy
     bool read = false;   ///< one clock: rdata was taken
   };
   struct Out {
-    std::array<std::int32_t, AxisCount> torque{};
+    std::array<std::int32_t, AxisCount> torque{};  ///< raw
+    /// fresh: one clock, torques of all axes have appeared since its last one. late: no such
+    /// torques for more than max_age ticks. crc_done: one clock, a check has ended. crc_good: it
+    /// fitted.
     bool fresh = false, late = false, crc_done = false, crc_good = false;
     bool changed = false;  ///< one clock: torques may jump from now on
     bool event_valid = false;
@@ -43,7 +47,7 @@ class Engine {
     std::int32_t event_value = 0;  ///< valid with event_valid
     std::uint32_t rdata = 0;
     bool rdata_known = false;  ///< false for a few rounds after a reset
-    bool busy = false;
+    bool busy = false;         ///< the port takes no write
   };
 
   /// `max_age` [tick]: its value after a reset where the configuration does not state one.

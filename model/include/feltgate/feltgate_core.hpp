@@ -54,6 +54,7 @@ class FeltgateCore {
     show();
   }
 
+  /// Advances one clock with these inputs.
   void clock(const In& in) {
     catch_up();
     const bool tick = clock_ == D::clocks_per_tick - 1;

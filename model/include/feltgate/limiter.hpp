@@ -30,8 +30,8 @@ struct LimiterLaw {
       return To{};
     }
     *hit = beyond<N>(x, limit);
-    if constexpr (!std::is_same_v<N, FixedLanes>) {  // the common case; with a negative limit *hit
-                                                     // is set
+    // The common case; with a negative limit *hit is always true.
+    if constexpr (!std::is_same_v<N, FixedLanes>) {
       if (!*hit) return quantise<N, To, Round::truncate, Overflow::wrap>(x);
     }
     if (limit < Limit{}) limit = Limit{};

@@ -19,7 +19,7 @@ template <int Rows = 1 << LinkMap::rows_log2, bool Events = true>
 class LinkCapture {
  public:
   struct In {
-    bool word_valid = false;
+    bool word_valid = false;  ///< word_data is the snapshot's word of slot word_slot
     std::uint8_t word_slot = 0;
     std::uint32_t word_data = 0;
     std::uint16_t addr = 0;
@@ -29,7 +29,7 @@ class LinkCapture {
     int event_number = 0;
   };
   struct Out {
-    std::uint32_t rdata = 0;
+    std::uint32_t rdata = 0;  ///< the word at addr, 3 clocks later
   };
   enum class State : std::uint8_t { idle, fill, wait, rest, done };
 
@@ -37,6 +37,7 @@ class LinkCapture {
   void reset() { *this = LinkCapture(); }
   const Out& out() const { return out_; }
   State state() const { return state_; }
+  /// Whether a capture is in progress.
   bool runs() const {
     return state_ == State::fill || state_ == State::wait || state_ == State::rest;
   }

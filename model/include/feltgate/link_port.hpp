@@ -16,8 +16,8 @@ namespace feltgate {
 
 /// Properties of the device around a linked core.
 struct LinkBuilt {
-  bool simulated = false;
-  int board = 0;
+  bool simulated = false;      ///< sets the bit `features_simulated`
+  int board = 0;               ///< the word `board`
   std::uint32_t features = 0;  ///< further bits of the word `features`
 };
 
@@ -26,13 +26,13 @@ class LinkPort {
  public:
   struct In {
     LinkRequest request;
-    bool good = false, bad = false;
-    bool clear_faults = false;
-    std::uint8_t inputs = 0;
-    bool tick = false;
+    bool good = false, bad = false;  ///< one clock each: frames to count
+    bool clear_faults = false;       ///< one clock: the panel's request
+    std::uint8_t inputs = 0;         ///< the word `inputs`
+    bool tick = false;               ///< one clock: the snapshot is valid
     bool reg_busy = false;
-    std::uint32_t reg_rdata = 0, rdata = 0;
-    bool ready = false;
+    std::uint32_t reg_rdata = 0, rdata = 0;  ///< of the register port; of stream and capture
+    bool ready = false;                      ///< the byte of the reply is taken
   };
   struct Out {
     bool taken = false;

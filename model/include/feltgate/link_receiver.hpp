@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/link/link_receiver.sv: decodes bytes from the line into requests.
-// Documentation: docs/blocks/link_receiver.md
+// Twin of rtl/link/link_receiver.sv: decodes bytes from the line into requests (SLIP, CRC-32, range
+// checks). A byte passes the CRC in the 8 clocks after it. A request is valid in the clock after
+// the frame's last byte, until it is taken or the next frame begins. Documentation:
+// docs/blocks/link_receiver.md
 #pragma once
 
 #include <array>
@@ -26,12 +28,12 @@ class LinkReceiver {
  public:
   struct In {
     std::uint8_t byte = 0;
-    bool valid = false, error = false;
-    bool taken = false;
+    bool valid = false, error = false;  ///< as from UartRx
+    bool taken = false;                 ///< the request has been taken
   };
   struct Out {
     LinkRequest request;
-    bool good = false, bad = false;  ///< high for one clock
+    bool good = false, bad = false;  ///< one clock: a frame has passed or failed the checks
   };
 
   /// `engine`: the address map also contains the engine's words, above the others.

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/link/link_stream.sv: sends chosen words of a tick as a frame, once per period of
-// ticks. Documentation: docs/blocks/link_stream.md
+// ticks. All words of the tick are stored first. While a frame is stored or sent, further due
+// frames are dropped and counted. Documentation: docs/blocks/link_stream.md
 #pragma once
 
 #include <array>
@@ -16,16 +17,16 @@ namespace feltgate {
 class LinkStream {
  public:
   struct In {
-    bool word_valid = false;
+    bool word_valid = false;  ///< word_data is the snapshot's word of slot word_slot
     std::uint8_t word_slot = 0;
     std::uint32_t word_data = 0;
     std::uint16_t addr = 0;
     std::uint32_t wdata = 0;
     bool write = false;
-    bool ready = false;
+    bool ready = false;  ///< out().byte is taken in this clock
   };
   struct Out {
-    std::uint32_t rdata = 0;
+    std::uint32_t rdata = 0;  ///< the word at addr, 3 clocks later
     bool valid = false;
     std::uint8_t byte = LinkMap::kind_stream;
     bool last = false;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/link/link_transmitter.sv: sends the frames of two sources as bytes on the line.
+// Twin of rtl/link/link_transmitter.sv: sends the frames of two sources as bytes on the line (SLIP,
+// CRC-32). If both have a frame, the reply goes first. A byte passes the CRC in 8 clocks.
 // Documentation: docs/blocks/link_transmitter.md
 #pragma once
 
@@ -26,14 +27,14 @@ class LinkTransmitter {
     bool ready = false;  ///< the UART takes out().byte in this clock
   };
   struct Out {
-    bool reply_ready = false, stream_ready = false;
-    bool valid = false;
+    bool reply_ready = false, stream_ready = false;  ///< takes a byte of that source if valid
+    bool valid = false;                              ///< `byte` is offered to the UART
     std::uint8_t byte = LinkMap::frame_end;
   };
 
   void reset() { *this = LinkTransmitter(); }
   const Out& out() const { return out_; }
-  /// No frame is being sent.
+  /// Whether no frame is being sent.
   bool idle() const { return state_ == State::idle; }
   /// Whether clock() changes nothing while the UART takes no byte. While idle() a new frame still
   /// does.

@@ -27,6 +27,7 @@ class Pwm {
              duty == o.duty;
     }
   };
+  /// The gates, at the H-bridge's legs A and B.
   struct Out {
     bool gate_a_hi = false;
     bool gate_a_lo = false;

@@ -24,7 +24,8 @@ constexpr bool scene_built(int scene) {
   return scene >= 0 && scene < 16 && ((D::scene_mask >> scene) & 1) != 0;
 }
 
-/// What replaces the scene's torque during the self-test.
+/// What replaces the scene's torque during the self-test: nothing, 0, or the self-test's torque in
+/// either direction.
 enum class TestPulse : std::uint8_t { none, rest, up, down };
 
 /// All scenes tick by tick, in number policy N.

@@ -14,14 +14,16 @@
 namespace feltgate {
 
 enum class SelfTestResult : std::uint8_t {
-  none = 0,
-  right = Map::self_test_right,
-  held = Map::self_test_held,
-  moving = Map::self_test_moving
+  none = 0,                       ///< no result yet, or no test
+  right = Map::self_test_right,   ///< the lever moved the right way
+  held = Map::self_test_held,     ///< the lever did not move enough
+  moving = Map::self_test_moving  ///< the lever did not come to rest before the test
 };
 
 class SelfTestLaw {
  public:
+  /// Parameter words: time of rest before the pulse, time of each pulse, both in units; bits of the
+  /// results that allow arming.
   struct Words {
     std::uint32_t quiet = 0, pulse = 0, arms = 0;
   };

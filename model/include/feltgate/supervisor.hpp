@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/supervisor.sv: arming, seven of the fourteen causes of fault, and the gate enable.
-// Estimated current [1,8,8] A, I2t sum [0,31,2] A^2 tick. Documentation: docs/blocks/supervisor.md
+// Twin of rtl/supervisor.sv: arming, seven of the fourteen causes of fault, and the gate enable. A
+// fault is latched, and the gate enable falls, one clock after its cause is seen. Estimated current
+// [1,8,8] A, I2t sum [0,31,2] A^2 tick. Documentation: docs/blocks/supervisor.md
 #pragma once
 
 #include <cstdint>
@@ -60,9 +61,9 @@ class Supervisor {
 
   struct In {
     bool tick = false;  ///< last clock of a tick
-    bool period_start =
-        false;          ///< of the PWM; left out where ticks cannot stand, as in the core's twin
-    bool host = false;  ///< the host has control, not the panel
+    /// Start of a PWM period; not set where ticks cannot stop, as in the core's twin.
+    bool period_start = false;
+    bool host = false;          ///< the host has control, not the panel
     bool host_arm = false;      ///< the host's request
     bool arm = false;           ///< the panel's request
     bool disarm = false;        ///< requests do not count in this tick

@@ -23,6 +23,7 @@ class UartLine {
 
   /// Queues a byte for the board, after all bytes sent before.
   void send(std::uint8_t byte) { unsent_.push_back(byte); }
+  /// Number of bytes that are not sent completely yet.
   std::size_t unsent() const { return unsent_.size() + (to_board_.busy() ? 1 : 0); }
   /// Bytes from the board whose stop bits have ended, also those with a wrong stop bit; empties the
   /// list.
@@ -51,6 +52,7 @@ class UartLine {
     if (to_board_.out().ready && !unsent_.empty()) return 0;
     return std::min(to_board_.quiet(), from_board_.quiet(tx));
   }
+  /// Equals `clocks` calls of clock() with the level held; `clocks` must not exceed quiet().
   void skip(std::int64_t clocks) {
     to_board_.skip(clocks);
     from_board_.skip(clocks);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/link/uart_rx.sv; advances clock by clock, or several clocks at once with skip().
+// Twin of rtl/link/uart_rx.sv: receiver of a UART, 8N1. A level counts if two of three clocks have
+// it; each bit is sampled in its middle. clock() advances one clock, skip() several quiet ones.
 // Documentation: docs/blocks/uart_rx.md
 #pragma once
 
@@ -21,9 +22,9 @@ class UartRx {
     bool rx = true;
   };
   struct Out {
-    std::uint8_t byte = 0;
-    bool valid = false;  ///< high for one clock
-    bool error = false;  ///< high for one clock
+    std::uint8_t byte = 0;  ///< valid in the clock of `valid` or `error`
+    bool valid = false;     ///< one clock: a byte has come
+    bool error = false;     ///< one clock: a byte with a low stop bit has come
   };
 
   explicit UartRx(std::uint32_t step) : step_(step) {}
@@ -63,6 +64,7 @@ class UartRx {
   void skip(std::int64_t clocks) {
     if (busy_) phase_ += static_cast<std::uint32_t>(clocks) * step_;
   }
+  /// More clocks than any run has.
   static constexpr std::int64_t kForever = std::numeric_limits<std::int64_t>::max() / 2;
 
  private:

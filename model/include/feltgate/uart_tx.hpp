@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/link/uart_tx.sv; advances clock by clock, or several clocks at once with skip().
-// Documentation: docs/blocks/uart_tx.md
+// Twin of rtl/link/uart_tx.sv: transmitter of a UART, 8N1. The start bit is at tx in the clock
+// after a byte is taken. clock() advances one clock, skip() several quiet ones. Documentation:
+// docs/blocks/uart_tx.md
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,7 @@ class UartTx {
     bool valid = false;  ///< must be held until ready
   };
   struct Out {
-    bool ready = true;
+    bool ready = true;  ///< the next clock takes a byte if it is valid
     bool tx = true;
   };
 
@@ -41,6 +42,7 @@ class UartTx {
   }
 
   const Out& out() const { return out_; }
+  /// Whether a byte is being sent.
   bool busy() const { return busy_; }
 
   /// Number of clocks, without a byte to take, that skip() may pass.
@@ -48,6 +50,7 @@ class UartTx {
     if (!busy_) return phase_ == 0 ? UartRx::kForever : 0;
     return (kBit - 1 - phase_) / step_;  // then a bit ends; ready may rise first
   }
+  /// Equals `clocks` calls of clock() without a byte; `clocks` must not exceed quiet().
   void skip(std::int64_t clocks) {
     if (!busy_) return;
     phase_ += static_cast<std::uint32_t>(clocks) * step_;

@@ -12,6 +12,7 @@
 
 namespace feltgate {
 
+/// Effect of a write: at once; at once, but the torque ramps; none, the write is dropped.
 enum class WhileArmed : std::uint8_t { acts, ramps, refused };
 
 /// Whether a scene's torque is an input, which acts at once, rather than a law of the position.

@@ -15,10 +15,12 @@
 
 namespace feltgate {
 
+/// Name of a column of one axis, "NAME.n".
 inline std::string of_axis(const char* name, std::size_t axis) {
   return fmt::format("{}.{}", name, axis);
 }
 
+/// The columns of a scene on this kind of plant, in order.
 template <class Plant>
 std::vector<std::string> columns_of(const AxesScene& scene) {
   std::vector<std::string> all{"time_s"};

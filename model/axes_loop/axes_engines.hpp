@@ -14,6 +14,7 @@
 
 namespace feltgate {
 
+/// The engines of a run: cores that lead, and the law in real arithmetic.
 struct AxesEngines {
   std::string lead;                 ///< "twin" or "lockstep"
   std::vector<std::string> riders;  ///< the law in "double" or "quad"

@@ -31,6 +31,7 @@ class AxesLawRider {
   virtual void follow(const AxesSnapshot& s) = 0;
 };
 
+/// A compiled law of several axes, for one design.
 class AxesLaw {
  public:
   virtual ~AxesLaw() = default;

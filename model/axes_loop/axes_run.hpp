@@ -27,6 +27,7 @@ struct AxisFigures {
   double bound_nm = 0;       ///< proven bound of that error; infinite: none
 };
 
+/// Results of a run.
 struct AxesResult {
   std::string design, subject, device, law;
   Clock clocks = 0;  ///< of the scene
@@ -52,6 +53,7 @@ struct PenLead {
   plant::Vec2 target_m, rate_m_s;
 };
 
+/// Options of a run.
 struct AxesRunOptions {
   std::string design;
   std::string engine = "all";  ///< comma list of rtl, twin, double, quad; rtl includes the twin

@@ -46,6 +46,7 @@ struct GimbalSetup {
 
 using DeviceSetup = std::variant<PantographSetup, TwoLeversSetup, StylusSetup, GimbalSetup>;
 
+/// A scene and the device that it names.
 struct AxesScene {
   Scenario scenario;  ///< its hand is empty
   DeviceSetup device;

@@ -12,6 +12,7 @@
 
 namespace feltgate {
 
+/// Sums of the energy in both directions.
 class HandWork {
  public:
   /// Updates the sums; `work_j` is the plant's present count, J.

@@ -57,6 +57,7 @@ Plane nearest_plane(const PlaneHostSettings& world, plant::Vec3 pen_m);
 /// Force of the spring behind a plane, N.
 plant::Vec3 spring_force(const PlaneHostSettings& world, const Plane& plane, plant::Vec3 pen_m);
 
+/// The host in a run: takes poses, sends updates late, counts the lost ones.
 class PlaneHost {
  public:
   PlaneHost(const PlaneHostSettings& settings, std::int64_t clock_hz);

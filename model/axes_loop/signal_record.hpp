@@ -12,6 +12,7 @@
 
 namespace feltgate {
 
+/// Accumulates one signal, tick by tick.
 class SignalRecord {
  public:
   /// For a run of `ticks` ticks.

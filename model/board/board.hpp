@@ -34,6 +34,7 @@ class BadLine {
 /// Errors: std::invalid_argument or config::ConfigError.
 plant::Hand hand_named(const std::string& name, const std::string& scenes_folder);
 
+/// The simulated board; clock by clock for the core, step by step for the plant.
 class Board {
  public:
   /// Power-up at clock 0. Errors: those of check_step() if the plant is too stiff.

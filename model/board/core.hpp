@@ -22,6 +22,7 @@ struct BoardIn {
   std::uint8_t scene = 0;
 };
 
+/// Properties of the simulated board.
 struct BoardOptions {
   std::int64_t baud = 1'000'000;
   bool simulated = true;
@@ -60,6 +61,7 @@ class TickHash {
   std::int64_t ticks_ = 0;
 };
 
+/// Core and link of one design behind a serial line.
 class Core {
  public:
   virtual ~Core() = default;

@@ -11,6 +11,7 @@
 
 namespace feltgate::board {
 
+/// One pseudo-terminal in raw mode.
 class PseudoTerminal {
  public:
   /// `link`: a symbolic link to it, which exists as long as this object; empty: none. Errors:

@@ -42,6 +42,7 @@ struct Outcome {
   }
 };
 
+/// A whole recording: start, received bytes, results.
 struct Recording {
   Setup setup;
   std::vector<Arrival> arrivals;

@@ -23,6 +23,7 @@ struct Pace {
   bool real_time() const { return behind_s <= 0.01 * simulated_s; }
 };
 
+/// Options of serve().
 struct ServeOptions {
   double for_s = 0;  ///< simulated; 0: until `go_on` returns false
   bool paced = true;
@@ -31,6 +32,7 @@ struct ServeOptions {
   std::function<void(const Pace&)> tell;  ///< called about once per second; may be empty
 };
 
+/// Runs the board behind the terminal until `for_s` has passed or `go_on` returns false.
 Pace serve(Board& board, PseudoTerminal& terminal, const ServeOptions& options);
 
 /// Feeds the same bytes at the same clocks, at full speed. `go_on` = false ends it early.

@@ -124,6 +124,7 @@ inline const std::vector<CompiledEntry>& shipped_laws() {
 const std::vector<CompiledEntry>& shipped_laws();
 #endif
 
+/// Whether a shipped law has an image with this CRC-32.
 inline bool is_shipped(std::uint32_t image_crc) {
   for (const CompiledEntry& e : shipped_laws()) {
     if (e.image_crc == image_crc) return true;

@@ -21,6 +21,7 @@ constexpr std::size_t most_axes = 3;
 /// The snapshots of all axes in one tick; axis 0 holds the information about the law.
 using AxesSnapshot = std::array<Snapshot, most_axes>;
 
+/// Common interface of these engines; holds the queues of writes and pin events.
 class AxesCores {
  public:
   using Pins = std::array<EncoderPins, most_axes>;

@@ -81,6 +81,7 @@ struct GateClocks {
   std::int64_t a_hi = 0, a_lo = 0, b_hi = 0, b_lo = 0;
 };
 
+/// A core of one design, with encoder pins, panel and register writes as inputs.
 class Engine {
  public:
   virtual ~Engine() = default;
@@ -130,6 +131,7 @@ class Engine {
 /// Makes an engine of a built-in design. Kinds: "twin"; "rtl" and "lockstep" if feltgate_rtl is
 /// linked. Errors: std::invalid_argument that names the choices.
 std::unique_ptr<Engine> make_engine(const std::string& design, const std::string& kind);
+/// Names of the built-in designs.
 std::vector<std::string> design_names();
 /// Rates, formats and parameters of a design, without an engine of it.
 /// Errors: those of make_engine().

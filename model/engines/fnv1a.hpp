@@ -9,6 +9,7 @@
 
 namespace feltgate {
 
+/// The running hash.
 class Fnv1a {
  public:
   /// Adds the eight bytes of a number, low byte first.

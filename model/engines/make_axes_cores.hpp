@@ -109,6 +109,7 @@ class LockStepAxes : public TwinAxes<D> {
   Clock from_ = 0, to_ = -1;
 };
 
+/// Makes the engine of this kind. Errors: std::invalid_argument for an unknown kind.
 template <class Rtl, class D>
 std::unique_ptr<AxesCores> make_design_axes(const std::string& kind) {
   if (kind == "twin") return std::make_unique<TwinAxes<D>>();

@@ -10,6 +10,7 @@
 
 namespace feltgate {
 
+/// The stopwatch of one piece of code.
 class SampledWatch {
  public:
   template <class Work>

@@ -18,6 +18,7 @@
 
 namespace feltgate {
 
+/// The twin as an engine, from event to event.
 template <class D>
 class TwinEngine : public ClockedEngine {
  public:
@@ -109,6 +110,8 @@ class TwinEngine : public ClockedEngine {
   std::array<std::int64_t, 4> gates_before_{};
 };
 
+/// Makes the chain "fixed", "float", "double" or "quad". Errors: std::invalid_argument for another
+/// kind.
 template <class D>
 std::unique_ptr<RealChain> make_design_chain(const std::string& kind) {
   if (kind == "fixed") return std::make_unique<Chain<D, Fixed>>("fixed");

@@ -70,6 +70,7 @@ void start_capture(Device& device, const CaptureSetup& setup);
 int capture_state(Device& device);
 /// Triggers now, whatever the mode, as with Trigger::Mode::by_hand.
 void trigger_now(Device& device);
+/// Ends a capture without a result.
 void abort_capture(Device& device);
 /// Time that all rows cover, s.
 double capture_span_s(const Device& device, const CaptureSetup& setup);

@@ -41,6 +41,7 @@ struct LinkCounts {
   FrameCounts frames;
 };
 
+/// Options of a link.
 struct LinkOptions {
   double patience_s = 3.0;  ///< time for which a request is repeated before the link counts as lost
 };

@@ -26,6 +26,7 @@ struct Waveform {
   Clock from = 0, to = -1;
 };
 
+/// A leading core, and chains in real arithmetic on its samples.
 class Ensemble {
  public:
   Ensemble(const std::string& design, const EngineChoice& choice, std::uint64_t seed,

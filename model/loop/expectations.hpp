@@ -13,6 +13,7 @@
 
 namespace feltgate {
 
+/// Expectations with the run's values.
 struct ExpectationsHeld {
   std::vector<Expected> all;
   std::vector<std::string> broken;  ///< one line per broken expectation

@@ -12,6 +12,7 @@
 
 namespace feltgate {
 
+/// The send times, at a constant rate from clock 0.
 class FeedClock {
  public:
   /// `rate_hz`: sends per second; 0: never.

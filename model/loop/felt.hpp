@@ -66,6 +66,7 @@ struct Expected {
   std::string wanted() const;  ///< "at most 0", "0.1 to 0.2"
 };
 
+/// The summary.
 struct Felt {
   bool closed_loop = false;  ///< there was a plant with a hand
   FeltTorque torque;

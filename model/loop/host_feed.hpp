@@ -17,6 +17,7 @@
 
 namespace feltgate {
 
+/// Regular sends of the mailbox, and the tracker if the scene has one.
 class HostFeed {
  public:
   /// `law` is the law of the scene; scene and law must outlive this object.

@@ -30,6 +30,7 @@ namespace plant {
 struct Observables;
 }
 
+/// Responses to one step of the torque reference.
 struct StepFigures {
   double tau_ref_nm = 0;
   StepResponse tau_hat;  ///< of the observed torque
@@ -49,6 +50,7 @@ struct EngineFigures {
   double busy_s = 0;             ///< time spent in the engine
 };
 
+/// Counts of the pins' changes: legal steps, illegal ones, reversals.
 struct PositionFigures {
   std::int64_t steps = 0, illegal = 0, reversals = 0;
 };
@@ -60,6 +62,7 @@ struct RunEvent {
   double value = 0;  ///< in SI units
 };
 
+/// Results of a run.
 struct RunResult {
   std::string design, subject;  ///< subject: scene or trace
   Clock clocks = 0;
@@ -100,6 +103,7 @@ struct RunInputs {
   std::vector<HostWrite> writes;
 };
 
+/// Options of a run.
 struct RunOptions {
   std::string design = "lever";
   std::string engine = "all";  ///< comma list, see choose_engines()

@@ -10,6 +10,7 @@
 
 namespace feltgate {
 
+/// Options of a replay.
 struct ReplayOptions {
   std::string design = "lever";
   std::string engine = "all";

@@ -52,6 +52,7 @@ struct EffectSetting {
   bool on;
 };
 
+/// The contents of a scene file.
 struct Scenario {
   std::string name, path, title, about;
   double duration_s = 0;

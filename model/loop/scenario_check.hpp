@@ -24,6 +24,7 @@ std::optional<double> parameter_in(const std::string& name, const std::string& t
 /// Converts the values that the file gives with units to numbers; no amounts remain. Errors:
 /// config::ConfigError "file:line: what; mend".
 void resolve_amounts(Scenario& scenario, const DesignInfo& design, const SceneLaw* law = nullptr);
+/// Whether values with units are left to convert.
 bool has_amounts(const Scenario& scenario);
 
 /// Checks that the design has every scene that is named, that every parameter that is set exists in

@@ -35,6 +35,7 @@ struct TrackerSample {
   double angle_rad = 0, encoder_rad = 0;
 };
 
+/// The sensor in a run.
 class Tracker {
  public:
   Tracker(const TrackerSettings& settings, std::int64_t clock_hz);

@@ -54,6 +54,7 @@ constexpr bool
                              std::declval<const std::array<double, Plant::axes>&>(), Clock{1}))>> =
         true;
 
+/// Advances plant and device together.
 template <class Plant>
 class AxesLoop {
  public:

@@ -20,6 +20,7 @@ struct AxisStep {
   double bridge_a = 0.0;     ///< drawn from the bus
 };
 
+/// The drive of one motor, step by step.
 class AxisDrive {
  public:
   /// Errors: std::invalid_argument for an impossible drive (see BridgeModel).

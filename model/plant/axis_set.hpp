@@ -17,6 +17,7 @@
 
 namespace feltgate::plant {
 
+/// The drives and encoders of N joints on one supply.
 template <std::size_t N>
 class AxisSet {
  public:

@@ -63,6 +63,7 @@ struct BridgeVoltage {
   double at_negative_v(double bus_v) const { return share_negative * bus_v + diode_v; }
 };
 
+/// Computes the terminal voltage from the bridge's state.
 class BridgeModel {
  public:
   /// Errors: std::invalid_argument if the dead time is half a PWM period or more.

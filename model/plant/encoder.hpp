@@ -13,6 +13,7 @@
 
 namespace feltgate::plant {
 
+/// One encoder, advanced along the motion of its shaft.
 class Encoder {
  public:
   /// `imperfect` = false leaves out offsets and jitter. Errors: std::invalid_argument for an angle

@@ -29,6 +29,7 @@ struct Cord {
   double damping_nm_s_rad = 0.1;
 };
 
+/// One phase of a hand.
 struct HandPhase {
   enum class Kind {
     kFree,        ///< nothing touches the lever
@@ -48,6 +49,7 @@ struct HandPhase {
   Cord cord;
 };
 
+/// A hand at the lever.
 struct Hand {
   std::optional<double> start_rad;  ///< angle at clock 0; default: start of a leading trace, or 0
   std::optional<double> radius_m;   ///< where the hand holds; default: that of the plant

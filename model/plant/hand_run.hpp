@@ -12,6 +12,7 @@
 
 namespace feltgate::plant {
 
+/// The phases in progress.
 class HandRun {
  public:
   /// Without `dynamics`, an impedance hand imposes its motion on the lever.

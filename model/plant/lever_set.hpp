@@ -16,6 +16,7 @@
 
 namespace feltgate::plant {
 
+/// Constants of the levers.
 struct LeverSetParameters {
   std::string name;
   Parameters lever;           ///< every lever; encoders have successive seeds

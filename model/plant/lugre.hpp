@@ -12,6 +12,7 @@
 
 namespace feltgate::plant {
 
+/// The friction of one shaft, step by step.
 class Lugre {
  public:
   explicit Lugre(const LugreParameters& p)

@@ -12,6 +12,7 @@
 
 namespace feltgate::plant {
 
+/// State of a shaft: angle and speed.
 struct Shaft {
   double theta_rad = 0.0;
   double omega_rad_s = 0.0;
@@ -114,6 +115,7 @@ inline HandDynamics dynamics_of(const Impedance& i, double radius_m) {
           0.0};
 }
 
+/// Steps of the lever, alone or with a hand that has a mass.
 class Mechanics {
  public:
   explicit Mechanics(double inertia_kg_m2) : inverse_inertia_(1.0 / inertia_kg_m2) {}

@@ -38,6 +38,7 @@ struct Observables {
   bool shoot_through = false;  ///< whether both gates of a leg were ever on at once
 };
 
+/// One continuous state of the plant.
 struct StateValue {
   std::string name;  ///< with unit
   double value;
@@ -50,6 +51,7 @@ class MotionError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The plant of a lever, step by step.
 class Plant {
  public:
   /// `hand` decides the angle at clock 0; the lever starts at rest, without current.

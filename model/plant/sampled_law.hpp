@@ -24,6 +24,7 @@ struct AxesMotion {
 template <std::size_t N>
 using AxesLaw = std::function<std::array<double, N>(const AxesMotion<N>&)>;
 
+/// Sampling, delay and drive of the law.
 struct Sampling {
   double rate_hz = 10e3;
   double delay_s = 0.0;  ///< from the sample to the torque

@@ -11,6 +11,7 @@
 
 namespace feltgate::plant {
 
+/// The bus voltage, step by step.
 class Supply {
  public:
   explicit Supply(const SupplyParameters& p) : p_(p), bus_v_(p.voltage_v) {}

@@ -15,6 +15,7 @@ struct CurrentStep {
   double mean_a;
 };
 
+/// The current of one winding, step by step.
 class Winding {
  public:
   Winding(double resistance_ohm, double inductance_h)

@@ -26,6 +26,7 @@ struct ModelConstants {
   Interval resistance_ohm, dead_voltage_v;  ///< dead voltage including the effect of dead time
 };
 
+/// Result of the closed-loop calibration.
 struct ClosedLoop {
   double confidence = 0;
   Interval slope, offset_nm;  ///< torque = offset + slope*asked; ideal: 1 and 0

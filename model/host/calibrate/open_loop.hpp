@@ -43,6 +43,7 @@ struct Bend {
   double chance = 1;  ///< probability that noise alone gives such a bend
 };
 
+/// Result of the open-loop calibration.
 struct OpenLoop {
   double confidence = 0;
   Interval slope_nm_v, dead_voltage_v, resistance_ohm;

@@ -36,6 +36,7 @@ struct Combination {
   Eigen::VectorXd weights;
 };
 
+/// A fitted linear model.
 class Regression {
  public:
   /// Fits y = x . coefficients + noise of constant variance. Errors: MeasurementError if there are

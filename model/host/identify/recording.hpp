@@ -12,6 +12,7 @@
 
 namespace feltgate::host {
 
+/// A recording, one entry per row.
 struct Recording {
   std::string name;
   std::vector<double> time_s, voltage_v, angle_rad;

@@ -14,6 +14,7 @@
 
 namespace feltgate {
 
+/// The PWM of the core, with counters.
 class CoreGates {
  public:
   CoreGates(int period, int dead_clocks, int shortest_clocks = 1)

@@ -64,12 +64,14 @@ constexpr bool shows(Step step) {
   }
 }
 
+/// Number of steps for which shows() holds.
 constexpr std::size_t count() {
   std::size_t n = 0;
   for (const Map::StepAt& s : Map::steps) n += shows(s.step) ? 1 : 0;
   return n;
 }
 
+/// The steps in the order of execution, with their clocks.
 struct Table {
   std::array<Step, count()> steps{};
   /// clock of each step in the tick, ascending

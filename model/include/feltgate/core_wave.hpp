@@ -14,6 +14,7 @@
 
 namespace feltgate {
 
+/// The chain of design D in fixed point, executed step by step.
 template <class D>
 class CoreWave {
  public:

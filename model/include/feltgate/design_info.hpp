@@ -77,6 +77,7 @@ struct DesignInfo {
 struct ValueRange {
   double low = 0, high = 0, step = 0;
 };
+/// Range and step of a parameter's word.
 inline ValueRange range_of(const ParameterInfo& p) {
   const double words = std::ldexp(1.0, p.format.width() - p.format.sign);
   const double step = std::ldexp(1.0, -p.format.fraction);

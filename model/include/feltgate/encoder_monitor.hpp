@@ -11,6 +11,7 @@
 
 namespace feltgate {
 
+/// State of the monitor, advanced tick by tick.
 class EncoderMonitorLaw {
  public:
   /// One tick. `levels`: the channels, A in bit 0. `tick`: the tick count. `index_wrong`: stays

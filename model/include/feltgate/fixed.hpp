@@ -132,6 +132,7 @@ constexpr bool always_fits(Format from, Format to, Round round) {
 
 }  // namespace detail
 
+/// Sum, difference, product and negation, exact: the result's format grows by the rules of growth.
 template <int S1, int I1, int F1, int S2, int I2, int F2>
 constexpr auto operator+(fixed<S1, I1, F1> a, fixed<S2, I2, F2> b) {
   using Sum = fixed_of<growth::sum(Format{S1, I1, F1}, Format{S2, I2, F2}).key()>;

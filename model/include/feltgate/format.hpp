@@ -38,6 +38,7 @@ struct Format {
 /// (docs/fixed-point.md, "Growth").
 namespace growth {
 
+/// The larger of two numbers.
 constexpr int max_of(int a, int b) { return a > b ? a : b; }
 
 /// Format that holds a+b for every a and b.

@@ -11,6 +11,7 @@
 
 namespace feltgate {
 
+/// State of the timer, advanced tick by tick.
 class HoldTimerLaw {
  public:
   /// One tick. `moved`: an edge came; `strong`: the torque reference is beyond the level that may

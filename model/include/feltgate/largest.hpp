@@ -7,11 +7,13 @@
 
 namespace feltgate {
 
+/// The larger of a and b; a NaN if one of them is.
 template <class T>
 constexpr T larger(const T& a, const T& b) {
   return a != a || a > b ? a : b;
 }
 
+/// The smaller of a and b; a NaN if one of them is.
 template <class T>
 constexpr T smaller(const T& a, const T& b) {
   return a != a || a < b ? a : b;

@@ -45,6 +45,7 @@ struct LawWord {
   int number;    ///< word number in parameter memory, 0 to 31
 };
 
+/// A torque output of a law.
 struct LawOutput {
   const char* name;
   int axis;

@@ -21,6 +21,7 @@ struct LinkBuilt {
   std::uint32_t features = 0;  ///< further bits of the word `features`
 };
 
+/// The link's port for design D.
 template <class D>
 class LinkPort {
  public:

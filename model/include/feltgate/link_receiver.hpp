@@ -24,6 +24,7 @@ struct LinkRequest {
   std::uint32_t data = 0;  ///< write: the word; read: the number of words
 };
 
+/// The receiver.
 class LinkReceiver {
  public:
   struct In {

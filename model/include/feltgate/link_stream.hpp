@@ -14,6 +14,7 @@
 
 namespace feltgate {
 
+/// The stream of snapshot words.
 class LinkStream {
  public:
   struct In {

@@ -20,6 +20,7 @@ struct FrameByte {
   bool last = false;
 };
 
+/// The transmitter.
 class LinkTransmitter {
  public:
   struct In {

@@ -25,6 +25,7 @@
 
 namespace feltgate {
 
+/// Inputs in one clock.
 struct LinkedIn {
   EncoderPins encoder;
   bool arm = false, stop = false, set_zero = false;
@@ -33,16 +34,19 @@ struct LinkedIn {
   std::uint8_t inputs = 0;
   bool uart_rx = true;
 };
+/// Outputs after one clock.
 struct LinkedOut {
   CoreOut core;
   bool uart_tx = true;
 };
+/// Parameters of the RTL, and the simulated line's baud rate.
 struct LinkedOptions {
   std::int64_t baud = LinkMap::baud;
   bool simulated = false;
   int board = 0;
 };
 
+/// Core and link of design D.
 template <class D>
 class LinkedCore {
  public:

@@ -10,6 +10,7 @@
 
 namespace feltgate {
 
+/// Name, unit, place and value of a parameter.
 struct ParameterInfo {
   const char* name;
   const char* unit;

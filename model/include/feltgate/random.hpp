@@ -14,6 +14,7 @@
 
 namespace feltgate {
 
+/// The generator.
 class SplitMix64 {
  public:
   explicit constexpr SplitMix64(std::uint64_t seed) : state_(seed) {}

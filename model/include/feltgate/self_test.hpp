@@ -13,6 +13,7 @@
 
 namespace feltgate {
 
+/// Result of the self-test, as in the status word.
 enum class SelfTestResult : std::uint8_t {
   none = 0,                       ///< no result yet, or no test
   right = Map::self_test_right,   ///< the lever moved the right way
@@ -20,6 +21,7 @@ enum class SelfTestResult : std::uint8_t {
   moving = Map::self_test_moving  ///< the lever did not come to rest before the test
 };
 
+/// State of the self-test, advanced tick by tick.
 class SelfTestLaw {
  public:
   /// Parameter words: time of rest before the pulse, time of each pulse, both in units; bits of the

@@ -48,6 +48,7 @@ struct SupervisorLaw {
   }
 };
 
+/// The supervisor of design D, clock by clock or in the steps of a tick.
 template <class D>
 class Supervisor {
  public:

@@ -16,6 +16,7 @@
 
 namespace feltgate {
 
+/// A transmitter and a receiver with queues, clock by clock.
 class UartLine {
  public:
   UartLine(std::int64_t clock_hz, std::int64_t baud)

@@ -16,6 +16,7 @@ constexpr std::uint32_t uart_step(std::int64_t clock_hz, std::int64_t baud) {
   return static_cast<std::uint32_t>(((baud << 16) + clock_hz / 2) / clock_hz);
 }
 
+/// The receiver; `step` as from uart_step().
 class UartRx {
  public:
   struct In {

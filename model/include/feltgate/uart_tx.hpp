@@ -12,6 +12,7 @@
 
 namespace feltgate {
 
+/// The transmitter; `step` as from uart_step().
 class UartTx {
  public:
   struct In {

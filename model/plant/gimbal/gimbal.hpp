@@ -16,12 +16,14 @@
 
 namespace feltgate::plant {
 
+/// Constants of a gimbal.
 struct GimbalParameters : AxesParameters {
   std::string name;
   GimbalBodies bodies;  ///< includes joint_inertia_kg_m2
   AngleStops stops;     ///< of the middle joint
 };
 
+/// One phase of a hand that turns the handle.
 struct TurnPhase {
   enum class Kind {
     kFree,    ///< nothing touches the handle
@@ -37,6 +39,7 @@ struct TurnPhase {
   double damping_nm_s_rad = 0.05;
 };
 
+/// A hand that turns the handle.
 struct TurningHand {
   GimbalJoints start_rad = {};    ///< of the joints at clock 0
   std::vector<TurnPhase> phases;  ///< empty: free forever; the last phase lasts forever
@@ -59,6 +62,7 @@ struct GimbalSeen {
   double dry_j = 0.0, viscous_j = 0.0, stop_j = 0.0;
 };
 
+/// The gimbal, step by step.
 class Gimbal {
  public:
   static constexpr std::size_t axes = 3;

@@ -114,6 +114,7 @@ struct GimbalLoad {
   }
 };
 
+/// Equations of motion of the gimbal, and their step.
 class GimbalMechanics {
  public:
   GimbalMechanics(const GimbalBodies& bodies, const AngleStops& stops /* of the middle joint */)

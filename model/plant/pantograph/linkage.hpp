@@ -51,6 +51,7 @@ struct LinkageSwing {
   double rod_1 = 0.0, rod_5 = 0.0;  ///< rad/s^2
 };
 
+/// Direct and inverse geometry.
 class Linkage {
  public:
   explicit Linkage(const LinkageGeometry& geometry) : g_(geometry) {}

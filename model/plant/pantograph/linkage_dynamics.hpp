@@ -22,6 +22,7 @@ struct LinkageBodies {
       {};  ///< of what turns with the joint: motor behind the capstan, drum
 };
 
+/// Mass matrix and torques of the linkage.
 class LinkageDynamics {
  public:
   LinkageDynamics(const LinkageGeometry& geometry, const LinkageBodies& bodies)

@@ -51,6 +51,7 @@ struct LinkageLoad {
   }
 };
 
+/// Equations of motion of the linkage, and their step.
 class LinkageMechanics {
  public:
   LinkageMechanics(const LinkageGeometry& geometry, const LinkageBodies& bodies,

@@ -34,6 +34,7 @@ struct PantographSeen {
   double dry_j = 0.0, viscous_j = 0.0, stop_j = 0.0;
 };
 
+/// The pantograph, step by step.
 class Pantograph {
  public:
   static constexpr std::size_t axes = 2;

@@ -12,6 +12,7 @@
 
 namespace feltgate::plant {
 
+/// Constants of a pantograph.
 struct PantographParameters : AxesParameters {
   std::string name;
   LinkageGeometry linkage;

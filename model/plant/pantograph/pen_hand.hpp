@@ -15,6 +15,7 @@
 
 namespace feltgate::plant {
 
+/// One phase of a hand at the pen.
 struct PenPhase {
   enum class Kind {
     kFree,        ///< nothing touches the pen
@@ -28,6 +29,7 @@ struct PenPhase {
   Impedance impedance;  ///< the same in both directions
 };
 
+/// A hand at the pen.
 struct PenHand {
   std::optional<Vec2> start_m;   ///< pen at clock 0; default: that of the plant
   std::vector<PenPhase> phases;  ///< empty: free forever; the last phase lasts forever

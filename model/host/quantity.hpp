@@ -60,7 +60,7 @@ class Quantities {
   /// A quantity of a stream or capture: a word of the snapshot. Errors: std::invalid_argument for
   /// another quantity.
   const Quantity& streamed(const std::string& name) const;
-  /// Number of words in a snapshot; they are numbered from 0 in masks.
+  /// Number of words in a snapshot.
   int words() const { return words_; }
 
   /// Parses "NAME=VALUE" with an optional unit after the value (law/amount.hpp). Errors:

@@ -113,7 +113,7 @@ class AxesTwin : public plant::AxesDevice<Plant> {
   static_assert(D::pwm_period % most_clocks == 0, "steps end with the period of the PWM");
 
  private:
-  // The pins before the first event: those of the encoder before the first step of the plant.
+  // The encoder's present pins, which stand until the first event.
   static EncoderPins first_pins(const plant::AxesSense<Plant>& sense, std::size_t n) {
     return sense.plant.encoder(n).pins();
   }

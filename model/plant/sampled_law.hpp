@@ -28,8 +28,8 @@ using AxesLaw = std::function<std::array<double, N>(const AxesMotion<N>&)>;
 struct Sampling {
   double rate_hz = 10e3;
   double delay_s = 0.0;  ///< from the sample to the torque
-  /// true: angles are the middles of counts, speeds their low-pass differences. false: exact
-  /// values.
+  /// true: angles are the middles of counts, speeds their differences after a low-pass. false:
+  /// exact values.
   bool encoder = true;
   double velocity_hz = 80.0;  ///< corner of that low-pass
   /// true: V = R*I + Ke*w + Vd*sgn(I) on an averaged bridge. false: ideal torques.

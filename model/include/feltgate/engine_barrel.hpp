@@ -23,15 +23,16 @@ namespace feltgate {
 class EngineBarrel {
  public:
   struct In {
-    unsigned run = 0, request = 0, first = 0;  ///< one bit per thread
-    int bank = 0;
-    bool write_data = false, write_program = false, write_table = false;
+    /// One bit per thread: it is enabled; it requests a start; its next run starts with flag 1.
+    unsigned run = 0, request = 0, first = 0;
+    int bank = 0;  ///< of the parameters in force
+    bool write_data = false, write_program = false, write_table = false;  ///< a word of the system
     int write_address = 0;
     std::uint32_t write_word = 0;
-    unsigned write_high = 0;
-    EngineOp read_op = EngineOp::add;
+    unsigned write_high = 0;           ///< bits 32 to 35 of the word
+    EngineOp read_op = EngineOp::add;  ///< operation of the system's turn
     bool keeps = false;
-    int read_data = 0, read_address = 0;
+    int read_data = 0, read_address = 0;  ///< what the system reads: of data; of program or table
   };
 
   static constexpr int kSystem = 5;  ///< the turn in which the system reads
@@ -48,22 +49,27 @@ class EngineBarrel {
     acc_ = {};
   }
 
-  // Values during a clock, before it ends.
+  // Values during a clock, before it ends. A number in a name is a stage of the pipeline.
   int thread5() const { return at_[5].turn & 3; }
+  /// Whether a run of thread5() starts with this clock.
   bool starts(unsigned run_request) const {
     return at_[5].turn < 4 && !at_[5].valid && (run_request >> thread5() & 1U) != 0;
   }
+  /// Whether the run of thread5() ends with this clock.
   bool ended(unsigned run) const { return at_[5].valid && !goes_on(run); }
+  /// Whether a word of the system may be written in the next clock.
   bool free() const { return !at_[2].valid && at_[2].turn != kSystem; }
   bool beat() const { return at_[1].turn == kSystem; }
   bool high_read() const { return at_[3].turn == kSystem; }
   std::uint64_t program_word() const { return at_[1].word; }
   unsigned table_high() const { return static_cast<unsigned>(at_[3].table >> 32); }
+  /// Result of the instruction at the last stage; where it goes: an output, an event.
   std::int32_t result() const { return at_[7].result; }
   bool output() const { return at_[7].valid && at_[7].i.dst == 2; }
   bool event() const { return at_[7].valid && at_[7].i.dst == 3; }
   bool last() const { return at_[7].valid && at_[7].i.last; }
   int thread7() const { return at_[7].turn & 3; }
+  /// Number of that output or event.
   int number() const { return at_[7].i.d; }
 
   void clock(const In& in) {

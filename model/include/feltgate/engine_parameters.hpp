@@ -19,20 +19,25 @@ namespace feltgate {
 class EngineCommit {
  public:
   struct In {
+    /// commit: a request. wait: the check must not start. beat: `negative` is a comparison's
+    /// result.
     bool commit = false, wait = false, tick = false, beat = false, negative = false;
-    unsigned running = 0;
-    int mailbox_first = 0;
+    unsigned running = 0;   ///< threads in a run, one bit each
+    int mailbox_first = 0;  ///< first word of the mailbox
   };
 
-  int bank = 0;
+  int bank = 0;          ///< in force
   bool differs = false;  ///< the last commit changed a word below mailbox_first
   bool checking = false, refused = false;
   int refused_word = 0;
 
+  /// Whether a commit is in progress: to the end of the last run that uses the old set.
   bool committing() const { return wanted_ || checking || passed_ || old_ != 0; }
   /// Whether the other bank comes into force with the next clock.
   bool taken(bool tick) const { return passed_ && tick; }
+  /// Whether this beat subtracts.
   bool minus() const { return checking && (beat_ & 1) != 0; }
+  /// Address in data memory that this beat reads.
   int address() const {
     using D = EngineMap::D;
     const int word = beat_ >> 3 & 31, step = beat_ & 7;
@@ -84,13 +89,14 @@ class EngineCommit {
 class EngineMailbox {
  public:
   struct In {
-    bool tick = false, step = false, watched = false;
-    unsigned max_age = 0;
-    bool taken = false, differs = false;
+    bool tick = false, step = false, watched = false;  ///< step: this tick counts
+    unsigned max_age = 0;                              ///< in counted ticks
+    bool taken = false, differs = false;  ///< a new set is in force; it differs in a parameter
   };
 
-  bool jumps = false;
+  bool jumps = false;  ///< one clock: torques may jump from now on
 
+  /// Whether the mailbox is too old.
   bool late(bool watched) const { return late_ && watched; }
 
   void clock(const In& in) {
@@ -117,8 +123,9 @@ class EngineMailbox {
 class EngineLines {
  public:
   bool clearing = false;
-  int address = 0;
+  int address = 0;  ///< table word that is cleared next
 
+  /// Whether that word is cleared now.
   bool taken(int line_base, bool free) const {
     return clearing && wait_ == 0 && free && line_base < EngineMap::table_words;
   }

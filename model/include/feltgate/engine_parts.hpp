@@ -24,15 +24,17 @@ class EngineInputs {
   static constexpr int kWords = EngineMap::input_axis_words * AxisCount + 1;
 
   struct In {
-    unsigned run = 0;
+    unsigned run = 0;  ///< enabled threads, one bit each
     bool tick = false;
-    bool divide = false;
-    int divided = 0, divider = 0;
-    bool started = false, ended = false;
+    bool divide = false;                  ///< `divider` is written for the thread `divided`
+    int divided = 0, divider = 0;         ///< the divider in ticks
+    bool started = false, ended = false;  ///< a run of `thread`
     int thread = 0;
-    bool taken = false;
+    bool taken = false;  ///< the word that is wanted is written
   };
 
+  /// One bit per thread: inputs are complete and a start is requested; inputs are latched, or it
+  /// runs.
   unsigned request = 0, running = 0;
 
   /// Dividers and their counters are memory: a reset keeps them.
@@ -48,6 +50,7 @@ class EngineInputs {
     counts_ = {};
   }
 
+  /// Whether a word of the inputs waits to be written; its address in data memory; the word.
   bool wanted() const { return loading_ && word_ != kWords; }
   int address() const {
     return loaded_ * EngineMap::private_words +
@@ -129,14 +132,19 @@ template <int AxisCount, int TorqueW>
 class EngineOutputs {
  public:
   struct In {
+    /// clear: torques become 0, waiting ones are lost. zero: they become 0. watched: their age
+    /// counts.
     bool clear = false, zero = false, watched = false, enter = false, tick = false;
-    unsigned max_age = 0;
+    unsigned max_age = 0;  ///< ticks
+    /// The instruction at the last stage: result, whether it is an output or the last of a run.
     std::int32_t result = 0;
     bool output = false, last = false;
     int thread = 0, number = 0;
   };
 
   std::array<std::int32_t, AxisCount> torque{};
+  /// fresh: one clock, torques of all axes have appeared since its last one. late: they are too
+  /// old.
   bool fresh = false, late = false;
 
   void clock(const In& in) {
@@ -199,14 +207,15 @@ class EngineOutputs {
 class EngineCrc {
  public:
   struct In {
-    bool start = false, wait = false, beat = false;
+    bool start = false, wait = false, beat = false;  ///< beat: `word` has been read
     std::uint64_t word = 0;
-    int line_base = 0;
-    std::uint32_t wanted = 0;
+    int line_base = 0;         ///< first table word that the CRC leaves out
+    std::uint32_t wanted = 0;  ///< the expected CRC
   };
 
+  /// reads: a check is in progress. done: one clock, it has ended. good: the CRC was the expected.
   bool reads = false, done = false, good = false;
-  int address = 0;
+  int address = 0;  ///< of the next word
 
   /// A reset of the RTL does not touch the sum; each start sets it anew.
   void reset() { *this = EngineCrc{}; }
@@ -274,7 +283,7 @@ class EngineEvents {
   /// hardware.
   static constexpr std::size_t most_told = 65536;
 
-  int count = 0, lost = 0;
+  int count = 0, lost = 0;  ///< events that wait; events that found no place, at most 255
   std::vector<Event> told;
 
   /// The contents of the queue's places stay.

@@ -3,7 +3,7 @@
 //
 // Twin of rtl/torque_control.sv: from the torque reference to current, voltage and duty.
 //   I = Jn*Kp/Ktn * tau_ref + (1 - Jn*Kp)/Ktn * tau_hat        limited; the observer sees this I
-//   V = gain*I + Ke*w + dead voltage; V - Ke*w is limited: a window around Ke*w
+//   V = gain*I + Ke*w + dead voltage                           limited to a window around Ke*w
 //   duty = V * period/supply                                   limited
 // Documentation: docs/blocks/torque_control.md
 #pragma once

@@ -22,6 +22,7 @@ namespace feltgate {
 struct Snapshot {
   std::uint32_t tick = 0;
   std::int32_t position = 0;  ///< counts
+  /// Raw, in the design's formats; duty in clocks of the PWM period.
   std::int64_t velocity = 0, tau_hat = 0, tau_ref = 0, current_ref = 0, voltage = 0, duty = 0;
   std::uint8_t scene = 0, first_fault = 0;
   std::uint16_t limits = 0, faults = 0;
@@ -90,6 +91,7 @@ class Engine {
 
   /// Power-up and reset; `seed` fills the state that reset does not define.
   virtual void reset(std::uint64_t seed, EncoderPins pins) = 0;
+  /// Sets the panel's inputs from now() on.
   virtual void set_panel(const Panel& panel) = 0;
   /// Queues a register write; one is executed per tick, in order.
   virtual void write(int address, std::uint32_t data) = 0;
@@ -98,6 +100,7 @@ class Engine {
   /// after the end is kept for the next call.
   virtual void advance(Clock clocks, const EncoderEvent* first, const EncoderEvent* last) = 0;
 
+  /// Clocks since reset.
   virtual Clock now() const = 0;
   /// Snapshots that became valid during the last advance().
   virtual const std::vector<Snapshot>& snapshots() const = 0;

@@ -52,7 +52,9 @@ class Ensemble {
   /// with arming, as recordings and scenes expect. The parameter `self_test_pulse` switches it on
   /// again.
   void skip_self_test();
+  /// Queues a control word: the host has control, with this scene, mode and request to arm.
   void set_control(int scene, int mode, bool arm);
+  /// Queues a command word.
   void command(std::uint32_t bits);
   /// Whether register writes wait for their ticks.
   bool writes_wait() const { return !pending_.empty(); }

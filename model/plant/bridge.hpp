@@ -21,8 +21,8 @@ struct Bridge {
   };
   Mode mode = Mode::kOff;
   double duty = 0.0;  ///< averaged: commanded duty in [-1, 1], before dead time
-  /// Switched: share of the step for which each gate is on, in [0, 1]; a_hi + a_lo <= 1, b
-  /// likewise.
+  /// Switched: share of the step for which each gate is on, in [0, 1]; a_hi + a_lo <= 1, the
+  /// same for b.
   double a_hi = 0.0;
   double a_lo = 0.0;
   double b_hi = 0.0;

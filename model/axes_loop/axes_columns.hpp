@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Columns of a run with several axes, as axes_columns() tells them. Documentation: docs/devices.md
+// Columns of a run with several axes, in the order of axes_columns(). Documentation:
+// docs/devices.md
 #pragma once
 
 #include <fmt/format.h>
@@ -14,10 +15,12 @@
 
 namespace feltgate {
 
+/// Name of a column of one axis, "NAME.n".
 inline std::string of_axis(const char* name, std::size_t axis) {
   return fmt::format("{}.{}", name, axis);
 }
 
+/// The columns of a scene on this kind of plant, in order.
 template <class Plant>
 std::vector<std::string> columns_of(const AxesScene& scene) {
   std::vector<std::string> all{"time_s"};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Engines of several axes. Documentation: docs/devices.md
+// Selection of the engines of several axes. Documentation: docs/devices.md
 #include "axes_loop/axes_engines.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Which engines run several axes, from the names a user gives. Documentation: docs/devices.md
+// Selects the engines of several axes by the names that a user gives. Documentation:
+// docs/devices.md
 #pragma once
 
 #include <cstddef>
@@ -13,18 +14,19 @@
 
 namespace feltgate {
 
+/// The engines of a run: cores that lead, and the law in real arithmetic.
 struct AxesEngines {
   std::string lead;                 ///< "twin" or "lockstep"
-  std::vector<std::string> riders;  ///< the law in "double", "quad"
-  std::string reference;            ///< the most exact of them; empty: none
+  std::vector<std::string> riders;  ///< the law in "double" or "quad"
+  std::string reference;            ///< the most exact rider; empty: none
 };
 
-/// As choose_engines(); rtl brings its twin, and "all" has no float.
-/// Throws std::invalid_argument naming what there is.
+/// Like choose_engines(), but rtl includes its twin, and "all" has no float.
+/// Errors: std::invalid_argument that names the choices.
 AxesEngines choose_axes_engines(const std::string& engines);
 
-/// Cores of a design, as `lead` says, for a device with so many axes.
-/// Errors: std::invalid_argument for a design that is not there or has another number of them.
+/// Makes the cores of a design, of the kind `lead`, for a device with `axes` axes.
+/// Errors: std::invalid_argument for a design that does not exist or has another number of axes.
 std::unique_ptr<AxesCores> make_axes_cores(const std::string& design, const std::string& lead,
                                            const std::string& device, std::size_t axes);
 

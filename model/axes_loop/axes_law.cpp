@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A compiled law of several axes for a loop. Documentation: docs/devices.md
+// A compiled law of several axes for a closed loop. Documentation: docs/devices.md
 #include "axes_loop/axes_law.hpp"
 
 #include <fmt/format.h>
@@ -128,7 +128,7 @@ class CompiledAxesLaw : public AxesLaw {
   }
 
  private:
-  /// The value in force, as rounded to its word.
+  /// Notes the value in force of a parameter, as rounded to its word.
   void note(std::size_t parameter) {
     const law::Parameter& p = law_.law.parameters[parameter];
     changes_.back().push_back({parameter, host_->value(p.name) * p.to_si});

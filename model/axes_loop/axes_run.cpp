@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Closed loop of a device with several axes. Documentation: docs/devices.md
+// The closed loop of a device with several axes. Documentation: docs/devices.md
 #include "axes_loop/axes_run.hpp"
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ namespace feltgate {
 
 namespace {
 
-/// Which of the limits stand between a law's torque and the commanded one.
+/// The limits that can make the commanded torque differ from the law's.
 constexpr unsigned limits_of_torque = limit::torque | limit::ramp | limit::hold | limit::chatter;
 
 void tell_beyond_bounds(AxesResult* r) {
@@ -101,7 +101,7 @@ class AxesRun : plant::AxesDevice<Plant> {
       if constexpr (DeviceSignals<Plant>::has_pen) {
         if (plane_) {
           auto words = plane_->act(now, DeviceSignals<Plant>::counted(plant_, position_rad_));
-          // As far as the law's ranges go.
+          // The words are limited to the law's ranges.
           for (auto& [name, value] : words) value = options_.law->host().within(name, value);
           set_parameters(words);
           until = std::min(until, plane_->next());
@@ -111,7 +111,7 @@ class AxesRun : plant::AxesDevice<Plant> {
       if (next < s_.events.size()) until = std::min(until, clock_of(s_.events[next].at_s));
       loop.run(until, [this](const Plant& p) { stepped(p); });
     }
-    // What the cores do in the clocks of the last step.
+    // The cores still have to run the clocks of the last step.
     cores_->advance(plant_.now() + homed_ - cores_->now());
     for (const AxesSnapshot& s : cores_->snapshots()) tick(s);
     if (options_.progress) options_.progress(1.0);
@@ -121,7 +121,7 @@ class AxesRun : plant::AxesDevice<Plant> {
 
  private:
   static constexpr Clock most_clocks = 250;
-  /// A duty that is new in a period of the PWM is in force so many clocks after its beginning.
+  /// A new duty is in force so many clocks after the start of a PWM period.
   static constexpr Clock duty_clocks = 25;
 
   struct Rider {
@@ -152,7 +152,7 @@ class AxesRun : plant::AxesDevice<Plant> {
     }
     if (!of_law.empty()) write_law(of_law);
   }
-  /// Words of the law, and a commit; none: what stands is sent anew.
+  /// Writes words of the law, and a commit; empty: sends the present values again.
   void write_law(const std::map<std::string, double>& values) {
     for (const auto& [address, data] : options_.law->set(values)) cores_->write(address, data);
   }
@@ -174,7 +174,7 @@ class AxesRun : plant::AxesDevice<Plant> {
     control(e.arm.value_or(armed_));
   }
 
-  // The loop asks.
+  // AxesDevice: called by the loop.
   plant::AxesCommand<axes> act(const plant::AxesSense<Plant>& sense) override {
     for (std::size_t n = 0; n < axes; ++n) {
       for (EncoderEvent e : sense.events[n]) {
@@ -273,7 +273,8 @@ class AxesRun : plant::AxesDevice<Plant> {
     ++ticks_;
   }
 
-  /// A step of the plant ends up to 4 ticks after this one, and is as good as straight.
+  /// A plant step ends up to 4 ticks after this tick; within it the signals are treated as straight
+  /// lines.
   void tell_axes() {
     const Clock left = plant_.now() - (ticks_ + 1) * design_.clocks_per_tick;
     const double back_s = static_cast<double>(left) / static_cast<double>(design_.clock_hz);
@@ -339,7 +340,7 @@ class AxesRun : plant::AxesDevice<Plant> {
 
   const Scenario& s_;
   std::optional<PlaneHost> plane_;
-  std::array<double, axes> position_rad_ = {};  ///< as the cores counted last
+  std::array<double, axes> position_rad_ = {};  ///< from the cores' last counts
   const AxesRunOptions& options_;
   AxesEngines choice_;
   Plant& plant_;
@@ -352,7 +353,7 @@ class AxesRun : plant::AxesDevice<Plant> {
   FeedClock feed_;
   std::vector<Rider> riders_;
   bool law_entered_ = false;
-  std::int64_t law_changes_ = 1;  ///< sets of parameters that the riders know; the first loads
+  std::int64_t law_changes_ = 1;  ///< parameter sets that the riders know; loading is the first
   AxesLawRider::Torques kept_nm_{};
   std::array<ErrorFigure, axes> errors_;
   std::int64_t ticks_ = 0, ticks_to_come_ = 0, stale_ticks_ = 0, stale_from_ = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Reader of scenes with several axes. Documentation: docs/scenes.md
+// Reader of scenes of devices with several axes. Documentation: docs/scenes.md
 #include "axes_loop/axes_scene.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ void take_lever(plant::LeverSetParameters& p) {
   p.effects = p.lever.effects;
 }
 
-/// Which device a file describes, by the table that only it has.
+/// The kind of device that a file describes; each kind has a table that the others lack.
 DeviceSetup setup_of(const std::string& path, config::TomlReader& top) {
   toml::table file = config::parse_toml_file(path);
   if (file.contains("linkage")) {
@@ -53,7 +53,7 @@ DeviceSetup setup_of(const std::string& path, config::TomlReader& top) {
     config::TomlReader slides = device.section("slides");
     slides.integer("count", 3, 3);
     slides.finish();
-    // What is left describes one of them.
+    // The remaining tables describe one slide.
     file.erase("slides");
     StylusSetup s;
     s.parameters.lever = plant::read_plant(file, path);

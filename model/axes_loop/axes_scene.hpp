@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A scene file whose device has several axes: that of a lever, with `device` in place of `plant`
-// and the hand of that device. Documentation: docs/scenes.md
+// A scene file of a device with several axes: as for a lever, but with `device` instead of `plant`,
+// and with the hand of that device. Documentation: docs/scenes.md
 #pragma once
 
 #include <array>
@@ -29,13 +29,13 @@ struct PantographSetup {
 struct TwoLeversSetup {
   using Plant = plant::TwoLevers;
   plant::LeverSetParameters parameters;
-  std::array<plant::Hand, 2> hand;  ///< on the first lever, and what the second one meets
+  std::array<plant::Hand, 2> hand;  ///< hand on the first lever; object at the second
 };
 
 struct StylusSetup {
   using Plant = plant::Stylus;
   plant::LeverSetParameters parameters;
-  std::array<plant::Hand, 3> hand;  ///< along x, y and z
+  std::array<plant::Hand, 3> hand;  ///< hand along x, y and z
 };
 
 struct GimbalSetup {
@@ -46,23 +46,24 @@ struct GimbalSetup {
 
 using DeviceSetup = std::variant<PantographSetup, TwoLeversSetup, StylusSetup, GimbalSetup>;
 
+/// A scene and the device that it names.
 struct AxesScene {
   Scenario scenario;  ///< its hand is empty
   DeviceSetup device;
   std::string device_path;
-  std::optional<PlaneHostSettings> plane;  ///< of a device with a pen
+  std::optional<PlaneHostSettings> plane;  ///< only for a device with a pen
 };
 
-/// Reads a scene and the device that it names; `find` makes a path of that name.
+/// Reads a scene and the device that it names; `find` converts that name to a path.
 /// Errors: config::ConfigError "file:line: what; mend", and those of `find`.
 AxesScene read_axes_scene(const std::string& path,
                           const std::function<std::string(const std::string&)>& find);
 
-/// Axes of the device, and its name.
+/// Number of axes of the device, and its name.
 int axes_of(const AxesScene& scene);
 const std::string& device_of(const AxesScene& scene);
 
-/// Where a hand on one of two levers imposes a speed that jumps: loop/speed_jumps.hpp.
+/// Jumps in the speed that a hand on one of two levers imposes: loop/speed_jumps.hpp.
 std::vector<std::string> speed_jumps(const AxesScene& scene);
 
 }  // namespace feltgate

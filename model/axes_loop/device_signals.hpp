@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a device of several axes shows beside its joints, by name, and where its pen is.
-// Documentation: docs/scenes.md
+// The signals of a device with several axes other than its joints', by name, and the position of
+// its pen. Documentation: docs/scenes.md
 #pragma once
 
 #include <array>
@@ -15,7 +15,8 @@
 
 namespace feltgate {
 
-/// A device with a pen has `pen`, the plant's, and `counted`, as its joints would have it.
+/// A device with a pen has `pen`, the plant's position, and `counted`, the one from its joints'
+/// counts.
 template <class Plant>
 struct DeviceSignals;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a hand gives to a device and gets back, from the work that the plant counts.
+// Energy that a hand gives to a device and gets back, from the work that the plant counts.
 // Documentation: docs/devices.md
 #pragma once
 
@@ -12,9 +12,10 @@
 
 namespace feltgate {
 
+/// Sums of the energy in both directions.
 class HandWork {
  public:
-  /// The plant's count is now so high, J.
+  /// Updates the sums; `work_j` is the plant's present count, J.
   void follow(double work_j) {
     const double more_j = work_j - net_j_;
     net_j_ = work_j;

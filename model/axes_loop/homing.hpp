@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Where the joints of a device are counted from. Documentation: docs/devices.md
+// Homing: gives the counts of a device's joints their zero. Documentation: docs/devices.md
 #pragma once
 
 #include <algorithm>
@@ -17,10 +17,10 @@
 
 namespace feltgate {
 
-/// Of a count on the way from 0 to where the device stands: slower than any overspeed.
+/// Clocks per count on the way from 0 to the device's position: slower than any overspeed limit.
 constexpr Clock homing_clocks_per_count = 400;
-/// And then it stands so long: ten time constants of a velocity estimate of 500 rad/s, after which
-/// the core no longer takes it for moving.
+/// Rest after the way, s: ten time constants of a velocity estimate of 500 rad/s; after it the core
+/// no longer takes the device for moving.
 constexpr double homing_rest_s = 0.02;
 
 template <class Plant, std::size_t... I>
@@ -30,9 +30,9 @@ std::array<plant::Encoder, Plant::axes> zeroed(const Plant& device,
   return {((void)I, plant::Encoder(p, false, 0.5 * device.encoder(I).count_rad()))...};
 }
 
-/// Resets the cores. They count from where their joints are zeroed: motors off, each joint goes
-/// from its angle 0 to where the device stands, and rests. Returns the clocks that it took, whole
-/// periods.
+/// Resets the cores and lets them count from the joints' zeros: with the motors off, each joint
+/// moves from its angle 0 to the device's position and rests there. Returns the clocks that this
+/// took, a whole number of periods.
 template <class Plant>
 Clock home(AxesCores& cores, const Plant& device, std::uint64_t seed, Clock period_clocks) {
   constexpr std::size_t axes = Plant::axes;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A host with a world. Documentation: docs/devices/local_plane.md
+// A host that knows a world. Documentation: docs/devices/local_plane.md
 #include "axes_loop/plane_host.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kAxes[] = {"x", "y", "z"};
 
-/// A word for each axis.
+/// Adds one word for each axis.
 void add_words(std::map<std::string, double>& words, const std::string& name, Vec3 v, int axes) {
   const double parts[] = {v.x, v.y, v.z};
   for (int n = 0; n < axes; ++n) words[name + "_" + kAxes[n]] = parts[n];
@@ -26,7 +26,7 @@ void add_words(std::map<std::string, double>& words, const std::string& name, Ve
 
 struct WorldKey {
   const char* key;
-  int axes;  ///< 0: of two or three
+  int axes;  ///< number of axes; 0: two or three
   World world;
   const char* form;
 };
@@ -60,7 +60,8 @@ void read_world(config::TomlReader& r, PlaneHostSettings& s) {
   s.radius_m = at.back();
 }
 
-/// The face of a cube, or from outside the edge or corner, that is nearest; `from` its middle.
+/// The nearest face of a cube or, from outside, its nearest edge or corner; `from` is relative to
+/// the cube's centre.
 Plane nearest_of_cube(Vec3 from, double half_m) {
   const double at[] = {from.x, from.y, from.z};
   double point[3], far_m = 0;
@@ -116,7 +117,7 @@ Plane nearest_plane(const PlaneHostSettings& world, Vec3 pen_m) {
     return {world.centre_m + plane.point_m, plane.normal};
   }
   const double far = plant::length(out);
-  // In the very centre every direction is as good.
+  // At the centre every direction is equally near.
   const Vec3 normal = far > 0 ? 1 / far * out : up;
   return {world.centre_m + world.radius_m * normal, normal};
 }
@@ -169,11 +170,11 @@ std::map<std::string, double> PlaneHost::words(const Update& u) const {
 std::map<std::string, double> PlaneHost::act(Clock now, Vec3 counted_m) {
   if (now >= next_sample_) {
     const double late = settings_.latency_s + settings_.jitter_s * random_.uniform();
-    // The first one always comes: before it there is no world.
+    // The first update is never lost: before it there is no world.
     const bool lost = random_.uniform() < settings_.lost && samples_ > 0;
     Update u{now, now + std::llround(late * clock_hz_), nearest_plane(settings_, counted_m),
              counted_m};
-    // One that would overtake those before it makes them worthless.
+    // An update that would arrive before older ones replaces them.
     while (!lost && !under_way_.empty() && under_way_.back().at >= u.at) under_way_.pop_back();
     lost_ += lost ? 1 : 0;
     if (!lost) under_way_.push_back(u);

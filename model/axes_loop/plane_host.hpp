@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A host that knows a world and sends the plane of it that is nearest to the pen, or the force at
-// the pen, from poses that are old when they arrive. Documentation: docs/devices/local_plane.md
+// A host that knows a world. It sends the plane of the world that is nearest to the pen, or the
+// force at the pen; each is computed from a pose that is old on arrival. Documentation:
+// docs/devices/local_plane.md
 #pragma once
 
 #include <array>
@@ -21,63 +22,65 @@
 
 namespace feltgate {
 
-/// [plane] of a scene file. In the plane of two axes z is 0 everywhere.
+/// [plane] of a scene file. With two axes z is always 0.
 struct PlaneHostSettings {
   enum class World {
-    kFloor,  ///< through `centre_m`; its normal is +y of two axes, +z of three
-    kDisc,   ///< felt from outside, as all that follow
+    kFloor,  ///< through `centre_m`; normal +y for two axes, +z for three
+    kDisc,   ///< felt from outside, like all that follow
     kSphere,
-    kCube,  ///< its faces across the axes
+    kCube,  ///< its faces are perpendicular to the axes
   };
   int axes = 2;
-  bool sends_force = false;  ///< the force instead of the plane: a word for each axis
+  bool sends_force = false;  ///< sends the force instead of the plane: one word per axis
   World world = World::kFloor;
   plant::Vec3 centre_m;
-  double radius_m = 0;                                       ///< of a cube half its edge
-  double stiffness_n_m = 0, damping_ns_m = 0, friction = 0;  ///< what it is made of
+  double radius_m = 0;                                       ///< for a cube: half its edge
+  double stiffness_n_m = 0, damping_ns_m = 0, friction = 0;  ///< of the material
   double rate_hz = 1000;
-  double latency_s = 0;  ///< from a pose to its plane in the mailbox, at least
-  double jitter_s = 0;   ///< and up to so much more, evenly spread
-  double lost = 0;       ///< share of the planes that never come
+  double latency_s = 0;  ///< shortest time from a pose to its plane in the mailbox
+  double jitter_s = 0;   ///< largest additional time, uniformly distributed
+  double lost = 0;       ///< share of the planes that are lost
   std::uint64_t seed = 1;
-  int line = 0;  ///< of the file
+  int line = 0;  ///< line in the file
 };
 
-/// Reads [plane] for a device with so many axes. Errors: config::ConfigError.
+/// Reads [plane] for a device with `axes` axes. Errors: config::ConfigError.
 PlaneHostSettings read_plane_host(config::TomlReader table, int axes);
 
-/// A plane: a point of it, and its normal of length 1 out of the material.
+/// A plane: one of its points, and its normal of length 1, which points out of the material.
 struct Plane {
   plant::Vec3 point_m, normal;
 };
 
-/// The plane that touches the world where it is nearest to the pen.
+/// The plane that touches the world at the point nearest to the pen.
 Plane nearest_plane(const PlaneHostSettings& world, plant::Vec3 pen_m);
-/// Of the spring behind a plane, N.
+/// Force of the spring behind a plane, N.
 plant::Vec3 spring_force(const PlaneHostSettings& world, const Plane& plane, plant::Vec3 pen_m);
 
+/// The host in a run: takes poses, sends updates late, counts the lost ones.
 class PlaneHost {
  public:
   PlaneHost(const PlaneHostSettings& settings, std::int64_t clock_hz);
 
-  /// Errors: config::ConfigError with the scene's path, where the law lacks a mailbox.
+  /// Errors: config::ConfigError with the scene's path, if the law lacks a mailbox.
   static void check(const PlaneHostSettings& settings, const std::string& path,
                     const SceneLaw& law);
 
-  /// The next clock with something to do.
+  /// The next clock at which act() has something to do.
   Clock next() const;
-  /// Does it, with the pen where the cores count it; the words that arrive.
+  /// Takes the pose and delivers updates due at `now`; `counted_m` is the pen's position by the
+  /// cores' counts. Returns the words that arrive.
   std::map<std::string, double> act(Clock now, plant::Vec3 counted_m);
 
-  /// The plane that came last, if one has come.
+  /// The plane that arrived last, if any.
   std::optional<Plane> plane() const {
     return now_ ? std::optional<Plane>(now_->plane) : std::nullopt;
   }
 
   static std::vector<std::string> names(int axes);
-  /// Values of names(): normal in force, its angle from the world's at the pen (with the sign of a
-  /// turn about z where there are two axes), age of the pose behind it, change of the spring's
-  /// force by an update in the first row after it, else 0.
+  /// Appends the values of names(): the normal in force; its angle from the world's normal at the
+  /// pen (signed as a turn about z if there are two axes); the age of the pose behind it; the
+  /// change of the spring's force by an update, in the first row after it, else 0.
   void add(Clock now, plant::Vec3 pen_m, std::vector<double>& row);
   void add_figures(std::map<std::string, double>& figures) const;
 
@@ -95,7 +98,7 @@ class PlaneHost {
   SplitMix64 random_;
   std::int64_t samples_ = 0, lost_ = 0, arrived_ = 0;
   Clock next_sample_ = 0;
-  std::deque<Update> under_way_;  ///< by arrival
+  std::deque<Update> under_way_;  ///< in order of arrival
   std::optional<Update> now_, before_;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Extremes of one signal over a run, its mean at the end and how far it swings there.
+// Extremes of one signal over a run, and its mean and swing near the end.
 // Documentation: docs/scenes.md
 #pragma once
 
@@ -12,9 +12,10 @@
 
 namespace feltgate {
 
+/// Accumulates one signal, tick by tick.
 class SignalRecord {
  public:
-  /// Of a run of so many ticks.
+  /// For a run of `ticks` ticks.
   explicit SignalRecord(std::int64_t ticks)
       : late_(ticks - ticks / 4), last_(std::min(ticks - 1, ticks - ticks / 10)) {}
   void add(double value) {
@@ -34,7 +35,7 @@ class SignalRecord {
   double high() const { return high_; }
   /// Mean of the last tenth.
   double end() const { return count_ == 0 ? 0.0 : sum_ / static_cast<double>(count_); }
-  /// Largest less smallest of the last quarter.
+  /// Largest - smallest value in the last quarter.
   double swing() const { return late_high_ < late_low_ ? 0.0 : late_high_ - late_low_; }
 
  private:

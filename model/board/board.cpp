@@ -20,7 +20,7 @@ namespace feltgate::board {
 
 namespace {
 
-constexpr double kArmAfter_s = 0.01;  ///< the panel's switch, after power-up
+constexpr double kArmAfter_s = 0.01;  ///< when the panel's switch arms, after power-up
 
 plant::HandPhase phase(plant::HandPhase::Kind kind) {
   plant::HandPhase p;
@@ -28,7 +28,7 @@ plant::HandPhase phase(plant::HandPhase::Kind kind) {
   return p;
 }
 
-/// The same as scenario, as far as steps of the plant ask for it.
+/// The part of a scenario from which the steps of the plant follow.
 Scenario scenario_of(const plant::Parameters& plant, const plant::Hand& hand) {
   Scenario s;
   s.name = "board";
@@ -77,7 +77,7 @@ plant::Hand hand_named(const std::string& name, const std::string& scenes_folder
       s.duration_s = day_s;
       s.amplitude = 0.5;
       s.frequency_hz = 1;
-      s.phase_rad = -quarter_rad;  // from rest
+      s.phase_rad = -quarter_rad;  // starts at rest
       hand.phases[0].profile = {s};
       hand.phases[0].duration_s = day_s;
     }
@@ -129,8 +129,8 @@ void Board::run_to(Clock clock) {
   }
 }
 
-// As in the loop of scenes: the bridge as the core left it drives the motor in this step, and each
-// edge meets the core in its clock.
+// As in the loop of scenes: the core's last bridge state drives the motor in this step, and the
+// core gets each edge in its clock.
 void Board::step(Clock clocks) {
   if (core_->duty() != duty_clocks_) {
     duty_clocks_ = core_->duty();

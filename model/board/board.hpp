@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A board without hardware: core and link, bridge, motor, lever and hand in closed loop; bytes in,
-// bytes out. Documentation: docs/board.md
+// A board without hardware: core and link, bridge, motor, lever and hand in closed loop. Its
+// interface is bytes in and bytes out. Documentation: docs/board.md
 #pragma once
 
 #include <memory>
@@ -17,7 +17,8 @@
 
 namespace feltgate::board {
 
-/// A line that spoils bytes: each with a probability, one of lost, a bit turned, doubled.
+/// A line that damages bytes with a given probability: one is lost, has a bit inverted, or is
+/// doubled.
 class BadLine {
  public:
   BadLine(double share, std::uint64_t seed) : share_(share), random_(seed) {}
@@ -29,22 +30,23 @@ class BadLine {
 };
 
 /// What holds the lever: "free", "locked", "hold" (a hand that holds it where it is), "swing" (a
-/// hand that swings it, 0.5 rad at 1 Hz), or the [hand] of a scene file by name or path. Throws
-/// std::invalid_argument or config::ConfigError.
+/// hand that swings it by 0.5 rad at 1 Hz), or the [hand] of a scene file, given by name or path.
+/// Errors: std::invalid_argument or config::ConfigError.
 plant::Hand hand_named(const std::string& name, const std::string& scenes_folder);
 
+/// The simulated board; clock by clock for the core, step by step for the plant.
 class Board {
  public:
-  /// Switched on at clock 0. Throws like check_step() where the plant is too stiff.
+  /// Power-up at clock 0. Errors: those of check_step() if the plant is too stiff.
   Board(std::unique_ptr<Core> core, const plant::Parameters& plant, const plant::Hand& hand,
         const Setup& setup);
 
-  /// Bytes for the rx pin from this clock on.
+  /// Bytes for the rx pin, from the present clock on.
   void receive(const std::vector<std::uint8_t>& bytes);
-  /// Runs up to this clock or a little beyond, where a step of the plant ends.
+  /// Runs to this clock, or slightly beyond, to the end of a plant step.
   void run_to(Clock clock);
   Clock now() const { return now_; }
-  /// What the tx pin has sent since the last call.
+  /// The bytes that the tx pin has sent since the last call.
   std::vector<std::uint8_t> take_sent();
 
   const Core& core() const { return *core_; }

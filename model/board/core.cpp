@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Cores of boards by design and kind. Documentation: docs/board.md
+// Registry of the boards' cores, by design and kind. Documentation: docs/board.md
 #include "board/core.hpp"
 
 #include <fmt/format.h>

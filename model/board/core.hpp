@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What sits on the simulated board: core and link of one design, as the twin or as Verilated RTL.
+// The chip on the simulated board: core and link of one design, as twin or as Verilated RTL.
 // Documentation: docs/board.md
 #pragma once
 
@@ -15,21 +15,22 @@
 
 namespace feltgate::board {
 
-/// Pins of the board that hold for some clocks.
+/// Pins of the board, which hold for a number of clocks.
 struct BoardIn {
   EncoderPins encoder;
   bool arm = false, stop = false, set_zero = false;
   std::uint8_t scene = 0;
 };
 
+/// Properties of the simulated board.
 struct BoardOptions {
   std::int64_t baud = 1'000'000;
   bool simulated = true;
-  int board = 0;             ///< which one it says it is
-  std::uint32_t inputs = 1;  ///< the encoder's connector is in
+  int board = 0;             ///< number that the board reports
+  std::uint32_t inputs = 1;  ///< bit 0: the encoder's connector is plugged in
 };
 
-/// A running sum over all that a tick shows: two runs with the same sum had the same ticks.
+/// A running sum over all outputs of each tick: equal sums mean equal ticks.
 class TickHash {
  public:
   void add(const CoreOut& o) {
@@ -51,7 +52,7 @@ class TickHash {
     return static_cast<std::uint32_t>(low) |
            static_cast<std::uint64_t>(static_cast<std::uint32_t>(high)) << 32;
   }
-  // One round of FNV over a whole word, with the high half folded in.
+  // One round of FNV over a whole word; the high half is folded in.
   void mix(std::uint64_t word) {
     sum_ = (sum_ ^ word) * 0x9e3779b97f4a7c15U;
     sum_ ^= sum_ >> 32;
@@ -60,34 +61,35 @@ class TickHash {
   std::int64_t ticks_ = 0;
 };
 
+/// Core and link of one design behind a serial line.
 class Core {
  public:
   virtual ~Core() = default;
   virtual const DesignInfo& design() const = 0;
-  /// For people.
+  /// The kind of core, for messages.
   virtual const char* kind() const = 0;
-  /// So many clocks with these pins held.
+  /// Runs `clocks` clocks with these pins held.
   virtual void run(const BoardIn& in, Clock clocks) = 0;
-  /// A byte for the board's rx pin, after those before it.
+  /// Queues a byte for the board's rx pin.
   virtual void send(std::uint8_t byte) = 0;
   virtual std::size_t unsent() const = 0;
-  /// Bytes whose stop bit has come from the tx pin.
+  /// Bytes from the tx pin whose stop bits have ended; empties the list.
   virtual std::vector<std::uint8_t> take_received() = 0;
-  /// Duty in force in clocks of the PWM period, and whether the gates are open to it.
+  /// Duty in force, in clocks of the PWM period, and whether the gates are enabled.
   virtual int duty() const = 0;
   virtual bool gates_enabled() const = 0;
   virtual const TickHash& ticks() const = 0;
 };
 
-/// Whether there is a twin of this design's board.
+/// Whether the board of this design exists as a twin.
 bool has_design(const std::string& design);
 
-/// `kind` is "twin", or "rtl" where that is linked. Throws std::invalid_argument with what there
-/// is.
+/// `kind` is "twin", or "rtl" if that is linked. Errors: std::invalid_argument that names the
+/// choices.
 std::unique_ptr<Core> make_core(const std::string& design, const std::string& kind,
                                 const BoardOptions& options);
 
-/// How "rtl" is made where its library is linked.
+/// Makes "rtl", if its library is linked.
 using RtlCoreMaker = std::unique_ptr<Core> (*)(const std::string& design, const BoardOptions&);
 void provide_rtl_cores(RtlCoreMaker maker);
 

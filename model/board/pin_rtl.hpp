@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The Verilated feltgate_linked on the board, a wire at the UART's pins. Documentation:
-// docs/board.md
+// The Verilated feltgate_linked on the board, with a serial line at the UART's pins.
+// Documentation: docs/board.md
 #pragma once
 
 #include <stdexcept>
@@ -41,7 +41,7 @@ class PinRtl : public Core {
       const bool tx = rtl_->uart_tx_o != 0;
       rtl_->uart_rx_i = line_.level();
       line_.clock(tx);
-      // The stop was seen since the last clock, and is not in the next.
+      // The stop was active since the last clock edge, and is not in the next clock.
       rtl_->stop_i = in.stop;
       rtl_.low();
       rtl_->stop_i = false;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The twin of feltgate_linked on the board: core and link clock by clock, a wire at the UART's
-// pins. Documentation: docs/board.md, docs/blocks/feltgate_linked.md
+// The twin of feltgate_linked on the board: core and link clock by clock, with a serial line at the
+// UART's pins. Documentation: docs/board.md, docs/blocks/feltgate_linked.md
 #pragma once
 
 #include "board/core.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Pseudo-terminals of POSIX. Documentation: docs/board.md
+// Pseudo-terminals on POSIX. Documentation: docs/board.md
 #include "board/pseudo_terminal.hpp"
 
 #include <fcntl.h>
@@ -24,7 +24,7 @@ namespace {
   throw std::runtime_error(fmt::format("no pseudo-terminal: {}: {}", what, std::strerror(errno)));
 }
 
-/// Bytes as they are: no echo, no lines, no translations.
+/// Sets raw mode: no echo, no lines, no translations.
 void make_raw(int descriptor) {
   termios mode{};
   if (tcgetattr(descriptor, &mode) != 0) fail("tcgetattr");
@@ -32,8 +32,8 @@ void make_raw(int descriptor) {
   if (tcsetattr(descriptor, TCSANOW, &mode) != 0) fail("tcsetattr");
 }
 
-/// What stands at `link` may be replaced: nothing, or a link to what is gone, as a board leaves
-/// that was killed.
+/// Throws unless `link` may be replaced: it must not exist, or be a link whose target is gone, as a
+/// killed board leaves it.
 void refuse_to_replace(const std::string& link) {
   struct stat now {};
   if (lstat(link.c_str(), &now) != 0) return;
@@ -65,7 +65,7 @@ PseudoTerminal::PseudoTerminal(const std::string& link) {
     fail("ptsname");
   }
   name_ = name;
-  // Opened and closed once, so that from now on a hang-up says whether anybody is there.
+  // Opened and closed once; from then on a hang-up shows that nobody has it open.
   const int other = open(name, O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (other < 0) fail(name_);
   make_raw(other);
@@ -87,7 +87,7 @@ PseudoTerminal::PseudoTerminal(const std::string& link) {
 PseudoTerminal::~PseudoTerminal() {
   char there[256];
   if (!link_.empty()) {
-    // Another board may have taken the name since.
+    // Another board may have replaced the link since.
     const ssize_t size = readlink(link_.c_str(), there, sizeof there);
     if (size > 0 && std::string(there, static_cast<std::size_t>(size)) == name_) {
       (void)unlink(link_.c_str());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The board's end of a pseudo-terminal, whose other end a program opens like a serial port.
+// The board's end of a pseudo-terminal; a program opens the other end like a serial port.
 // Documentation: docs/board.md
 #pragma once
 
@@ -11,25 +11,26 @@
 
 namespace feltgate::board {
 
+/// One pseudo-terminal in raw mode.
 class PseudoTerminal {
  public:
-  /// `link`: a symbolic link that leads to it while this lives; empty: none. Throws
-  /// std::invalid_argument with the mend where the link cannot be made, std::runtime_error where
-  /// the system gives no terminal.
+  /// `link`: a symbolic link to it, which exists as long as this object; empty: none. Errors:
+  /// std::invalid_argument with advice if the link cannot be made, std::runtime_error if the system
+  /// gives no terminal.
   explicit PseudoTerminal(const std::string& link);
   ~PseudoTerminal();
   PseudoTerminal(const PseudoTerminal&) = delete;
   PseudoTerminal& operator=(const PseudoTerminal&) = delete;
 
-  /// Such as /dev/pts/7.
+  /// Path of the other end, such as /dev/pts/7.
   const std::string& name() const { return name_; }
-  /// What has arrived, at most `most` bytes; does not wait.
+  /// Returns the bytes that have arrived, at most `most`; does not wait.
   std::vector<std::uint8_t> read(std::size_t most);
-  /// As a wire does it: where nobody listens, or too slowly, bytes are lost.
+  /// Like a serial line: bytes are lost if nobody reads, or too slowly.
   void write(const std::vector<std::uint8_t>& bytes);
-  /// Whether a program has the other end open.
+  /// Whether a program has opened the other end.
   bool connected() const;
-  /// Bytes that nobody took.
+  /// Number of bytes that were lost because nobody read them.
   std::uint64_t lost() const { return lost_; }
 
  private:

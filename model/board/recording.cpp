@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Recordings of what came over the line. Documentation: docs/board.md
+// Recordings of the bytes that a board received. Documentation: docs/board.md
 #include "board/recording.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kFirstLine = "feltgate-board/1";
 
-/// A number, all of the text.
+/// Converts the whole text to a number.
 template <class T>
 T number(const std::string& text, int base = 10) {
   std::size_t used = 0;

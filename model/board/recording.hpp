@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// All that decides what a simulated board does: how it was started, and each byte that came, with
-// its clock. Documentation: docs/board.md
+// All inputs that decide what a simulated board does: how it was started, and each byte that it
+// received, with its clock. Documentation: docs/board.md
 #pragma once
 
 #include <cstdint>
@@ -19,17 +19,17 @@ struct Setup {
   std::string design = "lever", plant = "p24", hand = "free", scene = "free";
   bool arm = false;  ///< the panel's switch
   std::int64_t baud = 1'000'000;
-  double bad_line = 0;     ///< share of bytes that the line spoils, each way
-  std::uint64_t seed = 1;  ///< of that
+  double bad_line = 0;     ///< share of bytes that the line damages, in each direction
+  std::uint64_t seed = 1;  ///< seed of the damage
 };
 
-/// Bytes that came together.
+/// Bytes that arrived at the same time.
 struct Arrival {
   Clock clock = 0;
   std::vector<std::uint8_t> bytes;
 };
 
-/// What came out: two runs with the same sums had the same ticks and sent the same bytes.
+/// Results: two runs with equal sums had the same ticks and sent the same bytes.
 struct Outcome {
   Clock clocks = 0;
   std::int64_t ticks = 0;
@@ -42,13 +42,14 @@ struct Outcome {
   }
 };
 
+/// A whole recording: start, received bytes, results.
 struct Recording {
   Setup setup;
   std::vector<Arrival> arrivals;
   Outcome outcome;
 };
 
-/// Writes as it goes; without finish() the file has no outcome and is not accepted.
+/// Writes a recording while it runs. Without finish() the file has no outcome and is not accepted.
 class RecordingWriter {
  public:
   RecordingWriter(std::FILE* to, const Setup& setup);
@@ -59,7 +60,7 @@ class RecordingWriter {
   std::FILE* to_;
 };
 
-/// Throws std::invalid_argument "file:line: what; mend".
+/// Errors: std::invalid_argument "file:line: what; mend".
 Recording read_recording(const std::string& path);
 
 }  // namespace feltgate::board

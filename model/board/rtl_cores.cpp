@@ -10,7 +10,7 @@
 
 namespace feltgate::board {
 
-/// Of one design alone: each costs a minute to compile.
+/// Only one design, since each takes a minute to compile.
 std::unique_ptr<Core> make_lever_rtl(const BoardOptions&);
 
 namespace {

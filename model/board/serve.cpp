@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Boards in real time. Documentation: docs/board.md
+// Runs boards in real time. Documentation: docs/board.md
 #include "board/serve.hpp"
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace feltgate::board {
 
 namespace {
 
-constexpr double kSlice_s = 0.5e-3;   ///< simulated between two looks at the line
-constexpr double kLag_s = 0.05;       ///< that may be caught up again
+constexpr double kSlice_s = 0.5e-3;   ///< simulated time between two reads of the line
+constexpr double kLag_s = 0.05;       ///< delay that may be caught up
 constexpr std::size_t kQueue = 1024;  ///< bytes that may wait for the rx pin
 constexpr double kTell_s = 1;
 
@@ -24,7 +24,7 @@ double wall_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// What this thread has had of the processor: a busy neighbour does not count.
+/// Processor time of this thread; time taken by other processes does not count.
 double worked_s() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -43,7 +43,8 @@ Pace serve(Board& board, PseudoTerminal& terminal, const ServeOptions& o) {
   const Clock end = o.for_s > 0 ? std::llround(o.for_s * clock_hz) : INT64_MAX;
   Pace pace;
   const double begin_s = wall_s();
-  double due_s = begin_s, told_s = begin_s;  // when the wall's clock should be at board.now()
+  // Wall-clock times: when board.now() is due; when `tell` was called.
+  double due_s = begin_s, told_s = begin_s;
   while (board.now() < end && o.go_on()) {
     const Clock from = board.now();
     const double work_s = worked_s();
@@ -58,7 +59,7 @@ Pace serve(Board& board, PseudoTerminal& terminal, const ServeOptions& o) {
       pace.behind_s -= wait_s;
       due_s = done_s;
     }
-    // The line is looked at between slices alone, so that a recording has the same clocks.
+    // The line is read only between slices, so that a recording has the same clocks.
     const std::size_t room = kQueue - std::min(kQueue, board.core().unsent());
     const auto bytes = terminal.read(room);
     if (!bytes.empty()) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Whole runs of a law's image on thread 0, bit for bit what the hardware computes: by the C++ that
-// the compiler made of the law, where that is part of the program, or by the interpreter of its
-// words. Documentation: docs/law-compiler.md
+// Runs a law's image on thread 0 in whole runs, bit by bit like the hardware: as the C++ that the
+// compiler made of the law, if the program contains it, else by the interpreter of its words.
+// Documentation: docs/law-compiler.md
 #pragma once
 
 #include <array>
@@ -16,22 +16,22 @@
 
 namespace feltgate::law {
 
-/// A law that runs. Parameters as Machine has them: two banks, of which one is in force.
+/// A law that can run. Parameters are in two banks as in Machine; one of them is in force.
 class LawRunner {
  public:
   virtual ~LawRunner() = default;
-  /// Whether it is compiled C++; else the interpreter.
+  /// Whether it runs as compiled C++, rather than in the interpreter.
   virtual bool compiled() const = 0;
-  /// The next run is the first after load, arming or entry into the scene.
+  /// The next run is the first after a load, an arming or an entry into the scene.
   virtual void enter() = 0;
-  /// Word 0 to 31 of the bank that is not in force; commit() makes it that in force.
+  /// Sets word 0 to 31 of the bank that is not in force; commit() puts that bank in force.
   virtual void set_parameter(int word, std::int32_t value) = 0;
   virtual void commit() = 0;
-  /// One run. The reference holds until the next.
+  /// Executes one run; the reference is valid until the next run.
   virtual const MachineRun& run(const MachineInputs& inputs) = 0;
 };
 
-/// The words of a memory in the interpreter.
+/// The words of a memory, run by the interpreter.
 class InterpretedLaw : public LawRunner {
  public:
   explicit InterpretedLaw(const EngineMemory& memory) : machine_(memory) {}
@@ -45,7 +45,7 @@ class InterpretedLaw : public LawRunner {
   Machine machine_;
 };
 
-/// Law<Fixed> of a generated header, with the parameters of a memory that holds its image.
+/// Law<Fixed> of a generated header, with the parameters from a memory that holds the law's image.
 template <template <class> class Law>
 class CompiledLaw : public LawRunner {
  public:
@@ -106,14 +106,15 @@ class CompiledLaw : public LawRunner {
   std::size_t bank_ = 0;
 };
 
-/// A law that is part of the program: what makes it run.
+/// A law whose C++ is part of the program.
 struct CompiledEntry {
   const char* name;
   std::uint32_t image_crc;
   std::unique_ptr<LawRunner> (*make)(const EngineMemory&);
 };
 
-/// Those of rtl/laws, compiled for the design lever and others of its formats; in a browser none.
+/// The laws of rtl/laws, compiled for the design lever and others with its formats; none in a
+/// browser.
 #ifdef __wasm__
 inline const std::vector<CompiledEntry>& shipped_laws() {
   static const std::vector<CompiledEntry> none;
@@ -123,6 +124,7 @@ inline const std::vector<CompiledEntry>& shipped_laws() {
 const std::vector<CompiledEntry>& shipped_laws();
 #endif
 
+/// Whether a shipped law has an image with this CRC-32.
 inline bool is_shipped(std::uint32_t image_crc) {
   for (const CompiledEntry& e : shipped_laws()) {
     if (e.image_crc == image_crc) return true;
@@ -130,7 +132,7 @@ inline bool is_shipped(std::uint32_t image_crc) {
   return false;
 }
 
-/// Compiled where a shipped law has this CRC-32, else interpreted.
+/// A compiled runner if a shipped law has this CRC-32, else the interpreter.
 inline std::unique_ptr<LawRunner> make_law_runner(const EngineMemory& memory,
                                                   std::uint32_t image_crc) {
   for (const CompiledEntry& e : shipped_laws()) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Interpreter of the engine's program words: one whole run of one thread at a time, bit for bit
-// what the hardware computes. Documentation: docs/engine-isa.md
+// Interpreter of the engine's program words: one whole run of one thread at a time, bit by bit like
+// the hardware. Documentation: docs/engine-isa.md
 #pragma once
 
 #include <array>
@@ -14,41 +14,41 @@
 
 namespace feltgate::law {
 
-/// An event of a run: number 0 to 511.
+/// An event of a run; numbers 0 to 511.
 struct MachineEvent {
   int number = 0;
   std::int32_t value = 0;
 };
 
-/// Words 48 to 63 of the thread: the inputs as the hardware writes them before a run.
-/// Position of axis n at 3n in counts, velocity at 3n + 1 and tau_hat at 3n + 2 in the design's
-/// formats, the tick's number at 9, the rest 0.
+/// Words 48 to 63 of the thread: the inputs, as the hardware writes them before a run. Axis n:
+/// position [count] at 3n, velocity at 3n + 1 and tau_hat at 3n + 2 in the design's formats. Word
+/// 9: the tick's number. The rest is 0.
 using MachineInputs = std::array<std::int32_t, 16>;
 
-/// What a run leaves.
+/// Results of a run.
 struct MachineRun {
-  /// Outputs 0 to 3 as written by the last instruction that wrote them, in this run or an earlier.
+  /// Outputs 0 to 3 with their last written values, from this run or an earlier one.
   std::array<std::int32_t, 4> outputs{};
   unsigned written = 0;              ///< bit n: this run wrote output n
   std::vector<MachineEvent> events;  ///< of this run, in order
   int instructions = 0;
-  bool ended = false;  ///< false: stopped by the limit of instructions
+  bool ended = false;  ///< false: the limit of instructions stopped it
 };
 
-/// Four threads over one set of memories. Runs are whole: where threads exchange words while both
-/// run, the hardware's order may be another.
+/// Four threads over one set of memories. Runs are executed as a whole: where threads exchange
+/// words while both run, the order in hardware may differ.
 class Machine {
  public:
   explicit Machine(const EngineMemory& memory = {}) : memory_(memory) {}
 
-  /// The next run of each thread starts with flag 1: after load, arming, entry into the scene.
-  /// Lines hold zeros.
+  /// The next run of each thread starts with flag 1, as after a load, an arming or an entry into
+  /// the scene. Clears the delay lines to 0.
   void enter() {
     first_ = {true, true, true, true};
     for (int n = memory_.line_base; n < EngineMap::table_words; ++n) memory_.set_table(n, 0);
   }
 
-  /// Parameter `word` (0 to 31) of the bank that is not in force; commit() makes it that in force.
+  /// Sets parameter `word` (0 to 31) of the bank that is not in force; commit() puts it in force.
   void set_parameter(int word, std::int32_t value) {
     memory_.set_data(engine_read_address(EngineMap::D::parameter + word, 0, 1 - bank_), value);
   }
@@ -58,13 +58,13 @@ class Machine {
   EngineMemory& memory() { return memory_; }
   const EngineMemory& memory() const { return memory_; }
 
-  /// One run of `thread` (0 to 3) from its start. A run of more than `limit` instructions is given
-  /// up: MachineRun::ended is false then. The reference holds until the next run.
+  /// One run of `thread` (0 to 3) from its start. It stops after `limit` instructions, with
+  /// MachineRun::ended = false. The reference is valid until the next run.
   const MachineRun& run(int thread, const MachineInputs& inputs, int limit = 100000) {
     return run_seen(thread, inputs, limit, [](int, std::int32_t, std::int32_t) {});
   }
 
-  /// The same; `seen` gets the address of each instruction and its operands x and y before it.
+  /// The same; before each instruction, `seen` gets its address and its operands x and y.
   template <class Seen>
   const MachineRun& run_seen(int thread, const MachineInputs& inputs, int limit, const Seen& seen) {
     const auto t = static_cast<std::size_t>(thread);

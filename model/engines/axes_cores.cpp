@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Designs of several axes by name. Documentation: docs/architecture.md
+// Registry of designs with several axes. Documentation: docs/architecture.md
 #include "engines/axes_cores.hpp"
 
 namespace feltgate {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Two or three axes with the engine of their laws that can be run: the twin, or RTL and twin in
+// Engines with two or three axes and the engine of their laws: the twin, or RTL and twin in
 // lock-step. Documentation: docs/architecture.md
 #pragma once
 
@@ -18,9 +18,10 @@ namespace feltgate {
 
 constexpr std::size_t most_axes = 3;
 
-/// The snapshots of all axes of one tick; what they say of the law is in that of axis 0.
+/// The snapshots of all axes in one tick; axis 0 holds the information about the law.
 using AxesSnapshot = std::array<Snapshot, most_axes>;
 
+/// Common interface of these engines; holds the queues of writes and pin events.
 class AxesCores {
  public:
   using Pins = std::array<EncoderPins, most_axes>;
@@ -30,31 +31,31 @@ class AxesCores {
   const DesignInfo& design() const { return info_; }
   int axes() const { return axes_; }
 
-  /// Power-up and reset; `seed` fills what reset leaves open.
+  /// Power-up and reset; `seed` fills the state that reset does not define.
   virtual void reset(std::uint64_t seed, const Pins& pins) = 0;
-  /// Queues a register write; one is carried out per tick, in order.
+  /// Queues a register write; one is executed per tick, in order.
   void write(int address, std::uint32_t data) {
     writes_.emplace_back(static_cast<std::uint16_t>(address), data);
   }
   bool writes_wait() const { return !writes_.empty(); }
   void stop(bool pressed) { stop_ = pressed; }
-  /// A pin event of an axis, in order, not before now().
+  /// Adds a pin event of an axis; events must be in order and not before now().
   void edge(std::size_t axis, const EncoderEvent& event) { edges_[axis].push_back(event); }
 
-  /// Runs `clocks` clocks from now().
+  /// Advances `clocks` clocks from now().
   virtual void advance(Clock clocks) = 0;
   Clock now() const { return now_; }
-  /// Shown during the last advance().
+  /// Snapshots that became valid during the last advance().
   const std::vector<AxesSnapshot>& snapshots() const { return snapshots_; }
-  /// Duty in force in a bridge, in clocks of the PWM period, and whether its gates are open.
+  /// Duty in force in a bridge, in clocks of the PWM period, and whether its gates are enabled.
   virtual int duty(std::size_t axis) const = 0;
   virtual bool gates_enabled(std::size_t axis) const = 0;
 
-  /// Writes a waveform of the clocks [from, to] of the next run; before reset(). Throws
-  /// std::invalid_argument where there is no RTL to look into.
+  /// Writes a waveform of the clocks [from, to] of the next run; call it before reset(). Errors:
+  /// std::invalid_argument for an engine without RTL.
   virtual void trace(const std::string& path, Clock from, Clock to) = 0;
 
-  /// Lock-step: number of clocks in which any output differed, and the first difference.
+  /// Lock-step: number of clocks in which an output differed, and the first difference.
   std::int64_t mismatches() const { return mismatches_; }
   const std::string& first_mismatch() const { return first_mismatch_; }
   Clock first_mismatch_clock() const { return first_mismatch_clock_; }
@@ -75,15 +76,15 @@ class AxesCores {
   Clock first_mismatch_clock_ = 0;
 };
 
-/// A design of several axes that a program has: makes the kinds "twin" and "lockstep".
+/// The engines of a design with several axes: "twin" and "lockstep".
 struct AxesDesignMakers {
   std::string name;
   std::unique_ptr<AxesCores> (*cores)(const std::string& kind);
   DesignInfo (*info)();
 };
-/// Before main().
+/// Registers a design; call it before main().
 void add_axes_design(const AxesDesignMakers& design);
-/// nullptr where this program has no such design.
+/// nullptr if the program does not contain the design.
 const AxesDesignMakers* find_axes_design(const std::string& design);
 
 }  // namespace feltgate

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Registers the designs of rtl/designs that are no presets. Who links feltgate_engines has them.
-// Documentation: docs/architecture.md
+// Registers the designs of rtl/designs that are not presets; a program that links feltgate_engines
+// has them. Documentation: docs/architecture.md
 #include "engines/engine.hpp"
 
 namespace feltgate {
@@ -13,8 +13,9 @@ namespace feltgate {
 
 }  // namespace feltgate
 
-/// What scripts/cmake/engines.cmake has the linker ask for, so that this file is linked. It runs
-/// before all constructors without a priority, so a global of a user may name a design.
+/// scripts/cmake/engines.cmake makes the linker require this symbol, so that this file is linked.
+/// It runs before all constructors without a priority, so that a user's global object may name a
+/// design.
 extern "C" [[gnu::constructor(200)]] void feltgate_built_in_designs();
 extern "C" void feltgate_built_in_designs() {
 #define FELTGATE_DESIGN(name) feltgate::add_design(feltgate::name##_makers());

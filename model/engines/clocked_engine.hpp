@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What every clocked engine does alike: pin events at their clocks, one register write per tick,
-// snapshots and gate times collected. Documentation: docs/architecture.md
+// Common part of the clocked engines: pin events at their clocks, one register write per tick,
+// collection of snapshots and gate times. Documentation: docs/architecture.md
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@
 
 namespace feltgate {
 
-/// Register writes wait here; one is issued in an early clock of each tick.
+/// Queue of register writes; one is issued in an early clock of each tick.
 class WriteQueue {
  public:
   void clear() { writes_.clear(); }
@@ -34,7 +34,7 @@ class WriteQueue {
   std::deque<std::pair<std::uint16_t, std::uint32_t>> writes_;
 };
 
-/// Encoder events that lie ahead.
+/// Queue of future encoder events.
 class EventQueue {
  public:
   void reset(EncoderPins pins) {
@@ -53,7 +53,7 @@ class EventQueue {
     return pins_;
   }
   const EncoderPins& pins() const { return pins_; }
-  /// Clock of the next event, or `none`.
+  /// Clock of the next event; `none` if there is none.
   Clock next(Clock none) const { return events_.empty() ? none : events_.front().clock; }
 
  private:
@@ -61,8 +61,8 @@ class EventQueue {
   std::deque<EncoderEvent> events_;
 };
 
-/// Carries pins, panel and register writes to a core, collects snapshots and gate times.
-/// Derived supplies reset_core(seed, pins), run(first clock, inputs) and name().
+/// Passes pins, panel and register writes to a core, and collects snapshots and gate times. A
+/// derived class supplies reset_core(seed, pins), run(first clock, inputs) and name().
 class ClockedEngine : public Engine {
  public:
   explicit ClockedEngine(DesignInfo info) : info_(std::move(info)) {}
@@ -90,7 +90,7 @@ class ClockedEngine : public Engine {
  protected:
   virtual void reset_core(std::uint64_t seed, EncoderPins pins) = 0;
 
-  /// Runs `each(inputs)` for every clock of an advance(); each returns the outputs after the clock.
+  /// Calls `each(inputs)` for every clock of an advance(); it returns the outputs after the clock.
   template <class EachClock>
   void run(Clock clocks, const EncoderEvent* first, const EncoderEvent* last, EachClock&& each) {
     snapshots_.clear();
@@ -109,7 +109,7 @@ class ClockedEngine : public Engine {
     }
   }
 
-  /// What holds between events: panel and the address last used.
+  /// The inputs that hold between events: panel, and the address used last.
   CoreIn inputs() const {
     CoreIn in;
     in.arm = panel_.arm;
@@ -125,7 +125,7 @@ class ClockedEngine : public Engine {
     in->reg_write = true;
   }
 
-  /// Takes note of the outputs after a clock.
+  /// Evaluates the outputs after a clock.
   void note(const CoreOut& out) {
     gates_.a_hi += out.gates & 1u;
     gates_.a_lo += (out.gates >> 1) & 1u;

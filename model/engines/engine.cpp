@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Registry of the engines that were built in. Documentation: docs/architecture.md
+// Registry of the built-in engines. Documentation: docs/architecture.md
 #include "engines/engine.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ std::vector<DesignMakers>& designs() {
   return list;
 }
 
-RtlMaker rtl_engines = nullptr;  // set before main() where the Verilated cores are linked
+RtlMaker rtl_engines = nullptr;  // set before main() if the Verilated cores are linked
 
 const DesignMakers* find(const std::string& design) {
   for (const DesignMakers& d : designs()) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// One axis with the engine of its laws behind the interface of a core. Documentation:
-// docs/architecture.md
+// One axis and the engine of its laws, with the interface of a core.
+// Documentation: docs/architecture.md
 #pragma once
 
 #include <array>
@@ -16,8 +16,9 @@
 
 namespace feltgate {
 
-/// The twin of feltgate_axes for one axis of design D, which has an engine. It shows what a core
-/// does, the engine's words at the port, and which run of thread 0 the torque is of.
+/// The twin of feltgate_axes for one axis of design D, which has an engine. It has the outputs of a
+/// core, the engine's words at the register port, and tells from which run of thread 0 the torque
+/// comes.
 template <class D, bool ReadBack>
 class LawCore {
  public:
@@ -26,7 +27,7 @@ class LawCore {
     axes_.clock(axes_in(in));
     show();
   }
-  /// As FeltgateCore::run(): from event to event while nobody writes.
+  /// Like FeltgateCore::run(): from event to event while nobody writes.
   template <class OnSnapshot>
   void run(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
     axes_.run(axes_in(in), clocks, [&] {
@@ -41,9 +42,9 @@ class LawCore {
   std::array<std::int64_t, 4> gate_clocks() const { return axes_.core(0).gate_clocks(); }
   int clock_of_tick() const { return axes_.clock_of_tick(); }
   std::int16_t sampled_travel() const { return axes_.core(0).sampled_travel(); }
-  /// Of core and engine.
+  /// Writes to core and engine.
   std::int64_t writes() const { return axes_.core(0).writes() + engine_writes_; }
-  /// What the law has told since the reset.
+  /// The law's events since the reset.
   std::vector<LawEvent> law_events() {
     std::vector<LawEvent> all;
     for (const auto& e : axes_.glue().engine().told()) {
@@ -51,15 +52,15 @@ class LawCore {
     }
     return all;
   }
-  /// What it tells in this clock; only after clock().
+  /// The law's event in this clock; valid only after clock().
   std::optional<LawEvent> law_event() const {
     const AxesOut<1>& out = axes_.out();
     if (!out.event_valid) return std::nullopt;
     return LawEvent{out.event_number, out.event_value, 0};
   }
-  /// Whether the engine would not take a write.
+  /// Whether the engine could not take a write.
   bool busy() const { return axes_.glue().busy(); }
-  /// What a snapshot says of the law's runs.
+  /// Sets a snapshot's fields about the law's runs.
   void tell(Snapshot* s) const {
     const EngineWatch& watch = axes_.glue().watch();
     s->law_begins = watch.begins;
@@ -73,7 +74,7 @@ class LawCore {
  private:
   static AxesIn<1> axes_in(const CoreIn& in) {
     AxesIn<1> to = single_axis(in);
-    // Nobody reads: an address matters only with a write.
+    // Without read-back an address matters only with a write.
     if (!ReadBack && !in.reg_write) to.reg_addr = 0;
     return to;
   }
@@ -88,19 +89,19 @@ class LawCore {
   std::int64_t engine_writes_ = 0;
 };
 
-/// What an engine of design D runs as its twin.
+/// The twin that an engine of design D uses.
 template <class D, bool ReadBack>
 using EngineCore =
     std::conditional_t<D::engine != 0, LawCore<D, ReadBack>, FeltgateCore<D, ReadBack>>;
 
-/// What a snapshot says beside the outputs.
+/// Sets a snapshot's fields that are not outputs.
 template <class Core>
 void tell_of_law(const Core&, Snapshot*) {}
 template <class D, bool ReadBack>
 void tell_of_law(const LawCore<D, ReadBack>& core, Snapshot* s) {
   core.tell(s);
 }
-/// What a law has told.
+/// The events of a law.
 template <class Core>
 std::vector<LawEvent> law_events_of(Core&) {
   return {};
@@ -109,7 +110,7 @@ template <class D, bool ReadBack>
 std::vector<LawEvent> law_events_of(LawCore<D, ReadBack>& core) {
   return core.law_events();
 }
-/// Whether what a write would go to takes it.
+/// Whether the target of a write could take it now.
 template <class Core>
 bool takes_write(const Core&) {
   return true;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// RTL and twin of the core on the same inputs, every output compared on every clock.
+// RTL and twin of the core with the same inputs; every output is compared in every clock.
 // Documentation: docs/architecture.md
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace feltgate {
 
-/// Every output of the core, in the order in which a difference is looked for.
+/// Every output of the core, in the order in which they are compared.
 #define FELTGATE_EACH_OUTPUT(apply)                                                              \
   apply(tick_count) apply(position) apply(velocity) apply(tau_hat) apply(tau_ref)                \
       apply(current_ref) apply(voltage) apply(duty) apply(duty_active) apply(gates) apply(scene) \
@@ -25,7 +25,7 @@ namespace feltgate {
               apply(snapshot_valid) apply(reg_busy) apply(reg_rdata) apply(word_valid)           \
                   apply(word_slot) apply(word_data)
 
-/// Does not compile when an output came or went: then the list above lacks it too.
+/// Does not compile if CoreOut gained or lost an output that the list above lacks or has.
 inline void count_outputs(const CoreOut& out) {
   [[maybe_unused]] const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v] =
       out;
@@ -34,7 +34,7 @@ inline void count_outputs(const CoreOut& out) {
 #undef FELTGATE_ONE
 }
 
-/// Name of the first output in which two cores differ, with both values.
+/// Name and both values of the first output in which two cores differ; empty if none.
 inline std::string difference(const CoreOut& rtl, const CoreOut& twin) {
 #define FELTGATE_TELL(name)                                                                   \
   if (rtl.name != twin.name) {                                                                \
@@ -45,8 +45,8 @@ inline std::string difference(const CoreOut& rtl, const CoreOut& twin) {
   return {};
 }
 
-/// The outputs of `Clocks` clocks, each in an array of its own: word for word, as the twin has just
-/// written them. Copied in wider pieces, each copy would wait for the words to reach the cache.
+/// The outputs of `Clocks` clocks, one array per output. They are copied word by word, as the twin
+/// has just written them: wider copies would wait until the words have reached the cache.
 template <std::size_t Clocks>
 class OutputLog {
  public:
@@ -77,8 +77,8 @@ class OutputLog {
 };
 #undef FELTGATE_EACH_OUTPUT
 
-/// The twin leads; the RTL follows in stretches of its own, long enough that the code of each half
-/// stays in the processor's cache, and is compared with what the twin has shown.
+/// The twin leads. The RTL follows in stretches, long enough that the code of each half stays in
+/// the processor's cache, and is compared with the twin's outputs.
 template <class Rtl, class D>
 class LockStepCore {
  public:
@@ -91,16 +91,17 @@ class LockStepCore {
     first_.clear();
     twin_ = Twin();
   }
-  /// A waveform of the RTL, as RtlCore::trace().
+  /// Writes a waveform of the RTL; see RtlCore::trace().
   void trace(const std::string& path, Clock from, Clock to) { rtl_.trace(path, from, to); }
 
   const Twin& twin() const { return twin_; }
-  /// What the law has told, by the twin.
+  /// The law's events, from the twin.
   std::vector<LawEvent> law_events() { return law_events_of(twin_); }
 
-  /// Clocks that the twin may lead before the RTL follows.
+  /// Number of clocks by which the twin may lead further before the RTL follows.
   Clock room() const { return static_cast<Clock>(longest - shown_); }
-  /// The twin runs `clocks` clocks, at most room(); on_snapshot() after each that shows one.
+  /// Advances the twin by `clocks` clocks, at most room(); calls on_snapshot() after each with a
+  /// snapshot.
   template <class OnSnapshot>
   [[gnu::flatten]] void lead(const CoreIn& in, Clock clocks, OnSnapshot&& on_snapshot) {
     held_.push_back({in, static_cast<std::size_t>(clocks)});
@@ -121,7 +122,7 @@ class LockStepCore {
     clear();
   }
 
-  // Of the clocks that the RTL has followed:
+  // For the clocks that the RTL has followed:
   std::int64_t mismatches() const { return mismatches_; }
   Clock first_mismatch_clock() const { return first_clock_; }
   const std::string& first_mismatch() const { return first_; }
@@ -139,7 +140,7 @@ class LockStepCore {
     shown_events_.clear();
     held_.clear();
   }
-  /// Flat: the outputs are compared where they are, not copied first.
+  /// Flattened: the outputs are compared in place, not copied first.
   [[gnu::flatten]] void compare() {
     std::size_t n = 0, event = 0;
     for (const Inputs& inputs : held_) {
@@ -160,7 +161,7 @@ class LockStepCore {
     first_clock_ = clock_ + static_cast<Clock>(n);
     first_ = "clock " + std::to_string(first_clock_) + ", " + what;
   }
-  /// What the law tells the host, in the same clock; `next` of the twin's is the one to come.
+  /// Compares the law's events of one clock; `next` is the index of the twin's next event.
   void compare_event(std::size_t n, std::size_t* next) {
     const std::optional<LawEvent> rtl = rtl_.law_event();
     const bool shown = *next < shown_events_.size() && shown_events_[*next].clock == n;
@@ -181,12 +182,12 @@ class LockStepCore {
   std::vector<Inputs> held_;
   OutputLog<longest> shown_outputs_;
   struct ShownEvent {
-    std::size_t clock;  ///< of those shown
+    std::size_t clock;  ///< index among the clocks shown
     LawEvent event;
   };
   std::vector<ShownEvent> shown_events_;
-  std::size_t shown_ = 0;  ///< of them, clocks
-  Clock clock_ = 0;        ///< to which the first of them belongs
+  std::size_t shown_ = 0;  ///< number of clocks that the twin has shown
+  Clock clock_ = 0;        ///< clock of the first of them
   std::int64_t mismatches_ = 0;
   Clock first_clock_ = 0;
   std::string first_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The engine of RTL and twin in lock-step.
+// The engine that runs RTL and twin in lock-step.
 // Documentation: docs/architecture.md
 #pragma once
 
@@ -57,7 +57,7 @@ class LockStepEngine : public ClockedEngine {
       now_ = until;
       if (core_.room() == 0) core_.follow();
     }
-    if (traced_) followed();  // a file that cannot be written is told at once
+    if (traced_) followed();  // reports at once a file that cannot be written
   }
   GateClocks gates() const override {
     const auto after = core_.twin().gate_clocks();
@@ -69,7 +69,7 @@ class LockStepEngine : public ClockedEngine {
   bool gates_enabled() const override { return core_.twin().out().gates_enable; }
 
  private:
-  /// Once the RTL has caught up.
+  /// The core, after the RTL has caught up.
   const LockStepCore<Rtl, D>& followed() const {
     core_.follow();
     return core_;

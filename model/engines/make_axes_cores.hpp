@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The axes of one design: RTL, twin, and both in lock-step. Needs the Verilated axes.
+// The engines of a design with several axes: RTL and twin in lock-step. Needs the Verilated axes.
 // Documentation: docs/architecture.md
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace feltgate {
 
-/// Outputs of the device beside those of its axes.
+/// Compares the outputs of the device that do not belong to an axis.
 template <int N>
 std::string port_difference(const AxesOut<N>& rtl, const AxesOut<N>& twin) {
   const auto tell = [](const char* name, std::int64_t a, std::int64_t b) {
@@ -40,8 +40,8 @@ std::string port_difference(const AxesOut<N>& rtl, const AxesOut<N>& twin) {
   return {};
 }
 
-/// Rtl is Verilator's class of feltgate_axes for design D. The twin leads and gives what a run asks
-/// for; the RTL follows in every clock.
+/// Rtl is Verilator's class of feltgate_axes for design D. The twin leads and gives the results of
+/// a run; the RTL follows in every clock.
 template <class Rtl, class D>
 class LockStepAxes : public TwinAxes<D> {
   using Base = TwinAxes<D>;
@@ -82,7 +82,7 @@ class LockStepAxes : public TwinAxes<D> {
     first_mismatch_ = "clock " + std::to_string(now_) + ", " + wrong;
   }
 
-  /// The first output in which RTL and twin differ; empty: none.
+  /// The first output in which RTL and twin differ; empty if none.
   std::string compare() const {
     const Rtl& rtl = **rtl_;
     const AxesOut<N>& twin = twin_->out();
@@ -109,6 +109,7 @@ class LockStepAxes : public TwinAxes<D> {
   Clock from_ = 0, to_ = -1;
 };
 
+/// Makes the engine of this kind. Errors: std::invalid_argument for an unknown kind.
 template <class Rtl, class D>
 std::unique_ptr<AxesCores> make_design_axes(const std::string& kind) {
   if (kind == "twin") return std::make_unique<TwinAxes<D>>();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The twin of a design chosen by name, in SI units. Documentation: docs/library.md
+// The twin of a design chosen by name, as a device in SI units. Documentation: docs/library.md
 #pragma once
 
 #include <memory>
@@ -11,8 +11,8 @@
 
 namespace feltgate {
 
-/// The twin of one of the designs that were built in: "lever", "paper", ...
-/// Throws std::invalid_argument naming what there is.
+/// The twin of a built-in design: "lever", "paper", ...
+/// Errors: std::invalid_argument that names the choices.
 std::unique_ptr<Device> make_device(const std::string& design);
 
 }  // namespace feltgate

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The engines of one design: RTL, twin, and both in lock-step. Needs the Verilated core; without it
-// twin_engine.hpp. Documentation: docs/architecture.md
+// use twin_engine.hpp. Documentation: docs/architecture.md
 #pragma once
 
 #include <memory>
@@ -16,6 +16,7 @@
 
 namespace feltgate {
 
+/// The Verilated core as an engine, clock by clock.
 template <class Rtl, class D>
 class RtlEngine : public ClockedEngine {
  public:
@@ -44,6 +45,7 @@ class RtlEngine : public ClockedEngine {
   std::vector<LawEvent> told_;
 };
 
+/// Makes the engine "rtl", "twin" or "lockstep". Errors: std::invalid_argument for another kind.
 template <class Rtl, class D>
 std::unique_ptr<Engine> make_design_engine(const std::string& kind) {
   if (kind == "rtl") return std::make_unique<RtlEngine<Rtl, D>>();

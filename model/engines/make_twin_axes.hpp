@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The axes of one design by their twin alone. Needs nothing Verilated.
+// The twin of a design with several axes; needs no Verilated code.
 // Documentation: docs/architecture.md
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace feltgate {
 
-/// The twin of design D. What is beside it follows in every clock, by the virtual members.
+/// The twin of design D. A derived class may run RTL beside it, through the virtual members.
 template <class D>
 class TwinAxes : public AxesCores {
  public:
@@ -75,9 +75,10 @@ class TwinAxes : public AxesCores {
   using Twin = FeltgateAxes<D, N, true, true>;
   static constexpr int tick = D::clocks_per_tick;
 
-  /// After the twin's reset.
+  /// Called after the twin's reset.
   virtual void reset_beside(std::uint64_t /*seed*/) {}
-  /// Whether follow() wants to be called, after every clock of the twin, and drive() before them.
+  /// Whether drive() is called before a stretch with held inputs, and follow() after every clock of
+  /// it.
   virtual bool beside() const { return false; }
   virtual void drive() {}
   virtual void follow() {}
@@ -94,11 +95,11 @@ class TwinAxes : public AxesCores {
     ++writes_done_;
   }
 
-  /// With the inputs held.
+  /// Advances with the inputs held.
   void run(Clock clocks) {
     const bool with_rtl = beside();
     if (!with_rtl && !in_.reg_write) {
-      // Without RTL nobody reads; an address of the engine would have it go clock by clock.
+      // Without RTL nobody reads; the engine's address would force clock-by-clock execution.
       if (writes_.empty()) in_.reg_addr = 0;
       twin_->run(in_, clocks, [this] { keep(); });
       now_ += clocks;
@@ -131,7 +132,7 @@ class TwinAxes : public AxesCores {
   std::int64_t writes_done_ = 0;
 };
 
-/// For a program that has no use for the RTL.
+/// For a program that does not use the RTL.
 template <class D>
 std::unique_ptr<AxesCores> make_twin_axes(const std::string& kind) {
   if (kind == "twin") return std::make_unique<TwinAxes<D>>();

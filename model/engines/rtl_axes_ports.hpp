@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The ports of Verilated axes as the twin's types. Documentation: docs/blocks/feltgate_axes.md
+// Converts the ports of Verilated axes to the twin's types. Documentation:
+// docs/blocks/feltgate_axes.md
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@
 
 namespace feltgate {
 
-/// Bits [first, first + width) of a port, however Verilator keeps it; width up to 33.
+/// Bits [first, first + width) of a port in any storage type of Verilator; width up to 33.
 template <class Port>
 std::uint64_t bits_of(const Port& port, int first, int width) {
   std::uint64_t word = 0;
@@ -42,7 +43,7 @@ void set_bits(Port& port, int first, int width, std::uint64_t value) {
   }
 }
 
-/// Sets every input but clock and reset of N axes of design D whose engine gives the torques.
+/// Sets every input except clock and reset of N axes of design D; the engine gives the torques.
 template <class D, int N, class Rtl>
 void drive_axes(Rtl& rtl, const AxesIn<N>& in) {
   for (int n = 0; n < N; ++n) {
@@ -61,7 +62,8 @@ void drive_axes(Rtl& rtl, const AxesIn<N>& in) {
   rtl.reg_read_i = in.reg_read;
 }
 
-/// Every output of axis n after an edge, for design D; what the port reads is the device's.
+/// Every output of axis n after an edge, for design D; read data belong to the device, not the
+/// axis.
 template <class D, class Rtl>
 CoreOut read_axis(const Rtl& rtl, int n) {
   using C = Map::C;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The Verilated core of one design behind the twin's types. Documentation: docs/architecture.md
+// The Verilated core of one design with the twin's types. Documentation: docs/architecture.md
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class RtlCore {
  public:
   RtlCore() { power_up(1, {}); }
 
-  /// A new chip: registers filled with random bits of `seed`, four clocks of reset.
+  /// A new chip: registers filled with random bits from `seed`, then four clocks of reset.
   void power_up(std::uint64_t seed, EncoderPins pins) {
     rtl_.emplace(seed);
     CoreIn in;
@@ -30,7 +30,7 @@ class RtlCore {
     now_ = 0;
   }
 
-  /// `clocks` clocks with the reset held.
+  /// Runs `clocks` clocks with reset active.
   void reset(int clocks) {
     (*rtl_)->rst_ni = 0;
     for (int k = 0; k < clocks; ++k) edge();
@@ -42,12 +42,12 @@ class RtlCore {
     drive(in);
     edge();
   }
-  /// The inputs of the coming clocks.
+  /// Sets the inputs of the next clocks.
   void drive(const CoreIn& in) {
     drive_inputs<D>(**rtl_, in);
     stop_ = in.stop;
   }
-  /// One clock with the inputs that were driven.
+  /// One clock with the inputs that drive() has set.
   void edge() {
     const bool dumping = !trace_path_.empty() && now_ >= std::max<Clock>(trace_from_, 0) &&
                          (trace_to_ < 0 || now_ <= trace_to_);
@@ -62,11 +62,11 @@ class RtlCore {
   }
 
   CoreOut out() const { return read_outputs<D>(**rtl_); }
-  /// What the law of a core with an engine tells in this clock.
+  /// The law's event in this clock, of a core with an engine.
   std::optional<LawEvent> law_event() const { return read_law_event(**rtl_); }
 
   /// Writes the clocks [from, to] after the next power_up() to an FST file; to < 0: to the end.
-  /// Clock n begins at n periods of the design's clock and rises in their middle.
+  /// Clock n begins at n periods of the design's clock, with its rising edge in the middle.
   void trace(const std::string& path, Clock from, Clock to) {
     trace_path_ = path;
     trace_from_ = from;
@@ -74,7 +74,7 @@ class RtlCore {
   }
 
  private:
-  /// Of so many half clocks, to the nearest: a period need not be a whole number of them.
+  /// Time of so many half clocks, rounded to nearest; a period need not be a whole number of ps.
   static std::uint64_t picoseconds(std::int64_t half_clocks) {
     constexpr std::int64_t half_clocks_per_s = 2 * D::clock_hz;
     const int128_t ps = int128_t{half_clocks} * 1'000'000'000'000 + half_clocks_per_s / 2;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Registers the Verilated cores of the designs that were built in. Documentation:
-// docs/architecture.md
+// Registers the Verilated cores of the built-in designs.
+// Documentation: docs/architecture.md
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -22,13 +22,13 @@ std::unique_ptr<Engine> make_rtl(const std::string& design, const std::string& k
   if (design == #name) return make_##name##_rtl(kind);
 #include "designs.inc"
 #undef FELTGATE_DESIGN
-  throw std::logic_error("no Verilated core of design " + design);  // make_engine() asked for it
+  throw std::logic_error("no Verilated core of design " + design);  // make_engine() requested it
 }
 
 }  // namespace
 }  // namespace feltgate
 
-/// What scripts/cmake/rtl.cmake has the linker ask for, so that this file is linked.
+/// scripts/cmake/rtl.cmake makes the linker require this symbol, so that this file is linked.
 extern "C" {
 extern const bool feltgate_rtl_engines;
 const bool feltgate_rtl_engines = [] {

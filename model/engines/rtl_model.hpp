@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A Verilated module with clk_i and rst_ni: power-up, clock edges, waveform. What drives its ports
-// and compares them comes on top. Documentation: docs/testing.md
+// A Verilated module with clk_i and rst_ni: power-up, clock edges, waveform. Classes on top of it
+// set and compare the ports. Documentation: docs/testing.md
 #pragma once
 
 #include <verilated.h>
@@ -19,7 +19,7 @@ namespace feltgate {
 
 namespace detail {
 
-/// Whether the module was verilated with a waveform.
+/// Whether the module was Verilated with waveforms.
 template <class Rtl, class = void>
 struct HasTrace : std::false_type {};
 template <class Rtl>
@@ -33,13 +33,14 @@ struct HasTrace<
 template <class Rtl>
 class RtlModel {
  public:
-  /// A new chip: its registers hold random bits of `seed`, no reset yet, the clock is low.
+  /// A new chip: its registers hold random bits from `seed`, reset is not active yet, the clock is
+  /// low.
   explicit RtlModel(std::uint64_t seed) {
     context_.randReset(2);
     context_.randSeed(static_cast<int>(seed % 0x7ffffffeU) + 1);
     context_.traceEverOn(detail::HasTrace<Rtl>::value);
     rtl_ = std::make_unique<Rtl>(&context_);
-    rtl_->rst_ni = 1;  // so that the first reset is an edge
+    rtl_->rst_ni = 1;  // high, so that the first reset is an edge
     low();
   }
   ~RtlModel() {
@@ -49,7 +50,7 @@ class RtlModel {
   RtlModel(const RtlModel&) = delete;
   RtlModel& operator=(const RtlModel&) = delete;
 
-  /// The ports.
+  /// Access to the ports.
   Rtl& operator*() { return *rtl_; }
   const Rtl& operator*() const { return *rtl_; }
   Rtl* operator->() { return rtl_.get(); }
@@ -67,7 +68,7 @@ class RtlModel {
     low();
     high();
   }
-  /// `clocks` clocks with the reset held.
+  /// Runs `clocks` clocks with reset active.
   void reset(int clocks) {
     rtl_->rst_ni = 0;
     for (int k = 0; k < clocks; ++k) clock();
@@ -75,7 +76,7 @@ class RtlModel {
     rtl_->rst_ni = 1;
   }
 
-  /// From now on dump() writes to this file; `unit` is that of its times, such as "1ns".
+  /// From now on dump() writes to this file; `unit` is the unit of its times, such as "1ns".
   void trace(const std::string& path, const char* unit) {
     if constexpr (detail::HasTrace<Rtl>::value) {
       fst_ = std::make_unique<VerilatedFstC>();

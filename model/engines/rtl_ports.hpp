@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The ports of the Verilated core as the twin's types. Documentation: docs/architecture.md
+// Converts the ports of the Verilated core to the twin's types. Documentation: docs/architecture.md
 #pragma once
 
 #include <cstdint>
@@ -29,14 +29,14 @@ inline std::int32_t narrow_word(std::uint32_t word, int width) {
 
 }  // namespace detail
 
-/// Whether Rtl is Verilator's class of feltgate_axes, of one axis then.
+/// Whether Rtl is Verilator's class of feltgate_axes, then with one axis.
 template <class Rtl, class = void>
 constexpr bool is_axes = false;
 template <class Rtl>
 constexpr bool is_axes<Rtl, std::void_t<decltype(std::declval<Rtl&>().reg_read_i)>> = true;
 
-/// Sets every input but clock and reset, for design D. The stop is to be lowered with the edge: it
-/// was seen since the last one, and is not in the next.
+/// Sets every input except clock and reset, for design D. The caller must lower the stop with the
+/// edge: it was active since the last edge, and is not in the next clock.
 template <class D, class Rtl>
 void drive_inputs(Rtl& rtl, const CoreIn& in) {
   rtl.enc_a_i = in.encoder.a;
@@ -94,7 +94,7 @@ CoreOut read_outputs(const Rtl& rtl) {
   return o;
 }
 
-/// The event that a core with an engine shows; its tick is left 0.
+/// The event that a core with an engine shows in this clock; its tick stays 0.
 template <class Rtl>
 std::optional<LawEvent> read_law_event(const Rtl& rtl) {
   if constexpr (is_axes<Rtl>) {

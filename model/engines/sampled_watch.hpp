@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Time spent in something short that runs millions of times: one call in 61 is timed, for a look at
-// the clock takes as long as a tick of the twin. A prime, so that the calls of a tick take turns.
-// Documentation: docs/architecture.md
+// Measures the time spent in short code that runs millions of times. One call in 61 is timed, since
+// reading the clock takes as long as a tick of the twin; 61 is prime, so the calls of a tick take
+// turns. Documentation: docs/architecture.md
 #pragma once
 
 #include <chrono>
 
 namespace feltgate {
 
+/// The stopwatch of one piece of code.
 class SampledWatch {
  public:
   template <class Work>
@@ -23,7 +24,7 @@ class SampledWatch {
     timed_ += std::chrono::steady_clock::now() - begin;
   }
 
-  /// Estimate for all calls, s.
+  /// Estimated time of all calls, s.
   double seconds() const {
     if (calls_ == 0) return 0.0;
     const unsigned long long timed = (calls_ + kEvery - 1) / kEvery;

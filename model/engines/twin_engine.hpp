@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The twin of one design as an engine, and its chains. Documentation: docs/architecture.md
+// The twin of one design as an engine, and its chains. Documentation:
+// docs/architecture.md
 #pragma once
 
 #include <algorithm>
@@ -17,14 +18,15 @@
 
 namespace feltgate {
 
+/// The twin as an engine, from event to event.
 template <class D>
 class TwinEngine : public ClockedEngine {
  public:
   TwinEngine() : ClockedEngine(design_info<D>()) {}
   const char* name() const override { return "twin"; }
 
-  /// From event to event: pins, register writes and the end of the stretch. Clocks in which nothing
-  /// happens that could be asked for wait for those that follow. Flat: 7 % of the time are calls.
+  /// Goes from event to event: pins, register writes, end of the stretch. Clocks in which nothing
+  /// happens that a caller could ask for are deferred. Flattened: calls would take 7 % of the time.
   [[gnu::flatten]] void advance(Clock clocks, const EncoderEvent* first,
                                 const EncoderEvent* last) override {
     snapshots_.clear();
@@ -90,7 +92,7 @@ class TwinEngine : public ClockedEngine {
  private:
   using Core = EngineCore<D, false>;  // nobody reads registers through an engine
 
-  /// Before the inputs change: the clocks that wait.
+  /// Runs the deferred clocks; call it before the inputs change.
   void settle() {
     CoreIn in = inputs();
     in.encoder = events_.pins();
@@ -103,11 +105,13 @@ class TwinEngine : public ClockedEngine {
     gates_before_ = {};
   }
   Core core_;
-  Clock waiting_ = 0;  ///< clocks before now() that the core has yet to run
+  Clock waiting_ = 0;  ///< deferred clocks before now()
   bool gate_times_ = true;
   std::array<std::int64_t, 4> gates_before_{};
 };
 
+/// Makes the chain "fixed", "float", "double" or "quad". Errors: std::invalid_argument for another
+/// kind.
 template <class D>
 std::unique_ptr<RealChain> make_design_chain(const std::string& kind) {
   if (kind == "fixed") return std::make_unique<Chain<D, Fixed>>("fixed");

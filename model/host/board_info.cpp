@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a board says of itself. Documentation: docs/host.md
+// Identification of a board. Documentation: docs/host.md
 #include "host/board_info.hpp"
 
 #include <fmt/format.h>
@@ -81,7 +81,7 @@ BoardInfo read_board(Link& link) {
 
 KnownDesign read_known_design(const std::string& root, const std::string& path) {
   design::Design read = design::read_design(path);
-  read.allow_coarse = true;  // a board has it already
+  read.allow_coarse = true;  // the design is already in a board
   KnownDesign known;
   known.design = design::elaborate(read, design::read_registers(root + "/rtl/registers.toml"));
   known.crc = design::design_crc(known.design);
@@ -99,7 +99,7 @@ std::optional<KnownDesign> design_by_crc(const std::string& root, std::uint32_t 
       KnownDesign known = read_known_design(root, path);
       if (known.crc == crc) return known;
     } catch (const config::ConfigError&) {
-      // Somebody's unfinished file must not hide the board's design.
+      // An unfinished file of somebody must not hide the board's design.
     }
   }
   return {};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Setting a capture up, and reading it. Documentation: docs/host.md
+// Sets up a capture and reads it. Documentation: docs/host.md
 #include "host/capture.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ using M = LinkMap;
 constexpr int memory_row = M::columns;
 static_assert(M::any_event == 1u << EngineMap::event_bits, "above every event's number");
 
-/// Bits of the causes in a list "speed,stop"; all of them for an empty one.
+/// Bits of the causes in a list such as "speed,stop"; all causes for an empty list.
 std::uint32_t bits_of(const std::vector<design::Cause>& causes, std::string list,
                       const std::string& what) {
   std::uint32_t bits = 0;
@@ -196,7 +196,7 @@ bool wait_for_capture(Device& device, const CaptureSetup& setup, double wait_s,
       by_hand = false;
     }
     if (state == fills_rest && !late) {
-      late = true;  // it has been triggered: now only the rows are missing
+      late = true;  // triggered: only the remaining rows are missing
       end = within(span_s + 1);
     }
     const double rest_s = each(state);
@@ -229,7 +229,7 @@ Captured read_capture(Device& device, const CaptureSetup& setup,
   const auto used = static_cast<std::size_t>(words_in(mask));
   const int batch = static_cast<int>(M::read_words) / memory_row;
   for (int row = 0; row < rows;) {
-    // The ring begins at capture_first; a read must not run past its end.
+    // The oldest row is at capture_first; a read must not cross the end of the ring.
     const int place = (at(M::A::capture_first) + row) % all;
     const int now = std::min({batch, rows - row, all - place});
     const std::vector<std::uint32_t> got =

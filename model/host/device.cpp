@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Values, arming, stream of a board. Documentation: docs/host.md
+// A board's values, arming and stream. Documentation: docs/host.md
 #include "host/device.hpp"
 
 #include <fmt/format.h>
@@ -44,7 +44,7 @@ std::uint32_t Tick::word(const Quantity& q) const {
 
 Device::Device(Link& link, const BoardInfo& board, design::Elaborated design)
     : link_(link), board_(board), design_(std::move(design)), quantities_(design_) {
-  command("thaw");  // a host that ended between its freeze and thaw has left the snapshot held
+  command("thaw");  // a host that ended between freeze and thaw left the snapshot frozen
 }
 
 Tick Device::tick() {
@@ -200,7 +200,7 @@ void Device::arm(const std::string& scene, bool watched, const std::function<boo
       control & ~((1u << C::control_arm) | (0xfu << C::control_scene)) & 0x7fffu;
   const std::uint32_t request =
       others | 1u << C::control_host | static_cast<std::uint32_t>(number) << C::control_scene;
-  link_.write(C::control, request);  // the request has to rise
+  link_.write(C::control, request);  // the request must rise
   if (watched) kick();
   link_.write(C::control, request | 1u << C::control_arm);
   const double kick_every_s = watchdog_s() / 4;
@@ -292,7 +292,7 @@ std::optional<Tick> Device::streamed(Deadline deadline) {
   t.words = std::move(frame->words);
   t.lost = frame->lost;
   const std::uint32_t now = t.word(quantities_.find("tick"));
-  // The counter wraps; the difference does not.
+  // The counter wraps, its difference does not.
   if (stream_tick_) stream_time_s_ += (now - *stream_tick_) / board_.tick_hz();
   stream_tick_ = now;
   t.time_s = stream_time_s_;

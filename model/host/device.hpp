@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A board whose design is known: values in units by name, arming, stream. Documentation:
-// docs/host.md
+// A board whose design is known: values in units by name, arming, stream.
+// Documentation: docs/host.md
 #pragma once
 
 #include <bitset>
@@ -19,39 +19,39 @@
 
 namespace feltgate::host {
 
-/// Words of a capture whose mask this is: its set bits.
+/// Number of words in a capture with this mask: its set bits.
 inline int words_in(unsigned mask) { return static_cast<int>(std::bitset<32>(mask).count()); }
 
-/// The board refused: a fault stands, the motor is armed, arming did not happen. The text says why
+/// The board refused: a fault is latched, the motor is armed, or arming failed. The text says why
 /// and what to do.
 struct Refused : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Words of one tick, those of `mask`.
+/// Words of one tick: those in `mask`.
 struct Tick {
   std::uint16_t mask = 0;
   std::vector<std::uint32_t> words;  ///< lowest bit of the mask first
-  double time_s = 0;                 ///< of a stream: since its first tick
+  double time_s = 0;                 ///< of a stream: time since its first tick
   unsigned lost = 0;                 ///< of a stream: frames missing before this one
 
   bool has(const Quantity& q) const;
-  /// The word that the quantity lies in; 0 where the mask has it not.
+  /// The word that contains the quantity; 0 if it is not in the mask.
   std::uint32_t word(const Quantity& q) const;
   double value(const Quantity& q) const { return q.value_of(word(q)); }
 };
 
-/// What became of a set().
+/// Result of a set().
 struct SetResult {
   Setting setting;
-  bool refused = false;  ///< the motor is armed, and the parameter holds while it is
-  bool kept = false;     ///< read back as written
+  bool refused = false;  ///< the motor is armed, and this parameter cannot change then
+  bool kept = false;     ///< it reads back as written
 };
 
-/// A board over a link. One thread, one request at a time.
+/// A board over a link. Use it from one thread, one request at a time.
 class Device {
  public:
-  /// `link` outlives this; `design` is the board's (BoardInfo::design_crc).
+  /// `link` must outlive this object; `design` must be the board's (BoardInfo::design_crc).
   Device(Link& link, const BoardInfo& board, design::Elaborated design);
 
   Link& link() { return link_; }
@@ -60,67 +60,68 @@ class Device {
   const Quantities& quantities() const { return quantities_; }
 
   // ---- values -------------------------------------------------------------------------------
-  /// In the quantity's unit. Several reads are of several ticks; tick() is of one.
+  /// A value in the quantity's unit. Several calls read several ticks; tick() reads one.
   double get(const std::string& name) { return get(quantities_.find(name)); }
   double get(const Quantity& q) { return q.value_of(word(q)); }
-  /// The whole word at its address.
+  /// The whole word at the quantity's address.
   std::uint32_t word(const Quantity& q) { return link_.read(q.address); }
-  /// All words of the snapshot, of one tick.
+  /// All words of the snapshot, from one tick.
   Tick tick();
-  /// Writes a parameter and reads it back. What does not fit is refused by quantities().setting().
+  /// Writes a parameter and reads it back. quantities().setting() refuses values that do not fit.
   SetResult set(const Setting& setting);
   SetResult set(const std::string& name, double value) {
     return set(quantities_.setting(quantities_.find(name), value));
   }
 
   // ---- what the motor does ------------------------------------------------------------------
-  /// Takes the say from the panel and arms; with `watched` the watchdog is kicked before, so that
-  /// kick() must follow within watchdog_s() from then on. `scene` empty: the one that is chosen.
-  /// Waits for the self-test, as long as that takes, kicking meanwhile; `go_on` false ends the wait
-  /// (and disarms). Throws Refused where a fault stands or comes, std::invalid_argument for a scene
-  /// that the design has not.
+  /// Takes control from the panel and arms. With `watched` the watchdog is kicked first, and from
+  /// then on kick() must follow within watchdog_s(). `scene` empty: the selected one. Waits for the
+  /// self-test as long as it takes, and kicks meanwhile; `go_on` = false ends the wait and disarms.
+  /// Errors: Refused if a fault is or becomes latched; std::invalid_argument for a scene that the
+  /// design does not have.
   void arm(
       const std::string& scene, bool watched,
       const std::function<bool()>& go_on = [] { return true; });
-  /// Takes the request to arm away; the motor is off at the end of the tick.
+  /// Withdraws the request to arm; the motor is off at the end of the tick.
   void disarm();
-  /// The fault stop: gates off within clocks, latched until clear_faults().
+  /// Fault stop: the gates are off within clocks; latched until clear_faults().
   void stop();
-  /// Disarms where the host has the say, then forgets faults and encoder errors. Throws Refused
-  /// where one stays or comes back at once.
+  /// Disarms if the host has control, then clears faults and encoder errors. Errors: Refused if a
+  /// fault stays or comes back at once.
   void clear_faults();
-  /// The position becomes 0.
+  /// Sets the present position to 0.
   void set_zero();
-  /// Feeds the watchdog, and wakes it the first time; from then on an armed motor needs a kick
-  /// every watchdog_s().
+  /// Kicks the watchdog; the first kick enables it. From then on an armed motor needs a kick every
+  /// watchdog_s().
   void kick();
-  /// Chooses the scene; an armed motor ramps over to it. Throws std::invalid_argument for an
-  /// unknown one, Refused while the panel has armed the motor.
+  /// Selects the scene; an armed motor ramps to its torque. Errors: std::invalid_argument for an
+  /// unknown scene; Refused while the panel has armed the motor.
   void select(const std::string& scene);
-  /// Longest time between two kicks, s; as set when this is first asked.
+  /// Longest time between two kicks, s; read at the first call.
   double watchdog_s();
 
   // ---- what it says -------------------------------------------------------------------------
   bool armed(const Tick& tick) const;
-  /// Whether arm and scene come from the host.
+  /// Whether the host, not the panel, controls arming and scene.
   bool host_has_the_say();
   std::string scene_name(const Tick& tick) const;
-  /// "speed, stop"; nothing without.
+  /// Names as in "speed, stop"; empty without a fault.
   std::string fault_names(const Tick& tick) const;
   std::string first_fault(const Tick& tick) const;
   std::string limit_names(const Tick& tick) const;
-  /// A line each: faults in words with what they mean, limits, why it does not arm.
+  /// One line each: faults with their meaning, limits, and why the motor does not arm.
   std::vector<std::string> in_words(const Tick& tick) const;
 
   // ---- stream -------------------------------------------------------------------------------
-  /// From now on the words of `mask` (and the tick counter) every `period` ticks; 0 ends it.
+  /// Streams the words of `mask` and the tick counter every `period` ticks from now on; 0 ends the
+  /// stream.
   void stream(std::uint16_t mask, std::uint32_t period);
-  /// The oldest tick of the stream that was not taken yet, waiting until `deadline`.
+  /// The oldest tick of the stream that was not taken yet; waits for one until `deadline`.
   std::optional<Tick> streamed(Deadline deadline);
-  /// Frames that the board had no time on the wire for.
+  /// Number of frames that the board could not send in time.
   std::uint32_t stream_dropped();
-  /// Shortest period at which all frames of `mask` fit on a wire of `baud`, in ticks; a fifth of
-  /// the wire is left for escapes and requests.
+  /// Shortest period, in ticks, at which all frames of `mask` fit on a line of `baud`; a fifth of
+  /// the line is left for escapes and requests.
   std::uint32_t shortest_period(std::uint16_t mask, int baud) const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Frames of the link: SLIP around bytes with a CRC-32 at their end. Documentation: docs/link.md
+// Frames of the link: SLIP around bytes that end with a CRC-32. Documentation: docs/link.md
 #pragma once
 
 #include <cstddef>
@@ -14,28 +14,28 @@ namespace feltgate::host {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// CRC-32 as zlib's: IEEE 802.3, reflected, 0xffffffff in and out.
+/// CRC-32 as in zlib: IEEE 802.3, reflected, start value and final XOR 0xffffffff.
 std::uint32_t frame_crc(const std::uint8_t* data, std::size_t size);
 
-/// Low byte first.
+/// Appends the low `bytes` bytes of `value`, low byte first.
 void put_le(Bytes& to, std::uint32_t value, int bytes);
-/// `bytes` of them, 1 to 4, from `at` on.
+/// Reads `bytes` bytes, 1 to 4, from index `at` on; low byte first.
 std::uint32_t get_le(const Bytes& from, std::size_t at, int bytes);
 
-/// A payload as it goes over the wire: END, the payload and its CRC with escapes, END.
+/// A payload as sent on the line: END, then payload and CRC with escapes, then END.
 Bytes framed(const Bytes& payload);
 
-/// What became of the bytes that a FrameReader was given.
+/// Statistics of the bytes that a FrameReader received.
 struct FrameCounts {
   std::uint64_t bytes = 0;
-  std::uint64_t good = 0;      ///< frames handed out
-  std::uint64_t bad_crc = 0;   ///< frames whose CRC does not fit, or shorter than a CRC
-  std::uint64_t bad_slip = 0;  ///< frames with an escape of nothing
-  std::uint64_t too_long = 0;  ///< frames beyond what any reply has
+  std::uint64_t good = 0;      ///< good frames returned
+  std::uint64_t bad_crc = 0;   ///< frames with a wrong CRC, or shorter than a CRC
+  std::uint64_t bad_slip = 0;  ///< frames with an invalid escape
+  std::uint64_t too_long = 0;  ///< frames longer than any reply
 };
 
-/// Bytes in as they come, payloads of good frames out, without their CRC. After garbage it is in
-/// step again at the next END.
+/// Extracts the payloads of good frames, without their CRC, from a stream of bytes. After garbage
+/// it synchronises at the next END.
 class FrameReader {
  public:
   void add(const std::uint8_t* data, std::size_t size);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Who has a port open, from /proc. Documentation: docs/host.md
+// Finds the processes that have a port open, in /proc. Documentation: docs/host.md
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -25,7 +25,7 @@ bool is_number(const std::string& text) {
          std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Whether the process has the port open; not one that is the other end of a pseudo-terminal.
+/// Whether the process has the port open; false for the owner of a pseudo-terminal's other end.
 bool holds(const fs::path& process, const std::string& port) {
   std::error_code error;
   bool found = false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Kicks. Documentation: docs/host.md
+// Kicks the watchdog of an armed motor. Documentation: docs/host.md
 #include "host/keep_alive.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ constexpr double kicks_a_watch = 4;
 }  // namespace
 
 void KeepAlive::arm(const std::string& scene, const std::function<bool()>& go_on) {
-  holds_ = true;  // from the first write on: an error in between has to disarm
+  holds_ = true;  // from the first write on: after an error in between it must disarm
   try {
     device_.arm(scene, true, go_on);
   } catch (const LinkLost&) {

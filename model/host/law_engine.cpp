@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Laws in a board's engine. Documentation: docs/host.md
+// Loads and controls laws in a board's engine. Documentation: docs/host.md
 #include "host/law_engine.hpp"
 
 #include <fmt/format.h>
@@ -25,10 +25,11 @@ using E = EngineMap;
 using H = EngineMap::H;
 
 constexpr double commit_patience_s = 1.0;
-/// Of writing what does not read back: a line that loses a tenth of all frames needs four.
+/// Most attempts to write words until they read back; a line that loses a tenth of all frames needs
+/// four.
 constexpr int most_rounds = 12;
 
-/// A board drives one lever.
+/// Checks that the image drives one axis, as a board has one lever.
 void require_one_axis(const law::Image& image) {
   for (const law::ImageOutput& o : image.outputs) {
     if (o.axis == 0) continue;
@@ -170,7 +171,7 @@ LoadReport LawEngine::load(const law::Image& image, const std::function<void(dou
   }
   image_ = std::make_unique<law::Image>(image);
   commit(parameters);
-  // From here on it may be armed.
+  // From here on the board may be armed.
   write(H::crc, law::crc(image));
   std::uint32_t run = 0;
   for (std::size_t t = 0; t < image.threads.size(); ++t) run |= image.threads[t].used << t;
@@ -245,7 +246,7 @@ double LawEngine::value_in(const law::ImageWord& of, const std::string& text) co
 double LawEngine::get(const std::string& name) {
   if (image_ == nullptr) throw std::invalid_argument("no law of this host is on the board");
   refresh();
-  if (find(name) == nullptr) parameters_->check(bare(name), 0);  // says what there is
+  if (find(name) == nullptr) parameters_->check(bare(name), 0);  // its error names the choices
   return parameters_->value(bare(name));
 }
 
@@ -257,7 +258,7 @@ std::vector<double> LawEngine::set(const std::vector<std::pair<std::string, doub
   for (const auto& [name, value] : all) parameters_->check(name, value);
   refresh();
   std::vector<law::HostWord> writes = parameters_->set(all);
-  writes.pop_back();  // commit() writes that
+  writes.pop_back();  // commit() writes this one
   try {
     commit(writes);
   } catch (...) {
@@ -273,7 +274,7 @@ void LawEngine::commit(const std::vector<law::HostWord>& writes) {
   const Deadline end = within(commit_patience_s);
   const auto wait = [&](const char* what) {
     EngineStatus s = status();
-    // A run that takes its time holds the old set.
+    // A long run still uses the old set.
     while (s.committing) {
       if (HostClock::now() > end) throw Refused(what);
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -310,7 +311,7 @@ std::optional<LawEvent> LawEngine::event() {
   const std::vector<std::uint32_t> words = read(H::event_count, 5);
   events_lost_ = words[4];
   if (words[0] == 0) return {};
-  // A read changes nothing, so that it may be repeated; this takes the event away, once.
+  // A read has no effect, so that it can be repeated; this write removes the event.
   write(H::event_tick, 0);
   LawEvent e;
   e.number = static_cast<int>(words[1]);

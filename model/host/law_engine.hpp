@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The engine of a board: laws are loaded into it, their parameters set by name, their events taken.
+// The engine of a board: loads laws, sets their parameters by name, takes their events.
 // Documentation: docs/host.md, docs/laws.md
 #pragma once
 
@@ -20,78 +20,78 @@
 
 namespace feltgate::host {
 
-/// What the engine says of itself.
+/// Status of the engine.
 struct EngineStatus {
-  bool committing = false;  ///< a commit is under way, or a run still has the set before
-  bool refused = false;     ///< the last commit was refused: a word out of its range
+  bool committing = false;  ///< a commit is in progress, or a run still uses the old set
+  bool refused = false;     ///< the last commit was refused: a word was out of range
   bool crc_busy = false, crc_good = false;  ///< of the last check, at an arming
-  bool late = false;                        ///< no fresh torque within max_age
+  bool late = false;                        ///< no new torque within max_age
   bool mailbox_late = false;  ///< the law's mailbox was not fed in time: no torque until it is
-  bool overrun = false;       ///< a start found its thread still running, since the load
-  int bank = 0;               ///< that is in force
-  bool dropped =
-      false;  ///< a parameter or a commit came while a set was being committed: not taken
-  int refused_word = 0;  ///< parameter word 0 to 31 that the last refused commit was refused for
+  bool overrun = false;       ///< since the load, a start found its thread still running
+  int bank = 0;               ///< the bank in force
+  bool dropped = false;       ///< a write or a commit came during a commit, and was lost
+  int refused_word = 0;       ///< word 0 to 31 that caused the last refusal
 };
 
 /// An event of a law.
 struct LawEvent {
-  std::uint32_t tick = 0;  ///< in which it came; the counter of the snapshot
+  std::uint32_t tick = 0;  ///< tick counter of the snapshot when it occurred
   int number = 0;
-  std::string name;  ///< "event 3" where the law is not known
-  double value = 0;  ///< in SI; the word itself where the law is not known
+  std::string name;  ///< "event 3" if the law is unknown
+  double value = 0;  ///< in SI units; the raw word if the law is unknown
 };
 
-/// What a load did.
+/// Result of a load.
 struct LoadReport {
-  int words = 0;    ///< of the image, that the board holds now
-  int written = 0;  ///< that it did not hold before
-  int rounds = 0;   ///< of writing: more than one where the line lost some
+  int words = 0;    ///< words of the image, which the board now holds
+  int written = 0;  ///< words that it did not hold before
+  int rounds = 0;   ///< write attempts: more than one if the line lost words
 };
 
-/// The engine of one board. One thread, one request at a time.
+/// The engine of one board. Use it from one thread, one request at a time.
 class LawEngine {
  public:
-  /// `device` outlives this. Throws Refused where the board has no engine.
+  /// `device` must outlive this object. Errors: Refused if the board has no engine.
   explicit LawEngine(Device& device);
 
   EngineStatus status();
 
-  /// Brings the image in, verifies all of it by reading it back, and starts its threads. Until the
-  /// last word the board has a CRC that does not hold, so half an image is never armed. Throws
-  /// Refused while the motor is armed or is asked to arm, where the image is of another design, and
-  /// where words do not stay; LinkLost. `progress` is called with 0..1.
+  /// Writes the image, verifies all of it by reading it back, and starts its threads. Before the
+  /// last word the board has a wrong CRC, so a partial image is never armed. `progress` is called
+  /// with 0..1. Errors: Refused while the motor is armed or asked to arm, for an image of another
+  /// design, or if words do not read back; LinkLost.
   LoadReport load(
       const law::Image& image, const std::function<void(double)>& progress = [](double) {});
 
   /// Whether the board holds this image's program, ranges and constants.
   bool holds(const law::Image& image);
-  /// From now on names are those of `image`, values those of the board. Throws Refused where the
+  /// Uses the names of `image` and the values of the board from now on. Errors: Refused if the
   /// board holds something else.
   void attach(const law::Image& image);
-  /// Attaches an image of `folder` that the board holds; the image that was loaded last wins.
-  /// False where there is none.
+  /// Attaches the image in `folder` that the board holds; of several, the one loaded last. Returns
+  /// false if there is none.
   bool recognise(const std::string& folder);
   /// nullptr before load(), attach() or recognise().
   const law::Image* image() const { return image_.get(); }
 
-  /// The parameter of this name, or nullptr; "law.NAME" is NAME.
+  /// The parameter with this name, or nullptr; "law.NAME" means NAME.
   const law::ImageWord* find(const std::string& name) const;
   /// All parameters that can be set.
   std::vector<const law::ImageWord*> parameters() const;
-  /// A number with an optional unit, in the parameter's unit as its file has it. Throws
-  /// std::invalid_argument: no number, a unit of something else, out of its range.
+  /// Converts a number with an optional unit to the parameter's unit in its file. Errors:
+  /// std::invalid_argument for no number, a wrong unit, or a value out of range.
   double value_in(const law::ImageWord& of, const std::string& text) const;
-  /// In the parameter's unit, as the board has it. Throws std::invalid_argument for an unknown one.
+  /// Value on the board, in the parameter's unit. Errors: std::invalid_argument for an unknown
+  /// name.
   double get(const std::string& name);
-  /// All of them together, in force with one commit; returns them as rounded to their words. Throws
-  /// std::invalid_argument, nothing written, for an unknown name or a value out of its range;
-  /// Refused where the board refuses the set.
+  /// Sets several parameters, which come into force with one commit; returns them as rounded to
+  /// their words. Errors: std::invalid_argument, with nothing written, for an unknown name or a
+  /// value out of range; Refused if the board refuses the set.
   std::vector<double> set(const std::vector<std::pair<std::string, double>>& values);
 
-  /// The oldest event that waits; it is taken away.
+  /// Takes the oldest waiting event, if any.
   std::optional<LawEvent> event();
-  /// Events that found no place, since the reset; stays at 255.
+  /// Events lost since the reset, because no place was free; stops at 255.
   unsigned events_lost() const { return events_lost_; }
 
  private:
@@ -101,7 +101,7 @@ class LawEngine {
   void write(int address, std::uint32_t word);
   Memory read_long(int low, int high, int words);
   void refuse_while_armed();
-  /// Writes what differs of `wanted` until it reads back; the words written.
+  /// Writes the words that differ from `image` until they read back; returns how many.
   int bring(const law::Image& image, LoadReport* report,
             const std::function<void(double)>& progress);
   void commit(const std::vector<law::HostWord>& writes);
@@ -114,10 +114,10 @@ class LawEngine {
   unsigned events_lost_ = 0;
 };
 
-/// Where images that were loaded are kept, so that names are known when the port is opened again:
-/// $XDG_CACHE_HOME/feltgate/laws, or ~/.cache/feltgate/laws; empty where neither is known.
+/// Folder of the images that were loaded, so that names are known when the port is opened again:
+/// $XDG_CACHE_HOME/feltgate/laws, or ~/.cache/feltgate/laws; empty if neither is known.
 std::string laws_folder();
-/// Keeps an image there; does nothing where it cannot be written, as names are only a convenience.
+/// Stores an image there; does nothing if it cannot be written, as names are only a convenience.
 void keep_law(const std::string& folder, const law::Image& image);
 
 }  // namespace feltgate::host

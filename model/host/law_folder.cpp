@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Images of laws that this host has loaded, by what a board shows of them. Documentation:
-// docs/host.md
+// Images of laws that this host has loaded, found by the words that a board shows of them.
+// Documentation: docs/host.md
 #include <unistd.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Ranges and constants, which two requests read.
+/// Key from ranges and constants, which two requests read.
 std::uint32_t key_of(const std::vector<std::uint32_t>& words) {
   std::vector<std::uint8_t> bytes;
   for (const std::uint32_t w : words) {
@@ -87,7 +87,7 @@ bool LawEngine::recognise(const std::string& folder) {
       refresh();
       return true;
     } catch (const std::invalid_argument&) {
-      // Of another version of this program, or damaged: another may fit.
+      // The file is damaged or from another version of this program; another file may match.
     }
   }
   return false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Requests and answers. Documentation: docs/host.md, docs/link.md
+// Requests and answers of the link. Documentation: docs/host.md, docs/link.md
 #include "host/link.hpp"
 
 #include <fmt/format.h>
@@ -21,15 +21,16 @@ using M = LinkMap;
 
 constexpr std::size_t head_bytes = 4;
 constexpr std::size_t most_streamed = 100'000;  ///< frames that wait for someone to take them
-/// Longest wait for an answer before it is asked for again, and the shortest: a USB adapter holds
-/// bytes back for up to 16 ms.
+/// Longest and shortest wait for an answer before the request is repeated; a USB adapter may delay
+/// bytes by up to 16 ms.
 constexpr double longest_wait_s = 1.0, shortest_wait_s = 0.02;
-constexpr double growth_of_wait = 8;  ///< at most, within one request
-/// On a bad line short frames get through: the fewest words of a read, and reads without a
-/// repetition after which longer ones are tried again.
+constexpr double growth_of_wait = 8;  ///< largest growth of the wait, within one request
+/// On a bad line short frames get through: smallest number of words in a read, and number of reads
+/// without a repetition after which longer ones are tried again.
 constexpr int fewest_words = 8, undamaged_reads = 32;
-constexpr std::size_t answered_writes = 16;  ///< of write_all(), one of so many is answered
-constexpr double quiet_s = 0.02;  ///< garbage that has arrived is read until so long nothing came
+/// write_all() asks for an answer to one write in so many.
+constexpr std::size_t answered_writes = 16;
+constexpr double quiet_s = 0.02;  ///< garbage is read until nothing came for so long
 
 int bits_of(unsigned mask) {
   int n = 0;
@@ -44,7 +45,7 @@ Bytes request(std::uint32_t kind, std::uint8_t sequence, int address, std::uint3
   return bytes;
 }
 
-/// Whether the frame answers this request.
+/// Whether the frame is the answer to this request.
 bool answers(const Bytes& frame, const Bytes& asked, std::size_t words) {
   return frame.size() == head_bytes + 4 * words && frame[0] == (asked[0] | M::kind_reply) &&
          std::equal(frame.begin() + 1, frame.begin() + head_bytes, asked.begin() + 1);
@@ -63,7 +64,7 @@ void Link::begin() {
   const std::array<std::uint8_t, 2> ends{M::frame_end, M::frame_end};
   transport_.write(ends.data(), ends.size());
   in_step_ = true;
-  // Where the last host stopped: the first read must not look like a repetition either.
+  // Continues the sequence of the last host: the first read must not look like a repetition either.
   const std::uint32_t last = read(M::A::last_write_sequence);
   write_sequence_ = static_cast<std::uint8_t>(last & 0xffu);
 }
@@ -79,7 +80,7 @@ std::optional<Bytes> Link::listen(Deadline deadline, const Bytes* expected, std:
         ++counts_.stray;
       }
     }
-    // Enough came; what has arrived meanwhile must not overflow the system's buffer.
+    // Enough frames are here; reading what has arrived keeps the system's buffer from overflowing.
     if (expected == nullptr && !streamed_.empty()) deadline = HostClock::now();
     const std::size_t got = transport_.read(buffer.data(), buffer.size(), deadline);
     if (got == 0) return {};
@@ -112,7 +113,7 @@ void Link::take_stream(const Bytes& frame) {
   }
 }
 
-/// As TCP does: the mean and its deviation, so that a slow board is not asked twice.
+/// Mean and deviation of the answer time, as in TCP, so that a slow board is not asked twice.
 void Link::time_taken(double seconds) {
   deviation_s_ += 0.25 * (std::abs(seconds - mean_s_) - deviation_s_);
   mean_s_ += 0.125 * (seconds - mean_s_);

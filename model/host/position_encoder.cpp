@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Positions of ticks back into edges. Documentation: docs/host.md
+// Converts positions of ticks back to encoder edges. Documentation: docs/host.md
 #include "host/position_encoder.hpp"
 
 #include <fmt/format.h>
@@ -15,8 +15,9 @@ namespace feltgate::host {
 
 namespace {
 
-/// Clocks of a tick after which the decoder's count is certainly that tick's, and those that an
-/// edge takes at most from the pin to the tick's position, the filter's samples not counted.
+/// taken_after: clock of a tick after which the decoder's count certainly belongs to it.
+/// decoder_clocks: most clocks from an edge at the pin to the position, without the filter's
+/// samples.
 constexpr Clock taken_after = 4, decoder_clocks = 5;
 
 }  // namespace
@@ -27,7 +28,7 @@ PositionEncoder::PositionEncoder(const design::Design& design,
   const Clock late = decoder_clocks + design.filter_samples;
   const int up = design.encoder_polarity == 0 ? 1 : -1;
   if (positions.empty()) throw std::invalid_argument("no positions were recorded");
-  // The phase of the pins; a swapped encoder counts the other way.
+  // The phase of the pins; an encoder with swapped channels counts the other way.
   std::int64_t phase = std::int64_t{positions.front().count} * up;
   initial_ = traces::pins_at(static_cast<unsigned>(phase & 3));
   for (std::size_t n = 1; n < positions.size(); ++n) {
@@ -36,7 +37,7 @@ PositionEncoder::PositionEncoder(const design::Design& design,
       throw std::invalid_argument(fmt::format(
           "the ticks of row {} and the one before do not rise; was the board reset?", n));
     }
-    // The position wraps; a difference does not.
+    // The position wraps, a difference does not.
     const auto moved = static_cast<std::int32_t>(static_cast<std::uint32_t>(to.count) -
                                                  static_cast<std::uint32_t>(from.count));
     const std::int64_t edges = std::llabs(moved);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Positions of ticks back into an encoder's edges, for recordings that `replay` takes.
+// Converts positions of ticks back to an encoder's edges, for recordings that `replay` reads.
 // Documentation: docs/host.md
 #pragma once
 
@@ -15,18 +15,19 @@ namespace feltgate::host {
 
 /// The position of a tick.
 struct PositionAt {
-  std::int64_t tick = 0;  ///< since the first one, rising
+  std::int64_t tick = 0;  ///< ticks since the first one, ascending
   std::int32_t count = 0;
 };
 
-/// The encoder that would have made these positions: A and B at clocks of the board, so that the
-/// core sees each position in its tick again, the first one as 0. Between two positions the edges
-/// are spread evenly: when they really came is not known. Z is not among the words of a tick: low.
+/// An encoder that gives these positions: edges of A and B at clocks of the board, such that the
+/// core sees each position in its tick again; the first position becomes 0. Edges between two
+/// positions are evenly spaced, since their real times are unknown. Z stays low: it is not among
+/// the words of a tick.
 class PositionEncoder final : public EncoderSource {
  public:
-  /// `design` gives the clocks of a tick, the glitch filter and the encoder's polarity. Throws
-  /// std::invalid_argument where ticks do not rise, or where the position moves by more counts
-  /// than a decoder can see in that time.
+  /// `design` gives the clocks of a tick, the glitch filter and the encoder's polarity. Errors:
+  /// std::invalid_argument if ticks do not rise, or if the position moves by more counts than a
+  /// decoder can see in that time.
   PositionEncoder(const design::Design& design, const std::vector<PositionAt>& positions);
   EncoderPins initial() const override { return initial_; }
   std::optional<EncoderEvent> next() override;

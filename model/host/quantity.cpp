@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Names, units and words. Documentation: docs/host.md
+// Names, units and words of a board's quantities. Documentation: docs/host.md
 #include "host/quantity.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace feltgate::host {
 
 namespace {
 
-/// A word of the snapshot as a signal: unit, format, and what a step is without one.
+/// A word of the snapshot as a signal: unit, format, and the step if it has no format.
 struct Signal {
   const char* name;
   const char* unit;
@@ -116,7 +116,7 @@ void Quantities::add_snapshot(const design::Elaborated& design) {
       q.scale = 1.0 / design.design.pwm_period_clocks();
     }
     all_.push_back(q);
-    // The same words once more as people read them.
+    // The same words again, in units for people.
     if (s.name == "position") {
       q.name = "angle";
       q.unit = "rad";
@@ -147,7 +147,7 @@ void Quantities::add_fields(const design::Elaborated& design) {
     all_.push_back(q);
   };
   for (const design::Control& c : design.registers.controls) {
-    if (c.name == "command") continue;  // reads 0
+    if (c.name == "command") continue;  // it always reads 0
     for (const design::Field& f : c.fields) add(c.name, c.address, -1, f);
   }
   const std::vector<design::Snapshot> words = by_slot(design.registers.snapshots);
@@ -234,7 +234,7 @@ Setting Quantities::setting(const std::string& text) const {
         fmt::format("\"{}\" sets nothing; write NAME=VALUE, such as torque_limit=0.2", text));
   }
   const Quantity& of = find(text.substr(0, equals));
-  if (!of.writable) return setting(of, 0);  // says why
+  if (!of.writable) return setting(of, 0);  // its error gives the reason
   return setting(of, value_in(of, text.substr(equals + 1)));
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a board has under names, in units: parameters, snapshot words, bits of control and status,
-// words of the link. Documentation: docs/host.md, docs/registers.md
+// The quantities of a board by name, in units: parameters, snapshot words, bits of control and
+// status, words of the link. Documentation: docs/host.md, docs/registers.md
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace feltgate::host {
 
-/// A number of the board: where it lies, and what it is in its unit.
+/// A quantity of the board: its place, and its meaning in a unit.
 struct Quantity {
   enum class Kind { parameter, snapshot, field, link };
   Kind kind = Kind::link;
@@ -21,25 +21,25 @@ struct Quantity {
   std::string unit;  ///< empty for a word of bits
   std::string doc;
   int address = 0;          ///< word address on the link
-  int bit = 0, width = 32;  ///< which bits of the word
+  int bit = 0, width = 32;  ///< the bits of the word
   bool is_signed = false;
   double scale = 1;  ///< unit per step: value = integer * scale
-  int word = -1;     ///< of the snapshot: number of its bit in a mask of words; else -1
+  int word = -1;     ///< snapshot: number of its bit in a mask of words; else -1
   bool writable = false;
   Format format{};          ///< of a parameter
-  std::string while_armed;  ///< of a parameter: what a write does while the motor is armed
+  std::string while_armed;  ///< parameter: effect of a write while the motor is armed
 
-  /// The value in the word that its address holds.
+  /// The value, from the word at its address.
   double value_of(std::uint32_t word_there) const;
-  /// The integer in it.
+  /// The integer, from the word at its address.
   std::int64_t raw_of(std::uint32_t word_there) const;
-  /// "0.25 Nm", "3 count", "0x12": with as many digits as the format has.
+  /// Text such as "0.25 Nm", "3 count", "0x12", with as many digits as the format has.
   std::string text_of(std::uint32_t word_there) const;
   /// Smallest and largest value that the word can hold, in the unit.
   double low() const, high() const;
 };
 
-/// What a user asks of one parameter.
+/// A user's request for one parameter.
 struct Setting {
   const Quantity* of = nullptr;
   double asked = 0;        ///< in the parameter's unit
@@ -47,29 +47,29 @@ struct Setting {
   double value() const { return of->value_of(word); }
 };
 
-/// All quantities of a board with this design.
+/// All quantities of a board with a given design.
 class Quantities {
  public:
   explicit Quantities(const design::Elaborated& design);
 
   const std::vector<Quantity>& all() const { return all_; }
-  /// Throws std::invalid_argument with the nearest name for one that is not there.
+  /// Errors: std::invalid_argument with the nearest name, for an unknown one.
   const Quantity& find(const std::string& name) const;
-  /// nullptr instead.
+  /// The same; nullptr for an unknown name.
   const Quantity* look(const std::string& name) const;
-  /// Those that are words of the snapshot (the quantities of a stream or capture). Throws
-  /// std::invalid_argument for what is none.
+  /// A quantity of a stream or capture: a word of the snapshot. Errors: std::invalid_argument for
+  /// another quantity.
   const Quantity& streamed(const std::string& name) const;
-  /// Number of words in a snapshot, and the number that a word has in masks.
+  /// Number of words in a snapshot.
   int words() const { return words_; }
 
-  /// "NAME=VALUE" with an optional unit after the value (law/amount.hpp). Throws
-  /// std::invalid_argument with the mend: no '=', unknown name, not to be written, no number, a
-  /// unit of something else, out of range.
+  /// Parses "NAME=VALUE" with an optional unit after the value (law/amount.hpp). Errors:
+  /// std::invalid_argument with advice: no '=', unknown name, not writable, no number, a wrong
+  /// unit, out of range.
   Setting setting(const std::string& text) const;
-  /// The same of a value in the parameter's unit.
+  /// The same for a value in the parameter's unit.
   Setting setting(const Quantity& of, double value) const;
-  /// A value with an optional unit in the unit of `of`.
+  /// Converts a value with an optional unit to the unit of `of`.
   double value_in(const Quantity& of, const std::string& text) const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Bytes by way of Boost.Asio, a call at a time. Documentation: docs/host.md
+// Transports over Boost.Asio, one call at a time. Documentation: docs/host.md
 #include "host/transport.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ using boost::system::error_code;
 
 constexpr double write_patience_s = 1.0;
 
-/// One operation at a time on a stream of Asio's.
+/// A transport over an Asio stream; one operation at a time.
 template <class Stream>
 class StreamTransport final : public Transport {
  public:
@@ -60,7 +60,8 @@ class StreamTransport final : public Transport {
   }
 
  private:
-  /// Starts an operation and waits for its end; at the deadline it is taken back. Bytes done.
+  /// Starts an operation and waits for its end; cancels it at the deadline. Returns the bytes
+  /// transferred.
   template <class Start>
   std::size_t wait(Deadline deadline, Start start) {
     error_code error;
@@ -93,7 +94,7 @@ class StreamTransport final : public Transport {
   bool exclusive_ = false;
 };
 
-/// A sentence with the ports that there are.
+/// A sentence that lists the existing ports.
 std::string what_there_is() {
   std::string text;
   for (const FoundPort& port : found_ports()) {
@@ -161,7 +162,8 @@ std::unique_ptr<Transport> open_serial(const std::string& path, int baud) {
   error_code error;
   port.open(path, error);
   if (error) refuse_to_open(path, error);
-  // Root passes TIOCEXCL, and a pseudo-terminal that its board keeps open would never forget it.
+  // TIOCEXCL does not stop root, and a pseudo-terminal that its board keeps open would keep it
+  // forever.
   if (::flock(port.native_handle(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     refuse_busy(path);
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The bit-exact twin of several axes as the device of a plant's loop, in the scene of programs; the
-// program is given from outside and stands where an engine does. Documentation: docs/pantograph.md
+// The bit-exact twin of several axes as the device of a plant's loop, in the scene of programs. The
+// program is a function from outside, which replaces the engine. Documentation: docs/pantograph.md
 #pragma once
 
 #include <algorithm>
@@ -19,19 +19,21 @@
 
 namespace feltgate {
 
-/// What the cores have of a tick, as an engine gets it.
+/// The measurements of a tick, as the cores give them to an engine.
 template <std::size_t N>
 struct AxesWords {
-  std::array<std::int32_t, N> position = {};  ///< counts from the pose in which the angles are 0
+  std::array<std::int32_t, N> position = {};  ///< counts; 0 in the pose in which the angles are 0
   std::array<std::int64_t, N> velocity = {};  ///< raw, in the design's format
   std::array<std::int32_t, N> tau_hat = {};
   std::uint32_t tick = 0;
 };
-/// Torques in the design's format, raw; run once in a tick, rendered with the next.
+/// A program: torques in the design's format, raw. It runs once per tick; its torque acts in the
+/// next.
 template <std::size_t N>
 using AxesProgram = std::function<std::array<std::int32_t, N>(const AxesWords<N>&)>;
 
-/// A law in real numbers as a program: its torques are rounded half up and saturated.
+/// Makes a program of a law in real numbers; torques are rounded to nearest, ties up, and
+/// saturated.
 template <std::size_t N>
 AxesProgram<N> program_of(plant::AxesLaw<N> law, const DesignInfo& design) {
   return [law = std::move(law), count_rad = design.count_rad, velocity = design.velocity,
@@ -53,18 +55,18 @@ AxesProgram<N> program_of(plant::AxesLaw<N> law, const DesignInfo& design) {
   };
 }
 
-/// Cores of design D, one for each joint of the plant. Every clock goes through FeltgateAxes; the
-/// bridges are averaged: what a core changes acts with the next step of the plant, at most
-/// most_clocks later, as a lever's does.
+/// Cores of design D, one for each joint of the plant. Every clock goes through FeltgateAxes. The
+/// bridges are averaged: a change of a core's output acts with the next step of the plant, at most
+/// most_clocks later, as for the lever.
 template <class D, class Plant>
 class AxesTwin : public plant::AxesDevice<Plant> {
  public:
   static constexpr std::size_t axes = Plant::axes;
   using Twin = FeltgateAxes<D, static_cast<int>(axes), false>;
 
-  /// The cores' counts begin at 0; `home` is what the joints' counts are then, as after homing.
-  /// `ticks` from input to torque of the program: until two of them after arming its torque may
-  /// jump, and the cores ramp, as the engine of a device has them do.
+  /// The cores' counts begin at 0; `home` is the joints' counts at that moment, as after homing.
+  /// `ticks`: delay of the program from input to torque. For twice this time after arming the
+  /// torque may jump, and the cores ramp, as they do with an engine.
   AxesTwin(AxesProgram<axes> program, std::array<std::int64_t, axes> home, int ticks = 1)
       : program_(std::move(program)), home_(home), ticks_(ticks), info_(design_info<D>()) {
     for (auto& axis : in_.axis) axis.scene = static_cast<std::uint8_t>(info_.scene_number("law"));
@@ -84,7 +86,7 @@ class AxesTwin : public plant::AxesDevice<Plant> {
       }
       clock();
     }
-    // An edge at the end of the stretch belongs to the clock to come.
+    // An edge at the end of the stretch belongs to the next clock.
     for (std::size_t n = 0; n < axes; ++n) {
       if (!sense.events[n].empty()) in_.axis[n].encoder = sense.events[n].back().pins;
     }
@@ -103,7 +105,7 @@ class AxesTwin : public plant::AxesDevice<Plant> {
   const Twin& twin() const { return twin_; }
   const CoreOut& out(std::size_t axis) const { return twin_.out().axis[axis]; }
   std::uint64_t runs() const { return runs_; }
-  /// Asks for torque, as it does from the beginning, or no longer.
+  /// Requests torque, or withdraws the request; it is set from the start.
   void request(bool arm) { wanted_ = arm; }
   void stop(bool pressed) { in_.stop = pressed; }
 
@@ -111,13 +113,13 @@ class AxesTwin : public plant::AxesDevice<Plant> {
   static_assert(D::pwm_period % most_clocks == 0, "steps end with the period of the PWM");
 
  private:
-  // Events before the first are those of the first step of the plant: the count before them.
+  // The encoder's present pins, which stand until the first event.
   static EncoderPins first_pins(const plant::AxesSense<Plant>& sense, std::size_t n) {
     return sense.plant.encoder(n).pins();
   }
 
   void clock() {
-    // The request must have been low in a tick before it is seen to rise.
+    // A rising request counts only after it was low in a tick.
     in_.arm = wanted_ && at_ >= 4 * D::clocks_per_tick;
     in_.law_restart = since_arming_ <= 2 * ticks_;
     const bool measured = twin_.measured();
@@ -147,7 +149,7 @@ class AxesTwin : public plant::AxesDevice<Plant> {
   Twin twin_;
   typename Twin::In in_;
   Clock at_ = 0;
-  Clock phase_ = 0;  ///< of the period of the PWM, within a step
+  Clock phase_ = 0;  ///< start of the PWM period, within a plant step
   bool wanted_ = true;
   std::uint64_t runs_ = 0;
 };

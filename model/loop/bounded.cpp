@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A run held to its bounds. Documentation: docs/error-bounds.md
+// Runs whose errors are compared with their bounds. Documentation: docs/error-bounds.md
 #include "loop/bounded.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ void hold(RunResult& r, const bounds::ErrorBounds& b) {
         {"tau_hat_nm", e.tau_hat_nm.max(), e.covered_tau_hat_nm.max(),
          b.tau_hat_nm.against_reference},
         {"torque_nm", e.torque_nm.max(), e.covered_torque_nm.max(), b.torque_nm.against_reference}};
-    r.felt.errors.assign(std::begin(errors), std::end(errors));  // RTL and twin show the same
+    r.felt.errors.assign(std::begin(errors), std::end(errors));  // RTL and twin are equal
     for (const FeltError& x : errors) {
       if (x.max_error_in_bounds <= x.bound) continue;
       r.broken.push_back(fmt::format("{}: {} is off by {:.4g}, above its proven bound {:.4g}",
@@ -36,7 +36,8 @@ bool comparable(const EngineChoice& choice) {
   return choice.reference() == "quad" && !choice.rider_drives;
 }
 
-// Which ticks count is decided before, by the strictest bound; the bound follows the motion.
+// The strictest bound decides before the run which ticks count; the bound itself follows from the
+// motion of the run.
 template <class Options, class Run, class BoundsUpTo>
 RunResult held(const design::Elaborated& e, Options& options, Run&& run, BoundsUpTo&& up_to) {
   if (!comparable(choose_engines(options.engine))) return run();

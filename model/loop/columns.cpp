@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The table of columns. Documentation: docs/json.md
+// The table of columns of a run. Documentation: docs/json.md
 #include "loop/columns.hpp"
 
 #include <fmt/format.h>

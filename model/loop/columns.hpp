@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a run tells of a tick, and the one table of its columns: header, rows, documentation and
-// arrays come from it. Documentation: docs/json.md
+// The values that a run reports of a tick, and the one table of their columns: header, rows,
+// documentation and arrays come from it. Documentation: docs/json.md
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace feltgate {
 
-/// What one engine says of a tick.
+/// The signals of one engine in a tick.
 struct EngineSignals {
   double velocity_rad_s = 0, tau_ref_nm = 0, tau_hat_nm = 0;
   double torque_nm = 0;  ///< commanded: nominal torque constant times current_a
@@ -19,29 +19,29 @@ struct EngineSignals {
   double duty = 0;  ///< of the PWM period, -1 to 1
 };
 
-/// A tick. The signals of the base are those of the engine that drives the motor.
+/// All values of a tick. The base has the signals of the engine that drives the motor.
 struct Row : EngineSignals {
   double time_s = 0;
-  // Of the plant; 0 in a replay, which has no columns for them.
+  // From the plant; 0 in a replay, which has no columns for them.
   double theta_rad = 0, omega_rad_s = 0, motor_torque_nm = 0, hand_torque_nm = 0, hand_felt_nm = 0;
-  double position_rad = 0;  ///< the core's count
+  double position_rad = 0;  ///< from the core's count
   int limits = 0, faults = 0;
-  bool law_stale = false;  ///< a mailbox of the law that is rendered is too old: no torque
-  std::vector<EngineSignals> engines;  ///< of EngineChoice::names(), in their order
+  bool law_stale = false;              ///< a mailbox of the law in force is too old: no torque
+  std::vector<EngineSignals> engines;  ///< in the order of EngineChoice::names()
 };
 
-/// Where a column finds its value in a row; asked for every column of every tick.
+/// Where a column finds its value in a row; called for every column of every tick.
 class ColumnValue {
  public:
   explicit ColumnValue(double Row::*value) : kind_(Kind::row), row_(value) {}
   explicit ColumnValue(int Row::*bits) : kind_(Kind::bits), bits_(bits) {}
-  /// Of the engine that drives the motor.
+  /// A signal of the engine that drives the motor.
   explicit ColumnValue(double EngineSignals::*value) : kind_(Kind::signal), signal_(value) {}
-  /// Of the n-th of Row::engines.
+  /// A signal of the n-th of Row::engines.
   ColumnValue(double EngineSignals::*value, std::size_t engine)
       : kind_(Kind::engine), signal_(value), engine_(engine) {}
 
-  /// A set of bits, below 256, and no measure.
+  /// Whether the value is a set of bits, below 256, and no measured quantity.
   bool is_bits() const { return kind_ == Kind::bits; }
   double operator()(const Row& r) const {
     switch (kind_) {
@@ -68,18 +68,18 @@ class ColumnValue {
 
 /// One column of a table of rows.
 struct Column {
-  std::string name;  ///< with its unit, as in the header of a CSV file
+  std::string name;  ///< with unit, as in the header of a CSV file
   std::string unit;
   std::string meaning;
-  int digits = 0;  ///< significant ones of a measured value; 0: all that the value has
+  int digits = 0;  ///< significant digits of a measured value; 0: all that it has
   ColumnValue value;
 };
 
-/// The columns of a run: those of the plant only in a closed loop, and one set for each of
-/// `engines`, EngineChoice::names(). What a run has not, it has no column for.
+/// The columns of a run. Those of the plant exist only in a closed loop; each of `engines`, as from
+/// EngineChoice::names(), has its own set.
 std::vector<Column> row_columns(bool closed_loop, const std::vector<std::string>& engines);
 
-/// The table of docs/json.md: every column, "X_" for the name of an engine.
+/// The table of docs/json.md with every column; "X_" stands for the name of an engine.
 std::string columns_markdown();
 
 }  // namespace feltgate

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a lever feels like that a hand swings: the hand's torque as a share of the speed and one of
-// the acceleration. Documentation: docs/scenes.md
+// How heavy a lever feels that a hand swings: the share of the hand's torque in phase with the
+// speed, and the share in phase with the acceleration. Documentation: docs/scenes.md
 #pragma once
 
 #include <cmath>
@@ -14,13 +14,13 @@
 
 namespace feltgate {
 
-/// The hand's torque from a clock on. Over whole half swings, from turn to turn, speed and
-/// acceleration are orthogonal, and the two shares are those of least squares.
+/// Accumulates the hand's torque from a clock on. Over whole half swings, from turn to turn, speed
+/// and acceleration are orthogonal, so the two shares are those of least squares.
 class Drag {
  public:
   Clock from_clock = std::numeric_limits<Clock>::max();
 
-  /// A step of the plant: the hand's mean torque in it, the speed at its begin and end.
+  /// One step of the plant: the hand's mean torque in it, and the speeds at its start and end.
   void step(double dt_s, double hand_nm, double before_rad_s, double after_rad_s) {
     const double speed = 0.5 * (before_rad_s + after_rad_s);
     const double acceleration = (after_rad_s - before_rad_s) / dt_s;
@@ -31,7 +31,7 @@ class Drag {
     speeds_ += speed * speed * dt_s;
     accelerations_ += acceleration * acceleration * dt_s;
   }
-  /// As figures of a run; 0 of a lever that never moved.
+  /// Adds the figures of a run; both are 0 for a lever that never moved.
   void tell(std::map<std::string, double>& figures) const {
     const auto share = [](double of, double in) { return in > 0 ? of / in : 0.0; };
     figures["drag_rms_nm"] = std::sqrt(share(squares_, seconds_));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Which engines a run starts. Documentation: docs/engines.md
+// Selection of the engines of a run. Documentation: docs/engines.md
 #include "loop/engine_choice.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Which engines a run starts, from the names a user gives. Documentation: docs/engines.md
+// Selects the engines of a run by the names that a user gives. Documentation: docs/engines.md
 #pragma once
 
 #include <string>
@@ -9,26 +9,26 @@
 
 namespace feltgate {
 
-/// The engines of a run: one core in front, chains of real arithmetic on its sampled counts.
+/// The engines of a run: one core leads; chains in real arithmetic ride on its sampled counts.
 struct EngineChoice {
   std::string lead;                 ///< "rtl", "twin" or "lockstep"
-  std::vector<std::string> riders;  ///< "float", "double" and "quad", as they were named
+  std::vector<std::string> riders;  ///< "float", "double" and "quad", in the user's order
   bool rider_drives = false;        ///< riders[0] drives the motor instead of the lead
 
-  /// Engines that have values of their own in a tick, in order: in lock-step the RTL's are the
-  /// twin's, and a lead that only carries the riders is none.
+  /// Engines that have their own values in a tick, in order. In lock-step the RTL's values are the
+  /// twin's; a lead that only carries the riders is not listed.
   std::vector<std::string> names() const;
-  /// The most exact of several, "quad" or "double", which the others are compared with; or nothing.
+  /// The most exact engine, "quad" or "double", with which the others are compared; empty if none.
   std::string reference() const;
 };
 
 /// `engines` is a comma list of rtl, twin, float (binary32), double (binary64) and quad
-/// (binary128), or "all" for these five. RTL and twin together run in lock-step; without either the
-/// first one drives the motor. Throws std::invalid_argument naming what there is.
+/// (binary128), or "all" for these five. RTL and twin together run in lock-step; without either,
+/// the first one drives the motor. Errors: std::invalid_argument that names the choices.
 EngineChoice choose_engines(const std::string& engines);
 
-/// A law's riders must know of which run a torque is, and the RTL alone does not tell. Throws
-/// std::invalid_argument with the engines that do.
+/// Checks that the riders of a law can know from which run a torque is; the RTL alone does not show
+/// it. Errors: std::invalid_argument that names the engines that do.
 void require_runs_of_law(const EngineChoice& choice);
 
 }  // namespace feltgate

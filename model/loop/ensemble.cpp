@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A core with its riders. Documentation: docs/architecture.md
+// A core with its riders: register writes, riders' ticks, errors. Documentation:
+// docs/architecture.md
 #include "loop/ensemble.hpp"
 
 #include <fmt/format.h>
@@ -90,7 +91,7 @@ void Ensemble::set_control(int scene, int mode, bool arm) {
 void Ensemble::command(std::uint32_t bits) { write({0, design().command_address, bits, 0}); }
 
 void Ensemble::ride(const Snapshot& s) {
-  // Writes that the core has carried out by now hold for the riders' tick too.
+  // Writes that the core has executed by now also apply to the riders' tick.
   for (; writes_applied_ < s.writes && !pending_.empty(); ++writes_applied_) {
     const HostWrite w = pending_.front();
     pending_.pop_front();
@@ -212,7 +213,7 @@ void Ensemble::compare(EngineFigures& f, double velocity_rad_s, double tau_hat_n
 std::vector<EngineFigures> Ensemble::figures() const {
   std::vector<EngineFigures> all;
   if (choice_.lead == "lockstep") {
-    // Both halves showed the same outputs, or the mismatches say otherwise.
+    // Both halves showed the same outputs; if not, the mismatches report it.
     for (const char* half : {"rtl", "twin"}) {
       EngineFigures f = lead_figures_;
       f.name = half;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A core with its riders: queues register writes for all of them alike and collects their errors
-// against the most exact of them. Used by closed loop and replay. Documentation:
-// docs/architecture.md
+// A core with its riders: queues register writes for all of them and collects their errors against
+// the most exact one. Used by closed loop and replay. Documentation: docs/architecture.md
 #pragma once
 
 #include <deque>
@@ -21,12 +20,13 @@
 
 namespace feltgate {
 
-/// A waveform to be written: the clocks [from, to] into `path`; to < 0: to the end; no path: none.
+/// A waveform file of the clocks [from, to]; to < 0: to the end; empty path: none.
 struct Waveform {
   std::string path;
   Clock from = 0, to = -1;
 };
 
+/// A leading core, and chains in real arithmetic on its samples.
 class Ensemble {
  public:
   Ensemble(const std::string& design, const EngineChoice& choice, std::uint64_t seed,
@@ -36,38 +36,41 @@ class Ensemble {
   const Engine& lead_const() const { return *lead_; }
   const DesignInfo& design() const { return *design_; }
 
-  /// Loads a law into the engine of laws, and has the riders run it; once, before the first
-  /// advance(). It must outlive this.
+  /// Loads a law into the engine of laws and lets the riders run it. Call it once, before the first
+  /// advance(). The law must outlive this object.
   void run_law(SceneLaw& law);
-  /// Looks into the law that run_law() has loaded; nullptr: nobody does.
+  /// Sets an observer of the law that run_law() has loaded; nullptr: none.
   void watch_law(std::unique_ptr<LawWatch> watch) { watch_ = std::move(watch); }
-  /// A parameter of the law or of the design in its unit, for every engine; takes effect with the
-  /// same tick in all.
-  /// Throws std::invalid_argument for an unknown name or a value that does not fit.
+  /// Sets a parameter of the law or the design, in its unit, for every engine, with the same tick
+  /// in all. Errors: std::invalid_argument for an unknown name or a value that does not fit.
   void set_parameter(const std::string& name, double value) { set_parameters({{name, value}}); }
-  /// Those of the law come into force together.
+  /// The same for several; those of the law come into force together.
   void set_parameters(const std::map<std::string, double>& values);
-  /// Values of the law alone, by one commit; none: what stands is committed anew.
+  /// Sets parameters of the law only, with one commit; empty: commits the present values again.
   void feed_law(const std::map<std::string, double>& values);
-  /// Switches off the self-test of a design that has it on from power-up: what is rendered then
-  /// begins with arming, as recordings and scenes ask for. `self_test_pulse` switches it on again.
+  /// Switches off the self-test of a design that has it on from power-up, so that the scene begins
+  /// with arming, as recordings and scenes expect. The parameter `self_test_pulse` switches it on
+  /// again.
   void skip_self_test();
+  /// Queues a control word: the host has control, with this scene, mode and request to arm.
   void set_control(int scene, int mode, bool arm);
+  /// Queues a command word.
   void command(std::uint32_t bits);
-  /// Register writes wait for their ticks.
+  /// Whether register writes wait for their ticks.
   bool writes_wait() const { return !pending_.empty(); }
   /// Appends every later write to `log`.
   void note_writes(std::vector<HostWrite>* log) { log_ = log; }
-  /// From the next tick on errors are also collected apart for the ticks that this covers.
+  /// From the next tick on, also collects the errors of the ticks that `coverage` covers,
+  /// separately.
   void cover(const bounds::Coverage* coverage) {
     covers_ = coverage != nullptr;
     if (covers_) coverage_ = *coverage;
   }
-  /// A chain of the caller that sees the same samples and writes; none: nullptr.
+  /// Adds a chain of the caller that gets the same samples and writes; nullptr: none.
   void carry(RealChain* passenger) { passenger_ = passenger; }
   void set_panel(const Panel& panel) { lead_->set_panel(panel); }
 
-  /// Runs the core, then the riders on each new snapshot; `each` sees every snapshot.
+  /// Advances the core, then the riders on each new snapshot; calls `each` with every snapshot.
   template <class Each>
   void advance(Clock clocks, const EncoderEvent* first, const EncoderEvent* last, Each&& each) {
     lead_watch_.time([&] { lead_->advance(clocks, first, last); });
@@ -77,8 +80,8 @@ class Ensemble {
     }
   }
 
-  /// What the engine that drives the motor says in the tick of `s`, but for voltage and duty, which
-  /// only a row of output needs: fill().
+  /// The signals, in the tick of `s`, of the engine that drives the motor; voltage and duty are
+  /// missing, since only a row of output needs them: fill().
   void signals(EngineSignals& e, const Snapshot& s) const {
     if (choice_.rider_drives) {
       e = of_chain(riders_[0].chain->out());
@@ -90,10 +93,10 @@ class Ensemble {
     e.current_a = current_a(s);
     e.torque_nm = design().torque_constant_nm_a * e.current_a;
   }
-  /// Whether the torque is none for a mailbox of the law that is too old; the RTL alone does not
-  /// tell.
+  /// Whether the torque is 0 because a mailbox of the law is too old; the RTL alone does not show
+  /// it.
   bool stale(const Snapshot& s) const { return s.law_stale && s.armed && renders_law(s); }
-  /// Position, limits, faults and the signals of every engine in the tick of `s`.
+  /// Fills a row: position, limits, faults and the signals of every engine in the tick of `s`.
   void fill(Row& row, const Snapshot& s) const;
   const EngineChoice& choice() const { return choice_; }
   const RealChain* rider(std::size_t i) const { return riders_[i].chain.get(); }
@@ -110,20 +113,20 @@ class Ensemble {
     return static_cast<double>(s.voltage) * unit_.voltage_v;
   }
 
-  /// Largest |N-method velocity| before its low-pass that the riders saw, rad/s.
+  /// Largest |N-method velocity| that the riders saw before the low-pass, rad/s.
   double largest_velocity_rad_s() const { return largest_counts_ * design().rad_s_per_count; }
 
-  /// Error and speed figures of all engines, steps left empty.
+  /// Error and speed figures of all engines; the steps are empty.
   std::vector<EngineFigures> figures() const;
 
  private:
   struct Rider {
     std::unique_ptr<RealChain> chain;
-    std::unique_ptr<LawRider> law;  ///< of a scene with a law
+    std::unique_ptr<LawRider> law;  ///< for a scene with a law
     EngineFigures figures;
     SampledWatch watch;
   };
-  /// What the last bit of a signal means: powers of two, so that the product is exact.
+  /// Value of a signal's last bit: a power of two, so that the product is exact.
   struct Units {
     double velocity_rad_s = 0, torque_nm = 0, current_a = 0, voltage_v = 0;
   };
@@ -149,11 +152,11 @@ class Ensemble {
   RealChain* passenger_ = nullptr;
   bounds::Coverage coverage_;
   bool covers_ = false;
-  std::deque<std::int16_t> window_;  ///< travel of the last m1 ticks
+  std::deque<std::int16_t> window_;  ///< travel at the last m1 ticks
   int largest_counts_ = 0;
   SceneLaw* law_ = nullptr;
   std::unique_ptr<LawWatch> watch_;
-  std::int64_t law_changes_ = 1;  ///< sets of parameters that the riders know; the first loads
+  std::int64_t law_changes_ = 1;  ///< parameter sets that the riders know; loading is the first
   bool law_entered_ = false;
   std::deque<HostWrite> pending_;
   std::vector<HostWrite>* log_ = nullptr;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Events as FUDI. Documentation: docs/devices/drums.md
+// The events of a law as FUDI, for Pure Data. Documentation: docs/devices/drums.md
 #include "loop/event_lines.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@ namespace feltgate {
 
 namespace {
 
-/// The digits that a name ends in; may be none.
+/// The digits at the end of a name; may be empty.
 std::string number_of(const std::string& name) {
   const auto last = name.find_last_not_of("0123456789");
   return last == std::string::npos ? "" : name.substr(last + 1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Expectations of a scene. Documentation: docs/scenes.md
+// Comparison of a run's figures with its scene's expectations. Documentation: docs/scenes.md
 #include "loop/expectations.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a scene expects of its figures, held to a run. Documentation: docs/scenes.md
+// Compares the figures of a run with what its scene expects. Documentation: docs/scenes.md
 #pragma once
 
 #include <map>
@@ -13,13 +13,14 @@
 
 namespace feltgate {
 
+/// Expectations with the run's values.
 struct ExpectationsHeld {
   std::vector<Expected> all;
-  std::vector<std::string> broken;  ///< one line each
+  std::vector<std::string> broken;  ///< one line per broken expectation
 };
 
-/// Those of the scene that are for `design`. Throws config::ConfigError for a figure that is not
-/// there.
+/// The expectations of the scene that apply to `design`. Errors: config::ConfigError for a figure
+/// that does not exist.
 ExpectationsHeld hold_expectations(const Scenario& scenario, const std::string& design,
                                    const std::map<std::string, double>& figures);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a run felt like. Documentation: docs/json.md
+// Summary of what a run felt like. Documentation: docs/json.md
 #include "loop/felt.hpp"
 
 #include <fmt/format.h>

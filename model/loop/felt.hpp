@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a run felt like: torque, energy, errors, limits and faults, in a few numbers.
+// Summary of what a run felt like: torque, energy, errors, limits and faults, in a few numbers.
 // Documentation: docs/json.md
 #pragma once
 
@@ -17,31 +17,30 @@
 
 namespace feltgate {
 
-/// Largest magnitude of a signal, with its sign, and the device time at which it came.
+/// Largest magnitude of a signal, with its sign, and the device time at which it occurred.
 struct Peak {
   double value = 0, at_s = 0;
 };
 
-/// What is shorter than this a hand does not feel apart, s: what the plant does is averaged over
-/// it.
+/// A hand does not feel shorter events apart, s; the plant's torques are averaged over this time.
 constexpr double felt_window_s = 1e-3;
 
 /// Torques of a run, Nm.
 struct FeltTorque {
-  Peak asked;      ///< by the scene, limited and ramped
+  Peak asked;      ///< of the scene, limited and ramped
   Peak commanded;  ///< nominal torque constant times the current reference
-  // Only in a closed loop, means over felt_window_s:
+  // Only in a closed loop; means over felt_window_s:
   Peak motor;               ///< of the plant's motor
   Peak hand;                ///< of the hand on the lever
-  ErrorFigure motor_error;  ///< motor less asked
+  ErrorFigure motor_error;  ///< motor - asked
 };
 
-/// Work of the hand on the lever, J. What the hand gives goes into the device.
+/// Work of the hand on the lever, J. Energy that the hand gives goes into the device.
 struct FeltEnergy {
   double taken_from_hand_j = 0;  ///< sum of all that the hand gave
-  double given_to_hand_j = 0;    ///< sum of all that it got
-  double peak_from_hand_j = 0;   ///< largest that taken less given ever was
-  double peak_to_hand_j = 0;     ///< largest that given less taken ever was: 0 of what is passive
+  double given_to_hand_j = 0;    ///< sum of all that the hand received
+  double peak_from_hand_j = 0;   ///< maximum of taken - given
+  double peak_to_hand_j = 0;     ///< maximum of given - taken: 0 for a passive device
   double net_from_hand_j() const { return taken_from_hand_j - given_to_hand_j; }
 };
 
@@ -49,11 +48,11 @@ struct FeltEnergy {
 struct FeltError {
   std::string signal;  ///< with its unit: "velocity_rad_s", "tau_hat_nm", "torque_nm"
   double max_error = 0;
-  double max_error_in_bounds = 0;  ///< in the ticks for which the bound holds
+  double max_error_in_bounds = 0;                          ///< only ticks for which the bound holds
   double bound = std::numeric_limits<double>::infinity();  ///< infinite: none is proven
 };
 
-/// How long a limit or fault acted, and since when.
+/// How long a limit or fault acted, and when first.
 struct Acted {
   double seconds = 0, first_s = 0;
 };
@@ -67,11 +66,12 @@ struct Expected {
   std::string wanted() const;  ///< "at most 0", "0.1 to 0.2"
 };
 
+/// The summary.
 struct Felt {
   bool closed_loop = false;  ///< there was a plant with a hand
   FeltTorque torque;
-  FeltEnergy energy;              ///< only in a closed loop
-  std::vector<FeltError> errors;  ///< of the core against quad; empty where that did not run
+  FeltEnergy energy;                            ///< only in a closed loop
+  std::vector<FeltError> errors;                ///< of the core against quad; empty without quad
   std::map<std::string, Acted> limits, faults;  ///< by name; only those that acted
   std::vector<Expected> expectations;
 };
@@ -86,7 +86,7 @@ class BitTimes {
     }
     ++run_;
   }
-  /// By the names of the bits; of those that were ever set.
+  /// Times by bit name, for the bits that were ever set.
   template <std::size_t N>
   std::map<std::string, Acted> times(const std::array<const char*, N>& names, double tick_s) {
     static_assert(N <= kBits, "a name without a bit");
@@ -109,12 +109,12 @@ class BitTimes {
   std::array<std::int64_t, kBits> ticks_{}, first_{};
 };
 
-/// Follows a run and ends with what was felt.
+/// Follows a run; felt() gives the summary.
 class FeltMeter {
  public:
   explicit FeltMeter(double tick_s);
 
-  /// The hand's torque on the lever and the lever's velocity over a step of the plant.
+  /// One step of the plant: the hand's torque on the lever and the lever's velocity.
   void step(double dt_s, double hand_nm, double omega_rad_s) {
     const double work_j = hand_nm * omega_rad_s * dt_s;
     (work_j > 0 ? taken_j_ : returned_j_) += work_j;
@@ -123,7 +123,7 @@ class FeltMeter {
     lowest_j_ = smaller(lowest_j_, net_j);
     hand_nm_s_ += hand_nm * dt_s;
   }
-  /// A tick of the core; torques in Nm, bits as in a snapshot.
+  /// One tick of the core; torques in Nm, bits as in a snapshot.
   void tick(double asked_nm, double commanded_nm, unsigned limits, unsigned faults) {
     asked_.add(asked_nm, ticks_);
     commanded_.add(commanded_nm, ticks_);
@@ -131,17 +131,17 @@ class FeltMeter {
     faults_.tick(faults);
     ++ticks_;
   }
-  /// The motor's torque in the tick that was told last; only in a closed loop.
+  /// The motor's torque in the tick given last to tick(); only in a closed loop.
   void motor(double motor_nm, double asked_nm) {
     motor_sum_nm_ += motor_nm;
     asked_sum_nm_ += asked_nm;
     if (--window_left_ == 0) end_window();
   }
 
-  /// Mean of the hand's torque over the last felt_window_s that is over, Nm; 0 before the first.
+  /// Mean of the hand's torque over the last complete felt_window_s, Nm; 0 before the first.
   double hand_nm() const { return window_hand_nm_; }
 
-  /// Expectations and errors are left empty.
+  /// The summary; expectations and errors are left empty.
   Felt felt();
 
  private:
@@ -158,9 +158,9 @@ class FeltMeter {
 
   double tick_s_;
   std::int64_t window_ticks_;
-  std::int64_t window_left_;  ///< ticks
+  std::int64_t window_left_;  ///< ticks left in the window
   std::int64_t ticks_ = 0;
-  double hand_nm_s_ = 0, motor_sum_nm_ = 0, asked_sum_nm_ = 0;  ///< of the window so far
+  double hand_nm_s_ = 0, motor_sum_nm_ = 0, asked_sum_nm_ = 0;  ///< sums over the present window
   double window_hand_nm_ = 0;
   double taken_j_ = 0, returned_j_ = 0, highest_j_ = 0, lowest_j_ = 0;
   Highest asked_, commanded_, motor_, hand_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Step response figures. Documentation: docs/json.md
+// Figures of step responses. Documentation: docs/json.md
 #include "loop/figures.hpp"
 
 #include <algorithm>

@@ -47,34 +47,34 @@ struct SignalRange {
 struct StepResponse {
   double tau_ref_nm = 0;
   double settling_ms = 0;      ///< from the step to the last sample outside 2 % of the final value
-  double overshoot_pct = 0;    ///< beyond the final value, of the step
+  double overshoot_pct = 0;    ///< beyond the final value, in % of the step
   double final_value_nm = 0;   ///< mean of the last tenth
-  double final_error_pct = 0;  ///< final value against the reference
+  double final_error_pct = 0;  ///< difference of final value and reference
   double ripple_nm = 0;        ///< rms around the final value in the last tenth
 };
 
-/// A signal from a step on, in bounded memory: beyond `most` samples neighbours become one block,
-/// and times are then known to a block, at most 2/most of the response.
+/// A signal from a step on, in bounded memory: beyond `most` samples, neighbours are merged into
+/// blocks. Times are then accurate to one block, which is at most 2/most of the response.
 class StepSamples {
  public:
   static constexpr std::size_t most = std::size_t{1} << 20;  ///< blocks; even
 
-  /// `before_nm`: what the signal was before the step.
+  /// `before_nm`: value of the signal before the step.
   explicit StepSamples(double before_nm) : before_nm_(before_nm) {}
   void add(double value);
-  /// Of samples `sample_s` apart, the first one at the step. Settling is measured on the 2 % band
-  /// of the final value.
+  /// Figures of samples that are `sample_s` apart, the first one at the step. Settling is measured
+  /// on the band of 2 % around the final value.
   StepResponse response(double sample_s, double tau_ref_nm) const;
 
  private:
-  /// What is kept of `per_block_` samples.
+  /// Summary of `per_block_` samples.
   struct Block {
-    double low, high, mean, squares;  ///< squares: sum of those of the distances from the mean
+    double low, high, mean, squares;  ///< squares: sum of squared distances from the mean
   };
   void halve();
 
   double before_nm_;
-  std::vector<Block> blocks_;  ///< the last one may have fewer samples
+  std::vector<Block> blocks_;  ///< the last block may be incomplete
   std::int64_t per_block_ = 1, samples_ = 0;
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What the host of a scene sends by itself into the mailbox of its law. Documentation:
-// docs/scenes.md
+// What the host of a scene sends into the mailbox of its law without an event.
+// Documentation: docs/scenes.md
 #pragma once
 
 #include <algorithm>
@@ -17,17 +17,18 @@
 
 namespace feltgate {
 
+/// Regular sends of the mailbox, and the tracker if the scene has one.
 class HostFeed {
  public:
-  /// `law` is that of the scene; scene and law must outlive this.
+  /// `law` is the law of the scene; scene and law must outlive this object.
   HostFeed(const Scenario& scenario, const SceneLaw* law, std::int64_t clock_hz)
       : scenario_(scenario), law_(law), feed_(scenario.feed_hz, clock_hz) {
     if (scenario.tracker) tracker_.emplace(*scenario.tracker, clock_hz);
   }
 
-  /// The next clock with something to do.
+  /// The next clock at which act() has something to do.
   Clock next() const { return tracker_ ? std::min(feed_.next(), tracker_->next()) : feed_.next(); }
-  /// Does it: the lever's angle and the core's position are those of `now`.
+  /// Sends what is due at `now`; angle and position are those of `now`.
   void act(Clock now, double angle_rad, double encoder_rad, Ensemble& core) {
     if (tracker_) track(now, angle_rad, encoder_rad, core);
     if (feed_.due(now)) core.feed_law({});

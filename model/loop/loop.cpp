@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Closed loop. Documentation: docs/architecture.md
+// The closed loop of core, plant and host. Documentation: docs/architecture.md
 #include "loop/loop.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ namespace feltgate {
 
 namespace {
 
-/// The torques from a step of the reference to the next event.
+/// The torques from one step of the reference to the next event.
 struct StepRecord {
   double tau_ref_nm;
   StepSamples tau_hat, torque;
@@ -94,7 +94,7 @@ class ScenarioRun {
       if (now >= feed_.next()) {
         feed_.act(now, plant_.observables().theta_rad, position_ * d.count_rad, core_);
       }
-      // What is asked for is done by the end of a tick, and so is what follows from it.
+      // A request takes effect by the end of its tick, and its consequences by the end of the next.
       if (core_.writes_wait()) plan_.stir(now, 2 * d.clocks_per_tick);
       Clock corner = std::min({event_at, plant_.next_corner(), feed_.next()});
       if (now < arm_at) corner = std::min(corner, arm_at);
@@ -110,7 +110,7 @@ class ScenarioRun {
   }
 
  private:
-  /// Gates and real chains change their mind within a period of the PWM: equal steps for them.
+  /// Gates and chains in real arithmetic can change within a PWM period; they need equal steps.
   static StepPlan plan(const Scenario& s, const plant::Parameters& plant, const DesignInfo& d,
                        const EngineChoice& choice) {
     if (s.step_given || s.switched || choice.rider_drives) return StepPlan(s.step_clocks);
@@ -119,7 +119,7 @@ class ScenarioRun {
   }
 
   Clock clock_of(double seconds) const {
-    constexpr double never = 0x1p62;  // and no sum with it overflows
+    constexpr double never = 0x1p62;  // no sum with it overflows
     return std::llround(std::min(seconds * static_cast<double>(core_.design().clock_hz), never));
   }
 
@@ -162,7 +162,7 @@ class ScenarioRun {
     }
   }
 
-  /// Of a step that is over only its figures are kept.
+  /// Ends a torque step; only its figures are kept.
   void end_step() {
     if (!step_) return;
     const double tick_s = 1.0 / static_cast<double>(core_.design().tick_hz), to = step_->tau_ref_nm;
@@ -190,8 +190,8 @@ class ScenarioRun {
     return plant::Bridge::averaged(duty_, lead.gates_enabled());
   }
 
-  // The bridge of the last interval drives the motor in this one: no edge depends on its own
-  // future.
+  // The bridge state of the last interval drives the motor in this one, so no edge depends on its
+  // own future.
   void step(Clock clocks) {
     const plant::Observables& o = plant_.observables();
     before_ = {o.theta_rad, o.omega_rad_s, o.hand_torque_nm, mean_.mean()};
@@ -220,8 +220,8 @@ class ScenarioRun {
                   [this](const Snapshot& s) { tick(s); });
   }
 
-  /// A step of the plant may last for several ticks, and between its ends all is as good as
-  /// straight.
+  /// One tick of the core. A plant step may last several ticks; between its ends the signals are
+  /// treated as straight lines.
   void tick(const Snapshot& s) {
     const plant::Observables& o = plant_.observables();
     Row& r = last_;
@@ -301,7 +301,7 @@ class ScenarioRun {
     return out;
   }
 
-  /// The engine whose duty drove the motor: only its torques are responses to the steps.
+  /// Whether this engine's duty drove the motor; only its torques are responses to the steps.
   bool closes_loop(const std::string& engine) const {
     return choice_.rider_drives ? engine == choice_.riders[0] : engine == "rtl" || engine == "twin";
   }
@@ -355,25 +355,25 @@ class ScenarioRun {
   traces::StepCounter counter_;
   std::unique_ptr<traces::VectorWriter> recorder_;
   bool armed_ = false, arm_done_ = false;
-  Clock last_clocks_ = 0;  ///< none yet
+  Clock last_clocks_ = 0;  ///< 0: none yet
   Clock longest_step_clocks_ = 0;
   double dt_s_ = 0;
-  /// What the plant showed at the beginning of its last step.
+  /// The plant's outputs at the start of its last step.
   struct {
     double theta_rad = 0, omega_rad_s = 0, hand_torque_nm = 0, motor_mean_nm = 0;
   } before_;
-  int duty_clocks_ = 0;  ///< of the bridge, and what it is of a period
+  int duty_clocks_ = 0;  ///< duty of the bridge; duty_ is its share of a period
   double duty_ = 0;
   std::int64_t ticks_ = 0, stale_ticks_ = 0, stale_from_ = 0;
   int faults_ = 0;
   double absorbed_j_ = 0;
   SignalRange tau_ref_, tau_hat_, velocity_, theta_;
-  std::int32_t position_ = 0;  ///< counts, as the core showed it last
+  std::int32_t position_ = 0;  ///< counts, from the core's last output
   HostFeed feed_;
   Rest rest_;
   Drag drag_;
   Row last_;
-  std::unique_ptr<StepRecord> step_;  ///< under way
+  std::unique_ptr<StepRecord> step_;  ///< the step in progress
   std::vector<StepFigures> steps_;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Open loop on an encoder recording. Documentation: docs/traces.md
+// Open-loop run on an encoder recording. Documentation: docs/traces.md
 #include "loop/replay.hpp"
 
 #include <fmt/format.h>
@@ -46,7 +46,7 @@ RunResult run_replay(EncoderSource& source, const std::string& subject,
     options.row(row);
   };
 
-  // In blocks of a thousand ticks: long enough to be cheap, short enough to show progress.
+  // Blocks of a thousand ticks: long enough to be fast, short enough to show progress.
   const Clock block = 1000 * static_cast<Clock>(d.clocks_per_tick);
   std::vector<EncoderEvent> events;
   std::optional<EncoderEvent> pending = source.next();
@@ -64,7 +64,7 @@ RunResult run_replay(EncoderSource& source, const std::string& subject,
       counter.add(*pending);
       pending = source.next();
     }
-    // The recording's length is known once its last event has been read; run to a whole tick.
+    // The recording's length is known once its last event was read; the run ends at a whole tick.
     if (!pending && source.length() <= end) {
       const Clock whole =
           (source.length() + d.clocks_per_tick - 1) / d.clocks_per_tick * d.clocks_per_tick;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Open loop on an encoder recording: every engine sees the same edges. Documentation:
-// docs/traces.md
+// Open loop on an encoder recording: every engine gets the same edges.
+// Documentation: docs/traces.md
 #pragma once
 
 #include "feltgate/encoder_source.hpp"
@@ -10,23 +10,24 @@
 
 namespace feltgate {
 
+/// Options of a replay.
 struct ReplayOptions {
   std::string design = "lever";
   std::string engine = "all";
-  std::string scene = "spring_tension";  ///< rendered while the recording moves the lever
+  std::string scene = "spring_tension";  ///< scene that is rendered during the recording
   bool arm = true;
   std::uint64_t seed = 1;
   std::string fst;
   Clock fst_from = 0, fst_to = -1;
-  const bounds::Coverage* coverage = nullptr;  ///< of error bounds that are to be checked
-  Clock most_clocks = 0;                       ///< stop there; 0: to the end of the recording
-  std::function<void(const Row&)> row;         ///< for every row_every-th tick
+  const bounds::Coverage* coverage = nullptr;  ///< ticks in which bounds are checked
+  Clock most_clocks = 0;                       ///< stops there; 0: at the end
+  std::function<void(const Row&)> row;         ///< called for every row_every-th tick
   int row_every = 1;
   std::function<void(Clock done)> progress;
 };
 
-/// Replays a recording to its end. Memory does not grow with its length.
-/// Throws traces::TraceError where the recording is wrong.
+/// Replays a recording to its end; memory does not grow with its length. Errors: traces::TraceError
+/// for a wrong recording.
 RunResult run_replay(EncoderSource& source, const std::string& subject,
                      const ReplayOptions& options);
 

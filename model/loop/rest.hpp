@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// How quiet a lever is that should rest. Documentation: docs/scenes.md
+// How quiet a lever is that should be at rest. Documentation: docs/scenes.md
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace feltgate {
 
-/// Mean, deviation and extremes of what comes tick by tick.
+/// Mean, standard deviation and extremes of a value that comes once per tick.
 class Spread {
  public:
   void add(double v) {
@@ -46,7 +46,7 @@ struct Rest {
     theta_rad.add(theta);
     tau_ref_nm.add(tau_ref);
   }
-  /// As figures of a run.
+  /// Adds them to the figures of a run.
   void tell(std::map<std::string, double>& figures) const {
     figures["rest_theta_rms_rad"] = theta_rad.rms();
     figures["rest_theta_range_rad"] = theta_rad.range();

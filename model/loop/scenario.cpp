@@ -18,7 +18,7 @@ namespace {
 
 const std::vector<std::string> kModes{"closed_loop", "open_loop", "voltage"};
 
-/// Numbers into `values`, texts such as "4 Nm/deg" into `amounts`.
+/// Reads numbers into `values`, and texts such as "4 Nm/deg" into `amounts`.
 void read_values(const toml::table& table, config::TomlReader reader,
                  std::map<std::string, double>* values,
                  std::map<std::string, std::string>* amounts) {
@@ -70,7 +70,7 @@ TrackerSettings read_tracker(config::TomlReader r) {
   return t;
 }
 
-/// The flags that the table gives: what is the same whatever it stands on.
+/// The flags that the table sets: those that come out equal whatever base they override.
 std::vector<EffectSetting> read_effects_set(const config::TomlReader& table) {
   plant::Effects all, none;
   for (const plant::EffectName& e : plant::effect_names) {
@@ -101,7 +101,7 @@ Expectation read_expectation(config::TomlReader r, const toml::table& table) {
   return x;
 }
 
-/// What all scenes have; `own` reads what holds the device, and which device.
+/// Reads what all scenes have; `own` reads the device-specific part.
 Scenario read(const toml::table& root, const std::string& path,
               const std::function<void(config::TomlReader& file, Scenario& s)>& own) {
   config::TomlReader top(root, path, "the scene");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A scene file: what the core renders, what the hand does, which effects of the plant matter, how
-// long it lasts and what must come out. Documentation: docs/scenes.md
+// A scene file: what the core renders, what the hand does, which effects of the plant are on, how
+// long it lasts, and which results are expected. Documentation: docs/scenes.md
 #pragma once
 
 #include <functional>
@@ -23,86 +23,86 @@ namespace config {
 class TomlReader;
 }
 
-/// Something that happens at a time: the host changes scene, mode or parameters, or a pin moves.
+/// A timed event: the host changes scene, mode or parameters, or a pin changes.
 struct Event {
   double at_s = 0;
-  int line = 0;  ///< of the file; 0: not of a file
+  int line = 0;  ///< line in the file; 0: not from a file
   std::optional<std::string> scene;
   std::optional<int> mode;
   std::optional<bool> arm;
   std::optional<bool> stop;
   std::map<std::string, double> set;           ///< parameters in their units
-  std::map<std::string, std::string> amounts;  ///< further ones with units: resolve_amounts()
-  std::optional<double> step_nm;               ///< a torque step to this reference begins here
+  std::map<std::string, std::string> amounts;  ///< given with units: resolve_amounts()
+  std::optional<double> step_nm;               ///< a torque step to this reference starts here
 };
 
 /// A bound on one figure of the run.
 struct Expectation {
   std::string figure;
-  std::optional<std::string> design;  ///< only when run on this design
+  std::optional<std::string> design;  ///< only for runs on this design
   /// Infinite where the file gives no such bound.
   double low = -std::numeric_limits<double>::infinity(),
          high = std::numeric_limits<double>::infinity();
   int line = 0;
 };
 
-/// An effect that a scene switches, whatever its plant says.
+/// An effect that a scene switches, overriding its plant.
 struct EffectSetting {
   bool plant::Effects::*flag;
   bool on;
 };
 
+/// The contents of a scene file.
 struct Scenario {
   std::string name, path, title, about;
   double duration_s = 0;
-  std::string plant;     ///< name of the plant file
-  int step_clocks = 25;  ///< plant step
-  bool step_given =
-      false;              ///< every step is so long; else those in which nothing happens are longer
-  bool switched = false;  ///< gates drive the plant instead of the mean duty
+  std::string plant;        ///< name of the plant file
+  int step_clocks = 25;     ///< plant step in clocks
+  bool step_given = false;  ///< steps without events are not made longer
+  bool switched = false;    ///< gates drive the plant, instead of the mean duty
   std::string scene = "free";
-  int scene_line = 0;  ///< of the file; 0: not of a file
-  std::string law;     ///< of the scene "law": a name in rtl/laws or a path; empty: none
+  int scene_line = 0;  ///< line in the file; 0: not from a file
+  std::string law;     ///< for the scene "law": a name in rtl/laws or a path; else empty
   int law_line = 0;
   int mode = 0;
   double arm_s = 0;
   std::map<std::string, double> parameters;    ///< set before arming, in their units
-  std::map<std::string, std::string> amounts;  ///< further ones with units: resolve_amounts()
-  std::map<std::string, int> parameter_lines;  ///< of those that the file sets
+  std::map<std::string, std::string> amounts;  ///< given with units: resolve_amounts()
+  std::map<std::string, int> parameter_lines;  ///< lines of those that the file sets
   std::vector<Event> events;                   ///< in order of time
-  double feed_hz = 0;  ///< how often the host sends the mailbox anew; 0: it does not
+  double feed_hz = 0;  ///< how often the host sends the mailbox again, Hz; 0: never
   int feed_line = 0;
   std::optional<TrackerSettings> tracker;
-  std::optional<double> rest_from_s;  ///< from then on the lever should rest
+  std::optional<double> rest_from_s;  ///< from this time on the lever should rest
   int rest_line = 0;
-  std::optional<double> drag_from_s;  ///< from then on a hand swings the lever
+  std::optional<double> drag_from_s;  ///< from this time on a hand swings the lever
   int drag_line = 0;
-  std::vector<EffectSetting> effects_set;  ///< by the scene
-  plant::Effects effects;                  ///< of the plant, as the scene overrides them
+  std::vector<EffectSetting> effects_set;  ///< set by the scene
+  plant::Effects effects;                  ///< of the plant, overridden by the scene
   plant::Hand hand;
   std::vector<Expectation> expectations;
 };
 
-/// Reads vectors/scenes/NAME.toml. Throws config::ConfigError: "file:line: what; mend", also for a
+/// Reads vectors/scenes/NAME.toml. Errors: config::ConfigError "file:line: what; mend", also for a
 /// scene whose device has several axes.
 Scenario read_scenario(const std::string& path);
 
-/// The same of a scene that names a device of several axes: `device` asks the file for its keys
-/// "device" and "hand", and whatever else the device has.
+/// The same for a scene of a device with several axes: `device` reads the keys "device" and "hand"
+/// of the file, and what else the device has.
 Scenario read_device_scene(const std::string& path,
                            const std::function<void(config::TomlReader& file)>& device);
 
 /// Whether the scene names a device of several axes. Errors: those of a file that is not TOML.
 bool names_device(const std::string& path);
 
-/// What the plant of a scene leaves out, by the names of the file: the effects that are off,
-/// "gates" where the bridge is averaged; hand_dynamics only where the scene has a hand with a mass.
+/// The simplifications of a scene's plant, by their names in files: effects that are off; "gates"
+/// where the bridge is averaged; hand_dynamics only where the scene has a hand with a mass.
 std::vector<std::string> effects_off(const Scenario& scenario);
 
-/// The torque laws that a scene renders: its own and those that its events switch to.
+/// The torque laws that a scene renders: its own and those that its events select.
 std::set<std::string> scenes_used(const Scenario& scenario);
 
-/// Fills scenario.effects: those of the plant, as the scene sets them.
+/// Sets scenario.effects: those of the plant, overridden by the scene.
 void resolve_effects(Scenario& scenario, const plant::Effects& of_plant);
 
 }  // namespace feltgate

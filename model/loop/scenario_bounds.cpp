@@ -58,9 +58,9 @@ void RunBounds::render(const std::string& scene, int mode) {
 }
 
 void RunBounds::set(const std::string& parameter, double value, bool in_the_middle) {
-  if (law_ != nullptr && law_->has(parameter)) return;  // its bound is for all values
+  if (law_ != nullptr && law_->has(parameter)) return;  // the law's bound holds for all values
   numbers_.set(parameter, value);
-  // No bound depends on a set-point.
+  // Bounds do not depend on set-points.
   if (!in_the_middle || parameter == "setpoint_torque" || parameter == "voltage_setpoint") return;
   lost_ = lost_ || parameter == "velocity_a1" || parameter == "observer_a1" ||
           parameter == "inertia_gain";
@@ -97,7 +97,7 @@ RunBounds scenario_bounds(const design::Elaborated& e, const Scenario& scenario,
   for (const auto& [name, value] : scenario.parameters) run.set(name, value, false);
   std::string scene = scenario.scene;
   int mode = scenario.mode;
-  // A name that is not built, with the line where it stands.
+  // Reports a scene that is not built, with its line in the file.
   const auto render = [&](int line) {
     try {
       run.render(scene, mode);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Error bounds of a whole run: the worst over the scenes, modes and parameters that it goes
-// through. Documentation: docs/error-bounds.md
+// Error bounds of a whole run: the worst over the scenes, modes and parameters that occur in it.
+// Documentation: docs/error-bounds.md
 #pragma once
 
 #include "bounds/coverage.hpp"
@@ -12,20 +12,21 @@
 
 namespace feltgate {
 
-/// Scenes, modes and parameter values of a run, one after the other.
+/// The scenes, modes and parameter values of a run, in order.
 class RunBounds {
  public:
-  /// From the values of the design; |N-method velocity| up to velocity_rad_s, 0: all of the format.
+  /// Starts with the design's values. |N-method velocity| stays below velocity_rad_s; 0: any in
+  /// format.
   RunBounds(const design::Elaborated& e, double velocity_rad_s);
-  /// The scene law runs this one; none: its torque is without a bound.
+  /// The law that the scene law runs; nullptr: its torque has no bound.
   void run_law(const SceneLaw* law);
-  /// From now on this scene and mode. Throws std::invalid_argument for a scene not built in.
+  /// Scene and mode from now on. Errors: std::invalid_argument for a scene that is not built in.
   void render(const std::string& scene, int mode);
-  /// From now on this value. In the middle of a run no bound survives a change of a filter.
+  /// A parameter's value from now on. A change of a filter in the middle of a run voids all bounds.
   void set(const std::string& parameter, double value, bool in_the_middle);
 
   const bounds::ErrorBounds& worst() const { return worst_; }
-  /// The bounds of each source alone, likewise.
+  /// The worst bounds of each error source alone.
   const std::vector<bounds::SourceBound>& sources() const { return sources_; }
 
  private:
@@ -39,10 +40,10 @@ class RunBounds {
   bool started_ = false, lost_ = false;
 };
 
-/// Smaller than any velocity that is not 0: a region for what must not depend on the motion.
+/// Smaller than any velocity other than 0: a region for results that must not depend on the motion.
 constexpr double hardly_any_rad_s = 1e-9;
 
-/// Of a scene file on a design.
+/// The bounds of a scene file on a design.
 RunBounds scenario_bounds(const design::Elaborated& e, const Scenario& scenario,
                           double velocity_rad_s = 0, const SceneLaw* law = nullptr);
 

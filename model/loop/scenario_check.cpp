@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a scene asks of a design, checked before a run. Documentation: docs/scenes.md
+// Checks of a scene against design and plant, before a run. Documentation: docs/scenes.md
 #include "loop/scenario_check.hpp"
 
 #include <fmt/format.h>
@@ -43,7 +43,7 @@ void check_parameter(const std::string& place, const std::string& name, double v
   const ParameterInfo* info = design.find(name);
   if (info == nullptr && law != nullptr) {
     try {
-      law->check(name, value);  // says what the law has
+      law->check(name, value);  // its error names the law's parameters
     } catch (const std::invalid_argument& error) {
       throw config::ConfigError(
           fmt::format("{}{}; nor has the core: `feltgate design {}` lists its parameters", at,
@@ -58,7 +58,7 @@ void check_parameter(const std::string& place, const std::string& name, double v
   }
 }
 
-/// Holds what the law requires of its parameters, after each set of the scene.
+/// Checks the law's requirements on its parameters, after each set of the scene.
 class Requirements {
  public:
   Requirements(const Scenario& s, const SceneLaw* law) : s_(s), law_(law) {}
@@ -73,7 +73,7 @@ class Requirements {
       law_->check(all_);
     } catch (const std::invalid_argument& error) {
       const std::string what = error.what();
-      int last = 0;  // of the lines that set what it names
+      int last = 0;  // last line that sets a parameter it names
       for (const std::string& name : names_in(what)) {
         const auto line = lines_.find(name);
         if (line != lines_.end()) last = std::max(last, line->second);
@@ -83,7 +83,7 @@ class Requirements {
   }
 
  private:
-  /// Words of what is required: "... requires A <= B, which are ...".
+  /// The names in the text of a requirement: "... requires A <= B, which are ...".
   static std::vector<std::string> names_in(const std::string& what) {
     const std::size_t from = what.find(" requires "), to = what.find(", which are");
     std::vector<std::string> names(1);
@@ -104,7 +104,7 @@ class Requirements {
   std::map<std::string, int> lines_;
 };
 
-/// The host can only feed what the law of the scene keeps as a mailbox.
+/// The host can feed only a parameter that the scene's law keeps as a mailbox.
 void check_mailbox(const Scenario& s, const SceneLaw* law) {
   const auto refuse = [&](int line, const std::string& what) {
     throw config::ConfigError(fmt::format("{}:{}: {}", s.path, line, what));
@@ -127,7 +127,7 @@ void check_mailbox(const Scenario& s, const SceneLaw* law) {
   }
 }
 
-/// What the core would drop without a word: the torque could jump by it.
+/// Finds writes that an armed core would drop silently because the torque could jump.
 void check_held(const Scenario& s, const DesignInfo& design) {
   bool armed = false, asked = false;
   int mode = s.mode;
@@ -136,7 +136,7 @@ void check_held(const Scenario& s, const DesignInfo& design) {
     const bool disarms = e.arm && !*e.arm;
     std::string what;
     for (const auto& [name, value] : e.set) {
-      const ParameterInfo* info = design.find(name);  // none: of the law
+      const ParameterInfo* info = design.find(name);  // nullptr: a parameter of the law
       if (info != nullptr && while_armed(info->address, 0) == WhileArmed::refused) what = name;
     }
     if (e.mode && *e.mode != mode && !disarms) what = "mode";
@@ -173,7 +173,7 @@ void resolve_amounts(Scenario& s, const DesignInfo& design, const SceneLaw* law)
                            std::map<std::string, double>& values, const auto& line_of) {
     for (const auto& [name, text] : amounts) {
       try {
-        // Of an unknown name check_asked() says what there is.
+        // check_asked() reports an unknown name, with the choices.
         values[name] = parameter_in(name, text, design, law).value_or(0);
       } catch (const std::invalid_argument& error) {
         throw config::ConfigError(

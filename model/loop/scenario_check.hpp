@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a scene asks of design and plant, checked before a run. Documentation: docs/scenes.md
+// Checks, before a run, that design and plant can run a scene. Documentation: docs/scenes.md
 #pragma once
 
 #include <optional>
@@ -13,34 +13,35 @@
 
 namespace feltgate {
 
-/// Number of a torque law. Throws config::ConfigError with the laws that the design has.
+/// Number of a torque law. Errors: config::ConfigError that names the design's laws.
 int scene_number(const DesignInfo& design, const std::string& name);
 
-/// A parameter's value as someone writes it, with a unit or without (law/amount.hpp), in the unit
-/// of the law or of the design; none: neither has the parameter. Throws std::invalid_argument.
+/// The value of a parameter from text, with or without a unit (law/amount.hpp), in the unit of the
+/// law or of the design; nothing if neither has the parameter. Errors: std::invalid_argument.
 std::optional<double> parameter_in(const std::string& name, const std::string& text,
                                    const DesignInfo& design, const SceneLaw* law);
 
-/// Makes numbers of the values that the file gives with units; after that there are none. Errors:
+/// Converts the values that the file gives with units to numbers; no amounts remain. Errors:
 /// config::ConfigError "file:line: what; mend".
 void resolve_amounts(Scenario& scenario, const DesignInfo& design, const SceneLaw* law = nullptr);
+/// Whether values with units are left to convert.
 bool has_amounts(const Scenario& scenario);
 
-/// Every scene that is named is in the design, every parameter that is set is one of the law or of
-/// the design and fits its word, and the plant's step is short enough for each phase of the hand
-/// (docs/plant.md). Errors: config::ConfigError "file:line: what; mend", without file and line for
-/// what was not read from a file.
+/// Checks that the design has every scene that is named, that every parameter that is set exists in
+/// the law or the design and fits its word, and that the plant's step is short enough for each
+/// phase of the hand (docs/plant.md). Errors: config::ConfigError "file:line: what; mend"; no file
+/// and line for what was not read from a file.
 void check_scenario(const Scenario& scenario, const plant::Parameters& plant,
                     const DesignInfo& design, const SceneLaw* law = nullptr);
 
-/// The same without the plant's step, for devices of several axes.
+/// The same without the plant's step; for devices of several axes.
 void check_asked(const Scenario& scenario, const DesignInfo& design, const SceneLaw* law);
 
-/// Throws std::invalid_argument "file:line: what; mend" where the scene runs a law, which the
-/// subcommand cannot.
+/// For a subcommand that cannot run laws. Errors: std::invalid_argument "file:line: what; mend" if
+/// the scene runs a law.
 void require_no_law(const Scenario& scenario, const std::string& command);
 
-/// The step alone, at a clock of `clock_hz`.
+/// Checks only the plant's step, for a clock of `clock_hz`.
 void check_step(const Scenario& scenario, const plant::Parameters& plant, double clock_hz);
 
 }  // namespace feltgate

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Where the hand of a scene imposes a speed that jumps. Documentation: docs/plant.md
+// Finds jumps in the speed that a scene's hand imposes. Documentation: docs/plant.md
 #include "loop/speed_jumps.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ using plant::HandPhase;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Follows place and speed of the lever through the phases; NaN: only a run shows it.
+/// Follows angle and speed of the lever through the phases; NaN: known only in a run.
 class Jumps {
  public:
   Jumps(const Scenario& s, const plant::Hand& hand, double inertia_kg_m2)

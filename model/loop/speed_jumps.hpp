@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Where the hand of a scene imposes a speed that jumps: no hand does, and the lever's inertia makes
-// a blow of it. Documentation: docs/plant.md
+// Finds jumps in the speed that a scene's hand imposes. No hand can jump, and the lever's inertia
+// turns the jump into a blow. Documentation: docs/plant.md
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@
 
 namespace feltgate {
 
-/// A sentence for each jump from `least_jump_rad_s` on, "file:line: how large, when", the first
-/// with what to do. A jump from or to a speed that only a run shows, as after a phase "free", is
-/// not told. Valid after resolve_effects().
+/// A sentence for each jump of at least `least_jump_rad_s`: "file:line: how large, when"; the first
+/// one also says what to do. A jump from or to a speed that only a run shows, as after a phase
+/// "free", is not reported. Valid after resolve_effects().
 std::vector<std::string> speed_jumps(const Scenario& scenario, const plant::Parameters& plant);
-/// The same of a hand that stands elsewhere than in the scenario, on a lever of this inertia.
+/// The same for a hand given separately, on a lever of this inertia.
 std::vector<std::string> speed_jumps(const Scenario& scenario, const plant::Hand& hand,
                                      double inertia_kg_m2);
 

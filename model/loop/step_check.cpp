@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Whether the plant's step is short enough for a scene. Derivation: docs/plant.md
+// Checks that the plant's step is short enough for a scene. Derivation: docs/plant.md
 #include <fmt/format.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 using plant::HandPhase;
 
-/// What to change where a pole is too fast.
+/// Advice where a pole is too fast.
 std::string mend(const Scenario& s, double pole_1_s, double most, double clock_hz,
                  const std::string& softer) {
   const double clocks = std::floor(most / pole_1_s * clock_hz);
@@ -24,7 +24,7 @@ std::string mend(const Scenario& s, double pole_1_s, double most, double clock_h
   return fmt::format("{}, or set step_clocks = {} (it is {})", softer, clocks, s.step_clocks);
 }
 
-/// What makes the phase stiff, by its keys.
+/// The keys that make a phase stiff.
 std::string softer(HandPhase::Kind kind) {
   switch (kind) {
     case HandPhase::Kind::kCord:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// How long the steps of the plant are. Documentation: docs/plant.md
+// Lengths of the plant's steps. Documentation: docs/plant.md
 #include "loop/step_plan.hpp"
 
 #include "plant/stiffness.hpp"
@@ -15,9 +15,9 @@ StepPlan::StepPlan(Clock fine, Clock longest, Clock period)
 }
 
 int longest_step_clocks(const Scenario& s, const plant::Parameters& p, double clock_hz) {
-  constexpr double calm = 0.1;  // of what a step may be: its error is then below that of a count
+  constexpr double calm = 0.1;  // share of the limit; the error is then below that of a count
   constexpr int longest = 250;
-  // The bus is advanced with the current of the step before: an error of first order.
+  // The bus is advanced with the current of the step before, which gives a first-order error.
   if (s.effects.supply_limit) return s.step_clocks;
   const double radius_m = s.hand.radius_m.value_or(p.lever.radius_m);
   double pole = plant::mechanical_pole_1_s(p, s.effects, {}, radius_m);

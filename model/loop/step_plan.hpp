@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// How long the steps of the plant are: from event to event while nothing happens.
+// Lengths of the plant's steps: while nothing happens, a step lasts from event to event.
 // Documentation: docs/plant.md
 #pragma once
 
@@ -14,25 +14,27 @@
 
 namespace feltgate {
 
-/// The longest step, in clocks, that keeps every pole of the scene a tenth of the way to its bound;
-/// scenario.step_clocks where none above it does.
+/// The longest step, in clocks, with which every pole of the scene is at most a tenth of its bound;
+/// scenario.step_clocks if no longer one is possible.
 int longest_step_clocks(const Scenario& scenario, const plant::Parameters& plant, double clock_hz);
 
-/// Says where each step ends. Only time and what the scene says decide, never an engine: all
-/// engines give the same run.
+/// Decides where each step ends. It depends only on time and on the scene, never on an engine, so
+/// all engines give the same run.
 class StepPlan {
  public:
-  /// Each step is `step` clocks long.
+  /// Equal steps of `step` clocks.
   explicit StepPlan(Clock step) : fine_(step) {}
-  /// A duty that holds for `period` clocks from a multiple of it on: the steps end `fine` clocks
-  /// after it can be new, and between two of these they are equal, at most `longest`.
+  /// For a duty that holds for `period` clocks from each multiple of `period`: steps end `fine`
+  /// clocks after the duty can change; between two such ends they are equal and at most `longest`.
   StepPlan(Clock fine, Clock longest, Clock period);
 
-  /// From `now` on for `clocks` something may happen at any time: steps of `fine` clocks.
+  /// From `now` on, for `clocks` clocks, something may happen at any time: use steps of `fine`
+  /// clocks.
   void stir(Clock now, Clock clocks) { stirred_until_ = std::max(stirred_until_, now + clocks); }
 
-  /// End of the step from `now` on, not after `last`. `corner`, later than `now`: what it causes
-  /// acts from the first multiple of `fine` on, and the steps before and after that are fine ones.
+  /// End of the step that starts at `now`; not after `last`. `corner` is later than `now`: its
+  /// effects start at the first multiple of `fine` from there on, and the steps around it are fine
+  /// ones.
   Clock end_of_step(Clock now, Clock corner, Clock last) {
     if (ends_.empty()) return std::min(now + fine_, last);
     while (period_begin_ + ends_[next_] <= now) {
@@ -47,7 +49,7 @@ class StepPlan {
     stirred_until_ = std::max(stirred_until_, acts + fine_);
     return std::min(end, next_fine(now));
   }
-  /// The mean over a period of the duty begins here: the plant feels a duty so much later.
+  /// Start of a period mean of the duty: the plant gets a new duty so many clocks later.
   Clock phase() const { return ends_.empty() ? 0 : fine_; }
 
  private:
@@ -55,7 +57,7 @@ class StepPlan {
 
   Clock fine_;
   Clock period_ = 0;
-  std::vector<Clock> ends_;  ///< of the steps of a period; empty: all are `fine_`
+  std::vector<Clock> ends_;  ///< ends of the steps in a period; empty: all are `fine_`
   std::size_t next_ = 0;
   Clock period_begin_ = 0;
   Clock stirred_until_ = 0;

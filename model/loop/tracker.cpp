@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A sensor of the host. Documentation: docs/scenes.md
+// A sensor of the host beside the core. Documentation: docs/scenes.md
 #include "loop/tracker.hpp"
 
 #include <algorithm>

@@ -1,36 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Stops of an angle. Energy and passivity: docs/pantograph.md
+// Elastic stops that limit an angle. Energy and passivity: docs/pantograph.md
 #pragma once
 
 #include <algorithm>
 
 namespace feltgate::plant {
 
-/// A spring at each end that gives back restitution^2 of the energy that it took.
+/// A spring at each end of the angle; it returns restitution^2 of the energy that it took.
 struct AngleStops {
   double least_rad = 0.0, most_rad = 0.0;
   double stiffness_nm_rad = 0.0;
   double restitution = 1.0;  ///< 0.1 to 1
 };
 
-/// Both stops and how far each is pressed. The spring gets deeper with its stiffness and comes back
-/// with stiffness/restitution^2, from the same torque to none before its whole way is back; pressed
-/// again it goes along that line to its deepest point. So its torque is continuous and comes from a
-/// potential that only falls when a contact gets deeper: however it is pressed, it gives no energy.
-/// (Walton and Braun, J. Rheol. 30, 1986: loading and unloading of a sphere.)
+/// Both stops, with their deepest compression. A spring is loaded with its stiffness and unloaded
+/// with stiffness/restitution^2: from the same torque, the torque reaches 0 before the whole way is
+/// back. When pressed again it follows the unloading line up to its deepest point. So the torque is
+/// continuous, and its potential only falls when a contact gets deeper: whatever the motion, the
+/// stop gives no net energy. (Walton and Braun, J. Rheol. 30, 1986: loading and unloading of a
+/// sphere.)
 class AngleContact {
  public:
-  static constexpr double kNear_rad = 1e-14;  ///< this near a border is on it
+  static constexpr double kNear_rad = 1e-14;  ///< an angle this near to a border is on it
 
   explicit AngleContact(const AngleStops& stops)
       : s_(stops),
         kept_(stops.restitution * stops.restitution),
         back_nm_rad_(stops.stiffness_nm_rad / kept_) {}
 
-  /// 0: deeper than ever at the low end, 1: on the way back from there, 2: free, 3 and 4: the high
-  /// end. On a border the speed decides.
+  /// Zone of the contact. 0: deeper than before at the low end; 1: unloading there; 2: free; 3 and
+  /// 4: the same at the high end, unloading and deeper. On a border the speed decides.
   int zone(double angle_rad, double rad_s) const {
     int zone = 0;
     while (zone < 4) {
@@ -43,7 +44,7 @@ class AngleContact {
   bool within(int zone, double angle_rad) const {
     return (zone == 0 || angle_rad >= lower(zone)) && (zone == 4 || angle_rad <= upper(zone));
   }
-  /// Ends of a zone, rad; zone 4 has no upper, zone 0 no lower one.
+  /// Upper and lower end of a zone, rad; zone 4 has no upper end, zone 0 no lower one.
   double upper(int zone) const {
     const double ends[] = {s_.least_rad - low_rad_, s_.least_rad - dent(low_rad_),
                            s_.most_rad + dent(high_rad_), s_.most_rad + high_rad_};
@@ -57,12 +58,12 @@ class AngleContact {
     if (zone == 1 || zone == 3) return back_nm_rad_ * (upper(zone == 1 ? 1 : 2) - angle_rad);
     return s_.stiffness_nm_rad * ((zone == 0 ? s_.least_rad : s_.most_rad) - angle_rad);
   }
-  /// What the springs would give back, J.
+  /// Energy that the springs would return, J.
   double stored_j(double angle_rad) const {
     return stored_j(s_.least_rad - angle_rad, low_rad_) +
            stored_j(angle_rad - s_.most_rad, high_rad_);
   }
-  /// The angle is there now: deepest points, and what was lost, J.
+  /// Sets the present angle: updates the deepest points and returns the energy that was lost, J.
   double settle(double angle_rad) {
     const double before_j = stored_j(angle_rad);
     low_rad_ = settled(s_.least_rad - angle_rad, low_rad_);
@@ -71,7 +72,7 @@ class AngleContact {
   }
 
  private:
-  /// Where the torque is gone on the way back from the deepest point.
+  /// Compression at which the torque is 0 on the way back from the deepest point.
   double dent(double deepest_rad) const { return (1.0 - kept_) * deepest_rad; }
   double stored_j(double depth_rad, double deepest_rad) const {
     const double back_rad = std::min(depth_rad, deepest_rad) - dent(deepest_rad);
@@ -85,9 +86,9 @@ class AngleContact {
   }
 
   AngleStops s_;
-  double kept_;                            ///< of the energy
+  double kept_;                            ///< share of the energy that is returned
   double back_nm_rad_;                     ///< stiffness on the way back
-  double low_rad_ = 0.0, high_rad_ = 0.0;  ///< deepest points of the contacts that last
+  double low_rad_ = 0.0, high_rad_ = 0.0;  ///< deepest points of the present contacts
 };
 
 }  // namespace feltgate::plant

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A plant with several axes and what drives its motors, from event to event. A plant has `axes`,
-// advance(bridges or torques, clocks), events(axis), next_corner(), now(). docs/pantograph.md
+// A plant with several axes and the device that drives its motors, from event to event. A plant has
+// `axes`, advance(bridges or torques, clocks), events(axis), next_corner(), now().
+// docs/pantograph.md
 #pragma once
 
 #include <algorithm>
@@ -17,7 +18,7 @@
 
 namespace feltgate::plant {
 
-/// What the motors get until the device is asked again: bridges, or ideal torques at the joints.
+/// The command to the motors until the device is asked again: bridges, or ideal joint torques.
 template <std::size_t N>
 struct AxesCommand {
   bool ideal = false;
@@ -25,26 +26,26 @@ struct AxesCommand {
   std::array<double, N> torque_nm = {};
 };
 
-/// What a device may see. A core sees its pins: `events` are all changes since it was asked last.
+/// What a device may read. A core reads its pins: `events` are all changes since it was asked last.
 template <class Plant>
 struct AxesSense {
   Clock now;
   const std::array<std::vector<EncoderEvent>, Plant::axes>& events;
-  const Plant& plant;  ///< for models that are given ideal sensors
+  const Plant& plant;  ///< for models with ideal sensors
 };
 
-/// The device side of the loop: a law in continuous time, or the twin of a core with several axes.
+/// The device in the loop: a law in continuous time, or the twin of a core with several axes.
 template <class Plant>
 class AxesDevice {
  public:
   virtual ~AxesDevice() = default;
-  /// Everything up to sense.now; the command holds from there.
+  /// Computes everything up to sense.now; the command holds from there.
   virtual AxesCommand<Plant::axes> act(const AxesSense<Plant>& sense) = 0;
-  /// The first clock after `now` at which its outputs may change or it wants its inputs.
+  /// The first clock after `now` at which its outputs may change or it needs its inputs.
   virtual Clock next(Clock now) const = 0;
 };
 
-/// Whether a plant may have ideal motors in place of bridges.
+/// Whether a plant may have ideal motors instead of bridges.
 template <class Plant, class = void>
 constexpr bool takes_torques = false;
 template <class Plant>
@@ -53,14 +54,15 @@ constexpr bool
                              std::declval<const std::array<double, Plant::axes>&>(), Clock{1}))>> =
         true;
 
+/// Advances plant and device together.
 template <class Plant>
 class AxesLoop {
  public:
-  /// Steps of the plant have at most `longest` clocks.
+  /// A step of the plant has at most `longest` clocks.
   AxesLoop(Plant& plant, AxesDevice<Plant>& device, Clock longest = 250)
       : plant_(plant), device_(device), longest_(longest) {}
 
-  /// Runs until clock `end`; `seen(plant)` is called after every step of the plant.
+  /// Runs to the clock `end`; calls `seen(plant)` after every step of the plant.
   template <class Observer>
   void run(Clock end, Observer&& seen) {
     while (plant_.now() < end) {

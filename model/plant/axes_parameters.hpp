@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Constants of joints that are driven alike: motor, capstan, friction, encoder. docs/pantograph.md
+// Constants of joints with equal drives: motor, capstan, friction, encoder. docs/pantograph.md
 #pragma once
 
 #include "parameters.hpp"
 
 namespace feltgate::plant {
 
-/// What stands between a motor and its joint.
+/// The transmission between a motor and its joint.
 struct JointParameters {
   double rotor_inertia_kg_m2 = 0.0;
   double drum_inertia_kg_m2 = 0.0;  ///< turns with the joint
-  double pulley_radius_m = 0.0;     ///< of the capstan, on the motor
+  double pulley_radius_m = 0.0;     ///< capstan pulley, on the motor
   double drum_radius_m = 0.0;
   double viscous_nm_s_rad = 0.0;  ///< at the joint
-  bool encoder_on_motor = false;  ///< its counts are then of the motor's angle
+  bool encoder_on_motor = false;  ///< the counts are those of the motor's angle
 
   /// Turns of the motor per turn of the joint.
   double ratio() const { return drum_radius_m / pulley_radius_m; }
@@ -25,16 +25,16 @@ struct JointParameters {
   }
 };
 
-/// All joints of a device are alike.
+/// Parameters of a device with equal joints.
 struct AxesParameters {
   JointParameters joint;
   MotorParameters motor;
   LugreParameters lugre;      ///< at the motor's shaft
   SupplyParameters supply;    ///< one for all motors
-  EncoderParameters encoder;  ///< of axis 0; the others have the next seeds
+  EncoderParameters encoder;  ///< of axis 0; the other axes have the next seeds
   Effects effects;            ///< defaults of the file; a scene may override each
 
-  /// Viscous torque per speed of a joint, of the effects that are on, Nm s/rad.
+  /// Viscous torque per speed of a joint, from the effects that are on, Nm s/rad.
   double smooth_nm_s_rad(const Effects& on) const {
     return (on.viscous ? joint.viscous_nm_s_rad : 0.0) +
            (on.lugre ? joint.ratio() * joint.ratio() * lugre.viscous_nm_s_rad : 0.0);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Bridge, winding and friction of one motor among several: from what its bridge does to the mean
-// torques of a step, as in the plant of the lever. Documentation: docs/plant.md
+// Bridge, winding and friction of one motor among several: computes the mean torques of a step from
+// the bridge's state, as in the plant of the lever. Documentation: docs/plant.md
 #pragma once
 
 #include "bridge.hpp"
@@ -16,13 +16,14 @@ namespace feltgate::plant {
 struct AxisStep {
   double current_a = 0.0;
   double motor_nm = 0.0;     ///< Kt*i, before friction
-  double friction_nm = 0.0;  ///< bristles, opposes positive speed; sigma2*omega is not in it
+  double friction_nm = 0.0;  ///< bristles; opposes positive speed, excludes sigma2*omega
   double bridge_a = 0.0;     ///< drawn from the bus
 };
 
+/// The drive of one motor, step by step.
 class AxisDrive {
  public:
-  /// Errors: std::invalid_argument for a drive that cannot be (see BridgeModel).
+  /// Errors: std::invalid_argument for an impossible drive (see BridgeModel).
   AxisDrive(const MotorParameters& motor, const LugreParameters& lugre,
             const SupplyParameters& supply, const Drive& drive, const Effects& effects)
       : motor_(motor),
@@ -31,13 +32,13 @@ class AxisDrive {
         winding_(motor.resistance_ohm, motor.inductance_h),
         lugre_(lugre) {}
 
-  /// Sets the length of the steps to come, s.
+  /// Sets the length of the following steps, s.
   void set_step(double dt_s) {
     if (on_.inductance) winding_.set_step(dt_s);
     if (on_.lugre) lugre_.set_step(dt_s);
   }
 
-  /// One step with the bridge as given; bus (V) and speed of the motor (rad/s) are held.
+  /// One step with this bridge; bus voltage (V) and motor speed (rad/s) are held.
   AxisStep advance(const Bridge& bridge, double bus_v, double motor_rad_s) {
     if (bridge.shoots_through()) shoot_through_ = true;
     const BridgeVoltage voltage = bridge_.voltage(bridge, bus_v, current_a_);
@@ -60,12 +61,12 @@ class AxisDrive {
     return s;
   }
 
-  /// Mean torque of the bristles over one step, Nm: the motor is driven by something else.
+  /// Mean torque of the bristles over one step, Nm, for a motor that something else drives.
   double friction_nm(double motor_rad_s) { return on_.lugre ? lugre_.advance(motor_rad_s) : 0.0; }
 
   double current_a() const { return current_a_; }
   double bristle_rad() const { return lugre_.z_rad(); }
-  /// Both gates of a leg were on at once, ever.
+  /// Whether both gates of a leg were ever on at once.
   bool shoot_through() const { return shoot_through_; }
 
  private:

@@ -17,22 +17,23 @@
 
 namespace feltgate::plant {
 
+/// The drives and encoders of N joints on one supply.
 template <std::size_t N>
 class AxisSet {
  public:
   using Axes = std::array<double, N>;
   using Bridges = std::array<Bridge, N>;
-  /// Means over one step, at the joints, Nm.
+  /// Mean torques over one step, at the joints, Nm.
   struct Torques {
     Axes motor = {};
-    Axes dry = {};  ///< friction of the bristles, opposes positive speed
+    Axes dry = {};  ///< friction of the bristles; opposes positive speed
   };
 
-  /// Errors: std::invalid_argument for a drive or a start that cannot be.
+  /// Errors: std::invalid_argument for an impossible drive or start.
   AxisSet(const AxesParameters& p, const Effects& on, const Drive& drive, const Axes& start_rad)
       : AxisSet(p, on, drive, start_rad, std::make_index_sequence<N>{}) {}
 
-  /// Begins a step of dt_s.
+  /// Starts a step of dt_s.
   void begin(double dt_s) {
     if (dt_s != dt_s_) {
       dt_s_ = dt_s;
@@ -40,7 +41,7 @@ class AxisSet {
     }
     for (auto& events : events_) events.clear();
   }
-  /// The bridges as given, joints at these speeds in the middle of the step.
+  /// Torques with these bridges; the speeds are those of the joints in the middle of the step.
   Torques drive(const Bridges& bridges, const Axes& middle_rad_s) {
     Torques t;
     double drawn_a = 0.0;
@@ -53,7 +54,7 @@ class AxisSet {
     supply_a_ = limited_ ? supply_.advance(drawn_a, dt_s_) : drawn_a;
     return t;
   }
-  /// Ideal motors instead: these torques at the joints.
+  /// The same for ideal motors with these torques at the joints.
   Torques drive(const Axes& torque_nm, const Axes& middle_rad_s) {
     Torques t{torque_nm, {}};
     for (std::size_t i = 0; i < N; ++i) {
@@ -61,8 +62,8 @@ class AxisSet {
     }
     return t;
   }
-  /// Ends the step: the joints went from `from` to `to` in the `clocks` after `now`. False where
-  /// one turned by more than one state of its encoder in a clock, which no pins can show.
+  /// Ends the step: the joints turned from `from` to `to` in the `clocks` after `now`. Returns
+  /// false if a joint turned by more than one encoder state in a clock, which pins cannot show.
   bool turn(const Axes& from, const Axes& to, Clock now, Clock clocks) {
     for (std::size_t i = 0; i < N; ++i) {
       const double most = encoders_[i].count_rad() * static_cast<double>(clocks);
@@ -83,7 +84,7 @@ class AxisSet {
   }
   double bus_v() const { return supply_.bus_v(); }
   double supply_a() const { return supply_a_; }
-  /// Both gates of a leg were on at once, ever.
+  /// Whether both gates of a leg were ever on at once.
   bool shoot_through() const {
     for (const AxisDrive& drive : drives_) {
       if (drive.shoot_through()) return true;
@@ -109,8 +110,8 @@ class AxisSet {
     return e;
   }
 
-  double ratio_;          ///< motor per joint
-  double encoder_ratio_;  ///< encoder per joint
+  double ratio_;          ///< turns of the motor per turn of the joint
+  double encoder_ratio_;  ///< turns of the encoder per turn of the joint
   bool limited_;
   std::array<AxisDrive, N> drives_;
   Supply supply_;

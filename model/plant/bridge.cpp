@@ -36,14 +36,15 @@ BridgeModel::BridgeModel(const Drive& drive, const SupplyParameters& supply,
   }
 }
 
-// Share of the bus that a leg loses when its current flows out of it: the high side is on
-// dead_fraction_ less than commanded, but never less than not at all; a leg at rest loses nothing.
+// Share of the bus that a leg loses when its current flows out of it: the high side is on for
+// dead_fraction_ less than commanded, but not less than 0. A leg that does not switch loses
+// nothing.
 double BridgeModel::dead_share(double on_share, double against_share) const {
   if (on_share <= 0.0 || against_share <= 0.0) return 0.0;
   return std::min(dead_fraction_, on_share);
 }
 
-// The duty without pulses that the PWM leaves out or makes longer (docs/blocks/pwm.md).
+// The duty after the PWM has left out or lengthened its shortest pulses (docs/blocks/pwm.md).
 double BridgeModel::whole_pulses(double duty) const {
   const double d = std::clamp(duty, -1.0, 1.0);
   if (least_ <= 0.0) return d;
@@ -88,8 +89,8 @@ void BridgeModel::hold(double duty, double bus_v) {
 
 BridgeVoltage BridgeModel::unaveraged(const Bridge& bridge) const {
   if (bridge.mode == Bridge::Mode::kOff) return {-1.0, 1.0, 2.0 * diode_v_};
-  // A leg with no gate on follows the current: out of it through the low diode, into it through
-  // the high one.
+  // In a leg with no gate on, the current's direction decides: it flows out through the low diode,
+  // in through the high diode.
   const double a_off = std::max(0.0, 1.0 - bridge.a_hi - bridge.a_lo);
   const double b_off = std::max(0.0, 1.0 - bridge.b_hi - bridge.b_lo);
   return {bridge.a_hi - bridge.b_hi - b_off, bridge.a_hi + a_off - bridge.b_hi,

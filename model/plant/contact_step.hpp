@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A Runge-Kutta step that is cut where an angle meets or leaves a stop. docs/pantograph.md
+// A Runge-Kutta step that is split where an angle meets or leaves a stop. docs/pantograph.md
 #pragma once
 
 #include <cmath>
@@ -10,8 +10,8 @@
 
 namespace feltgate::plant {
 
-/// The classic step of fourth order. `rate(state)` is how fast each part of a state changes, in its
-/// place; `add(state, k, rate)` adds k times a rate.
+/// The classic step of fourth order. `rate(state)` gives the rates of all parts as a state;
+/// `add(state, k, rate)` adds k times a rate.
 template <class State, class Rate>
 State runge_kutta(const State& s, double dt_s, Rate&& rate) {
   const State k1 = rate(s);
@@ -32,12 +32,12 @@ State runge_kutta(const State& s, double dt_s, Rate&& rate) {
   return at;
 }
 
-/// After what time `beyond(state)` passes 0 in a step of most_s, at whose end it is `at_b`: regula
-/// falsi, Illinois' way.
+/// The time at which `beyond(state)` crosses 0 in a step of most_s, at whose end it is `at_b`;
+/// regula falsi, Illinois variant.
 template <class State, class Flow, class Beyond>
 double cross_at(const State& s, double most_s, double at_b, Flow&& flow, Beyond&& beyond) {
   double a = 0.0, b = most_s, at_a = beyond(s), cut = 0.0;
-  // It begins on the border and comes back to it: from somewhere between.
+  // A start on the border: begin instead at a point between start and end.
   for (int half = 0; half < 12 && std::abs(at_a) < AngleContact::kNear_rad; ++half) {
     a = 0.5 * (half == 0 ? b : a);
     at_a = beyond(flow(s, a));
@@ -61,12 +61,13 @@ double cross_at(const State& s, double most_s, double at_b, Flow&& flow, Beyond&
   return cut;
 }
 
-/// Advances `s` by dt_s through the stops on angle(state), that turns with rad_s now;
-/// flow(state, zone, seconds) stays in one zone of the contact. What the stops took, J.
+/// Advances `s` by dt_s through the stops that limit angle(state), whose present speed is rad_s.
+/// flow(state, zone, seconds) integrates inside one zone of the contact. Returns the energy that
+/// the stops took, J.
 template <class State, class Flow, class Angle>
 double contact_step(AngleContact& contact, State& s, double dt_s, double rad_s, Flow&& flow,
                     Angle&& angle) {
-  constexpr int most_cuts = 4;  // one that trembles goes on uncut
+  constexpr int most_cuts = 4;  // a trembling contact continues unsplit
   int zone = contact.zone(angle(s), rad_s);
   double left_s = dt_s;
   State next = flow(s, zone, left_s);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The drive electronics that a design is made for. Documentation: docs/plant.md
+// The drive electronics that a design assumes. Documentation: docs/plant.md
 #pragma once
 
 #include "bridge.hpp"

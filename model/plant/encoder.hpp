@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Incremental encoder: from the angle to changes of the pins A, B and Z, each with the clock at
-// which it is first seen. Documentation: docs/plant.md
+// Incremental encoder: converts the angle to changes of the pins A, B and Z, each with the clock at
+// which it is first visible. Documentation: docs/plant.md
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,16 @@
 
 namespace feltgate::plant {
 
+/// One encoder, advanced along the motion of its shaft.
 class Encoder {
  public:
-  /// With `imperfect` false offsets and jitter are left out.
-  /// Errors: std::invalid_argument for an angle beyond 2^45 counts, where doubles miss counts.
+  /// `imperfect` = false leaves out offsets and jitter. Errors: std::invalid_argument for an angle
+  /// beyond 2^45 counts, where doubles cannot resolve counts.
   Encoder(const EncoderParameters& parameters, bool imperfect, double start_rad);
 
-  /// The angle goes linearly to `theta_rad` in the `clocks` after `begin`. Events are appended with
-  /// clocks in (begin, begin + clocks], strictly increasing; what falls on one clock is one event.
-  /// Errors: std::domain_error for more than one count per clock, which pins cannot show.
+  /// Moves the angle linearly to `theta_rad` during the `clocks` after `begin`. Appends events with
+  /// clocks in (begin, begin + clocks], strictly increasing; changes in the same clock are one
+  /// event. Errors: std::domain_error for more than one count per clock, which pins cannot show.
   void advance(double theta_rad, Clock begin, Clock clocks, std::vector<EncoderEvent>& events) {
     if (theta_rad >= low_rad_ && theta_rad < high_rad_) {
       theta_rad_ = theta_rad;
@@ -45,7 +46,7 @@ class Encoder {
 
   std::int64_t counts_per_rev_;
   double count_rad_;
-  std::vector<double> offset_counts_;  ///< empty when ideal
+  std::vector<double> offset_counts_;  ///< empty for an ideal encoder
   mutable std::uint64_t offset_edges_ = 0;
   double theta_rad_;
   std::int64_t count_ = 0;

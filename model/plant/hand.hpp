@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What holds the lever: a list of timed phases. Read from the [hand] table of a scene by
-// hand_file.hpp, carried out by hand_run.hpp. Documentation: docs/plant.md
+// What holds the lever: a list of timed phases. hand_file.hpp reads it from the [hand] table of a
+// scene, hand_run.hpp executes it. Documentation: docs/plant.md
 #pragma once
 
 #include <limits>
@@ -29,29 +29,31 @@ struct Cord {
   double damping_nm_s_rad = 0.1;
 };
 
+/// One phase of a hand.
 struct HandPhase {
   enum class Kind {
     kFree,        ///< nothing touches the lever
     kLocked,      ///< the lever stops where it is
     kPrescribed,  ///< the angle follows `profile` (rad)
     kTrace,       ///< the angle follows `trace`, shifted to begin where the lever is
-    kImpedance,   ///< `impedance`, its equilibrium angle follows `profile` (rad)
-    kCord,        ///< `cord`, slack-free at the angle where the phase begins
+    kImpedance,   ///< `impedance`; its equilibrium angle follows `profile` (rad)
+    kCord,        ///< `cord`, unstretched at the angle where the phase begins
     kTorque,      ///< the hand applies `profile` (Nm), starting from 0
   };
   Kind kind = Kind::kFree;
-  int line = 0;  ///< of the scene file; 0: not of a file
-  double duration_s = std::numeric_limits<double>::infinity();  ///< infinite: for good
+  int line = 0;  ///< line in the scene file; 0: not from a file
+  double duration_s = std::numeric_limits<double>::infinity();  ///< infinite: forever
   Profile profile;
   Trace trace;
   Impedance impedance;
   Cord cord;
 };
 
+/// A hand at the lever.
 struct Hand {
-  std::optional<double> start_rad;  ///< angle at clock 0; default: first of a leading trace, or 0
+  std::optional<double> start_rad;  ///< angle at clock 0; default: start of a leading trace, or 0
   std::optional<double> radius_m;   ///< where the hand holds; default: that of the plant
-  std::vector<HandPhase> phases;    ///< empty: free for good; the last one lasts for good
+  std::vector<HandPhase> phases;    ///< empty: free forever; the last phase lasts forever
 
   /// Angle of the lever at clock 0, rad.
   double initial_rad() const;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Reads the [hand] table of a scene. Documentation: docs/plant.md
+// Reader of the [hand] table of a scene. Documentation: docs/plant.md
 #include "plant/hand_file.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,8 @@ using Kind = HandPhase::Kind;
 
 constexpr config::Range kPhase{-7.0, 7.0};
 constexpr config::Range kFrequency{1e-6, 1e5};
-/// Of angles in rad (160 000 turns) and torques in Nm: far beyond any lever, far inside a double.
+/// Range of angles in rad (160 000 turns) and torques in Nm: far beyond any lever, well within a
+/// double.
 constexpr config::Range kWay{-1e6, 1e6};
 
 // `unit` is the suffix of the keys: rad or nm.
@@ -111,7 +112,7 @@ Trace read_trace(config::TomlReader& table) {
   if (table.has("file")) {
     const std::string file = beside(table.file(), table.text("file"));
     std::error_code ignored;
-    // What is wrong within the file is told with its own lines.
+    // The trace reader reports errors inside the file, with their own lines.
     if (!std::filesystem::is_regular_file(file, ignored) ||
         std::ifstream(file).peek() == std::ifstream::traits_type::eof()) {
       table.fail("file", fmt::format("{}: cannot be opened, or is empty", file),

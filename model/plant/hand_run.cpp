@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Carries out the phases of a Hand. Documentation: docs/plant.md
+// Execution of the phases of a Hand. Documentation: docs/plant.md
 #include "plant/hand_run.hpp"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ void HandRun::begin_phase(const Shaft& lever) {
   const bool goes_on = started_ && kind_ == Kind::kImpedance && phase.kind == Kind::kImpedance;
   kind_ = phase.kind;
   started_ = true;
-  // A last phase lasts for good, whatever its duration says.
+  // The last phase lasts forever, whatever its duration.
   last_ = index_ + 1 == hand_.phases.size() || std::isinf(phase.duration_s);
   if (!last_) phase_end_ = end_of(index_);
   anchor_rad_ = lever.theta_rad;

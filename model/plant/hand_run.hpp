@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Carries out the phases of a Hand, step by step on the integer clock. Documentation: docs/plant.md
+// Executes the phases of a Hand, step by step on the integer clock. Documentation: docs/plant.md
 #pragma once
 
 #include <cstddef>
@@ -12,26 +12,27 @@
 
 namespace feltgate::plant {
 
+/// The phases in progress.
 class HandRun {
  public:
-  /// Without `dynamics` an impedance hand imposes its motion on the lever.
+  /// Without `dynamics`, an impedance hand imposes its motion on the lever.
   HandRun(Hand hand, double radius_m, double clock_hz, bool dynamics = true);
 
-  /// Prepares the step of dt_s from clock `now` with the lever at `lever`. A phase begins with the
-  /// first step at or after its time; profiles run from the time itself, so nothing drifts.
+  /// Prepares the step of dt_s that starts at clock `now` with this lever. A phase starts with the
+  /// first step at or after its time; its profile counts from the time itself, so nothing drifts.
   void begin_step(Clock now, double dt_s, const Shaft& lever);
 
-  /// The first clock after `now` at which the hand does something else: a phase or a segment of its
-  /// motion ends. Later than any run: nothing of that kind.
+  /// The first clock after `now` at which a phase or a segment of its motion ends; later than any
+  /// run if there is none.
   Clock next_corner(Clock now) {
     if (corner_ <= now) find_corner(now);
     return corner_;
   }
 
-  /// The caller takes the hand over: `phase` begins with the next step and lasts for good.
+  /// Replaces the hand's phases: `phase` begins with the next step and lasts forever.
   void take(HandPhase phase);
-  /// The equilibrium of an impedance hand is here now and moves on at this rate, whatever its
-  /// profile says, until the next call or phase.
+  /// Sets the equilibrium of an impedance hand at `now`; it moves on at this rate, instead of by
+  /// its profile, until the next call or phase.
   void steer(const Shaft& equilibrium, Clock now) {
     steered_ = true;
     steered_from_ = equilibrium;
@@ -39,7 +40,7 @@ class HandRun {
   }
 
   HandPhase::Kind kind() const { return kind_; }
-  /// The lever is where the hand puts it: target() at the end of the step.
+  /// Whether the hand determines the lever's motion: target() at the end of the step.
   bool imposes() const {
     return kind_ == HandPhase::Kind::kLocked || kind_ == HandPhase::Kind::kPrescribed ||
            kind_ == HandPhase::Kind::kTrace;
@@ -54,7 +55,7 @@ class HandRun {
     const Cord& cord = hand_.phases[index_].cord;
     return {cord.stiffness_nm_rad * anchor_rad_, -cord.damping_nm_s_rad, -cord.stiffness_nm_rad};
   }
-  /// The same at one state of the lever (for impedance: through the grip), Nm.
+  /// The hand's torque at one state of the lever, Nm; an impedance acts through the grip.
   double torque_nm(const Shaft& lever) const {
     if (has_mass()) return dynamics_.grip_nm(lever, mass_);
     const ShaftTorque t = torque();
@@ -76,12 +77,12 @@ class HandRun {
   double clock_hz_;
   double clock_s_;
   bool has_dynamics_;
-  bool taken_ = false;  ///< the next step begins the phase of take()
+  bool taken_ = false;  ///< the next step starts the phase of take()
   std::size_t index_ = 0;
   bool started_ = false;
   Clock phase_begin_ = 0;
   Clock phase_end_ = 0;
-  Clock corner_ = 0;  ///< next_corner() as long as it lies ahead
+  Clock corner_ = 0;  ///< next_corner(), while it is in the future
   bool last_ = true;
   HandPhase::Kind kind_ = HandPhase::Kind::kFree;
   ProfileRun profile_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Levers alike with nothing between them but what a core with as many axes makes: two levers, or
-// the three slides of a stylus. docs/devices/coupled_levers.md, docs/devices/stylus.md
+// Several equal levers, coupled only by the laws of a core with as many axes: two levers, or the
+// three slides of a stylus. docs/devices/coupled_levers.md, docs/devices/stylus.md
 #pragma once
 
 #include <algorithm>
@@ -16,35 +16,36 @@
 
 namespace feltgate::plant {
 
+/// Constants of the levers.
 struct LeverSetParameters {
   std::string name;
-  Parameters lever;           ///< of each; each has the next seed of its encoder
-  EncoderParameters encoder;  ///< that of the first
+  Parameters lever;           ///< every lever; encoders have successive seeds
+  EncoderParameters encoder;  ///< encoder of the first lever
   Effects effects;            ///< defaults of the file; a scene may override each
 };
 
-/// At the end of the last step, motor torques as means over it.
+/// Values at the end of the last step; motor torques are means over it.
 template <std::size_t N>
 struct LeverSetSeen {
   std::array<double, N> theta_rad = {}, omega_rad_s = {};
   std::array<double, N> motor_nm = {};
-  std::array<double, N> hand_nm = {};  ///< of what holds or meets each lever
-  std::array<double, N> work_j = {};   ///< likewise, since the start
-  double hand_work_j = 0.0;            ///< of the levers that the hand holds
+  std::array<double, N> hand_nm = {};  ///< of the hand or object at each lever
+  std::array<double, N> work_j = {};   ///< of the same, since the start
+  double hand_work_j = 0.0;            ///< only of levers that the hand holds
 };
 
-/// N levers; a hand holds the first `Held` of them, the others meet something.
+/// N levers; a hand holds the first `Held`, the others touch an object.
 template <std::size_t N, std::size_t Held>
 class LeverSet {
  public:
   static constexpr std::size_t axes = N;
 
-  /// Errors: as of Plant.
+  /// Errors: those of Plant.
   LeverSet(const LeverSetParameters& parameters, const Effects& effects, const Drive& drive,
            const std::array<Hand, N>& hands)
       : LeverSet(parameters, effects, drive, hands, std::make_index_sequence<N>{}) {}
 
-  /// Advances by `clocks` >= 1 with all bridges as given, at most 250 (5 us). Errors: MotionError.
+  /// Advances by `clocks` >= 1 with these bridges, at most 250 (5 us). Errors: MotionError.
   void advance(const std::array<Bridge, N>& bridges, Clock clocks) {
     const double dt_s = static_cast<double>(clocks) / clock_hz_;
     seen_.hand_work_j = 0.0;
@@ -94,22 +95,22 @@ class LeverSet {
   LeverSetSeen<N> seen_;
 };
 
-/// The led lever, and the one that meets something.
+/// A lever that the hand leads, and one that meets an object.
 using TwoLevers = LeverSet<2, 1>;
 
-/// Three slides along x, y and z; each is a lever as far as its capstan, whose radius is the
-/// lever's. The pen is in all three.
+/// Three slides along x, y and z. Up to its capstan each is a lever; the capstan's radius is the
+/// lever's. The pen belongs to all three.
 class Stylus : public LeverSet<3, 3> {
  public:
   using LeverSet::LeverSet;
 
   double capstan_m() const { return parameters().lever.lever.radius_m; }
-  /// Where the pen is with the capstans turned so far, m.
+  /// Position of the pen for these angles of the capstans, m.
   Vec3 place_m(const std::array<double, 3>& theta_rad) const {
     return capstan_m() * Vec3{theta_rad[0], theta_rad[1], theta_rad[2]};
   }
   Vec3 pen_m() const { return place_m(seen().theta_rad); }
-  /// Of the hand on the pen, N.
+  /// Force of the hand on the pen, N.
   Vec3 hand_n() const {
     const auto& nm = seen().hand_nm;
     return 1.0 / capstan_m() * Vec3{nm[0], nm[1], nm[2]};

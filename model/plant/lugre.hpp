@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// LuGre friction, its bristle deflection advanced by the exact exponential over the step.
-// Source: Canudas de Wit et al., "A new model for control of systems with friction", IEEE TAC 1995;
-// the step: docs/plant.md
+// LuGre friction; the deflection of the bristles is advanced by the exact exponential over the
+// step. Source: Canudas de Wit et al., "A new model for control of systems with friction", IEEE TAC
+// 1995; the step: docs/plant.md
 #pragma once
 
 #include <cmath>
@@ -12,6 +12,7 @@
 
 namespace feltgate::plant {
 
+/// The friction of one shaft, step by step.
 class Lugre {
  public:
   explicit Lugre(const LugreParameters& p)
@@ -19,14 +20,15 @@ class Lugre {
         inverse_stribeck_s_rad_(1.0 / p.stribeck_rad_s),
         inverse_stiffness_rad_nm_(1.0 / p.stiffness_nm_rad) {}
 
-  /// Sets the length of the steps to come, s.
+  /// Sets the length of the following steps, s.
   void set_step(double dt_s) {
     stiffness_dt_ = p_.stiffness_nm_rad * dt_s;
     damping_per_dt_ = p_.damping_nm_s_rad / dt_s;
   }
 
   /// Mean of sigma0*z + sigma1*dz/dt over one step, Nm, opposing positive omega; omega (rad/s) is
-  /// held. The viscous part sigma2*omega is not in it: it is smooth and goes with the mechanics.
+  /// held. The viscous part sigma2*omega is not included: it is smooth and belongs to the
+  /// mechanics.
   double advance(double omega_rad_s) {
     if (omega_rad_s == 0.0) return p_.stiffness_nm_rad * z_rad_;
     const double x = omega_rad_s * inverse_stribeck_s_rad_;
@@ -49,13 +51,13 @@ class Lugre {
 
   static constexpr double kShort = 0.0625;  // where the series is as exact as a double
 
-  // (1 - exp(-x))/x: a series where the step is short, for exp() takes longer than all the rest.
+  // (1 - exp(-x))/x; a series for short steps, since exp() takes most of the run time.
   static double mean_share(double x) {
     if (std::abs(x) < kShort) return series(x);
     return x < kNegligible ? -std::expm1(-x) / x : 1.0 / x;
   }
 
-  // sum of (-x)^n/(n+1)! to n = 8, in pairs, so that the terms do not wait for each other.
+  // Sum of (-x)^n/(n+1)! to n = 8, in pairs, so that the terms can be computed in parallel.
   static double series(double x) {
     const double x2 = x * x, x4 = x2 * x2;
     const double low = (1.0 - x * (1.0 / 2)) + (1.0 / 6 - x * (1.0 / 24)) * x2;
@@ -63,7 +65,7 @@ class Lugre {
     return low + (high + x4 * (1.0 / 362880)) * x4;
   }
 
-  // exp(-square) from the exact value at a square near by, which holds for many steps.
+  // exp(-square), computed from the exact value at a near square, which serves many steps.
   double stribeck(double square) {
     const double away = square - near_square_;
     if (!(std::abs(away) < kShort)) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The smooth mechanics of lever and hand: linear while a step lasts, so that a fourth-order
-// Runge-Kutta step is one product with a matrix. Why this step: docs/plant.md
+// The smooth mechanics of lever and hand. They are linear during a step, so a fourth-order
+// Runge-Kutta step is one matrix product. Reason for this step: docs/plant.md
 #pragma once
 
 #include <array>
@@ -12,6 +12,7 @@
 
 namespace feltgate::plant {
 
+/// State of a shaft: angle and speed.
 struct Shaft {
   double theta_rad = 0.0;
   double omega_rad_s = 0.0;
@@ -24,8 +25,8 @@ struct ShaftTorque {
   double theta_nm_rad = 0.0;
 };
 
-/// Hand behind a grip, in angles of the lever: stiffness and damping of the grip act between lever
-/// and hand, those of the hand between hand and its equilibrium.
+/// A hand behind a grip, in angles of the lever. The grip's stiffness and damping act between lever
+/// and hand, the hand's own between hand and equilibrium.
 struct HandDynamics {
   double inverse_inertia = 0.0;  ///< 1/(kg m^2)
   double damping_nm_s_rad = 0.0;
@@ -65,7 +66,7 @@ class LinearStep {
       for (std::size_t j = 0; j < N; ++j) by_rate_[j][i] = dt_s * p[i][j];
     }
   }
-  /// What x gains in the step that it begins with this rate A*x + b.
+  /// Change of x in a step that starts with the rate A*x + b.
   Vector gain(const Vector& rate) const {
     Vector g{};
     for (std::size_t j = 0; j < N; ++j) {
@@ -80,16 +81,16 @@ class LinearStep {
     for (std::size_t i = 0; i < N; ++i) m[i][i] = 1.0;
     return m;
   }
-  Matrix by_rate_{};  ///< P by columns
+  Matrix by_rate_{};  ///< P, stored by columns
 };
 
-/// A of the lever alone: angle, speed.
+/// The matrix A of the lever alone; states: angle, speed.
 inline LinearStep<2>::Matrix lever_matrix(const ShaftTorque& torque, double inverse_inertia) {
   return {{{0.0, 1.0},
            {torque.theta_nm_rad * inverse_inertia, torque.omega_nm_s_rad * inverse_inertia}}};
 }
 
-/// A of lever and hand: angle and speed of the lever, then of the hand.
+/// The matrix A of lever and hand; states: angle and speed of the lever, then of the hand.
 inline LinearStep<4>::Matrix grip_matrix(const ShaftTorque& torque, const HandDynamics& h,
                                          double inverse_inertia) {
   const double k = h.grip_stiffness_nm_rad, b = h.grip_damping_nm_s_rad;
@@ -102,7 +103,7 @@ inline LinearStep<4>::Matrix grip_matrix(const ShaftTorque& torque, const HandDy
        {k * hand, b * hand, -(h.stiffness_nm_rad + k) * hand, -(h.damping_nm_s_rad + b) * hand}}};
 }
 
-/// The hand's dynamics in angles of the lever, its equilibrium at 0.
+/// The hand's dynamics in angles of the lever; the equilibrium is 0.
 inline HandDynamics dynamics_of(const Impedance& i, double radius_m) {
   const double r2 = radius_m * radius_m;
   return {1.0 / (i.mass_kg * r2),
@@ -114,11 +115,12 @@ inline HandDynamics dynamics_of(const Impedance& i, double radius_m) {
           0.0};
 }
 
+/// Steps of the lever, alone or with a hand that has a mass.
 class Mechanics {
  public:
   explicit Mechanics(double inertia_kg_m2) : inverse_inertia_(1.0 / inertia_kg_m2) {}
 
-  /// Lever alone.
+  /// One step of the lever alone.
   void step(Shaft& lever, const ShaftTorque& torque, double dt_s) {
     if (!lever_set_.same({dt_s, torque.theta_nm_rad, torque.omega_nm_s_rad})) {
       lever_step_.set(lever_matrix(torque, inverse_inertia_), dt_s);
@@ -129,7 +131,7 @@ class Mechanics {
     lever.omega_rad_s += gain[1];
   }
 
-  /// Lever and hand.
+  /// One step of lever and hand.
   void step(Shaft& lever, Shaft& hand, const ShaftTorque& torque, const HandDynamics& h,
             double dt_s) {
     if (!grip_set_.same({dt_s, torque.theta_nm_rad, torque.omega_nm_s_rad, h.inverse_inertia,
@@ -150,11 +152,11 @@ class Mechanics {
   }
 
  private:
-  /// The coefficients that a matrix was made from.
+  /// The coefficients from which a matrix was computed.
   template <std::size_t N>
   class MadeFrom {
    public:
-    /// Whether they are these; if not, from now on they are.
+    /// Whether `now` are these coefficients; if not, stores `now`.
     bool same(const std::array<double, N>& now) {
       if (now == values_) return true;
       values_ = now;
@@ -162,7 +164,7 @@ class Mechanics {
     }
 
    private:
-    std::array<double, N> values_{};  // a step of length 0 is never asked for
+    std::array<double, N> values_{};  // a step of length 0 never occurs
   };
 
   static double lever_nm(const Shaft& lever, const ShaftTorque& torque) {

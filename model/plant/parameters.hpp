@@ -17,7 +17,7 @@ constexpr double kTwoPi = 6.283185307179586476925286766559;
 struct MotorParameters {
   double torque_constant_nm_a = 0.0;
   double back_emf_constant_v_s_rad = 0.0;
-  double resistance_ohm = 0.0;  ///< everything in series: winding, wiring, driver
+  double resistance_ohm = 0.0;  ///< total series resistance: winding, wiring, driver
   double inductance_h = 0.0;
   double dead_voltage_v = 0.0;  ///< brush drop, opposes the current
 };
@@ -45,8 +45,8 @@ struct SupplyParameters {
   double diode_drop_v = 0.0;  ///< of each free-wheeling diode of the bridge
 };
 
-/// Where the lever's way ends: a spring at each end that gives back restitution^2 of the energy
-/// that it took, so that a free lever leaves with `restitution` times the speed that it came with.
+/// End stops of the lever: a spring at each end returns restitution^2 of the energy that it took,
+/// so a free lever leaves with `restitution` times the speed with which it arrived.
 struct EndStops {
   double low_rad = 0.0, high_rad = 0.0;
   double stiffness_nm_rad = 0.0;
@@ -60,20 +60,20 @@ struct EncoderParameters {
   std::uint64_t seed = 0;
 };
 
-/// What is computed. An effect that is off is neither evaluated nor part of the state vector.
+/// Switches of the model. An effect that is off is neither evaluated nor part of the state vector.
 struct Effects {
-  bool inductance = true;  ///< off: current follows voltage at once
+  bool inductance = true;  ///< off: current follows the voltage at once
   bool back_emf = true;
   bool dead_voltage = true;
   bool lugre = true;
   bool viscous = false;       ///< LeverParameters::viscous_nm_s_rad
   bool supply_limit = false;  ///< current limit of the source, bus voltage as a state
-  bool dead_time = true;      ///< what dead time takes away in averaged mode
+  bool dead_time = true;      ///< loss of voltage by dead time, in averaged mode
   bool encoder_imperfect = false;
   bool hand_dynamics = true;  ///< off: an impedance hand imposes its motion, without mass or grip
 };
 
-/// Every effect by the name that files use.
+/// Every effect with its name in files.
 struct EffectName {
   const char* name;
   bool Effects::*flag;
@@ -90,23 +90,23 @@ inline constexpr EffectName effect_names[] = {{"inductance", &Effects::inductanc
 
 struct Parameters {
   std::string name;
-  std::string place;  ///< "file:line" of the lever's inertia, for errors; empty: not of a file
+  std::string place;  ///< "file:line" of the lever's inertia, for errors; empty: not from a file
   MotorParameters motor;
   LeverParameters lever;
   LugreParameters lugre;
   SupplyParameters supply;
   EncoderParameters encoder;
-  std::optional<EndStops> end_stops;  ///< none: the lever turns freely
+  std::optional<EndStops> end_stops;  ///< nullopt: the lever turns freely
   Effects effects;                    ///< defaults of the file; a scene may override each
 };
 
-/// Torque per speed of what friction grows with it, of the effects that are on.
+/// Viscous torque per speed, from the effects that are on.
 inline double smooth_damping_nm_s_rad(const Parameters& p, const Effects& on) {
   return (on.viscous ? p.lever.viscous_nm_s_rad : 0.0) +
          (on.lugre ? p.lugre.viscous_nm_s_rad : 0.0);
 }
 
-/// How often each effect was evaluated, for tests ("off costs nothing").
+/// Number of evaluations of each effect, for tests ("off costs nothing").
 struct Evaluations {
   std::uint64_t inductance = 0;
   std::uint64_t back_emf = 0;
@@ -117,7 +117,7 @@ struct Evaluations {
   std::uint64_t dead_time = 0;
   std::uint64_t encoder_imperfect = 0;  ///< edges placed with an offset
   std::uint64_t hand = 0;
-  std::uint64_t hand_dynamics = 0;  ///< steps of a hand with a mass of its own
+  std::uint64_t hand_dynamics = 0;  ///< steps of a hand that has a mass
 };
 
 }  // namespace feltgate::plant

@@ -11,10 +11,10 @@
 
 namespace feltgate::plant {
 
-/// Fed with step means (e.g. Observables::motor_torque_mean_nm); periods start at clock `phase`.
+/// Gets step means, e.g. Observables::motor_torque_mean_nm; periods start at clock `phase`.
 class PeriodMean {
  public:
-  /// Errors: std::invalid_argument when the period is not at least one clock.
+  /// Errors: std::invalid_argument if the period is below one clock.
   explicit PeriodMean(Clock period_clocks, Clock phase = 0)
       : period_(period_clocks), left_(period_clocks) {
     if (period_clocks < 1) throw std::invalid_argument("PWM period below one clock");
@@ -23,7 +23,7 @@ class PeriodMean {
     partial_ = offset > 0;
   }
 
-  /// `value` held over `clocks`; returns how many periods ended in them.
+  /// Adds `value`, held over `clocks`; returns how many periods ended in that time.
   int add(Clock clocks, double value) {
     int ended = 0;
     while (clocks > 0) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Motor, lever, friction, encoder, supply and hand. Documentation: docs/plant.md
+// The plant: motor, lever, friction, encoder, supply and hand. Documentation: docs/plant.md
 #include "plant/plant.hpp"
 
 #include <fmt/format.h>
@@ -43,7 +43,7 @@ void Plant::set_step(Clock clocks) {
   if (on_.lugre) lugre_.set_step(dt_s_);
 }
 
-// Returns the mean current of the step.
+// Advances the current by one step; returns its mean over the step.
 double Plant::advance_current(const Bridge& bridge, double omega_rad_s) {
   if (on_.dead_time && bridge.mode == Bridge::Mode::kAveraged) ++evaluations_.dead_time;
   if (bridge.shoots_through()) seen_.shoot_through = true;
@@ -82,7 +82,7 @@ double Plant::advance_current(const Bridge& bridge, double omega_rad_s) {
   return mean_a;
 }
 
-// The spring of an end stop is softer on the way back.
+// Adds the torque of an end stop; its spring is softer on the way back.
 void Plant::push_back(const EndStops& stops, ShaftTorque& torque) const {
   const bool low = shaft_.theta_rad < stops.low_rad;
   if (!low && shaft_.theta_rad <= stops.high_rad) return;
@@ -114,7 +114,7 @@ void Plant::advance_shaft(double motor_nm, double friction_nm, double omega_mid_
   seen_.hand_torque_nm = hand_.kind() == HandPhase::Kind::kFree ? 0.0 : hand_.torque_nm(shaft_);
 }
 
-// Off the path of every step.
+// Separate, so that it is not in the path of every step.
 void Plant::refuse_motion(double way_rad) const {
   const double time_s = static_cast<double>(now_) / clock_hz_;
   if (!std::isfinite(way_rad + shaft_.omega_rad_s + seen_.motor_torque_mean_nm)) {
@@ -151,7 +151,7 @@ void Plant::advance(const Bridge& bridge, Clock clocks) {
   advance_shaft(motor_nm, friction_nm, omega_mid_rad_s);
   acceleration_rad_s2_ = hand_.imposes() ? 0.0 : (shaft_.omega_rad_s - before_rad_s) * per_s_;
 
-  // Also where anything is NaN.
+  // Also true if a value is NaN.
   const double way_rad = shaft_.theta_rad - before_rad;
   if (!(std::abs(way_rad) <= most_way_rad_) || !std::isfinite(motor_nm + shaft_.omega_rad_s)) {
     refuse_motion(way_rad);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Motor, lever, friction, encoder, supply and hand behind the H-bridge: closes the loop in
-// simulation. Equations, step and convergence: docs/plant.md
+// The plant behind the H-bridge: motor, lever, friction, encoder, supply and hand. It closes the
+// loop in simulation. Equations, step and convergence: docs/plant.md
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@
 
 namespace feltgate::plant {
 
-/// What can be seen of the plant, at the end of the last step unless it says mean.
+/// Outputs of the plant, at the end of the last step unless stated as mean.
 struct Observables {
   double theta_rad = 0.0;
   double omega_rad_s = 0.0;
@@ -31,53 +31,55 @@ struct Observables {
   double motor_torque_nm = 0.0;       ///< Kt*i, on the lever, before friction
   double motor_torque_mean_nm = 0.0;  ///< over the last step; feed PeriodMean with it
   double friction_nm = 0.0;           ///< mean of the last step, opposes positive omega
-  double hand_torque_nm = 0.0;        ///< of the hand on the lever; mean where the hand imposes
+  double hand_torque_nm = 0.0;        ///< of the hand on the lever; mean where it imposes
   double hand_force_n = 0.0;          ///< hand torque over the radius of the hand
   double supply_current_a = 0.0;      ///< mean of the last step
   double bus_v = 0.0;
-  bool shoot_through = false;  ///< both gates of a leg were on at once, ever
+  bool shoot_through = false;  ///< whether both gates of a leg were ever on at once
 };
 
+/// One continuous state of the plant.
 struct StateValue {
-  std::string name;  ///< with its unit
+  std::string name;  ///< with unit
   double value;
 };
 
-/// A motion that cannot be shown: faster than one encoder state per clock, or not finite.
-/// what() names time, speed and what to change.
+/// A motion that cannot be simulated: faster than one encoder state per clock, or not finite.
+/// what() gives time, speed and what to change.
 class MotionError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
+/// The plant of a lever, step by step.
 class Plant {
  public:
   /// `hand` decides the angle at clock 0; the lever starts at rest, without current.
-  /// Errors: std::invalid_argument for a drive that cannot be (see BridgeModel).
+  /// Errors: std::invalid_argument for an impossible drive (see BridgeModel).
   Plant(const Parameters& parameters, const Effects& effects, const Drive& drive, const Hand& hand);
 
-  /// Advances by `clocks` >= 1 FPGA clocks with the bridge as given. Steps of one length are
-  /// fastest; recommended 25 clocks (0.5 us), at most 250 (5 us). Errors: MotionError.
+  /// Advances by `clocks` >= 1 FPGA clocks with this bridge. Equal steps are fastest; 25 clocks
+  /// (0.5 us) are recommended, at most 250 (5 us). Errors: MotionError.
   void advance(const Bridge& bridge, Clock clocks);
 
-  /// The first clock after now() at which the hand begins something else: between two of these a
-  /// long step is as good as many short ones.
+  /// The first clock after now() at which the hand's motion changes; up to there one long step is
+  /// as good as many short ones.
   Clock next_corner() { return hand_.next_corner(now_); }
 
-  /// The caller takes the hand over: from now on `phase`, for good. It moves on where the lever is.
+  /// Replaces the hand's phases by `phase`, forever; it starts at the lever's present angle.
   void take(const HandPhase& phase) { hand_.take(phase); }
-  /// From now on the equilibrium of an impedance hand is at `theta_rad` and moves at `rad_s`, until
-  /// the next call; after the first step of the phase. Other hands take no notice.
+  /// Sets the equilibrium of an impedance hand to `theta_rad`, moving at `rad_s`, until the next
+  /// call. Call it after the first step of the phase; other hands ignore it.
   void steer(double theta_rad, double rad_s) { hand_.steer({theta_rad, rad_s}, now_); }
 
-  /// Time since the start, in clocks. Seconds come from it alone.
+  /// Time since the start, in clocks; all times in seconds are computed from it.
   Clock now() const { return now_; }
   /// Pin changes during the last step; valid until the next advance().
   const std::vector<EncoderEvent>& events() const { return events_; }
   const Encoder& encoder() const { return encoder_; }
   const Observables& observables() const { return seen_; }
 
-  /// Number of continuous states that the effects switched on and the hand of now need.
+  /// Number of continuous states that the present hand and the effects that are on need.
   std::size_t state_size() const;
   /// These states with their names, in a fixed order.
   std::vector<StateValue> state() const;
@@ -94,7 +96,7 @@ class Plant {
   Effects on_;
   double clock_hz_;
   double per_radius_;       ///< 1/m
-  double smooth_nm_s_rad_;  ///< viscous torque per omega, of the effects switched on
+  double smooth_nm_s_rad_;  ///< viscous torque per omega, from the effects that are on
   BridgeModel bridge_;
   Winding winding_;
   Lugre lugre_;
@@ -105,11 +107,11 @@ class Plant {
   Encoder encoder_;
 
   Clock now_ = 0;
-  Clock step_clocks_ = -1;  ///< none yet
+  Clock step_clocks_ = -1;  ///< -1: none yet
   double dt_s_ = 0.0;
   double per_s_ = 0.0;                ///< 1/dt_s_
-  double most_way_rad_ = 0.0;         ///< of a step: one encoder state per clock
-  double acceleration_rad_s2_ = 0.0;  ///< mean of the last step, predicts the next middle
+  double most_way_rad_ = 0.0;         ///< largest way in a step: one encoder state per clock
+  double acceleration_rad_s2_ = 0.0;  ///< mean of the last step; predicts the next middle
   double current_a_ = 0.0;
   std::vector<EncoderEvent> events_;
   Observables seen_;

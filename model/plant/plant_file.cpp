@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Reads vectors/plants/NAME.toml. Documentation: docs/plant.md
+// Reader of vectors/plants/NAME.toml. Documentation: docs/plant.md
 #include "plant/plant_file.hpp"
 #include "plant/plant_table.hpp"
 
@@ -14,7 +14,7 @@
 namespace feltgate::plant {
 namespace {
 
-// Edges keep their order on the circle while offsets and 4-sigma jitter stay below one count.
+// With offsets and 4-sigma jitter below one count, the edges keep their order on the circle.
 constexpr config::Range kEdgeOffset{-0.25, 0.25};
 constexpr config::Range kLineJitter{0.0, 0.05};
 
@@ -41,11 +41,11 @@ EndStops read_end_stops(config::TomlReader table) {
   return stops;
 }
 
-// Without a base every flag is required.
+// Reads the flags; without a base every flag is required.
 Effects read_flags(config::TomlReader table, const Effects* base) {
   Effects effects = base != nullptr ? *base : Effects{};
   for (const EffectName& e : effect_names) {
-    // The dynamics of a hand belong to scenes; a plant file need not name them.
+    // The dynamics of a hand belong to scenes, so a plant file may omit them.
     const bool optional = base != nullptr || e.flag == &Effects::hand_dynamics;
     effects.*e.flag = optional ? table.flag_or(e.name, effects.*e.flag) : table.flag(e.name);
   }

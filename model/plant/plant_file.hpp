@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Reads vectors/plants/NAME.toml. Documentation: docs/plant.md
+// Reader of vectors/plants/NAME.toml. Documentation: docs/plant.md
 #pragma once
 
 #include <string>

@@ -13,8 +13,8 @@
 namespace feltgate::plant {
 namespace {
 
-// A sine is written around `start - amplitude*sin(phase)`, so that it begins at `start`.
-// `per_s` is 1/duration.
+// The value and rate of a segment at t. A sine is centred on `start - amplitude*sin(phase)`, so
+// that it begins at `start`. `per_s` is 1/duration.
 ProfileSample sample(const Segment& segment, double per_s, double start, double t) {
   const double way = segment.to - start;
   switch (segment.kind) {
@@ -94,7 +94,7 @@ ProfileSample TraceRun::at(double time_s) {
   const double way = trace_.theta_rad[index_ + 1] - trace_.theta_rad[index_];
   const double from = slope(index_) * width;
   const double into = slope(index_ + 1) * width;
-  // Hermite in powers of x: value theta + from*x + c2*x^2 + c3*x^3.
+  // Hermite polynomial in powers of x: theta + from*x + c2*x^2 + c3*x^3.
   const double c2 = 3.0 * way - 2.0 * from - into;
   const double c3 = from + into - 2.0 * way;
   return {trace_.theta_rad[index_] + x * (from + x * (c2 + x * c3)),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A value over time made of segments (hold, step, ramp, minimum jerk, sine): the angle that a hand
-// imposes, or the torque that it applies. Documentation: docs/plant.md
+// A value over time, made of segments (hold, step, ramp, minimum jerk, sine): an angle that a hand
+// imposes, or a torque that it applies. Documentation: docs/plant.md
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,16 @@
 
 namespace feltgate::plant {
 
-/// Unit of `to` and `amplitude`: rad or Nm, by the use of the profile.
+/// `to` and `amplitude` are in rad or Nm, depending on the use of the profile.
 struct Segment {
   enum class Kind { kHold, kStep, kRamp, kMinimumJerk, kSine };
   Kind kind = Kind::kHold;
   double duration_s = 0.0;
   double to = 0.0;         ///< step, ramp, minimum jerk: value at the end
-  double amplitude = 0.0;  ///< sine, around a centre that makes its first value continuous
+  double amplitude = 0.0;  ///< sine: amplitude; its centre makes the value continuous
   double frequency_hz = 0.0;
-  double phase_rad = 0.0;  ///< pi/2 starts and ends at rest
-  int line = 0;            ///< of the scene file; 0: not of a file
+  double phase_rad = 0.0;  ///< pi/2: starts and ends at rest
+  int line = 0;            ///< line in the scene file; 0: not from a file
 };
 
 using Profile = std::vector<Segment>;
@@ -35,14 +35,14 @@ struct ProfileSample {
   double rate = 0.0;
 };
 
-/// A profile under way: each segment starts where the one before it ended, the first at `start`.
-/// After the last segment its final value is held. Times must not decrease from call to call.
+/// A profile in progress: each segment starts where the segment before ended, the first at `start`.
+/// After the last segment the final value is held. Times must not decrease from call to call.
 class ProfileRun {
  public:
   ProfileRun() = default;
   ProfileRun(Profile profile, double start);
   ProfileSample at(double time_s);
-  /// When the next segment after `time_s` begins or the last one ends; infinite: never.
+  /// Time at which the next segment after `time_s` begins or the last one ends; infinite: never.
   double next_corner_s(double time_s) const;
 
  private:
@@ -59,10 +59,10 @@ class ProfileRun {
 struct Trace {
   std::vector<double> time_s;  ///< strictly increasing
   std::vector<double> theta_rad;
-  std::string file{};  ///< that it was read from, if any
+  std::string file{};  ///< file that it was read from, if any
 };
 
-/// A trace under way. Times must not decrease from call to call.
+/// A trace in progress. Times must not decrease from call to call.
 class TraceRun {
  public:
   TraceRun() = default;

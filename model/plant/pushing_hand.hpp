@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The simplest hand that does something. Documentation: docs/plant.md
+// A simple hand that pushes with a constant torque. Documentation: docs/plant.md
 #pragma once
 
 #include "hand.hpp"

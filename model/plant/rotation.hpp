@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Vectors of space and turns as unit quaternions. Documentation: docs/gimbal.md
+// Vectors in space, and rotations as unit quaternions. Documentation: docs/gimbal.md
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace feltgate::plant {
 
-/// A direction, rad/s or Nm by its use.
+/// A vector; rad/s or Nm, depending on its use.
 struct Vec3 {
   double x = 0.0, y = 0.0, z = 0.0;
 };
@@ -21,22 +21,23 @@ constexpr double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z;
 constexpr Vec3 cross(Vec3 a, Vec3 b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-/// Part by part: principal moments times a rate.
+/// Product of the components: principal moments times a rate.
 constexpr Vec3 scaled(Vec3 a, Vec3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 inline double length(Vec3 a) { return std::sqrt(dot(a, a)); }
 
-/// A turn: w is the cosine of half its angle, (x, y, z) its axis times the sine.
+/// A rotation: w is the cosine of half its angle, (x, y, z) its axis times the sine of half its
+/// angle.
 struct Quaternion {
   double w = 1.0, x = 0.0, y = 0.0, z = 0.0;
 
-  /// A turn by `rad` about a direction of length 1.
+  /// A rotation by `rad` about an axis of length 1.
   static Quaternion about(Vec3 axis, double rad) {
     const double s = std::sin(0.5 * rad);
     return {std::cos(0.5 * rad), s * axis.x, s * axis.y, s * axis.z};
   }
   constexpr Vec3 vector() const { return {x, y, z}; }
   constexpr Quaternion inverse() const { return {w, -x, -y, -z}; }
-  /// The vector, turned.
+  /// The vector `v`, rotated.
   constexpr Vec3 turn(Vec3 v) const {
     const Vec3 t = 2.0 * cross(vector(), v);
     return v + w * t + cross(vector(), t);
@@ -49,9 +50,9 @@ constexpr Quaternion operator*(const Quaternion& a, const Quaternion& b) {
   return {a.w * b.w - dot(a.vector(), b.vector()), v.x, v.y, v.z};
 }
 
-/// Torque of a spring between two orientations on the one that should become `to`, Nm, in the frame
-/// that both are given in: 2*k*sgn(w)*(x, y, z) of the turn between them, which goes the shorter
-/// way and feels k times its angle when it is small. Its energy is 4*k*(1 - |w|).
+/// Torque of a spring between two orientations, on the one that should become `to`; Nm, in the
+/// frame in which both are given: 2*k*sgn(w)*(x, y, z) of the rotation between them. It acts along
+/// the shorter way and is k times the angle for a small angle. Its energy is 4*k*(1 - |w|).
 inline Vec3 coupling_nm(double stiffness_nm_rad, const Quaternion& to, const Quaternion& from) {
   const Quaternion between = to * from.inverse();
   return (between.w < 0.0 ? -2.0 : 2.0) * stiffness_nm_rad * between.vector();

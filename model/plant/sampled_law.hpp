@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A force law in floating point, sampled and late, as the device of a loop. docs/pantograph.md
+// A force law in floating point, sampled and delayed, as a loop's device. docs/pantograph.md
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace feltgate::plant {
 
-/// What a law is given: angles and speeds of all joints.
+/// Inputs of a law: angles and speeds of all joints.
 template <std::size_t N>
 struct AxesMotion {
   std::array<double, N> theta_rad = {}, omega_rad_s = {};
@@ -24,15 +24,17 @@ struct AxesMotion {
 template <std::size_t N>
 using AxesLaw = std::function<std::array<double, N>(const AxesMotion<N>&)>;
 
+/// Sampling, delay and drive of the law.
 struct Sampling {
   double rate_hz = 10e3;
   double delay_s = 0.0;  ///< from the sample to the torque
-  /// On: angles are the counts' middles, speeds their differences behind a low-pass. Off: exact.
+  /// true: angles are the middles of counts, speeds their differences after a low-pass. false:
+  /// exact values.
   bool encoder = true;
   double velocity_hz = 80.0;  ///< corner of that low-pass
-  /// On: V = R*I + Ke*w + Vd*sgn(I) on an averaged bridge. Off: ideal torques.
+  /// true: V = R*I + Ke*w + Vd*sgn(I) on an averaged bridge. false: ideal torques.
   bool voltage = false;
-  double limit_nm = 1e9;  ///< of each torque
+  double limit_nm = 1e9;  ///< limit of each torque
 };
 
 template <class Plant>

@@ -18,7 +18,7 @@ using Kind = HandPhase::Kind;
 template <std::size_t N>
 using Matrix = typename LinearStep<N>::Matrix;
 
-/// Largest magnitude of an eigenvalue, from |A^k|^(1/k) with k = 2^30 by squaring.
+/// Largest magnitude of an eigenvalue: |A^k|^(1/k), with k = 2^30 by repeated squaring.
 template <std::size_t N>
 double spectral_radius(Matrix<N> a) {
   double log_radius = 0.0, share = 1.0;
@@ -78,7 +78,7 @@ double outer_pole_1_s(const Parameters& p, const Effects& on, double step_s) {
   if (on.back_emf) {
     const MotorParameters& m = p.motor;
     const double emf = m.torque_constant_nm_a * m.back_emf_constant_v_s_rad;
-    // The winding's mean current of a step follows a change of speed by this share of it.
+    // The winding's mean current in a step follows a change of speed by this share.
     const double x = step_s * m.resistance_ohm / m.inductance_h;
     const double share = on.inductance ? 1.0 + std::expm1(-x) / x : 1.0;
     damping += emf / m.resistance_ohm * share;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Source with a current limit behind a bus capacitor; a clamp takes what the motor returns above
+// A source with a current limit and a bus capacitor; a clamp absorbs what the motor returns above
 // the nominal voltage. Documentation: docs/plant.md
 #pragma once
 
@@ -11,12 +11,13 @@
 
 namespace feltgate::plant {
 
+/// The bus voltage, step by step.
 class Supply {
  public:
   explicit Supply(const SupplyParameters& p) : p_(p), bus_v_(p.voltage_v) {}
 
-  /// Advances the bus by dt_s with the bridge drawing `bridge_a`; returns the current of the source
-  /// (negative: taken by the clamp), A.
+  /// Advances the bus by dt_s while the bridge draws `bridge_a`; returns the current of the source,
+  /// A (negative: absorbed by the clamp).
   double advance(double bridge_a, double dt_s) {
     const double free_v = bus_v_ + (p_.current_limit_a - bridge_a) * dt_s / p_.bus_capacitance_f;
     const double next_v = std::clamp(free_v, 0.0, p_.voltage_v);

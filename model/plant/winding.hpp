@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Current of the winding: the exact solution of L*di/dt = u - R*i over a step in which the driving
-// voltage is held, with the stop at zero that a dead voltage or diodes impose. docs/plant.md
+// Current of the winding: exact solution of L*di/dt = u - R*i over a step with constant driving
+// voltage; it can stay at 0, where dead voltage or diodes block it. docs/plant.md
 #pragma once
 
 #include <cmath>
@@ -15,21 +15,22 @@ struct CurrentStep {
   double mean_a;
 };
 
+/// The current of one winding, step by step.
 class Winding {
  public:
   Winding(double resistance_ohm, double inductance_h)
       : per_ohm_(1.0 / resistance_ohm), tau_s_(inductance_h / resistance_ohm) {}
 
-  /// Sets the length of the steps to come, s.
+  /// Sets the length of the following steps, s.
   void set_step(double dt_s) {
     dt_s_ = dt_s;
     decay_ = std::exp(-dt_s / tau_s_);
     mean_weight_ = -std::expm1(-dt_s / tau_s_) * tau_s_ / dt_s;
   }
 
-  /// `positive_v` drives the current while it is positive (terminal voltage less back-EMF less dead
-  /// voltage), `negative_v` while it is negative; positive_v <= negative_v. At zero the current
-  /// stays zero while positive_v <= 0 <= negative_v.
+  /// `positive_v` drives the current while it is positive (terminal voltage - back-EMF - dead
+  /// voltage), `negative_v` while it is negative; positive_v <= negative_v. At 0 the current stays
+  /// 0 while positive_v <= 0 <= negative_v.
   CurrentStep advance(double current_a, double positive_v, double negative_v) const {
     if (current_a > 0.0 || (current_a == 0.0 && positive_v > 0.0)) {
       return from_positive(current_a, positive_v, negative_v);
@@ -41,7 +42,7 @@ class Winding {
     return {0.0, 0.0};
   }
 
-  /// The current without inductance: it follows at once.
+  /// The current without inductance, where it follows the voltage at once.
   double settled_a(double positive_v, double negative_v) const {
     if (positive_v > 0.0) return positive_v * per_ohm_;
     return negative_v < 0.0 ? negative_v * per_ohm_ : 0.0;
@@ -55,7 +56,7 @@ class Winding {
     return through_zero(current_a, final_a, negative_v);
   }
 
-  // From a positive current to zero at time t, then on into the negative if anything drives it.
+  // From a positive current to 0 at time t, then on to negative values if a voltage drives it.
   CurrentStep through_zero(double current_a, double final_a, double negative_v) const {
     const double t = tau_s_ * std::log((current_a - final_a) / -final_a);
     double charge = final_a * t + current_a * tau_s_;

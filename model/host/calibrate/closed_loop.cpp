@@ -23,7 +23,8 @@ Combination line(double constant, double of_offset, double of_slope) {
   return {constant, w};
 }
 
-/// Both signs folded onto one; of several torques.
+/// Line through the readings of torque over command; readings of both signs are already folded onto
+/// one.
 Regression torque_line(const std::vector<Reading>& readings, double confidence) {
   const auto n = static_cast<Index>(readings.size());
   MatrixXd x(n, 2);
@@ -37,8 +38,8 @@ Regression torque_line(const std::vector<Reading>& readings, double confidence) 
   return {x, y, confidence};
 }
 
-/// torque = offset + (K/gain)*slope*asked. The gain that leaves the least squares of relative
-/// errors over some torques: (1 - offset*mean(1/asked))/(slope/gain).
+/// Model: torque = offset + (K/gain)*slope*asked. Returns the gain K with the smallest sum of
+/// squared relative errors over the torques `asked`: (1 - offset*mean(1/asked))/(slope/gain).
 Interval best_gain(const Regression& fit, const std::vector<double>& asked, double gain) {
   double mean = 0;
   for (const double a : asked) mean += 1 / a / static_cast<double>(asked.size());
@@ -51,7 +52,7 @@ Regions fit_regions(const Regression& fit, const std::vector<Reading>& readings,
                     std::vector<std::string>* warnings) {
   Regions regions;
   std::vector<double> below, above;
-  // Where the error changes its sign: offset + slope*torque = torque.
+  // The torque at which the error changes its sign: offset + slope*torque = torque.
   const auto border = fit.quotient(line(0, 1, 0), line(1, 0, -1));
   const double smallest = readings.front().command, largest = readings.back().command;
   const bool inside = border && border->value > smallest && border->value < largest;
@@ -109,7 +110,7 @@ ClosedLoop fit_closed_loop(std::vector<Reading> readings, const design::Elaborat
   std::sort(readings.begin(), readings.end(),
             [](const Reading& a, const Reading& b) { return a.command < b.command; });
   const std::size_t all = readings.size();
-  // Below this the dead voltage is only partly given: another line.
+  // Below this torque the dead voltage acts only in part, which would be another line.
   readings.erase(std::remove_if(readings.begin(), readings.end(),
                                 [&d](const Reading& r) {
                                   return r.command < d.dead_voltage_linear_nm || r.command == 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Numbers in named columns. Documentation: docs/calibration.md
+// Tables of numbers in named columns. Documentation: docs/calibration.md
 #include "host/calibrate/columns.hpp"
 
 #include <fmt/format.h>

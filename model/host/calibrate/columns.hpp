@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Numbers in named columns, of a file or typed in. Documentation: docs/calibration.md
+// Tables of numbers in named columns, from a file or typed in. Documentation: docs/calibration.md
 #pragma once
 
 #include <iosfwd>
@@ -11,25 +11,25 @@
 
 namespace feltgate::host {
 
-/// A table of numbers. Commas, semicolons, tabs or blanks part them, # begins a comment, an empty
-/// field is NaN.
+/// A table of numbers, separated by commas, semicolons, tabs or blanks; # begins a comment; an
+/// empty field is NaN.
 class ColumnTable {
  public:
-  /// Reads a header line and rows. Throws MeasurementError "file:line: what; mend".
+  /// Reads a header line and rows. Errors: MeasurementError "file:line: what; mend".
   ColumnTable(std::istream& in, std::string name);
-  /// The same of a file; "-" is the standard input.
+  /// The same from a file; "-" is the standard input.
   static ColumnTable of_file(const std::string& path);
 
   std::size_t rows() const { return lines_.size(); }
   const std::vector<std::string>& names() const { return names_; }
   const std::string& file() const { return file_; }
   int line(std::size_t row) const { return lines_[row]; }
-  /// The first of these names that is there, whatever its case.
+  /// The first of these names that exists; upper and lower case are equal.
   std::optional<std::size_t> find(const std::vector<std::string>& names) const;
-  /// The same; throws where none is there, with `what` it would be.
+  /// The same; throws if none exists, with `what` as its meaning.
   std::size_t need(const std::vector<std::string>& names, const std::string& what) const;
   double at(std::size_t row, std::size_t column) const { return values_[row][column]; }
-  /// Throws MeasurementError at the line of a row.
+  /// Throws a MeasurementError with the line of a row.
   [[noreturn]] void fail(std::size_t row, const std::string& what, const std::string& mend) const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Design files from measurements. Documentation: docs/calibration.md
+// Changes design files by measured values. Documentation: docs/calibration.md
 #include "host/calibrate/design_changes.hpp"
 
 #include <fmt/format.h>
@@ -14,13 +14,13 @@ namespace feltgate::host {
 
 namespace {
 
-/// The dead voltage that the generator adds for the dead time, V.
+/// The part of the dead voltage that the generator adds for the dead time, V.
 double of_dead_time_v(const design::Elaborated& e) {
   const double brushes = e.design.emf_in_law() ? e.design.dead_voltage_v : 0.0;
   return e.word("dead_voltage").si - brushes;
 }
 
-/// [voltage] dead_voltage_v of a measured whole.
+/// The change of [voltage] dead_voltage_v, from the measured total.
 Change brushes(const design::Elaborated& e, const Interval& whole, double confidence,
                std::vector<std::string>* warnings) {
   const double part = of_dead_time_v(e);
@@ -42,7 +42,7 @@ std::string measured(const Interval& i, double confidence) {
 }  // namespace
 
 std::string text_of(const Interval& i) {
-  // As many digits as the interval makes sense of, and one more.
+  // As many digits as the interval justifies, and one more.
   const double size = std::max(std::abs(i.low), std::abs(i.high)), half = std::abs(i.half());
   int digits = 6;
   if (size > 0 && half > 0) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What was measured, as values of a design file. Documentation: docs/calibration.md
+// Measured constants as values of a design file. Documentation: docs/calibration.md
 #pragma once
 
 #include <string>
@@ -20,19 +20,19 @@ struct Change {
   std::string reason;  ///< becomes the comment
 };
 
-/// "0.4197 (0.4172 to 0.4223)"
+/// Text such as "0.4197 (0.4172 to 0.4223)".
 std::string text_of(const Interval& i);
 
-/// Of a law that models the motor: R and dead voltage; of one in regions R alone, which its
-/// estimated current takes, and only where the torque constant was given.
+/// For a law that models the motor: R and dead voltage. For a law in regions: only R, which its
+/// estimated current uses, and only if the torque constant was given.
 std::vector<Change> changes_of(const OpenLoop& open, const design::Elaborated& design,
                                double torque_constant_nm_a, bool constant_given,
                                std::vector<std::string>* warnings);
 std::vector<Change> changes_of(const ClosedLoop& closed, const design::Elaborated& design,
                                std::vector<std::string>* warnings);
 
-/// The text of the design file at `path` with these values, layout kept. Throws config::ConfigError
-/// where that is no design that can be built.
+/// The text of the design file at `path` with these values; the layout is kept. Errors:
+/// config::ConfigError if the result is not a design that can be built.
 std::string changed_design(const std::string& path, const std::string& name,
                            const std::vector<Change>& changes,
                            const design::RegisterMap& registers);

@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kFar = 4;  ///< standard deviations at which a reading is pointed at
+constexpr double kFar = 4;  ///< a reading beyond so many standard deviations is reported
 
 double sign(double x) { return x < 0 ? -1.0 : 1.0; }
 
@@ -110,8 +110,8 @@ class OpenLoopFit {
 
  private:
   Combination slope_only() const { return both_ ? combination({1, 0, 0}) : combination({1, 0}); }
-  /// Columns: V, -sign(V), and 1 where the offset of the gauge is asked for; so the second
-  /// coefficient over the first is the dead voltage.
+  /// Columns: V, -sign(V), and 1 if the gauge's offset is fitted; the second coefficient divided by
+  /// the first is the dead voltage.
   Regression regression(std::size_t dead) const {
     const std::size_t first = both_ ? 0 : dead;
     const auto n = static_cast<Index>(readings_.size() - first);
@@ -147,8 +147,8 @@ class OpenLoopFit {
     }
   }
 
-  /// The number of readings, the smallest voltages first, for which "no torque up to there, a line
-  /// beyond" fits best and the line does cross zero there.
+  /// Chooses the number of readings in the dead zone, from the smallest voltage on: the one for
+  /// which "no torque up to there, a line beyond" fits best and the line crosses zero there.
   void choose_dead_zone() {
     dead_ = 0;
     double best = fit_of(0);
@@ -160,7 +160,7 @@ class OpenLoopFit {
       }
     }
   }
-  /// Sum of squares of all readings; infinite where the line would cross zero elsewhere.
+  /// Sum of squares of all readings; infinite if the line crosses zero elsewhere.
   double fit_of(std::size_t dead) const {
     const double none = std::numeric_limits<double>::infinity();
     std::set<double> live;
@@ -201,7 +201,7 @@ class OpenLoopFit {
                      [](const Residual& a, const Residual& b) { return a.command < b.command; });
   }
 
-  /// A blocked observer sees what is commanded: a line through zero.
+  /// With a blocked shaft the observer sees the command: a line through zero.
   void fit_observer(OpenLoop* result) const {
     std::vector<const Reading*> seen;
     for (const Reading& r : readings_) {
@@ -218,7 +218,8 @@ class OpenLoopFit {
     if (x.norm() > 0) result->observer_slope_nm_v = Regression(x, y, confidence_).coefficient(0);
   }
 
-  /// A line with another slope from some voltage on: kept where noise alone would hardly do it.
+  /// Fits a line with another slope from some voltage on; keeps it if noise alone hardly explains
+  /// it.
   void find_bend(const Regression& straight, OpenLoop* result) const {
     const std::size_t live = readings_.size() - dead_;
     if (live < 6 || !(straight.sigma() > 0)) return;
@@ -238,7 +239,8 @@ class OpenLoopFit {
     const double gain = straight.sum_of_squares() - best;
     const double f = best > 0 ? gain / 2 / (best / freedom) : 0;
     Bend bend;
-    // The place was chosen too: as many chances as there are places between readings.
+    // The place was chosen too, which multiplies the chance by the number of places between
+    // readings.
     bend.chance = std::min(1.0, static_cast<double>(live - 3) * f_tail(f, 2, freedom));
     if (best > 0 && bend.chance > 1 - confidence_) return;
     if (!(gain > 1e-12 * straight.sum_of_squares())) return;
@@ -302,10 +304,10 @@ class OpenLoopFit {
     }
   }
 
-  std::vector<Reading> readings_;  ///< by size of the voltage
+  std::vector<Reading> readings_;  ///< sorted by magnitude of the voltage
   double confidence_;
-  bool both_ = false;     ///< signs
-  std::size_t dead_ = 0;  ///< so many of them are in the dead zone
+  bool both_ = false;     ///< readings of both signs
+  std::size_t dead_ = 0;  ///< number of readings in the dead zone
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The open-loop calibration: voltages against a blocked shaft, and the torque that a gauge shows.
+// The open-loop calibration: voltages against a blocked shaft, and the torques that a gauge shows.
 // Documentation: docs/calibration.md
 #pragma once
 
@@ -18,45 +18,46 @@ namespace feltgate::host {
 struct Reading {
   double command = 0;  ///< V in open loop, Nm in closed loop
   double torque_nm = 0;
-  std::optional<double> tau_hat_nm;  ///< what the observer saw meanwhile
-  int line = 0;                      ///< of the file, 0: typed
+  std::optional<double> tau_hat_nm;  ///< the observer's torque during the reading
+  int line = 0;                      ///< line in the file; 0: typed in
 };
 
-/// Columns voltage_v (open loop) or tau_ref_nm (closed loop), torque_nm or force_n with the arm of
-/// the pulley, and perhaps tau_hat_nm. Throws MeasurementError.
+/// Reads the columns voltage_v (open loop) or tau_ref_nm (closed loop); torque_nm, or force_n with
+/// the pulley's arm; and optionally tau_hat_nm. Errors: MeasurementError.
 std::vector<Reading> open_loop_readings(const ColumnTable& table, double arm_m);
 std::vector<Reading> closed_loop_readings(const ColumnTable& table, double arm_m);
 
-/// Standard deviation of the rounding of these readings: of the last decimal place that they use.
+/// Standard deviation of the readings' rounding, from the last decimal place that they use.
 double rounding_nm(const std::vector<Reading>& readings);
 
-/// A reading beside what was fitted.
+/// A reading and its fitted value.
 struct Residual {
   double command = 0, measured_nm = 0, fitted_nm = 0, studentised = 0;
   bool dead = false;  ///< in the dead zone
   double residual_nm() const { return measured_nm - fitted_nm; }
 };
 
-/// Where the line bends, when it does.
+/// The bend of the line, if it has one.
 struct Bend {
   Interval at_v, slope_below_nm_v, slope_above_nm_v;
-  double chance = 1;  ///< that noise alone makes it look so
+  double chance = 1;  ///< probability that noise alone gives such a bend
 };
 
+/// Result of the open-loop calibration.
 struct OpenLoop {
   double confidence = 0;
   Interval slope_nm_v, dead_voltage_v, resistance_ohm;
-  std::optional<Interval> gauge_offset_nm;      ///< with readings of both signs
-  std::optional<Interval> observer_slope_nm_v;  ///< with tau_hat
+  std::optional<Interval> gauge_offset_nm;      ///< only with readings of both signs
+  std::optional<Interval> observer_slope_nm_v;  ///< only with tau_hat
   std::optional<Bend> bend;
-  std::vector<Residual> residuals;  ///< by command
+  std::vector<Residual> residuals;  ///< sorted by command
   double noise_nm = 0;              ///< standard deviation
   int freedom = 0;
   std::vector<std::string> warnings;
 };
 
-/// torque = slope*(V - V0*sign(V)), 0 within the dead zone, with an offset of the gauge where both
-/// signs were read. Throws MeasurementError where the readings do not say it.
+/// Fits torque = slope*(V - V0*sign(V)), 0 in the dead zone, with an offset of the gauge if both
+/// signs were read. Errors: MeasurementError if the readings do not determine the result.
 OpenLoop fit_open_loop(std::vector<Reading> readings, double torque_constant_nm_a,
                        double confidence);
 

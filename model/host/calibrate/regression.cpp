@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Least squares with intervals. Documentation: docs/calibration.md
+// Linear least squares with confidence intervals. Documentation: docs/calibration.md
 #include "host/calibrate/regression.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace feltgate::host {
 
 namespace {
 
-/// Columns of length 1 whose smallest singular value is below this are one column less.
+/// Unit columns whose smallest singular value is below this count as linearly dependent.
 constexpr double kSameDirection = 1e-7;
 
 double product(const Eigen::VectorXd& a, const Eigen::MatrixXd& m, const Eigen::VectorXd& b) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Linear least squares with intervals of Student's t; of a quotient by Fieller's theorem, which is
-// exact where the usual propagation of errors is not. Documentation: docs/calibration.md
+// Linear least squares with intervals by Student's t. A quotient's interval follows Fieller's
+// theorem, which is exact where the usual propagation of errors is not. Documentation:
+// docs/calibration.md
 #pragma once
 
 #include <Eigen/Dense>
@@ -11,20 +12,20 @@
 
 namespace feltgate::host {
 
-/// Measurements that do not say what was asked of them: what() reads "what; mend".
+/// Measurements that do not determine the requested result: what() reads "what; mend".
 class MeasurementError : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
 };
 
-/// An estimate and the ends of its confidence interval.
+/// An estimate and its confidence interval.
 struct Interval {
   double value = 0, low = 0, high = 0;
   bool contains(double x) const { return low <= x && x <= high; }
   double half() const { return (high - low) / 2; }
-  /// Times a constant that is known.
+  /// The interval times a known constant.
   Interval times(double factor) const;
-  /// A constant that is known over this; 0 must lie outside.
+  /// A known constant divided by the interval; 0 must be outside of it.
   Interval under(double top) const;
   Interval plus(double shift) const { return {value + shift, low + shift, high + shift}; }
 };
@@ -35,23 +36,24 @@ struct Combination {
   Eigen::VectorXd weights;
 };
 
+/// A fitted linear model.
 class Regression {
  public:
-  /// y = x . coefficients + noise of one variance. Throws MeasurementError where there are not more
-  /// rows than columns, or the columns do not tell the coefficients apart.
+  /// Fits y = x . coefficients + noise of constant variance. Errors: MeasurementError if there are
+  /// not more rows than columns, or if the columns do not determine the coefficients.
   Regression(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, double confidence);
 
   Eigen::Index size() const { return coefficients_.size(); }
   double value(Eigen::Index k) const { return coefficients_[k]; }
   Interval coefficient(Eigen::Index k) const;
   Interval combination(const Combination& c) const;
-  /// top/bottom; nothing where the bottom's interval holds 0, so that the quotient has no bounds.
+  /// top/bottom; nothing if the bottom's interval contains 0, as the quotient then has no bounds.
   std::optional<Interval> quotient(const Combination& top, const Combination& bottom) const;
   const Eigen::MatrixXd& covariance() const { return covariance_; }
 
   const Eigen::VectorXd& residuals() const { return residuals_; }
-  /// Residual over its own standard deviation, estimated without that row (externally studentised),
-  /// of noise that is at least `least`.
+  /// Residual divided by its standard deviation, which is estimated without that row (externally
+  /// studentised); the noise is taken as at least `least`.
   double studentised(Eigen::Index row, double least = 0) const;
   double sum_of_squares() const { return residuals_.squaredNorm(); }
   /// Standard deviation of the noise.
@@ -67,9 +69,9 @@ class Regression {
   int freedom_ = 0;
 };
 
-/// Student's t that a value exceeds in size with probability 1 - confidence.
+/// Value of Student's t whose magnitude is exceeded with probability 1 - confidence.
 double student_t(double confidence, int freedom);
-/// Probability of an F at least so large.
+/// Probability of an F of at least this value.
 double f_tail(double f, int top_freedom, int bottom_freedom);
 
 }  // namespace feltgate::host

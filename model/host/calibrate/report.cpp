@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Results of a calibration. Documentation: docs/calibration.md
+// Text and JSON of a calibration's results. Documentation: docs/calibration.md
 #include "host/calibrate/report.hpp"
 
 #include <fmt/format.h>

@@ -13,10 +13,10 @@
 
 namespace feltgate::host {
 
-/// Readings, line and residuals, one row each, then what was found.
+/// One row per reading, with line and residual, then the results.
 std::string report_text(const OpenLoop& open, const design::Elaborated& design);
 std::string report_text(const ClosedLoop& closed, const design::Elaborated& design);
-/// What to write into the design, and into the registers to try it at once.
+/// The values to write into the design, and into the registers to try them at once.
 std::string changes_text(const std::vector<Change>& changes);
 
 nlohmann::ordered_json report_json(const Interval& i);

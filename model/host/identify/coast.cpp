@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A lever that runs down: the angle has a closed form, which is fitted to the counts as they are.
+// Evaluates a coast-down of the lever: the angle has a closed form, which is fitted to the counts.
 // Documentation: docs/identify.md
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@ constexpr double kWindow_s = 0.06, kShortest_s = 0.015;
 constexpr int kCoastRounds = 30;
 constexpr double kSteepest_1_s = 1e3;
 
-/// The last windows in which the lever slows down: before them it still was driven.
+/// The last windows, in which the lever slows down; before them it was still driven.
 std::vector<const Window*> slowing(const std::vector<Window>& windows) {
   std::vector<const Window*> used;
   for (const Window& w : windows) {
@@ -37,7 +37,7 @@ std::vector<const Window*> slowing(const std::vector<Window>& windows) {
   return used;
 }
 
-/// Angle without its constant, of speed w0, damping b (1/s) and friction f (rad/s^2):
+/// The angle without its constant, for speed w0, damping b (1/s) and friction f (rad/s^2):
 /// w0*e1 - f*e2, e1 = (1 - exp(-b t))/b, e2 = (t - e1)/b.
 struct Way {
   double e1, e2;
@@ -50,7 +50,7 @@ Way way(double b, double t) {
   return {e1, (t - e1) / b};
 }
 
-/// Gauss and Newton's method on angle, speed, damping and friction; the columns of the last round.
+/// Gauss-Newton fit of angle, speed, damping and friction; keeps the columns of the last iteration.
 class CoastFit {
  public:
   CoastFit(const Recording& r, double from_s, double to_s) {
@@ -61,7 +61,7 @@ class CoastFit {
     }
   }
 
-  /// From a first guess: speed, damping and friction.
+  /// Fits, starting from a guess of speed, damping and friction.
   Regression run(double speed_rad_s, double damping_1_s, double friction_rad_s2,
                  double confidence) {
     p_ << angle_rad_.front(), speed_rad_s, damping_1_s, friction_rad_s2;
@@ -104,7 +104,7 @@ class CoastFit {
   Eigen::Vector4d p_;
 };
 
-/// Damping and friction from the windows alone: coarse, but straight on.
+/// First guess of damping and friction, from the windows alone: coarse, but direct.
 std::pair<double, double> guess(const std::vector<const Window*>& windows, double confidence) {
   const auto n = static_cast<Index>(windows.size());
   MatrixXd x(n, 2);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Least squares over windows. Documentation: docs/identify.md
+// Identification by least squares over windows. Documentation: docs/identify.md
 #include "host/identify/identify.hpp"
 
 #include <fmt/format.h>
@@ -20,19 +20,20 @@ using Eigen::VectorXd;
 constexpr double kDriveWindow_s = 0.03;
 constexpr double kStandard_m_s2 = 9.80665;
 constexpr int kRounds = 20;
-/// Voltage that must move the current: below it the dead time takes a part that depends on the
+/// Least voltage that must drive the current: below it, the effect of dead time depends on the
 /// current's ripple.
 constexpr double kFlowing_v = 0.4;
 
 double sign(double x) { return x < 0 ? -1.0 : 1.0; }
 
-/// A window with the direction of its current: 1, -1.
+/// A window with the sign of its current: 1 or -1.
 struct Driven {
   const Window* w;
   double current;
 };
 
-/// Rows of the regression from windows in which the lever moves one way with a current of one sign.
+/// Rows of the regression, from windows in which the lever moves one way and the current has one
+/// sign.
 class DriveFit {
  public:
   DriveFit(const std::vector<Window>& windows, double electrical_s, double confidence,
@@ -52,9 +53,9 @@ class DriveFit {
     }
   }
 
-  /// Coefficients a, b, c + d, and d where the motor braked, and the torque's where there is one.
+  /// Coefficients a, b, c + d; d if the motor braked; and the torque's if there is one.
   Regression run() {
-    // At first: who speeds up has a current along his motion.
+    // First guess: a lever that speeds up has a current along its motion.
     for (const Window* w : moving_) {
       if (w->acceleration_rad_s2 * sign(w->speed_rad_s) > 0) {
         used_.push_back({w, sign(w->speed_rad_s)});
@@ -93,14 +94,15 @@ class DriveFit {
   }
 
  private:
-  /// The windows in which what is left after back-EMF and dead voltage moves a current, one way.
+  /// Uses the windows in which the voltage after back-EMF and dead voltage drives a current one
+  /// way.
   void use_flowing(const Regression& fit) {
     const double b = fit.value(1), dead = split_ ? fit.value(3) : fit.value(2);
     used_.clear();
     int braking = 0;
     for (const Window* w : moving_) {
       const double left = w->voltage_v - b * w->speed_rad_s;
-      // Within the window the speed changes about so much to both sides.
+      // Within the window the speed changes by about this much in each direction.
       const double span = std::abs(b * w->acceleration_rad_s2) * (w->to_s - w->from_s) / 3 +
                           (w->most_v - w->least_v) / 2;
       if (std::abs(left) - span < dead + kFlowing_v) continue;
@@ -125,7 +127,7 @@ class DriveFit {
       const Driven& u = used_[static_cast<std::size_t>(k)];
       x(k, 0) = u.w->acceleration_rad_s2 + electrical_s_ * u.w->jerk_rad_s3;
       x(k, 1) = u.w->speed_rad_s;
-      // c*sign(w) + d*sign(i) as (c + d)*sign(w) + d*(sign(i) - sign(w)).
+      // Writes c*sign(w) + d*sign(i) as (c + d)*sign(w) + d*(sign(i) - sign(w)).
       x(k, 2) = sign(u.w->speed_rad_s);
       if (split_) x(k, 3) = u.current - sign(u.w->speed_rad_s);
       if (weight) x(k, x.cols() - 1) = torque_nm_ * u.w->cosine;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kFewestRows = 64;
 
-/// Ticks are 32 bits: the count goes on where it wraps.
+/// Ticks have 32 bits: continues the count where it wraps.
 double unwrapped(double tick, double before) {
   constexpr double whole = 4294967296.0;
   return tick + whole * std::round((before - tick) / whole);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Voltage and position over time, as a capture, a stream or a run leaves them.
+// Voltage and position over time, from a capture, a stream or a run.
 // Documentation: docs/identify.md
 #pragma once
 
@@ -12,6 +12,7 @@
 
 namespace feltgate::host {
 
+/// A recording, one entry per row.
 struct Recording {
   std::string name;
   std::vector<double> time_s, voltage_v, angle_rad;
@@ -20,9 +21,9 @@ struct Recording {
   double length_s() const { return rows() > 0 ? time_s.back() - time_s.front() : 0; }
 };
 
-/// Columns time_s or tick, position_rad or position (counts), and voltage_v; a coast-down needs no
-/// voltage. Throws MeasurementError where one is missing, time stands or runs back, or there are
-/// too few rows.
+/// Reads the columns time_s or tick, position_rad or position (counts), and voltage_v, which a
+/// coast-down does not need. Errors: MeasurementError if one is missing, if time does not increase,
+/// or if there are too few rows.
 Recording recording_of(const ColumnTable& table, double count_rad, double tick_s,
                        bool needs_voltage);
 

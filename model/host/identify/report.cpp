@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Results of an identification. Documentation: docs/identify.md
+// Text and JSON of an identification's results. Documentation: docs/identify.md
 #include "host/identify/report.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Results of an identification as text, JSON and values of a design file. Documentation:
-// docs/identify.md, docs/json.md
+// Results of an identification as text, JSON and values of a design file.
+// Documentation: docs/identify.md, docs/json.md
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -19,7 +19,7 @@ std::string report_text(const Drive& drive, const std::optional<Coast>& coast, c
 nlohmann::ordered_json report_json(const Drive& drive, const std::optional<Coast>& coast,
                                    const Constants& c, double confidence);
 
-/// What a design takes of the constants that are known.
+/// The changes to a design that follow from the known constants.
 std::vector<Change> changes_of(const Constants& c, const design::Elaborated& design,
                                double confidence);
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// From combinations to constants, once something separates them. Documentation: docs/identify.md
+// Computes constants from combinations of them, once other measurements separate them.
+// Documentation: docs/identify.md
 #include <fmt/format.h>
 
 #include <cmath>
@@ -17,12 +18,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Numbers with a covariance, and the interval of any function of them by its gradient.
+/// Values with a covariance; gives the interval of any function of them, from its gradient.
 class Known {
  public:
   Known(double confidence, int freedom) : confidence_(confidence), freedom_(freedom) {}
 
-  /// Independent of what was added before; returns the number of its first value.
+  /// Adds values that are independent of the earlier ones; returns the index of the first.
   Index add(const VectorXd& values, const MatrixXd& covariance) {
     const Index at = values_.size(), n = values.size();
     values_.conservativeResize(at + n);

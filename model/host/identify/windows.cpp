@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Integrals over windows. Documentation: docs/identify.md
+// Weighted integrals of a recording over windows. Documentation: docs/identify.md
 #include "host/identify/windows.hpp"
 
 #include <fmt/format.h>
@@ -16,12 +16,13 @@ namespace feltgate::host {
 
 namespace {
 
-constexpr int kRows = 32;            ///< of a window, at least
-constexpr double kSlowest_s = 3e-3;  ///< from row to row
-constexpr double kJump = 0.03;       ///< of the voltage's whole range, from row to row
-constexpr int kPieces = 6;           ///< in which the speed is looked at for turns
+constexpr int kRows = 32;            ///< least rows in a window
+constexpr double kSlowest_s = 3e-3;  ///< longest time between rows
+/// Largest step of the voltage between rows, relative to its range.
+constexpr double kJump = 0.03;
+constexpr int kPieces = 6;  ///< parts of a window in which the speed is checked for a turn
 
-/// The weight (x(1-x))^5 on 0..1 with its first three derivatives, integral 1.
+/// The weight (x(1-x))^5 on 0..1, normalised to integral 1, with its first three derivatives.
 struct Weight {
   double value, slope, bend, twist;
 };
@@ -40,7 +41,7 @@ double median_step(const Recording& r) {
   return steps[steps.size() / 2];
 }
 
-/// Rows [first, last] without a jump of the voltage or a gap in time.
+/// Rows [first, last] without a jump of the voltage and without a gap in time.
 struct Stretch {
   std::size_t first, last;
 };
@@ -72,7 +73,7 @@ Window window(const Recording& r, std::size_t first, std::size_t last, double le
   w.least_v = w.most_v = r.voltage_v[first];
   for (std::size_t k = first; k <= last; ++k) {
     const Weight g = weight((r.time_s[k] - w.from_s) / length);
-    // The trapezoid is as exact as any rule where the integrand vanishes so smoothly at the ends.
+    // The trapezoidal rule is as exact as any where the integrand vanishes so smoothly at the ends.
     const double before = k > first ? r.time_s[k] - r.time_s[k - 1] : 0;
     const double after = k < last ? r.time_s[k + 1] - r.time_s[k] : 0;
     const double dx = (before + after) / 2 / length;
@@ -114,7 +115,7 @@ std::vector<Window> windows_of(const Recording& r, double shortest_s, double lev
   }
   std::vector<Window> windows;
   for (const Stretch& s : stretches_of(r, step_s)) {
-    // As many windows as fit, of equal length.
+    // As many equal windows as fit.
     const double length = r.time_s[s.last] - r.time_s[s.first];
     const auto count = static_cast<std::size_t>(length / (shortest_s));
     for (std::size_t k = 0; k < count; ++k) {

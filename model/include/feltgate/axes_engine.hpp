@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What stands between the engine and the axes, and what stands there without one; parts of
-// FeltgateAxes. Documentation: docs/blocks/feltgate_axes.md
+// The logic between the engine and the axes, and its replacement in a device without an engine;
+// both are parts of FeltgateAxes. Documentation: docs/blocks/feltgate_axes.md
 #pragma once
 
 #include <array>
@@ -15,14 +15,14 @@
 
 namespace feltgate {
 
-/// Programmed torque comes in by ports.
+/// Without an engine: the programmed torques come from the ports.
 template <class D, int N>
 class NoAxesEngine {
  public:
   void reset() {}
   template <class Cores>
   void clock(const AxesIn<N>&, const Cores&, const std::array<CoreIn, N>&) {}
-  /// What it says to the cores in the clock to come.
+  /// Sets the law inputs of the cores for the next clock.
   template <class Cores>
   void give(const AxesIn<N>& in, const Cores&, std::array<CoreIn, N>& each) const {
     for (std::size_t n = 0; n < N; ++n) {
@@ -33,7 +33,7 @@ class NoAxesEngine {
   }
   void show(const AxesIn<N>&, AxesOut<N>&) const {}
 
-  // From event to event: the torques are given.
+  // Event to event: there is nothing to compute, the ports give the torques.
   template <class Cores>
   bool by_runs(const AxesIn<N>&, const Cores&, const std::array<CoreIn, N>&) {
     return true;
@@ -48,7 +48,7 @@ class NoAxesEngine {
   int event_number() const { return 0; }
 };
 
-/// The engine, the check of its programs at each arming, and when a torque may jump.
+/// The engine, the check of its programs at each arming, and the decision when a torque may jump.
 template <class D, int N>
 class AxesEngine {
  public:
@@ -58,13 +58,13 @@ class AxesEngine {
 
   EngineOf& engine() { return runs_.clocked(); }
   const EngineWatch& watch() const { return runs_.watch(); }
-  /// Whether it goes run by run at present.
+  /// Whether the engine is computed run by run at present.
   bool runs_whole() const { return runs_.on(); }
-  /// Whether the wave of the tick measured last began with a torque that may jump.
+  /// Whether the torque might jump in the wave of the tick that was measured last.
   bool restarted() const { return restarted_; }
-  /// The port takes no write, whatever the address.
+  /// Whether the port takes no write, at any address.
   bool port_busy() const { return out_.busy; }
-  /// It would not take every write, or drop it.
+  /// Whether the engine would not take a write, or would drop one.
   bool busy() const { return out_.busy || runs_.committing(); }
 
   void reset() {
@@ -87,7 +87,7 @@ class AxesEngine {
     }
   }
 
-  /// A clock, before that of the cores.
+  /// One clock; call it before the cores' clock.
   template <class Cores>
   void clock(const AxesIn<N>& in, const Cores& cores, const std::array<CoreIn, N>& each) {
     State& s = state_;
@@ -144,9 +144,9 @@ class AxesEngine {
     runs_.show(&out_);
   }
 
-  // From event to event.
-  /// Whether to the end of the tick nothing changes the engine but the tick itself, and the engine
-  /// goes run by run. The inputs hold.
+  // Event to event:
+  /// Whether, with the inputs held, only the tick itself changes the engine before the tick ends,
+  /// and the engine is computed run by run.
   template <class Cores>
   bool by_runs(const AxesIn<N>& in, const Cores& cores, const std::array<CoreIn, N>& each) {
     State& s = state_;
@@ -172,18 +172,18 @@ class AxesEngine {
     to.addr = in.reg_addr & 0xfffu;
     return runs_.enter(to, cores[0].clock_of_tick());
   }
-  /// Whether tick() may be called for the clock `ahead` of this one; if not, clock by clock.
+  /// Whether tick() may be called for the clock `ahead` clocks from now; if not, use clock().
   bool may_tick(int ahead) {
     const bool may = runs_.may_tick(ahead);
     if (!may) runs_.give_up();
     return may;
   }
-  /// The torques that the cores take in the clock `ahead` of this one.
+  /// Sets the torques that the cores take in the clock `ahead` clocks from now.
   void torques(int ahead, std::array<CoreIn, N>& each) {
     const auto& torque = runs_.torque(ahead);
     for (std::size_t n = 0; n < N; ++n) each[n].law_torque = torque[n];
   }
-  /// The clock `ahead` of this one is that of a tick, of which the cores hold what they measured.
+  /// A tick in the clock `ahead` clocks from now; the cores hold its measurements.
   template <class Cores>
   void tick(int ahead, const Cores& cores) {
     Axes tau_hat;
@@ -198,7 +198,7 @@ class AxesEngine {
     runs_.show(&out_);
   }
 
-  /// In the clock to come.
+  /// An event in the next clock.
   bool event_valid() const { return out_.event_valid; }
   int event_number() const { return out_.event_number; }
 
@@ -215,7 +215,7 @@ class AxesEngine {
   struct State {
     bool law = false, armed = false;
     bool checks = false, check_of_these = false, checked = false;
-    int runs = 0;  ///< that must end before the torque is that of what has changed
+    int runs = 0;  ///< runs that must end before the torque includes the change
     bool sampled = true;
     std::uint32_t rdata = 0;
     bool rdata_known = true;
@@ -237,7 +237,7 @@ class AxesEngine {
     }
     return axes;
   }
-  /// Whether the torque in force may be of before a change.
+  /// Whether the torque in force may be from before a change.
   bool may_jump() const { return state_.runs != 0 || !state_.sampled; }
   static bool is_engine(std::uint16_t address) { return address >> 12 == axes_engine >> 12; }
   template <class Core>
@@ -246,7 +246,7 @@ class AxesEngine {
   }
 
   using Runs = law::EngineRuns<N, D::f.torque.width()>;
-  // The snapshot is shown a clock before its step.
+  // The core shows the snapshot one clock before its step.
   static constexpr law::RunTiming kTiming{D::clocks_per_tick, Map::T::tau_hat - Map::T::sample,
                                           Map::T::tau_hat - Map::T::velocity,
                                           Map::T::snapshot - Map::T::tau_hat - 2};
@@ -254,7 +254,8 @@ class AxesEngine {
   Runs runs_{D::engine_max_age, kTiming};
   typename EngineOf::Out out_;
   State state_;
-  bool restarts_ = false, restarted_ = false;  ///< may_jump() at the last tick's end; restarted()
+  /// restarts_: may_jump() at the end of the last tick; restarted_: see restarted().
+  bool restarts_ = false, restarted_ = false;
 };
 
 }  // namespace feltgate

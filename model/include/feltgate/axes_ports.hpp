@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The ports of several axes. Documentation: docs/blocks/feltgate_axes.md
+// The ports of a device with several axes. Documentation: docs/blocks/feltgate_axes.md
 #pragma once
 
 #include <array>
@@ -23,15 +23,15 @@ struct AxesIn {
   };
   std::array<Axis, N> axis;
   bool arm = false;
-  bool stop = false;  ///< the stop was seen since the last clock, however shortly
-  bool law_late = false, law_restart = false;  ///< as of a core
-  std::uint16_t reg_addr = 0;  ///< axis n at n * axes_stride, the engine at axes_engine
+  bool stop = false;  ///< the stop input was active since the last clock, however shortly
+  bool law_late = false, law_restart = false;  ///< as in CoreIn
+  std::uint16_t reg_addr = 0;  ///< axis n begins at n * axes_stride, the engine at axes_engine
   std::uint32_t reg_wdata = 0;
   bool reg_write = false;
-  bool reg_read = false;  ///< one clock: the word was taken; of the engine's events
+  bool reg_read = false;  ///< one clock: the read word was taken; matters for the engine's events
 };
 
-/// The inputs of a core as those of a device of one axis.
+/// The inputs of a core as the inputs of a device with one axis.
 inline AxesIn<1> single_axis(const CoreIn& in) {
   AxesIn<1> to;
   to.axis[0].encoder = in.encoder;
@@ -45,21 +45,21 @@ inline AxesIn<1> single_axis(const CoreIn& in) {
   return to;
 }
 
-/// Addresses from one axis to the next.
+/// Address distance from one axis to the next.
 constexpr int axes_stride = 0x400;
-/// First address of the engine, which has 0x1000.
+/// First address of the engine, which occupies 0x1000 addresses.
 constexpr int axes_engine = EngineMap::port_first;
 
 /// Outputs of N axes after one clock.
 template <int N>
 struct AxesOut {
-  std::array<CoreOut, N> axis;  ///< reg_rdata and reg_busy of each are its own
+  std::array<CoreOut, N> axis;  ///< reg_rdata and reg_busy of each axis are its own
   std::uint32_t reg_rdata = 0;
-  bool reg_busy = false;    ///< of what is addressed
-  bool rdata_known = true;  ///< a memory of the engine shows any word for 40 clocks after a reset
+  bool reg_busy = false;    ///< of the addressed axis or engine
+  bool rdata_known = true;  ///< false up to 40 clocks after a reset, while rdata is arbitrary
   bool event_valid = false;
-  int event_number = 0;          ///< with event_valid
-  std::int32_t event_value = 0;  ///< with event_valid
+  int event_number = 0;          ///< valid with event_valid
+  std::int32_t event_value = 0;  ///< valid with event_valid
 };
 
 }  // namespace feltgate

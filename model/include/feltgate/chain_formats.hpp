@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The format of every signal of the chain, derived once from a design's base formats by the growth
-// rules. The twin uses the result at compile time, the generator writes it into feltgate_pkg.sv.
+// The format of every signal of the chain, derived from a design's base formats by the growth
+// rules. The twin uses the result at compile time; the generator writes it into feltgate_pkg.sv.
 // Documentation: docs/fixed-point.md
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace feltgate {
 
-/// Widths that the fabric fixes.
+/// Widths that are fixed by the FPGA fabric or by the architecture.
 namespace fabric {
 constexpr int multiplier_a_bits = 35;  ///< data operand: two signed 18x18 multipliers
 constexpr int multiplier_b_bits = 18;  ///< coefficient operand
@@ -22,7 +22,7 @@ constexpr int travel_bits = 16;      ///< free-running count of the velocity est
 constexpr int scene_guard_bits = 2;  ///< bits that a scene's terms keep below a torque step
 }  // namespace fabric
 
-/// What a design states (signals) and what its values imply (coefficients).
+/// The formats that a design states (signals), and those that its values need (coefficients).
 struct BaseFormats {
   Format velocity;         ///< rad/s
   Format torque;           ///< Nm
@@ -30,7 +30,7 @@ struct BaseFormats {
   Format voltage;          ///< V
   int observer_fraction;   ///< fraction bits of the observer's state
   int velocity_shift;      ///< n of the N-method: raw = 2^n * counts
-  bool has_velocity_gain;  ///< a quantised gain stands for 2^n
+  bool has_velocity_gain;  ///< a quantised gain replaces 2^n
   Format velocity_gain;    ///< rad/s per count
   Format velocity_a1;
   Format torque_constant;
@@ -80,12 +80,12 @@ struct Formats {
   Format voltage_part;           ///< V: one product of the voltage law
   Format voltage_sum;            ///< V, less the back-EMF, before the limit
   Format emf;                    ///< V: the back-EMF
-  Format applied;                ///< V: what is limited and the back-EMF
+  Format applied;                ///< V: the limited part plus the back-EMF
   Format duty;                   ///< clock
   Format duty_sum;               ///< clock, before the limit
-  Format limiter;                ///< what the limiter lets through; the binary point is the input's
-  Format with_addend;            ///< what it lets through and what torque_control adds to it
-  Format limiter_input;          ///< what it takes in
+  Format limiter;                ///< output of the limiter; it has the binary point of the input
+  Format with_addend;            ///< output of the limiter plus what torque_control adds to it
+  Format limiter_input;          ///< input of the limiter
   Format current_estimate_part;  ///< A: one product of the estimate
   Format current_estimate;       ///< A: (V - Ke*w)/R
   Format current_squared;        ///< A^2
@@ -95,7 +95,7 @@ struct Formats {
 
 namespace growth {
 
-/// f cut to `width` bits by giving up fraction bits.
+/// f limited to `width` bits by dropping fraction bits.
 constexpr Format fit(Format f, int width) {
   return f.width() <= width ? f : Format{f.sign, f.integer, f.fraction - (f.width() - width)};
 }
@@ -105,8 +105,8 @@ constexpr Format with_fraction(Format f, int fraction) { return {f.sign, f.integ
 
 }  // namespace growth
 
-/// The formats that follow from the base ones. No sum or product in the chain can overflow; it
-/// narrows only into velocity, torque, current, voltage, duty and the estimate.
+/// The formats that follow from the base formats. No sum or product in the chain can overflow;
+/// values are narrowed only into velocity, torque, current, voltage, duty and the estimate.
 constexpr Formats derive(const BaseFormats& b) {
   Formats f{};
   f.position = {1, 31, 0};
@@ -133,7 +133,7 @@ constexpr Formats derive(const BaseFormats& b) {
   const Format by_tau_ref = growth::product(b.torque, b.torque_gain);
   const Format by_tau_hat = growth::product(b.torque, b.observer_gain);
   f.current_part = {1, growth::max_of(by_tau_ref.integer, by_tau_hat.integer), b.current.fraction};
-  // Two parts, or in voltage mode the set-point's own.
+  // Two parts, or in voltage mode the current of the set-point alone.
   const Format direct = growth::product(b.voltage, b.voltage_to_current);
   f.current_sum = {1, growth::max_of(f.current_part.integer + 1, direct.integer),
                    b.current.fraction};
@@ -143,7 +143,7 @@ constexpr Formats derive(const BaseFormats& b) {
   const Format dead = growth::product(b.torque, b.dead_voltage_slope);
   f.voltage_part = {1, growth::max_of(growth::max_of(resistive.integer, emf.integer), dead.integer),
                     b.voltage.fraction};
-  // Three parts, or in voltage mode the set-point less the back-EMF.
+  // Three parts, or in voltage mode the set-point minus the back-EMF.
   f.voltage_sum = {1, growth::max_of(f.voltage_part.integer, b.voltage.integer) + 2,
                    b.voltage.fraction};
   f.emf = {1, emf.integer, b.voltage.fraction};
@@ -157,7 +157,7 @@ constexpr Formats derive(const BaseFormats& b) {
   for (const Format& k : {b.damper_damping, b.wall_damping}) {
     integer = growth::max_of(integer, growth::product(b.velocity, k).integer);
   }
-  // A charge's distance takes the way of the torque, too: as an integer.
+  // A charge's distance goes through the torque's path too, as an integer.
   integer = growth::max_of(integer, f.scene_distance.integer - b.torque.fraction);
   f.scene_part = {1, growth::max_of(integer, b.torque.integer),
                   b.torque.fraction + fabric::scene_guard_bits};

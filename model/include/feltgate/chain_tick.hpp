@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The chain tick by tick, without pins or clocks: from a sampled count to the duty, in number
-// policy N. In Fixed its integers are those of the core's snapshots. Documentation: docs/engines.md
+// policy N. In Fixed its integers equal those of the core's snapshots. Documentation:
+// docs/engines.md
 #pragma once
 
 #include <algorithm>
@@ -17,7 +18,7 @@
 
 namespace feltgate {
 
-/// Scenes see 18 bits of the position, saturated; in real arithmetic all of it.
+/// The position that scenes see: saturated to 18 bits in fixed point, unchanged in real arithmetic.
 template <class D, class N>
 constexpr std::int32_t scene_position(std::int32_t position) {
   if constexpr (N::is_fixed) {
@@ -28,8 +29,9 @@ constexpr std::int32_t scene_position(std::int32_t position) {
   }
 }
 
-/// The laws of one design in a row, with their state and the parameter words. tick() is a whole
-/// tick; the core's twin calls the four stages in the clocks in which the RTL shows their results.
+/// The laws of one design in their order, with their state and the parameter words. tick() computes
+/// a whole tick; the core's twin instead calls the four stages, each in the clock in which the RTL
+/// shows its result.
 template <class D, class N>
 class ChainTick {
  public:
@@ -48,11 +50,11 @@ class ChainTick {
   Words<D, N>& words() { return words_; }
   const Words<D, N>& words() const { return words_; }
 
-  /// Before a tick whose torque may jump: it ramps.
+  /// Lets the torque ramp; call it before a tick whose torque may jump.
   void restart() { scenes_.ramp().restart(); }
 
-  /// One tick. `position` [count] and `travel` [count, wraps] are what the wave sampled; `armed`,
-  /// `scene`, `mode` and `relief` hold during the tick.
+  /// One tick. `position` [count] and `travel` [count, wraps] are the samples at the start of the
+  /// wave; `armed`, `scene`, `mode` and `relief` hold during the tick.
   void tick(std::int32_t position, std::int16_t travel, bool armed, int scene, Mode mode,
             Relief relief = {}) {
     estimate(travel);
@@ -61,27 +63,27 @@ class ChainTick {
     drive(armed, mode);
   }
 
-  /// Velocity from the travel.
+  /// Stage 1: velocity from the travel.
   void estimate(std::int16_t travel) {
     const std::int16_t counts = travel_difference(travel, line_.oldest());
     line_.push(travel);
     estimator_.tick(words_, counts);
   }
-  /// Fixed only: input of the velocity's low-pass in a tick with this travel, raw.
+  /// Fixed only: raw input of the velocity's low-pass in a tick with this travel.
   std::int64_t velocity_input(std::int16_t travel) const {
     bool unused = false;
     return N::raw(VelocityLaw<D, N>::raw(travel_difference(travel, line_.oldest()), &unused));
   }
-  /// tau_hat from the velocity and the current of the tick before.
+  /// Stage 2: tau_hat from the velocity and the current of the tick before.
   void observe(bool armed) { observer_.tick(words_, armed, control_.current, velocity()); }
-  /// tau_ref from the position, and the velocity in a damper.
+  /// Stage 3: tau_ref from the position, and from the velocity in a damper.
   void render(bool armed, int scene, std::int32_t position, Relief relief = {},
               TestPulse pulse = TestPulse::none) {
     scenes_.tick(words_, armed, scene, scene_position<D, N>(position), velocity(), relief, pulse);
   }
-  /// What a program asks for [Nm], before render().
+  /// Sets the torque that a program asks for [Nm]; call it before render().
   void program(Torque torque) { scenes_.program(torque); }
-  /// Current, voltage and duty.
+  /// Stage 4: current, voltage and duty.
   void drive(bool armed, Mode mode) {
     control_.tick(words_, armed, mode, tau_ref(), tau_hat(), velocity());
   }
@@ -97,7 +99,7 @@ class ChainTick {
   bool limit_ramp() const { return scenes_.limit_ramp(); }
   bool limit_velocity() const { return estimator_.limit; }
   bool limit_tau_hat() const { return observer_.limit; }
-  /// The same as bits of the limits word.
+  /// The limits of the last tick as bits of the limits word.
   std::uint16_t limits() const {
     using L = Map::L;
     return static_cast<std::uint16_t>(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The PWM inside the core's twin, from event to event, and how long each gate has been on.
+// The PWM inside the core's twin, advanced from event to event, and counts of each gate's on-time.
 // Documentation: docs/blocks/feltgate_core.md
 #pragma once
 
@@ -14,6 +14,7 @@
 
 namespace feltgate {
 
+/// The PWM of the core, with counters.
 class CoreGates {
  public:
   CoreGates(int period, int dead_clocks, int shortest_clocks = 1)
@@ -26,7 +27,7 @@ class CoreGates {
     clocks_ = {};
   }
 
-  /// `clocks` clocks with `in` held.
+  /// Advances `clocks` clocks with `in` held.
   void advance(const Pwm::In& in, int clocks) {
     if (quiet_for(clocks, in.enable) && !in.clear) {
       pass(clocks);
@@ -34,18 +35,18 @@ class CoreGates {
       advance_to_events(in, clocks);
     }
   }
-  /// Whether nothing changes in the next `clocks` clocks with this enable, as far as is known, so
-  /// that pass() may stand for advance().
+  /// Whether it is known that nothing changes in the next `clocks` clocks with this enable; pass()
+  /// may then replace advance().
   bool quiet_for(int clocks, bool enable) const { return quiet_ >= clocks && enable == enable_; }
   void pass(int clocks) {
     quiet_ -= clocks;
     passed_ += clocks;
     held_ += clocks;
   }
-  /// Coming clocks before the one that takes the duty.
+  /// Number of clocks before the clock that takes the duty.
   int clocks_to_duty() const { return pwm_.clocks_to_duty() - passed_; }
 
-  /// a_hi, a_lo, b_hi, b_lo from bit 0.
+  /// The gates: bit 0 a_hi, bit 1 a_lo, bit 2 b_hi, bit 3 b_lo.
   std::uint8_t bits() const { return bits_; }
   std::int16_t duty_active() const { return pwm_.out().duty_active; }
   /// Clocks since reset for which each gate was on, in the same order.
@@ -74,7 +75,7 @@ class CoreGates {
       clocks -= step;
     }
   }
-  /// The PWM itself follows the clocks that pass() has counted.
+  /// Advances the PWM by the clocks that pass() has only counted.
   void settle() {
     if (passed_ > 0) pwm_.skip(passed_);
     passed_ = 0;
@@ -92,9 +93,9 @@ class CoreGates {
 
   Pwm pwm_;
   std::uint8_t bits_ = 0;
-  std::int64_t held_ = 0;  ///< clocks since the gates changed
-  int quiet_ = 0;          ///< clocks that still change nothing as long as the enable is enable_
-  int passed_ = 0;         ///< clocks that the PWM has yet to follow
+  std::int64_t held_ = 0;  ///< clocks since a gate last changed
+  int quiet_ = 0;          ///< coming clocks without a change, while the enable stays enable_
+  int passed_ = 0;         ///< clocks that the PWM must still be advanced
   bool enable_ = false;
   std::array<std::int64_t, 4> clocks_{};
 };

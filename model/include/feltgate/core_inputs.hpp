@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The core's twin: what its blocks are given by pins and control word. Included by
+// The core's twin: the inputs of its blocks, made from the pins and the control word. Included by
 // feltgate_core.hpp. Documentation: docs/blocks/feltgate_core.md
 #pragma once
 
@@ -28,7 +28,7 @@ bool FeltgateCore<D, ReadBack>::asks(const In& in) const {
   return sup.asks();
 }
 
-/// The scene that control word or panel ask for.
+/// The scene that is asked for: by the control word if the host has control, else by the panel.
 template <class D, bool ReadBack>
 std::uint8_t FeltgateCore<D, ReadBack>::wanted_scene(const In& in) const {
   const std::uint32_t control = registers_.out().control;
@@ -36,7 +36,7 @@ std::uint8_t FeltgateCore<D, ReadBack>::wanted_scene(const In& in) const {
       host() ? field<D::C::control_scene, D::C::control_scene_width>(control) : in.scene);
 }
 
-/// What stands instead of the scene's torque; while another axis tests itself, 0.
+/// The pulse that replaces the scene's torque; 0 torque while another axis runs its self-test.
 template <class D, bool ReadBack>
 TestPulse FeltgateCore<D, ReadBack>::pulse(const In& in) const {
   const TestPulse own = self_test_.pulse(out_.armed);
@@ -55,7 +55,7 @@ typename Registers<D, ReadBack>::In FeltgateCore<D, ReadBack>::register_inputs(c
   reg.armed = held;
   reg.set_zero = in.set_zero;
   reg.scene = out_.scene;
-  if (registers_.flipped()) {  // the parameter bus is not kept up otherwise
+  if (registers_.flipped()) {  // only then is the parameter bus modelled
     const int slot = clock_ < 63 ? clock_ : 63;
     reg.slot_fetch = static_cast<std::uint8_t>(slot);
     reg.scene_slot_fetch = ((Map::scene_slots >> slot) & 1u) != 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The ports of the whole core, as the twin and the Verilated RTL show them alike.
+// The ports of the whole core; the twin and the Verilated RTL share them.
 // Documentation: docs/blocks/feltgate_core.md
 #pragma once
 
@@ -11,45 +11,48 @@
 
 namespace feltgate {
 
-/// Clock of a tick in which a host's register write is issued: early, so that it is committed with
+/// Clock of a tick in which a host's register write is issued: early enough to be committed with
 /// this tick.
 constexpr int host_write_clock = 5;
 
 /// Inputs of the core in one clock.
 struct CoreIn {
   EncoderPins encoder;
-  bool arm = false;
-  bool stop = false;  ///< the stop was seen since the last clock, however shortly
-  bool set_zero = false;
-  std::uint8_t scene = 0;
+  bool arm = false;        ///< the panel's request
+  bool stop = false;       ///< the stop input was active since the last clock, however shortly
+  bool set_zero = false;   ///< one clock: the position becomes 0 at the end of the tick
+  std::uint8_t scene = 0;  ///< the panel's choice
   std::uint16_t reg_addr = 0;
   std::uint32_t reg_wdata = 0;
-  bool reg_write = false;
-  // Of the scene law: what a program asks for.
-  std::int32_t law_torque = 0;  ///< raw, in the format of the torque; sampled at Step::law_torque
-  bool law_late = false;        ///< there is no fresh one: it counts as 0, and trips
-  bool law_restart = false;     ///< in the last clock of a tick: it may jump with the next
-  // Of several axes: what the others say.
-  bool axis_fault = false;    ///< one has a fault
-  bool axis_silent = false;   ///< one does not ask to be armed
-  bool axis_blocked = false;  ///< one must not be armed
-  bool axis_testing = false;  ///< one tests itself: the scene waits
-  bool axis_waits = false;    ///< one before this one does: its own test waits
+  bool reg_write = false;  ///< held until a clock in which reg_busy is low
+  // The torque that the program of the scene law asks for.
+  std::int32_t law_torque = 0;  ///< raw, in the torque format; sampled at Step::law_torque
+  bool law_late = false;        ///< no fresh torque: it counts as 0, and the core trips
+  bool law_restart = false;     ///< in the last clock of a tick: it may jump in the next
+  // State of the other axes of a device with several axes.
+  bool axis_fault = false;    ///< another axis has a fault
+  bool axis_silent = false;   ///< another axis does not ask to be armed
+  bool axis_blocked = false;  ///< another axis must not be armed
+  bool axis_testing = false;  ///< another axis runs its self-test: the scene waits
+  bool axis_waits = false;    ///< an axis with a lower number runs its self-test: this one's waits
 };
 
-/// Every output of the core after one clock.
+/// Every output of the core after one clock. Signals are raw integers in the design's formats.
 struct CoreOut {
-  std::int64_t velocity = 0;
+  std::int64_t velocity = 0;  ///< rad/s
+  /// Ticks since reset, modulo 2^32; the word at reg_addr, 3 clocks later.
   std::uint32_t tick_count = 0, reg_rdata = 0;
+  /// Count; load [Nm]; torque reference [Nm]; current reference [A]; voltage [V].
   std::int32_t position = 0, tau_hat = 0, tau_ref = 0, current_ref = 0, voltage = 0;
+  /// Clocks of the PWM period: as computed, and as in force.
   std::int16_t duty = 0, duty_active = 0;
-  std::uint8_t gates = 0;  ///< a_hi, a_lo, b_hi, b_lo from bit 0
-  std::uint8_t scene = 0, first_fault = 0;
-  std::uint8_t word_slot = 0;   ///< of word_data, the last word that went into the snapshot
-  std::uint32_t word_data = 0;  ///< no words without read-back
-  std::uint16_t limits = 0, faults = 0;
+  std::uint8_t gates = 0;                   ///< bit 0 a_hi, bit 1 a_lo, bit 2 b_hi, bit 3 b_lo
+  std::uint8_t scene = 0, first_fault = 0;  ///< numbers; first_fault 0: none
+  std::uint8_t word_slot = 0;   ///< slot of word_data, the last word stored in the snapshot
+  std::uint32_t word_data = 0;  ///< always 0 without read-back
+  std::uint16_t limits = 0, faults = 0;  ///< one bit per limit or cause
   bool armed = false, gates_enable = false, snapshot_valid = false, reg_busy = false;
-  bool word_valid = false;  ///< it is new in this clock
+  bool word_valid = false;  ///< word_data is new in this clock
 
   bool operator==(const CoreOut& o) const {
     return velocity == o.velocity && tick_count == o.tick_count && reg_rdata == o.reg_rdata &&

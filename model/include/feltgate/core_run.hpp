@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The core's twin from event to event: the part of FeltgateCore that stands for many calls of
+// The core's twin from event to event: the functions of FeltgateCore that replace many calls of
 // clock() while the inputs hold. Included by feltgate_core.hpp.
 // Documentation: docs/blocks/feltgate_core.md
 #pragma once
@@ -18,7 +18,7 @@ template <class D, bool ReadBack>
 template <class OnSnapshot>
 void FeltgateCore<D, ReadBack>::run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
   constexpr int tick = D::clocks_per_tick;
-  bool settled = false;  // as far as known; holds until a clock() changes the decoder's inputs
+  bool settled = false;  // true only if known; holds until clock() changes the decoder's inputs
   while (clocks > 0) {
     const int from = clock_;
     const bool at_rest = registers_.at_rest();
@@ -31,7 +31,7 @@ void FeltgateCore<D, ReadBack>::run(const In& in, std::int64_t clocks, OnSnapsho
     }
     if (!settled) settled = decoder_.settled(decoder_inputs(in, false, false));
     if (settled && from == 0 && clocks >= tick && at_rest) {
-      // Only the last two snapshots of a stretch can ever be read back.
+      // A host can read back only the last two snapshots of a stretch.
       const auto ticks = static_cast<std::uint32_t>(clocks / tick);
       std::uint32_t unread = ticks;
       if (ReadBack) unread = !keep_words_ && ticks > 2 ? ticks - 2 : 0;
@@ -53,7 +53,7 @@ void FeltgateCore<D, ReadBack>::run(const In& in, std::int64_t clocks, OnSnapsho
   }
 }
 
-/// Nothing is under way that asks for clock(): an error or a stop, or the first tick.
+/// Whether nothing is under way that needs clock(), such as an error, a stop or the first tick.
 template <class D, bool ReadBack>
 bool FeltgateCore<D, ReadBack>::can_pass(const In& in) const {
   return out_.tick_count != 0 && !registers_.flipped() && !registers_.out().stop &&
@@ -63,7 +63,7 @@ bool FeltgateCore<D, ReadBack>::can_pass(const In& in) const {
          !(amid_supervisor() && passed_to_ != clock_);
 }
 
-/// A late engine or another axis closes the gates, now or as soon as they are open.
+/// Whether a late engine or another axis closes the gates, now or as soon as they are enabled.
 template <class D, bool ReadBack>
 bool FeltgateCore<D, ReadBack>::outside_trips(const In& in) const {
   const bool late = kLaw && in.law_late && (renders_law() || wanted_scene(in) == Map::S::law);
@@ -71,9 +71,9 @@ bool FeltgateCore<D, ReadBack>::outside_trips(const In& in) const {
   return supervisor_.out().gates_enable || (asks(in) && ready());
 }
 
-/// As long as the inputs hold, `clocks` clocks from now change neither the duty in force nor the
-/// enable of the gates, and bring no snapshot: whoever wants no more may ask for them later. False
-/// is always right.
+/// Whether, with the inputs held, the next `clocks` clocks change neither the duty in force nor the
+/// gate enable, and give no snapshot; a caller that needs nothing else may then compute them later.
+/// May return false when true would hold.
 template <class D, bool ReadBack>
 bool FeltgateCore<D, ReadBack>::calm(const In& in, std::int64_t clocks) const {
   if (clock_ != 0 || clocks >= kSnapshot || gates_.clocks_to_duty() < clocks ||
@@ -83,8 +83,8 @@ bool FeltgateCore<D, ReadBack>::calm(const In& in, std::int64_t clocks) const {
   }
   if (!out_.gates_enable) return out_.duty_active == 0;
   if (self_test_.busy(out_.armed)) return false;
-  // What can close the gates is over-speed, over-current, a wrong polarity, and what the encoder's
-  // monitor finds.
+  // Causes that can close the gates: over-speed, over-current, a wrong polarity, and the findings
+  // of the encoder monitor.
   const auto limit = static_cast<std::int32_t>(supervisor_words_.overspeed);
   const auto slow = [limit](std::int64_t w) { return w <= limit && -w <= limit; };
   return !monitor_.chatters() && decoder_.out().index_wrong == monitor_.index_wrong() &&
@@ -99,7 +99,7 @@ bool FeltgateCore<D, ReadBack>::may_trip(const In& in) const {
       supervisor_.near_trip(supervisor_words_) || supervisor_.watchdog_due(supervisor_words_)) {
     return true;
   }
-  // On their way through the decoder are at most as many counts, or errors.
+  // The decoder's pipeline holds at most so many counts or errors.
   constexpr int under_way = 4;
   const QuadDecoder::In d = decoder_inputs(in, false, false);
   const bool moves = !decoder_.settled(d);
@@ -114,7 +114,7 @@ bool FeltgateCore<D, ReadBack>::may_trip(const In& in) const {
   return moves ? fast(next(under_way)) || fast(next(-under_way)) : fast(next(0));
 }
 
-/// The next clock after `from` in which the wave looks at the decoder.
+/// The next clock after `from` in which the wave samples the decoder.
 template <class D, bool ReadBack>
 int FeltgateCore<D, ReadBack>::next_look_at_decoder(int from) {
   using R = Map::R;
@@ -126,7 +126,7 @@ int FeltgateCore<D, ReadBack>::next_look_at_decoder(int from) {
   return next;
 }
 
-/// A step in a stretch; each of the supervisor's stands for all its clocks up to this one.
+/// One step in a stretch; a supervisor step also stands for all supervisor clocks before it.
 template <class D, bool ReadBack>
 template <bool Read, class OnSnapshot>
 [[gnu::always_inline]] inline void FeltgateCore<D, ReadBack>::take_in(
@@ -158,7 +158,7 @@ template <bool Read, class OnSnapshot>
     case Step::watchdog:
       if (supervisor_.at_watchdog(words)) s.close(after(T::watchdog));
       return;
-    case Step::duty:  // the PWM looks at it in one clock of a period alone
+    case Step::duty:  // the PWM samples it only in one clock of a period
       gates_to(s, after(T::duty));
       break;
     case Step::snapshot:
@@ -174,7 +174,8 @@ template <bool Read, class OnSnapshot>
   take<Read>(step, in, decoded);
 }
 
-/// A whole tick but for the registers, the decoder at rest. `Read`: the host may see its words.
+/// A whole tick except the registers, with the decoder at rest. `Read`: the host may read its
+/// words.
 template <class D, bool ReadBack>
 template <bool Read, class OnSnapshot>
 void FeltgateCore<D, ReadBack>::pass_tick(const In& in, OnSnapshot&& on_snapshot) {
@@ -187,7 +188,7 @@ void FeltgateCore<D, ReadBack>::pass_tick(const In& in, OnSnapshot&& on_snapshot
   ++out_.tick_count;
 }
 
-/// Arming and scene in the last clock of a tick.
+/// Arming and scene, which change in the last clock of a tick.
 template <class D, bool ReadBack>
 void FeltgateCore<D, ReadBack>::end_of_tick(const In& in) {
   typename Supervisor<D>::In sup;
@@ -197,8 +198,8 @@ void FeltgateCore<D, ReadBack>::end_of_tick(const In& in) {
   out_.scene = wanted_scene(in);
 }
 
-/// Clocks [from, to) of a tick, from < to. Returns the clock that was reached: it is before `to`
-/// where an encoder error comes up.
+/// Computes the clocks [from, to) of a tick, from < to. Returns the clock that it reached, which is
+/// before `to` where an encoder error occurs.
 template <class D, bool ReadBack>
 template <class OnSnapshot>
 int FeltgateCore<D, ReadBack>::pass(const In& in, int from, int to, OnSnapshot&& on_snapshot) {
@@ -218,7 +219,8 @@ int FeltgateCore<D, ReadBack>::pass(const In& in, int from, int to, OnSnapshot&&
   return to;
 }
 
-/// Clocks [from, to) of the decoder, or fewer: to the clock that sees an encoder error.
+/// Advances the decoder over the clocks [from, to), or only to the clock that sees an encoder
+/// error.
 template <class D, bool ReadBack>
 int FeltgateCore<D, ReadBack>::advance_decoder(const In& in, int from, int to) {
   const QuadDecoder::In d = decoder_inputs(in, false, false);
@@ -230,7 +232,7 @@ int FeltgateCore<D, ReadBack>::advance_decoder(const In& in, int from, int to) {
   return to;
 }
 
-/// Gates to the clock `to`.
+/// Advances the gates to the clock `to`.
 template <class D, bool ReadBack>
 void FeltgateCore<D, ReadBack>::gates_to(Stretch& s, int to) {
   if (s.quiet) return;
@@ -245,7 +247,7 @@ void FeltgateCore<D, ReadBack>::gates_to(Stretch& s, int to) {
   }
 }
 
-/// Gates to the end of the stretch; in the last clock of a tick arming and scene.
+/// Advances the gates to the end of the stretch; in the last clock of a tick also arming and scene.
 template <class D, bool ReadBack>
 void FeltgateCore<D, ReadBack>::finish(const In& in, Stretch& s) {
   if (s.to == D::clocks_per_tick) end_of_tick(in);
@@ -253,8 +255,8 @@ void FeltgateCore<D, ReadBack>::finish(const In& in, Stretch& s) {
   gates_to(s, s.to);
 }
 
-/// Before a clock() that follows a pass(): the supervisor's registers between its steps, by its own
-/// clocks, whose inputs have not changed since.
+/// Before a clock() that follows a pass(): advances the supervisor's registers, which pass() leaves
+/// behind within a tick, by the supervisor's own clocks. Its inputs have not changed since.
 template <class D, bool ReadBack>
 void FeltgateCore<D, ReadBack>::catch_up() {
   if (passed_to_ != clock_) return;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The steps of the schedule at which something of the core shows, by clocks of the tick: the one
-// order in which the core's twin goes through a tick. Documentation: docs/blocks/feltgate_core.md
+// The schedule steps at which an output or register of the core changes, sorted by clock of the
+// tick. The core's twin executes a tick in this order. Documentation: docs/blocks/feltgate_core.md
 #pragma once
 
 #include <array>
@@ -17,10 +17,10 @@ namespace feltgate::core_steps {
 
 using Step = Map::Step;
 
-/// The clock of the tick in which wave clock t is.
+/// The clock of the tick for wave clock t.
 constexpr int clock_of(int t) { return t + Map::first_wave_clock; }
 
-/// The other steps lie inside a law or a block.
+/// Whether a step changes something that the core shows; the others are inside a law or a block.
 constexpr bool shows(Step step) {
   switch (step) {
     case Step::read_tick:
@@ -64,15 +64,18 @@ constexpr bool shows(Step step) {
   }
 }
 
+/// Number of steps for which shows() holds.
 constexpr std::size_t count() {
   std::size_t n = 0;
   for (const Map::StepAt& s : Map::steps) n += shows(s.step) ? 1 : 0;
   return n;
 }
 
+/// The steps in the order of execution, with their clocks.
 struct Table {
   std::array<Step, count()> steps{};
-  std::array<int, count()> clocks{};                       ///< of the tick, in order
+  /// clock of each step in the tick, ascending
+  std::array<int, count()> clocks{};
   std::array<std::uint8_t, Map::wave_length + 1> first{};  ///< by clock: first step not before it
 };
 
@@ -82,7 +85,8 @@ constexpr Table make_table() {
   for (int clock = 0; clock < Map::wave_length; ++clock) {
     table.first[static_cast<std::size_t>(clock)] = static_cast<std::uint8_t>(n);
     for (const Map::StepAt& s : Map::steps) {
-      // The outputs are all of one tick in the clock of this step, so after the clock before it.
+      // The outputs belong to one tick in the clock of this step, so it acts after the clock
+      // before.
       const int at = clock_of(s.clock) - (s.step == Step::snapshot ? 1 : 0);
       if (!shows(s.step) || at != clock) continue;
       table.steps[n] = s.step;
@@ -93,7 +97,7 @@ constexpr Table make_table() {
   return table;
 }
 inline constexpr Table table = make_table();
-/// Whether a word goes into the snapshot in this clock of a tick.
+/// Whether a word is stored in the snapshot in this clock of a tick.
 constexpr bool stores_word(int clock) {
   for (const int slot : LinkMap::slots) {
     if (clock == clock_of(slot)) return true;
@@ -103,7 +107,7 @@ constexpr bool stores_word(int clock) {
 
 static_assert(table.first[Map::wave_length] == count(), "a step lies beyond the shortest tick");
 
-/// action(step) for the steps of one clock of a tick, in their order.
+/// Calls action(step) for the steps of one clock of a tick, in order.
 template <class Action>
 void for_each_step_of(int clock, Action&& action) {
   if (clock >= Map::wave_length) return;
@@ -117,8 +121,9 @@ template <class Action, std::size_t... K>
   const auto within = [from, to](int clock) { return from <= clock && clock < to; };
   ((within(table.clocks[K]) ? action(table.steps[K]) : void()), ...);
 }
-/// action(step) for the steps in the clocks [from, to) of a tick, in their order. Written out: in
-/// an inlined action each step is a constant, and in a whole tick there is nothing to ask.
+/// Calls action(step) for the steps in the clocks [from, to) of a tick, in order. The loop is
+/// unrolled, so that each step is a constant in an inlined action, and a whole tick needs no
+/// comparisons.
 template <class Action>
 [[gnu::always_inline]] inline void for_each_step(int from, int to, Action&& action) {
   for_these_steps(from, to, action, std::make_index_sequence<count()>());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The arithmetic of a wave inside the core's twin: each law is evaluated once, at a step in which
-// all that it needs is there, and shown at the step in which the RTL shows it.
+// The arithmetic of a wave inside the core's twin. Each law is evaluated once, at a step at which
+// all its inputs are known; each result is shown at the step at which the RTL shows it.
 // Documentation: docs/blocks/feltgate_core.md
 #pragma once
 
@@ -14,6 +14,7 @@
 
 namespace feltgate {
 
+/// The chain of design D in fixed point, executed step by step.
 template <class D>
 class CoreWave {
  public:
@@ -27,7 +28,7 @@ class CoreWave {
     relief_ = {};
   }
 
-  /// What the encoder's monitor and the hold timer say, from the next step on.
+  /// Outputs of the encoder monitor and the hold timer; they act from the next step on.
   void set_frozen(bool frozen) {
     relief_.frozen = frozen;
     set(Map::L::chatter, frozen);
@@ -36,13 +37,13 @@ class CoreWave {
 
   void set_word(int address, std::uint32_t word) { chain_.words().set_raw(address, word); }
 
-  /// The raw torque of a program.
+  /// Sets the torque that a program asks for, raw.
   void program(std::int32_t torque) { chain_.program(Fixed::from_raw<D::f.torque.key()>(torque)); }
 
-  /// Between two waves: the torque may jump with the next.
+  /// Lets the torque ramp in the next wave; call it between two waves.
   void restart() { chain_.restart(); }
 
-  /// Position and travel are the decoder's at Step::sample.
+  /// Executes one step; `position` and `travel` are the decoder's outputs at Step::sample.
   [[gnu::always_inline]] void take(Step step, std::int32_t position, std::uint16_t travel,
                                    Mode mode, TestPulse pulse, CoreOut& out) {
     switch (step) {
@@ -93,15 +94,15 @@ class CoreWave {
     }
   }
 
-  /// As the limiter gives them, a clock before they show.
+  /// The values after the limiter, one clock before the outputs show them.
   std::int32_t current() const { return static_cast<std::int32_t>(chain_.control().current.raw()); }
   std::int32_t applied() const { return static_cast<std::int32_t>(chain_.control().applied.raw()); }
   std::int32_t voltage() const { return static_cast<std::int32_t>(chain_.control().voltage.raw()); }
   std::int16_t duty() const { return static_cast<std::int16_t>(chain_.control().duty.raw()); }
-  /// What the velocity's low-pass would take in now, raw: the next velocity lies between it and the
-  /// last.
+  /// Raw input of the velocity's low-pass for this travel; the next velocity lies between it and
+  /// the present one.
   std::int64_t velocity_input(std::int16_t travel) const { return chain_.velocity_input(travel); }
-  /// Whether the torque reference is beyond the word at this address, as the limiter compares them.
+  /// Whether the torque reference exceeds the word at this address, compared as the limiter does.
   bool beyond(int address) const {
     using Law = LimiterLaw<D, Fixed>;
     const auto limit =
@@ -110,10 +111,11 @@ class CoreWave {
     Law::template limited<typename RampLaw<D, Fixed>::Torque>(chain_.tau_ref(), limit, &is);
     return is;
   }
-  /// Free-running count that the running wave started from.
+  /// Free-running count at the start of the running wave.
   std::int16_t sampled_travel() const { return sampled_travel_; }
 
-  /// Whether the voltage gain is that of high torque, from the clock of its fetch on.
+  /// Whether the voltage gain of high torque is in force; valid from the clock in which it is
+  /// fetched.
   bool region_high() const {
     using Law = TorqueControlLaw<D, Fixed>;
     const auto border = chain_.words().template get<Law::kBorderKey>(D::A::region_torque);
@@ -131,7 +133,7 @@ class CoreWave {
 
   ChainTick<D, Fixed> chain_;
   std::int16_t sampled_travel_ = 0;
-  std::uint16_t limits_ = 0;  ///< all but that of the gates
+  std::uint16_t limits_ = 0;  ///< all bits except gates_closed
   Relief relief_;
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The core's twin: the words of the snapshot that it puts together from bits. Included by
-// feltgate_core.hpp. Documentation: docs/blocks/feltgate_core.md
+// The core's twin: the snapshot words `status` and `faults`, assembled from single bits. Included
+// by feltgate_core.hpp. Documentation: docs/blocks/feltgate_core.md
 #pragma once
 
 #include <cstdint>

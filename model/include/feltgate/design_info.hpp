@@ -28,13 +28,13 @@ struct CommandBits {
   int set_zero = 0, clear_faults = 0, kick = 0;
 };
 
-/// What a design looks like at run time.
+/// The constants of a design.
 struct DesignInfo {
   const char* name = "";
   std::int64_t clock_hz = 0, tick_hz = 0;
   int clocks_per_tick = 0, pwm_period = 0, dead_clocks = 0, shortest_clocks = 1, pwm_mode = 0;
-  int m1 = 0;                  ///< ticks of the N-method's window
-  double rad_s_per_count = 0;  ///< what it makes of a count in that window
+  int m1 = 0;                  ///< window of the N-method, in ticks
+  double rad_s_per_count = 0;  ///< velocity that one count in that window stands for
   double count_rad = 0, supply_v = 0;
   Format velocity{}, torque{}, current{}, voltage{};
   double torque_constant_nm_a = 0;
@@ -44,25 +44,26 @@ struct DesignInfo {
   ControlBits control;
   CommandBits command;
   std::uint32_t control_reset = 0;
-  std::uint32_t design_crc = 0;  ///< by which a host knows the design, docs/link.md
-  std::function<int(const std::string&)> scene_number;  ///< -1: no such scene, or not built
-  std::vector<std::string> scenes;  ///< that are built, in the order of their numbers
+  std::uint32_t design_crc = 0;  ///< identifies the design for a host, docs/link.md
+  std::function<int(const std::string&)> scene_number;  ///< -1: unknown, or not built
+  std::vector<std::string> scenes;  ///< the scenes that are built, in the order of their numbers
 
-  /// nullptr where the design has no such parameter.
+  /// The parameter of that name; nullptr where the design has none.
   const ParameterInfo* find(std::string_view parameter) const {
     for (int i = 0; i < parameter_count; ++i) {
       if (parameter == parameters[i].name) return &parameters[i];
     }
     return nullptr;
   }
-  /// What to say of a parameter that find() has not: the nearest name, and where all are listed.
+  /// Error message for a name that find() does not know: the nearest name, and where all are
+  /// listed.
   std::string unknown(const std::string& parameter) const {
     std::vector<std::string> names;
     for (int i = 0; i < parameter_count; ++i) names.emplace_back(parameters[i].name);
     return "parameter \"" + parameter + "\" is unknown; " + config::did_you_mean(parameter, names) +
            "`feltgate design " + name + "` lists them";
   }
-  /// What to say of a scene that scene_number() has not: the nearest name, and what there is.
+  /// Error message for a name that scene_number() does not know: the nearest name, and the choices.
   std::string unknown_scene(const std::string& scene) const {
     std::string list;
     for (const std::string& built : scenes) list += (list.empty() ? "" : ", ") + built;
@@ -72,18 +73,19 @@ struct DesignInfo {
   }
 };
 
-/// Values that the word of a parameter can hold, in its unit.
+/// Range and step of the values that a parameter's word can hold, in its unit.
 struct ValueRange {
   double low = 0, high = 0, step = 0;
 };
+/// Range and step of a parameter's word.
 inline ValueRange range_of(const ParameterInfo& p) {
   const double words = std::ldexp(1.0, p.format.width() - p.format.sign);
   const double step = std::ldexp(1.0, -p.format.fraction);
   return {p.format.sign == 1 ? -words * step : 0.0, (words - 1) * step, step};
 }
 
-/// Integer of a parameter for a value in its unit, rounded to nearest; nothing where it does not
-/// fit.
+/// The integer of a parameter for a value in its unit, rounded to nearest, ties away from zero;
+/// nothing where it does not fit.
 inline std::optional<std::int64_t> quantised(const ParameterInfo& p, double value) {
   const ValueRange range = range_of(p);
   const double steps = std::round(value / range.step);

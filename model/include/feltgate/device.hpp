@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The twin as a device in SI units: encoder in, torque and duty out, parameters and scenes by name.
-// Every clock goes through FeltgateCore, so that the bits are the core's.
+// Every clock goes through FeltgateCore, so the results equal the core's bit by bit.
 // Documentation: docs/library.md
 #pragma once
 
@@ -21,18 +21,19 @@
 
 namespace feltgate {
 
-/// How the torque is made.
+/// The control mode: current from torque and tau_hat; from torque alone; or a voltage set-point.
 enum class Control { closed_loop = 0, open_loop = 1, voltage = 2 };
 
-/// A parameter with what its word can hold, all in `unit`.
+/// A parameter with the range of its word; all values are in `unit`.
 struct Parameter {
   std::string_view name, unit;
-  double value = 0;  ///< last set, as rounded to the word
+  double value = 0;  ///< the last value set, rounded to the word
   double low = 0, high = 0, step = 0;
 };
 
 /// A device of any design; TwinDevice<Lever> below is one, make_device("lever") of feltgate::sim
-/// another. Requests (parameters, scene, arming) act with the ticks to come, as on the pins.
+/// gives another. Requests (parameters, scene, arming) take effect with the next ticks, as at the
+/// pins.
 class Device {
  public:
   virtual ~Device() = default;
@@ -40,64 +41,67 @@ class Device {
   /// Duration of a tick, s.
   double tick_s() const { return 1.0 / static_cast<double>(design_.tick_hz); }
 
-  /// One clock with these levels at the encoder's pins.
+  /// Advances one clock with these levels at the encoder's pins.
   const CoreOut& clock(EncoderPins encoder);
-  /// The rest of the running tick with these levels.
+  /// Advances to the end of the running tick with these levels.
   const Reading& tick(EncoderPins encoder);
-  /// The rest of the running tick, in which the lever moves evenly to this angle; pins as of an
-  /// ideal encoder. Errors: std::invalid_argument where it crosses more than an edge per clock.
+  /// Advances to the end of the running tick, while the lever moves evenly to this angle; the pins
+  /// are those of an ideal encoder. Errors: std::invalid_argument for more than one edge per clock.
   const Reading& tick_to(double angle_rad);
-  /// `clocks` clocks with these pin changes, in order, at absolute clocks from now() to the end of
-  /// the stretch. Errors: std::invalid_argument for a later one.
+  /// Advances `clocks` clocks with these pin changes, in order. Their clocks are absolute, from
+  /// now() to the end of the stretch. Errors: std::invalid_argument for a later one.
   void run(Clock clocks, const std::vector<EncoderEvent>& events);
 
-  /// Asks for torque; whatever edges that takes. Errors: std::runtime_error while a fault is
-  /// latched or the stop is pressed. A fault or a stop ends the request.
+  /// Requests torque, and makes the edges that the arm request needs. A fault or a stop ends the
+  /// request. Errors: std::runtime_error while a fault is latched or the stop is pressed.
   void arm();
   void disarm();
   bool armed() const { return out().armed; }
   void stop(bool pressed);
-  /// Forgets the latched faults and disarms.
+  /// Clears the latched faults and disarms.
   void clear_faults();
-  /// The angle of now reads 0 from then on; tick_to() keeps its own zero.
+  /// The present angle reads 0 from then on; tick_to() keeps its own zero.
   void set_zero() { write(design_.command_address, 1u << design_.command.set_zero); }
 
-  /// What is rendered: "free", "wall", ... Errors: std::invalid_argument with what there is.
+  /// Selects the scene: "free", "wall", ... Errors: std::invalid_argument, which names the choices.
   void select(const std::string& scene);
   /// Errors: std::runtime_error while armed.
   void set_control(Control how);
-  /// A parameter in its unit (docs/registers.md), rounded to its word. Writes act in order, one at
-  /// the end of each tick. Errors: std::invalid_argument with the nearest name or the range;
-  /// std::runtime_error while armed for one that an armed core refuses (docs/registers.md).
+  /// Sets a parameter in its unit (docs/registers.md), rounded to its word. Writes take effect in
+  /// order, one at the end of each tick. Errors: std::invalid_argument with the nearest name or the
+  /// range; std::runtime_error while armed, for a parameter that an armed core refuses
+  /// (docs/registers.md).
   void set(const std::string& parameter, double value);
   Parameter parameter(const std::string& name) const;
   std::vector<Parameter> parameters() const;
-  /// Writes that have not acted yet.
+  /// Number of writes that have not taken effect yet.
   std::size_t pending() const { return writes_.size(); }
-  /// Counts of an angle: the unit of positions among the parameters.
+  /// An angle in counts, the unit of positions among the parameters; not rounded.
   double counts(double angle_rad) const { return angle_rad / design_.count_rad; }
 
-  /// The last tick whose snapshot has come.
+  /// The last tick with a snapshot.
   const Reading& reading() const { return reading_; }
-  /// What the bridge does in this clock: a share of the supply, and whether its gates are open.
+  /// The bridge in this clock: its duty as a share of the supply, and whether its gates are
+  /// enabled.
   double bridge_duty() const { return out().duty_active / static_cast<double>(design_.pwm_period); }
   bool gates_enabled() const { return out().gates_enable; }
   /// Clocks since reset.
   Clock now() const { return now_; }
-  /// Pins of the last clock, raw, both ways.
+  /// Inputs and outputs of the core in the last clock, raw.
   const CoreIn& inputs() const { return in_; }
   virtual const CoreOut& out() const = 0;
 
  protected:
   explicit Device(DesignInfo design);
-  /// Clocks of the core with the inputs held; `stretch` with every snapshot noted.
+  /// Advances the core one clock; stretch() advances `clocks` clocks and notes every snapshot.
   virtual void step(const CoreIn& in) = 0;
   virtual void stretch(const CoreIn& in, Clock clocks) = 0;
   void note(const CoreOut& snapshot) { reading_ = reading_of(design_, snapshot); }
 
  private:
   void write(int address, std::uint32_t data);
-  /// An armed core drops a write there; it waits until the core is disarmed, and arming for it.
+  /// Whether an armed core drops a write to this address. Such a write waits until the core is
+  /// disarmed, and arming waits for the write.
   bool holds(int address) const;
   void refuse_while_armed(const std::string& what) const;
   int clock_of_tick() const { return static_cast<int>(now_ % design_.clocks_per_tick); }
@@ -110,14 +114,14 @@ class Device {
   CoreIn in_;
   Reading reading_;
   Clock now_ = 0;
-  std::int64_t count_ = 0;  ///< where tick_to() has moved its encoder
+  std::int64_t count_ = 0;  ///< count of the encoder that tick_to() moves
   std::deque<std::pair<std::uint16_t, std::uint32_t>> writes_;
-  std::vector<std::int64_t> raw_;  ///< of the parameters, in their order
-  int held_ = 0;                   ///< writes that only a disarmed core takes
-  bool wanted_ = false;            ///< to be armed
-  bool low_before_ = false;        ///< the request was low at the end of the tick before
-  bool clearing_ = false;          ///< clear_faults() has yet to act
-  bool cleared_ = false;           ///< its write is on its way in this tick
+  std::vector<std::int64_t> raw_;  ///< words of the parameters, in their order
+  int held_ = 0;                   ///< waiting writes that only a disarmed core takes
+  bool wanted_ = false;            ///< arming is requested
+  bool low_before_ = false;        ///< the request was low at the end of the last tick
+  bool clearing_ = false;          ///< clear_faults() has not taken effect yet
+  bool cleared_ = false;           ///< its write is sent in this tick
 };
 
 /// The twin of design D as a device.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What Device does: requests into pins and register writes, angles into edges. Included by
-// device.hpp. Documentation: docs/library.md
+// Implementation of Device: requests become pins and register writes, angles become edges. Included
+// by device.hpp. Documentation: docs/library.md
 #pragma once
 
 #include <algorithm>
@@ -20,14 +20,14 @@ inline Device::Device(DesignInfo design) : design_(std::move(design)) {
   for (int i = 0; i < design_.parameter_count; ++i) raw_.push_back(design_.parameters[i].raw);
 }
 
-/// Arms by a request that was low at the end of the tick before; one that a fault or a stop has
-/// ended is not raised again.
+/// Sets the arm pin; arming needs a request that was low at the end of the tick before. A request
+/// that a fault or a stop has ended is not repeated.
 inline void Device::begin_tick() {
   if ((out().faults != 0 && !clearing_) || in_.stop) wanted_ = false;
   in_.arm = wanted_ && !clearing_ && held_ == 0 && (armed() || low_before_);
 }
 
-/// To the clock `until` with the pins as they are.
+/// Advances to the clock `until` with the pins unchanged.
 inline void Device::advance(Clock until) {
   const std::pair<std::uint16_t, std::uint32_t> clear{
       static_cast<std::uint16_t>(design_.command_address), 1u << design_.command.clear_faults};

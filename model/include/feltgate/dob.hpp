@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/dob.sv: disturbance observer tau_hat = LPF(Ktn*I + g*Jn*w) - g*Jn*w, the load that
-// opposes positive motor torque. Disarmed, the current counts as 0 and the filter follows its
-// input, so tau_hat is 0 and arming in motion makes no jump. Documentation: docs/blocks/dob.md
+// Law of rtl/dob.sv: disturbance observer tau_hat = LPF(Ktn*I + g*Jn*w) - g*Jn*w. tau_hat is the
+// load that opposes positive motor torque. While disarmed, the current counts as 0 and the filter
+// follows its input; so tau_hat is 0, and arming in motion causes no jump.
+// Documentation: docs/blocks/dob.md
 #pragma once
 
 #include <cstdint>
@@ -22,21 +23,21 @@ struct DobLaw {
   using Torque = typename N::template num<D::f.torque.key()>;
   using Filter = LowpassLaw<N, D::f.observer.key(), D::f.observer_difference.key(), D::rounding>;
 
-  /// Ktn*I, truncated below the observer's last bit.
+  /// Ktn*I, truncated to the observer's last bit.
   template <class Product>
   static constexpr Drive drive(Product ktn_times_current) {
     return quantise<N, Drive, Round::truncate, Overflow::wrap>(ktn_times_current);
   }
-  /// g*Jn*w, truncated; it enters and leaves the observer alike, so what is cut cancels at rest.
+  /// g*Jn*w, truncated. It enters and leaves the observer, so the truncated part cancels at rest.
   template <class Product>
   static constexpr Inertia inertia(Product gain_times_velocity) {
     return quantise<N, Inertia, Round::truncate, Overflow::wrap>(gain_times_velocity);
   }
-  /// Filter input: exact.
+  /// Input of the filter: exact.
   static constexpr State input(Drive drive, Inertia inertia) {
     return quantise<N, State, Round::truncate, Overflow::wrap>(drive + inertia);
   }
-  /// tau_hat, rounded and saturated to the torque format.
+  /// tau_hat, rounded and saturated to the torque format; sets *saturated if it saturates.
   static constexpr Torque tau_hat(State state, Inertia inertia, bool* saturated) {
     return quantise<N, Torque, D::rounding, Overflow::saturate>(state - inertia, saturated);
   }
@@ -49,7 +50,7 @@ struct ObserverStep {
   typename DobLaw<D, N>::Torque tau_hat{};
   bool limit = false;  ///< tau_hat saturated
 
-  /// `current`: the reference of the tick before.
+  /// One tick; `current` is the current reference of the tick before.
   template <class W, class Current, class Velocity>
   void tick(const W& w, bool armed, Current current, Velocity velocity) {
     using Law = DobLaw<D, N>;

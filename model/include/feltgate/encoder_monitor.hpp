@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/encoder_monitor.sv: whether the encoder's edges come on one channel only, tick by
-// tick. Documentation: docs/blocks/encoder_monitor.md
+// Law of rtl/encoder_monitor.sv: detects, tick by tick, an encoder whose edges come on one channel
+// only. Documentation: docs/blocks/encoder_monitor.md
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,11 @@
 
 namespace feltgate {
 
+/// State of the monitor, advanced tick by tick.
 class EncoderMonitorLaw {
  public:
-  /// A tick with these levels of the channels, A in bit 0. `tick` is the count of ticks;
-  /// `index_wrong` stays once the count at an index does not fit.
+  /// One tick. `levels`: the channels, A in bit 0. `tick`: the tick count. `index_wrong`: stays
+  /// true once the count at an index does not fit.
   void tick(unsigned levels, std::uint32_t tick, bool index_wrong = false) {
     index_trips_ = index_wrong && !index_wrong_;
     index_wrong_ = index_wrong;
@@ -46,23 +47,23 @@ class EncoderMonitorLaw {
     if (moved_ && !both) channel_ = changed;
   }
 
-  /// The count alternates on one edge: no torque may grow.
+  /// The count alternates on one edge; the torque must not grow.
   bool chatters() const { return row_ >= Map::one_channel_edges; }
-  /// A channel is dead: in the tick that finds it.
+  /// A channel is dead; true only in the tick that finds it.
   bool trips() const { return trips_; }
-  /// The count at an index does not fit: in the tick that finds it.
+  /// The count at an index does not fit; true only in the tick that finds it.
   bool index_trips() const { return index_trips_; }
   bool index_wrong() const { return index_wrong_; }
-  /// An edge has come in this tick.
+  /// An edge came in this tick.
   bool moved() const { return moved_; }
 
  private:
   static bool whole(std::uint32_t tick, int bits) { return (tick & ((1u << bits) - 1)) == 0; }
 
   unsigned levels_ = 0, channel_ = 1;
-  int row_ = 0;            ///< edges of one channel, but for the first
-  int edge_units_ = 0;     ///< since the last edge
-  int chatter_units_ = 0;  ///< since the row was long enough
+  int row_ = 0;            ///< consecutive edges of one channel, without the first
+  int edge_units_ = 0;     ///< time since the last edge
+  int chatter_units_ = 0;  ///< time since chatters() became true
   bool moved_ = false, trips_ = false, index_wrong_ = false, index_trips_ = false;
 };
 

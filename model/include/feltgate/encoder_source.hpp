@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What the core sees of the world: encoder pins on an integer clock. Documentation:
-// docs/architecture.md
+// The core's input from the world: levels of the encoder pins on an integer clock.
+// Documentation: docs/architecture.md
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace feltgate {
 
-/// Time in periods of the FPGA clock since reset; integer, so that a day does not drift.
+/// Time in periods of the FPGA clock since reset; an integer, so that it does not drift.
 using Clock = std::int64_t;
 
 /// Levels at the three encoder pins.
@@ -22,13 +22,13 @@ struct EncoderPins {
   constexpr bool operator!=(const EncoderPins& o) const { return !(*this == o); }
 };
 
-/// The pins take these levels at this clock and keep them until the next event.
+/// A change at the pins: they take these levels at `clock` and keep them until the next event.
 struct EncoderEvent {
   Clock clock = 0;
   EncoderPins pins;
 };
 
-/// A stream of pin changes in order of time; memory use does not grow with its length.
+/// A stream of pin changes in order of time; its memory use does not grow with its length.
 class EncoderSource {
  public:
   virtual ~EncoderSource() = default;
@@ -36,7 +36,7 @@ class EncoderSource {
   virtual EncoderPins initial() const = 0;
   /// The next change, strictly later than the one before; nothing at the end.
   virtual std::optional<EncoderEvent> next() = 0;
-  /// Length of the recording in clocks, known only once next() has returned nothing.
+  /// Length of the recording in clocks; known only after next() has returned nothing.
   virtual Clock length() const = 0;
 };
 

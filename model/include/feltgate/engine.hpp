@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/engine/engine.sv, clock by clock. Documentation: docs/blocks/engine.md
+// Twin of rtl/engine/engine.sv, clock by clock: runs force laws as programs of four threads, which
+// start with ticks, and has a port for the host. Documentation: docs/blocks/engine.md
 #pragma once
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 
 namespace feltgate::law {
 
-/// Clocked twin of an engine of AxisCount axes, whose torques have TorqueW bits.
+/// Clocked twin of an engine for AxisCount axes, whose torques have TorqueW bits.
 template <int AxisCount = 1, int TorqueW = 21>
 class Engine {
  public:
@@ -24,35 +25,38 @@ class Engine {
   struct In {
     bool armed = false;
     bool enter = false;   ///< one clock: the scene of laws was entered
-    bool locked = false;  ///< programs and what belongs to them cannot be written
-    bool tick = false;    ///< one clock; the inputs are of this tick, and held
+    bool locked = false;  ///< programs, tables and registers cannot be written
+    bool tick = false;    ///< one clock; the inputs belong to this tick and are held
     std::uint32_t tick_count = 0;
     typename Inputs::Axes position{}, velocity{}, tau_hat{};
-    bool crc_start = false;
-    unsigned addr = 0;  ///< 12 bits
+    bool crc_start = false;  ///< one clock: starts a check of the memories
+    unsigned addr = 0;       ///< 12 bits
     std::uint32_t wdata = 0;
     bool write = false;  ///< one clock, while not busy
-    bool read = false;   ///< one clock: rdata is taken
+    bool read = false;   ///< one clock: rdata was taken
   };
   struct Out {
-    std::array<std::int32_t, AxisCount> torque{};
+    std::array<std::int32_t, AxisCount> torque{};  ///< raw
+    /// fresh: one clock, torques of all axes have appeared since its last one. late: no such
+    /// torques for more than max_age ticks. crc_done: one clock, a check has ended. crc_good: it
+    /// fitted.
     bool fresh = false, late = false, crc_done = false, crc_good = false;
-    bool changed = false;  ///< one clock: from now on torques may jump
+    bool changed = false;  ///< one clock: torques may jump from now on
     bool event_valid = false;
-    int event_number = 0;          ///< with event_valid
-    std::int32_t event_value = 0;  ///< with event_valid
+    int event_number = 0;          ///< valid with event_valid
+    std::int32_t event_value = 0;  ///< valid with event_valid
     std::uint32_t rdata = 0;
-    bool rdata_known = false;  ///< a few rounds after a reset
-    bool busy = false;
+    bool rdata_known = false;  ///< false for a few rounds after a reset
+    bool busy = false;         ///< the port takes no write
   };
 
-  /// `max_age` [tick] as it is after a reset where the configuration says nothing of it.
+  /// `max_age` [tick]: its value after a reset where the configuration does not state one.
   explicit Engine(unsigned max_age = 0) { configure({}, EngineReset{}, max_age); }
 
-  /// What the memories hold after power-up; a reset keeps it.
+  /// Contents of the memories after power-up; a reset keeps them.
   EngineMemory& memory() { return barrel_.memory; }
 
-  /// As after power-up with these contents, and words that a reset brings back.
+  /// Sets the state after power-up, with these contents and the words that a reset restores.
   void configure(const EngineMemory& memory, const EngineReset& words) {
     configure(memory, words, reset_.max_age);
   }
@@ -93,12 +97,12 @@ class Engine {
     return out;
   }
 
-  /// After a clock: with the address that was held in it.
+  /// Outputs after the last clock(), for the address held in it.
   Out out() const { return peek(last_); }
 
-  /// Whether a thread is in a run, or about to be: its inputs have been latched.
+  /// Whether a thread is in a run, or about to start one: its inputs have been latched.
   bool running(int thread) const { return (inputs_.running >> thread & 1U) != 0; }
-  /// Every event since the reset, up to EngineEvents::most_told of them.
+  /// All events since the reset, at most EngineEvents::most_told.
   const std::vector<EngineEvents::Event>& told() const { return events_.told; }
 
   void clock(const In& in) {
@@ -111,7 +115,7 @@ class Engine {
     const bool write_run = open && addr == H::run;
     const bool enter = in.enter || (in.armed && !r.armed) || write_run;
 
-    // What is seen in this clock, before anything changes.
+    // Values in this clock, before anything changes.
     const int thread = barrel_.thread5();
     const bool clearing = lines_.clearing;
     const unsigned run = clearing ? 0 : r.run;
@@ -123,7 +127,7 @@ class Engine {
     const int line_base = barrel_.memory.line_base;
     const EngineBarrel::In to = barrel_inputs(in, run);
 
-    // The write that goes on its way now is seen by the barrel in the next clock.
+    // The barrel sees a write that starts now in the next clock.
     Written next = written(input_taken, host_taken);
     if (lines_.taken(line_base, line_free)) next.table = true;
     if (clearing && !inputs_.wanted() && !r.waits) next.address = lines_.address;
@@ -204,7 +208,7 @@ class Engine {
     bool waits = false, waits_program = false, waits_table = false;
     int address = 0;
     std::uint32_t data = 0;
-    unsigned lands = 0;  ///< a word on its way into its memory
+    unsigned lands = 0;  ///< a word on its way to its memory
     bool beat = false;
     std::uint32_t program = 0, read = 0;
     unsigned program_high = 0, table_high = 0;
@@ -270,7 +274,7 @@ class Engine {
     return w;
   }
 
-  /// A word of the host for a memory.
+  /// Takes a word of the host for a memory.
   void take(const In& in, int bank, bool committing) {
     Registers& r = registers_;
     const unsigned region = in.addr >> 9;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/engine/engine_barrel.sv, clock by clock: memories and four threads in turns.
-// Documentation: docs/blocks/engine.md
+// Twin of rtl/engine/engine_barrel.sv, clock by clock: the memories, and four threads that take
+// turns. Documentation: docs/blocks/engine.md
 #pragma once
 
 #include <array>
@@ -19,24 +19,25 @@ class EngineRuns;
 
 namespace feltgate {
 
-/// Clocked twin of the engine's machine.
+/// Clocked twin of the engine's processor.
 class EngineBarrel {
  public:
   struct In {
-    unsigned run = 0, request = 0, first = 0;  ///< a bit per thread
-    int bank = 0;
-    bool write_data = false, write_program = false, write_table = false;
+    /// One bit per thread: it is enabled; it requests a start; its next run starts with flag 1.
+    unsigned run = 0, request = 0, first = 0;
+    int bank = 0;  ///< of the parameters in force
+    bool write_data = false, write_program = false, write_table = false;  ///< a word of the system
     int write_address = 0;
     std::uint32_t write_word = 0;
-    unsigned write_high = 0;
-    EngineOp read_op = EngineOp::add;
+    unsigned write_high = 0;           ///< bits 32 to 35 of the word
+    EngineOp read_op = EngineOp::add;  ///< operation of the system's turn
     bool keeps = false;
-    int read_data = 0, read_address = 0;
+    int read_data = 0, read_address = 0;  ///< what the system reads: of data; of program or table
   };
 
   static constexpr int kSystem = 5;  ///< the turn in which the system reads
 
-  /// Contents of the memories; they outlive a reset.
+  /// Contents of the memories; a reset keeps them.
   EngineMemory memory;
 
   void reset() {
@@ -48,22 +49,27 @@ class EngineBarrel {
     acc_ = {};
   }
 
-  // What is seen within a clock.
+  // Values during a clock, before it ends. A number in a name is a stage of the pipeline.
   int thread5() const { return at_[5].turn & 3; }
+  /// Whether a run of thread5() starts with this clock.
   bool starts(unsigned run_request) const {
     return at_[5].turn < 4 && !at_[5].valid && (run_request >> thread5() & 1U) != 0;
   }
+  /// Whether the run of thread5() ends with this clock.
   bool ended(unsigned run) const { return at_[5].valid && !goes_on(run); }
+  /// Whether a word of the system may be written in the next clock.
   bool free() const { return !at_[2].valid && at_[2].turn != kSystem; }
   bool beat() const { return at_[1].turn == kSystem; }
   bool high_read() const { return at_[3].turn == kSystem; }
   std::uint64_t program_word() const { return at_[1].word; }
   unsigned table_high() const { return static_cast<unsigned>(at_[3].table >> 32); }
+  /// Result of the instruction at the last stage; where it goes: an output, an event.
   std::int32_t result() const { return at_[7].result; }
   bool output() const { return at_[7].valid && at_[7].i.dst == 2; }
   bool event() const { return at_[7].valid && at_[7].i.dst == 3; }
   bool last() const { return at_[7].valid && at_[7].i.last; }
   int thread7() const { return at_[7].turn & 3; }
+  /// Number of that output or event.
   int number() const { return at_[7].i.d; }
 
   void clock(const In& in) {
@@ -91,23 +97,23 @@ class EngineBarrel {
   template <int AxisCount, int TorqueW>
   friend class law::EngineRuns;
 
-  /// An instruction, or a turn without one, on its way.
+  /// An instruction in the pipeline, or a turn without one.
   struct Turn {
     int turn = 0;
     bool valid = false;
-    bool flag = false, next_flag = false;  ///< before and after it
+    bool flag = false, next_flag = false;  ///< before and after the instruction
     int bank = 0, pc = 0, b = 0;
     std::uint64_t word = 0, table = 0;
     EngineInstruction i;
     std::int32_t x = 0, y = 0, result = 0;
     int table_address = 0;
     bool writes_data = false, writes_program = false, writes_table = false;
-    int address = 0;  ///< of data or program
+    int address = 0;  ///< address in data or program memory
     unsigned high = 0;
     std::uint32_t extra = 0;
   };
 
-  /// Words are read in the clock in which others are written: as they were.
+  /// The words before this clock's writes: a read in the same clock gives the old word.
   struct Before {
     int data_at = -1, program_at = -1, table_at = -1;
     std::int32_t data_word = 0;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The memories of an engine. Documentation: docs/engine-isa.md
+// Contents of the three memories of an engine: program, data, tables. Documentation:
+// docs/engine-isa.md
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@
 
 namespace feltgate {
 
-/// Contents of the three memories; all words 0 at first. Addresses are those of the hardware.
+/// The three memories; every word is 0 at first. Addresses are those of the hardware.
 struct EngineMemory {
   template <class Word, int Words>
   using Words_of = std::array<Word, static_cast<std::size_t>(Words)>;
@@ -22,7 +23,7 @@ struct EngineMemory {
   Words_of<std::uint64_t, EngineMap::table_words> table{};  ///< 36 bits each
   int line_base = EngineMap::table_words;  ///< first table word that TST may write; 512: none
 
-  /// Words by number, which must be below 512.
+  /// Access by word number, which must be below 512.
   std::uint64_t program_at(int n) const { return program[static_cast<std::size_t>(n)]; }
   std::int32_t data_at(int n) const { return data[static_cast<std::size_t>(n)]; }
   std::uint64_t table_at(int n) const { return table[static_cast<std::size_t>(n)]; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The engine's instructions as pure functions, exact: twin, interpreter, compiler and proofs share
+// The engine's instructions as pure, exact functions; twin, interpreter, compiler and proofs share
 // them. Program words: docs/engine-isa.md (generated)
 #pragma once
 
@@ -11,21 +11,21 @@
 
 namespace feltgate {
 
-/// A program word taken apart; all fields are the raw bits.
+/// The fields of a program word, as raw bits.
 struct EngineInstruction {
   EngineOp op = EngineOp::nop;
   int mode = 0;       ///< 0 to 3
-  bool last = false;  ///< the run ends with this instruction
-  int dst = 0;        ///< EngineTarget by number
-  int d = 0;          ///< 0 to 511, as of a and b
+  bool last = false;  ///< this instruction ends the run
+  int dst = 0;        ///< number of an EngineTarget
+  int d = 0;          ///< 0 to 511, like a and b
   int a = 0;
   int b = 0;
 };
 
-/// Where a result goes beside acc: EngineInstruction::dst.
+/// Where a result goes in addition to acc: EngineInstruction::dst.
 enum class EngineTarget : int { none, data, output, event };
 
-/// Program word (36 bits) to fields. Bits above the word are ignored.
+/// Decodes a program word (36 bits). Bits above the word are ignored.
 constexpr EngineInstruction engine_decode(std::uint64_t word) {
   using B = EngineMap::B;
   const auto field = [word](int bit, int width) {
@@ -40,7 +40,7 @@ constexpr EngineInstruction engine_decode(std::uint64_t word) {
           field(B::b, B::b_width)};
 }
 
-/// Fields to program word; each field must lie within its width.
+/// Encodes a program word; each field must fit its width.
 constexpr std::uint64_t engine_encode(const EngineInstruction& i) {
   using B = EngineMap::B;
   const auto at = [](int value, int bit) { return static_cast<std::uint64_t>(value) << bit; };
@@ -48,13 +48,13 @@ constexpr std::uint64_t engine_encode(const EngineInstruction& i) {
          at(i.dst, B::dst) | at(i.d, B::d) | at(i.a, B::a) | at(i.b, B::b);
 }
 
-/// What an instruction takes and leaves: one thread's.
+/// The state that an instruction reads and writes, of one thread.
 struct EngineState {
   std::int32_t acc = 0;
   bool flag = false;
 };
 
-/// v to the nearest in 32 bits.
+/// v saturated to 32 bits.
 constexpr std::int32_t engine_sat(std::int64_t v) {
   if (v > INT32_MAX) return INT32_MAX;
   if (v < INT32_MIN) return INT32_MIN;
@@ -68,45 +68,45 @@ constexpr std::int32_t engine_wrap(std::int64_t v) {
                                                                   : low);
 }
 
-/// floor(v / 2^s), for any sign.
+/// floor(v / 2^s), also for negative v.
 constexpr std::int64_t engine_floor_shift(std::int64_t v, int s) {
   return v >= 0 ? v >> s : -((-v - 1) >> s) - 1;
 }
 
-/// v / 2^s rounded to the nearest, half up; |v| below 2^62.
+/// v / 2^s rounded to nearest, ties up; |v| must be below 2^62.
 constexpr std::int64_t engine_round_shift(std::int64_t v, int s) {
   return s == 0 ? v : engine_floor_shift(v + (std::int64_t{1} << (s - 1)), s);
 }
 
-/// The low bits of a data word that multiply, as a signed number.
+/// The low factor_bits bits of a data word, as a signed number: the part that multiplies.
 constexpr std::int32_t engine_factor(std::int32_t y) {
   constexpr std::int32_t half = 1 << (EngineMap::factor_bits - 1);
   return ((y & (2 * half - 1)) ^ half) - half;
 }
 
-/// Bits of a product that the mode drops.
+/// Number of low bits of a product that this mode drops.
 constexpr int engine_shift(int mode) { return EngineMap::shifts[mode & 3]; }
 
-/// Least clocks from start to start of a thread with runs of so many instructions, in an engine of
-/// 1 to 3 axes in which no other thread runs. Where ticks of its divider last as long, a run starts
-/// at each; where they do not, starts are missed.
+/// Smallest number of clocks from start to start of a thread whose runs have so many instructions,
+/// in an engine of 1 to 3 axes in which no other thread runs. If the period of its divider is at
+/// least as long, a run starts each time; if it is shorter, starts are missed.
 constexpr int engine_period(int instructions, int axes) {
   constexpr int round = EngineMap::round_clocks;
   const int words = EngineMap::input_axis_words * axes + 1;
-  // A word of inputs takes a clock, but in one of the system's turns none is written.
+  // An input word takes one clock; in one of the system's turns none is written.
   const int between = EngineMap::start_clocks + words + (words - 1) / (round - 1);
   return round * (instructions + (between + round - 1) / round);
 }
 
-/// Word of table memory that LRP, TAB and TST reach.
+/// Address in table memory that LRP, TAB and TST use; `x` as data word, `b` as base.
 constexpr int engine_table_address(std::int32_t x, int b) {
   const std::int64_t segment = engine_floor_shift(x, EngineMap::fraction_bits);
   return static_cast<int>((static_cast<std::uint64_t>(segment) + static_cast<std::uint64_t>(b)) &
                           (EngineMap::table_words - 1));
 }
 
-/// A table word for LRP from a value (20 bits, signed) and a slope (16 bits, signed), in steps of
-/// the value per segment.
+/// A table word for LRP: a value (20 bits, signed) and a slope (16 bits, signed), in steps of the
+/// value per segment.
 constexpr std::uint64_t engine_table_word(std::int32_t value, std::int32_t slope) {
   const auto bits = [](std::int32_t v, int width) {
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(v)) &
@@ -116,25 +116,25 @@ constexpr std::uint64_t engine_table_word(std::int32_t value, std::int32_t slope
          bits(value, EngineMap::value_bits);
 }
 
-/// Value of such a word.
+/// The value in such a table word.
 constexpr std::int32_t engine_table_value(std::uint64_t t) {
   constexpr std::int32_t half = 1 << (EngineMap::value_bits - 1);
   return (static_cast<std::int32_t>(t & (2 * half - 1)) ^ half) - half;
 }
 
-/// Slope of such a word.
+/// The slope in such a table word.
 constexpr std::int32_t engine_table_slope(std::uint64_t t) {
   constexpr std::int32_t half = 1 << (EngineMap::slope_bits - 1);
   return (static_cast<std::int32_t>((t >> EngineMap::value_bits) & (2 * half - 1)) ^ half) - half;
 }
 
-/// What CMP, MIN and MAX ask.
+/// The comparison of CMP, MIN and MAX.
 constexpr bool engine_less(std::int32_t x, std::int32_t y) {
   // Exact: the difference may need 33 bits.
   return x < y;
 }
 
-/// The flag that CMP leaves.
+/// The flag after CMP.
 constexpr bool engine_compare(int mode, bool flag, std::int32_t x, std::int32_t y) {
   const bool c = engine_less(x, y);
   switch (mode & 3) {
@@ -149,8 +149,9 @@ constexpr bool engine_compare(int mode, bool flag, std::int32_t x, std::int32_t 
   }
 }
 
-/// Result and next state of one instruction. `x`, `y` are the data words at a and b, `t` the table
-/// word at engine_table_address (any for instructions that read none). Every input is allowed.
+/// Result and next state of one instruction. `x` and `y` are the data words at a and b, `t` is the
+/// table word at engine_table_address (any value for an instruction that reads none). Every input
+/// is allowed.
 constexpr EngineState engine_step(EngineOp op, int mode, EngineState s, std::int32_t x,
                                   std::int32_t y, std::uint64_t t) {
   const auto wide = [](std::int32_t v) { return static_cast<std::int64_t>(v); };
@@ -216,12 +217,12 @@ constexpr EngineState engine_step(EngineOp op, int mode, EngineState s, std::int
   return s;
 }
 
-/// Whether the instruction after this one is at b.
+/// Whether the next instruction is the one at b.
 constexpr bool engine_branches(EngineOp op, int mode, bool flag) {
   return op == EngineOp::brf && flag == ((mode & 1) == 0);
 }
 
-/// Word of data memory that a thread reads at address `a`; `bank` of its parameters.
+/// Address in data memory that a thread reads for address `a`; `bank`: the bank of its parameters.
 constexpr int engine_read_address(int a, int thread, int bank) {
   using D = EngineMap::D;
   if (a < D::exchange)
@@ -233,7 +234,7 @@ constexpr int engine_read_address(int a, int thread, int bank) {
   return a;
 }
 
-/// Word of data memory that a thread writes at address `d`, or -1: it may not.
+/// Address in data memory that a thread writes for address `d`; -1 if it must not write there.
 constexpr int engine_write_address(int d, int thread) {
   using D = EngineMap::D;
   const int own = d & (EngineMap::private_words - 1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twins of the engine's parts around parameters, mailbox and lines, clock by clock.
+// Twins of the engine's parts for parameters, mailbox and delay lines, clock by clock.
 // Documentation: docs/blocks/engine.md
 #pragma once
 
@@ -14,24 +14,30 @@ class EngineRuns;
 
 namespace feltgate {
 
-/// Twin of rtl/engine/engine_commit.sv.
+/// Twin of rtl/engine/engine_commit.sv: checks a parameter set against its ranges, one word after
+/// another, and switches to the other bank with the next tick.
 class EngineCommit {
  public:
   struct In {
+    /// commit: a request. wait: the check must not start. beat: `negative` is a comparison's
+    /// result.
     bool commit = false, wait = false, tick = false, beat = false, negative = false;
-    unsigned running = 0;
-    int mailbox_first = 0;
+    unsigned running = 0;   ///< threads in a run, one bit each
+    int mailbox_first = 0;  ///< first word of the mailbox
   };
 
-  int bank = 0;
-  bool differs = false;  ///< of the last commit: a word below mailbox_first
+  int bank = 0;          ///< in force
+  bool differs = false;  ///< the last commit changed a word below mailbox_first
   bool checking = false, refused = false;
   int refused_word = 0;
 
+  /// Whether a commit is in progress: to the end of the last run that uses the old set.
   bool committing() const { return wanted_ || checking || passed_ || old_ != 0; }
-  /// The other bank comes into force with the next clock.
+  /// Whether the other bank comes into force with the next clock.
   bool taken(bool tick) const { return passed_ && tick; }
+  /// Whether this beat subtracts.
   bool minus() const { return checking && (beat_ & 1) != 0; }
+  /// Address in data memory that this beat reads.
   int address() const {
     using D = EngineMap::D;
     const int word = beat_ >> 3 & 31, step = beat_ & 7;
@@ -79,17 +85,18 @@ class EngineCommit {
   unsigned old_ = 0;
 };
 
-/// Twin of rtl/engine/engine_mailbox.sv.
+/// Twin of rtl/engine/engine_mailbox.sv: the age of the mailbox, and when torques may jump.
 class EngineMailbox {
  public:
   struct In {
-    bool tick = false, step = false, watched = false;
-    unsigned max_age = 0;
-    bool taken = false, differs = false;
+    bool tick = false, step = false, watched = false;  ///< step: this tick counts
+    unsigned max_age = 0;                              ///< in counted ticks
+    bool taken = false, differs = false;  ///< a new set is in force; it differs in a parameter
   };
 
-  bool jumps = false;
+  bool jumps = false;  ///< one clock: torques may jump from now on
 
+  /// Whether the mailbox is too old.
   bool late(bool watched) const { return late_ && watched; }
 
   void clock(const In& in) {
@@ -109,15 +116,16 @@ class EngineMailbox {
   friend class law::EngineRuns;
 
   unsigned age_ = 0;
-  bool late_ = true;  // nothing was fed
+  bool late_ = true;  // late after a reset: nothing was fed yet
 };
 
-/// Twin of rtl/engine/engine_lines.sv.
+/// Twin of rtl/engine/engine_lines.sv: clears the delay lines in table memory.
 class EngineLines {
  public:
   bool clearing = false;
-  int address = 0;
+  int address = 0;  ///< table word that is cleared next
 
+  /// Whether that word is cleared now.
   bool taken(int line_base, bool free) const {
     return clearing && wait_ == 0 && free && line_base < EngineMap::table_words;
   }

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twins of the engine's parts around the barrel, clock by clock: starts and inputs, outputs and
-// age, CRC, events. Documentation: docs/blocks/engine.md
+// their age, CRC, events. Documentation: docs/blocks/engine.md
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace feltgate {
 
-/// Twin of rtl/engine/engine_inputs.sv.
+/// Twin of rtl/engine/engine_inputs.sv: the dividers, the inputs and the starts of the threads.
 template <int AxisCount>
 class EngineInputs {
  public:
@@ -24,30 +24,33 @@ class EngineInputs {
   static constexpr int kWords = EngineMap::input_axis_words * AxisCount + 1;
 
   struct In {
-    unsigned run = 0;
+    unsigned run = 0;  ///< enabled threads, one bit each
     bool tick = false;
-    bool divide = false;
-    int divided = 0, divider = 0;
-    bool started = false, ended = false;
+    bool divide = false;                  ///< `divider` is written for the thread `divided`
+    int divided = 0, divider = 0;         ///< the divider in ticks
+    bool started = false, ended = false;  ///< a run of `thread`
     int thread = 0;
-    bool taken = false;
+    bool taken = false;  ///< the word that is wanted is written
   };
 
+  /// One bit per thread: inputs are complete and a start is requested; inputs are latched, or it
+  /// runs.
   unsigned request = 0, running = 0;
 
-  /// Dividers and what is left of them are memory and stay.
+  /// Dividers and their counters are memory: a reset keeps them.
   void reset() {
     request = running = due_ = 0;
     counting_ = loading_ = written_ = false;
     counted_ = loaded_ = word_ = 0;
   }
 
-  /// As after power-up.
+  /// Sets the state after power-up.
   void configure(const std::array<unsigned, 4>& dividers) {
     for (std::size_t t = 0; t < dividers.size(); ++t) dividers_[t] = static_cast<int>(dividers[t]);
     counts_ = {};
   }
 
+  /// Whether a word of the inputs waits to be written; its address in data memory; the word.
   bool wanted() const { return loading_ && word_ != kWords; }
   int address() const {
     return loaded_ * EngineMap::private_words +
@@ -60,7 +63,7 @@ class EngineInputs {
     const std::int32_t words[] = {position[n], velocity[n], tau_hat[n]};
     return static_cast<std::uint32_t>(words[word_ % 3]);
   }
-  /// A thread is due that waits already.
+  /// Whether a thread becomes due that is still waiting.
   bool due_again(unsigned run) const { return due(run) && (due_ >> counted_ & 1U) != 0; }
 
   void clock(const In& in) {
@@ -124,19 +127,24 @@ class EngineInputs {
   int counted_ = 0, loaded_ = 0, word_ = 0;
 };
 
-/// Twin of rtl/engine/engine_outputs.sv.
+/// Twin of rtl/engine/engine_outputs.sv: the torques, limited to their format, and their age.
 template <int AxisCount, int TorqueW>
 class EngineOutputs {
  public:
   struct In {
+    /// clear: torques become 0, waiting ones are lost. zero: they become 0. watched: their age
+    /// counts.
     bool clear = false, zero = false, watched = false, enter = false, tick = false;
-    unsigned max_age = 0;
+    unsigned max_age = 0;  ///< ticks
+    /// The instruction at the last stage: result, whether it is an output or the last of a run.
     std::int32_t result = 0;
     bool output = false, last = false;
     int thread = 0, number = 0;
   };
 
   std::array<std::int32_t, AxisCount> torque{};
+  /// fresh: one clock, torques of all axes have appeared since its last one. late: they are too
+  /// old.
   bool fresh = false, late = false;
 
   void clock(const In& in) {
@@ -195,20 +203,21 @@ class EngineOutputs {
   unsigned renewed_ = 0, age_ = 0;
 };
 
-/// Twin of rtl/engine/engine_crc.sv.
+/// Twin of rtl/engine/engine_crc.sv: the CRC-32 of the memories' contents.
 class EngineCrc {
  public:
   struct In {
-    bool start = false, wait = false, beat = false;
+    bool start = false, wait = false, beat = false;  ///< beat: `word` has been read
     std::uint64_t word = 0;
-    int line_base = 0;
-    std::uint32_t wanted = 0;
+    int line_base = 0;         ///< first table word that the CRC leaves out
+    std::uint32_t wanted = 0;  ///< the expected CRC
   };
 
+  /// reads: a check is in progress. done: one clock, it has ended. good: the CRC was the expected.
   bool reads = false, done = false, good = false;
-  int address = 0;
+  int address = 0;  ///< of the next word
 
-  /// The sum is no register of a reset; it begins anew with each start.
+  /// A reset of the RTL does not touch the sum; each start sets it anew.
   void reset() { *this = EngineCrc{}; }
   bool busy() const { return waits_ || reads; }
   bool reads_program() const { return reads && part_ == 0; }
@@ -261,7 +270,7 @@ class EngineCrc {
   std::uint32_t sum_ = 0;
 };
 
-/// Twin of rtl/engine/engine_events.sv.
+/// Twin of rtl/engine/engine_events.sv: a queue of 16 events that wait for the host.
 class EngineEvents {
  public:
   struct Event {
@@ -270,13 +279,14 @@ class EngineEvents {
     std::uint32_t tick = 0;
   };
 
-  /// Told events that a simulation remembers, whoever takes them from the places; no hardware.
+  /// Number of events that the simulation remembers in `told`, also those already taken; not in
+  /// hardware.
   static constexpr std::size_t most_told = 65536;
 
-  int count = 0, lost = 0;
+  int count = 0, lost = 0;  ///< events that wait; events that found no place, at most 255
   std::vector<Event> told;
 
-  /// What is in the places stays.
+  /// The contents of the queue's places stay.
   void reset() {
     first_ = count = lost = 0;
     told.clear();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The engine's twin run by run: the part that stands for many calls of Engine::clock() while no
-// host writes and one thread at most runs. Documentation: docs/blocks/engine.md
+// The engine's twin run by run: it replaces many calls of Engine::clock() while no host writes and
+// at most one thread runs. Documentation: docs/blocks/engine.md
 #pragma once
 
 #include <algorithm>
@@ -17,9 +17,10 @@
 
 namespace feltgate::law {
 
-/// An engine whose runs are computed as a whole when their inputs are known, each at the clocks in
-/// which the hardware shows what comes of it. What it has written since the start of the run before
-/// can be taken back: so the clocked twin goes on from any clock, as if it had been there.
+/// An engine that computes a whole run as soon as its inputs are known, and shows each result in
+/// the clock in which the hardware shows it. Writes since the start of the run before can be
+/// undone, so the clocked twin can continue from any clock with the same state as if it had been
+/// used throughout.
 template <int AxisCount, int TorqueW>
 class EngineRuns {
  public:
@@ -31,7 +32,7 @@ class EngineRuns {
 
   EngineRuns(unsigned max_age, const Timing& timing) : engine_(max_age), ticks_(timing) {}
 
-  /// The engine as it is now, clock by clock from here on.
+  /// The engine as clocked twin, from the present clock on.
   Clocked& clocked() {
     leave();
     return engine_;
@@ -48,24 +49,25 @@ class EngineRuns {
     if (rest_ > 0) --rest_;
   }
   const EngineWatch& watch() const { return watch_; }
-  /// A commit is under way: parameters cannot be written.
+  /// Whether a commit is under way: then parameters cannot be written.
   bool committing() const { return engine_.commit_.committing(); }
 
-  /// Whether runs are taken as a whole.
+  /// Whether runs are computed as a whole.
   bool on() const { return on_; }
-  /// Tries to; `in` is that of the coming clock, which is `clock_of_tick` of its tick. A run must
-  /// start in it, or no thread run at all.
+  /// Tries to switch to whole runs; returns whether they are on. `in` are the inputs of the next
+  /// clock, which is `clock_of_tick` of its tick. A run must start in that clock, or no thread run
+  /// at all.
   bool enter(const In& in, int clock_of_tick);
-  /// Clock by clock again.
+  /// Returns to the clocked twin.
   void leave();
-  /// The same, for some time.
+  /// Returns to the clocked twin for at least rest_clocks clocks.
   void give_up() {
     leave();
     rest_ = rest_clocks;
   }
 
-  /// Whether tick() may be called for the clock `ahead` of now: not where an age becomes too old or
-  /// a run would begin when its inputs are no longer held.
+  /// Whether tick() may be called for the clock `ahead` clocks from now. False where an age becomes
+  /// too old, or where a run would begin after its inputs are no longer held.
   bool may_tick(int ahead) const {
     const std::int64_t at = now_ + ahead;
     if (engine_.watches_mailbox() && mail_ends(at)) return false;
@@ -73,12 +75,12 @@ class EngineRuns {
     const Coming& next = comes_.front();
     const bool renewed = coming_ > 0 && next.clock <= at && next.renews(state_.renewed);
     if (!late_ && (renewed ? 0 : state_.age) >= engine_.registers_.max_age) return false;
-    // A run whose inputs come late is known with the next tick: too late if it is a short one.
+    // A run with late inputs is known only with the next tick, which is too late for a short run.
     if (shortest_ >= ticks_.long_run() || (state_.count > 1 && !state_.due)) return true;
     const std::int64_t ready = std::max(at + 2 + thread_, end_ + 1);
     return ready + words + 3 <= at + ticks_.known_for();
   }
-  /// A tick whose inputs are latched in the clock `ahead` of now.
+  /// A tick; the inputs are latched in the clock `ahead` clocks from now.
   void tick(int ahead, const Axes& position, const Axes& velocity, const Axes& tau_hat) {
     const std::int64_t at = now_ + ahead, counts = at + 1 + thread_;
     settle(at);
@@ -113,14 +115,14 @@ class EngineRuns {
     load(at + ticks_.known_for() + 1);
     start(never);
   }
-  /// The torques that are in force in the clock `ahead` of now, in which the cores take them.
+  /// The torques in force in the clock `ahead` clocks from now, in which the cores take them.
   const std::array<std::int32_t, AxisCount>& torque(int ahead) {
     settle(now_ + ahead);
     watch_.in_force = watch_.ended;
     return state_.torque;
   }
-  /// Clocks have passed, after which the axes show these. `on_event(clock, number)` is called for
-  /// each event in them; clock 0 is the first.
+  /// Reports that `clocks` clocks have passed and what the axes show now. Calls `on_event(clock,
+  /// number)` for each event in these clocks; clock 0 is the first of them.
   template <class OnEvent>
   void advance(int clocks, const Axes& position, const Axes& velocity, OnEvent&& on_event) {
     auto event = untold_.begin();
@@ -133,7 +135,7 @@ class EngineRuns {
     settle(now_);
     if (endless_) give_up();
   }
-  /// Into outputs that do not change otherwise.
+  /// Writes the outputs; while on(), only those that change.
   void show(Out* out) const {
     if (!on_) {
       *out = engine_.out();
@@ -160,9 +162,10 @@ class EngineRuns {
   };
   static constexpr std::int64_t never = INT64_MAX / 2;
   static constexpr int words = EngineInputs<AxisCount>::kWords;
-  static constexpr int stages = 6;          ///< clocks of a round: turns go round
-  static constexpr int longest = 1000;      ///< instructions of a run that is taken as a whole
-  static constexpr int rest_clocks = 5000;  ///< after runs that are not
+  static constexpr int stages = 6;  ///< clocks of a round; one turn per stage
+  /// most instructions of a run that is computed as a whole
+  static constexpr int longest = 1000;
+  static constexpr int rest_clocks = 5000;  ///< pause after longer runs
 
   const EngineBarrel::Turn& stage(int k) const {
     return engine_.barrel_.at_[static_cast<std::size_t>(k)];
@@ -180,7 +183,7 @@ class EngineRuns {
     if (counts) state_.mail_age = (state_.mail_age + 1) & 0xffffU;
   }
 
-  /// The inputs of a run that is due, one after the other, in the clocks before `limit`.
+  /// Writes the inputs of a run that is due, one word after another, in the clocks before `limit`.
   void load(std::int64_t limit) {
     if (!state_.due) return;
     if (!loading_) {
@@ -213,7 +216,7 @@ class EngineRuns {
                                       : ticks_.tau_hat(cursor_, last);
     write(base + EngineMap::input_first + word, from[static_cast<std::size_t>(word / 3)]);
   }
-  /// The run whose inputs are complete, if it starts in clock `until` or before.
+  /// Starts the run whose inputs are complete, if it starts in clock `until` or earlier.
   void start(std::int64_t until) {
     if (start_ > until || start_ == never) return;
     const std::int64_t n = start_;
@@ -221,7 +224,8 @@ class EngineRuns {
     mark(n);
     execute(n);
   }
-  /// A run starts at clock n: what lies before the start of the last one stays.
+  /// A run starts at clock n: the start of the run before becomes base_, the oldest state to return
+  /// to.
   void mark(std::int64_t n) {
     base_ = last_;
     last_ = state_;
@@ -241,7 +245,7 @@ class EngineRuns {
     writes_.data(engine_.barrel_.memory, address, word);
   }
 
-  /// The run that starts at clock n, of which the inputs are in the memory.
+  /// Executes the run that starts at clock n; its inputs are in the memory.
   void execute(std::int64_t n) {
     EngineMemory& m = engine_.barrel_.memory;
     EngineState s{0, (state_.first >> thread_ & 1U) != 0};
@@ -279,7 +283,7 @@ class EngineRuns {
     comes.clock = end_ + 3;
     comes_[static_cast<std::size_t>(coming_++)] = comes;
   }
-  /// Clock n is reached.
+  /// Updates begins and outputs up to clock n.
   void settle(std::int64_t n) {
     if (begins_at_ <= n) {
       if (thread_ == 0) watch_.begin(ticks_.count_at(begins_at_ - 1));
@@ -302,31 +306,32 @@ class EngineRuns {
   void land_input();
   void adopt();
 
-  Clocked engine_;  ///< while on(): as of enter(), but for memory and events
+  Clocked engine_;  ///< while on(): as at enter(), except memory and events
   EngineWatch watch_;
   bool on_ = false;
-  int rest_ = 0;  ///< clocks until the next try
+  int rest_ = 0;  ///< clocks before the next try
 
-  std::int64_t now_ = 0;  ///< clocks from enter() on
+  std::int64_t now_ = 0;  ///< clocks since enter()
   unsigned run_ = 0;
-  int thread_ = 0, system_ = 0, own_ = 0;  ///< stages of those turns at clock 0
+  int thread_ = 0, system_ = 0, own_ = 0;  ///< stages of thread and turns at clock 0
   unsigned addr_ = 0;
   std::int64_t addr_since_ = 0;
   bool armed_ = false, late_ = false, silent_ = false, endless_ = false;
-  State state_, base_, last_;  ///< now; at the starts of the run before the last and of the last
-  std::int64_t end_ = 0;       ///< clock that ends the last run
+  /// state_: now; base_, last_: at the starts of the run before the last and of the last run.
+  State state_, base_, last_;
+  std::int64_t end_ = 0;  ///< clock that ends the last run
   std::int64_t begins_at_ = never, fresh_at_ = never;
-  /// Inputs: since when the thread is due, the next clock that may take a word, and which; the
-  /// start of the run that they are of.
+  /// Inputs: clock since which the thread is due; next clock that may write a word; start of the
+  /// run that they are for.
   std::int64_t due_from_ = 0, cursor_ = 0, start_ = never;
   bool loading_ = false;
   int word_ = 0, shortest_ = 0;
   std::array<Coming, 2> comes_{};
   int coming_ = 0;
-  RunTicks<Axes> ticks_;       ///< since base_, and the one before
+  RunTicks<Axes> ticks_;       ///< since base_, and the tick before
   RunWrites writes_;           ///< since base_; marked at last_
   std::vector<Event> events_;  ///< since base_
-  std::vector<Event> untold_;  ///< from now_ on
+  std::vector<Event> untold_;  ///< events from now_ on
   RunProgram program_;
 };
 

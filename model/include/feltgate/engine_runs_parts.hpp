@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What EngineRuns keeps: ticks, writes that can be taken back, decoded instructions, outputs that
-// are to appear. Documentation: docs/blocks/engine.md
+// Parts of EngineRuns: ticks, writes that can be undone, decoded instructions, outputs that appear
+// later. Documentation: docs/blocks/engine.md
 #pragma once
 
 #include <algorithm>
@@ -17,14 +17,15 @@
 
 namespace feltgate::law {
 
-/// Of the device, in clocks: from tick to tick; for how many before that in which inputs are
-/// latched the axes show a position and a velocity that are of the new one; for how many after it a
-/// run may begin that belongs to what the tick's snapshot tells, less one.
+/// Timing of the device, in clocks. `clocks_per_tick`: length of a tick. `position_ahead`,
+/// `velocity_ahead`: how long before the clock that latches the inputs the axes show the new tick's
+/// position and velocity. `known_for`: a run that begins up to known_for + 1 clocks after that
+/// clock still belongs to what the tick's snapshot reports.
 struct RunTiming {
   int clocks_per_tick, position_ahead, velocity_ahead, known_for;
 };
 
-/// What the axes measured, tick by tick. Clocks count from begin().
+/// The measurements of the axes, tick by tick. Clocks count from begin().
 template <class Axes>
 class RunTicks {
  public:
@@ -34,19 +35,19 @@ class RunTicks {
   };
 
   explicit RunTicks(const RunTiming& timing) : timing_(timing) {}
-  /// Clock 0 is `clock_of_tick` of the tick `count`.
+  /// Starts anew; clock 0 is the clock `clock_of_tick` of the tick `count`.
   void begin(std::uint32_t count, int clock_of_tick) {
     ticks_.clear();
     count_ = count;
     zero_ = -clock_of_tick;
   }
   void add(const Tick& tick) { ticks_.push_back(tick); }
-  /// What the axes show now.
+  /// Sets the values that the axes show now.
   void show(const Axes& position, const Axes& velocity) {
     position_ = position;
     velocity_ = velocity;
   }
-  /// Nobody will ask for what was before clock n.
+  /// Drops what nobody needs any more: all before clock n.
   void forget(std::int64_t n) {
     const auto kept = std::partition_point(ticks_.begin(), ticks_.end(), [&](const Tick& t) {
       return t.clock < n - timing_.clocks_per_tick;
@@ -56,15 +57,16 @@ class RunTicks {
 
   std::size_t size() const { return ticks_.size(); }
   int known_for() const { return timing_.known_for; }
-  /// Runs of so many instructions whose inputs are later than known_for() give no torque before the
-  /// tick after: the start is two clocks later or more, outputs appear four after the end.
+  /// Runs with at least so many instructions, whose inputs come later than known_for(), give no
+  /// torque before the next tick: they start at least two clocks later, and outputs appear four
+  /// clocks after the end.
   int long_run() const {
     return (timing_.clocks_per_tick - timing_.known_for - 8) / EngineMap::round_clocks + 1;
   }
   std::uint32_t count_at(std::int64_t n) const {
     return count_ + static_cast<std::uint32_t>((n - zero_) / timing_.clocks_per_tick);
   }
-  /// The first tick at clock n or after it, searched from `k` on; size() if there is none.
+  /// The first tick at clock n or later, searched from index `k` on; size() if there is none.
   std::size_t at_or_after(std::int64_t n, std::size_t k) const {
     while (k < ticks_.size() && ticks_[k].clock < n) ++k;
     return k;
@@ -72,18 +74,18 @@ class RunTicks {
   bool is_tick(std::int64_t n, std::size_t k) const {
     return k < ticks_.size() && ticks_[k].clock == n;
   }
-  /// Later than known_for() after the last tick.
+  /// Whether clock n is more than known_for() after the last tick; k as from at_or_after().
   bool beyond(std::int64_t n, std::size_t k) const {
     return k > 0 && k == ticks_.size() && n > ticks_[k - 1].clock + timing_.known_for;
   }
-  /// The thread that is counted in clock n, -1 for none.
+  /// The thread whose divider counts in clock n; -1 for none.
   int counted(std::int64_t n) const {
     for (const Tick& t : ticks_) {
       if (n > t.clock && n - t.clock <= 4) return static_cast<int>(n - t.clock - 1);
     }
     return -1;
   }
-  // What the axes show in clock n; k as at_or_after().
+  // The values that the axes show in clock n; k as from at_or_after().
   Axes position(std::int64_t n, std::size_t k) const {
     if (shows_next(n, k, timing_.position_ahead)) return position_;
     const Tick* t = shown(n, k, timing_.position_ahead);
@@ -104,7 +106,7 @@ class RunTicks {
     if (k < ticks_.size() && n >= ticks_[k].clock - ahead) return &ticks_[k];
     return k > 0 ? &ticks_[k - 1] : nullptr;
   }
-  /// The tick to come, which is not among them, has brought its first values.
+  /// Whether the next tick, which is not in the list yet, already shows its first values.
   bool shows_next(std::int64_t n, std::size_t k, int ahead) const {
     return k > 0 && k == ticks_.size() &&
            n >= ticks_[k - 1].clock + timing_.clocks_per_tick - ahead;
@@ -117,7 +119,7 @@ class RunTicks {
   Axes position_{}, velocity_{};
 };
 
-/// Writes into an engine's memory that can be taken back: those since the last but one mark().
+/// Writes into an engine's memory that can be undone: those since the last mark() but one.
 class RunWrites {
  public:
   void mark() {
@@ -139,7 +141,7 @@ class RunWrites {
 
  private:
   struct Old {
-    int address;  ///< of data; of the table from data_words on
+    int address;  ///< data memory; from data_words on, table memory
     std::uint64_t word;
   };
   static void take_back(EngineMemory& m, std::vector<Old>& writes) {
@@ -155,12 +157,12 @@ class RunWrites {
   std::vector<Old> before_, after_;
 };
 
-/// A thread's instructions with the addresses that they mean, each taken apart once.
+/// The instructions of a thread with their addresses resolved; each is decoded once.
 class RunProgram {
  public:
   struct Step {
     EngineInstruction i;
-    int x = 0, y = 0, to = -1;  ///< words of data memory
+    int x = 0, y = 0, to = -1;  ///< addresses in data memory
   };
 
   void begin(int thread, int bank) {
@@ -180,7 +182,7 @@ class RunProgram {
     known_[n] = true;
     return s;
   }
-  /// Instructions that every run has at least, without an event; those beyond `most` do not count.
+  /// Instructions that every run executes at least, up to its first event; at most `most`.
   int shortest(const EngineMemory& m, int most) {
     for (int n = 0; n < most; ++n) {
       const int pc = (thread_ * EngineMap::thread_words + n) % EngineMap::program_words;
@@ -197,18 +199,18 @@ class RunProgram {
   std::array<bool, EngineMap::program_words> known_{};
 };
 
-/// What runs leave for the next, before the clock in which that starts.
+/// The state that runs leave for the next run, just before the clock in which that one starts.
 template <int AxisCount>
 struct RunState {
   std::int64_t clock = 0;
   std::array<std::int32_t, AxisCount> torque{};
   unsigned renewed = 0, age = 0, first = 0;
-  int count = 0;  ///< of ticks, of the thread's divider
+  int count = 0;  ///< counter of the thread's divider, in ticks
   bool due = false, overrun = false, mail_late = false;
   unsigned mail_age = 0;
 };
 
-/// Outputs that appear with the clock after `clock`.
+/// Outputs that appear in the clock after `clock`.
 template <int AxisCount>
 struct RunOutputs {
   std::int64_t clock = 0;
@@ -218,7 +220,7 @@ struct RunOutputs {
   bool renews(unsigned renewed) const {
     return mask != 0 && (renewed | mask) == (1U << AxisCount) - 1;
   }
-  /// `silent`: the torques stay 0.
+  /// Applies the outputs to `s`; `silent`: the torques stay 0.
   void appear(RunState<AxisCount>* s, bool silent) const {
     for (std::size_t n = 0; n < torque.size(); ++n) {
       if ((mask >> n & 1U) != 0) s->torque[n] = silent ? 0 : torque[n];

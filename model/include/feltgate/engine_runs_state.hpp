@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// How runs taken as a whole begin from the engine's clocked twin, and how it goes on after them.
-// Included by engine_runs.hpp. Documentation: docs/blocks/engine.md
+// EngineRuns: how it takes over from the engine's clocked twin, and how it hands back. Included by
+// engine_runs.hpp. Documentation: docs/blocks/engine.md
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace feltgate::law {
 
 template <int AxisCount, int TorqueW>
 bool EngineRuns<AxisCount, TorqueW>::enter(const In& in, int clock_of_tick) {
-  if (on_) {  // nothing changes but by ticks
+  if (on_) {  // only ticks change anything
     if (addr_ != in.addr) addr_since_ = now_;
     addr_ = in.addr;
     armed_ = in.armed;
@@ -82,17 +82,18 @@ void EngineRuns<AxisCount, TorqueW>::leave() {
     in.tau_hat = ticks_.tau_hat(n, next);
     const bool ran = engine_.running(0);
     engine_.clock(in);
-    // A run whose inputs were late has not been told yet.
+    // The watch does not know yet of a run whose inputs were late.
     if (engine_.running(0) && !ran && ticks_.beyond(n, next)) watch_.begin(in.tick_count);
   }
-  // What was read before the address changed is nobody's.
+  // Reads from before the address changed do not count.
   auto& clocks = engine_.registers_.clocks;
   clocks = static_cast<int>(std::min<std::int64_t>(clocks, now_ - addr_since_));
   watch_.running = engine_.running(0);
   if (fresh_at_ != now_) watch_.ended_before = watch_.ended;
 }
 
-/// A run starts, or none runs, and nothing else is under way but a word that it will read.
+/// Whether a run starts now or none runs, and nothing else is under way, except a word that the run
+/// will read.
 template <int AxisCount, int TorqueW>
 bool EngineRuns<AxisCount, TorqueW>::at_start(const In& in) const {
   const auto& r = engine_.registers_;
@@ -108,7 +109,7 @@ bool EngineRuns<AxisCount, TorqueW>::at_start(const In& in) const {
   for (const auto& axis : outputs.axes_) {
     if (axis.waits) return false;
   }
-  // A mailbox that a host has just made too old takes the torque away with this clock.
+  // A mailbox that a host has just made too old: the torque becomes 0 in this clock.
   if (engine_.mailbox_late() && (watch_.ended || outputs.torque != State{}.torque)) return false;
   for (const auto& turn : engine_.barrel_.at_) {
     if (turn.valid || turn.writes_program || turn.writes_table) return false;
@@ -117,7 +118,7 @@ bool EngineRuns<AxisCount, TorqueW>::at_start(const In& in) const {
                     : inputs.request == r.run && engine_.barrel_.starts(inputs.request);
 }
 
-/// The last word of the inputs may still be on its way: the run will read it.
+/// Writes the last words of the inputs, which may still be in the pipeline: the run will read them.
 template <int AxisCount, int TorqueW>
 void EngineRuns<AxisCount, TorqueW>::land_input() {
   for (const int k : {6, 5}) {
@@ -126,7 +127,7 @@ void EngineRuns<AxisCount, TorqueW>::land_input() {
   }
 }
 
-/// The clocked twin to the state of base_: before the start of a run, nothing under way.
+/// Sets the clocked twin to the state base_: just before the start of a run, nothing under way.
 template <int AxisCount, int TorqueW>
 void EngineRuns<AxisCount, TorqueW>::adopt() {
   if (base_.clock == 0) return;

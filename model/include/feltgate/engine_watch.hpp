@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Which run of the engine the torque in force is of. Documentation: docs/blocks/engine.md
+// Finds out which run of the engine produced the torque in force. Documentation:
+// docs/blocks/engine.md
 #pragma once
 
 #include <cstdint>
@@ -10,20 +11,20 @@
 
 namespace feltgate {
 
-/// The runs of thread 0: each that begins gives a torque, one after the other.
+/// The runs of thread 0. Runs end in the order in which they begin; each gives one torque.
 struct EngineWatch {
   bool begins = false;       ///< a run began with the samples of the last tick
-  bool running = false;      ///< as seen in the last clock
-  std::int64_t changes = 0;  ///< sets of parameters that have come into force, also equal ones
+  bool running = false;      ///< whether a run was active in the last clock
+  std::int64_t changes = 0;  ///< parameter sets that have come into force, also equal ones
   std::int64_t changes_at_begin = 0;
-  bool stale = false;  ///< a mailbox was too old when the last tick measured: no torque
-  std::deque<std::uint32_t> begun;  ///< ticks of the runs that have yet to end
-  /// Tick of the samples of the last run that has ended, of that a clock ago, and of that whose
+  bool stale = false;               ///< a mailbox was too old at the last tick: no torque
+  std::deque<std::uint32_t> begun;  ///< ticks of the runs that have not ended yet
+  /// Tick of the samples of: the last run that has ended; the same one clock ago; the run whose
   /// torque the core has taken.
   std::optional<std::uint32_t> ended, ended_before, in_force;
 
-  /// A clock of the engine: its inputs, what it shows after it; `late`: it came with a mailbox too
-  /// old, which takes the torque away.
+  /// One clock of the engine, with its inputs and its outputs after the clock. `late`: in this
+  /// clock a mailbox has become too old, which takes the torque away.
   void clock(bool ticks, std::uint32_t tick_count, bool runs, bool fresh, bool takes, bool late) {
     if (ticks) {
       in_force = ended_before;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/axes/feltgate_axes.sv: one to three cores as axes of one device, every output of each
-// on every clock. Documentation: docs/blocks/feltgate_axes.md
+// Twin of rtl/axes/feltgate_axes.sv: one to three cores as axes of one device. Every output of
+// every core equals the RTL's in each clock. Documentation: docs/blocks/feltgate_axes.md
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@
 
 namespace feltgate {
 
-/// N axes of design D. Each is a core: the device adds what they say to each other, the port, and
-/// with WithEngine the engine that gives the programmed torque, in place of the inputs law_...
+/// N axes of design D, each a core. The device adds the signals between the cores, the register
+/// port, and with WithEngine the engine; its torque then replaces the inputs law_...
 template <class D, int N, bool ReadBack = true, bool WithEngine = false>
 class FeltgateAxes {
  public:
@@ -44,11 +44,11 @@ class FeltgateAxes {
     show(in);
   }
 
-  /// `clocks` clocks with the inputs held; reg_write and the axes' set_zero must be low. The same
-  /// as so many calls of clock(), from event to event where no axis may tell the others anything.
-  /// `on_snapshot()` is called whenever out() holds a valid snapshot; of a watcher `event(clock,
-  /// number)` for each event of a program, clock 0 the first of these, and `words()` where core(0)
-  /// has all words of a tick.
+  /// Advances `clocks` clocks with the inputs held; reg_write and the axes' set_zero must be low.
+  /// Equals so many calls of clock(), but goes from event to event where no axis can affect the
+  /// others. `on_snapshot()` is called whenever out() holds a valid snapshot. A watcher gets
+  /// `event(clock, number)` for each event of a program, where clock 0 is the first of these
+  /// clocks, and `words()` when core(0) has all words of a tick.
   template <class OnSnapshot>
   void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
     NoWatcher none;
@@ -77,16 +77,16 @@ class FeltgateAxes {
   const Out& out() const { return out_; }
   const Core& core(int n) const { return cores_[static_cast<std::size_t>(n)]; }
   Core& core(int n) { return cores_[static_cast<std::size_t>(n)]; }
-  /// The clock of the tick that comes next, of all axes.
+  /// The next clock's number in its tick; the same for all axes.
   int clock_of_tick() const { return cores_[0].clock_of_tick(); }
-  /// In the clock to come position, velocity and tau_hat of all axes have become those of the tick.
+  /// Whether in the next clock position, velocity and tau_hat of all axes are those of this tick.
   bool measured() const { return cores_[0].measured(); }
   /// The engine; only with WithEngine.
   auto& engine() { return glue_.engine(); }
-  /// What lies between engine and cores.
+  /// The logic between engine and cores.
   const Glue& glue() const { return glue_; }
   Glue& glue() { return glue_; }
-  /// For `clocks` clocks neither a duty in force nor an enable of gates changes, as
+  /// Whether for `clocks` clocks neither a duty in force nor a gate enable changes; see
   /// FeltgateCore::calm().
   bool calm(const In& in, std::int64_t clocks) {
     const std::array<CoreIn, N> each = inputs(in);
@@ -100,7 +100,8 @@ class FeltgateAxes {
   }
 
  private:
-  /// The clock of a tick in which the cores have measured; they take torques in that before it.
+  /// The clock of a tick after which the cores have measured. They take torques in the clock before
+  /// it.
   static constexpr int kMeasured = core_steps::clock_of(Map::T::tau_hat) + 1;
   static_assert(kMeasured == core_steps::clock_of(Map::T::law_torque) + 1);
 
@@ -109,8 +110,8 @@ class FeltgateAxes {
     void words() {}
   };
 
-  // Out of line, as pass(): flattened into an engine's advance() it is compiled for a minute, and
-  // no faster.
+  // Out of line, like pass(): flattened into an engine's advance() it takes a minute to compile and
+  // is no faster.
   [[gnu::noinline]] void one_clock(const In& in, std::array<CoreIn, N>& each) {
     glue_.clock(in, cores_, each);
     for (std::size_t n = 0; n < N; ++n) {
@@ -119,8 +120,9 @@ class FeltgateAxes {
     }
   }
 
-  /// Up to clock `clocks` of run(), of which this is clock `at`, from event to event, at most to
-  /// the end of the tick; 0 where the next one is not to be passed.
+  /// Advances from event to event, at most to the end of the tick, towards clock `clocks` of run(),
+  /// of which the present clock is `at`. Returns the clocks passed; 0 where the next one must use
+  /// clock().
   template <class Watcher>
   [[gnu::noinline]] int pass(const In& in, std::array<CoreIn, N>& each, std::int64_t at,
                              std::int64_t clocks, bool* snapshot, Watcher& watcher) {
@@ -143,7 +145,7 @@ class FeltgateAxes {
       cores_[n].run(each[n], to - from, [&, n] {
         out_.axis[n] = cores_[n].out();
         *snapshot = true;
-        if (n == 0) watcher.words();  // when the tick is over they are those of the next
+        if (n == 0) watcher.words();  // once the tick is over they belong to the next
       });
     }
     if (measures) glue_.tick(kMeasured - from, cores_);
@@ -152,7 +154,7 @@ class FeltgateAxes {
     return to - from;
   }
 
-  /// What each core is given in the clock to come: pins, port, and what the others say.
+  /// The inputs of each core in the next clock: pins, port, and the signals from the other axes.
   std::array<CoreIn, N> inputs(const In& in) const {
     std::array<CoreIn, N> each;
     for (std::size_t n = 0; n < N; ++n) {
@@ -181,8 +183,8 @@ class FeltgateAxes {
     return each;
   }
 
-  /// Whether up to the end of the tick nothing that an axis does concerns the others: no gates
-  /// fall, and where the tick ends none are armed.
+  /// Whether no axis affects the others before the tick ends: no gates close, and, if the stretch
+  /// ends the tick, no axis arms.
   bool apart(const std::array<CoreIn, N>& each, bool ends) const {
     if (N == 1) return true;
     bool enabled = false;
@@ -195,7 +197,7 @@ class FeltgateAxes {
   }
 
   static bool addressed(std::size_t n, std::uint16_t address) { return address / axes_stride == n; }
-  /// As axis n sees an address of the port: where it is not meant, one at which nothing is.
+  /// A port address as axis n sees it; an address for another axis becomes an unused one.
   static std::uint16_t address_at(std::size_t n, std::uint16_t address) {
     const unsigned nowhere = addressed(n, address) ? 0u : 3u * axes_stride;
     return static_cast<std::uint16_t>(nowhere | address % axes_stride);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/feltgate_core.sv: the whole core, every output pin and register on every clock.
-// The wave is computed in a few steps and each result shown in the clock in which the RTL shows it.
-// clock() advances one clock, run() a stretch in which no input changes, with identical results.
+// Twin of rtl/feltgate_core.sv: the whole core, every output pin and register in every clock. The
+// wave is computed in a few steps; each result appears in the clock in which the RTL shows it.
+// clock() advances one clock, run() a stretch without input changes, with identical results.
 // Documentation: docs/blocks/feltgate_core.md
 #pragma once
 
@@ -23,7 +23,7 @@
 
 namespace feltgate {
 
-/// ReadBack = false: no snapshot in the registers, every read gives 0 (parameter of the RTL).
+/// ReadBack = false: no snapshot in the registers, every read gives 0 (a parameter of the RTL).
 template <class D, bool ReadBack = true>
 class FeltgateCore {
  public:
@@ -54,6 +54,7 @@ class FeltgateCore {
     show();
   }
 
+  /// Advances one clock with these inputs.
   void clock(const In& in) {
     catch_up();
     const bool tick = clock_ == D::clocks_per_tick - 1;
@@ -61,7 +62,7 @@ class FeltgateCore {
     const bool zero = tick && registers_.sets_zero();
     const bool clear = tick && registers_.commands(D::C::command_clear_faults);
 
-    // Each sees the others' registers before the edge.
+    // Each block sees the other blocks' registers before the clock edge.
     typename Supervisor<D>::In sup = supervisor_inputs(clock_);
     sup.tick = tick;
     ask(in, &sup);
@@ -108,58 +109,58 @@ class FeltgateCore {
     show();
   }
 
-  /// `clocks` clocks with the inputs held; reg_write and set_zero must be low. The same as so many
-  /// calls of clock(), from event to event where nothing but the wave itself happens.
-  /// `on_snapshot()` is called whenever out() holds a valid snapshot.
+  /// Advances `clocks` clocks with the inputs held; reg_write and set_zero must be low. Equals so
+  /// many calls of clock(), but goes from event to event where only the wave acts. `on_snapshot()`
+  /// is called whenever out() holds a valid snapshot.
   template <class OnSnapshot>
   void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot);
 
   bool calm(const In& in, std::int64_t clocks) const;
-  /// Whether something could close the gates before the tick ends, the inputs held; true is always
-  /// right.
+  /// Whether something could close the gates before the tick ends, with the inputs held. May return
+  /// true when false would hold.
   bool may_trip(const In& in) const;
 
-  /// A bit of the parameter RAM that changes by itself, see Registers::flip(), between two ticks.
+  /// Fault injection: inverts a bit of the parameter RAM, see Registers::flip(); between two ticks.
   void flip(int address, int bit) {
     registers_.flip(address, bit);
     take_word(address);
   }
 
-  /// The same of a held control bit, see Registers::flip_control().
+  /// Fault injection: inverts a held control bit, see Registers::flip_control().
   void flip_control(int bit) { registers_.flip_control(bit); }
 
   const Out& out() const { return out_; }
-  /// Whether run() keeps the words of every tick, not only of those that can be read back.
+  /// Whether run() stores the words of every tick, or only of those that a host can read back.
   void keep_words(bool keep) { keep_words_ = keep; }
-  /// A word of the running tick's snapshot by its slot: all of them when on_snapshot() is called.
+  /// A word of the running tick's snapshot by its slot; all are valid when on_snapshot() is called.
   std::uint32_t word(int slot) const { return registers_.running_word(slot); }
-  /// Clocks since reset for which each gate was on: a_hi, a_lo, b_hi, b_lo.
+  /// Clocks since reset for which each gate was on, in the order a_hi, a_lo, b_hi, b_lo.
   std::array<std::int64_t, 4> gate_clocks() const { return gates_.on_clocks(); }
-  /// Free-running count that the running wave started from.
+  /// Free-running count at the start of the running wave.
   std::int16_t sampled_travel() const { return wave_.sampled_travel(); }
-  /// What the status word shows of the self-test.
+  /// Result of the self-test, as in the status word.
   SelfTestResult self_test_result() const { return self_test_.result(); }
   bool testing() const { return self_test_.busy(out_.armed); }
-  /// What the other axes want to know: whether this one asks to be armed in the clock to come, and
-  /// nothing speaks against it.
+  /// For the other axes: whether this axis will ask to be armed in the next clock (asks), and
+  /// whether it could be armed (ready).
   bool asks(const In& in) const;
-  /// In the clock to come position, velocity and tau_hat have become those of the tick.
+  /// Whether in the next clock position, velocity and tau_hat are those of this tick.
   bool measured() const { return clock_ == after(T::tau_hat); }
-  /// In the clock to come the position becomes 0.
+  /// Whether the position becomes 0 in the next clock.
   bool zeroed() const { return clock_ == D::clocks_per_tick - 1 && registers_.sets_zero(); }
   bool ready() const { return supervisor_.ready(host()); }
-  /// No write or command waits for the end of the tick.
+  /// Whether no write or command waits for the end of the tick.
   bool at_rest() const { return registers_.at_rest(); }
   /// Register writes carried out so far.
   std::int64_t writes() const { return writes_; }
-  /// The clock of the tick that comes next, 0 .. clocks_per_tick - 1.
+  /// The next clock's number in its tick, 0 .. clocks_per_tick - 1.
   int clock_of_tick() const { return clock_; }
 
  private:
   using Step = Map::Step;
   using T = Map::T;
 
-  /// The clock of the tick after the one in which a step is taken.
+  /// The clock of the tick after the one of wave clock t.
   static constexpr int after(int t) { return core_steps::clock_of(t) + 1; }
   static constexpr int kSnapshot = core_steps::clock_of(T::snapshot);
   static_assert(kSnapshot < D::clocks_per_tick, "a tick's snapshot lies in it");
@@ -197,10 +198,10 @@ class FeltgateCore {
   }
 
   bool host() const { return bit(registers_.out().control, D::C::control_host); }
-  /// Who asks the supervisor for what.
+  /// The requests to the supervisor: who has control, and what is requested.
   void ask(const In& in, typename Supervisor<D>::In* sup) const;
-  /// What the wave brings to the supervisor in clock c of the tick; its words come from the RAM as
-  /// the bus would bring them.
+  /// The supervisor's wave inputs in clock c of the tick; its parameter words come from the RAM in
+  /// the order of the bus.
   typename Supervisor<D>::In supervisor_inputs(int c) const {
     using M = Map::M;
     typename Supervisor<D>::In sup;
@@ -222,7 +223,7 @@ class FeltgateCore {
   static constexpr bool kLaw = scene_built<D>(Map::S::law);
   bool renders_law() const { return kLaw && out_.scene == Map::S::law; }
 
-  /// A step, but for the supervisor's. Read: the host may see the snapshot's words.
+  /// One step, except the supervisor's. Read: the host may read the snapshot's words.
   template <bool Read>
   [[gnu::always_inline]] void take(Step step, const In& in, const QuadDecoder::Out& decoded) {
     using R = Map::R;
@@ -298,12 +299,12 @@ class FeltgateCore {
   std::uint32_t status(const In& in, bool encoder_error) const;
   std::uint32_t faults() const;
 
-  /// Clocks of a tick that are taken at once.
+  /// Clocks of a tick that are computed at once.
   struct Stretch {
     int from, to;
     int gates_at;  ///< the clock that the gates have reached
-    int open;      ///< they are open before this clock
-    bool quiet;    ///< nothing changes them but a fault: they wait for the end
+    int open;      ///< the gates are enabled before this clock
+    bool quiet;    ///< only a fault changes the gates: they are advanced at the end
     void close(int clock) {
       open = clock;
       quiet = false;
@@ -314,7 +315,8 @@ class FeltgateCore {
     return {from, to, from, enabled ? kNever : 0, gates_.quiet_for(to - from, enabled)};
   }
 
-  /// Amid the supervisor's steps its registers hold what only clock() goes on from.
+  /// Whether the supervisor is between its steps; its registers then hold values that only clock()
+  /// continues from.
   bool amid_supervisor() const {
     return clock_ > core_steps::clock_of(T::estimate_part) && clock_ < after(T::polarity);
   }
@@ -341,7 +343,7 @@ class FeltgateCore {
     ++out_.tick_count;
   }
 
-  /// Outputs after the edge.
+  /// Sets the outputs after the clock edge.
   void show() {
     show_state();
     out_.reg_rdata = registers_.out().reg_rdata;
@@ -369,8 +371,8 @@ class FeltgateCore {
   CoreGates gates_{D::pwm_period, D::dead_clocks, D::shortest_clocks};
   std::int64_t operand_v_ = 0, operand_w_ = 0;
   std::int64_t writes_ = 0;
-  int clock_ = 0;       ///< of the tick
-  int passed_to_ = -1;  ///< the clock that a pass() has reached, -1 after a clock()
+  int clock_ = 0;       ///< clock of the tick
+  int passed_to_ = -1;  ///< the clock that a pass() has reached; -1 after a clock()
   bool keep_words_ = false;
   Out out_;
 };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Fixed-point numbers with exact growth and explicit narrowing, over 64- and 128-bit integers.
-// Arithmetic never loses a bit; a width shrinks only in narrow(), which says how it rounds and
-// what happens beyond the range. Documentation: docs/fixed-point.md
+// Fixed-point numbers over 64- and 128-bit integers, with exact growth and explicit narrowing. No
+// operation loses a bit; only narrow() makes a number narrower, with a stated rounding and a stated
+// treatment of overflow. Documentation: docs/fixed-point.md
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace feltgate {
 
 __extension__ typedef __int128 int128_t;
 
-/// How narrow() treats the bits below the target's last one.
+/// How narrow() treats the bits below the target's last bit.
 enum class Round {
   truncate,    ///< toward minus infinity: the bits are dropped
   half_up,     ///< to nearest, ties toward plus infinity
@@ -23,11 +23,11 @@ enum class Round {
   toward_zero  ///< magnitude truncation
 };
 
-/// What narrow() does beyond the target's range, after rounding.
+/// What narrow() does with a value outside the target's range, after rounding.
 enum class Overflow {
   wrap,      ///< modulo 2^width
   saturate,  ///< the nearest end of the range
-  never      ///< there is nothing beyond: the caller knows that the value fits; not checked
+  never      ///< not checked: the caller knows that the value fits
 };
 
 /// 2^k as an integer of type Raw, 0 <= k < bits(Raw)-1.
@@ -36,13 +36,13 @@ constexpr Raw power_of_two(int k) {
   return static_cast<Raw>(Raw{1} << k);
 }
 
-/// 2^k - 1 as an integer of type Raw, 0 <= k < bits(Raw): also where 2^k itself would not fit.
+/// 2^k - 1 as an integer of type Raw, 0 <= k < bits(Raw); also where 2^k itself does not fit.
 template <class Raw>
 constexpr Raw ones(int k) {
   return k == 0 ? Raw{0} : static_cast<Raw>((power_of_two<Raw>(k - 1) - 1) * 2 + 1);
 }
 
-/// A number of format [S,I,F], stored sign-extended in int64 where it fits and in int128 elsewhere.
+/// A number of format [S,I,F], stored sign-extended: in int64 where it fits, else in int128.
 template <int S, int I, int F>
 class fixed {  // NOLINT(readability-identifier-naming): reads like the arithmetic type it is
  public:
@@ -68,7 +68,7 @@ class fixed {  // NOLINT(readability-identifier-naming): reads like the arithmet
 
   constexpr raw_type raw() const { return raw_; }
 
-  /// The value as a double (rounded by the processor where it has more than 53 bits).
+  /// The value as a double; the processor rounds it if it has more than 53 bits.
   constexpr double to_double() const {
     double scale = 1.0;
     for (int k = 0; k < F; ++k) scale *= 0.5;
@@ -87,7 +87,7 @@ using fixed_of = fixed<Format::from_key(Key).sign, Format::from_key(Key).integer
 
 namespace detail {
 
-/// x with its fraction extended to F bits, in a type that holds it.
+/// The integer of x with its fraction extended to `to` bits, in a type that holds it.
 template <class Raw, int S, int I, int From>
 constexpr Raw aligned(fixed<S, I, From> x, int to) {
   return static_cast<Raw>(x.raw()) * power_of_two<Raw>(to - From);
@@ -99,7 +99,7 @@ constexpr Raw floor_shift(Raw x, int k) {
   return static_cast<Raw>(x >> k);
 }
 
-/// x / 2^k rounded by R. Precondition: x lies one bit inside Raw, and 2^k too.
+/// x / 2^k rounded by R. Precondition: x has one spare bit in Raw, and 2^k fits too.
 template <Round R, class Raw>
 constexpr Raw round_shift(Raw x, int k) {
   if (k == 0 || R == Round::truncate) return floor_shift(x, k);
@@ -108,7 +108,7 @@ constexpr Raw round_shift(Raw x, int k) {
   if (R == Round::toward_zero) {
     return floor_shift(static_cast<Raw>(x + (x < 0 ? ones<Raw>(k) : Raw{0})), k);
   }
-  // Just under one half, or one half where the floor is odd: a tie goes up only from there.
+  // Adds just under one half, or one half where the floor is odd; only then a tie rounds up.
   const Raw odd = static_cast<Raw>(floor_shift(x, k) & 1);
   return floor_shift(static_cast<Raw>(x + (half - 1) + odd), k);
 }
@@ -118,12 +118,12 @@ template <class Raw>
 constexpr Raw wrapped(Raw y, int sign, int width) {
   const Raw low_bits = static_cast<Raw>(y & ones<Raw>(width));
   if (sign == 0) return low_bits;
-  // Flipping the sign bit and subtracting its weight extends it, without a branch.
+  // Flipping the sign bit and subtracting its weight sign-extends the word without a branch.
   const Raw weight = power_of_two<Raw>(width - 1);
   return static_cast<Raw>((low_bits ^ weight) - weight);
 }
 
-/// True when no value of `from`, rounded to to.fraction, can leave the range of `to`.
+/// Whether every value of `from`, rounded to to.fraction, lies in the range of `to`.
 constexpr bool always_fits(Format from, Format to, Round round) {
   const bool rounds_up =
       from.fraction > to.fraction && (round == Round::half_up || round == Round::convergent);
@@ -132,6 +132,7 @@ constexpr bool always_fits(Format from, Format to, Round round) {
 
 }  // namespace detail
 
+/// Sum, difference, product and negation, exact: the result's format grows by the rules of growth.
 template <int S1, int I1, int F1, int S2, int I2, int F2>
 constexpr auto operator+(fixed<S1, I1, F1> a, fixed<S2, I2, F2> b) {
   using Sum = fixed_of<growth::sum(Format{S1, I1, F1}, Format{S2, I2, F2}).key()>;
@@ -163,13 +164,13 @@ constexpr auto operator-(fixed<S, I, F> a) {
 
 namespace detail {
 
-/// An integer that holds both numbers with their binary points aligned.
+/// An integer type that holds both numbers with their binary points aligned.
 template <class A, class B>
 using common_raw = typename fixed_of<growth::difference(A::format, B::format).key()>::raw_type;
 
 }  // namespace detail
 
-// Comparison of values, whatever the two formats.
+// Comparison by value; the two formats may differ.
 template <int S1, int I1, int F1, int S2, int I2, int F2>
 constexpr bool operator==(fixed<S1, I1, F1> a, fixed<S2, I2, F2> b) {
   using Raw = detail::common_raw<fixed<S1, I1, F1>, fixed<S2, I2, F2>>;
@@ -199,26 +200,27 @@ constexpr bool operator>=(fixed<S1, I1, F1> a, fixed<S2, I2, F2> b) {
   return !(a < b);
 }
 
-/// x * 2^K exactly: the bits stay, the binary point moves.
+/// x * 2^K, exact: the bits stay, the binary point moves.
 template <int K, int S, int I, int F>
 constexpr auto scale_by_power_of_two(fixed<S, I, F> x) {
   return fixed<S, I + K, F - K>::from_raw(x.raw());
 }
 
-/// x in the type To: rounds by R, then wraps or saturates by O. `saturated` (optional) is set,
-/// never cleared, when the value had to be changed to fit. The only place where a width shrinks.
+/// x as type To: rounds by R, then wraps or saturates by O. Sets *saturated (optional), never
+/// clears it, when the value had to be changed to fit. Only this function makes a number narrower.
 template <class To, Round R, Overflow O, int S, int I, int F>
 constexpr To narrow(fixed<S, I, F> x, bool* saturated = nullptr) {
   constexpr int to_fraction = To::format.fraction;
   constexpr int drop = F > to_fraction ? F - to_fraction : 0;
   constexpr int grow = F < to_fraction ? to_fraction - F : 0;
-  // One bit above the wider of the two, so that neither rounding nor alignment can overflow.
+  // One bit more than the wider of the two, so that neither rounding nor alignment overflows.
   constexpr int needed = growth::max_of(1 + I + F + grow, To::width + 1 - To::format.sign) + 1;
   static_assert(needed <= 128, "narrow() would need more than 128 bits");
   using Raw = std::conditional_t<(needed <= 64), std::int64_t, int128_t>;
   Raw y = 0;
   if constexpr (drop >= needed - 1) {
-    // Every bit is dropped: -1/2 <= x < 1/2 of the target's last bit, and only truncation sees it.
+    // Every bit is dropped: |x| is at most half of the target's last bit, so only truncation can
+    // give another result than 0.
     y = (R == Round::truncate && x.raw() < 0) ? Raw{-1} : Raw{0};
   } else if constexpr (drop > 0) {
     y = detail::round_shift<R>(static_cast<Raw>(x.raw()), drop);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Number formats [S,I,F] and their growth rules, written once.
-// The C++ types use them at compile time, the generator writes the SystemVerilog package from them.
-// Documentation: docs/fixed-point.md
+// Number formats [S,I,F] and their growth rules, written once: the C++ types use them at compile
+// time, and the generator writes the SystemVerilog package from them. Documentation:
+// docs/fixed-point.md
 #pragma once
 
 namespace feltgate {
@@ -33,11 +33,12 @@ struct Format {
   constexpr bool operator!=(const Format& o) const { return !(*this == o); }
 };
 
-/// Every rule holds all results, and no narrower format does, but for two degenerate cases that
-/// keep one spare bit: a 1-bit operand, and a sum whose operands do not overlap
+/// Each rule gives a format that holds all results, and the narrowest one, except in two degenerate
+/// cases with one spare bit: a 1-bit operand, and a sum whose operands do not overlap
 /// (docs/fixed-point.md, "Growth").
 namespace growth {
 
+/// The larger of two numbers.
 constexpr int max_of(int a, int b) { return a > b ? a : b; }
 
 /// Format that holds a+b for every a and b.
@@ -51,12 +52,12 @@ constexpr Format difference(Format a, Format b) {
   return {1, max_of(a.integer, b.integer) + grown, max_of(a.fraction, b.fraction)};
 }
 
-/// Format that holds a*b for every a and b; two signed minima multiply to one bit more.
+/// Format that holds a*b for every a and b; the product of two signed minima needs one bit more.
 constexpr Format product(Format a, Format b) {
   return {max_of(a.sign, b.sign), a.integer + b.integer + a.sign * b.sign, a.fraction + b.fraction};
 }
 
-/// Format of -a: the negated minimum needs one integer bit more.
+/// Format of -a: the negated minimum needs one more integer bit.
 constexpr Format negation(Format a) { return {1, a.integer + a.sign, a.fraction}; }
 
 /// Format of a*2^k: the binary point moves, the bits stay.

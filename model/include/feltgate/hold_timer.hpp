@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/hold_timer.sv: for how long a torque is held against a lever that stands still.
-// Documentation: docs/blocks/hold_timer.md
+// Law of rtl/hold_timer.sv: lowers the torque limit after a strong torque was held too long against
+// a lever that stands still. Documentation: docs/blocks/hold_timer.md
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,15 @@
 
 namespace feltgate {
 
+/// State of the timer, advanced tick by tick.
 class HoldTimerLaw {
  public:
-  /// A tick: whether armed, whether an edge came, whether the torque reference is beyond what may
-  /// be held, the count of ticks and the word hold_time.
+  /// One tick. `moved`: an edge came; `strong`: the torque reference is beyond the level that may
+  /// be held; `tick`: the tick count; `hold_time`: that parameter word, in units of
+  /// 2^hold_unit_bits ticks.
   void tick(bool armed, bool moved, bool strong, std::uint32_t tick, std::uint32_t hold_time) {
     const bool holds = armed && !moved;
-    const bool negative = hold_time >> 31 != 0;  // as 0
+    const bool negative = hold_time >> 31 != 0;  // a negative word counts as 0
     const bool over = hold_time < kLongest && units_ >= hold_time;
     const bool expired = negative || over;
     const bool whole = (tick & ((1u << Map::hold_unit_bits) - 1)) == 0;
@@ -29,7 +31,7 @@ class HoldTimerLaw {
     }
   }
 
-  /// The torque limit is the lower one.
+  /// Whether the lower torque limit is in force.
   bool eased() const { return eased_; }
 
  private:

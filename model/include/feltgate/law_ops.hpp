@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The engine's instructions as templates over a number policy (numbers.hpp): what the C++ of a
-// compiled law is made of. In fixed point every result is the engine's word, bit for bit; in real
-// numbers a result is the same multiple of its scale, and nothing is rounded, limited or wrapped.
-// Documentation: docs/law-compiler.md
+// The engine's instructions as templates over a number policy (numbers.hpp); the C++ of a compiled
+// law consists of calls to them. In fixed point each result equals the engine's word bit by bit. In
+// real numbers a result is the same multiple of its scale, and nothing is rounded, limited or
+// wrapped. Documentation: docs/law-compiler.md
 #pragma once
 
 #include <algorithm>
@@ -19,45 +19,47 @@
 
 namespace feltgate::law {
 
-/// A word of table memory for LRP: value at the segment's begin, and what a whole segment adds.
+/// A word of table memory for LRP: the value at the start of a segment, and its change over the
+/// segment.
 struct LawSegment {
   std::int32_t value;  ///< 20 bits, signed
   std::int32_t slope;  ///< 16 bits, signed
 };
 
-/// What a law is given.
+/// An input of a law.
 struct LawInput {
   const char* name;
   int axis;
   int source;    ///< 0 position, 1 velocity, 2 tau_hat: word 48 + 3 axis + source of the engine
-  double scale;  ///< SI value of 1: rad, rad/s, Nm
+  double scale;  ///< SI value of an input of 1: rad, rad/s, Nm
 };
 
-/// A parameter word, which the host may write within its range.
+/// A parameter word; the host may write it within its range.
 struct LawWord {
   const char* name;
-  const char* unit;  ///< as in the law's file
-  double scale;      ///< SI value of 1
-  double to_si;      ///< SI value of 1 in `unit`
+  const char* unit;  ///< unit as in the law's file
+  double scale;      ///< SI value of a word of 1
+  double to_si;      ///< SI value of 1 `unit`
   std::int32_t lower, upper, initial;
   bool derived;  ///< the host computes it from others
-  int number;    ///< of the word in parameter memory, 0 to 31
+  int number;    ///< word number in parameter memory, 0 to 31
 };
 
+/// A torque output of a law.
 struct LawOutput {
   const char* name;
   int axis;
-  double scale;     ///< Nm of 1
-  double bound_nm;  ///< proven distance of the fixed-point torque to the law's, strips left out
+  double scale;     ///< Nm for a word of 1
+  double bound_nm;  ///< proven distance from the law's torque, outside the strips
 };
 
 struct LawEvent {
   const char* name;
   int number;
-  double scale;  ///< SI value of 1
+  double scale;  ///< SI value of a word of 1
 };
 
-/// An event of a run.
+/// An event that a run gave.
 template <class Word>
 struct LawHappened {
   bool happened = false;
@@ -73,11 +75,11 @@ struct LawOps {
   static constexpr Format value_format{1, EngineMap::value_bits - 1, 0};
   static constexpr Format slope_format{1, EngineMap::slope_bits - 1, 0};
   static constexpr Format within_format{0, 0, EngineMap::fraction_bits};
-  /// A data word; in real numbers the number that it stands for, over its scale.
+  /// A data word; in real numbers the number that it stands for, divided by its scale.
   using Word = typename N::template num<word_format.key()>;
 
   static constexpr Word word(std::int32_t raw) { return from_integer<N, word_format.key()>(raw); }
-  /// A constant as rounded, and as it was before.
+  /// A constant: rounded in fixed point, exact in real numbers.
   static constexpr Word constant(std::int32_t raw, double exact) {
     if constexpr (is_fixed) {
       (void)exact;
@@ -87,30 +89,30 @@ struct LawOps {
       return static_cast<Word>(exact);
     }
   }
-  /// The integer of a word, in fixed point.
+  /// Fixed point: the integer of a word.
   static constexpr std::int32_t raw(const Word& x) { return static_cast<std::int32_t>(N::raw(x)); }
 
-  /// ADD, SUB: limited to 32 bits, or modulo 2^32.
+  /// ADD, SUB: saturated to 32 bits, or modulo 2^32 (_wrapped).
   static constexpr Word add(const Word& x, const Word& y) { return saturated(x + y); }
   static constexpr Word add_wrapped(const Word& x, const Word& y) { return wrapped(x + y); }
   static constexpr Word sub(const Word& x, const Word& y) { return saturated(x - y); }
   static constexpr Word sub_wrapped(const Word& x, const Word& y) { return wrapped(x - y); }
-  /// MUL: x times the low 18 bits of y over 2^Shift, rounded to nearest, half up; limited.
+  /// MUL: x times the low 18 bits of y, divided by 2^Shift; rounded to nearest, ties up; saturated.
   template <int Shift>
   static constexpr Word mul(const Word& x, const Word& y) {
     return saturated(product<Shift>(x, y));
   }
-  /// MAC: the same added to acc, the sum limited once.
+  /// MAC: the same product added to acc; the sum is saturated once.
   template <int Shift>
   static constexpr Word mac(const Word& acc, const Word& x, const Word& y) {
     return saturated(acc + product<Shift>(x, y));
   }
-  /// MLW of an angle: rounded down, modulo 2^32; a turn more or less is no matter.
+  /// MLW for an angle: rounded down, modulo 2^32; whole turns do not matter.
   template <int Shift>
   static constexpr Word turn(const Word& x, const Word& y) {
     return wrapped(product<Shift>(x, y));
   }
-  /// MLW as a step down to a whole number.
+  /// MLW that rounds down to a whole number.
   template <int Shift>
   static Word floor(const Word& x, const Word& y) {
     if constexpr (is_fixed) {
@@ -130,8 +132,8 @@ struct LawOps {
     return x < Word{} ? saturated(-y) : y;
   }
 
-  /// LRP in the table `t`, which begins at word 0 of table memory and has zeros behind it, from
-  /// word `base` on; in real numbers exact(x).
+  /// LRP from word `base` on in the table `t`, which begins at word 0 of table memory and is
+  /// followed by zeros. In real numbers: exact(x).
   template <std::size_t Size, class Exact>
   static Word lookup(const std::array<LawSegment, Size>& t, const Word& x, int base,
                      const Exact& exact) {
@@ -142,7 +144,7 @@ struct LawOps {
       return exact(x);
     }
   }
-  /// TAB: the low 32 bits there; in real numbers exact(x / 4096 as a whole number).
+  /// TAB: the low 32 bits of the table word. In real numbers: exact(x / 4096 as a whole number).
   template <std::size_t Size, class Exact>
   static Word element(const std::array<LawSegment, Size>& t, const Word& x, int base,
                       const Exact& exact) {
@@ -157,7 +159,7 @@ struct LawOps {
     }
   }
 
-  /// LRP within a segment, in fixed point.
+  /// Fixed point: LRP inside a segment.
   static Word between(const Word& x, LawSegment s) {
     constexpr std::int32_t last = (1 << EngineMap::fraction_bits) - 1;
     const auto within = N::template from_raw<within_format.key()>(raw(x) & last);
@@ -165,7 +167,7 @@ struct LawOps {
                      from_integer<N, slope_format.key()>(s.slope) * within);
   }
 
-  /// Word of table memory at x.
+  /// Address in table memory for x.
   static int address(const Word& x, int base) {
     constexpr int last = EngineMap::table_words - 1;
     if constexpr (is_fixed) {
@@ -200,7 +202,7 @@ struct LawOps {
   }
 };
 
-/// Delay lines: the words of table memory from `Base` on, which runs write.
+/// Delay lines: the words of table memory from `Base` on, which runs may write.
 template <class N, int Base>
 class LawLines {
  public:
@@ -208,7 +210,7 @@ class LawLines {
   using Word = typename O::Word;
 
   void clear() { words_.fill(Word{}); }
-  /// TAB and LRP: outside of the lines what the table has there.
+  /// TAB and LRP: reads a delay line; outside of the lines, the table.
   template <std::size_t Size, class Exact>
   Word element(const std::array<LawSegment, Size>& t, const Word& x, int base,
                const Exact& exact) const {
@@ -230,7 +232,7 @@ class LawLines {
     }
     return O::lookup(t, x, base, exact);
   }
-  /// TST: outside of the lines it writes nothing.
+  /// TST: writes a delay line; outside of the lines it writes nothing.
   void write(const Word& x, int base, const Word& acc) {
     const int n = O::address(x, base);
     if (n >= Base) words_[static_cast<std::size_t>(n - Base)] = acc;
@@ -240,16 +242,16 @@ class LawLines {
   std::array<Word, static_cast<std::size_t>(EngineMap::table_words - Base)> words_{};
 };
 
-/// 2 pi times the part of a turn that x is, 2^Bits words of which are a turn.
+/// An angle in rad: 2 pi times the fraction of a turn that x is; a turn has `words_a_turn` words.
 template <class T>
 T law_angle(T x, double words_a_turn) {
   const T turns = x / static_cast<T>(words_a_turn);
   return 2 * series::pi<T>() * (turns - floor_of(turns));
 }
 
-/// The words of a law's parameters for values in SI, those of Law::words that are not derived in
-/// their order: each is rounded to nearest and limited to its range, and the derived ones follow
-/// from what these words stand for.
+/// The parameter words of a law for values in SI, which are given for the Law::words that are not
+/// derived, in their order. Each is rounded to nearest and limited to its range; the derived words
+/// are computed from what these words stand for.
 template <class Law>
 std::array<std::int32_t, Law::words.size()> law_words(std::array<double, Law::parameters> values) {
   constexpr std::size_t count = Law::words.size();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/limiter.sv: the core's one limiter. Documentation: docs/blocks/limiter.md
+// Law of rtl/limiter.sv, the only limiter of the core. Documentation: docs/blocks/limiter.md
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@
 
 namespace feltgate {
 
-/// In number policy N, for design D. It reads a limit as so many low bits of its word, at the
-/// binary point of what is limited.
+/// In number policy N, for design D. The limiter reads a limit from the low bits of its word, with
+/// the binary point of the limited signal.
 template <class D, class N>
 struct LimiterLaw {
-  /// Format of a limit whose signal has `Fraction` fraction bits.
+  /// Format of a limit for a signal with `Fraction` fraction bits.
   template <int Fraction>
   static constexpr int key = Format{1, D::f.limiter.width() - 1 - Fraction, Fraction}.key();
 
-  /// x in [-limit, limit] as a To, which holds it; sets *hit to whether x lay outside. A negative
-  /// limit counts as 0; so does one that the format PortKey of the signal does not hold, and all
-  /// lies outside.
+  /// x limited to [-limit, limit], as type To, which must hold it; sets *hit to whether x was
+  /// outside. A negative limit counts as 0. A limit that does not fit the signal's format PortKey
+  /// also counts as 0, and then *hit is always true.
   template <class To, int PortKey = D::f.limiter.key(), class X, class Limit>
   static constexpr To limited(X x, Limit limit, bool* hit) {
     if (misfit<PortKey>(limit)) {
@@ -30,7 +30,8 @@ struct LimiterLaw {
       return To{};
     }
     *hit = beyond<N>(x, limit);
-    if constexpr (!std::is_same_v<N, FixedLanes>) {  // most ticks; beyond a negative limit is all
+    // The common case; with a negative limit *hit is always true.
+    if constexpr (!std::is_same_v<N, FixedLanes>) {
       if (!*hit) return quantise<N, To, Round::truncate, Overflow::wrap>(x);
     }
     if (limit < Limit{}) limit = Limit{};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/link/link_capture.sv: words of tick after tick into a ring of rows around a trigger.
-// Documentation: docs/blocks/link_capture.md
+// Twin of rtl/link/link_capture.sv: records words of consecutive ticks in a ring of rows, around a
+// trigger. Documentation: docs/blocks/link_capture.md
 #pragma once
 
 #include <array>
@@ -14,12 +14,12 @@
 
 namespace feltgate {
 
-/// Rows of the ring, a power of two; with Events an event of a law may trigger.
+/// Rows: rows of the ring, a power of two. Events: whether an event of a law may trigger.
 template <int Rows = 1 << LinkMap::rows_log2, bool Events = true>
 class LinkCapture {
  public:
   struct In {
-    bool word_valid = false;
+    bool word_valid = false;  ///< word_data is the snapshot's word of slot word_slot
     std::uint8_t word_slot = 0;
     std::uint32_t word_data = 0;
     std::uint16_t addr = 0;
@@ -29,14 +29,15 @@ class LinkCapture {
     int event_number = 0;
   };
   struct Out {
-    std::uint32_t rdata = 0;
+    std::uint32_t rdata = 0;  ///< the word at addr, 3 clocks later
   };
   enum class State : std::uint8_t { idle, fill, wait, rest, done };
 
-  /// No row holds a word.
+  /// Also removes all rows.
   void reset() { *this = LinkCapture(); }
   const Out& out() const { return out_; }
   State state() const { return state_; }
+  /// Whether a capture is in progress.
   bool runs() const {
     return state_ == State::fill || state_ == State::wait || state_ == State::rest;
   }
@@ -50,15 +51,15 @@ class LinkCapture {
     if (in.write) write(in.addr, in.wdata);
   }
 
-  /// An event in the last clock, or in one since then in which nothing else came.
+  /// Reports an event in the last clock, or in an earlier one after which nothing else came.
   void event(int number) {
     const auto word = static_cast<std::uint32_t>(number);
     event_ |= Events && mode_ == LinkMap::trigger_event &&
               ((level_ & LinkMap::any_event) != 0 || word == (level_ & (LinkMap::any_event - 1)));
   }
 
-  /// A whole tick at once: its words in the order of their numbers, nothing written or read
-  /// meanwhile. As so many calls of clock(), of which the last is the clock after the last word.
+  /// A whole tick at once: its words in the order of their numbers, with no register access in
+  /// between. Equals so many calls of clock(), up to the clock after the last word.
   void tick(const std::array<std::uint32_t, LinkMap::snapshot_words>& words) {
     for (std::size_t k = 0; k < words.size(); ++k) {
       word(static_cast<std::uint8_t>(LinkMap::slots[k]), words[k]);
@@ -107,7 +108,7 @@ class LinkCapture {
     seen_ = true;
     taking_ = runs() && ticks_ == 0;
     column_ = 0;
-    if (taking_ && rows_ == kRows) --rows_;  // the oldest is written over
+    if (taking_ && rows_ == kRows) --rows_;  // the oldest row is overwritten
     if (ticks_ != 0) {
       --ticks_;
     } else if (period_ != 0) {
@@ -115,7 +116,7 @@ class LinkCapture {
     }
   }
 
-  /// What the trigger's word says against what it said a tick ago.
+  /// Compares the trigger's word with its value one tick ago.
   void look(std::uint32_t data) {
     const bool high = at_or_above(data, level_), was = at_or_above(before_, level_);
     hit_ = known_ && ((mode_ == LinkMap::trigger_rises && high && !was) ||
@@ -172,7 +173,7 @@ class LinkCapture {
       default:
         return;
     }
-    known_ = hit_ = event_ = false;  // what was there before was compared with something else
+    known_ = hit_ = event_ = false;  // the earlier value was compared with another word or level
   }
 
   void control(std::uint32_t data) {
@@ -219,7 +220,7 @@ class LinkCapture {
   void read_back(std::uint16_t addr) {
     const std::uint32_t word = register_at(addr_2_);
     out_.rdata = word != 0 ? word : memory_2_;
-    // Of the memory what a whole row holds, where no capture runs.
+    // Only whole rows of the memory can be read, and only while no capture runs.
     const std::uint32_t at = addr_1_ - LinkMap::memory;
     const bool holds = addr_1_ >= LinkMap::memory && at < kRows * kColumns && !runs() &&
                        (at / kColumns - first_row()) % kRows < rows_ && at % kColumns < columns_;
@@ -231,14 +232,14 @@ class LinkCapture {
 
   State state_ = State::idle;
   std::vector<std::uint32_t> memory_;  ///< empty before the first word
-  unsigned number_ = kNone;            ///< of the next word
+  unsigned number_ = kNone;            ///< number of the next word
   std::uint32_t words_ = 0, pre_ = 0, period_ = 0, trigger_word_ = 0, mode_ = 0, level_ = 0;
-  std::uint32_t before_ = 0;            ///< the trigger's word, a tick ago
-  std::uint32_t ticks_ = 0, left_ = 0;  ///< before the next row; rows to come in this state
+  std::uint32_t before_ = 0;            ///< the trigger's word, one tick ago
+  std::uint32_t ticks_ = 0, left_ = 0;  ///< ticks before the next row; rows left in this state
   std::uint32_t row_ = 0, rows_ = 0, column_ = 0, columns_ = 0;
   bool known_ = false, hit_ = false, hand_ = false, seen_ = false, taking_ = false, ends_ = false;
   bool event_ = false;  ///< since the end of the last tick
-  bool ran_ = false;    ///< before this clock
+  bool ran_ = false;    ///< state before this clock
   std::uint16_t addr_1_ = 0, addr_2_ = 0;
   std::uint32_t memory_2_ = 0;
   Out out_;

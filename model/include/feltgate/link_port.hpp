@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/link/link_port.sv: does what a request asks. Documentation: docs/blocks/link_port.md
+// Twin of rtl/link/link_port.sv: executes the link's requests. Documentation:
+// docs/blocks/link_port.md
 #pragma once
 
 #include <cstdint>
@@ -13,25 +14,26 @@
 
 namespace feltgate {
 
-/// What is built around a linked core.
+/// Properties of the device around a linked core.
 struct LinkBuilt {
-  bool simulated = false;
-  int board = 0;
-  std::uint32_t features = 0;  ///< further bits of the word features
+  bool simulated = false;      ///< sets the bit `features_simulated`
+  int board = 0;               ///< the word `board`
+  std::uint32_t features = 0;  ///< further bits of the word `features`
 };
 
+/// The link's port for design D.
 template <class D>
 class LinkPort {
  public:
   struct In {
     LinkRequest request;
-    bool good = false, bad = false;
-    bool clear_faults = false;
-    std::uint8_t inputs = 0;
-    bool tick = false;
+    bool good = false, bad = false;  ///< one clock each: frames to count
+    bool clear_faults = false;       ///< one clock: the panel's request
+    std::uint8_t inputs = 0;         ///< the word `inputs`
+    bool tick = false;               ///< one clock: the snapshot is valid
     bool reg_busy = false;
-    std::uint32_t reg_rdata = 0, rdata = 0;
-    bool ready = false;
+    std::uint32_t reg_rdata = 0, rdata = 0;  ///< of the register port; of stream and capture
+    bool ready = false;                      ///< the byte of the reply is taken
   };
   struct Out {
     bool taken = false;
@@ -47,7 +49,7 @@ class LinkPort {
   explicit LinkPort(LinkBuilt built = {}) : built_(built) {}
   void reset() { *this = LinkPort(built_); }
 
-  /// Outputs in a clock with these inputs.
+  /// Outputs in a clock with these inputs; some outputs depend on them directly.
   Out peek(const In& in) const {
     const Does d = does(in.request);
     Out o;
@@ -67,7 +69,7 @@ class LinkPort {
     o.reply = reply();
     return o;
   }
-  /// What depends on registers alone.
+  /// The byte of a reply; depends on registers only.
   FrameByte reply() const {
     return {state_ == State::bytes, static_cast<std::uint8_t>(word_), byte_ == 3 && left_ == 0};
   }
@@ -119,7 +121,7 @@ class LinkPort {
     }
   }
 
-  /// With inputs that hold, and nothing taken of the reply, clock() changes nothing.
+  /// Whether clock() changes nothing while the inputs hold and no byte of the reply is taken.
   bool waits(const In& in) const {
     const LinkRequest& r = in.request;
     if (in.good || in.bad || in.clear_faults || clear_) return false;
@@ -136,10 +138,10 @@ class LinkPort {
 
   static constexpr unsigned kEngine = D::engine != 0 ? 1 : 0;
   static constexpr unsigned window = 1U << LinkMap::map_bits;
-  /// What of an address goes to the register port: the engine's words lie where the core's do, with
-  /// one more bit in front.
+  /// Bits of an address that reach the register port: the engine's words have the addresses of the
+  /// core's words with one more bit in front.
   static constexpr std::uint16_t kPort = kEngine << LinkMap::map_bits | (LinkMap::words - 1);
-  static constexpr int kEngineClocks = 40;  ///< for a word of the engine
+  static constexpr int kEngineClocks = 40;  ///< clocks to read a word of the engine
   static bool of_port(std::uint16_t address) { return address % window < LinkMap::words; }
   static bool of_engine(std::uint16_t address) { return address >= window && of_port(address); }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/link/link_receiver.sv: bytes of the wire to requests.
-// Documentation: docs/blocks/link_receiver.md
+// Twin of rtl/link/link_receiver.sv: decodes bytes from the line into requests (SLIP, CRC-32, range
+// checks). A byte passes the CRC in the 8 clocks after it. A request is valid in the clock after
+// the frame's last byte, until it is taken or the next frame begins. Documentation:
+// docs/blocks/link_receiver.md
 #pragma once
 
 #include <array>
@@ -13,33 +15,34 @@
 
 namespace feltgate {
 
-/// A frame that fulfilled all that a request must.
+/// A request from a frame that passed all checks.
 struct LinkRequest {
-  bool valid = false;  ///< it stands
+  bool valid = false;  ///< the other fields are valid
   bool write = false;
   std::uint8_t sequence = 0;
   std::uint16_t address = 0;
-  std::uint32_t data = 0;  ///< or the number of words
+  std::uint32_t data = 0;  ///< write: the word; read: the number of words
 };
 
+/// The receiver.
 class LinkReceiver {
  public:
   struct In {
     std::uint8_t byte = 0;
-    bool valid = false, error = false;
-    bool taken = false;
+    bool valid = false, error = false;  ///< as from UartRx
+    bool taken = false;                 ///< the request has been taken
   };
   struct Out {
     LinkRequest request;
-    bool good = false, bad = false;  ///< one clock
+    bool good = false, bad = false;  ///< one clock: a frame has passed or failed the checks
   };
 
-  /// With `engine` the map has the engine's words too, above the others.
+  /// `engine`: the address map also contains the engine's words, above the others.
   explicit LinkReceiver(bool engine = false)
       : map_bits_(static_cast<int>(LinkMap::map_bits) + (engine ? 1 : 0)) {}
   void reset() { *this = LinkReceiver(map_bits_ > static_cast<int>(LinkMap::map_bits)); }
   const Out& out() const { return out_; }
-  /// Without a byte, clock() changes nothing.
+  /// Whether clock() changes nothing without a byte.
   bool idle() const { return bits_ == 0 && !out_.good && !out_.bad; }
 
   void clock(const In& in) {
@@ -58,7 +61,8 @@ class LinkReceiver {
   }
 
  private:
-  /// A bit of the byte through CRC and frame; the frame's first eight bytes stay.
+  /// Shifts one bit of the byte into CRC and frame; frame_ keeps the first eight bytes of the
+  /// frame.
   void shift() {
     const std::uint32_t bit = byte_ & 1U;
     crc_ = crc32_shift(crc_, bit != 0);
@@ -96,7 +100,7 @@ class LinkReceiver {
     if (count_ <= static_cast<int>(LinkMap::request_bytes)) ++count_;
   }
 
-  /// A read does not go beyond the words of the core, link and capture, or of the engine.
+  /// A read must not cross the end of the core, link and capture words, or of the engine's words.
   static constexpr unsigned window = 1U << LinkMap::map_bits;
 
   std::uint8_t kind() const { return static_cast<std::uint8_t>(frame_); }

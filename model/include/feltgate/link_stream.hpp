@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/link/link_stream.sv: chosen words of one tick, every so many ticks, as a frame.
-// Documentation: docs/blocks/link_stream.md
+// Twin of rtl/link/link_stream.sv: sends chosen words of a tick as a frame, once per period of
+// ticks. All words of the tick are stored first. While a frame is stored or sent, further due
+// frames are dropped and counted. Documentation: docs/blocks/link_stream.md
 #pragma once
 
 #include <array>
@@ -13,19 +14,20 @@
 
 namespace feltgate {
 
+/// The stream of snapshot words.
 class LinkStream {
  public:
   struct In {
-    bool word_valid = false;
+    bool word_valid = false;  ///< word_data is the snapshot's word of slot word_slot
     std::uint8_t word_slot = 0;
     std::uint32_t word_data = 0;
     std::uint16_t addr = 0;
     std::uint32_t wdata = 0;
     bool write = false;
-    bool ready = false;
+    bool ready = false;  ///< out().byte is taken in this clock
   };
   struct Out {
-    std::uint32_t rdata = 0;
+    std::uint32_t rdata = 0;  ///< the word at addr, 3 clocks later
     bool valid = false;
     std::uint8_t byte = LinkMap::kind_stream;
     bool last = false;
@@ -51,19 +53,19 @@ class LinkStream {
     show();
   }
 
-  /// Words of coming ticks may matter.
+  /// Whether words of coming ticks may matter.
   bool on() const { return period_ != 0 || state_ != State::idle; }
-  /// Where no byte is taken clock() changes nothing but by a word or a write.
+  /// Whether, while no byte is taken, only a word or a write makes clock() change anything.
   bool waits() const { return state_ != State::seek; }
-  /// The last word of this tick, or of the one that begins next, makes a frame.
+  /// Whether a frame needs the words of this tick, or of the next tick if that begins now.
   bool keeps() const {
     return state_ == State::take || (state_ == State::idle && ticks_to_frame() == 0);
   }
-  /// No frame is kept or sent, and none begins with the next `ticks_to_frame()` ticks.
+  /// Whether no frame is stored or sent. Then none begins in the next ticks_to_frame() ticks.
   bool idle() const { return state_ == State::idle; }
   std::uint32_t ticks_to_frame() const { return period_ == 0 ? kNever : ticks_; }
   static constexpr std::uint32_t kNever = 0xffffffffu;
-  /// So many ticks at once while idle, between two ticks.
+  /// Passes `ticks` ticks at once; only while idle, between two ticks.
   void pass_ticks(std::uint32_t ticks) { ticks_ = (ticks_ - ticks) & kLongest; }
 
  private:
@@ -147,7 +149,7 @@ class LinkStream {
 
   State state_ = State::idle;
   std::array<std::uint32_t, 16> tick_{};
-  unsigned number_ = 0;  ///< of the next word, right since the first one
+  unsigned number_ = 0;  ///< number of the next word; valid after the first one
   unsigned words_ = 0, left_ = 0, at_ = 0, index_ = 0;
   std::uint32_t period_ = 0, ticks_ = 0, dropped_ = 0;
   std::uint8_t count_ = 0, frame_ = 0;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/link/link_transmitter.sv: frames of two sources to bytes of the wire.
+// Twin of rtl/link/link_transmitter.sv: sends the frames of two sources as bytes on the line (SLIP,
+// CRC-32). If both have a frame, the reply goes first. A byte passes the CRC in 8 clocks.
 // Documentation: docs/blocks/link_transmitter.md
 #pragma once
 
@@ -12,13 +13,14 @@
 
 namespace feltgate {
 
-/// A byte of a frame, held until it is taken.
+/// A byte of a frame; the source holds it until it is taken.
 struct FrameByte {
   bool valid = false;
   std::uint8_t byte = 0;
   bool last = false;
 };
 
+/// The transmitter.
 class LinkTransmitter {
  public:
   struct In {
@@ -26,16 +28,17 @@ class LinkTransmitter {
     bool ready = false;  ///< the UART takes out().byte in this clock
   };
   struct Out {
-    bool reply_ready = false, stream_ready = false;
-    bool valid = false;
+    bool reply_ready = false, stream_ready = false;  ///< takes a byte of that source if valid
+    bool valid = false;                              ///< `byte` is offered to the UART
     std::uint8_t byte = LinkMap::frame_end;
   };
 
   void reset() { *this = LinkTransmitter(); }
   const Out& out() const { return out_; }
-  /// Nothing is under way.
+  /// Whether no frame is being sent.
   bool idle() const { return state_ == State::idle; }
-  /// While the UART takes nothing, clock() changes nothing but for a new frame while idle().
+  /// Whether clock() changes nothing while the UART takes no byte. While idle() a new frame still
+  /// does.
   bool waits() const { return idle() || out_.valid; }
 
   void clock(const In& in) {

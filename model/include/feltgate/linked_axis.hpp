@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What feltgate_linked has in place of a core where the design has an engine: feltgate_axes with
-// one axis, as the link sees it. Documentation: docs/blocks/feltgate_linked.md
+// What feltgate_linked contains instead of a core where the design has an engine: feltgate_axes
+// with one axis, behind the ports of a core. Documentation: docs/blocks/feltgate_linked.md
 #pragma once
 
 #include <array>
@@ -27,7 +27,8 @@ class LinkedAxis {
     axes_.clock(to_axes(in));
     show();
   }
-  /// Also calls `on_event(clock, number)` for each event of the law; clock 0 is the first of these.
+  /// Like clock() for `clocks` clocks; also calls `on_event(clock, number)` for each event of the
+  /// law, where clock 0 is the first of these clocks.
   template <class OnSnapshot, class OnEvent>
   void run(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot, OnEvent&& on_event) {
     const auto shown = [&] {
@@ -50,15 +51,15 @@ class LinkedAxis {
   }
 
   const CoreOut& out() const { return out_; }
-  /// An event of the law in the clock to come.
+  /// Whether the law gives an event in the next clock.
   bool event_valid() const { return axes_.glue().event_valid(); }
   int event_number() const { return axes_.glue().event_number(); }
-  /// Whether what is at this address would not take a write in the clock to come.
+  /// Whether the block at this address cannot take a write in the next clock.
   bool busy(std::uint16_t address) const {
     if (address >> 12 == axes_engine >> 12) return engine_busy_;
     return address < axes_stride && axes_.core(0).out().reg_busy;
   }
-  /// Of the running tick; in on_snapshot() all of them.
+  /// A word of the running tick's snapshot by its slot; inside on_snapshot() all words are valid.
   std::uint32_t word(int slot) const {
     return at_snapshot_ ? whole_[static_cast<std::size_t>(slot)] : axes_.core(0).word(slot);
   }
@@ -70,7 +71,7 @@ class LinkedAxis {
  private:
   AxesIn<1> to_axes(const CoreIn& in) const {
     AxesIn<1> to = single_axis(in);
-    // A write takes an event away, not a read: a read may be repeated.
+    // A write removes an event, a read does not: a read may be repeated.
     to.reg_read = in.reg_write && !busy(in.reg_addr);
     return to;
   }
@@ -83,7 +84,7 @@ class LinkedAxis {
   FeltgateAxes<D, 1, true, true> axes_;
   CoreOut out_;
   static constexpr std::size_t kSlots = LinkMap::slots[LinkMap::snapshot_words - 1] + 1;
-  std::array<std::uint32_t, kSlots> whole_{};  ///< by slot: of the last tick whose snapshot came
+  std::array<std::uint32_t, kSlots> whole_{};  ///< by slot, of the last tick with a snapshot
   bool engine_busy_ = false, at_snapshot_ = false;
 };
 

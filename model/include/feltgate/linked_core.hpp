@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/link/feltgate_linked.sv: the core, or an axis with its engine, with its host's link,
-// clock by clock, or with the host's bytes from event to event. Documentation:
-// docs/blocks/feltgate_linked.md
+// Twin of rtl/link/feltgate_linked.sv: the core, or an axis with its engine, together with the host
+// link. It advances clock by clock, or with the host's bytes from event to event.
+// Documentation: docs/blocks/feltgate_linked.md
 #pragma once
 
 #include <algorithm>
@@ -25,24 +25,28 @@
 
 namespace feltgate {
 
+/// Inputs in one clock.
 struct LinkedIn {
   EncoderPins encoder;
   bool arm = false, stop = false, set_zero = false;
-  bool clear_faults = false;  ///< one clock, as set_zero
+  bool clear_faults = false;  ///< one clock, like set_zero
   std::uint8_t scene = 0;
   std::uint8_t inputs = 0;
   bool uart_rx = true;
 };
+/// Outputs after one clock.
 struct LinkedOut {
   CoreOut core;
   bool uart_tx = true;
 };
+/// Parameters of the RTL, and the simulated line's baud rate.
 struct LinkedOptions {
   std::int64_t baud = LinkMap::baud;
   bool simulated = false;
   int board = 0;
 };
 
+/// Core and link of design D.
 template <class D>
 class LinkedCore {
  public:
@@ -69,7 +73,7 @@ class LinkedCore {
     show();
   }
 
-  /// One clock with the pins as they are.
+  /// Advances one clock with these pins.
   void clock(const LinkedIn& in) {
     const typename LinkPort<D>::In port = port_in(in);
     const typename LinkPort<D>::Out does = port_.peek(port);
@@ -98,17 +102,18 @@ class LinkedCore {
   const LinkedOut& out() const { return out_; }
   const FeltgateCore<D>& core() const { return core_of(core_); }
   FeltgateCore<D>& core() { return core_of(core_); }
-  /// What has the register port: the core, or an axis with its engine.
+  /// The block at the register port: the core, or an axis with its engine.
   Device& device() { return core_; }
 
-  /// To the board, at the bit timing of the baud rate, as run() goes on.
+  /// Queues a byte for the board; run() sends it with the bit timing of the baud rate.
   void send(std::uint8_t byte) { line_.send(byte); }
   std::size_t unsent() const { return line_.unsent(); }
-  /// Of the board, as their stop bits end.
+  /// Bytes from the board whose stop bits have ended; empties the list.
   std::vector<std::uint8_t> take_received() { return line_.take_received(); }
 
-  /// `clocks` clocks with the pins held but for uart_rx, which carries the bytes of send(); fast
-  /// while nothing happens. `on_snapshot()` is called whenever out() holds a valid snapshot.
+  /// Advances `clocks` clocks with the pins held, except uart_rx, which carries the bytes of
+  /// send(). It is fast while nothing happens. `on_snapshot()` is called whenever out() holds a
+  /// valid snapshot.
   template <class OnSnapshot>
   void run(LinkedIn in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
     while (clocks > 0) {
@@ -134,7 +139,7 @@ class LinkedCore {
  private:
   using Capture = LinkCapture<1 << LinkMap::rows_log2, D::engine != 0>;
   struct Event {
-    int clock, number;  ///< of the tick
+    int clock, number;  ///< clock of the tick
   };
   static constexpr std::uint32_t kFeatures =
       1U << LinkMap::B::features_capture | 1U << LinkMap::B::features_stream |
@@ -173,7 +178,7 @@ class LinkedCore {
     return c;
   }
 
-  /// Clocks in which the link does nothing but count the phases of its bits.
+  /// Number of clocks in which the link only counts the phases of its bits.
   std::int64_t quiet_clocks(const LinkedIn& in) const {
     if (in.set_zero || in.clear_faults || !receiver_.idle() || !transmitter_.waits()) return 0;
     if (!port_.waits(port_in(in)) || !stream_.waits()) return 0;
@@ -192,8 +197,8 @@ class LinkedCore {
   static constexpr int kLastWord = seen_at(LinkMap::snapshot_words - 1);
   static_assert(kLastWord < kTick, "the words of a tick come within it");
 
-  /// So many of `quiet` clocks that the words of one tick are enough for stream and capture: within
-  /// a tick, or whole ticks of which they need the last one alone. Not past a frame's last word.
+  /// How many of `quiet` clocks can be passed at once: the rest of a tick, or whole ticks of which
+  /// stream and capture need only the last; never past the last word of a frame.
   std::int64_t stretch(std::int64_t quiet) const {
     const int at = core_.clock_of_tick();
     if (at == 0 && quiet >= kTick && !stream_.on() && !capture_.runs()) {
@@ -203,14 +208,14 @@ class LinkedCore {
     return std::min<std::int64_t>(quiet, kTick - at);
   }
 
-  /// A stretch of quiet clocks.
+  /// Passes a stretch of quiet clocks.
   template <class OnSnapshot>
   void pass(const LinkedIn& in, const typename LinkPort<D>::Out& port, std::int64_t clocks,
             OnSnapshot&& on_snapshot) {
     const int from = core_.clock_of_tick();
     const int to = static_cast<int>(from + std::min<std::int64_t>(clocks, kTick));
     const CoreOut before = core_.out();
-    std::int64_t ticks = clocks / kTick;  // to come before the one whose words count
+    std::int64_t ticks = clocks / kTick;  // ticks before the one whose words count
     std::array<std::uint32_t, LinkMap::snapshot_words> words{};
     const auto take = [&] {
       for (std::size_t k = 0; k < words.size(); ++k) words[k] = core_.word(LinkMap::slots[k]);
@@ -223,7 +228,7 @@ class LinkedCore {
     };
     events_.clear();
     if constexpr (D::engine != 0) {
-      // Where no capture runs there may be many ticks, and nobody asks for events.
+      // Without a capture the stretch may hold many ticks, and no event is needed.
       core_.run(core_in(in, port), clocks, at_snapshot, [&](std::int64_t clock, int number) {
         if (capture_.runs()) events_.push_back({from + static_cast<int>(clock), number});
       });
@@ -234,7 +239,7 @@ class LinkedCore {
     feed(from, to, words, before, port.addr);
   }
 
-  /// The words and events_ that stream and capture see in the clocks [from, to) of a tick.
+  /// Gives stream and capture the words and the events_ of the clocks [from, to) of a tick.
   void feed(int from, int to, const std::array<std::uint32_t, LinkMap::snapshot_words>& words,
             const CoreOut& before, std::uint16_t addr) {
     const auto idle = [&](int clocks) {
@@ -289,7 +294,7 @@ class LinkedCore {
   UartTx tx_;
   UartLine line_;
   LinkedOut out_;
-  std::vector<Event> events_;  ///< of a stretch while a capture runs
+  std::vector<Event> events_;  ///< of a stretch, while a capture runs
 };
 
 }  // namespace feltgate

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/lowpass.sv: one-pole low-pass y += round(a1 * (x - y)), rounded as the design says.
-// With 0 <= a1 < 1 the state stays between its old value and the input, so it cannot overflow.
+// Law of rtl/lowpass.sv: one-pole low-pass y += round(a1 * (x - y)), with the design's rounding.
+// With 0 <= a1 < 1 the new state lies between the old state and the input, so it cannot overflow.
 // Documentation: docs/blocks/lowpass.md
 #pragma once
 
@@ -18,7 +18,7 @@ struct LowpassLaw {
   using State = typename N::template num<StateKey>;
   using Operand = typename N::template num<OperandKey>;
 
-  /// x - y as the multiplier takes it: low bits are given up where it is narrower (truncation).
+  /// x - y as the multiplier takes it; where the operand is narrower, low bits are truncated.
   static constexpr Operand operand(State x, State y) {
     return quantise<N, Operand, Round::truncate, Overflow::wrap>(x - y);
   }
@@ -29,7 +29,8 @@ struct LowpassLaw {
     return quantise<N, State, R, Overflow::wrap>(y + a1_times_operand);
   }
 
-  /// The same from the input. Where stays_between() holds nothing can wrap, and nothing looks.
+  /// The new state from the input x. Where stays_between() holds, the sum cannot wrap and is not
+  /// checked.
   template <int CoefficientKey, class A1>
   static constexpr State step(State x, State y, A1 a1) {
     if constexpr (stays_between(Format::from_key(CoefficientKey))) {
@@ -39,10 +40,10 @@ struct LowpassLaw {
     }
   }
 
-  /// Whether every coefficient of this format leaves the new state between y and x. With 0 <= a1 <
-  /// 1 the exact sum lies there, and rounding to nearest cannot pass a number of the same grid. Of
-  /// d bits that the operand gives up it is short by less than 2^d, the sum by less than a1 * 2^d:
-  /// below half a step that rounds away too.
+  /// Whether every coefficient of this format keeps the new state between y and x. With 0 <= a1 < 1
+  /// the exact sum lies there, and rounding to nearest cannot pass a number of the same grid. An
+  /// operand that drops d bits is too small by less than 2^d, and the sum by less than a1 * 2^d; if
+  /// that is below half a step, rounding removes it.
   static constexpr bool stays_between(Format a1) {
     constexpr Format state = Format::from_key(StateKey), operand = Format::from_key(OperandKey);
     constexpr Format difference = growth::difference(state, state);

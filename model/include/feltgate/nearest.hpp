@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a misspelt name was probably meant to be: for keys, parameters, probes, scenes, options.
-// Documentation: docs/designs.md
+// Finds the name that a misspelt word was probably meant to be: keys, parameters, probes, scenes,
+// options. Documentation: docs/designs.md
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace feltgate::config {
 
-/// Mistakes between two words: letters inserted, left out, replaced, or swapped with their
-/// neighbour (optimal string alignment). Case counts for nothing, and '-' is '_'.
+/// Number of mistakes between two words: letters inserted, left out, replaced, or swapped with
+/// their neighbour (optimal string alignment). Upper and lower case are equal, and '-' equals '_'.
 inline std::size_t mistakes_between(std::string_view a, std::string_view b) {
   const auto plain = [](char c) {
     return c == '-' ? '_' : c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -35,13 +35,14 @@ inline std::size_t mistakes_between(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-/// The candidate that `word` was probably meant to be, or nothing. One mistake is forgiven for
-/// every three letters of the word, at most three; failing that, three letters or more from which
-/// exactly one candidate goes on. Equally near ones: the first. `candidates` holds strings.
+/// The candidate that `word` was probably meant to be, or nothing. One mistake is allowed for every
+/// three letters of the word, at most three. If no candidate is that near, the only one that begins
+/// with `word` is taken, where `word` has at least three letters. Of equally near candidates the
+/// first one wins. `candidates` holds strings.
 template <class Names>
 std::string nearest(std::string_view word, const Names& candidates) {
   constexpr std::size_t letters_a_mistake = 3, most_mistakes = 3, longest = 100;
-  if (word.size() > longest) return {};  // no name is; and the work grows with it
+  if (word.size() > longest) return {};  // no name is so long; the run time grows with it
   std::size_t best = std::min(word.size() / letters_a_mistake, most_mistakes) + 1;
   std::string found, continued;
   int continuations = 0;
@@ -62,7 +63,7 @@ std::string nearest(std::string_view word, const Names& candidates) {
   return continuations == 1 && word.size() >= letters_a_mistake ? continued : "";
 }
 
-/// `did you mean "x"? ` for the beginning of a message's mend, or nothing.
+/// `did you mean "x"? ` as the start of a message's advice, or an empty string.
 template <class Names>
 std::string did_you_mean(std::string_view word, const Names& candidates) {
   const std::string name = nearest(word, candidates);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Number policies: the laws of the chain are written once as templates and evaluated in fixed point
-// (bit-exact with the RTL) or in real arithmetic (the reference). Documentation:
+// Number policies: the laws of the chain are written once, as templates, and evaluated in fixed
+// point (bit-exact with the RTL) or in real arithmetic (the reference). Documentation:
 // docs/architecture.md
 #pragma once
 
@@ -30,8 +30,8 @@ struct Negated<fixed<S, I, F>> {
 
 }  // namespace detail
 
-/// Fixed point: a number of format Key is a fixed<S,I,F>. Another fixed-point type takes part in
-/// the laws by a policy with the same members (model/bench/systemc_numbers.hpp is one).
+/// Fixed point: a number of format Key is a fixed<S,I,F>. Another fixed-point type can be used
+/// through a policy with the same members; model/bench/systemc_numbers.hpp is one.
 struct Fixed {
   static constexpr bool is_fixed = true;
   template <int Key>
@@ -42,7 +42,7 @@ struct Fixed {
   static constexpr fixed_of<Key> from_raw(std::int64_t raw) {
     return fixed_of<Key>::from_raw(static_cast<typename fixed_of<Key>::raw_type>(raw));
   }
-  /// The integer of a number of at most 64 bits.
+  /// The integer of a number that has at most 64 bits.
   template <class X>
   static constexpr std::int64_t raw(X x) {
     return static_cast<std::int64_t>(x.raw());
@@ -57,12 +57,11 @@ struct Fixed {
   }
 };
 
-/// The same numbers in a loop over lanes (model/batch), which is only turned into vector
-/// instructions where both sides of a condition are computed. One chain alone is faster with
-/// branches.
+/// The same numbers, for a loop over lanes (model/batch). The compiler makes vector instructions of
+/// it only where both sides of a condition are computed; a single chain is faster with branches.
 struct FixedLanes : Fixed {};
 
-/// Real arithmetic in T (double, __float128): every number is a T and nothing is ever rounded off.
+/// Real arithmetic in T (double, __float128): every number is a T, and no law rounds.
 template <class T>
 struct Real {
   static constexpr bool is_fixed = false;
@@ -70,7 +69,8 @@ struct Real {
   using num = T;
 };
 
-/// x narrowed to the format Key in fixed point; x itself in Real.
+/// x narrowed to the format Key in fixed point, with rounding R and overflow O; x itself in Real.
+/// Sets *saturated, never clears it, if x saturates.
 template <class N, int Key, Round R, Overflow O, class X>
 constexpr typename N::template num<Key> quantise(X x, bool* saturated = nullptr) {
   if constexpr (N::is_fixed) {
@@ -81,7 +81,7 @@ constexpr typename N::template num<Key> quantise(X x, bool* saturated = nullptr)
   }
 }
 
-/// The same, To being a num of N, which knows its format where there is one.
+/// The same with the target as a type; To is a num of N.
 template <class N, class To, Round R, Overflow O, class X>
 constexpr To quantise(X x, bool* saturated = nullptr) {
   if constexpr (N::is_fixed) {
@@ -92,8 +92,8 @@ constexpr To quantise(X x, bool* saturated = nullptr) {
   }
 }
 
-/// An integer as a number of the integer format Key (fraction 0); exact in both policies as long as
-/// it lies in the format's range.
+/// An integer as a number of the integer format Key (fraction 0); exact in both policies while it
+/// lies in the format's range.
 template <class N, int Key>
 constexpr typename N::template num<Key> from_integer(std::int64_t v) {
   if constexpr (N::is_fixed) {

@@ -10,13 +10,14 @@
 
 namespace feltgate {
 
+/// Name, unit, place and value of a parameter.
 struct ParameterInfo {
   const char* name;
   const char* unit;
-  int address;       ///< word in the parameter RAM
-  Format format;     ///< how the word is read
-  double si;         ///< the design's exact value, in `unit`
-  std::int64_t raw;  ///< the same, quantised
+  int address;       ///< word address in the parameter RAM
+  Format format;     ///< format of the word
+  double si;         ///< exact value that the design states, in `unit`
+  std::int64_t raw;  ///< the same value, quantised
 };
 
 }  // namespace feltgate

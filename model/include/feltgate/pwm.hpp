@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/pwm.sv: centre-aligned PWM for an H-bridge with dead time. Duty [1,12,0] clocks;
-// taken once a period with period_start, at the gates 3 clocks later, rising ones after the dead
-// time too; 0 is in force while disabled. Documentation: docs/blocks/pwm.md
+// Twin of rtl/pwm.sv: centre-aligned PWM for an H-bridge, with dead time. Duty [1,12,0] in clocks
+// is sampled once per period, with period_start. It reaches the gates 3 clocks later, rising edges
+// after the dead time in addition; while disabled, the duty is 0. Documentation: docs/blocks/pwm.md
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@ namespace feltgate {
 class Pwm {
  public:
   struct In {
-    bool clear = false;     ///< every gate off, between the edges too
-    bool enable = false;    ///< false: every gate off with this clock, duty 0
+    bool clear = false;     ///< turns every gate off, also between clock edges
+    bool enable = false;    ///< false: every gate off from this clock on, duty 0
     bool mode = false;      ///< false: sign-magnitude, true: locked-antiphase
     bool polarity = false;  ///< true: motor wired the other way
     std::int16_t duty = 0;  ///< clocks, -4096..4095; beyond +-period it acts as +-period
@@ -27,13 +27,14 @@ class Pwm {
              duty == o.duty;
     }
   };
+  /// The gates, at the H-bridge's legs A and B.
   struct Out {
     bool gate_a_hi = false;
     bool gate_a_lo = false;
     bool gate_b_hi = false;
     bool gate_b_lo = false;
-    bool period_start = false;     ///< duty has just been taken
-    std::int16_t duty_active = 0;  ///< as taken, clocks; 0 while disabled
+    bool period_start = false;     ///< the duty was sampled in the last clock
+    std::int16_t duty_active = 0;  ///< the sampled duty, clocks; 0 while disabled
     bool operator==(const Out& o) const {
       return gate_a_hi == o.gate_a_hi && gate_a_lo == o.gate_a_lo && gate_b_hi == o.gate_b_hi &&
              gate_b_lo == o.gate_b_lo && period_start == o.period_start &&
@@ -45,8 +46,8 @@ class Pwm {
     int a_hi, a_lo, b_hi, b_lo;
   };
 
-  /// `period` in clocks: even, 4 to 4094. `dead_clocks`: 1 to 64. `shortest_clocks`: of a pulse at
-  /// a gate, 1 to 255; above 1 with the dead time at most half a period.
+  /// `period` in clocks: even, 4 to 4094. `dead_clocks`: 1 to 64. `shortest_clocks`: shortest pulse
+  /// at a gate, 1 to 255; if above 1, the dead time must be at most half a period.
   explicit Pwm(int period = 1000, int dead_clocks = 25, int shortest_clocks = 1)
       : period_(period), dead_(dead_clocks - 1), shortest_(shortest_clocks) {
     reset();
@@ -85,11 +86,11 @@ class Pwm {
 
   const Out& out() const { return out_; }
 
-  /// Coming clocks before the one that takes the duty.
+  /// Number of clocks before the clock that samples the duty.
   int clocks_to_duty() const { return time_ > period_ - 2 ? period_ - 1 : period_ - 2 - time_; }
 
-  /// Coming clocks, inputs held, in which no output changes and skip() may stand for clock(). At
-  /// least one clock() is due when it is 0.
+  /// Number of coming clocks, with the inputs held, in which no output changes, so that skip() may
+  /// replace clock(). If it is 0, call clock() at least once.
   int quiet_clocks(const In& in) const {
     if (in.clear || in.enable != enable_ || out_.period_start || !(command_ == taken_)) return 0;
     int quiet = period_ - 2 - time_;
@@ -118,15 +119,15 @@ class Pwm {
     return quiet;
   }
 
-  /// The same as `clocks` times clock() with the inputs held, 0 <= clocks <= quiet_clocks().
+  /// Equals `clocks` calls of clock() with the inputs held, for 0 <= clocks <= quiet_clocks().
   void skip(int clocks) {
     time_ += clocks;
     if (!enable_) return;
     for (Leg& leg : legs_) leg.dead = std::max(0, leg.dead - clocks);
   }
 
-  /// Closed form of a steady duty while enabled: a gate waits out the dead time, then is on for the
-  /// rest of its share of the period; a leg that never switches is on throughout.
+  /// Closed form for a steady duty while enabled: a gate waits for the dead time, then is on for
+  /// the rest of its share of the period. A leg that never switches is on for the whole period.
   OnTimes on_times(const In& in) const {
     const Command steady = command(in);
     const int share = std::clamp(steady.threshold, 0, period_);
@@ -154,7 +155,7 @@ class Pwm {
     }
   };
 
-  /// A duty as the comparator wants it.
+  /// A duty in the form that the comparator uses.
   struct Command {
     int threshold = 0;  // clocks with leg A high (leg B when switch_b)
     bool antiphase = false;
@@ -173,8 +174,8 @@ class Pwm {
         whole(in.mode ? (twice - (twice & 1)) / 2 : (in.duty < 0 ? -in.duty : in.duty), in.mode);
     return c;
   }
-  /// Clocks wanted high without a pulse shorter than shortest_: a high one is left out or, in
-  /// antiphase, made longer; a low one is made longer.
+  /// `threshold`, changed so that no pulse is shorter than shortest_: a short high pulse is left
+  /// out or, in antiphase, made longer; a short low pulse is made longer.
   int whole(int threshold, bool antiphase) const {
     if (shortest_ == 1) return threshold;
     const int dead = dead_ + 1, least = dead + shortest_;
@@ -182,7 +183,9 @@ class Pwm {
     if (threshold >= least) return threshold;
     return antiphase ? least : std::min(threshold, dead);
   }
-  /// Legs A and B wanted high in this clock of the carrier Period, Period-2 .. 2, 1, 3 .. Period-1.
+  /// Whether legs A and B are to be high in this clock; the carrier counts Period, Period-2 .. 2,
+  /// 1, 3
+  /// .. Period-1.
   std::array<bool, 2> wanted() const {
     const int carrier = 2 * time_ < period_ ? period_ - 2 * time_ : 2 * time_ - period_ + 1;
     const bool high = carrier <= command_.threshold;
@@ -196,7 +199,7 @@ class Pwm {
   int period_;
   int dead_;      // DeadClocks - 1
   int shortest_;  // ShortestClocks
-  int time_ = 0;  // clocks since the carrier's first
+  int time_ = 0;  // clocks since the start of the carrier
   Command taken_;
   Command command_;
   bool enable_ = false;

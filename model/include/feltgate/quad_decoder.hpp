@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/quad_decoder.sv: incremental encoder to position. Position [1,31,0] counts, wraps.
-// Pin to travel 3 clocks, to position 4, plus the filter length.
+// Twin of rtl/quad_decoder.sv: incremental encoder to position [1,31,0] counts, which wraps.
+// Latency from pin to travel 3 clocks, to position 4 clocks, plus the filter length.
 // Documentation: docs/blocks/quad_decoder.md
 #pragma once
 
@@ -13,16 +13,16 @@
 
 namespace feltgate {
 
-/// Bit-exact and clock-exact with the RTL; every member below named x_q_ is the register x_q there.
+/// Bit-exact and clock-exact with the RTL; a member x_q_ is the register x_q there.
 class QuadDecoder {
  public:
   struct In {
     bool a = false;
     bool b = false;
     bool z = false;
-    std::uint8_t filter = 0;   ///< 0..15: a pulse of so many clocks is still rejected
+    std::uint8_t filter = 0;   ///< 0..15: pulses of up to so many clocks are rejected
     bool polarity = false;     ///< true: counts the other way
-    bool set_zero = false;     ///< two clocks later the position is what has moved since
+    bool set_zero = false;     ///< position counts from here; it shows this two clocks later
     bool clear_error = false;  ///< clears error, both counters and index_seen
     bool operator==(const In& o) const {
       return a == o.a && b == o.b && z == o.z && filter == o.filter && polarity == o.polarity &&
@@ -32,17 +32,17 @@ class QuadDecoder {
   struct Out {
     std::int32_t position = 0;         ///< counts since zero, modulo 2^32
     std::uint16_t travel = 0;          ///< counts since reset, modulo 2^16
-    std::int8_t step = 0;              ///< -1, 0, +1: what travel moved by in this clock
+    std::int8_t step = 0;              ///< change of travel in this clock: -1, 0 or +1
     bool error = false;                ///< sticky: both channels changed in one clock
     bool illegal = false;              ///< both channels changed in the clock before
-    std::uint16_t error_count = 0;     ///< such clocks, saturates at 65535
+    std::uint16_t error_count = 0;     ///< number of such clocks, saturates at 65535
     std::uint16_t rejected_count = 0;  ///< clocks in which the filter rejected, saturates at 65535
     std::int32_t index_position = 0;   ///< position at the last rising edge of Z
     bool index_seen = false;
-    bool index_wrong = false;  ///< sticky: an index does not fit a revolution
-    std::uint8_t levels = 0;   ///< of A (bit 0) and B, as accepted
+    bool index_wrong = false;  ///< sticky: the count at an index does not fit
+    std::uint8_t levels = 0;   ///< accepted levels: A in bit 0, B in bit 1
     std::uint32_t count = 0;   ///< counts since reset
-    std::uint32_t zero = 0;    ///< of them, where the position is 0
+    std::uint32_t zero = 0;    ///< value of `count` at position 0
     bool operator==(const Out& o) const {
       return position == o.position && travel == o.travel && step == o.step && error == o.error &&
              illegal == o.illegal && error_count == o.error_count &&
@@ -52,8 +52,8 @@ class QuadDecoder {
     }
   };
 
-  /// `reset_position` is the RTL parameter ResetPosition (tests of the wrap), `index_counts` is
-  /// IndexCounts: a revolution, a power of two, or 0.
+  /// `reset_position` is the RTL parameter ResetPosition (for tests of the wrap). `index_counts` is
+  /// IndexCounts: counts per revolution, a power of two, or 0.
   explicit QuadDecoder(std::int32_t reset_position = 0, std::uint32_t index_counts = 0)
       : reset_position_(reset_position), index_counts_(index_counts) {
     reset();
@@ -105,7 +105,7 @@ class QuadDecoder {
     out_.step = 0;
     out_.levels = static_cast<std::uint8_t>(level_q_ & (kA | kB));
     if (changed_a != changed_b) {
-      // Gray order of (A,B): 00 01 11 10 counts up.
+      // Gray code: (A,B) in the order 00 01 11 10 counts up.
       const bool down = changed_a != (ab_differ != in.polarity);
       out_.step = down ? -1 : 1;
       out_.count += down ? 0xffffffffU : 1U;
@@ -115,8 +115,8 @@ class QuadDecoder {
 
   const Out& out() const { return out_; }
 
-  /// True when further clocks with these inputs change neither register nor output: a whole stretch
-  /// between two pin changes may be skipped.
+  /// Whether further clocks with these inputs change no register and no output, so that the clocks
+  /// up to the next pin change may be skipped.
   bool settled(const In& in) const {
     if (!primed_q_ || in.set_zero || in.clear_error || error_wait_q_ || rejected_wait_q_ ||
         index_q_ || out_.step != 0 || out_.illegal ||
@@ -128,7 +128,7 @@ class QuadDecoder {
     return meta_q_ == now && sync_q_ == now && previous_q_ == now && level_q_ == now &&
            wait_q_[0] == wait && wait_q_[1] == wait && wait_q_[2] == wait;
   }
-  /// The index is low and stays low while these inputs hold.
+  /// Whether the index is low and stays low while these inputs hold.
   bool index_rests(const In& in) const {
     return ((pins(in) | meta_q_ | sync_q_ | previous_q_ | level_q_) & kZ) == 0 && !index_q_;
   }
@@ -148,7 +148,7 @@ class QuadDecoder {
     const std::uint32_t differs = sync_q_ ^ level_q_;
     if (!primed_q_ || differs == 0) {
       wait_q_ = {length, length, length};
-      level_q_ = sync_q_;  // the first sample counts as no edge
+      level_q_ = sync_q_;  // the first sample makes no edge
       return 0;
     }
     std::uint32_t changed = 0;
@@ -166,7 +166,8 @@ class QuadDecoder {
     return changed;
   }
 
-  // One incrementer for both counters; a waiting event is served unless it is the clock of a clear.
+  // Both counters share one incrementer. A waiting event is counted, except in the clock of a
+  // clear.
   void serve_counters(bool clear) {
     if (clear) {
       out_.error_count = 0;
@@ -180,8 +181,8 @@ class QuadDecoder {
     }
   }
 
-  /// The count at this index differs from that at the first one by more than revolutions and the
-  /// width of an index.
+  /// Whether the count at this index and the count at the first index differ by more than whole
+  /// revolutions plus the width of an index.
   bool slipped() const {
     constexpr std::uint32_t near = 1u << Map::index_width_bits;
     return index_counts_ != 0 && ((out_.count - first_ + near) & (index_counts_ - 1)) >= 2 * near;
@@ -189,7 +190,7 @@ class QuadDecoder {
 
   std::int32_t reset_position_;
   std::uint32_t index_counts_;
-  std::uint32_t first_ = 0;  ///< count at the first index; not reset
+  std::uint32_t first_ = 0;  ///< count at the first index; a reset keeps it
   std::uint32_t meta_q_ = 0;
   std::uint32_t sync_q_ = 0;
   std::uint32_t previous_q_ = 0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/ramp.sv: the torque reference follows the limited torque of the scene, in steps after
-// arming, after a change of scene and where it may jump otherwise. Documentation:
-// docs/blocks/ramp.md
+// Law of rtl/ramp.sv: the torque reference follows the limited torque of the scene. It moves in
+// steps after arming, after a change of scene, and after other events that may make the torque
+// jump. Documentation: docs/blocks/ramp.md
 #pragma once
 
 #include <cstdint>
@@ -14,37 +14,37 @@
 
 namespace feltgate {
 
-/// What keeps a torque from growing.
+/// Conditions that keep a torque from growing.
 struct Relief {
-  bool frozen = false;  ///< the reference may only fall
+  bool frozen = false;  ///< the reference may only move towards 0
   bool eased = false;   ///< the limit is hold_limit
 };
 
-/// As a core's limits say.
+/// The relief that bits of a core's limits word stand for.
 constexpr Relief relief_of(unsigned limits) {
   return {((limits >> Map::L::chatter) & 1U) != 0, ((limits >> Map::L::hold) & 1U) != 0};
 }
 
-/// In number policy N, for design D: what stands between a scene and the torque reference, its
-/// limit included.
+/// The path from a scene's torque to the torque reference, including the torque limit; in number
+/// policy N, for design D.
 template <class D, class N>
 class RampLaw {
  public:
   using Torque = typename N::template num<D::f.torque.key()>;
   using Ramp = typename N::template num<D::f.ramp.key()>;
-  /// The torque limit as the limiter reads it.
+  /// Format of the torque limit, as the limiter reads it.
   static constexpr int kLimitKey = LimiterLaw<D, N>::template key<D::f.torque.fraction>;
 
-  /// Start of a wave: whether a ramp begins.
+  /// Starts a wave and decides whether a ramp begins.
   void begin(bool armed, int scene, Relief relief = {}) {
     if (!armed || scene != scene_ || relief.eased != relief_.eased) ramping_ = true;
     scene_ = scene;
     armed_ = armed;
     relief_ = relief;
   }
-  /// Between two waves: the torque may jump with the next.
+  /// Lets the torque ramp in the next wave; call it between two waves.
   void restart() { ramping_ = true; }
-  /// The scene's torque in [-limit, limit]; a negative limit counts as 0.
+  /// Sets the target: the scene's torque in [-limit, limit]; a negative limit counts as 0.
   template <class Rendered, class Limit>
   void limit(Rendered tau, Limit limit) {
     bool beyond = false;
@@ -52,7 +52,7 @@ class RampLaw {
         armed_ ? tau : Rendered{}, limit, &beyond);
     aim(target, beyond);
   }
-  /// With the scene away: 0, or the limit in either direction.
+  /// Sets the target without a scene: 0 for sign 0, else the limit with that sign.
   template <class Limit>
   void pulse(int sign, Limit limit) {
     bool beyond = false;
@@ -63,15 +63,15 @@ class RampLaw {
                    : quantise<N, Torque, Round::truncate, Overflow::wrap>(-held),
         beyond);
   }
-  /// The target, and whether it was beyond the limit.
+  /// Sets the target; `beyond`: it was beyond the limit.
   void aim(Torque target, bool beyond) {
     target_ = target;
     limit_torque_ = armed_ && beyond;
   }
-  /// The reference's way to the target. A step is one LSB at least. The tick in which the target
-  /// is found to be within one step ends the ramp; the reference moves on with the next. Frozen,
-  /// the reference follows towards 0 only; of two torques of different signs it keeps the positive
-  /// one.
+  /// Moves the reference towards the target by one step, at least one LSB. The tick in which the
+  /// target is found within one step ends the ramp; the reference reaches the target in the next
+  /// tick. While frozen, the reference may only move towards 0; if target and reference have
+  /// different signs, it keeps the positive one of the two.
   void move(Ramp step) {
     const bool grows =
         reference_ < Ramp{} ? reference_ >= target_ : reference_ < target_ || target_ < Torque{};
@@ -92,7 +92,7 @@ class RampLaw {
     }
   }
 
-  /// The reference, its bits below the torque format dropped.
+  /// The reference, truncated to the torque format.
   Torque tau_ref() const {
     return quantise<N, Torque, Round::truncate, Overflow::wrap>(reference_);
   }
@@ -100,7 +100,8 @@ class RampLaw {
   bool limit_ramp() const { return limit_ramp_; }
   bool limit_hold() const { return relief_.eased; }
 
-  /// What lasts from tick to tick beside the scene, for those who keep it elsewhere.
+  /// State that lasts from tick to tick, other than the target; for callers that store it
+  /// elsewhere.
   const Ramp& reference() const { return reference_; }
   bool ramping() const { return ramping_; }
   void resume(int scene, bool ramping, Ramp reference) {
@@ -118,7 +119,7 @@ class RampLaw {
       return Ramp(1.0 / (1 << D::f.ramp.fraction));
     }
   }
-  /// Beyond every limit, or at it.
+  /// A torque at or beyond every limit.
   static Torque most() {
     if constexpr (N::is_fixed) {
       constexpr Format torque = D::f.torque;

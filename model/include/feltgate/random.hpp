@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// SplitMix64 (Steele, Lea, Flood 2014): the same numbers from a seed with every compiler and
-// library, one multiplication chain per draw, copyable. Documentation: docs/plant.md
+// SplitMix64 (Steele, Lea, Flood 2014), a random generator: a seed gives the same numbers with
+// every compiler and library. A draw is one chain of multiplications; the generator can be copied.
+// Documentation: docs/plant.md
 #pragma once
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 
 namespace feltgate {
 
+/// The generator.
 class SplitMix64 {
  public:
   explicit constexpr SplitMix64(std::uint64_t seed) : state_(seed) {}

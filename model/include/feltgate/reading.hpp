@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// One tick of the core in SI units. Documentation: docs/library.md
+// The outputs of the core in one tick, in SI units. Documentation: docs/library.md
 #pragma once
 
 #include <cmath>
@@ -14,26 +14,26 @@
 
 namespace feltgate {
 
-/// What the core showed when its snapshot was valid. Every number is its integer times a power of
-/// two, which is exact, but angle and duty, which are rounded to binary64.
+/// The outputs of the core when its snapshot was valid. Each number is its integer times a power of
+/// two, which is exact; only angle and duty are rounded to binary64.
 struct Reading {
   std::uint32_t tick = 0;     ///< since reset, wraps at 2^32
-  double time_s = 0;          ///< when the tick began
-  double angle_rad = 0;       ///< of the encoder
-  double velocity_rad_s = 0;  ///< after its low-pass
-  double torque_nm = 0;       ///< what the scene asks for, limited and ramped
-  double tau_hat_nm = 0;      ///< what the observer sees
-  double current_a = 0;       ///< asked of the motor
-  double voltage_v = 0;       ///< asked of the bridge
-  double duty = 0;            ///< the voltage as a share of the supply, -1 to 1
-  int scene = 0;              ///< number, docs/registers.md
+  double time_s = 0;          ///< start of the tick
+  double angle_rad = 0;       ///< from the encoder
+  double velocity_rad_s = 0;  ///< after the low-pass
+  double torque_nm = 0;       ///< the scene's torque, limited and ramped
+  double tau_hat_nm = 0;      ///< the observer's estimate of the load
+  double current_a = 0;       ///< reference for the motor
+  double voltage_v = 0;       ///< reference for the bridge
+  double duty = 0;            ///< voltage / supply, -1 to 1
+  int scene = 0;              ///< scene number, docs/registers.md
   bool armed = false;
   unsigned limits = 0;  ///< bits: limit::torque, limit::ramp, ...
   unsigned faults = 0;  ///< bit n: cause n of the supervisor (Fault)
 
-  /// "torque, ramp", or nothing where no limit holds.
+  /// Names as in "torque, ramp"; empty where no limit acts.
   std::string limit_names() const { return names(limit::names, limits); }
-  /// "speed, stop", or nothing without a fault.
+  /// Names as in "speed, stop"; empty without a fault.
   std::string fault_names() const { return names(feltgate::fault_names, faults); }
 
  private:
@@ -47,7 +47,7 @@ struct Reading {
   }
 };
 
-/// The outputs of a tick in SI units, for the design that they come from.
+/// The outputs of a tick in SI units; `d` must be the design that they come from.
 inline Reading reading_of(const DesignInfo& d, const CoreOut& o) {
   const auto scaled = [](std::int64_t raw, Format f) {
     return std::ldexp(static_cast<double>(raw), -f.fraction);

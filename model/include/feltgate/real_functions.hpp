@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// sin, cos, sqrt, exp, log and floor of double, long double and Quad; C++ has none of Quad. Those
-// of Quad are series, exact to about 1e-32 of the result's largest value. Documentation:
+// sin, cos, sqrt, exp, log and floor of double, long double and Quad. C++ has none for Quad; here
+// they are series, exact to about 1e-32 of the largest value of the result. Documentation:
 // docs/laws.md
 #pragma once
 
@@ -18,7 +18,7 @@ template <class N>
 inline constexpr bool kInLibrary =
     std::is_same_v<N, float> || std::is_same_v<N, double> || std::is_same_v<N, long double>;
 
-/// Towards minus infinity; |x| < 2^62 where the library has none.
+/// x rounded towards minus infinity; without a library function, |x| must be below 2^62.
 template <class N>
 N floor_of(N x) {
   if constexpr (kInLibrary<N>) {
@@ -36,7 +36,7 @@ N root_of(N x) {
   } else {
     if (!(x > 0)) return 0;
     N y = static_cast<N>(std::sqrt(static_cast<long double>(x)));
-    for (int i = 0; i < 2; ++i) y = (y + x / y) / 2;  // each doubles the digits
+    for (int i = 0; i < 2; ++i) y = (y + x / y) / 2;  // each step doubles the digits
     return y;
   }
 }
@@ -50,7 +50,7 @@ N pi() {
          static_cast<N>(-2.99476980971833966e-33);
 }
 
-/// sin for odd = true, else cos; |x| <= pi/4.
+/// sin(x) for odd = true, else cos(x); |x| <= pi/4.
 template <class N>
 N wave(N x, bool odd) {
   N term = odd ? x : N{1}, sum = 0;
@@ -96,20 +96,20 @@ N exponential_of(N x) {
   if constexpr (kInLibrary<N>) {
     return std::exp(x);
   } else {
-    if (x < 0) return 1 / exponential_of(-x);  // near 0 the sum below would lose its digits
-    constexpr int halvings = 16;               // then squared back
+    if (x < 0) return 1 / exponential_of(-x);  // near 0 the sum below would lose digits
+    constexpr int halvings = 16;               // undone by squaring
     N small = x / static_cast<N>(1 << halvings), term = 1, sum = 0;
     for (int k = 1; k < 12; ++k) {
       term *= small / static_cast<N>(k);
       sum += term;
     }
-    // exp - 1, so that squaring loses no digits.
+    // The sum holds exp - 1, so that squaring loses no digits.
     for (int i = 0; i < halvings; ++i) sum = sum * (sum + 2);
     return sum + 1;
   }
 }
 
-/// Of x > 0 within the exponents of a double.
+/// Natural logarithm of x > 0; x must lie within the range of a double.
 template <class N>
 N logarithm_of(N x) {
   if constexpr (kInLibrary<N>) {
@@ -117,7 +117,7 @@ N logarithm_of(N x) {
   } else {
     if (!(x > 0)) return static_cast<N>(std::log(static_cast<double>(x)));
     N y = static_cast<N>(std::log(static_cast<long double>(x)));
-    const N rest = x * exponential_of(-y) - 1;  // below 1e-18: two terms of log(1 + rest) do
+    const N rest = x * exponential_of(-y) - 1;  // below 1e-18: two terms of log(1 + rest) suffice
     return y + rest - rest * rest / 2;
   }
 }

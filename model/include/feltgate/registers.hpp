@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/registers.sv: register port, parameter RAM, control word, commands and snapshot. A
-// write takes effect at the end of the tick; a disarm and a stop pass one that waits; a word is on
-// the parameter bus 2 clocks after its slot is fetched, read data follow their address by 3 clocks.
-// Documentation: docs/blocks/registers.md
+// write takes effect at the end of the tick; a disarm and a stop do not wait behind an earlier
+// write. A word is on the parameter bus 2 clocks after its slot is fetched; read data follow their
+// address by 3 clocks. Documentation: docs/blocks/registers.md
 #pragma once
 
 #include <array>
@@ -17,14 +17,14 @@
 
 namespace feltgate {
 
-/// What stands beside a parameter word: the parity of every fourth bit, of bits 0 and 2 inverted.
+/// The four check bits beside a parameter word: parities of every fourth bit; 0 and 2 are inverted.
 constexpr unsigned check_of(std::uint32_t word) {
   std::uint32_t folded = word ^ word >> 16;
   folded ^= folded >> 8;
   return ((folded ^ folded >> 4) & 15U) ^ 5U;
 }
 
-/// D: a design as generated. ReadBack = false: no snapshot, every read gives 0.
+/// D: a generated design. ReadBack = false: no snapshot, every read gives 0.
 template <class D, bool ReadBack = true>
 class Registers {
  public:
@@ -32,32 +32,32 @@ class Registers {
     bool tick = false;  ///< last clock of a tick
     std::uint16_t reg_addr = 0;
     std::uint32_t reg_wdata = 0;
-    bool reg_write = false;  ///< held until a clock in which out().reg_busy is low
-    bool armed = false;      ///< or about to be, in the clock of tick
-    bool set_zero = false;  ///< the panel's
-    std::uint8_t slot_fetch = 0;
-    bool scene_slot_fetch = false;
-    std::uint8_t scene = 0;
-    bool region_high = false;
-    bool eased = false;
-    bool testing = false;
+    bool reg_write = false;         ///< held until a clock in which out().reg_busy is low
+    bool armed = false;             ///< in the clock of tick also: about to be armed
+    bool set_zero = false;          ///< from the panel
+    std::uint8_t slot_fetch = 0;    ///< slot of the parameter that goes on the bus
+    bool scene_slot_fetch = false;  ///< the slot is one of the scene's parameters
+    std::uint8_t scene = 0;         ///< in force
+    bool region_high = false;       ///< voltage_gain_high replaces voltage_gain
+    bool eased = false;             ///< hold_limit replaces torque_limit
+    bool testing = false;           ///< self_test_torque replaces torque_limit
     std::uint8_t snap_slot = 0;
-    bool snap_valid = false;
+    bool snap_valid = false;  ///< snap_data goes into the snapshot at snap_slot
     std::uint32_t snap_data = 0;
   };
   struct Out {
     std::uint32_t reg_rdata = 0;
-    bool reg_busy = false;
-    std::uint32_t param = 0;
-    bool word_error = false;  ///< the word on the bus a clock ago has changed by itself
+    bool reg_busy = false;    ///< a write waits for the end of the tick
+    std::uint32_t param = 0;  ///< the parameter bus
+    bool word_error = false;  ///< the word on the bus one clock ago has changed by itself
     std::uint16_t control = static_cast<std::uint16_t>(D::control_reset);
-    bool disarm = false;  ///< written since the end of the last tick, and so the next
-    bool stop = false;
-    bool refused = false;   ///< the last parameter was, for the core was armed
+    bool disarm = false;    ///< a disarm was written since the end of the last tick
+    bool stop = false;      ///< a stop was commanded since the end of the last tick
+    bool refused = false;   ///< the last parameter write was, because the core was armed
     bool set_zero = false;  ///< these four only in peek(): high in the clock of tick
     bool clear_faults = false;
     bool kick = false;
-    bool restart = false;  ///< the torque may jump by this write
+    bool restart = false;  ///< this write may make the torque jump
   };
 
   Registers() {
@@ -82,7 +82,7 @@ class Registers {
   }
 
   void clock(const In& in) {
-    // What is read in this clock is what the RAMs held before it.
+    // A read in this clock gives the contents before this clock's writes.
     const std::uint32_t fetched = parameters_[fetch_address(in)];
     out_.word_error = bus_wrong_ || held_wrong_;
     if (warm_) {
@@ -114,7 +114,7 @@ class Registers {
   /// Registered outputs.
   const Out& out() const { return out_; }
 
-  /// All outputs in a clock with these inputs.
+  /// All outputs in a clock with these inputs, also those that depend on them directly.
   Out peek(const In& in) const {
     Out now = out_;
     now.set_zero = in.tick && sets_zero();
@@ -124,36 +124,36 @@ class Registers {
     return now;
   }
 
-  /// The command `bit` waits for the end of the tick.
+  /// Whether the command `bit` waits for the end of the tick.
   bool commands(int bit) const { return target_ == Target::command && ((data_ >> bit) & 1U) != 0; }
 
-  /// The position is set to zero at the end of the tick.
+  /// Whether the position is set to zero at the end of the tick.
   bool sets_zero() const { return zero_ || commands(D::C::command_set_zero); }
-  /// By what waits for the end of the tick the torque may jump.
+  /// Whether something that waits for the end of the tick may make the torque jump.
   bool restarts(int scene) const {
     if (sets_zero() && !is_input_scene(scene)) return true;
     return target_ == Target::parameter &&
            while_armed(static_cast<int>(address_), scene) == WhileArmed::ramps;
   }
-  /// The address of the parameter that the end of the tick writes, -1 for none.
+  /// The address of the parameter that is written at the end of the tick; -1 for none.
   int parameter_waiting(bool armed) const {
     const bool takes = target_ == Target::parameter && !refuses(armed);
     return takes ? static_cast<int>(address_) : -1;
   }
-  /// Nothing waits for the end of the tick or passes what waits.
+  /// Whether nothing waits for the end of the tick, and no disarm or stop is pending.
   bool at_rest() const { return target_ == Target::none && !out_.disarm && !out_.stop && !zero_; }
 
   /// A word of the parameter RAM, 0 <= address < 512.
   std::uint32_t parameter(int address) const {
     return parameters_[static_cast<std::size_t>(address)];
   }
-  /// As a write through the port that has taken effect.
+  /// Sets a word, as if a write through the port had taken effect.
   void set_parameter(int address, std::uint32_t word) {
     parameters_[static_cast<std::size_t>(address)] = word;
   }
 
-  /// A bit that changes by itself, as no write does: 0 to 31 of the word, 32 to 35 of its check.
-  /// The next write of the word mends it.
+  /// Fault injection: inverts a stored bit without a write. 0 to 31 are bits of the word, 32 to 35
+  /// its check bits. The next write of the word corrects it.
   void flip(int address, int bit) {
     const auto at = static_cast<std::size_t>(address);
     if (bit < 32) parameters_[at] ^= std::uint32_t{1} << bit;
@@ -161,15 +161,16 @@ class Registers {
     bits ^= std::uint64_t{1} << bit;
     if (bits == 0) flipped_.erase(at);
   }
-  /// The same of a control bit that holds while armed, or with bit = control_width of their parity.
+  /// Fault injection: the same for a control bit that is held while armed; bit = control_width is
+  /// the parity of these bits.
   void flip_control(int bit) {
     if (bit < D::C::control_width) out_.control ^= static_cast<std::uint16_t>(1U << bit);
     held_wrong_ = !held_wrong_;
   }
-  /// Some word is not what was written.
+  /// Whether some word differs from what was written.
   bool flipped() const { return held_wrong_ || !flipped_.empty(); }
 
-  /// One word into the snapshot of the running tick, 0 <= slot < 64.
+  /// Stores one word in the snapshot of the running tick, 0 <= slot < 64.
   void write_snapshot(int slot, std::uint32_t word) {
     if constexpr (ReadBack) {
       last_ = bank_index(write_bank_, slot);
@@ -178,13 +179,13 @@ class Registers {
     }
   }
   std::uint32_t running_word(int slot) const { return snapshot_[bank_index(write_bank_, slot)]; }
-  /// A reset in the clock after: the word was on its way to the RAM and is lost.
+  /// For a reset in the clock after: the word at `slot` was on its way to the RAM and is lost.
   void lose_snapshot(int slot) {
     if (ReadBack && slot >= 0 && static_cast<int>(last_ & 63U) == slot) snapshot_[last_] = before_;
   }
-  /// As `clocks` calls of clock() without the last one of a tick: no write made, reg_addr held, the
-  /// words of the snapshot given to write_snapshot(), at least one tick run since the reset. The
-  /// parameter bus is not kept up.
+  /// Equals `clocks` calls of clock() that do not include the last clock of a tick. Conditions: no
+  /// write, reg_addr held, the snapshot's words given to write_snapshot(), at least one tick since
+  /// the reset. The parameter bus is not updated.
   void skip(std::uint16_t reg_addr, int clocks) {
     if constexpr (ReadBack) {
       if (clocks >= kReadClocks) {
@@ -196,16 +197,17 @@ class Registers {
       (void)reg_addr, (void)clocks;
     }
   }
-  /// What the last clock of a tick does beside that, with no write waiting.
+  /// The additional effect of the last clock of a tick, with no write waiting.
   void skip_end_of_tick() {
     if (ReadBack && !frozen_) write_bank_ ^= 1;
   }
-  /// As a tick of clock() calls from tick to tick, at once; see skip().
+  /// Equals a whole tick of clock() calls; conditions as for skip().
   void skip_tick(std::uint16_t reg_addr) {
     skip(reg_addr, kReadClocks);
     skip_end_of_tick();
   }
-  /// As `ticks` of them, before a skip_tick(), where nobody can read the words of these ticks.
+  /// Equals `ticks` ticks before a skip_tick(); nobody must be able to read the words of these
+  /// ticks.
   void skip_unread_ticks(std::uint32_t ticks) {
     if (ReadBack && !frozen_) write_bank_ ^= static_cast<int>(ticks & 1U);
   }
@@ -235,7 +237,7 @@ class Registers {
   static std::size_t bank_index(int bank, int slot) {
     return static_cast<std::size_t>(bank * 64 + slot);
   }
-  /// A parity of every fourth bit, the check's own beside it, does not hold.
+  /// Whether one of the four parities, each of every fourth bit and its check bit, is wrong.
   bool wrong(std::size_t address) const {
     const auto found = flipped_.find(address);
     if (found == flipped_.end()) return false;
@@ -257,7 +259,7 @@ class Registers {
     source_2_ = source_;
     source_ = source_of(reg_addr);
   }
-  /// Three reads or more of one address.
+  /// Equals three or more reads of one address.
   void read_steadily(std::uint16_t reg_addr) {
     parameter_ = parameter_2_ = parameters_[reg_addr & 0x1ffU];
     snapshot_word_ = snapshot_2_ = snapshot_[bank_index(read_bank(), reg_addr & 63)];
@@ -283,7 +285,7 @@ class Registers {
 
   /// The end of a tick.
   void commit(bool armed) {
-    const bool swap = !frozen_;  // the tick that a freeze ends is the one that is held
+    const bool swap = !frozen_;  // a tick that ends with a freeze is the one that is kept
     if (target_ == Target::parameter) {
       out_.refused = refuses(armed);
       if (!out_.refused) {
@@ -310,16 +312,16 @@ class Registers {
   std::array<std::uint32_t, 512> parameters_{};
   std::array<std::uint32_t, ReadBack ? 128 : 1> snapshot_{};
   Out out_;
-  Target target_ = Target::none;  ///< of the write that waits
+  Target target_ = Target::none;  ///< target of the waiting write
   std::size_t address_ = 0;
   std::uint32_t data_ = 0;
-  bool zero_ = false;  ///< the panel asks for it
+  bool zero_ = false;  ///< the panel requests it
   bool warm_ = false;
   std::uint32_t fetch_ = 0;
   bool fetch_wrong_ = false, bus_wrong_ = false, held_wrong_ = false;
-  std::map<std::size_t, std::uint64_t> flipped_;  ///< bits of words that are wrong, by address
+  std::map<std::size_t, std::uint64_t> flipped_;  ///< wrong bits of words, by address
   std::size_t last_ = 0;                          ///< word of the snapshot that was written last
-  std::uint32_t before_ = 0;                      ///< and what was there
+  std::uint32_t before_ = 0;                      ///< its content before that write
   int write_bank_ = 0;
   bool frozen_ = false;
   Source source_ = Source::nowhere;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Cause 3 of rtl/supervisor.sv: the speed grows against the commanded current, window after window,
-// as with swapped motor leads or encoder channels. Documentation: docs/blocks/supervisor.md
+// Cause 3 of rtl/supervisor.sv: in several windows in a row, the speed grows against the commanded
+// current, as with swapped motor leads or encoder channels.
+// Documentation: docs/blocks/supervisor.md
 #pragma once
 
 #include <cstdint>
@@ -11,18 +12,18 @@
 
 namespace feltgate {
 
-/// For a design D. Once per tick the two comparisons, then turn(), with the current of the tick
-/// before.
+/// For a design D. In each tick the caller makes the two comparisons, then calls turn(), with the
+/// current of the tick before.
 template <class D>
 class Runaway {
  public:
-  /// Whether |x| > limit, the limit a signed word: above a negative one everything is.
+  /// Whether |x| > limit. The limit is a signed word; a negative limit is always exceeded.
   static bool over(std::int32_t x, std::uint32_t limit) {
     const std::int64_t wide = x;
     return (wide < 0 ? -wide : wide) > static_cast<std::int32_t>(limit);
   }
 
-  /// What the velocity has gained since the window began, raw, without its low bits.
+  /// Gain of velocity since the window began, raw, its low bits dropped.
   std::int32_t gain(std::int32_t velocity) const {
     const auto bits =
         static_cast<std::uint32_t>(top(velocity)) - static_cast<std::uint32_t>(begin_);
@@ -35,7 +36,7 @@ class Runaway {
   void compare_current(std::int32_t current_ref, std::uint32_t limit) {
     strong_ = over(current_ref, limit);
   }
-  /// Counts the tick; at the end of a window the next one begins.
+  /// Counts the tick; at the end of a window the next window begins.
   void turn(std::int32_t velocity, std::int32_t current_ref, std::uint32_t limit, bool live) {
     const bool full = ticks_ >= limit || ticks_ >= kLongest;
     const bool against = live && strong_ && (velocity < 0) != (current_ref < 0);
@@ -51,9 +52,9 @@ class Runaway {
     ticks_ = 1;
     begin_ = top(velocity);
   }
-  /// Whether that tick ended the last of the windows that are needed.
+  /// Whether that tick ended the last of the required windows.
   bool due() const { return due_; }
-  /// Whether the next turn() may be due.
+  /// Whether the next turn() could make due() true.
   bool near(std::uint32_t limit) const {
     return windows_ == Map::runaway_windows - 1 && (ticks_ >= limit || ticks_ >= kLongest);
   }
@@ -64,9 +65,9 @@ class Runaway {
       D::f.velocity.fraction > Map::growth_bits ? D::f.velocity.fraction - Map::growth_bits : 0;
   static std::int32_t top(std::int32_t velocity) { return velocity >> kDrop; }
 
-  std::int32_t begin_ = 0;   ///< velocity at the window's begin, its low bits dropped
-  std::uint32_t ticks_ = 1;  ///< of the window, with this one
-  int windows_ = 0;          ///< on end that have grown
+  std::int32_t begin_ = 0;   ///< velocity at the start of the window, low bits dropped
+  std::uint32_t ticks_ = 1;  ///< ticks in the window, including this one
+  int windows_ = 0;          ///< consecutive windows in which the speed grew
   bool grows_ = false, strong_ = false, due_ = false;
 };
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/scene_charge.sv: a point charge, strength * sgn(x) / x^2 outside a linear core and
-// slope * x inside it, away from the charge or towards it. Documentation:
-// docs/blocks/scene_charge.md
+// Twin of rtl/scene_charge.sv: the torque of a point charge at distance x. Outside a linear core it
+// is strength * sgn(x) / x^2, inside the core slope * x; the charge attracts or repels.
+// Documentation: docs/blocks/scene_charge.md
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@
 
 namespace feltgate {
 
-/// floor(strength / square), at most 65535; also 65535 where the square is 0.
+/// floor(strength / square), limited to 65535; also 65535 where the square is 0.
 constexpr std::int64_t charge_quotient(std::int64_t strength, std::int64_t square) {
   return strength / 65536 >= square ? 65535 : strength / square;
 }
 
-/// The law, in number policy N, for design D. Distances here are centre - position, that is -x.
+/// The law, in number policy N, for design D. A distance here is centre - position, which is -x.
 template <class D, class N>
 struct SceneChargeLaw {
   using Scene = ScenePartLaw<D, N>;
@@ -31,18 +31,19 @@ struct SceneChargeLaw {
   /// The core's half-width as the limiter reads it.
   static constexpr int kWidthKey = Format{1, D::f.limiter.width() - 1, 0}.key();
 
-  /// centre - position [count], exact; the centre's fraction is ignored.
+  /// centre - position [count], exact; the fraction bits of the centre are ignored.
   static Distance distance(std::int32_t position, Offset centre) {
     using Position = typename N::template num<D::f.scene_position.key()>;
     return quantise<N, Distance, Round::truncate, Overflow::wrap>(
         whole(centre) - from_integer<N, Position>(position));
   }
-  /// Whether the lever is in the core: up to its half-width, and not at all where that is 0.
+  /// Whether the lever is in the core: |distance| <= half_width. A half-width of 0 means no core.
   template <class Width>
   static bool near(Distance distance, Width half_width) {
     return half_width > Width{} && !beyond<N>(distance, half_width);
   }
-  /// Outside the core: floored in fixed point; endless at x = 0 in real arithmetic. sgn(0) is +1.
+  /// Torque outside the core, floored in fixed point; sgn(0) counts as +1. In real arithmetic the
+  /// quotient is 1e30 at distance 0.
   static typename Scene::Torque outside(Distance distance, Strength strength, bool attract) {
     const bool minus = attract != (distance > Distance{});
     if constexpr (N::is_fixed) {
@@ -56,13 +57,13 @@ struct SceneChargeLaw {
       return minus ? -q : q;
     }
   }
-  /// Inside the core: slope * distance rounded, negated where it repels.
+  /// Torque inside the core: slope * distance, rounded; negated for a charge that repels.
   template <class Product>
   static typename Scene::Torque inside(Product slope_times_distance, bool attract) {
     const auto rounded = Scene::rounded(slope_times_distance);
     return attract ? rounded : negated(rounded);
   }
-  /// One tick.
+  /// The torque in one tick.
   template <class W>
   static typename Scene::Torque torque(const W& w, bool attract, std::int32_t position) {
     using A = typename D::A;
@@ -75,7 +76,7 @@ struct SceneChargeLaw {
   }
 
  private:
-  /// The whole counts of a position, downward.
+  /// x rounded down to whole counts.
   static Distance whole(Offset x) {
     if constexpr (N::is_fixed) {
       return quantise<N, Distance, Round::truncate, Overflow::wrap>(x);

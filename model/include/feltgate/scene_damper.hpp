@@ -14,12 +14,12 @@ struct SceneDamperLaw {
   using Scene = ScenePartLaw<D, N>;
   using Velocity = typename N::template num<D::f.velocity.key()>;
 
-  /// Rounded, then negated: no torque below half a step on either side.
+  /// The product, rounded, then negated; a product below half a step gives 0 in both directions.
   template <class Product>
   static typename Scene::Torque torque(Product damping_times_velocity) {
     return negated(Scene::rounded(damping_times_velocity));
   }
-  /// One tick.
+  /// The torque in one tick.
   template <class W>
   static typename Scene::Torque torque(const W& w, Velocity velocity) {
     return torque(velocity * w.damper_damping());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/scene_membrane.sv: between two faces a constant torque drives the lever back to the
-// side from which it came. Documentation: docs/blocks/scene_membrane.md
+// Twin of rtl/scene_membrane.sv: between two faces, a constant torque drives the lever back to the
+// side that it came from. Documentation: docs/blocks/scene_membrane.md
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@
 
 namespace feltgate {
 
-/// What a membrane remembers: the side on which the lever was last seen.
+/// State of a membrane: the side on which the lever was outside it last.
 enum class MembraneSide : std::uint8_t {
-  unknown,  ///< nowhere outside yet since the scene was selected: no torque
+  unknown,  ///< not yet outside since the scene was selected: no torque
   below,
   above
 };
@@ -25,19 +25,19 @@ struct SceneMembraneLaw {
   using Torque = typename N::template num<D::f.torque.key()>;
   using Offset = typename N::template num<D::f.scene_offset.key()>;
 
-  /// Where the position is: below, above, or unknown for inside. Both faces belong to the inside.
+  /// The side of a position: below, above, or unknown for inside. Both faces belong to the inside.
   static MembraneSide where(std::int32_t position, Offset lower, Offset upper) {
     const auto theta = from_integer<N, D::f.scene_position.key()>(position);
     if (theta < lower) return MembraneSide::below;
     if (theta > upper) return MembraneSide::above;
     return MembraneSide::unknown;
   }
-  /// Torque inside for a lever that came from `side`. A negative magnitude counts as 0.
+  /// Torque inside, for a lever that came from `side`. A negative magnitude counts as 0.
   static Torque inside(MembraneSide side, Torque magnitude) {
     if (magnitude < Torque{} || side == MembraneSide::unknown) return Torque{};
     return side == MembraneSide::above ? magnitude : negated(magnitude);
   }
-  /// One tick; moves `side` on.
+  /// The torque in one tick; updates `side`.
   template <class W>
   static typename Scene::Torque torque(const W& w, std::int32_t position, MembraneSide* side) {
     const MembraneSide now = where(position, w.membrane_lower(), w.membrane_upper());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What the laws of the scenes share: the distance from a reference, and a torque as it is before
+// What the laws of the scenes share: the distance from a reference, and the torque format before
 // the limit. RTL: rtl/scene_part.sv, rtl/scenes.sv. Documentation: docs/blocks/scenes.md
 #pragma once
 
@@ -11,13 +11,13 @@
 
 namespace feltgate {
 
-/// In number policy N, for design D.
+/// Formats and roundings, in number policy N, for design D.
 template <class D, class N>
 struct ScenePartLaw {
   using Offset = typename N::template num<D::f.scene_offset.key()>;
   using Distance = typename N::template num<D::f.scene_distance.key()>;
   using Part = typename N::template num<D::f.scene_part.key()>;
-  /// A scene's torque, rounded; wide enough for all that its parameters allow.
+  /// A scene's rounded torque; wide enough for all values that its parameters allow.
   using Torque = typename N::template num<D::f.scene_torque.key()>;
 
   /// reference - position [count], exact.
@@ -26,17 +26,17 @@ struct ScenePartLaw {
     return quantise<N, Distance, Round::truncate, Overflow::wrap>(
         reference - from_integer<N, Position>(position));
   }
-  /// A product whose bits below the guard bits are dropped, saturated far beyond any limit.
+  /// A product truncated below its guard bits and saturated; saturation lies far beyond any limit.
   template <class Product>
   static Part part(Product product) {
     return quantise<N, Part, Round::truncate, Overflow::saturate>(product);
   }
-  /// The one rounding; neither a product nor a difference of two parts can overflow it.
+  /// The scene's only rounding; a product or a difference of two parts cannot overflow it.
   template <class X>
   static Torque rounded(X x) {
     return quantise<N, Torque, D::rounding, Overflow::wrap>(x);
   }
-  /// A word as it is.
+  /// A parameter word, taken without change.
   template <class Word>
   static Torque whole(Word word) {
     return quantise<N, Torque, Round::truncate, Overflow::wrap>(word);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/scene_spring.sv: tau = k * (reference - position), in tension both ways, in
-// compression only below the contact. Documentation: docs/blocks/scene_spring.md
+// Twin of rtl/scene_spring.sv: tau = k * (reference - position). Tension acts on both sides of the
+// reference, compression only below the contact. Documentation: docs/blocks/scene_spring.md
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,13 @@ struct SceneSpringLaw {
   using Scene = ScenePartLaw<D, N>;
   using Distance = typename Scene::Distance;
 
-  /// k * distance, rounded; a compressed spring only pushes.
+  /// k * distance, rounded; in compression 0 for a negative distance, since the spring only pushes.
   template <class Product>
   static typename Scene::Torque torque(Distance distance, Product k_times_distance, bool tension) {
     if (!tension && distance < Distance{}) return {};
     return Scene::rounded(k_times_distance);
   }
-  /// One tick.
+  /// The torque in one tick.
   template <class W>
   static typename Scene::Torque torque(const W& w, bool tension, std::int32_t position) {
     const Distance x =

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/scenes.sv: the torque of the selected scene; and with limiter and ramp behind it the
-// torque reference. Documentation: docs/blocks/scenes.md
+// Law of rtl/scenes.sv: the torque of the selected scene, followed by limiter and ramp, which give
+// the torque reference. Documentation: docs/blocks/scenes.md
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,8 @@ constexpr bool scene_built(int scene) {
   return scene >= 0 && scene < 16 && ((D::scene_mask >> scene) & 1) != 0;
 }
 
-/// What stands instead of a scene's torque while the self-test lasts.
+/// What replaces the scene's torque during the self-test: nothing, 0, or the self-test's torque in
+/// either direction.
 enum class TestPulse : std::uint8_t { none, rest, up, down };
 
 /// All scenes tick by tick, in number policy N.
@@ -38,7 +39,7 @@ class ScenesLaw {
 
   void reset() { *this = ScenesLaw{}; }
 
-  /// One tick. Position in counts, saturated to 18 bits in Fixed; `w` holds the words in force.
+  /// One tick. `position` in counts, saturated to 18 bits in Fixed; `w` holds the words in force.
   template <class W>
   void tick(const W& w, bool armed, int scene, std::int32_t position, Velocity velocity,
             Relief relief = {}, TestPulse pulse = TestPulse::none) {
@@ -58,7 +59,7 @@ class ScenesLaw {
     ramp_.move(w.ramp_step());
   }
 
-  /// What a program asks for [Nm], for the scene law; until the next.
+  /// Sets the torque that a program asks for [Nm], for the scene law; it holds until the next call.
   void program(Torque torque) { programmed_ = torque; }
 
   /// Torque reference [Nm], positive toward counting up.
@@ -66,12 +67,12 @@ class ScenesLaw {
   bool limit_torque() const { return ramp_.limit_torque(); }
   bool limit_ramp() const { return ramp_.limit_ramp(); }
 
-  /// State, for whoever shares it.
+  /// Internal state, for callers that share it.
   RampLaw<D, N>& ramp() { return ramp_; }
   MembraneSide side() const { return side_; }
   void set_side(MembraneSide side) { side_ = side; }
 
-  /// The torque of one scene before limit and ramp, of the scene law 0; moves `side` on.
+  /// The torque of one scene before limit and ramp; 0 for the scene law. Updates `side`.
   template <class W>
   static Rendered torque(const W& w, int scene, std::int32_t position, Velocity velocity,
                          MembraneSide* side) {

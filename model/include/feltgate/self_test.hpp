@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/self_test.sv: after arming a pulse and its opposite, and which way the lever goes. By
-// ticks. Documentation: docs/blocks/self_test.md
+// Law of rtl/self_test.sv, tick by tick: after arming it gives a torque pulse and its opposite, and
+// checks which way the lever moves. Documentation: docs/blocks/self_test.md
 #pragma once
 
 #include <algorithm>
@@ -13,40 +13,44 @@
 
 namespace feltgate {
 
+/// Result of the self-test, as in the status word.
 enum class SelfTestResult : std::uint8_t {
-  none = 0,
-  right = Map::self_test_right,
-  held = Map::self_test_held,
-  moving = Map::self_test_moving
+  none = 0,                       ///< no result yet, or no test
+  right = Map::self_test_right,   ///< the lever moved the right way
+  held = Map::self_test_held,     ///< the lever did not move enough
+  moving = Map::self_test_moving  ///< the lever did not come to rest before the test
 };
 
+/// State of the self-test, advanced tick by tick.
 class SelfTestLaw {
  public:
+  /// Parameter words: time of rest before the pulse, time of each pulse, both in units; bits of the
+  /// results that allow arming.
   struct Words {
     std::uint32_t quiet = 0, pulse = 0, arms = 0;
   };
 
-  /// The travel that a wave starts from.
+  /// The travel sampled at the start of a wave.
   void sample(std::uint16_t travel) {
     before_ = now_;
     now_ = travel & 3;
   }
-  /// The rest of the tick: what the next one does. Returns whether the lever went the wrong way, or
-  /// must not be armed as it is. `direct`: in voltage mode, where there is no torque to test with.
-  /// `waits`: another axis is before, no pulse yet.
+  /// The rest of the tick; it decides what the next tick does. Returns whether the test failed: the
+  /// lever moved the wrong way, or must not be armed in this state. `direct`: voltage mode, where
+  /// there is no torque to test with. `waits`: another axis tests before this one; no pulse yet.
   bool turn(bool armed, bool direct, std::uint32_t tick_count, const Words& w, bool waits = false) {
     return failed_ = next(armed, direct, tick_count, w, waits);
   }
-  /// The same of the last turn(), once.
+  /// The result of the last turn(), given only once.
   bool failed() {
     const bool was = failed_;
     failed_ = false;
     return was;
   }
 
-  /// The scene waits.
+  /// Whether the scene waits for the test.
   bool busy(bool armed) const { return armed && state_ != State::done; }
-  /// What the torque is instead of the scene's.
+  /// The pulse that replaces the scene's torque.
   TestPulse pulse(bool armed) const {
     if (!busy(armed)) return TestPulse::none;
     if (state_ == State::first) return TestPulse::up;
@@ -63,7 +67,7 @@ class SelfTestLaw {
     const bool impatient = changed(tick_count, Map::self_test_patience_bits, &patience_);
     const bool over = reached(w.pulse);
     if (!armed) {
-      const bool none = over || direct;  // a pulse of no units
+      const bool none = over || direct;  // also a pulse of 0 units
       state_ = none ? State::done : State::wait;
       count_ = 0;
       late_ = false;
@@ -87,7 +91,7 @@ class SelfTestLaw {
         }
         return net_ == -Map::self_test_counts;
       case State::second:
-        if (net_ != 0) add(step);  // what begins with the second pulse is no answer
+        if (net_ != 0) add(step);  // the first movement during the second pulse is no answer
         if (over) {
           count_ = 0;
           state_ = State::rest;
@@ -110,7 +114,7 @@ class SelfTestLaw {
     *before = now;
     return other;
   }
-  /// A longer time is the longest that count_ can hold.
+  /// Whether `word` units have passed; a longer time counts as the longest that count_ can hold.
   bool reached(std::uint32_t word) const {
     return count_ >= std::min(word, (1u << Map::self_test_count_bits) - 1);
   }
@@ -141,11 +145,11 @@ class SelfTestLaw {
   State state_ = State::done;
   SelfTestResult result_ = SelfTestResult::none;
   bool failed_ = false;
-  std::uint8_t count_ = 0;                ///< units
+  std::uint8_t count_ = 0;                ///< units of time since the last change
   int now_ = 0, before_ = 0;              ///< low bits of the travel
   int net_ = 0;                           ///< counts since the pulse began, up to the answer
-  bool unit_ = false, patience_ = false;  ///< bits of the tick counter
-  bool late_ = false;                     ///< half of the patience is gone
+  bool unit_ = false, patience_ = false;  ///< last values of two bits of the tick counter
+  bool late_ = false;                     ///< half of the patience has passed
 };
 
 }  // namespace feltgate

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/supervisor.sv: arming, seven of the fourteen causes of fault, the gates. Estimated
-// current [1,8,8] A, I2t sum [0,31,2] A^2 tick. Documentation: docs/blocks/supervisor.md
+// Twin of rtl/supervisor.sv: arming, seven of the fourteen causes of fault, and the gate enable. A
+// fault is latched, and the gate enable falls, one clock after its cause is seen. Estimated current
+// [1,8,8] A, I2t sum [0,31,2] A^2 tick. Documentation: docs/blocks/supervisor.md
 #pragma once
 
 #include <cstdint>
@@ -22,31 +23,32 @@ struct SupervisorLaw {
   static constexpr int part_key = D::f.current_estimate_part.key();
   static constexpr int squared_key = D::f.current_squared.key();
   static constexpr int sum_key =
-      Format{0, D::f.i2t.integer + 1, D::f.i2t.fraction}.key();  // a bit above the budget's
+      Format{0, D::f.i2t.integer + 1, D::f.i2t.fraction}.key();  // one bit more than the budget
 
-  /// (V - Ke*w)/R from its two products; each is truncated, their difference is exact. A
+  /// (V - Ke*w)/R [A] from its two products; each is truncated, their difference is exact.
   template <class X, class Y>
   static auto current_estimate(X v_over_r, Y emf_w_over_r) {
     return quantise<N, part_key, Round::truncate, Overflow::wrap>(v_over_r) -
            quantise<N, part_key, Round::truncate, Overflow::wrap>(emf_w_over_r);
   }
-  /// I^2, truncated. A^2
+  /// I^2 [A^2], truncated.
   template <class X>
   static Num<squared_key> squared(X square) {
     return quantise<N, squared_key, Round::truncate, Overflow::wrap>(square);
   }
-  /// max(sum - Inom^2, 0): what is left of the sum after a tick. A^2 tick
+  /// max(sum - Inom^2, 0) [A^2 tick]: the sum that is left after a tick.
   template <class X>
   static Num<sum_key> cooled(Num<sum_key> sum, X nominal) {
     if (sum < nominal) return Num<sum_key>{};
     return quantise<N, sum_key, Round::truncate, Overflow::wrap>(sum - nominal);
   }
-  /// sum + I^2; the caller keeps the sum below half of its range.
+  /// sum + I^2; the caller must keep the sum below half of its range.
   static Num<sum_key> heated(Num<sum_key> sum, Num<squared_key> square) {
     return quantise<N, sum_key, Round::truncate, Overflow::wrap>(sum + square);
   }
 };
 
+/// The supervisor of design D, clock by clock or in the steps of a tick.
 template <class D>
 class Supervisor {
  public:
@@ -60,13 +62,13 @@ class Supervisor {
 
   struct In {
     bool tick = false;  ///< last clock of a tick
-    bool period_start =
-        false;          ///< of the PWM; left out where ticks cannot stand, as in the core's twin
-    bool host = false;  ///< the host has the say, not the panel
-    bool host_arm = false;      ///< its request
-    bool arm = false;           ///< the panel's
-    bool disarm = false;        ///< no request counts in this tick
-    bool stop = false;          ///< was seen since the last clock, however shortly
+    /// Start of a PWM period; not set where ticks cannot stop, as in the core's twin.
+    bool period_start = false;
+    bool host = false;          ///< the host has control, not the panel
+    bool host_arm = false;      ///< the host's request
+    bool arm = false;           ///< the panel's request
+    bool disarm = false;        ///< requests do not count in this tick
+    bool stop = false;          ///< the input was active since the last clock, however shortly
     bool clear_faults = false;  ///< only in the clock of tick
     bool kick = false;          ///< only in the clock of tick
     bool encoder_error = false;
@@ -75,22 +77,23 @@ class Supervisor {
     std::uint64_t wave = 0;
     std::uint32_t param = 0;
     std::int64_t product = 0;
-    std::uint16_t trips = 0;    ///< causes of other blocks, by bit
-    bool axis_silent = false;   ///< another axis does not ask
+    std::uint16_t trips = 0;    ///< faults that other blocks found, one bit per cause
+    bool axis_silent = false;   ///< another axis does not request arming
     bool axis_blocked = false;  ///< another axis is not ready
-    /// What is asked for by whoever has the say.
+    /// The request of the host or the panel, whichever has control.
     bool asks() const { return (host ? host_arm : arm) && !disarm; }
   };
   struct Out {
     std::int32_t current_estimate = 0;  ///< raw, A
     bool armed = false;
     bool gates_enable = false;
-    bool unkicked = D::require_watchdog != 0;  ///< arming waits for the first kick
+    bool unkicked = D::require_watchdog != 0;  ///< arming waits for the watchdog's first kick
     std::uint16_t faults = 0;
     std::uint8_t first_fault = 0;
   };
 
-  /// What a whole tick needs: the words of the parameter RAM and the signals in their raw integers.
+  /// The inputs of a whole tick: words of the parameter RAM, and the signals as raw integers
+  /// (Tick).
   struct Words {
     std::uint32_t inverse_resistance = 0;
     std::uint32_t emf_over_resistance = 0;
@@ -112,14 +115,14 @@ class Supervisor {
     bool kick = false;
   };
 
-  /// All but the heat: the motor does not cool by a reset.
+  /// Resets all but the heat: a reset does not cool the motor.
   void reset() {
     const Sum heat = sum_;
     *this = Supervisor();
     sum_ = heat;
   }
   const Out& out() const { return out_; }
-  /// Nothing speaks against arming by whoever has the say.
+  /// Whether nothing prevents arming by the side that has control.
   bool ready(bool host) const { return able() && (host ? host_counts_ : panel_counts_); }
 
   void clock(const In& in) {
@@ -150,18 +153,18 @@ class Supervisor {
     tick_before_ = in.tick;
   }
 
-  /// The gates are cleared before the edge of the clock to come, in which the stop input is `stop`.
+  /// Whether the gates are cleared before the next clock edge, while the stop input is `stop`.
   bool stopped(bool stop) const { return stop || stopped_; }
 
-  /// The stop has settled at this level of its input: tick() may be used while it stays there. That
-  /// a fault keeps the latch of a stop that is held is left to the clocks: nothing shows it.
+  /// Whether the stop has settled at this level of its input; tick() may be used while it stays
+  /// there. That a fault keeps the latch of a held stop is left to clock(): no output shows it.
   bool steady(bool stop) const {
     const bool latched = stopped(stop);
     if (stop_1_ != latched || stop_2_ != latched) return false;
     return !stopped_ || out_.gates_enable || out_.first_fault != 0;
   }
 
-  /// A cause, here or in another block, seen before the last clock of a tick; returns whether it
+  /// Latches a cause, of this or another block, before the last clock of a tick; returns whether it
   /// closed the gates.
   bool trip(Fault cause) {
     const bool live = out_.gates_enable;
@@ -170,11 +173,11 @@ class Supervisor {
     return live;
   }
 
-  // A tick from its first to its last clock without encoder errors and with steady(stop), in the
-  // steps that change something; each stands for all clocks up to its own. The first four return
-  // whether the gates fell with it.
+  // A tick without encoder errors and with steady(stop), from its first to its last clock, in five
+  // steps; each step stands for all clocks up to its own. The first four return whether the gates
+  // closed in it.
 
-  /// Clock speed_clock; the products are those of voltage and velocity of the tick before.
+  /// Clock speed_clock; the products use voltage and velocity of the tick before.
   bool at_speed(const Words& words, std::int64_t v_product, std::int64_t w_product,
                 std::int32_t velocity) {
     out_.current_estimate = static_cast<std::int32_t>(estimate_of(v_product, w_product));
@@ -195,11 +198,11 @@ class Supervisor {
     runaway_.turn(velocity, current_ref, words.polarity_ticks, out_.gates_enable);
     return out_.gates_enable && runaway_.due() && trip(Fault::polarity);
   }
-  /// Clock watchdog_clock, where that is not the last clock of the tick.
+  /// Clock watchdog_clock; does nothing where that is the last clock of the tick.
   bool at_watchdog(const Words& words) {
     return !kWatchdogLast && silent(words) && trip(Fault::watchdog);
   }
-  /// The last clock; returns whether the watchdog closed the gates in it.
+  /// The last clock; returns whether the watchdog closed the gates.
   bool at_end(const Words& words, const In& in) {
     const bool trips = kWatchdogLast && silent(words);
     forgive(true);
@@ -207,17 +210,17 @@ class Supervisor {
     return trips;
   }
 
-  /// Whether too much heat or a wrong polarity might trip in the wave to come.
+  /// Whether too much heat or a wrong polarity might trip in the next wave.
   bool near_trip(const Words& words) const {
     return sum_.raw() >= std::int64_t{words.i2t_budget} || runaway_.near(words.polarity_ticks);
   }
 
-  /// The same of the watchdog, in any clock of the tick.
+  /// Whether the watchdog would trip; valid in any clock of the tick.
   bool watchdog_due(const Words& words) const { return silent(words); }
-  /// Encoder errors that are still borne.
+  /// Number of further encoder errors that are tolerated.
   int errors_left() const { return kBorne - errors_; }
 
-  /// All five. Returns the clock of the tick after which the gates fell, or -1.
+  /// All five steps. Returns the clock of the tick after which the gates closed, or -1.
   int tick(const Words& words, const Tick& in) {
     const auto coefficient = [](std::uint32_t word) {
       return static_cast<std::int64_t>(word & ((1U << D::coefficient_bits) - 1));
@@ -241,24 +244,24 @@ class Supervisor {
  private:
   using Sum = fixed_of<Law::sum_key>;
   using Squared = fixed_of<Law::squared_key>;
-  using Nominal = fixed<0, 32 - D::f.i2t.fraction, D::f.i2t.fraction>;  ///< its square
+  using Nominal = fixed<0, 32 - D::f.i2t.fraction, D::f.i2t.fraction>;  ///< of its square
   static constexpr bool kWatchdogLast = watchdog_clock == D::clocks_per_tick - 1;
-  /// Periods of the PWM that hold at least one tick.
+  /// PWM periods that contain at least one tick.
   static constexpr int kTickPeriods = (D::clocks_per_tick + D::pwm_period - 1) / D::pwm_period;
-  static constexpr int kBorne = Map::errors_borne;  // encoder errors
+  static constexpr int kBorne = Map::errors_borne;  // encoder errors that are tolerated
   static constexpr std::uint32_t kForgiveTicks = 1u << Map::forgive_bits;
   static constexpr std::uint32_t kLongestKickless = 1u << Map::kickless_bits;
   static constexpr std::uint32_t kKicklessMask = 2 * kLongestKickless - 1;
 
   static constexpr std::uint64_t at(int t) { return std::uint64_t{1} << t; }
-  /// Wave clocks in which something is taken over or compared.
+  /// Wave clocks in which a value is taken or compared.
   static constexpr std::uint64_t kWaveClocks =
       at(T::estimate_part) | at(T::current_estimate) | at(T::speed_size) | at(T::too_fast) |
       at(T::speed) | at(T::nominal) | at(T::cooled) | at(T::current_squared) | at(T::too_hot) |
       at(T::heat) | at(T::growth_size) | at(T::growth) | at(T::strong_size) | at(T::strong) |
       at(T::runaway_ticks) | at(T::polarity) | at(T::silent) | at(T::watchdog);
 
-  /// A product as it leaves the multiplier, with F fraction bits.
+  /// A product of the multiplier, with F fraction bits.
   template <int F>
   static constexpr auto product(std::int64_t raw) {
     return fixed<1, D::product_bits - 1 - F, F>::from_raw(raw);
@@ -272,15 +275,15 @@ class Supervisor {
   static Nominal nominal_of(std::uint32_t word) {
     return Nominal::from_raw(negative(word) ? 0 : word);
   }
-  /// A negative word is no limit: it counts as 0.
+  /// Whether a word is negative; a negative limit counts as 0.
   static bool negative(std::uint32_t word) { return (word >> 31) != 0; }
-  /// I^2 of an armed tick; nothing is added to a sum above every budget.
+  /// I^2 of an armed tick; 0 where the sum is above every budget already.
   Squared square_of(std::int64_t square) const {
     if (!out_.armed || sum_.raw() > 0xffffffffLL) return {};
     return Law::squared(product<2 * D::f.current_estimate.fraction>(square));
   }
   static bool over(std::int32_t x, std::uint32_t limit) { return Runaway<D>::over(x, limit); }
-  /// A counter at its limit; `longest` is the limit of limits.
+  /// Whether a counter has reached its limit; `longest` is the largest limit.
   static bool expired(std::uint32_t ticks, std::uint32_t limit, std::uint32_t longest) {
     return ticks >= limit || ticks >= longest;
   }
@@ -292,7 +295,7 @@ class Supervisor {
     return out_.gates_enable && awake_ && too_long(words.watchdog_ticks);
   }
 
-  /// What one clock of the wave takes over and compares; signals are taken a clock ahead.
+  /// The takings and comparisons in one clock of the wave; signals are taken one clock before.
   void wave_clock(const In& in, std::uint16_t* trip) {
     const auto now = [&in](int t) { return (in.wave & at(t)) != 0; };
     if (now(T::estimate_part)) v_product_ = in.product;
@@ -328,7 +331,7 @@ class Supervisor {
     if (now(T::strong_size)) signal_ = in.current_ref;
   }
 
-  /// The end of a tick for the encoder errors.
+  /// End of a tick: every kForgiveTicks ticks, one encoder error is forgiven if `undisturbed`.
   void forgive(bool undisturbed) {
     forgive_ticks_ = (forgive_ticks_ + 1) % kForgiveTicks;
     if (forgive_ticks_ == 0 && undisturbed && errors_ > 0) --errors_;
@@ -339,9 +342,9 @@ class Supervisor {
     }
     out_.faults |= trip;
   }
-  /// No fault, no stop, no kick that is missing.
+  /// Whether there is no fault, no stop and no missing first kick.
   bool able() const { return out_.first_fault == 0 && !stop_2_ && !out_.unkicked; }
-  /// Commands, arming and disarming; `trip` are the faults of the same clock.
+  /// End of a tick: commands, arming and disarming. `trip`: faults of the same clock.
   void end_tick(const In& in, std::uint16_t trip) {
     const bool asks = in.asks() && !in.axis_silent;
     const bool arms = asks && !asked_ && ready(in.host) && !in.axis_blocked;
@@ -357,18 +360,18 @@ class Supervisor {
   }
 
   Out out_;
-  bool stopped_ = false;  ///< the latch of the stop; the clocks of a reset release it
+  bool stopped_ = false;  ///< latch of the stop; the clocks of a reset release it
   bool stop_1_ = true;
   bool stop_2_ = true;
   bool tick_before_ = false;
-  int tickless_ = 0;          ///< periods of the PWM that began since the last tick
-  bool asked_ = true;         ///< the request of the tick before, of all axes: high after a reset
-  bool host_counts_ = false;  ///< the host's request has been low since it might have armed nothing
+  int tickless_ = 0;          ///< PWM periods that began since the last tick
+  bool asked_ = true;         ///< the request in the tick before, of all axes; high after a reset
+  bool host_counts_ = false;  ///< the host's request was low since the host last could not arm
   bool panel_counts_ = false;
   bool awake_ = false;  ///< the watchdog has been kicked
-  int errors_ = 0;      ///< of the encoder, not forgiven yet
+  int errors_ = 0;      ///< encoder errors that are not forgiven yet
   std::uint32_t forgive_ticks_ = 0;
-  std::int32_t signal_ = 0;  ///< to be compared in the next clock
+  std::int32_t signal_ = 0;  ///< value to compare in the next clock
   bool too_fast_ = false;
   Runaway<D> runaway_;
   std::int64_t v_product_ = 0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/torque_control.sv: torque reference to current, voltage and duty.
-//   I = Jn*Kp/Ktn * tau_ref + (1 - Jn*Kp)/Ktn * tau_hat        limited, shown to the observer
-//   V = gain*I + Ke*w + dead voltage; V - Ke*w                 limited: the window around Ke*w
+// Twin of rtl/torque_control.sv: from the torque reference to current, voltage and duty.
+//   I = Jn*Kp/Ktn * tau_ref + (1 - Jn*Kp)/Ktn * tau_hat        limited; the observer sees this I
+//   V = gain*I + Ke*w + dead voltage                           limited to a window around Ke*w
 //   duty = V * period/supply                                   limited
 // Documentation: docs/blocks/torque_control.md
 #pragma once
@@ -16,7 +16,7 @@
 
 namespace feltgate {
 
-/// What the control word's mode bits mean.
+/// The values of the control word's mode bits.
 enum class Mode : std::uint8_t {
   closed_loop = 0,             ///< tau_hat is fed back
   open_loop = Map::mode_open,  ///< tau_hat is not fed back
@@ -41,7 +41,7 @@ struct TorqueControlLaw {
   using Duty = typename N::template num<D::f.duty.key()>;
   using DutySum = typename N::template num<D::f.duty_sum.key()>;
 
-  // The limiter reads every limit and border at the sum's binary point.
+  // The limiter reads every limit and border with the binary point of the sum.
   template <int Fraction>
   static constexpr int limit_key = LimiterLaw<D, N>::template key<Fraction>;
   static constexpr int kCurrentKey = limit_key<D::f.current.fraction>;
@@ -60,7 +60,7 @@ struct TorqueControlLaw {
   static constexpr VoltagePart voltage_part(Product p) {
     return quantise<N, VoltagePart, Round::truncate, Overflow::wrap>(p);
   }
-  /// Clocks of on-time, rounded.
+  /// The duty in clocks of on-time, rounded.
   template <class Product>
   static constexpr DutySum duty_sum(Product p) {
     return quantise<N, DutySum, D::rounding, Overflow::wrap>(p);
@@ -70,8 +70,8 @@ struct TorqueControlLaw {
   static constexpr Emf emf(Product p) {
     return quantise<N, Emf, Round::truncate, Overflow::wrap>(p);
   }
-  /// A part, or the exact sum of parts, as the adder holds it; it fits by construction of the
-  /// formats.
+  /// A part, or the exact sum of parts, in the adder's format; the formats are chosen so that it
+  /// fits.
   template <class X>
   static constexpr CurrentSum current_sum(X x) {
     return quantise<N, CurrentSum, Round::truncate, Overflow::wrap>(x);
@@ -80,37 +80,37 @@ struct TorqueControlLaw {
   static constexpr VoltageSum voltage_sum(X x) {
     return quantise<N, VoltageSum, Round::truncate, Overflow::wrap>(x);
   }
-  /// What the window let through, and the back-EMF.
+  /// The applied voltage: the limited part plus the back-EMF.
   template <class X>
   static constexpr Applied applied(X x) {
     return quantise<N, Applied, Round::truncate, Overflow::wrap>(x);
   }
-  /// The applied voltage as the port shows it: the same number up to the end of its format.
+  /// The applied voltage as the port shows it, narrowed to the port's format.
   template <class X>
   static constexpr Voltage port_voltage(X v) {
     return quantise<N, Voltage, Round::truncate, Overflow::saturate>(v);
   }
-  /// x in [-limit, limit] as a To.
+  /// x limited to [-limit, limit], as a To; sets *hit to whether x was outside.
   template <class To, int PortKey = D::f.limiter.key(), class X, class Limit>
   static constexpr To limited(X x, Limit limit, bool* hit) {
     return LimiterLaw<D, N>::template limited<To, PortKey>(x, limit, hit);
   }
-  /// Whether tau_ref lies in the high-torque region; at the border the low one holds.
+  /// Whether tau_ref lies in the high-torque region; a tau_ref at the border does not.
   template <class X, class Border>
   static constexpr bool region_high(X tau_ref, Border border) {
     return beyond<N>(tau_ref, border);
   }
 };
 
-/// The limits that hold in this tick.
+/// The limits that act in this tick.
 struct ControlLimits {
   bool current = false;
   bool voltage = false;
   bool duty = false;
 };
 
-/// One tick of torque control. W gives the parameters: a ParameterReader.
-/// Writes current, voltage and duty; in voltage mode the voltage of the tick before is the ramp's.
+/// One tick of torque control; computes current, voltage and duty. `w`: the parameters, a
+/// ParameterReader. In voltage mode the voltage of the tick before is the state of its ramp.
 /// Torques and velocity are the chain's, or fixed-point numbers with more fraction bits (error
 /// budgets).
 template <class D, class N>
@@ -118,7 +118,7 @@ struct TorqueControlStep {
   using Law = TorqueControlLaw<D, N>;
   using A = typename D::A;
   typename Law::Current current{};
-  typename Law::Applied applied{};  ///< the voltage before its port's saturation
+  typename Law::Applied applied{};  ///< the voltage before it is narrowed for the port
   typename Law::Voltage voltage{};
   typename Law::Duty duty{};
   ControlLimits limit;
@@ -144,7 +144,7 @@ struct TorqueControlStep {
       limit.current = false;
     }
     const auto emf = Law::emf(velocity * w.emf_constant());
-    typename Law::VoltageSum asked{};  // less the back-EMF
+    typename Law::VoltageSum asked{};  // without the back-EMF
     bool unused = false;
     if (direct) {
       const auto step = Law::template limited<typename Law::VoltageChange>(
@@ -155,7 +155,7 @@ struct TorqueControlStep {
       const auto slope = Law::voltage_part(tau_ref * w.dead_voltage_slope());
       const auto dead = Law::template limited<typename Law::LimitedVoltage>(
           slope, w.template get<Law::kVoltageKey>(A::dead_voltage), &unused);
-      // Both are read: a choice between addresses would keep lanes from running side by side.
+      // Both words are read: a choice between addresses would keep lanes from running in parallel.
       const auto gain = w.voltage_gain();
       const auto gain_high = w.voltage_gain_high();
       const auto resistive = Law::voltage_part(current * (region_high ? gain_high : gain));

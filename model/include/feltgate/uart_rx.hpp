@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/link/uart_rx.sv, clock by clock or from event to event.
+// Twin of rtl/link/uart_rx.sv: receiver of a UART, 8N1. A level counts if two of three clocks have
+// it; each bit is sampled in its middle. clock() advances one clock, skip() several quiet ones.
 // Documentation: docs/blocks/uart_rx.md
 #pragma once
 
@@ -10,20 +11,21 @@
 
 namespace feltgate {
 
-/// What a phase accumulator adds per clock; 2^16 are a bit.
+/// Step of the phase accumulator per clock, rounded to nearest; 2^16 is one bit time.
 constexpr std::uint32_t uart_step(std::int64_t clock_hz, std::int64_t baud) {
   return static_cast<std::uint32_t>(((baud << 16) + clock_hz / 2) / clock_hz);
 }
 
+/// The receiver; `step` as from uart_step().
 class UartRx {
  public:
   struct In {
     bool rx = true;
   };
   struct Out {
-    std::uint8_t byte = 0;
-    bool valid = false;  ///< one clock
-    bool error = false;  ///< one clock
+    std::uint8_t byte = 0;  ///< valid in the clock of `valid` or `error`
+    bool valid = false;     ///< one clock: a byte has come
+    bool error = false;     ///< one clock: a byte with a low stop bit has come
   };
 
   explicit UartRx(std::uint32_t step) : step_(step) {}
@@ -53,21 +55,22 @@ class UartRx {
 
   const Out& out() const { return out_; }
 
-  /// So many clocks with the line held change no more than what skip() knows.
+  /// Number of clocks, with the line held at `rx`, that skip() may pass.
   std::int64_t quiet(bool rx) const {
     if (out_.valid || out_.error || seen_ != (rx ? 15U : 0U)) return 0;
     if (busy_) return (kBit - 1 - phase_) / step_;
     return ready_ == rx && phase_ == ((kBit / 2 + step_) & (kBit - 1)) && bit_ == 0 ? kForever : 0;
   }
-  /// As so many calls of clock() with the line held, at most quiet().
+  /// Equals `clocks` calls of clock() with the line held; `clocks` must not exceed quiet().
   void skip(std::int64_t clocks) {
     if (busy_) phase_ += static_cast<std::uint32_t>(clocks) * step_;
   }
+  /// More clocks than any run has.
   static constexpr std::int64_t kForever = std::numeric_limits<std::int64_t>::max() / 2;
 
  private:
   static constexpr std::uint32_t kBit = 1U << 16;
-  /// Two of the three oldest levels.
+  /// Majority of the three oldest levels.
   bool line() const {
     const unsigned a = seen_ >> 1 & 1U, b = seen_ >> 2 & 1U, c = seen_ >> 3 & 1U;
     return a + b + c >= 2;

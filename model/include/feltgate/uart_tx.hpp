@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/link/uart_tx.sv, clock by clock or from event to event.
-// Documentation: docs/blocks/uart_tx.md
+// Twin of rtl/link/uart_tx.sv: transmitter of a UART, 8N1. The start bit is at tx in the clock
+// after a byte is taken. clock() advances one clock, skip() several quiet ones. Documentation:
+// docs/blocks/uart_tx.md
 #pragma once
 
 #include <cstdint>
@@ -11,14 +12,15 @@
 
 namespace feltgate {
 
+/// The transmitter; `step` as from uart_step().
 class UartTx {
  public:
   struct In {
     std::uint8_t byte = 0;
-    bool valid = false;  ///< held until ready
+    bool valid = false;  ///< must be held until ready
   };
   struct Out {
-    bool ready = true;
+    bool ready = true;  ///< the next clock takes a byte if it is valid
     bool tx = true;
   };
 
@@ -41,13 +43,15 @@ class UartTx {
   }
 
   const Out& out() const { return out_; }
+  /// Whether a byte is being sent.
   bool busy() const { return busy_; }
 
-  /// So many clocks without a byte to take change no more than what skip() knows.
+  /// Number of clocks, without a byte to take, that skip() may pass.
   std::int64_t quiet() const {
     if (!busy_) return phase_ == 0 ? UartRx::kForever : 0;
-    return (kBit - 1 - phase_) / step_;  // then a bit ends, and the last one is ready
+    return (kBit - 1 - phase_) / step_;  // then a bit ends; ready may rise first
   }
+  /// Equals `clocks` calls of clock() without a byte; `clocks` must not exceed quiet().
   void skip(std::int64_t clocks) {
     if (!busy_) return;
     phase_ += static_cast<std::uint32_t>(clocks) * step_;

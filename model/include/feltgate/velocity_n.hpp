@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/velocity_n.sv: N-method velocity. Velocity is 2^n times the counts of the last m1
-// ticks, saturated to the velocity format, through a low-pass. Documentation:
-// docs/blocks/velocity_n.md
+// Law of rtl/velocity_n.sv: N-method velocity. The velocity is 2^n times the counts of the last m1
+// ticks, saturated to the velocity format and low-pass filtered.
+// Documentation: docs/blocks/velocity_n.md
 #pragma once
 
 #include <array>
@@ -14,8 +14,7 @@
 
 namespace feltgate {
 
-/// Travel of the last M1 ticks; before the line has filled, the travel before reset (0) is the
-/// oldest.
+/// The travel at the last M1 ticks. Before the line has filled, oldest() is 0, the travel at reset.
 template <int M1>
 class DelayLine {
  public:
@@ -40,8 +39,8 @@ struct VelocityLaw {
   using Velocity = typename N::template num<D::f.velocity.key()>;
   using Filter = LowpassLaw<N, D::f.velocity.key(), D::f.velocity_difference.key(), D::rounding>;
 
-  /// Counts of m1 ticks as rad/s, saturated to the velocity format. 2^n times them is exact; a
-  /// quantised gain truncates below the last bit.
+  /// Counts of m1 ticks as rad/s, saturated to the velocity format. With the gain 2^n it is exact;
+  /// a quantised gain truncates below the last bit.
   static constexpr Velocity raw(std::int16_t counts, bool* saturated) {
     const auto travel = from_integer<N, D::f.travel_difference.key()>(counts);
     if constexpr (D::velocity_gain == 0) {
@@ -62,13 +61,13 @@ constexpr std::int16_t travel_difference(std::int16_t newest, std::int16_t oldes
   return static_cast<std::int16_t>(difference >= 0x8000 ? difference - 0x10000 : difference);
 }
 
-/// One tick of the velocity estimator behind its delay line.
+/// One tick of the velocity estimator after its delay line.
 template <class D, class N>
 struct EstimatorStep {
   typename VelocityLaw<D, N>::Velocity velocity{};
-  bool limit = false;  ///< the counts saturated
+  bool limit = false;  ///< the raw velocity saturated
 
-  /// `counts`: the travel of the last m1 ticks. W gives the parameters: a ParameterReader.
+  /// `counts`: counts of the last m1 ticks. `w`: the parameters, a ParameterReader.
   template <class W>
   void tick(const W& w, std::int16_t counts) {
     using Law = VelocityLaw<D, N>;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a write of the host does while the motor is armed: a parameter acts, lets the torque ramp or
-// is refused, part of the control word holds. For the registers' twin, and for chains beside a
-// core. Documentation: docs/blocks/ramp.md, docs/blocks/registers.md
+// Effect of a host's write while the motor is armed: a parameter acts, lets the torque ramp, or is
+// refused; part of the control word is held. Used by the registers' twin, and by chains that run
+// beside a core. Documentation: docs/blocks/ramp.md, docs/blocks/registers.md
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,13 @@
 
 namespace feltgate {
 
+/// Effect of a write: at once; at once, but the torque ramps; none, the write is dropped.
 enum class WhileArmed : std::uint8_t { acts, ramps, refused };
 
-/// Whether the torque of a scene is an input, which acts at once, instead of a law of the position.
+/// Whether a scene's torque is an input, which acts at once, rather than a law of the position.
 constexpr bool is_input_scene(int scene) { return ((Map::input_scenes >> scene) & 1U) != 0; }
 
-/// A parameter at `address` (below 512) while `scene` is in force.
+/// Effect of a write to the parameter at `address` (below 512) while `scene` is in force.
 constexpr WhileArmed while_armed(int address, int scene) {
   const auto in = [address](std::uint64_t mask) {
     return address < 64 && ((mask >> address) & 1U) != 0;
@@ -27,30 +28,30 @@ constexpr WhileArmed while_armed(int address, int scene) {
   return of_scene || in(Map::ramps_while_armed) ? WhileArmed::ramps : WhileArmed::acts;
 }
 
-/// Fields of the control word that hold while armed.
+/// Fields of the control word that are held while armed.
 constexpr std::uint32_t held_control =
     (~std::uint32_t{0} << Map::C::control_mode) & ((1U << Map::C::control_width) - 1);
 
-/// Whether a control word takes the motor out of the host's hands or out of arms: the host has the
-/// say and does not ask for it.
+/// Whether a control word disarms: the host has control in it and does not ask to arm.
 constexpr bool disarms(std::uint32_t control) {
   return ((control >> Map::C::control_host) & 1U) != 0 &&
          ((control >> Map::C::control_arm) & 1U) == 0;
 }
 
-/// The control word in force after `written` has been carried out.
+/// The control word in force after `written` is carried out; `holds`: the held fields do not
+/// change.
 constexpr std::uint32_t control_after(std::uint32_t in_force, std::uint32_t written, bool holds) {
   const std::uint32_t held = holds ? held_control : 0;
   return (in_force & held) | (written & ~held & ((1U << Map::C::control_width) - 1));
 }
 
-/// Carries what a core makes of its host's writes to a chain that has no port of its own.
+/// Repeats the core's treatment of host writes for a chain that has no register port.
 class HostBeside {
  public:
   explicit HostBeside(std::uint32_t control_reset) : control_(control_reset) {}
 
-  /// A write that the core has carried out since the tick last seen; returns whether a parameter is
-  /// to be set. `armed`: whether the core is since. `disarmed`: a disarm came in the same tick.
+  /// A write that the core has carried out since the last tick; returns whether to set a parameter.
+  /// `armed`: whether the core is armed since. `disarmed`: a disarm came in the same tick.
   bool write(int address, std::uint32_t word, bool armed, bool disarmed = false) {
     armed = armed || armed_;
     if (address == Map::C::control) {
@@ -64,14 +65,14 @@ class HostBeside {
     }
     return false;
   }
-  /// The position has been set to zero.
+  /// Reports that the position was set to zero.
   void zero() { restart_ = restart_ || !is_input_scene(scene_); }
 
   int mode() const {
     return static_cast<int>((control_ >> Map::C::control_mode) &
                             ((1U << Map::C::control_mode_width) - 1));
   }
-  /// Asked once in each tick, with what holds in it: whether the ramp starts again.
+  /// Call once per tick, with the state of that tick; returns whether the ramp starts again.
   bool restart(bool armed, int scene) {
     const bool now = restart_;
     armed_ = armed;

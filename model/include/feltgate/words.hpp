@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The parameter words of a design as numbers, by address: raw integers in fixed point, exact values
-// in real arithmetic. A word is decoded when it is read, by the format its reader names.
+// in real arithmetic. A word is decoded when it is read, in the format that the reader names.
 // Documentation: docs/registers.md
 #pragma once
 
@@ -17,15 +17,15 @@
 
 namespace feltgate {
 
-/// The number in the low bits of a 32-bit word: f.width() bits (at most 32), sign-extended when f
-/// has a sign. What lies above them is ignored, as in the RTL.
+/// The number in the low f.width() bits (at most 32) of a 32-bit word, sign-extended when f has a
+/// sign. The bits above are ignored, as in the RTL.
 constexpr std::int64_t decode_word(Format f, std::uint32_t word) {
   return detail::wrapped<std::int64_t>(static_cast<std::int64_t>(word), f.sign,
                                        f.width() < 32 ? f.width() : 32);
 }
 
-/// Parameters of design D in number policy N (Fixed or Real<T>); starts with the design's values.
-/// A law reads words.torque_limit(); get() is for a word in another format than its own.
+/// Parameters of design D in number policy N (Fixed or Real<T>); they start with the design's
+/// values. A law reads words.torque_limit(); get() reads a word in a format other than its own.
 template <class D, class N>
 class Words : public ParameterReader<D, Words<D, N>> {
  public:
@@ -36,7 +36,8 @@ class Words : public ParameterReader<D, Words<D, N>> {
 
   Words() { reset(); }
 
-  /// The design's values: quantised in Fixed, exact in Real. Words without a parameter are 0.
+  /// Restores the design's values: quantised in Fixed, exact in Real. Words without a parameter are
+  /// 0.
   void reset() {
     stored_.fill(Stored{});
     for (const ParameterInfo& p : D::parameters) {
@@ -48,8 +49,8 @@ class Words : public ParameterReader<D, Words<D, N>> {
     }
   }
 
-  /// The parameter at `address` in format Key. In fixed point the low bits of the word that the
-  /// format has, as a block takes them off the bus.
+  /// The parameter at `address` in format Key. In fixed point: the low bits of the word, as many as
+  /// the format has, as a block takes them off the bus.
   template <int Key>
   typename N::template num<Key> get(int address) const {
     if constexpr (N::is_fixed) {
@@ -59,13 +60,13 @@ class Words : public ParameterReader<D, Words<D, N>> {
     }
   }
 
-  /// Fixed only: a 32-bit word as the host writes it (its low 32 bits count).
+  /// Fixed only: sets a word as the host writes it; only the low 32 bits of `raw` count.
   void set_raw(int address, std::int64_t raw) {
     static_assert(N::is_fixed, "real parameters are set by value");
     stored_[index(address)] = static_cast<Stored>(raw & 0xffffffff);
   }
 
-  /// Real only: a value in the parameter's unit.
+  /// Real only: sets a value in the parameter's unit.
   void set_value(int address, Stored value) {
     static_assert(!N::is_fixed, "fixed-point parameters are set by word");
     stored_[index(address)] = value;

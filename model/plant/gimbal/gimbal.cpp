@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Three motors, a handle in two rings, encoders and a hand. Documentation: docs/gimbal.md
+// The gimbal: three motors, a handle in two rings, encoders and a hand. Documentation:
+// docs/gimbal.md
 #include "plant/gimbal/gimbal.hpp"
 
 #include <fmt/format.h>
@@ -42,7 +43,7 @@ void Gimbal::begin_phase() {
   started_ = true;
 }
 
-// What the hand does in the middle of the step.
+// The hand's action in the middle of the step.
 void Gimbal::lead() {
   if (!started_) begin_phase();
   while (!last_ && now_ >= phase_end_) {
@@ -119,7 +120,7 @@ void Gimbal::finish(const AxisSet<axes>::Torques& torques, Clock clocks) {
     load_.torque_nm[i] = torques.motor[i] - torques.dry[i];
   }
   mechanics_.step(state_, load_, dt_s_);
-  // Also where anything is NaN.
+  // Also true if a value is NaN.
   if (!axes_.turn(before.theta_rad, state_.theta_rad, now_, clocks) ||
       !std::isfinite(state_.hand_work_j)) {
     throw MotionError(fmt::format(

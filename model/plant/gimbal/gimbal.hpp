@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Three motors, a handle in two rings, encoders and a hand that turns it: closes the loop of a
-// design with three axes in simulation. Documentation: docs/gimbal.md
+// A gimbal: three motors, a handle in two rings, encoders and a hand that turns the handle. It
+// closes the loop of a design with three axes in simulation. Documentation: docs/gimbal.md
 #pragma once
 
 #include <limits>
@@ -16,12 +16,14 @@
 
 namespace feltgate::plant {
 
+/// Constants of a gimbal.
 struct GimbalParameters : AxesParameters {
   std::string name;
-  GimbalBodies bodies;  ///< joint_inertia_kg_m2 included
+  GimbalBodies bodies;  ///< includes joint_inertia_kg_m2
   AngleStops stops;     ///< of the middle joint
 };
 
+/// One phase of a hand that turns the handle.
 struct TurnPhase {
   enum class Kind {
     kFree,    ///< nothing touches the handle
@@ -30,19 +32,20 @@ struct TurnPhase {
     kTorque,  ///< the hand applies `way`, Nm, about `axis`, starting from 0
   };
   Kind kind = Kind::kFree;
-  double duration_s = std::numeric_limits<double>::infinity();  ///< infinite: for good
+  double duration_s = std::numeric_limits<double>::infinity();  ///< infinite: forever
   Vec3 axis{0.0, 0.0, 1.0};                                     ///< of length 1, base's frame
   Profile way;
-  double stiffness_nm_rad = 2.0;  ///< of the spring; assumed
+  double stiffness_nm_rad = 2.0;  ///< of the spring; an assumed value
   double damping_nm_s_rad = 0.05;
 };
 
+/// A hand that turns the handle.
 struct TurningHand {
   GimbalJoints start_rad = {};    ///< of the joints at clock 0
-  std::vector<TurnPhase> phases;  ///< empty: free for good; the last one lasts for good
+  std::vector<TurnPhase> phases;  ///< empty: free forever; the last phase lasts forever
 };
 
-/// What can be seen, at the end of the last step unless it says mean. Outer, middle, inner joint.
+/// Outputs at the end of the last step unless stated as mean. Order: outer, middle, inner joint.
 struct GimbalSeen {
   GimbalJoints theta_rad = {}, omega_rad_s = {};
   Quaternion handle;   ///< orientation
@@ -53,28 +56,30 @@ struct GimbalSeen {
   Quaternion target;           ///< of the hand's spring
   double bus_v = 0.0;
   bool shoot_through = false;
-  /// Since the start, J; stored_j() is what it was plus in less lost.
+  /// Energies since the start, J; stored_j() equals its first value plus these inputs minus the
+  /// losses.
   double hand_work_j = 0.0, motor_work_j = 0.0;
   double dry_j = 0.0, viscous_j = 0.0, stop_j = 0.0;
 };
 
+/// The gimbal, step by step.
 class Gimbal {
  public:
   static constexpr std::size_t axes = 3;
 
-  /// Starts at rest. Errors: std::invalid_argument for a drive that cannot be.
+  /// Starts at rest. Errors: std::invalid_argument for an impossible drive.
   Gimbal(const GimbalParameters& parameters, const Effects& effects, const Drive& drive,
          const TurningHand& hand = {});
 
-  /// Advances by `clocks` >= 1 FPGA clocks with the bridges as given, at most 250 (5 us).
+  /// Advances by `clocks` >= 1 FPGA clocks with these bridges; at most 250 (5 us).
   /// Errors: MotionError.
   void advance(const std::array<Bridge, 3>& bridges, Clock clocks);
-  /// The same with ideal motors: these torques at the joints, Nm, before friction.
+  /// The same for ideal motors with these torques at the joints, Nm, before friction.
   void advance(const GimbalJoints& torque_nm, Clock clocks);
 
-  /// The first clock after now() at which the hand begins something else.
+  /// The first clock after now() at which the hand's motion changes.
   Clock next_corner() const;
-  /// From now on the hand's spring holds this orientation, turning at this rate (base's frame).
+  /// The hand's spring now holds this orientation, which turns at this rate (base's frame).
   void steer(const Quaternion& target, Vec3 rate_rad_s);
 
   Clock now() const { return now_; }
@@ -106,7 +111,7 @@ class Gimbal {
   bool started_ = false, last_ = true, steered_ = false;
   Clock phase_begin_ = 0, phase_end_ = 0;
   ProfileRun way_;
-  Quaternion held_;  ///< where the phase or the steering began
+  Quaternion held_;  ///< orientation at the start of the phase or of steering
   Vec3 steered_rad_s_;
   Clock steered_since_ = 0;
   GimbalLoad load_;

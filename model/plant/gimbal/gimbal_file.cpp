@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Reads vectors/devices/gimbal.toml and the like. Documentation: docs/gimbal.md
+// Reader of gimbal files such as vectors/devices/gimbal.toml. Documentation: docs/gimbal.md
 #include "plant/gimbal/gimbal_file.hpp"
 
 #include "plant/plant_table.hpp"
@@ -9,7 +9,7 @@
 namespace feltgate::plant {
 namespace {
 
-// Principal moments of a body: none of a real one is more than the sum of the others.
+// Principal moments of a body; for a real body none exceeds the sum of the others.
 Vec3 read_inertia(config::TomlReader& table, const std::string& key) {
   const auto i = table.numbers(key, config::kPositive);
   if (i.size() != 3) table.fail(key, "\"" + key + "\" is not three numbers", "write x, y and z");

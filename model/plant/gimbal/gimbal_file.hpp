@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Reads vectors/devices/gimbal.toml and the like. Documentation: docs/gimbal.md
+// Reader of gimbal files such as vectors/devices/gimbal.toml. Documentation: docs/gimbal.md
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace feltgate::plant {
 /// Reads and checks a gimbal; every key is required, unknown keys are errors.
 /// Errors: config::ConfigError "file:line: what; mend".
 GimbalParameters read_gimbal_file(const std::string& path);
-/// The same of a text; errors call it `path`.
+/// The same from a text; errors name it `path`.
 GimbalParameters read_gimbal_text(const std::string& text, const std::string& path);
 
 }  // namespace feltgate::plant

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A handle in two rings: three joints whose axes meet in one point, outer about z, middle about y,
-// inner about x. Inertia, one step with stops and hand. Derivation: docs/gimbal.md
+// Mechanics of a handle in two rings: three joints whose axes meet in one point, outer about z,
+// middle about y, inner about x. Inertia, and one step with stops and hand. Derivation:
+// docs/gimbal.md
 #pragma once
 
 #include <array>
@@ -13,36 +14,36 @@
 
 namespace feltgate::plant {
 
-/// One number for each joint, outer, middle, inner: rad, rad/s, Nm.
+/// One value per joint, in the order outer, middle, inner: rad, rad/s or Nm.
 using GimbalJoints = std::array<double, 3>;
 
 /// Principal moments of inertia about the centre, in the body's own frame, kg m^2.
 struct GimbalBodies {
   Vec3 outer;                             ///< ring of the outer joint; only z matters
   Vec3 inner;                             ///< ring of the middle joint
-  Vec3 handle;                            ///< with what of the hand moves like it
-  GimbalJoints joint_inertia_kg_m2 = {};  ///< of what turns with the joint: motor, drum
+  Vec3 handle;                            ///< includes the parts of the hand that move with it
+  GimbalJoints joint_inertia_kg_m2 = {};  ///< parts that turn with the joint: motor, drum
 };
 
 struct GimbalPose {
-  Quaternion handle;              ///< from its own frame to the base's
+  Quaternion handle;              ///< rotation from its own frame to the base's
   std::array<Vec3, 3> axes;       ///< of the joints, in the base's frame
-  std::array<Vec3, 3> inner_by;   ///< turning of the inner ring per joint, in its own frame
-  std::array<Vec3, 3> handle_by;  ///< and of the handle
+  std::array<Vec3, 3> inner_by;   ///< angular velocity of the inner ring per joint speed, own frame
+  std::array<Vec3, 3> handle_by;  ///< the same for the handle
   double middle_sine = 0.0, middle_cosine = 1.0, inner_sine = 0.0, inner_cosine = 1.0;
 
-  /// How the handle turns, rad/s, in the base's frame.
+  /// Angular velocity of the handle, rad/s, in the base's frame.
   Vec3 turning(const GimbalJoints& omega) const {
     return omega[0] * axes[0] + omega[1] * axes[1] + omega[2] * axes[2];
   }
-  /// What the joints must give for a torque on the handle (base's frame): J transposed times it,
-  /// Nm.
+  /// Joint torques equivalent to a torque on the handle (base's frame), Nm: the transposed Jacobian
+  /// times it.
   GimbalJoints torque(Vec3 nm) const {
     return {dot(axes[0], nm), dot(axes[1], nm), dot(axes[2], nm)};
   }
 };
 
-/// R = Rz(theta[0]) Ry(theta[1]) Rx(theta[2]).
+/// The pose for joint angles; R = Rz(theta[0]) Ry(theta[1]) Rx(theta[2]).
 inline GimbalPose gimbal_pose(const GimbalJoints& theta) {
   GimbalPose p;
   const Quaternion outer = Quaternion::about({0.0, 0.0, 1.0}, theta[0]);
@@ -53,7 +54,7 @@ inline GimbalPose gimbal_pose(const GimbalJoints& theta) {
   p.middle_cosine = std::cos(theta[1]);
   p.inner_sine = std::sin(theta[2]);
   p.inner_cosine = std::cos(theta[2]);
-  // Each joint adds its own axis to what comes from outside, seen from the turned frame.
+  // Each joint adds its own axis to the outer joints' axes, expressed in the rotated frame.
   const auto by_inner = [&p](Vec3 v) {
     return Vec3{v.x, p.inner_cosine * v.y + p.inner_sine * v.z,
                 p.inner_cosine * v.z - p.inner_sine * v.y};
@@ -63,14 +64,14 @@ inline GimbalPose gimbal_pose(const GimbalJoints& theta) {
   return p;
 }
 
-/// A symmetric matrix by its rows.
+/// A symmetric matrix, stored by rows.
 struct GimbalMatrix {
   std::array<Vec3, 3> rows;
   GimbalJoints times(const GimbalJoints& v) const {
     const Vec3 u{v[0], v[1], v[2]};
     return {dot(rows[0], u), dot(rows[1], u), dot(rows[2], u)};
   }
-  /// Its inverse times v. The determinant must not be 0.
+  /// The inverse of the matrix times v; the determinant must not be 0.
   GimbalJoints solve(const GimbalJoints& v) const {
     const Vec3 x = v[0] * cross(rows[1], rows[2]) + v[1] * cross(rows[2], rows[0]) +
                    v[2] * cross(rows[0], rows[1]);
@@ -85,7 +86,7 @@ struct GimbalState {
   double viscous_j = 0.0;    ///< lost to viscous friction
 };
 
-/// s + k*r, part by part.
+/// Adds k*r to s, component by component.
 inline void add(GimbalState& s, double k, const GimbalState& r) {
   for (std::size_t i = 0; i < 3; ++i) {
     s.theta_rad[i] += k * r.theta_rad[i];
@@ -95,12 +96,13 @@ inline void add(GimbalState& s, double k, const GimbalState& r) {
   s.viscous_j += k * r.viscous_j;
 }
 
-/// What acts over one step, besides the stops.
+/// The loads during one step, other than the stops.
 struct GimbalLoad {
-  GimbalJoints torque_nm = {};    ///< of motors less dry friction, held
+  GimbalJoints torque_nm = {};    ///< motors - dry friction; held
   double viscous_nm_s_rad = 0.0;  ///< at each joint
   Vec3 hand_nm;                   ///< on the handle, base's frame, held
-  /// A hand that turns the handle towards an orientation: spring and damper, both ends held.
+  /// A hand that turns the handle towards an orientation, by a spring and a damper; target and rate
+  /// are held.
   double stiffness_nm_rad = 0.0, damping_nm_s_rad = 0.0;
   Quaternion target;
   Vec3 target_rad_s;
@@ -112,6 +114,7 @@ struct GimbalLoad {
   }
 };
 
+/// Equations of motion of the gimbal, and their step.
 class GimbalMechanics {
  public:
   GimbalMechanics(const GimbalBodies& bodies, const AngleStops& stops /* of the middle joint */)
@@ -130,13 +133,14 @@ class GimbalMechanics {
     return m;
   }
 
-  /// Torques that keep the speeds constant, Nm: Euler's equation of each body at constant speeds.
+  /// Torques that keep the joint speeds constant, Nm: Euler's equation of each body at constant
+  /// speeds.
   GimbalJoints coriolis(const GimbalPose& p, const GimbalJoints& omega) const {
     const auto sum = [&omega](const std::array<Vec3, 3>& by) {
       return omega[0] * by[0] + omega[1] * by[1] + omega[2] * by[2];
     };
     const Vec3 inner = sum(p.inner_by), handle = sum(p.handle_by);
-    // What comes from outside turns back in a frame that turns.
+    // In a frame that turns, the contribution of the outer joints turns backwards.
     const Vec3 inner_rate = cross(inner, {0.0, omega[1], 0.0});
     const Vec3 from_inner{inner_rate.x, p.inner_cosine * inner_rate.y + p.inner_sine * inner_rate.z,
                           p.inner_cosine * inner_rate.z - p.inner_sine * inner_rate.y};
@@ -151,13 +155,13 @@ class GimbalMechanics {
     return c;
   }
 
-  /// Lost in stops since the start, J.
+  /// Energy lost in the stops since the start, J.
   double stop_loss_j() const { return stop_loss_j_; }
   double kinetic_j(const GimbalState& s) const {
     const GimbalJoints p = mass(gimbal_pose(s.theta_rad)).times(s.omega_rad_s);
     return 0.5 * (p[0] * s.omega_rad_s[0] + p[1] * s.omega_rad_s[1] + p[2] * s.omega_rad_s[2]);
   }
-  /// Kinetic energy and what the stops would give back, J.
+  /// Kinetic energy plus the energy that the stops would return, J.
   double stored_j(const GimbalState& s) const {
     return kinetic_j(s) + contact_.stored_j(s.theta_rad[1]);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Reads the [hand] table of a hand that turns a handle. Documentation: docs/gimbal.md
+// Reader of the [hand] table of a hand that turns a handle. Documentation: docs/gimbal.md
 #include <fmt/format.h>
 
 #include <utility>

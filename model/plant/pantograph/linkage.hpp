@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Geometry of a five-bar linkage whose two motors drive its cranks: the pen lies where two circles
-// meet. No part of it is shared with the laws that a core evaluates. Derivation: docs/pantograph.md
+// Geometry of a five-bar linkage: two motors drive the cranks, and the pen is where two circles
+// meet. It shares no code with the laws that a core evaluates. Derivation: docs/pantograph.md
 #pragma once
 
 #include <optional>
@@ -11,34 +11,34 @@
 
 namespace feltgate::plant {
 
-/// Lengths in m. Motor 1 stands at (0, 0), motor 5 at (-base_m, 0); elbow 1 is that of motor 1.
+/// Lengths in m. Motor 1 is at (0, 0), motor 5 at (-base_m, 0); elbow 1 belongs to motor 1.
 struct LinkageGeometry {
-  double base_m = 0.0;     ///< a5 between the motors; 0: both at one point
+  double base_m = 0.0;     ///< a5, between the motors; 0: both at one point
   double crank_1_m = 0.0;  ///< a1, motor 1 to elbow 1
   double rod_1_m = 0.0;    ///< a2, elbow 1 to pen
   double rod_5_m = 0.0;    ///< a3, elbow 5 to pen
   double crank_5_m = 0.0;  ///< a4, motor 5 to elbow 5
 };
 
-/// Where everything is at one pair of angles, and what it does per angle (m/rad, rad/rad).
+/// Positions for one pair of angles, and their derivatives by the angles (m/rad, rad/rad).
 struct LinkagePose {
   Vec2 elbow_1, elbow_5, pen;
   Vec2 rod_1, rod_5;                    ///< from the elbow to the pen
   Vec2 elbow_1_by_1, elbow_5_by_5;      ///< an elbow follows its own motor only
   Vec2 pen_by_1, pen_by_5;              ///< columns of the Jacobian
-  Joints rod_1_by = {}, rod_5_by = {};  ///< angles of the rods by theta1, theta5
-  double rods_cross_m2 = 0.0;           ///< rod_1 x rod_5; 0 where the linkage is straight
+  Joints rod_1_by = {}, rod_5_by = {};  ///< angles of the rods, by theta1 and theta5
+  double rods_cross_m2 = 0.0;           ///< rod_1 x rod_5; 0 if the linkage is straight
 
   Vec2 pen_speed(const Joints& omega) const { return omega[0] * pen_by_1 + omega[1] * pen_by_5; }
-  /// Torques of the joints that stand for a force at the pen: J transposed times force, Nm.
+  /// Joint torques equivalent to a force at the pen, Nm: the transposed Jacobian times the force.
   Joints torque(Vec2 force_n) const { return {dot(pen_by_1, force_n), dot(pen_by_5, force_n)}; }
-  /// The force at the pen that stands for torques of the joints, N.
+  /// Force at the pen equivalent to joint torques, N.
   Vec2 force(const Joints& torque_nm) const {
     const double per = 1.0 / cross(pen_by_1, pen_by_5);
     return {per * (torque_nm[0] * pen_by_5.y - torque_nm[1] * pen_by_1.y),
             per * (torque_nm[1] * pen_by_1.x - torque_nm[0] * pen_by_5.x)};
   }
-  /// Speeds of the joints that move the pen with `speed` (m/s), rad/s.
+  /// Joint speeds that move the pen with `speed` (m/s), rad/s.
   Joints omega(Vec2 speed) const {
     const double per = 1.0 / cross(pen_by_1, pen_by_5);
     return {per * cross(speed, pen_by_5), per * cross(pen_by_1, speed)};
@@ -51,13 +51,15 @@ struct LinkageSwing {
   double rod_1 = 0.0, rod_5 = 0.0;  ///< rad/s^2
 };
 
+/// Direct and inverse geometry.
 class Linkage {
  public:
   explicit Linkage(const LinkageGeometry& geometry) : g_(geometry) {}
   const LinkageGeometry& geometry() const { return g_; }
 
-  /// The pen lies beyond the line of the elbows, as seen from the motors ("elbows up"; with
-  /// theta5 > theta1). Where the rods do not reach each other every number is NaN.
+  /// The pose for crank angles. The pen is on the far side of the line between the elbows, seen
+  /// from the motors ("elbows up"; with theta5 > theta1). Where the rods do not reach each other,
+  /// all values are NaN.
   LinkagePose pose(const Joints& theta) const {
     LinkagePose p;
     const Vec2 along_1{std::cos(theta[0]), std::sin(theta[0])};
@@ -66,11 +68,12 @@ class Linkage {
     p.elbow_5 = Vec2{-g_.base_m, 0.0} + g_.crank_5_m * along_5;
     p.elbow_1_by_1 = g_.crank_1_m * quarter_turn(along_1);
     p.elbow_5_by_5 = g_.crank_5_m * quarter_turn(along_5);
-    // Both circles: foot of the pen on the line of the elbows, then at a right angle to it.
+    // Intersection of two circles: foot of the pen on the line of the elbows, then at a right
+    // angle.
     const Vec2 between = p.elbow_5 - p.elbow_1;
     const double between2 = dot(between, between);
     const double a2 = g_.rod_1_m * g_.rod_1_m, a3 = g_.rod_5_m * g_.rod_5_m;
-    const double foot = 0.5 + 0.5 * (a2 - a3) / between2;  // as a part of `between`
+    const double foot = 0.5 + 0.5 * (a2 - a3) / between2;  // as a share of `between`
     const double rise = std::sqrt(a2 / between2 - foot * foot);
     p.rod_1 = foot * between - rise * quarter_turn(between);
     p.pen = p.elbow_1 + p.rod_1;
@@ -101,9 +104,9 @@ class Linkage {
     return s;
   }
 
-  /// The angles that put the pen there, elbow 1 to the right of its motor's line to the pen and
-  /// elbow 5 to the left; theta1 within pi of `near_rad`, theta5 within pi of theta1 + pi/2.
-  /// Nothing where the pen cannot be.
+  /// The crank angles for this pen position, with elbow 1 on the right of the line from its motor
+  /// to the pen and elbow 5 on the left. theta1 is within pi of `near_rad`, theta5 within pi of
+  /// theta1 + pi/2. Nothing where the pen cannot be.
   std::optional<Joints> inverse(Vec2 pen, double near_rad = 0.0) const {
     constexpr double quarter = 1.5707963267948966192313216916398;
     const auto right = corner(pen, g_.crank_1_m, g_.rod_1_m);
@@ -122,7 +125,7 @@ class Linkage {
     return 1.0 / p.rods_cross_m2 * (by_5 * quarter_turn(p.rod_1) - by_1 * quarter_turn(p.rod_5));
   }
 
-  // Angle at the motor in the triangle motor, elbow, pen.
+  // Angle at the motor in the triangle of motor, elbow and pen.
   static std::optional<double> corner(Vec2 pen, double crank, double rod) {
     const double far2 = dot(pen, pen);
     const double cosine = (crank * crank + far2 - rod * rod) / (2.0 * crank * std::sqrt(far2));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Inertia of a five-bar linkage: mass matrix, centrifugal and Coriolis torques, kinetic energy, all
-// from the centres and turns of its bodies. Derivation: docs/pantograph.md
+// Dynamics of a five-bar linkage: mass matrix, centrifugal and Coriolis torques, kinetic energy,
+// from the centres and rotations of its bodies. Derivation: docs/pantograph.md
 #pragma once
 
 #include "linkage.hpp"
@@ -11,17 +11,18 @@ namespace feltgate::plant {
 
 struct LinkBody {
   double mass_kg = 0.0;
-  double centre_m = 0.0;       ///< of mass, from the end at the motor (crank) or elbow (rod)
+  double centre_m = 0.0;       ///< centre of mass, from the motor (crank) or elbow (rod)
   double inertia_kg_m2 = 0.0;  ///< about the centre of mass
 };
 
 struct LinkageBodies {
   LinkBody crank_1, rod_1, rod_5, crank_5;
-  double pen_kg = 0.0;  ///< a point at the pen
+  double pen_kg = 0.0;  ///< a point mass at the pen
   Joints joint_inertia_kg_m2 =
       {};  ///< of what turns with the joint: motor behind the capstan, drum
 };
 
+/// Mass matrix and torques of the linkage.
 class LinkageDynamics {
  public:
   LinkageDynamics(const LinkageGeometry& geometry, const LinkageBodies& bodies)
@@ -33,7 +34,7 @@ class LinkageDynamics {
   }
   const Linkage& linkage() const { return linkage_; }
 
-  /// M of T = 1/2 omega' M omega, kg m^2.
+  /// The mass matrix M in T = 1/2 omega' M omega, kg m^2.
   JointMatrix mass(const LinkagePose& p) const {
     JointMatrix m{b_.joint_inertia_kg_m2[0], 0.0, b_.joint_inertia_kg_m2[1]};
     add(m, b_.crank_1, crank_1_ * p.elbow_1_by_1, {}, {1.0, 0.0});
@@ -46,12 +47,12 @@ class LinkageDynamics {
     return m;
   }
 
-  /// Torques that keep the speeds constant (C of M alpha + C = torque), Nm: each body's
-  /// acceleration at constant speeds times its mass, brought to the joints.
+  /// Torques that keep the speeds constant (C in M alpha + C = torque), Nm: mass times acceleration
+  /// of each body at constant speeds, transformed to the joints.
   Joints coriolis(const LinkagePose& p, const Joints& omega) const {
     const LinkageSwing s = linkage_.swing(p, omega);
     Joints c = {};
-    // Cranks turn about fixed points: their acceleration is radial and asks no torque.
+    // Cranks turn about fixed points: their acceleration is radial and needs no torque.
     push(c, b_.rod_1, (1.0 - rod_1_) * s.elbow_1 + rod_1_ * s.pen, s.rod_1,
          (1.0 - rod_1_) * p.elbow_1_by_1 + rod_1_ * p.pen_by_1, rod_1_ * p.pen_by_5, p.rod_1_by);
     push(c, b_.rod_5, (1.0 - rod_5_) * s.elbow_5 + rod_5_ * s.pen, s.rod_5, rod_5_ * p.pen_by_1,
@@ -79,7 +80,7 @@ class LinkageDynamics {
 
   Linkage linkage_;
   LinkageBodies b_;
-  double crank_1_, rod_1_, rod_5_, crank_5_;  ///< centres as parts of their lengths
+  double crank_1_, rod_1_, rod_5_, crank_5_;  ///< centres as shares of the lengths
 };
 
 }  // namespace feltgate::plant

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// One step of linkage, stops and hand: fourth-order Runge-Kutta, cut where a stop is met or left,
-// with the work of the hand as one of its states. Documentation: docs/pantograph.md
+// One step of linkage, stops and hand: fourth-order Runge-Kutta, split where a stop is met or left;
+// the work of the hand is one of the states. Documentation: docs/pantograph.md
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ struct LinkageState {
   double viscous_j = 0.0;    ///< lost to viscous friction
 };
 
-/// s + k*r, part by part.
+/// Adds k*r to s, component by component.
 inline void add(LinkageState& s, double k, const LinkageState& r) {
   for (std::size_t i = 0; i < 2; ++i) {
     s.theta_rad[i] += k * r.theta_rad[i];
@@ -31,12 +31,12 @@ inline void add(LinkageState& s, double k, const LinkageState& r) {
   s.viscous_j += k * r.viscous_j;
 }
 
-/// What acts over one step, besides the stops.
+/// The loads during one step, other than the stops.
 struct LinkageLoad {
-  Joints torque_nm = {};          ///< of motors less dry friction, held
+  Joints torque_nm = {};          ///< motors - dry friction; held
   double viscous_nm_s_rad = 0.0;  ///< at each joint
   Vec2 force_n;                   ///< at the pen, held
-  /// A hand with a mass, behind its grip: towards a place that moves, both held.
+  /// A hand with a mass behind its grip, drawn to a moving target; target and rate are held.
   bool hand = false;
   double hand_per_kg = 0.0;  ///< 1/mass
   double damping_ns_m = 0.0, stiffness_n_m = 0.0;
@@ -51,6 +51,7 @@ struct LinkageLoad {
   }
 };
 
+/// Equations of motion of the linkage, and their step.
 class LinkageMechanics {
  public:
   LinkageMechanics(const LinkageGeometry& geometry, const LinkageBodies& bodies,
@@ -59,15 +60,15 @@ class LinkageMechanics {
 
   const LinkageDynamics& dynamics() const { return dynamics_; }
   const Linkage& linkage() const { return dynamics_.linkage(); }
-  /// Lost in stops since the start, J.
+  /// Energy lost in the stops since the start, J.
   double stop_loss_j() const { return stop_loss_j_; }
-  /// Kinetic energy and what the stops would give back, J; the hand's own is not in it.
+  /// Kinetic energy plus the energy that the stops would return, J; excludes the hand's own.
   double stored_j(const LinkageState& s) const {
     return dynamics_.kinetic_j(linkage().pose(s.theta_rad), s.omega_rad_s) +
            contact_.stored_j(between(s));
   }
 
-  /// Advances by dt_s. A linkage that no longer closes shows as NaN.
+  /// Advances by dt_s. If the linkage no longer closes, the state becomes NaN.
   void step(LinkageState& s, const LinkageLoad& load, double dt_s) {
     stop_loss_j_ += contact_step(
         contact_, s, dt_s, s.omega_rad_s[1] - s.omega_rad_s[0],
@@ -77,8 +78,8 @@ class LinkageMechanics {
         between);
   }
 
-  /// The hand puts the joints there: the force at the pen that it takes over dt_s, N, beside a load
-  /// whose own force is not looked at. Stops are passed through.
+  /// The hand sets the joints to these values: returns the force at the pen that this takes over
+  /// dt_s, N, in addition to `load`, whose own force is ignored. Stops have no effect.
   Vec2 impose(LinkageState& s, const Joints& theta, const Joints& omega, const LinkageLoad& load,
               double dt_s) const {
     Joints middle, speed, alpha;
@@ -103,7 +104,7 @@ class LinkageMechanics {
  private:
   static double between(const LinkageState& s) { return s.theta_rad[1] - s.theta_rad[0]; }
 
-  // How fast everything changes, in the places of what changes.
+  // Rates of all states, stored in the places of the states.
   LinkageState rate(const LinkageState& s, const LinkageLoad& load, int zone) const {
     const LinkagePose p = linkage().pose(s.theta_rad);
     const Joints c = dynamics_.coriolis(p, s.omega_rad_s);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Two motors, a five-bar linkage, stops, encoders and a hand. Documentation: docs/pantograph.md
+// The pantograph: two motors, a five-bar linkage, stops, encoders and a hand. Documentation:
+// docs/pantograph.md
 #include "plant/pantograph/pantograph.hpp"
 
 #include <fmt/format.h>
@@ -82,7 +83,7 @@ void Pantograph::finish(const AxisSet<axes>::Torques& torques, Clock clocks) {
   seen_.pen_m = pose.pen;
   seen_.pen_m_s = pose.pen_speed(state_.omega_rad_s);
   if (!hand_.imposes()) seen_.hand_n = load.on_pen(state_, seen_.pen_m, seen_.pen_m_s);
-  // Also where anything is NaN.
+  // Also true if a value is NaN.
   if (!std::isfinite(dot(seen_.pen_m_s, seen_.pen_m_s) + dot(seen_.hand_n, seen_.hand_n))) {
     refuse("the linkage does not close any more, or its state is not finite", before);
   }

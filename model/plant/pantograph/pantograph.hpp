@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Two motors, a five-bar linkage, stops, encoders and a hand at the pen: closes the loop of a
-// design with two axes in simulation. Equations, step and convergence: docs/pantograph.md
+// A pantograph: two motors, a five-bar linkage, stops, encoders and a hand at the pen. It closes
+// the loop of a design with two axes in simulation. Equations, step and convergence:
+// docs/pantograph.md
 #pragma once
 
 #include <array>
@@ -15,7 +16,7 @@
 
 namespace feltgate::plant {
 
-/// What can be seen, at the end of the last step unless it says mean. Pairs: joint 1, joint 5.
+/// Outputs at the end of the last step unless stated as mean. Pairs: joint 1, joint 5.
 struct PantographSeen {
   Joints theta_rad = {}, omega_rad_s = {};
   Vec2 pen_m, pen_m_s;
@@ -27,33 +28,34 @@ struct PantographSeen {
   double bus_v = 0.0;
   double supply_a = 0.0;  ///< mean of the last step
   bool shoot_through = false;
-  /// Since the start, J: what came in by pen and motors and what was lost. stored_j is what moves
-  /// and what the stops hold; it equals what it was plus in less lost.
+  /// Energies since the start, J: inputs by pen and motors, and losses. stored_j is the energy in
+  /// the motion and in the stops; it equals its first value plus inputs minus losses.
   double hand_work_j = 0.0, motor_work_j = 0.0;
   double dry_j = 0.0, viscous_j = 0.0, stop_j = 0.0;
 };
 
+/// The pantograph, step by step.
 class Pantograph {
  public:
   static constexpr std::size_t axes = 2;
 
-  /// The pen starts at rest where the hand says, or the parameters.
-  /// Errors: std::invalid_argument for a start that cannot be, or a drive that cannot.
+  /// The pen starts at rest at the hand's start, else at that of the parameters.
+  /// Errors: std::invalid_argument for an impossible start or drive.
   Pantograph(const PantographParameters& parameters, const Effects& effects, const Drive& drive,
              const PenHand& hand = {});
 
-  /// Advances by `clocks` >= 1 FPGA clocks with both bridges as given (gates, duty or off), 25 to
-  /// 250 clocks (5 us) between two events. Errors: MotionError.
+  /// Advances by `clocks` >= 1 FPGA clocks with these bridges (gates, duty or off); 25 to 250
+  /// clocks (5 us) between two events. Errors: MotionError.
   void advance(const std::array<Bridge, 2>& bridges, Clock clocks);
-  /// The same with ideal motors: these torques at the cranks, Nm, before friction.
+  /// The same for ideal motors with these torques at the cranks, Nm, before friction.
   void advance(const Joints& torque_nm, Clock clocks);
 
-  /// The first clock after now() at which the hand begins something else.
+  /// The first clock after now() at which the hand's motion changes.
   Clock next_corner() const { return hand_.next_corner(now_); }
   void take(const PenPhase& phase) { hand_.take(phase); }
   void steer(Vec2 target_m, Vec2 rate_m_s) { hand_.steer(target_m, rate_m_s, now_); }
 
-  /// Time since the start, in clocks. Seconds come from it alone.
+  /// Time since the start, in clocks; all times in seconds are computed from it.
   Clock now() const { return now_; }
   double seconds() const { return static_cast<double>(now_) / clock_hz_; }
   double clock_hz() const { return clock_hz_; }
@@ -64,7 +66,7 @@ class Pantograph {
   const PantographParameters& parameters() const { return p_; }
   const Linkage& linkage() const { return mechanics_.linkage(); }
   const LinkageDynamics& dynamics() const { return mechanics_.dynamics(); }
-  /// Kinetic energy, what the stops hold and what the bristles hold is not in it, J.
+  /// Kinetic energy plus the energy in the stops, without that in the bristles, J.
   double stored_j() const { return mechanics_.stored_j(state_); }
 
  private:
@@ -82,7 +84,7 @@ class Pantograph {
 
   Clock now_ = 0;
   double dt_s_ = 0.0;
-  Joints middle_rad_s_ = {};         ///< speeds predicted for the middle of the step
+  Joints middle_rad_s_ = {};         ///< predicted speeds in the middle of the step
   Joints acceleration_rad_s2_ = {};  ///< mean of the last step
   PantographSeen seen_;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Reads vectors/devices/NAME.toml. Documentation: docs/pantograph.md
+// Reader of vectors/devices/NAME.toml for pantographs. Documentation: docs/pantograph.md
 #include "plant/pantograph/pantograph_file.hpp"
 
 #include <fmt/format.h>
@@ -33,8 +33,8 @@ LinkBody read_body(config::TomlReader table) {
   return b;
 }
 
-// Both motors at one point: the elbows are 2 or a1, a4 and the angle between them apart, and the
-// rods must span that. With a base between the motors a run finds out.
+// Whether the rods can span the distance of the elbows, for both motors at one point: it follows
+// from a1, a4 and the angle between the cranks. With a base between the motors only a run shows it.
 bool closes(const LinkageGeometry& g, double between_rad) {
   if (g.base_m > 0.0) return true;
   const double apart = length(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Reads vectors/devices/NAME.toml. Documentation: docs/pantograph.md
+// Reader of vectors/devices/NAME.toml for pantographs. Documentation: docs/pantograph.md
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace feltgate::plant {
 /// Reads and checks a pantograph; every key is required, unknown keys are errors.
 /// Errors: config::ConfigError "file:line: what; mend".
 PantographParameters read_pantograph_file(const std::string& path);
-/// The same of a text; errors call it `path`.
+/// The same from a text; errors name it `path`.
 PantographParameters read_pantograph_text(const std::string& text, const std::string& path);
 
 }  // namespace feltgate::plant

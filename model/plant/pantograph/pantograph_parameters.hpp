@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Constants of a pantograph: linkage, joints, stops and two motors alike, in SI units.
+// Constants of a pantograph in SI units: linkage, joints, stops, and two equal motors.
 // Documentation: docs/pantograph.md
 #pragma once
 
@@ -12,12 +12,13 @@
 
 namespace feltgate::plant {
 
+/// Constants of a pantograph.
 struct PantographParameters : AxesParameters {
   std::string name;
   LinkageGeometry linkage;
-  LinkageBodies bodies;  ///< joint_inertia_kg_m2 included
+  LinkageBodies bodies;  ///< includes joint_inertia_kg_m2
   AngleStops stops;      ///< of theta5 - theta1
-  Vec2 start_m;          ///< of the pen at clock 0, unless a hand says otherwise
+  Vec2 start_m;          ///< pen at clock 0, unless the hand gives a start
 };
 
 }  // namespace feltgate::plant

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Carries out the phases of a hand at a pen. Documentation: docs/pantograph.md
+// Execution of the phases of a hand at a pen. Documentation: docs/pantograph.md
 #include "plant/pantograph/pen_hand.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ void PenHandRun::take(PenPhase phase) {
     hand_.phases.push_back(std::move(phase));
   else
     hand_.phases[index_] = std::move(phase);
-  // The next step, wherever it begins, is beyond the end of this phase.
+  // The present phase ends before the next step, wherever that begins.
   last_ = !started_;
   phase_end_ = std::numeric_limits<Clock>::min();
 }
@@ -42,7 +42,7 @@ void PenHandRun::steer(Vec2 target_m, Vec2 rate_m_s, Clock now) {
 
 void PenHandRun::begin_phase(Vec2 pen_m, Vec2 pen_m_s, LinkageState& state) {
   const PenPhase& phase = hand_.phases[index_];
-  // A second impedance phase takes over mass and equilibrium from the first.
+  // A second impedance phase in a row keeps mass and equilibrium of the first.
   const bool goes_on = started_ && kind_ == Kind::kImpedance && phase.kind == Kind::kImpedance;
   started_ = true;
   steered_ = false;
@@ -71,7 +71,7 @@ void PenHandRun::begin_step(Clock now, double dt_s, Vec2 pen_m, Vec2 pen_m_s, Li
     begin_phase(pen_m, pen_m_s, state);
   }
   if (kind_ == Kind::kFree) return;
-  // An imposed motion is met at the end of the step, what acts is that of its middle.
+  // An imposed motion holds for the end of the step, a force for its middle.
   const double share = kind_ == Kind::kPrescribed ? 1.0 : 0.5;
   if (steered_ && kind_ == Kind::kImpedance) {
     const double since_s = static_cast<double>(now - steered_since_) / clock_hz_ + share * dt_s;

@@ -15,50 +15,52 @@
 
 namespace feltgate::plant {
 
+/// One phase of a hand at the pen.
 struct PenPhase {
   enum class Kind {
     kFree,        ///< nothing touches the pen
     kPrescribed,  ///< the pen follows (x, y), m
-    kImpedance,   ///< mass, spring, damper behind a grip; the spring's other end follows (x, y), m
+    kImpedance,   ///< mass, spring and damper behind a grip; the spring's end follows (x, y), m
     kForce,       ///< the hand applies (x, y), N, starting from 0
   };
   Kind kind = Kind::kFree;
-  double duration_s = std::numeric_limits<double>::infinity();  ///< infinite: for good
+  double duration_s = std::numeric_limits<double>::infinity();  ///< infinite: forever
   Profile x, y;
   Impedance impedance;  ///< the same in both directions
 };
 
+/// A hand at the pen.
 struct PenHand {
-  std::optional<Vec2> start_m;   ///< the pen at clock 0; default: that of the plant
-  std::vector<PenPhase> phases;  ///< empty: free for good; the last one lasts for good
+  std::optional<Vec2> start_m;   ///< pen at clock 0; default: that of the plant
+  std::vector<PenPhase> phases;  ///< empty: free forever; the last phase lasts forever
 };
 
-/// The phases under way, step by step on the integer clock.
+/// The phases in progress, step by step on the integer clock.
 class PenHandRun {
  public:
-  /// Without `dynamics` an impedance hand imposes its motion on the pen.
+  /// Without `dynamics`, an impedance hand imposes its motion on the pen.
   PenHandRun(PenHand hand, double clock_hz, bool dynamics = true);
 
-  /// Prepares the step of dt_s from clock `now` with the pen here. A phase begins with the first
-  /// step at or after its time and takes the pen's place and speed from there.
+  /// Prepares the step of dt_s that starts at clock `now` with this pen state. A phase starts with
+  /// the first step at or after its time, from the position and speed of the pen at that moment.
   void begin_step(Clock now, double dt_s, Vec2 pen_m, Vec2 pen_m_s, LinkageState& state);
-  /// Writes the hand's part of a load: force, or mass and target.
+  /// Sets the hand's part of a load: force, or mass and target.
   void load(LinkageLoad& load) const;
 
-  /// The first clock after `now` at which the hand begins something else.
+  /// The first clock after `now` at which the hand's motion changes.
   Clock next_corner(Clock now) const;
 
   PenPhase::Kind kind() const { return kind_; }
   bool imposes() const { return kind_ == PenPhase::Kind::kPrescribed; }
   bool has_mass() const { return kind_ == PenPhase::Kind::kImpedance; }
-  /// Where an imposing hand puts the pen at the end of the step.
+  /// Position of the pen at the end of the step, for a hand that imposes it.
   Vec2 target_m() const { return target_m_; }
   Vec2 target_m_s() const { return target_m_s_; }
 
-  /// The equilibrium of an impedance hand is here now and moves on at this rate, whatever its
-  /// profiles say, until the next call or phase.
+  /// Sets the equilibrium of an impedance hand at `now`; it moves on at this rate, instead of by
+  /// its profiles, until the next call or phase.
   void steer(Vec2 target_m, Vec2 rate_m_s, Clock now);
-  /// The caller takes the hand over: `phase` begins with the next step and lasts for good.
+  /// Replaces the hand's phases: `phase` begins with the next step and lasts forever.
   void take(PenPhase phase);
 
  private:
@@ -74,7 +76,7 @@ class PenHandRun {
   Clock phase_begin_ = 0, phase_end_ = 0;
   PenPhase::Kind kind_ = PenPhase::Kind::kFree;
   ProfileRun x_, y_;
-  Vec2 target_m_, target_m_s_;  ///< m and m/s, or N for a force
+  Vec2 target_m_, target_m_s_;  ///< m and m/s; N for a force
   bool steered_ = false;
   Vec2 steered_from_m_, steered_m_s_;
   Clock steered_since_ = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Reads the [hand] table of a pen, of two axes or three. Documentation: docs/pantograph.md
+// Reader of the [hand] table of a pen with two or three axes. Documentation: docs/pantograph.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using Kind = PenPhase::Kind;
 
 constexpr const char* kAxes[] = {"x", "y", "z"};
 
-/// A phase with the motions of its axes, m or N.
+/// A phase with one motion per axis, m or N.
 template <std::size_t N>
 struct Phase {
   Kind kind = Kind::kFree;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The loop of a pantograph, and a law for it. Documentation: docs/pantograph.md
+// The loop of a pantograph, and an example law for it. Documentation: docs/pantograph.md
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using TwoAxisLoop = AxesLoop<Pantograph>;
 using TwoAxisDevice = AxesDevice<Pantograph>;
 using TwoAxisLaw = SampledLaw<Pantograph>;
 
-/// A wall over y < edge_m and a drag everywhere, felt at the pen: F = k*(edge - y) - b*v.
+/// A wall for y < edge_m and a drag everywhere, acting at the pen: F = k*(edge - y) - b*v.
 struct WallAndDrag {
   double edge_m = 0.1, stiffness_n_m = 0.0, wall_damping_ns_m = 0.0, drag_ns_m = 0.0;
 
@@ -28,7 +28,7 @@ struct WallAndDrag {
     }
     return f;
   }
-  /// The same as a law of the cranks, by this linkage's own kinematics.
+  /// The same as a law of the cranks; uses the kinematics of `linkage`.
   AxesLaw<2> law(const Linkage& linkage) const {
     return [wall = *this, linkage](const AxesMotion<2>& m) {
       const LinkagePose p = linkage.pose(m.theta_rad);

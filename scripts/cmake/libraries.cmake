@@ -97,6 +97,8 @@ feltgate_library(feltgate_hostlink host feltgate_design feltgate_law Boost::head
 feltgate_sim_library(plant plant EXCEPT "_file\\.cpp$")
 feltgate_sim_library(plant_files plant ONLY "_file\\.cpp$"
   feltgate_plant feltgate_traces feltgate_config)
+# scripts/exploring/point.py links what it needs of it, without feltgate_traces.
+set_target_properties(feltgate_plant_files PROPERTIES UNITY_BUILD OFF)
 # Devices with several axes: docs/pantograph.md, docs/gimbal.md
 foreach(device "linkage;pantograph" "gimbal;gimbal")
   list(GET device 0 name)

@@ -423,7 +423,7 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_COMMAND 0x201u  /* each bit written 1 acts once */
 #define FELTGATE_COMMAND_SET_ZERO_BIT 0  /* position := 0 */
 #define FELTGATE_COMMAND_SET_ZERO_MASK 0x00000001u
-#define FELTGATE_COMMAND_CLEAR_FAULTS_BIT 1  /* forget the latched faults and encoder errors; only while disarmed */
+#define FELTGATE_COMMAND_CLEAR_FAULTS_BIT 1  /* forget the latched faults and encoder errors; only while arming is not requested */
 #define FELTGATE_COMMAND_CLEAR_FAULTS_MASK 0x00000002u
 #define FELTGATE_COMMAND_KICK_BIT 2  /* feed the host watchdog, and wake it the first time */
 #define FELTGATE_COMMAND_KICK_MASK 0x00000004u

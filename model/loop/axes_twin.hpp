@@ -73,7 +73,8 @@ class AxesTwin : public plant::AxesDevice<Plant> {
   }
 
   plant::AxesCommand<axes> act(const plant::AxesSense<Plant>& sense) override {
-    if (at_ == 0) {
+    if (!began_) {  // The second call has at_ 0 too, and pins of its end.
+      began_ = true;
       for (std::size_t n = 0; n < axes; ++n) in_.axis[n].encoder = first_pins(sense, n);
     }
     std::array<std::size_t, axes> next{};
@@ -148,6 +149,7 @@ class AxesTwin : public plant::AxesDevice<Plant> {
   DesignInfo info_;
   Twin twin_;
   typename Twin::In in_;
+  bool began_ = false;  ///< act() was called
   Clock at_ = 0;
   Clock phase_ = 0;  ///< start of the PWM period, within a plant step
   bool wanted_ = true;

@@ -34,7 +34,33 @@ std::array<std::int64_t, 2> home(const Pantograph& plant) {
   return {plant.encoder(0).count(), plant.encoder(1).count()};
 }
 
+/// Encoders alone.
+struct Pins {
+  static constexpr std::size_t axes = 2;
+  struct Levels {
+    EncoderPins levels;
+    EncoderPins pins() const { return levels; }
+  };
+  const Levels& encoder(std::size_t axis) const { return now[axis]; }
+  std::array<Levels, 2> now;
+};
+
 }  // namespace
+
+TEST_CASE("an edge in the first stretch of clocks counts", "[cores]") {
+  AxesTwin<LeverLaw, Pins> cores([](const AxesWords<2>&) { return std::array<std::int32_t, 2>{}; },
+                                 {0, 0});
+  Pins plant;
+  std::array<std::vector<EncoderEvent>, 2> events;
+  cores.act({0, events, plant});
+  plant.now[1].levels = {true, false, false};
+  events[1] = {{100, plant.now[1].levels}};
+  cores.act({250, events, plant});
+  events[1].clear();
+  cores.act({500, events, plant});
+  CHECK(cores.out(0).position == 0);
+  CHECK(std::abs(cores.out(1).position) == 1);
+}
 
 TEST_CASE("two cores in closed loop: a floor and drag felt by a hand, passive", "[cores]") {
   const PantographParameters p = direct();

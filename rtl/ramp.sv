@@ -13,7 +13,7 @@ module ramp (
     input  logic                                      rst_ni,
     input  logic                                      armed_i,
     input  logic        [                        3:0] scene_i,
-    input  logic                                      restart_i,  // last clock of a tick: ramp from the next tick on
+    input  logic                                      restart_i,  // last clock of a tick: ramp from now on
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
     input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input  logic        [                       31:0] param_i,

@@ -22,8 +22,8 @@ module torque_control (
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic signed [          feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     input  logic signed [              feltgate_pkg::TORQUE_W-1:0] tau_ref_i,
-    output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] ahead_o,  // to the limiter, one clock before the limit's word
-    output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] late_o,   // to the limiter, in the clock of the limit's word
+    output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] ahead_o,  // to the limiter, one clock ahead
+    output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] late_o,   // to the limiter, with the limit's word
     input  logic signed [             feltgate_pkg::LIMITER_W-1:0] limited_i,
     input  logic                                                   beyond_i,
     output logic signed [           feltgate_pkg::WITH_ADDEND_W-1:0] applied_o,  // limited_i + addend

@@ -55,13 +55,13 @@ module feltgate_core #(
     // Snapshot: with snapshot_valid_o high, all values belong to one tick
     output logic                                         snapshot_valid_o,
     output logic        [                          31:0] tick_count_o,
-    output logic signed [                          31:0] position_o,
-    output logic signed [  feltgate_pkg::VELOCITY_W-1:0] velocity_o,
-    output logic signed [    feltgate_pkg::TORQUE_W-1:0] tau_hat_o,
-    output logic signed [    feltgate_pkg::TORQUE_W-1:0] tau_ref_o,
-    output logic signed [   feltgate_pkg::CURRENT_W-1:0] current_ref_o,
-    output logic signed [   feltgate_pkg::VOLTAGE_W-1:0] voltage_o,
-    output logic signed [      feltgate_pkg::DUTY_W-1:0] duty_o,
+    output logic signed [                          31:0] position_o,      // counts, wraps
+    output logic signed [  feltgate_pkg::VELOCITY_W-1:0] velocity_o,      // rad/s
+    output logic signed [    feltgate_pkg::TORQUE_W-1:0] tau_hat_o,       // Nm
+    output logic signed [    feltgate_pkg::TORQUE_W-1:0] tau_ref_o,       // Nm
+    output logic signed [   feltgate_pkg::CURRENT_W-1:0] current_ref_o,   // A
+    output logic signed [   feltgate_pkg::VOLTAGE_W-1:0] voltage_o,       // V
+    output logic signed [      feltgate_pkg::DUTY_W-1:0] duty_o,          // clocks of on-time
     output logic        [                           3:0] scene_o,
     output logic        [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_o,
     output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0]   faults_o,

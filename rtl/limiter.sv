@@ -16,8 +16,8 @@ module limiter (
     input  logic                                            torque_i,   // with valid_i: x is a torque
     input  logic                                            voltage_i,
     input  logic                                            duty_i,
-    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] ahead_i,  // x = ahead_i of the previous clock | late_i
-    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] late_i,   // see ahead_i
+    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] ahead_i,  // one clock before x, then ORed
+    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] late_i,   // with this to x
     /* verilator lint_off UNUSEDSIGNAL */  // as many bits as a limit has
     input  logic        [                             31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */

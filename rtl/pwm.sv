@@ -45,7 +45,7 @@ module pwm #(
   localparam logic        [10:0] LAST = 11'(Period / 2 - 1);
 
   // The carrier {level, rising} runs through Period, Period-2 .. 2, 1, 3 .. Period-1: each number
-  // from 1 to Period once, so that carrier <= n holds for just n clocks, centred to half a clock.
+  // from 1 to Period once. So carrier <= n is true for exactly n clocks, centred to half a clock.
   logic [10:0] level_q;
   logic        rising_q, take, turn;
 
@@ -64,7 +64,7 @@ module pwm #(
     end
   end
 
-  // Clocks wanted high: |duty| in sign-magnitude, floor((Period + duty) / 2) in locked-antiphase.
+  // On-time in clocks: |duty| in sign-magnitude, floor((Period + duty) / 2) in locked-antiphase.
   logic               antiphase_q, negate_q, switch_b_q;
   logic               increment, unused_sum;
   logic signed [13:0] addend, threshold_d;
@@ -143,8 +143,8 @@ module pwm #(
     else high_q <= {switch_b_q2 && !antiphase_q2, !switch_b_q2 || antiphase_q2};
   end
 
-  // One leg: both gates are off for DeadClocks whenever the wanted level changes or while disabled.
-  // The top bit of dead_q ends the count of DeadClocks - 1.
+  // Each leg: both gates are off for DeadClocks after each change of the wanted level, and while
+  // disabled. The top bit of dead_q marks the end of the count of DeadClocks - 1.
   localparam int DEAD_BITS = (DeadClocks > 1) ? $clog2(DeadClocks) : 1;
   localparam logic [DEAD_BITS:0] DEAD = (DEAD_BITS + 1)'(2 ** DEAD_BITS - (DeadClocks - 1));
 

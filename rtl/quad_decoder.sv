@@ -19,7 +19,7 @@ module quad_decoder #(
   input  logic               polarity_i,        // 1: counts in the other direction
   input  logic               set_zero_i,
   input  logic               clear_error_i,
-  output logic signed [31:0] position_o,
+  output logic signed [31:0] position_o,        // counts since the zero, wraps
   output logic        [15:0] travel_o,          // counts, free-running; set_zero_i does not change it
   output logic signed [1:0]  step_o,            // change of travel_o with this clock: -1, 0, +1
   output logic        [31:0] count_o,           // the count; position = count - zero
@@ -34,7 +34,7 @@ module quad_decoder #(
   output logic               index_wrong_o      // sticky: an index came at a wrong count
 );
 
-  // Channels: 0 = A, 1 = B, 2 = Z. sync_q[0] may be metastable and feeds nothing but sync_q[1].
+  // Channels: 0 = A, 1 = B, 2 = Z. meta_q can be metastable and drives only sync_q.
   logic [2:0] meta_q, sync_q, previous_q, level_q;
   logic [2:0] changed, rejected;
   logic [1:0] fill_q;

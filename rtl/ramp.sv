@@ -22,10 +22,10 @@ module ramp (
     input  logic                                      beyond_i,
     input  logic                                      frozen_i,  // 1: |tau_ref| must not grow
     input  logic                                      eased_i,   // 1: the torque limit is hold_limit
-    output logic signed [ feltgate_pkg::TORQUE_W-1:0] tau_ref_o,
-    output logic                                      limit_torque_o,
-    output logic                                      limit_ramp_o,
-    output logic                                      limit_hold_o
+    output logic signed [ feltgate_pkg::TORQUE_W-1:0] tau_ref_o,       // Nm, of the motor on the lever
+    output logic                                      limit_torque_o,  // the torque limit acts
+    output logic                                      limit_ramp_o,    // the step acts
+    output logic                                      limit_hold_o     // hold_limit acts
 );
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int W = feltgate_pkg::RAMP_W;

@@ -4,8 +4,8 @@
 // Register port, parameter RAM (512 x 32), control word, commands and the double-buffered snapshot.
 // A write is accepted in a clock with reg_write_i high and reg_busy_o low, and takes effect at
 // tick_i. A disarm and a stop do not wait for an earlier write. Latency: param_o follows
-// slot_fetch_i by 2 clocks, reg_rdata_o follows reg_addr_i by 3. Documentation:
-// docs/blocks/registers.md
+// slot_fetch_i by 2 clocks, reg_rdata_o follows reg_addr_i by 3.
+// Documentation: docs/blocks/registers.md
 `default_nettype none
 
 module registers #(

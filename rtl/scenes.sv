@@ -21,7 +21,7 @@ module scenes #(
     input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input  logic        [                              31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */
-    input  logic signed [feltgate_pkg::SCENE_POSITION_W-1:0] position_i,
+    input  logic signed [feltgate_pkg::SCENE_POSITION_W-1:0] position_i,  // counts
     input  logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     input  logic                                             beyond_i,    // from the limiter
     input  logic signed [        feltgate_pkg::TORQUE_W-1:0] law_torque_i,  // of a program; used if law_o

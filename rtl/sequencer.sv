@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Counts the clocks of a tick, starts one wave per tick and fetches the parameter slots ahead of
-// it. Clock c of a tick fetches slot c and is wave clock c - FIRST_WAVE_CLOCK. Documentation:
-// docs/blocks/sequencer.md
+// it. Clock c of a tick fetches slot c and is wave clock c - FIRST_WAVE_CLOCK.
+// Documentation: docs/blocks/sequencer.md
 `default_nettype none
 
 module sequencer #(

@@ -4,8 +4,8 @@
 // Supervisor: arms, latches faults, and alone enables the gates. It detects seven of the fourteen
 // fault causes itself; other blocks report theirs on trips_i. A fault is latched and the gates are
 // off one clock after the cause is seen. A limit is compared in the clock S_* in which it is on the
-// parameter bus, and acts in the next clock, T_*. Estimated current [1,8,8] A, I2t sum [0,31,2] A^2
-// tick. Documentation: docs/blocks/supervisor.md
+// parameter bus, and acts in the next clock, T_*. Estimated current [1,8,8] A,
+// I2t sum [0,31,2] A^2 tick. Documentation: docs/blocks/supervisor.md
 `default_nettype none
 
 module supervisor (
@@ -21,7 +21,7 @@ module supervisor (
   input  logic               clear_faults_i,   // in the clock of tick_i
   input  logic               kick_i,           // in the clock of tick_i
   input  logic               encoder_error_i,  // high in a clock with an illegal transition
-  input  logic signed [feltgate_pkg::VELOCITY_W-1:0] velocity_i,     // new from T_VELOCITY + 1
+  input  logic signed [feltgate_pkg::VELOCITY_W-1:0] velocity_i,     // rad/s; new from T_VELOCITY + 1
   input  logic signed [feltgate_pkg::CURRENT_W-1:0]  current_ref_i,  // of the previous tick
   /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
   input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,

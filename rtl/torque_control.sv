@@ -5,9 +5,9 @@
 //   I = Jn*Kp/Ktn * tau_ref + (1 - Jn*Kp)/Ktn * tau_hat        limited; the observer gets it
 //   V = gain*I + Ke*w + dead voltage                           V - Ke*w is limited (the window)
 //   duty = V * period/supply                                   limited
-// This block computes the sums; the core's one limiter applies the limits. Timing: a sum is at the
-// limiter's input in the clock of the limit's word, its result is on limited_i one clock later and
-// in the output register one clock after that. docs/blocks/torque_control.md
+// The core's one limiter limits the sums. A sum is at its input with the limit's word, the result
+// on limited_i one clock later and in the output one more clock later.
+// docs/blocks/torque_control.md
 
 `default_nettype none
 
@@ -21,17 +21,17 @@ module torque_control (
     input  logic        [                                    31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic signed [          feltgate_pkg::PRODUCT_BITS-1:0] product_i,
-    input  logic signed [              feltgate_pkg::TORQUE_W-1:0] tau_ref_i,
+    input  logic signed [              feltgate_pkg::TORQUE_W-1:0] tau_ref_i,  // Nm
     output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] ahead_o,  // to the limiter, one clock ahead
     output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] late_o,   // to the limiter, with the limit's word
     input  logic signed [             feltgate_pkg::LIMITER_W-1:0] limited_i,
     input  logic                                                   beyond_i,
     output logic signed [           feltgate_pkg::WITH_ADDEND_W-1:0] applied_o,  // limited_i + addend
-    output logic                                                   region_high_o,
-    output logic signed [             feltgate_pkg::CURRENT_W-1:0] current_ref_o,
-    output logic signed [             feltgate_pkg::VOLTAGE_W-1:0] voltage_o,
-    output logic signed [                feltgate_pkg::DUTY_W-1:0] duty_o,
-    output logic                                                   limit_current_o,
+    output logic                                                   region_high_o,  // |tau_ref| > region_torque
+    output logic signed [             feltgate_pkg::CURRENT_W-1:0] current_ref_o,  // A
+    output logic signed [             feltgate_pkg::VOLTAGE_W-1:0] voltage_o,  // V
+    output logic signed [                feltgate_pkg::DUTY_W-1:0] duty_o,  // clocks of the PWM period
+    output logic                                                   limit_current_o,  // the value of this tick was limited
     output logic                                                   limit_voltage_o,
     output logic                                                   limit_duty_o
 );

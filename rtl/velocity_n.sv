@@ -19,10 +19,10 @@ module velocity_n #(
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks
     input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0]       wave_i,
     /* verilator lint_on UNUSEDSIGNAL */
-    input  logic signed [feltgate_pkg::TRAVEL_BITS-1:0]           travel_i,
+    input  logic signed [feltgate_pkg::TRAVEL_BITS-1:0]           travel_i,  // counts, wraps
     output logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] operand_o,
     input  logic signed [feltgate_pkg::PRODUCT_BITS-1:0]          product_i,
-    output logic signed [feltgate_pkg::VELOCITY_W-1:0]            velocity_o,
+    output logic signed [feltgate_pkg::VELOCITY_W-1:0]            velocity_o,   // rad/s
     output logic                                                  saturated_o  // the raw velocity saturated
 );
   localparam int T = feltgate_pkg::TRAVEL_BITS;

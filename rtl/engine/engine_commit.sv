@@ -77,7 +77,7 @@ module engine_commit (
           passed_q   <= !refused_o;
         end
       end
-      // With a tick: what it makes jump is then heard before the next torque is sampled.
+      // The banks swap with a tick, so that a jump is reported before the next torque is sampled.
       if (taken_o) begin
         passed_q <= 1'b0;
         bank_o   <= !bank_o;

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Panel: a key, four switches and eight lamps around the core, the same on every board. With all
-// switches on, the lamps show the encoder and the key cannot arm. Documentation:
-// docs/boards/panel.md
+// switches on, the lamps show the encoder and the key cannot arm.
+// Documentation: docs/boards/panel.md
 `default_nettype none
 
 module panel #(
@@ -36,7 +36,7 @@ module panel #(
   output logic [7:0] lamps_o
 );
 
-  // meta_q may be metastable and feeds nothing but sync_q.
+  // meta_q can be metastable and drives only sync_q.
   logic [8:0] meta_q, sync_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

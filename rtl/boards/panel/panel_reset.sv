@@ -2,8 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Reset from a key: asserted asynchronously when the key closes; released synchronously when the
-// key has been open for 2^HoldBits clocks. After power-up the reset is asserted and released
-// likewise.
+// key has been open for 2^HoldBits clocks. After power-up the reset acts in the same way.
 // Documentation: docs/boards/panel.md
 `default_nettype none
 

@@ -20,7 +20,7 @@ module ulx3s #(
   input  logic [3:0] sw,
   output logic [7:0] led,
   output logic       ftdi_rxd,   // to the USB serial port
-  input  logic       ftdi_txd,   // from it
+  input  logic       ftdi_txd,   // from the USB serial port
   output logic       wifi_gpio0, // high: the ESP32 leaves the FPGA alone
   input  logic       enc_a,      // asynchronous, as all inputs below; synchronised inside
   input  logic       enc_b,

@@ -19,7 +19,7 @@ module dob (
     input  logic signed [feltgate_pkg::PRODUCT_BITS-1:0]          product_i,
     output logic signed [feltgate_pkg::OBSERVER_DIFFERENCE_W-1:0] operand_o,
     output logic signed [feltgate_pkg::TORQUE_W-1:0]              tau_hat_o,   // Nm
-    output logic                                                  saturated_o  // tau_hat_o saturated
+    output logic                                                  saturated_o  // it saturated
 );
   localparam int F = feltgate_pkg::OBSERVER_F;
   localparam int W = feltgate_pkg::OBSERVER_W;

@@ -67,7 +67,7 @@ module feltgate_core #(
     output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0]   faults_o,
     output logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0]  first_fault_o,
     output logic                                         armed_o,
-    output logic signed [      feltgate_pkg::DUTY_W-1:0] duty_active_o,   // duty in force in the bridge
+    output logic signed [      feltgate_pkg::DUTY_W-1:0] duty_active_o,   // in force in the bridge
     output logic                                         gates_enable_o,
 
     // The snapshot's words, one at a time, as they are stored; for a stream or a capture

@@ -13,11 +13,11 @@
 module limiter (
     input  logic                                            clk_i,
     input  logic                                            valid_i,    // one clock before x
-    input  logic                                            torque_i,   // with valid_i: x is a torque
+    input  logic                                            torque_i,   // with valid_i: x is torque
     input  logic                                            voltage_i,
     input  logic                                            duty_i,
-    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] ahead_i,  // one clock before x, then ORed
-    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] late_i,   // with this to x
+    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] ahead_i,  // one clock before x
+    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] late_i,   // x = ahead | late
     /* verilator lint_off UNUSEDSIGNAL */  // as many bits as a limit has
     input  logic        [                             31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */

@@ -23,7 +23,7 @@ module multipliers (
     input  logic        [                                   31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic                                                  square_distance_i,
-    input  logic signed [                                   17:0] distance_i,  // 0 where estimate_i is not 0
+    input  logic signed [                                   17:0] distance_i,  // one of them is 0
     input  logic                                                  square_estimate_i,
     input  logic signed [   feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate_i,
     output logic signed [         feltgate_pkg::PRODUCT_BITS-1:0] velocity_product_o,

@@ -30,7 +30,7 @@ module operand_bus (
     output logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] scene_o,
     output logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] control_o,
     output logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] supervisor_o,
-    output logic                                                  signed_o,  // the parameter is signed
+    output logic                                                  signed_o,  // param is signed
     output logic signed [   feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate_o,  // to be squared
     output logic                                                  square_estimate_o
 );

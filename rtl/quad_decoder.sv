@@ -20,7 +20,7 @@ module quad_decoder #(
   input  logic               set_zero_i,
   input  logic               clear_error_i,
   output logic signed [31:0] position_o,        // counts since the zero, wraps
-  output logic        [15:0] travel_o,          // counts, free-running; set_zero_i does not change it
+  output logic        [15:0] travel_o,          // counts, free-running, not set by set_zero_i
   output logic signed [1:0]  step_o,            // change of travel_o with this clock: -1, 0, +1
   output logic        [31:0] count_o,           // the count; position = count - zero
   output logic        [31:0] zero_o,

@@ -21,8 +21,8 @@ module ramp (
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic                                      beyond_i,
     input  logic                                      frozen_i,  // 1: |tau_ref| must not grow
-    input  logic                                      eased_i,   // 1: the torque limit is hold_limit
-    output logic signed [ feltgate_pkg::TORQUE_W-1:0] tau_ref_o,       // Nm, of the motor on the lever
+    input  logic                                      eased_i,   // 1: the limit is hold_limit
+    output logic signed [ feltgate_pkg::TORQUE_W-1:0] tau_ref_o,       // Nm, motor on lever
     output logic                                      limit_torque_o,  // the torque limit acts
     output logic                                      limit_ramp_o,    // the step acts
     output logic                                      limit_hold_o     // hold_limit acts

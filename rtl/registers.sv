@@ -34,7 +34,7 @@ module registers #(
   output logic        word_error_o,        // check error of the word on the bus or of the held control bits
 
   output logic [feltgate_map_pkg::W_CONTROL-1:0] control_o,
-  output logic        set_zero_o,          // commands, high in the clock of tick_i; also from the panel
+  output logic        set_zero_o,          // commands, high with tick_i; also from the panel
   output logic        clear_faults_o,
   output logic        kick_o,
   output logic        disarm_o,            // a disarm was written since the end of the last tick
@@ -81,7 +81,7 @@ module registers #(
   assign refuses = armed_i && common && feltgate_map_pkg::REFUSED_WHILE_ARMED[address_q[5:0]];
   assign ramps   = common ? feltgate_map_pkg::RAMPS_WHILE_ARMED[address_q[5:0]]
                           : address_q[8:5] == scene_i && !input_scene;
-  assign input_scene = feltgate_map_pkg::INPUT_SCENES[scene_i];  // the torque does not depend on the position
+  assign input_scene = feltgate_map_pkg::INPUT_SCENES[scene_i];  // independent of position
   assign restart_o   = (set_zero_o && !input_scene) || (tick_i && to_parameter_q && ramps);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

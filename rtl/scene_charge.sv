@@ -14,8 +14,8 @@ module scene_charge (
     input  logic                                            clk_i,
     input  logic                                            rst_ni,
     input  logic                                            armed_i,
-    input  logic                                            attract_i,  // selects this scene, attracting
-    input  logic                                            repel_i,    // selects it, repelling
+    input  logic                                            attract_i,  // selects, attracting
+    input  logic                                            repel_i,    // selects, repelling
     input  logic signed [feltgate_pkg::SCENE_POSITION_W:0]  gap_i,      // whole counts, held
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
     input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,

@@ -12,7 +12,7 @@ module scene_membrane (
     input  logic                                     clk_i,
     input  logic                                     rst_ni,
     input  logic                                     select_i,
-    input  logic                                     gap_negative_i,  // face minus position < 0, face on the bus
+    input  logic                                     gap_negative_i,  // sign of face - position
     input  logic                                     gap_zero_i,      // whole counts are 0
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
     input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,

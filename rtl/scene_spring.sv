@@ -10,7 +10,7 @@
 
 module scene_spring (
     input  logic                                         clk_i,
-    input  logic                                         tension_i,      // selects; one or none of the two is 1
+    input  logic                                         tension_i,      // selects; at most one
     input  logic                                         compression_i,
     input  logic                                         behind_i,       // distance is negative
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks off the wave

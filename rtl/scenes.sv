@@ -25,12 +25,12 @@ module scenes #(
     input  logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     input  logic                                             beyond_i,    // from the limiter
     input  logic signed [        feltgate_pkg::TORQUE_W-1:0] law_torque_i,  // of a program; used if law_o
-    input  logic                                             law_late_i,    // 1: law_torque_i counts as 0
-    output logic                                             law_o,         // the scene of programs is selected
+    input  logic                                             law_late_i,    // it counts as 0
+    output logic                                             law_o,         // scene law selected
     output logic signed [feltgate_pkg::SCENE_DISTANCE_W-1:0] distance_o,
     output logic                                             square_o,    // square the distance
-    output logic signed [  feltgate_pkg::SCENE_TORQUE_W-1:0] ahead_o,     // to the limiter, a clock before the limit
-    output logic signed [        feltgate_pkg::TORQUE_W-1:0] late_o       // to the limiter, with the limit
+    output logic signed [  feltgate_pkg::SCENE_TORQUE_W-1:0] ahead_o,     // one clock before its limit
+    output logic signed [        feltgate_pkg::TORQUE_W-1:0] late_o       // with its limit
 );
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int PartW = feltgate_pkg::SCENE_PART_W;

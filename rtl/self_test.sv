@@ -14,7 +14,7 @@ module self_test (
     input  logic                                             armed_i,
     input  logic                                             direct_i,      // voltage mode: no test
     input  logic                                             waits_i,       // a lower axis tests first
-    input  logic        [                               1:0] travel_i,      // counts, lowest two bits
+    input  logic        [                               1:0] travel_i,      // counts, low bits
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits
     input  logic        [                              31:0] tick_count_i,
     input  logic        [ feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,

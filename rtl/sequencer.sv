@@ -14,9 +14,9 @@ module sequencer #(
   input  logic                  clk_i,
   input  logic                  rst_ni,
   output logic                  tick_o,              // last clock of a tick
-  output logic [5:0]            slot_fetch_o,        // slot number; its word is on the bus 2 clocks later
+  output logic [5:0]            slot_fetch_o,        // its word is on the bus 2 clocks later
   output logic                  scene_slot_fetch_o,  // this slot is in the scene's bank
-  output logic [WaveLength-1:0] wave_o,              // one-hot: bit n is wave clock n; 0 outside the wave
+  output logic [WaveLength-1:0] wave_o,              // one-hot: bit n is clock n of the wave
   output logic [31:0]           tick_count_o
 );
 

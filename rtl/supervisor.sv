@@ -21,7 +21,7 @@ module supervisor (
   input  logic               clear_faults_i,   // in the clock of tick_i
   input  logic               kick_i,           // in the clock of tick_i
   input  logic               encoder_error_i,  // high in a clock with an illegal transition
-  input  logic signed [feltgate_pkg::VELOCITY_W-1:0] velocity_i,     // rad/s; new from T_VELOCITY + 1
+  input  logic signed [feltgate_pkg::VELOCITY_W-1:0] velocity_i,     // rad/s, from T_VELOCITY + 1
   input  logic signed [feltgate_pkg::CURRENT_W-1:0]  current_ref_i,  // of the previous tick
   /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
   input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
@@ -41,7 +41,7 @@ module supervisor (
   input  logic               axis_blocked_i,   // another axis is not ready
   input  logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,  // causes of other blocks, by bit
   output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults_o,  // bit n: cause n was seen
-  output logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault_o  // number of the first fault, 0: none
+  output logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault_o  // number of the first, 0: none
 );
 
   localparam int FAULTS_W = feltgate_map_pkg::W_FAULTS_SEEN;

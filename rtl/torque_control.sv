@@ -15,23 +15,23 @@ module torque_control (
     input  logic                                                   clk_i,
     input  logic                                                   rst_ni,
     input  logic                                                   armed_i,
-    input  logic        [                                     1:0] mode_i,  // 0 closed loop, 1 open loop, 2 voltage
+    input  logic        [                                     1:0] mode_i,  // 0 closed, 1 open loop, 2 voltage
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
     input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input  logic        [                                    31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic signed [          feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     input  logic signed [              feltgate_pkg::TORQUE_W-1:0] tau_ref_i,  // Nm
-    output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] ahead_o,  // to the limiter, one clock ahead
-    output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] late_o,   // to the limiter, with the limit's word
+    output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] ahead_o,  // one clock before its limit
+    output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] late_o,   // with its limit
     input  logic signed [             feltgate_pkg::LIMITER_W-1:0] limited_i,
     input  logic                                                   beyond_i,
     output logic signed [           feltgate_pkg::WITH_ADDEND_W-1:0] applied_o,  // limited_i + addend
-    output logic                                                   region_high_o,  // |tau_ref| > region_torque
+    output logic                                                   region_high_o,  // high torque
     output logic signed [             feltgate_pkg::CURRENT_W-1:0] current_ref_o,  // A
     output logic signed [             feltgate_pkg::VOLTAGE_W-1:0] voltage_o,  // V
-    output logic signed [                feltgate_pkg::DUTY_W-1:0] duty_o,  // clocks of the PWM period
-    output logic                                                   limit_current_o,  // the value of this tick was limited
+    output logic signed [                feltgate_pkg::DUTY_W-1:0] duty_o,  // PWM clocks
+    output logic                                                   limit_current_o,  // limited in this tick
     output logic                                                   limit_voltage_o,
     output logic                                                   limit_duty_o
 );

@@ -23,7 +23,7 @@ module velocity_n #(
     output logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] operand_o,
     input  logic signed [feltgate_pkg::PRODUCT_BITS-1:0]          product_i,
     output logic signed [feltgate_pkg::VELOCITY_W-1:0]            velocity_o,   // rad/s
-    output logic                                                  saturated_o  // the raw velocity saturated
+    output logic                                                  saturated_o  // raw_q saturated
 );
   localparam int T = feltgate_pkg::TRAVEL_BITS;
   localparam int W = feltgate_pkg::VELOCITY_W;

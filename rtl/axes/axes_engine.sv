@@ -32,7 +32,7 @@ module axes_engine #(
     input  logic [32*AxisCount-1:0] tau_hat_i,
     output logic [AxisCount*feltgate_pkg::TORQUE_W-1:0] torque_o,
     output logic late_o,                    // torque_o is too old or not checked
-    output logic restart_o,                 // read in a tick's last clock: ramp from the next tick on
+    output logic restart_o,                 // read in a tick's last clock: ramp from then on
     output logic unchecked_o,               // arming must wait for the CRC
     output logic unfit_o,                   // arming is refused: wrong CRC
 

@@ -17,9 +17,9 @@ module engine #(
     input  logic                    clk_i,
     input  logic                    rst_ni,
     input  logic                    armed_i,
-    input  logic                    enter_i,       // one clock: an axis has entered the scene of laws
+    input  logic                    enter_i,       // one clock: an axis entered the scene of laws
     input  logic                    locked_i,      // 1: programs, tables and registers are read-only
-    input  logic                    tick_i,        // one clock; the inputs belong to this tick and are held
+    input  logic                    tick_i,        // one clock; inputs of this tick, held
     input  logic [            31:0] tick_count_i,
     input  logic [32*AxisCount-1:0] position_i,
     input  logic [32*AxisCount-1:0] velocity_i,
@@ -39,7 +39,7 @@ module engine #(
     input  logic [            31:0] wdata_i,
     input  logic                    write_i,       // one clock, while busy_o is 0
     input  logic                    read_i,        // one clock: the host has taken rdata_o
-    output logic [            31:0] rdata_o,       // valid after addr_i was stable for 32 clocks, not busy
+    output logic [            31:0] rdata_o,       // valid when addr_i was held 32 clocks
     output logic                    busy_o
 );
   // Host words that are registers.
@@ -136,7 +136,7 @@ module engine #(
 
   // Writes and reads of the system in the barrel. A program word that is read passes through the
   // adder like a written word.
-  localparam logic [8:0] Zero = 9'(feltgate_engine_pkg::PRIVATE_WORDS - 1);  // last input of thread 0; never written, 0
+  localparam logic [8:0] Zero = 9'(feltgate_engine_pkg::PRIVATE_WORDS - 1);  // never written: 0
   logic write_data_q, write_program_q, write_table_q;
   logic [8:0] write_address_q, read_data, read_address;
   logic [31:0] write_word_q;

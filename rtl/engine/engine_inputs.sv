@@ -14,7 +14,7 @@ module engine_inputs #(
     input  logic                     clk_i,
     input  logic                     rst_ni,
     input  logic [              3:0] run_i,
-    input  logic                     tick_i,        // one clock; the inputs belong to this tick and are held
+    input  logic                     tick_i,        // one clock; inputs of this tick, held
     input  logic [             31:0] tick_count_i,
     input  logic [32*AxisCount-1:0] position_i,
     input  logic [32*AxisCount-1:0] velocity_i,
@@ -22,7 +22,7 @@ module engine_inputs #(
     input  logic                     divide_i,      // write divider_i
     input  logic [              1:0] divided_i,     // thread of divider_i
     input  logic [             11:0] divider_i,
-    input  logic                     started_i,     // from the barrel: a run of thread_i has started
+    input  logic                     started_i,     // from the barrel: a run of thread_i started
     input  logic                     ended_i,
     input  logic [              1:0] thread_i,
     output logic [              3:0] request_o,     // per thread: start a run

@@ -146,7 +146,7 @@ module link_capture #(
   logic [PeriodBits-1:0] ticks_q;
   logic [  ColumnBits:0] column, column_q, columns_q;
   logic [   RowBits-1:0] row_q;                     // row to be written next
-  logic [     RowBits:0] rows_q, rest, left_q;      // rows_q: whole rows; left_q: rows still to take
+  logic [     RowBits:0] rows_q, rest, left_q;      // rows_q: whole rows; left_q: rows to take
   logic                  stores, whole;
   assign begins = first && runs && ticks_q == '0;
   assign takes  = first ? begins : taking_q;

@@ -29,7 +29,7 @@ module uart_rx #(
   if (!(Baud > 0 && ClockHz / 8 >= Baud)) begin : g_check_baud
     a_bit_must_last_eight_clocks missing ();
   end
-  if (!(STEP_64 >= 64'd100)) begin : g_check_step  // rounding: half a step in 100, 0.5 % of the baud rate
+  if (!(STEP_64 >= 64'd100)) begin : g_check_step  // rounding: half a step in 100, 0.5 % of Baud
     the_baud_rate_is_too_low_for_the_phase missing ();
   end
   endgenerate

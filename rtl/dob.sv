@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Disturbance observer: tau_hat = LPF(Ktn*I + g*Jn*w) - g*Jn*w, the load that opposes positive
-// motor torque. Disarmed, the current counts as 0 and the filter follows its input, so that tau_hat
-// is 0 and arming in motion makes no jump.
-// Clocks are those of the wave: Ktn*I is taken in T_DRIVE_TORQUE, g*Jn*w in T_OBSERVER_INPUT, the
-// filter's product in T_OBSERVER_STATE.
-// docs/blocks/dob.md
+// Disturbance observer: tau_hat = LPF(Ktn*I + g*Jn*w) - g*Jn*w, the load torque; positive tau_hat
+// opposes positive motor torque. Disarmed, the current counts as 0 and the filter output follows
+// its input: tau_hat is 0, and arming in motion makes no jump. Wave clocks: the block latches Ktn*I
+// in T_DRIVE_TORQUE, g*Jn*w in T_OBSERVER_INPUT, the filter's product in T_OBSERVER_STATE, and
+// tau_hat_o in T_TAU_HAT. docs/blocks/dob.md
 
 `default_nettype none
 
@@ -19,8 +18,8 @@ module dob (
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic signed [feltgate_pkg::PRODUCT_BITS-1:0]          product_i,
     output logic signed [feltgate_pkg::OBSERVER_DIFFERENCE_W-1:0] operand_o,
-    output logic signed [feltgate_pkg::TORQUE_W-1:0]              tau_hat_o,
-    output logic                                                  saturated_o
+    output logic signed [feltgate_pkg::TORQUE_W-1:0]              tau_hat_o,   // Nm
+    output logic                                                  saturated_o  // it saturated
 );
   localparam int F = feltgate_pkg::OBSERVER_F;
   localparam int W = feltgate_pkg::OBSERVER_W;
@@ -56,7 +55,7 @@ module dob (
     if (wave_i[feltgate_map_pkg::T_OBSERVED]) begin
       observed_q <= ObservedW'(state) - ObservedW'(inertia_q);
     end
-    // The bit below the last one is the carry, as far as the design rounds up.
+    // The highest dropped bit is the carry in; up masks it as the design's rounding says.
     if (wave_i[feltgate_map_pkg::T_OBSERVED_ROUNDED]) begin
       rounded_q <= RoundedW'(observed_q >>> TorqueDrop) +
                    RoundedW'({1'b0, observed_q[TorqueDrop-1] && up});

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Watches whether the encoder's edges come on one channel only: chatter on one edge, which goes on
-// only as long as a torque turns it, or a dead channel. Once per tick. And in every clock, whether the
-// count stays as it is without them.
+// Encoder monitor. Once per tick (T_LEVELS) it checks whether edges come on one channel only. That
+// is either chatter on one edge, which lasts only while a torque drives it, or a dead channel. In
+// every clock it checks that count and zero do not change without an edge or a new zero.
 // Documentation: docs/blocks/encoder_monitor.md
 `default_nettype none
 
@@ -14,17 +14,17 @@ module encoder_monitor (
     input  logic [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input  logic [31:0] tick_count_i,
     /* verilator lint_on UNUSEDSIGNAL */
-    input  logic [1:0]  levels_i,    // of A (bit 0) and B, as accepted
+    input  logic [1:0]  levels_i,    // filtered levels of A (bit 0) and B
     input  logic        index_wrong_i,  // sticky: the count at an index does not fit
-    input  logic [31:0] count_i,     // of the decoder, and its zero
-    input  logic [31:0] zero_i,
-    input  logic [1:0]  step_i,      // what the count moved by with this clock; 0: nothing
-    input  logic        set_zero_i,  // the zero moves with the next
-    output logic        moved_o,     // an edge came since the tick before
-    output logic        chatters_o,  // no torque may grow
-    output logic        trip_o,      // a channel is dead: one clock
-    output logic        index_trip_o, // the count has slipped: one clock
-    output logic        flip_trip_o  // a bit of count or zero has changed by itself: one clock
+    input  logic [31:0] count_i,     // the decoder's count
+    input  logic [31:0] zero_i,      // the count at which the position is 0
+    input  logic [1:0]  step_i,      // change of the count with this clock: -1, 0, +1
+    input  logic        set_zero_i,  // the zero changes with the next clock
+    output logic        moved_o,     // an edge came since the previous tick
+    output logic        chatters_o,  // chatter: the torque must not grow
+    output logic        trip_o,      // one clock: a channel is dead
+    output logic        index_trip_o, // one clock: the count has slipped
+    output logic        flip_trip_o  // one clock: a bit of count or zero has flipped
 );
   localparam int RowW = $clog2(feltgate_map_pkg::DEAD_CHANNEL_EDGES);
   localparam int EdgeW = $clog2(feltgate_map_pkg::EDGE_UNITS + 1);
@@ -37,8 +37,8 @@ module encoder_monitor (
   assign edge_unit    = tick_count_i[EdgeBits-1:0] == '0;
   assign chatter_unit = edge_unit && tick_count_i[ChatterBits-1:EdgeBits] == '0;
 
-  // An edge on the channel of the last one turns the count back. Edges of both in one tick are no
-  // motion: the channels are shorted.
+  // A second edge in a row on the same channel turns the count back. Edges of both channels in one
+  // tick are no motion: the channels are shorted.
   logic [1:0] levels_q, changed;
   logic       index_wrong_q, of_b_q, moved, both, of_row, late;
   assign changed = levels_i ^ levels_q;
@@ -46,7 +46,8 @@ module encoder_monitor (
   assign both    = changed == 2'b11;
   assign of_row  = (both || changed[1] == of_b_q) && !late;
 
-  // Edges in a row, the time since the last one, and the time that the row is long.
+  // row_q: edges in a row on one channel. edge_units_q: time since the last edge. chatter_units_q:
+  // time for which the row has been long enough for chatters_o.
   logic [RowW-1:0]     row_q;
   logic [EdgeW-1:0]    edge_units_q;
   logic [ChatterW-1:0] chatter_units_q;
@@ -82,7 +83,7 @@ module encoder_monitor (
       end
     end
   end
-  // Not reset: without chatter the first sample clears it.
+  // No reset: without chatter the first sample clears it.
   always_ff @(posedge clk_i) begin
     if (sample) begin
       if (!chatters_o || over) chatter_units_q <= '0;
@@ -90,7 +91,7 @@ module encoder_monitor (
     end
   end
 
-  // Where neither an edge nor a new zero came their parity stays.
+  // The parity of count and zero must stay as it is if neither an edge nor a new zero came.
   logic parity, parity_q, zeroed_q;
   assign parity = ^{count_i, zero_i};
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What the core relies on in a design's package, looked at when it is elaborated. A check that fails
-// instantiates a module that is not there, whose name says what must hold: the one form that Verilator,
-// Icarus, Yosys, slang and Quartus all take. Blocks check their own parameters the same way.
-// No logic, no ports. docs/designs.md
+// Elaboration-time checks of a design's package: what the core requires of it. A check that fails
+// instantiates a missing module whose name states the rule. Verilator, Icarus, Yosys, slang and
+// Quartus all accept this form. The blocks check their own parameters in the same way. No logic, no
+// ports. docs/designs.md
 
 `default_nettype none
 
@@ -28,7 +28,7 @@ module feltgate_checks;
     ROUNDING_must_be_0_1_or_2 missing ();
   end
 
-  // Words of 32 bits: parameters, snapshot.
+  // Parameters and snapshot are words of 32 bits.
   if (!(feltgate_pkg::POSITION_W == 32 && feltgate_pkg::CHARGE_W == 32 &&
         feltgate_pkg::VELOCITY_W <= 32 && feltgate_pkg::RAMP_W <= 32 &&
         feltgate_pkg::CURRENT_W <= 32 && feltgate_pkg::SCENE_OFFSET_W <= 31 &&
@@ -81,7 +81,7 @@ module feltgate_checks;
     CURRENT_ESTIMATE_must_fit_the_multiplier missing ();
   end
 
-  // A product has no fewer fraction bits than what it is narrowed to, and one more where it is rounded.
+  // A product has at least as many fraction bits as its result, and one more if it is rounded.
   if (!(feltgate_pkg::CURRENT_F + feltgate_pkg::P_TORQUE_CONSTANT_F >= feltgate_pkg::OBSERVER_F &&
         feltgate_pkg::VELOCITY_F + feltgate_pkg::P_INERTIA_GAIN_F >= feltgate_pkg::OBSERVER_F &&
         feltgate_pkg::OBSERVER_DIFFERENCE_F + feltgate_pkg::P_OBSERVER_A1_F >

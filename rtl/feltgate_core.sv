@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The whole core: encoder pins to gate pins. Once per tick a wave runs through quad_decoder,
-// velocity_n, dob, scenes, limiter, ramp and torque_control. They share one parameter bus and, unless each
-// has its own, one multiplier, by clocks of the wave. Sampled position (clock 0) to duty: 47 clocks.
-// docs/blocks/feltgate_core.md, docs/architecture.md
+// velocity_n, dob, scenes, limiter, ramp and torque_control. Each wave clock gives the one
+// parameter bus and the multiplier (one shared, or one per block) to one block. Latency: sampled
+// position (clock 0) to duty 47 clocks. docs/blocks/feltgate_core.md, docs/architecture.md
 
 `default_nettype none
 
@@ -24,25 +24,25 @@ module feltgate_core #(
     output logic gate_b_hi_o,
     output logic gate_b_lo_o,
 
-    // Panel, used while the control word does not say that the host has the say
+    // Panel: used while the control word does not give control to the host
     input  logic       arm_i,       // level; its rising edge arms
     input  logic       stop_i,      // external stop, asynchronous, latched as a fault
-    input  logic       set_zero_i,  // one clock: position := 0 at the end of the tick
+    input  logic       set_zero_i,  // one clock: position := 0 at the tick's end
     input  logic [3:0] scene_i,
 
-    // Programmed torque of the scene law, and other axes; 0 without. docs/blocks/feltgate_core.md
+    // Programmed torque of the scene law; state of other axes. Tie unused inputs to 0.
     input  logic signed [feltgate_pkg::TORQUE_W-1:0] law_torque_i,  // sampled in T_LAW_TORQUE
-    input  logic law_late_i,      // there is no fresh one: it counts as 0, and trips
-    input  logic law_restart_i,   // in the last clock of a tick: it may jump with the next
-    input  logic axis_fault_i,    // an axis has a fault
-    input  logic axis_silent_i,   // an axis does not ask to be armed
-    input  logic axis_blocked_i,  // an axis must not be armed
-    input  logic axis_testing_i,  // an axis tests itself: the scene waits
-    input  logic axis_waits_i,    // an axis before this one does: its own test waits
-    output logic asks_o,          // what the others want to know of this one
+    input  logic law_late_i,      // law_torque_i is too old: it counts as 0; a fault
+    input  logic law_restart_i,   // last clock of a tick: ramp from the next tick on
+    input  logic axis_fault_i,    // another axis has a fault
+    input  logic axis_silent_i,   // another axis does not request arming
+    input  logic axis_blocked_i,  // another axis is not ready to arm
+    input  logic axis_testing_i,  // another axis runs its self-test: the scene waits
+    input  logic axis_waits_i,    // an axis of a lower number does: the self-test waits
+    output logic asks_o,          // state of this axis for the others: requests arming
     output logic ready_o,
     output logic testing_o,
-    output logic measured_o,      // one clock: position, velocity and tau_hat are of this tick, for half a tick
+    output logic measured_o,      // one clock: position, velocity, tau_hat are new, held half a tick
     output logic zeroed_o,        // one clock: the position becomes 0
 
     // Register port
@@ -52,16 +52,16 @@ module feltgate_core #(
     output logic        reg_busy_o,
     output logic [31:0] reg_rdata_o,
 
-    // Snapshot: all of one tick in the clock in which snapshot_valid_o is high
+    // Snapshot: with snapshot_valid_o high, all values belong to one tick
     output logic                                         snapshot_valid_o,
     output logic        [                          31:0] tick_count_o,
-    output logic signed [                          31:0] position_o,
-    output logic signed [  feltgate_pkg::VELOCITY_W-1:0] velocity_o,
-    output logic signed [    feltgate_pkg::TORQUE_W-1:0] tau_hat_o,
-    output logic signed [    feltgate_pkg::TORQUE_W-1:0] tau_ref_o,
-    output logic signed [   feltgate_pkg::CURRENT_W-1:0] current_ref_o,
-    output logic signed [   feltgate_pkg::VOLTAGE_W-1:0] voltage_o,
-    output logic signed [      feltgate_pkg::DUTY_W-1:0] duty_o,
+    output logic signed [                          31:0] position_o,      // counts, wraps
+    output logic signed [  feltgate_pkg::VELOCITY_W-1:0] velocity_o,      // rad/s
+    output logic signed [    feltgate_pkg::TORQUE_W-1:0] tau_hat_o,       // Nm
+    output logic signed [    feltgate_pkg::TORQUE_W-1:0] tau_ref_o,       // Nm
+    output logic signed [   feltgate_pkg::CURRENT_W-1:0] current_ref_o,   // A
+    output logic signed [   feltgate_pkg::VOLTAGE_W-1:0] voltage_o,       // V
+    output logic signed [      feltgate_pkg::DUTY_W-1:0] duty_o,          // clocks of on-time
     output logic        [                           3:0] scene_o,
     output logic        [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_o,
     output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0]   faults_o,
@@ -70,7 +70,7 @@ module feltgate_core #(
     output logic signed [      feltgate_pkg::DUTY_W-1:0] duty_active_o,   // in force in the bridge
     output logic                                         gates_enable_o,
 
-    // The snapshot's words one by one, as they are stored: a stream or a capture takes them from here
+    // The snapshot's words, one at a time, as they are stored; for a stream or a capture
     output logic                                         word_valid_o,
     output logic        [                           5:0] word_slot_o,
     output logic        [                          31:0] word_data_o
@@ -88,7 +88,7 @@ module feltgate_core #(
   logic signed [feltgate_pkg::PRODUCT_BITS-1:0] velocity_product, dob_product, scene_product;
   logic signed [feltgate_pkg::PRODUCT_BITS-1:0] control_product, supervisor_product;
 
-  // What the registers and the panel ask for.
+  // Requests of the registers and of the panel.
   logic [feltgate_map_pkg::W_CONTROL-1:0] control;
   logic [ 3:0] scene_wanted, scene_q;
   logic [ 1:0] mode;
@@ -128,7 +128,7 @@ module feltgate_core #(
       .snap_slot_i(word_slot_o), .snap_valid_i(word_valid_o), .snap_data_i(word_data_o)
   );
 
-  // Encoder to position; the sample that the wave carries.
+  // Encoder to position, and the position that the wave samples.
   logic signed [31:0] position, index_position, count, zero;
   logic signed [feltgate_pkg::TRAVEL_BITS-1:0] travel;
   logic [15:0] error_count, rejected_count;

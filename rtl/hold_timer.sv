@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// For how long a torque is held against a lever that stands still: after hold_time the torque limit
-// is hold_limit, until a count comes. Documentation: docs/blocks/hold_timer.md
+// Measures how long a torque above hold_torque acts on a lever that stands still. After hold_time
+// the torque limit is hold_limit until the encoder moves. Evaluated once per tick, in T_HOLD.
+// Documentation: docs/blocks/hold_timer.md
 `default_nettype none
 
 module hold_timer (
@@ -14,12 +15,12 @@ module hold_timer (
     input  logic [31:0] tick_count_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic [31:0] param_i,
-    input  logic        moved_i,   // an edge of the encoder came in this tick
-    input  logic        beyond_i,  // a clock after hold_torque: the torque reference is beyond it
+    input  logic        moved_i,   // an encoder edge came in this tick
+    input  logic        beyond_i,  // one clock after the word hold_torque: |tau_ref| is above it
     output logic        eased_o    // the torque limit is hold_limit
 );
   localparam int W = feltgate_map_pkg::HOLD_BITS;
-  localparam int Hold = feltgate_map_pkg::T_HOLD;  // the word comes by
+  localparam int Hold = feltgate_map_pkg::T_HOLD;  // hold_time is on the bus
 
   logic [W-1:0] units_q;
   logic strong_q, holds, expired, unit;

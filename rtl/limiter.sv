@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The core's one limiter: x to [-limit, limit], the limit being the word on the parameter bus; a
-// negative limit counts as 0, and so does one that the format of its signal does not hold. It serves
-// torque, current, dead voltage, voltage and duty in turn, and without valid_i tells whether x is beyond
-// a border and gives nothing to the operand bus.
-// Latency: valid and what is ahead in clock t - 1, the rest of x and the limit in t, the result in
-// t + 1 and only there, beyond in t + 1. docs/blocks/limiter.md
+// The core's one limiter: it saturates x to [-limit, limit]. The limit is the word on the parameter
+// bus; a negative limit counts as 0, and so does one that does not fit the format of its signal.
+// Torque, current, dead voltage, voltage and duty use it in turn. Without valid_i it only compares
+// x with a border: beyond_o is valid, limited_o is 0. Latency: valid_i and ahead_i in clock t - 1,
+// late_i and the limit in t, limited_o (0 in all other clocks) and beyond_o in t + 1.
+// docs/blocks/limiter.md
 
 `default_nettype none
 
 module limiter (
     input  logic                                            clk_i,
-    input  logic                                            valid_i,    // a clock before x
-    input  logic                                            torque_i,   // with valid_i: x is one
+    input  logic                                            valid_i,    // one clock before x
+    input  logic                                            torque_i,   // with valid_i: x is torque
     input  logic                                            voltage_i,
     input  logic                                            duty_i,
-    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] ahead_i,  // a clock before x, and ored
-    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] late_i,   // with this to x
+    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] ahead_i,  // one clock before x
+    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] late_i,   // x = ahead | late
     /* verilator lint_off UNUSEDSIGNAL */  // as many bits as a limit has
     input  logic        [                             31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */
@@ -27,8 +27,9 @@ module limiter (
   localparam int W = feltgate_pkg::LIMITER_W;
   localparam int InputW = feltgate_pkg::LIMITER_INPUT_W;
 
-  // Only as many bits are compared as a limit has: an x that needs more is beyond any limit. Bits that
-  // a limit must not have: its sign, and those beyond the format of its signal.
+  // The comparison takes only as many bits as a limit has; an x that needs more is beyond any
+  // limit. misfit_q marks the bits that must be 0 in a limit: its sign and the bits above its
+  // signal's format.
   localparam logic [W-1:0] Sign = W'(1) << (W - 1);
   logic        [     W-1:0] misfit_q;
   logic                     valid_q, ahead_over_q, over, negative;
@@ -54,8 +55,9 @@ module limiter (
   assign below   = negative && (over || (W + 1)'(limit) + (W + 1)'(low) < 0);
   assign misfit  = (limit & misfit_q) != '0;
 
-  // x, and the limit that is on its side; clearing a register costs no logic, selecting does. With a
-  // limit that does not fit all of them are 0, so that it need not be selected.
+  // x, and the limit with the sign of x. A register's synchronous clear costs no logic, a
+  // multiplexer does. If the limit does not fit, all three are 0, so the output needs no further
+  // selection.
   logic signed [W-1:0] low_q, upper_q, lower_q;
   logic                outside_q, unfit_q;
   always_ff @(posedge clk_i) begin

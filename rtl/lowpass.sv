@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// One-pole low-pass y += round(a1 * (x - y)), rounded as the design says, on the multiplier's bus.
-// The block around it says when: x in the clock of valid_i, operand from the next one on, product in the
-// clock of update_i, new y from the next one on. The difference gives up low bits where it is wider
-// than the multiplier. docs/blocks/lowpass.md
+// One-pole low-pass y += round(a1 * (x - y)) on the shared multiplier; the design sets the
+// rounding. The parent block sets the timing: x in the clock of valid_i, operand from the next
+// clock on, product in the clock of update_i, new y from the next clock on. The difference loses
+// its lowest bits if it is wider than the multiplier's operand. docs/blocks/lowpass.md
 
 `default_nettype none
 
@@ -18,9 +18,9 @@ module lowpass #(
     input  logic                       clk_i,
     input  logic                       rst_ni,
     input  logic                       valid_i,    // x_i is new
-    input  logic                       update_i,   // product_i is that of the operand
-    input  logic                       follow_i,   // y := x instead of filtering; held with x
-    input  logic signed [   Width-1:0] x_i,        // held until the new y
+    input  logic                       update_i,   // product_i is the operand's product
+    input  logic                       follow_i,   // 1: y := x, no filtering; held like x
+    input  logic signed [   Width-1:0] x_i,        // stable until the new y
     output logic signed [OperandW-1:0] operand_o,
     input  logic signed [ProductW-1:0] product_i,
     output logic signed [   Width-1:0] y_o
@@ -43,8 +43,8 @@ module lowpass #(
   end
   assign operand_o = difference_q[Width-:OperandW];
 
-  // {y,up} + {p,r} carries exactly when the rounding bit r and up are set: rounding without an
-  // adder of its own. To even, a tie goes up only from an odd sum.
+  // {y,up} + {p,r}: the low bit carries exactly when the rounding bit r and up are set, so rounding
+  // needs no second adder. With rounding to even, a tie goes up only from an odd sum.
   logic        [  Width:0] increment;
   /* verilator lint_off UNUSEDSIGNAL */  // the bit that carries
   logic        [  Width:0] sum;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A multiplier of the chain: 35 x 18 bits signed, from two 18 x 18 ones, every stage registered.
-// Latency: operands in clock t, product in clock t + 4. With FELTGATE_ECP5 the two products are
-// MULT18X18D cells with their own registers; without, they are inferred. docs/blocks/mult.md
+// Signed multiplier, 35 x 18 bits, made of two 18 x 18 multipliers; every stage is registered.
+// Latency: operands in clock t, product in clock t + 4. With FELTGATE_ECP5 the two multipliers are
+// MULT18X18D cells and use their registers; otherwise the tool infers them. docs/blocks/mult.md
 
 `default_nettype none
 
@@ -13,7 +13,7 @@ module mult (
     input  logic signed [17:0] b_i,
     output logic signed [52:0] product_o
 );
-  // a = high * 2^17 + low, low without a sign: both halves fit a signed 18-bit operand.
+  // a = high * 2^17 + low, with low unsigned: both halves fit a signed 18-bit operand.
   logic signed [17:0] low, high;
   assign low  = {1'b0, a_i[16:0]};
   assign high = a_i[34:17];

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// 18 x 18 bits signed in one ECP5 MULT18X18D with its pipeline and output registers in use. The operands'
-// registers stand beside the logic that ends in them, for the way to the cell is long.
-// Only with FELTGATE_ECP5: Yosys infers the cell but packs no registers into it.
+// Signed 18 x 18 multiplier in one ECP5 MULT18X18D; its pipeline and output registers are used. The
+// operand registers are in the fabric, near the logic that drives them: the route to the cell is
+// long. Only with FELTGATE_ECP5, because Yosys infers the cell but packs no registers into it.
 // Latency: operands in clock t, product in clock t + 3. docs/blocks/mult.md, docs/synthesis.md
 
 `default_nettype none
@@ -20,9 +20,9 @@ module mult18_ecp5 (
     b_q <= b_i;
   end
 
-  // No reset: what the registers hold at power-up has left them before the first wave.
-  // The shift chains (SRI*, SRO*) and the copies of the operands (RO*) have no way to the fabric and
-  // stay open; so do C, which SOURCEB_MODE leaves out, SIGNEDP, and clocks, enables, resets 1 to 3.
+  // No reset: the power-up contents have left the registers before the first wave. Open pins: the
+  // shift chains (SRI*, SRO*) and the operand copies (RO*), which have no route to the fabric; C,
+  // which SOURCEB_MODE does not use; SIGNEDP; clocks, enables and resets 1 to 3.
   /* verilator lint_off PINMISSING */
   MULT18X18D #(
       .REG_INPUTA_CLK("NONE"),

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The multiplier on the operand bus, or one per block in the same clocks. A square takes its own
-// operand as the factor, past the operand bus. Latency: that of mult.
+// Either one multiplier on the operand bus, or one multiplier per block with the same timing. For a
+// square the factor is the operand itself; it does not come from the parameter bus.
+// Latency: that of mult, 4 clocks. In one clock either square_*_i or the parameter is the factor.
 // Documentation: docs/blocks/multipliers.md
 
 `default_nettype none
@@ -17,12 +18,12 @@ module multipliers (
     input  logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] control_i,
     input  logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] supervisor_i,
     /* verilator lint_on UNUSEDSIGNAL */
-    input  logic                                                  signed_i,  // the word has a sign
+    input  logic                                                  signed_i,  // param_i is signed
     /* verilator lint_off UNUSEDSIGNAL */  // as many bits as a coefficient has
     input  logic        [                                   31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic                                                  square_distance_i,
-    input  logic signed [                                   17:0] distance_i,  // 0 where estimate_i is not
+    input  logic signed [                                   17:0] distance_i,  // one of them is 0
     input  logic                                                  square_estimate_i,
     input  logic signed [   feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate_i,
     output logic signed [         feltgate_pkg::PRODUCT_BITS-1:0] velocity_product_o,
@@ -51,7 +52,7 @@ module multipliers (
     assign control_product_o    = product;
     assign supervisor_product_o = product;
   end else begin : gen_parallel
-    // Each block its own, in the same clocks: no operand passes through the bus of the whole core.
+    // One multiplier per block, same timing: no operand uses the core's operand bus.
     mult u_velocity (
         .clk_i(clk_i),
         .a_i(feltgate_pkg::MULTIPLIER_A_BITS'(velocity_i)),

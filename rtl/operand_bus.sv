@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The operand bus: the block that owns a clock of the wave drives it. A value that is held longer enters
-// through a copy that is 0 outside its clocks, so the bus needs only an or.
-// Documentation: docs/blocks/operand_bus.md
+// The operand bus to the multiplier. In each wave clock one source drives it, all others are 0, so
+// an OR combines them. A value that is held longer enters through a copy that is 0 outside its
+// clocks. The bus is combinational from its copies. Documentation: docs/blocks/operand_bus.md
 
 `default_nettype none
 
@@ -12,25 +12,25 @@ module operand_bus (
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks off the wave
     input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     /* verilator lint_on UNUSEDSIGNAL */
-    // 0 outside their clocks
+    // These are 0 outside their clocks.
     input  logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] velocity_difference_i,
     input  logic signed [feltgate_pkg::OBSERVER_DIFFERENCE_W-1:0] observer_difference_i,
     input  logic signed [    feltgate_pkg::SCENE_DISTANCE_W-1:0]  distance_i,
     input  logic signed [        feltgate_pkg::WITH_ADDEND_W-1:0] limited_i,
-    // held
+    // These are held.
     input  logic signed [           feltgate_pkg::VELOCITY_W-1:0] velocity_i,
     input  logic signed [             feltgate_pkg::TORQUE_W-1:0] tau_hat_i,
     input  logic signed [             feltgate_pkg::TORQUE_W-1:0] tau_ref_i,
     input  logic signed [            feltgate_pkg::CURRENT_W-1:0] current_ref_i,
     input  logic signed [            feltgate_pkg::VOLTAGE_W-1:0] voltage_i,
     input  logic signed [   feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate_i,
-    // Of the whole core, and what each block brings of it.
+    // The core's operand, and each block's part of it.
     output logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] operand_o,
     output logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] dob_o,
     output logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] scene_o,
     output logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] control_o,
     output logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] supervisor_o,
-    output logic                                                  signed_o,  // the factor has a sign
+    output logic                                                  signed_o,  // param is signed
     output logic signed [   feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate_o,  // to be squared
     output logic                                                  square_estimate_o
 );
@@ -42,7 +42,8 @@ module operand_bus (
   logic signed [            feltgate_pkg::VOLTAGE_W-1:0] voltage_q;
   logic signed [   feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate_q;
   logic take_velocity_q, take_tau_hat_q, take_tau_ref_q, square_estimate_q;
-  // Selects of what is new in its first clock are made a clock ahead; the others are copied then.
+  // A value that is new in its first bus clock is gated by a select made one clock ahead. The other
+  // values are copied one clock ahead.
   always_ff @(posedge clk_i) begin
     take_velocity_q <= wave_i[feltgate_map_pkg::S_EMF_OVER_RESISTANCE-1] ||
                        wave_i[feltgate_map_pkg::S_INERTIA_GAIN-1] ||
@@ -69,8 +70,8 @@ module operand_bus (
   assign scene_o      = W'(distance_i) | W'(velocity);
   assign control_o    = W'(limited_i) | W'(tau_hat) | W'(tau_ref) | W'(voltage_q) | W'(velocity);
   assign supervisor_o = W'(estimate_q) | W'(voltage_q) | W'(velocity);
-  // What fits 32 bits is ored there: a simulation is faster by it. The limiter's result comes late in the
-  // clock and is ored last.
+  // Sources that fit 32 bits are ORed at that width, which makes a simulation faster. The limiter's
+  // result arrives late in the clock, so it is ORed last.
   logic signed [31:0] narrow;
   assign narrow       = (32'(velocity) | 32'(voltage_q) | 32'(estimate_q)) | (32'(tau_hat) | 32'(tau_ref)) |
                         (32'(distance_i) | 32'(current_q));

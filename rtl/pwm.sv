@@ -2,29 +2,30 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Centre-aligned PWM for an H-bridge, sign-magnitude or locked-antiphase, with dead time.
-// Duty [1,12,0] clocks; taken once a period with period_start_o, at the gates 3 clocks later
-// (turning on: plus the dead time). 0 is in force while disabled. The gates are registers.
+// Duty [1,12,0] clocks. It is sampled once per period and is new with period_start_o; it reaches
+// the gates 3 clocks later (turn-on: plus the dead time). Disabled, duty 0 is in force. The gate
+// outputs are registers.
 // Documentation: docs/blocks/pwm.md
 `default_nettype none
 
 module pwm #(
   parameter int Period         = 1000,  // clocks, even, 4 to 4094
   parameter int DeadClocks     = 25,    // clocks, 1 to 64
-  parameter int ShortestClocks = 1      // of a pulse at a gate, 1 to 255
+  parameter int ShortestClocks = 1      // shortest pulse at a gate in clocks, 1 to 255
 ) (
   input  logic               clk_i,
   input  logic               rst_ni,
-  input  logic               clear_i,         // asynchronous: every gate off at once, with or without a clock
+  input  logic               clear_i,         // asynchronous: every gate off at once, needs no clock
   input  logic               enable_i,        // 0: every gate off with the next edge, duty 0
   input  logic               mode_i,          // 0: sign-magnitude, 1: locked-antiphase
-  input  logic               polarity_i,      // 1: motor wired the other way
-  input  logic signed [12:0] duty_i,          // beyond +-Period it acts as +-Period
+  input  logic               polarity_i,      // 1: the motor's wires are swapped
+  input  logic signed [12:0] duty_i,          // clocks; saturates at +-Period
   output logic               gate_a_hi_o,
   output logic               gate_a_lo_o,
   output logic               gate_b_hi_o,
   output logic               gate_b_lo_o,
-  output logic               period_start_o,  // duty_i has just been taken
-  output logic signed [12:0] duty_active_o    // as taken, 0 while disabled
+  output logic               period_start_o,  // one clock: duty_i has just been sampled
+  output logic signed [12:0] duty_active_o    // the sampled duty, 0 while disabled
 );
 
   generate
@@ -44,7 +45,7 @@ module pwm #(
   localparam logic        [10:0] LAST = 11'(Period / 2 - 1);
 
   // The carrier {level, rising} runs through Period, Period-2 .. 2, 1, 3 .. Period-1: each number
-  // from 1 to Period once, so that carrier <= n holds for just n clocks, centred to half a clock.
+  // from 1 to Period once. So carrier <= n is true for exactly n clocks, centred to half a clock.
   logic [10:0] level_q;
   logic        rising_q, take, turn;
 
@@ -63,7 +64,7 @@ module pwm #(
     end
   end
 
-  // Clocks wanted high: |duty| in sign-magnitude, floor((Period + duty) / 2) in locked-antiphase.
+  // On-time in clocks: |duty| in sign-magnitude, floor((Period + duty) / 2) in locked-antiphase.
   logic               antiphase_q, negate_q, switch_b_q;
   logic               increment, unused_sum;
   logic signed [13:0] addend, threshold_d;
@@ -74,7 +75,8 @@ module pwm #(
   // One carry chain: the bit below the operands carries the increment in.
   assign {threshold_d, unused_sum} = {antiphase_q ? HALF : 14'sd0, 1'b1} + {addend, increment};
 
-  // A duty of the last arming must not meet the gates of the next one. 0 is 0 with every sign.
+  // A duty of one arming must not reach the gates in the next arming, so disabling clears it. Duty
+  // 0 needs no sign, so the sign registers keep their value.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) duty_active_o <= 13'sd0;
     else if (!enable_i) duty_active_o <= 13'sd0;
@@ -92,8 +94,9 @@ module pwm #(
     end
   end
 
-  // No gate gets a pulse shorter than ShortestClocks. A high one is left out (sign-magnitude) or made longer (antiphase, in
-  // which both legs always switch); a low one is made longer.
+  // No gate gets a pulse shorter than ShortestClocks. A short high pulse is left out in
+  // sign-magnitude and made longer in antiphase, where both legs always switch. A short low pulse
+  // is made longer.
   logic signed [13:0] whole_d;
 
   generate
@@ -127,10 +130,10 @@ module pwm #(
     end
   end
 
-  // threshold - carrier lies in -5643..4095: its sign alone compares them.
+  // threshold - carrier lies in -5643..4095, so its sign bit is the comparison.
   logic        above;
   logic [12:0] unused_difference;
-  logic [1:0]  high_q;  // leg A, leg B: wanted high
+  logic [1:0]  high_q;  // bit 0 leg A, bit 1 leg B: to be high
 
   assign {above, unused_difference} = threshold_q - {2'b00, level_q, rising_q};
 
@@ -140,8 +143,8 @@ module pwm #(
     else high_q <= {switch_b_q2 && !antiphase_q2, !switch_b_q2 || antiphase_q2};
   end
 
-  // One leg: both gates are off for DeadClocks whenever the wanted level changes or while disabled.
-  // The top bit of dead_q ends the count of DeadClocks - 1.
+  // Each leg: both gates are off for DeadClocks after each change of the wanted level, and while
+  // disabled. The top bit of dead_q marks the end of the count of DeadClocks - 1.
   localparam int DEAD_BITS = (DeadClocks > 1) ? $clog2(DeadClocks) : 1;
   localparam logic [DEAD_BITS:0] DEAD = (DEAD_BITS + 1)'(2 ** DEAD_BITS - (DeadClocks - 1));
 
@@ -169,7 +172,8 @@ module pwm #(
   end
   endgenerate
 
-  // The gates: four registers with one clear, nothing behind them and no other load, for the I/O cells.
+  // The gates: four registers with one asynchronous clear. They drive only the pins, so the tool
+  // can place them in the I/O cells.
   logic       clear;
   logic [1:0] ready;
   logic [1:0] gate_hi_q = 2'b00;  // off at power-up, before any reset

@@ -1,40 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Incremental encoder to position: synchroniser, glitch filter, x4 decoding, index latch, error and
-// glitch counters. Position [1,31,0] counts, wraps. Pin to travel_o 3 clocks, to position_o 4, plus
-// the filter length. Documentation: docs/blocks/quad_decoder.md
+// Incremental encoder decoder: synchroniser, glitch filter, x4 decoding, index latch, counters of
+// errors and glitches. Position [1,31,0] counts, wraps. Latency: pin to travel_o 3 clocks, pin to
+// position_o 4 clocks, plus filter_i clocks. Documentation: docs/blocks/quad_decoder.md
 `default_nettype none
 
 module quad_decoder #(
-  parameter int ResetPosition = 0,  // test only: brings the wrap near
-  parameter int IndexCounts   = 0   // a revolution, a power of two; 0: the index is not checked
+  parameter int ResetPosition = 0,  // test only: start near the wrap
+  parameter int IndexCounts   = 0   // counts per revolution, a power of two; 0: index not checked
 ) (
   input  logic               clk_i,
   input  logic               rst_ni,
   input  logic               a_i,               // asynchronous pins
   input  logic               b_i,
   input  logic               z_i,
-  input  logic        [3:0]  filter_i,          // pulses of so many clocks are still rejected
-  input  logic               polarity_i,        // 1: count the other way
+  input  logic        [3:0]  filter_i,          // pulses of up to so many clocks are rejected
+  input  logic               polarity_i,        // 1: counts in the other direction
   input  logic               set_zero_i,
   input  logic               clear_error_i,
-  output logic signed [31:0] position_o,
-  output logic        [15:0] travel_o,          // free-running, set_zero_i does not touch it
-  output logic signed [1:0]  step_o,            // what travel_o moved by in this clock
-  output logic        [31:0] count_o,           // the whole count, and its value where zero is
+  output logic signed [31:0] position_o,        // counts since the zero, wraps
+  output logic        [15:0] travel_o,          // counts, free-running, not set by set_zero_i
+  output logic signed [1:0]  step_o,            // change of travel_o with this clock: -1, 0, +1
+  output logic        [31:0] count_o,           // the count; position = count - zero
   output logic        [31:0] zero_o,
-  output logic        [1:0]  levels_o,          // of A (bit 0) and B, as accepted
+  output logic        [1:0]  levels_o,          // filtered levels of A (bit 0) and B
   output logic               error_o,           // sticky: both channels changed in one clock
-  output logic               illegal_o,         // both channels changed in the clock before
+  output logic               illegal_o,         // both channels changed in the previous clock
   output logic        [15:0] error_count_o,     // saturates
   output logic        [15:0] rejected_count_o,  // saturates
   output logic signed [31:0] index_position_o,
   output logic               index_seen_o,
-  output logic               index_wrong_o      // sticky: an index does not fit a revolution
+  output logic               index_wrong_o      // sticky: an index came at a wrong count
 );
 
-  // Channels: 0 = A, 1 = B, 2 = Z. sync_q[0] may be metastable and feeds nothing but sync_q[1].
+  // Channels: 0 = A, 1 = B, 2 = Z. meta_q can be metastable and drives only sync_q.
   logic [2:0] meta_q, sync_q, previous_q, level_q;
   logic [2:0] changed, rejected;
   logic [1:0] fill_q;
@@ -56,8 +56,8 @@ module quad_decoder #(
     end
   end
 
-  // A level that differs from the accepted one must last while its wait_q runs from filter_i to 0.
-  // Whole words, not bit by bit: a simulator then has a third of the work.
+  // A level that differs from the accepted one must last while its wait_q counts from filter_i to
+  // 0. The logic works on whole words, not on bits: a simulator then has a third of the work.
   logic [2:0] differs, elapsed_q, ends, reload, accept;  // elapsed_q: wait_q is 0
 
   assign differs  = sync_q ^ level_q;
@@ -107,7 +107,7 @@ module quad_decoder #(
   logic signed [1:0] step_q;
   logic              index_q;
 
-  // The count is never written: a new zero cannot lose an edge that arrives with it.
+  // set_zero_i moves the zero, not the count, so no edge of the same clock is lost.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       count_q          <= ResetPosition;
@@ -132,8 +132,8 @@ module quad_decoder #(
   assign zero_o   = zero_q;
   assign levels_o = level_q[1:0];
 
-  // From the first index on the count must differ by whole revolutions. Both ways the index rises at its
-  // near side, so by its width too.
+  // Each index must come whole revolutions after the first one. The index rises at the side from
+  // which it is entered, so the two directions differ by its width; that much is tolerated.
   generate
   if (IndexCounts > 0) begin : g_index
     localparam int W    = $clog2(IndexCounts);
@@ -144,7 +144,7 @@ module quad_decoder #(
     end
 
     logic [W-1:0]    first_q;
-    logic [W-1:Near] apart;  // whole widths of an index
+    logic [W-1:Near] apart;  // in widths of the index
     logic            wrong;
 
     assign apart = (W - Near)'((count_q[W-1:0] - first_q) >> Near);
@@ -160,7 +160,7 @@ module quad_decoder #(
   end
   endgenerate
 
-  // One counter is served in a clock; an event waits while it is the other's turn.
+  // One counter is incremented per clock. The rejected counter has priority; an error waits.
   logic error_wait_q, rejected_wait_q, serve_error, serve_rejected;
 
   assign serve_rejected = rejected_wait_q && !clear_error_i;

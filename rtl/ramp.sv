@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The torque reference: follows the limited torque of the scene, in steps of one word per tick after
-// arming, after a change of scene and after restart_i; between them nothing is slowed.
-// Latency: target in the clock of the step's word, tau_ref three clocks later and held.
-// docs/blocks/ramp.md
+// Ramp of the torque reference. tau_ref_o follows the scene's limited torque. After arming, a
+// change of scene, a change of eased_i or restart_i it moves by at most one step word per tick
+// until it reaches the target; after that it is not slowed. Latency: target on limited_i in the
+// clock of the step's word (T_RAMP_EXCESS), tau_ref_o three clocks later, held. docs/blocks/ramp.md
 
 `default_nettype none
 
@@ -13,30 +13,30 @@ module ramp (
     input  logic                                      rst_ni,
     input  logic                                      armed_i,
     input  logic        [                        3:0] scene_i,
-    input  logic                                      restart_i,  // last clock of a tick: the torque may jump
+    input  logic                                      restart_i,  // last clock of a tick: ramp from now on
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
     input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input  logic        [                       31:0] param_i,
     input  logic signed [feltgate_pkg::LIMITER_W-1:0] limited_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic                                      beyond_i,
-    input  logic                                      frozen_i,  // the reference may only fall
-    input  logic                                      eased_i,   // the limit is hold_limit
-    output logic signed [ feltgate_pkg::TORQUE_W-1:0] tau_ref_o,
-    output logic                                      limit_torque_o,
-    output logic                                      limit_ramp_o,
-    output logic                                      limit_hold_o
+    input  logic                                      frozen_i,  // 1: |tau_ref| must not grow
+    input  logic                                      eased_i,   // 1: the limit is hold_limit
+    output logic signed [ feltgate_pkg::TORQUE_W-1:0] tau_ref_o,       // Nm, motor on lever
+    output logic                                      limit_torque_o,  // the torque limit acts
+    output logic                                      limit_ramp_o,    // the step acts
+    output logic                                      limit_hold_o     // hold_limit acts
 );
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int W = feltgate_pkg::RAMP_W;
   localparam int Fine = feltgate_pkg::RAMP_F - feltgate_pkg::TORQUE_F;
-  localparam int Excess = feltgate_map_pkg::T_RAMP_EXCESS;  // the step's word comes by
+  localparam int Excess = feltgate_map_pkg::T_RAMP_EXCESS;  // the step's word is on the bus
 
   logic signed [W-1:0] ramp_q;
   assign tau_ref_o = ramp_q[W-1:Fine];
 
-  // How far the reference is above the target.
-  // A step is one bit at least, also where the word is 0 or negative; while frozen it is 0.
+  // excess_q: reference minus target. step_q: at least one LSB, also for a word of 0 or a negative
+  // word; 0 while frozen.
   logic signed [W:0] excess_q;
   logic      [W-2:0] step_q;
   always_ff @(posedge clk_i) begin
@@ -49,10 +49,10 @@ module ramp (
     end
   end
 
-  // The reference moves by one step towards the target, or by the whole distance. The tick whose distance
-  // is within one step ends the ramp; the reference moves on with the next tick. While frozen the step is 0,
-  // and a reference takes it that would grow, or would fall from above 0 to below 0. This is decided for
-  // both directions before the direction is known.
+  // The reference moves towards the target by one step, or by the whole distance. A ramp ends in
+  // the tick whose distance is within one step; the reference moves on with the next tick. While
+  // frozen the step is 0; it applies to a reference that would grow or would change from above 0 to
+  // below 0. The choice is made for both directions before the direction is known.
   logic signed [W:0] step, change, beyond;
   logic signed [W-1:0] change_q;
   logic ramping_q, active, frozen, steps_down_q, steps_up_q, stepping, stepping_q;

@@ -2,14 +2,15 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Register port, parameter RAM (512 x 32), control word, commands and the double-buffered snapshot.
-// A write is taken in a clock in which reg_write_i is high and reg_busy_o low, and takes effect at
-// tick_i; a disarm and a stop pass one that waits. param_o follows slot_fetch_i by 2 clocks,
-// reg_rdata_o follows reg_addr_i by 3. Documentation: docs/blocks/registers.md
+// A write is accepted in a clock with reg_write_i high and reg_busy_o low, and takes effect at
+// tick_i. A disarm and a stop do not wait for an earlier write. Latency: param_o follows
+// slot_fetch_i by 2 clocks, reg_rdata_o follows reg_addr_i by 3.
+// Documentation: docs/blocks/registers.md
 `default_nettype none
 
 module registers #(
   parameter int ReadBack = 1,  // 0: no snapshot, reads give 0
-  parameter ParameterFile = ""  // what $readmemh fills the parameters from; "": the package
+  parameter ParameterFile = ""  // $readmemh file of the parameters; "": values of the package
 ) (
   input  logic        clk_i,
   input  logic        rst_ni,
@@ -17,29 +18,29 @@ module registers #(
 
   input  logic [11:0] reg_addr_i,
   input  logic [31:0] reg_wdata_i,
-  input  logic        reg_write_i,         // held, with address and data, until it is taken
+  input  logic        reg_write_i,         // held with address and data until accepted
   output logic [31:0] reg_rdata_o,
-  output logic        reg_busy_o,          // a write waits for the end of the tick; none is taken
+  output logic        reg_busy_o,          // a write waits for tick_i; no other is accepted
 
-  input  logic        armed_i,             // or about to be, in the clock of tick_i
-  input  logic        set_zero_i,          // the panel's, one clock
+  input  logic        armed_i,             // armed, or armed from the next clock on
+  input  logic        set_zero_i,          // from the panel, one clock
   input  logic [5:0]  slot_fetch_i,
   input  logic        scene_slot_fetch_i,
-  input  logic [3:0]  scene_i,             // the bank of the scene in force; not 1
-  input  logic        region_high_i,       // the voltage gain is that of high torque
-  input  logic        eased_i,             // the torque limit is hold_limit
-  input  logic        testing_i,           // the torque limit is the self-test's torque
+  input  logic [3:0]  scene_i,             // bank of the active scene; never 1
+  input  logic        region_high_i,       // 1: read voltage_gain_high for voltage_gain
+  input  logic        eased_i,             // 1: read hold_limit for torque_limit
+  input  logic        testing_i,           // 1: read the self-test's torque for torque_limit
   output logic [31:0] param_o,
-  output logic        word_error_o,        // the word on the bus, or a held control bit, has changed by itself
+  output logic        word_error_o,        // check error of the word on the bus or of the held control bits
 
   output logic [feltgate_map_pkg::W_CONTROL-1:0] control_o,
-  output logic        set_zero_o,          // commands: high in the clock of tick_i; also the panel's
+  output logic        set_zero_o,          // commands, high with tick_i; also from the panel
   output logic        clear_faults_o,
   output logic        kick_o,
-  output logic        disarm_o,            // written on the port since the end of the last tick
-  output logic        stop_o,              // likewise
-  output logic        restart_o,           // in the clock of tick_i: by this the torque may jump
-  output logic        refused_o,           // the last parameter was refused, for the core was armed
+  output logic        disarm_o,            // a disarm was written since the end of the last tick
+  output logic        stop_o,              // a stop was written, likewise
+  output logic        restart_o,           // in the clock of tick_i: this change starts the ramp
+  output logic        refused_o,           // the last parameter write was refused: armed
 
   input  logic [5:0]  snap_slot_i,
   input  logic        snap_valid_i,
@@ -52,7 +53,7 @@ module registers #(
   localparam logic [5:0] EASED = 6'(feltgate_map_pkg::S_HOLD_LIMIT);
   localparam logic [5:0] TEST  = 6'(feltgate_map_pkg::S_SELF_TEST_TORQUE);
 
-  // The waiting write: where it goes (none set: nothing waits), and its word.
+  // The waiting write: its target (no bit set: nothing waits), address and data.
   logic        to_parameter_q, to_control_q, to_command_q;
   logic        at_parameter, at_control, at_command, disarms, stops, holds;
   logic        common, refuses, ramps, input_scene, zero_q;
@@ -64,23 +65,23 @@ module registers #(
   assign at_command   = reg_addr_i == feltgate_map_pkg::A_COMMAND;
   assign reg_busy_o   = to_parameter_q || to_control_q || to_command_q;
 
-  // What passes a waiting write acts as soon as it is on the port, taken or not.
+  // A disarm and a stop act as soon as they are on the port, also while another write waits.
   assign disarms = reg_write_i && at_control && reg_wdata_i[feltgate_map_pkg::B_CONTROL_HOST] &&
                    !reg_wdata_i[feltgate_map_pkg::B_CONTROL_ARM];
   assign stops   = reg_write_i && at_command && reg_wdata_i[feltgate_map_pkg::B_COMMAND_STOP];
 
-  // While the motor is armed, the control word's fields from HELD on keep what is in force, and a
-  // parameter by which the torque would jump past the ramp is refused.
+  // While armed, the fields of the control word from bit HELD on keep their values, and a parameter
+  // that would make the torque jump without the ramp is refused.
   localparam int HELD = feltgate_map_pkg::B_CONTROL_MODE;
   localparam logic [feltgate_map_pkg::W_CONTROL-1:0] CONTROL_RESET =
       feltgate_map_pkg::W_CONTROL'(feltgate_pkg::CONTROL_RESET);
-  logic held_check_q;  // the parity of the held fields as they were written
+  logic held_check_q;  // parity of the held fields, stored with them
   assign holds   = armed_i && !disarm_o;
   assign common  = address_q[8:6] == 3'd0;
   assign refuses = armed_i && common && feltgate_map_pkg::REFUSED_WHILE_ARMED[address_q[5:0]];
   assign ramps   = common ? feltgate_map_pkg::RAMPS_WHILE_ARMED[address_q[5:0]]
                           : address_q[8:5] == scene_i && !input_scene;
-  assign input_scene = feltgate_map_pkg::INPUT_SCENES[scene_i];  // it does not ask for the position
+  assign input_scene = feltgate_map_pkg::INPUT_SCENES[scene_i];  // independent of position
   assign restart_o   = (set_zero_o && !input_scene) || (tick_i && to_parameter_q && ramps);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -119,7 +120,7 @@ module registers #(
           held_check_q <= ^data_q[feltgate_map_pkg::W_CONTROL-1:HELD];
         end
       end
-      if (tick_i && disarm_o) begin  // also against an arm that waits
+      if (tick_i && disarm_o) begin  // wins over a waiting write that arms
         control_o[feltgate_map_pkg::B_CONTROL_HOST] <= 1'b1;
         control_o[feltgate_map_pkg::B_CONTROL_ARM]  <= 1'b0;
       end
@@ -130,8 +131,9 @@ module registers #(
   assign clear_faults_o = tick_i && to_command_q && data_q[feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS];
   assign kick_o         = tick_i && to_command_q && data_q[feltgate_map_pkg::B_COMMAND_KICK];
 
-  // A word's check: the parity of every fourth bit, from bit k on. A single bit that flips, of word or
-  // check, breaks one of them; so does a memory whose bits all read 0, or all 1.
+  // Check bits of a word: bit k is the parity of every fourth bit from bit k on, two of them
+  // inverted. They detect a single flipped bit of word or check, and a memory that reads all 0 or
+  // all 1.
   function automatic logic [3:0] check_of(input logic [31:0] word);
     logic [15:0] half;
     logic [7:0]  quarter;
@@ -140,9 +142,9 @@ module registers #(
     check_of = quarter[7:4] ^ quarter[3:0] ^ 4'b0101;
   endfunction
 
-  // Parameter RAM, each word with its check. It keeps what was written through a reset; only
-  // configuration loads the values of the design. A word is written in a clock in which no block
-  // fetches a word of its own, so what a block RAM returns for a read of it then does not matter.
+  // Parameter RAM, each word with its check bits. A reset does not change it; only configuration
+  // loads the design's values. A word is written in a clock in which no block fetches a word, so
+  // the result of a read during the write does not matter.
   (* no_rw_check, ram_style = "block", ramstyle = "no_rw_check" *)
   logic [35:0] parameter_ram [0:511];
 
@@ -163,16 +165,16 @@ module registers #(
   logic [35:0] written;
   assign lands   = tick_i && to_parameter_q && !refuses;
   assign written = {check_of(data_q), data_q};
-  always @(posedge clk_i) begin  // not always_ff: the values of the design are written by another process
+  always @(posedge clk_i) begin  // not always_ff: the initial block writes it too
     if (lands) parameter_ram[address_q] <= written;
   end
 
   logic        high, eased, test;
   logic [8:0]  fetch_address;
   logic [35:0] fetch_q;
-  logic [ 3:0] check_q;                // of the word on the bus
-  logic        written_q, written_q2;  // fetched while a word was written: it may be any
-  logic        warm_q;  // keeps what the RAM's own, unreset output register held off the bus
+  logic [ 3:0] check_q;                // check bits of the word on the bus
+  logic        written_q, written_q2;  // fetched during a write: data undefined, no check
+  logic        warm_q;  // 0 for one clock: blocks the RAM's output register, which has no reset
 
   assign high = region_high_i && slot_fetch_i == LOW;
   assign eased = eased_i && slot_fetch_i == FULL;
@@ -202,7 +204,7 @@ module registers #(
 
   generate
   if (ReadBack != 0) begin : g_read
-    // Words of the running tick go to bank write_bank_q, the port reads the other bank.
+    // The words of the running tick go to bank write_bank_q; the port reads the other bank.
     (* no_rw_check, ram_style = "block", ramstyle = "no_rw_check" *)
     logic [31:0] snapshot_ram [0:127];
     logic        write_bank_q, frozen_q, read_bank;
@@ -211,7 +213,7 @@ module registers #(
     /* verilator lint_on UNUSEDSIGNAL */
     logic [31:0] parameter_q2, snapshot_q, snapshot_q2;
     logic        at_snapshot;
-    // Where the addressed word is: 1 parameter, 2 snapshot, 3 control, 0 nowhere.
+    // Source of the addressed word: 1 parameter, 2 snapshot, 3 control, 0 none (reads 0).
     logic [1:0]  source_q, source_q2;
 
     initial begin
@@ -237,7 +239,7 @@ module registers #(
         snapshot_q2  <= 32'd0;
         reg_rdata_o  <= 32'd0;
       end else begin
-        // The tick that a freeze ends is the one that is held.
+        // A freeze holds the snapshot of the tick at whose end it takes effect.
         if (tick_i && !frozen_q) write_bank_q <= !write_bank_q;
         if (tick_i && to_command_q) begin
           frozen_q <= data_q[feltgate_map_pkg::B_COMMAND_FREEZE] ||

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The core's one rounding: whether a number goes up when its lowest Drop bits are dropped, as the
-// design says: half up, down, or half to even. With negated_i the number is the negative of one that
-// is meant to be rounded so, and the negative of that rounding comes out.
-// Combinational. docs/blocks/rounding.md, docs/fixed-point.md
+// The core's rounding: up_o tells whether to add 1 after the lowest Drop bits are dropped. The
+// design selects half up, down (floor), or half to even. With negated_i the input is -x, and up_o
+// makes the result -round(x). Combinational. docs/blocks/rounding.md, docs/fixed-point.md
 
 `default_nettype none
 
 module rounding #(
     parameter int Drop = 2
 ) (
-    input  logic [Drop:0] low_i,      // the bits that are dropped and the lowest that is kept
+    input  logic [Drop:0] low_i,      // the dropped bits and the lowest kept bit
     input  logic          negated_i,
     output logic          up_o
 );
   localparam logic [Drop-1:0] Below = (Drop'(1) << (Drop - 1)) - Drop'(1);
   logic half, rest;
   assign half = low_i[Drop-1];
-  assign rest = (low_i[Drop-1:0] & Below) != '0;  // beyond the half
+  assign rest = (low_i[Drop-1:0] & Below) != '0;  // dropped bits below the half
 
   generate
   if (feltgate_pkg::ROUNDING == 0) begin : gen_half_up

@@ -4,10 +4,9 @@
 // Scene: a point charge at a fixed position, tau = -+strength * sgn(x) / x^2 outside a linear core
 // and -+slope * x inside it (upper sign attracts). The division is an integer one: floor, 16 bits,
 // saturating; one quotient bit per clock.
-// Latency: plus_o or minus_o, of the core and not yet rounded, two clocks after their product, held;
-// outside_o, a whole torque, in the clock of the torque limit, bits of it in the clocks before; 0 while
-// the scene is not selected.
-// docs/blocks/scene_charge.md
+// Latency: plus_o or minus_o (inside the core, not yet rounded) two clocks after their product,
+// held. outside_o (a final torque) in the clock of the torque limit's word; before, it shows the
+// quotient's first bits. All are 0 while the scene is not selected. docs/blocks/scene_charge.md
 
 `default_nettype none
 
@@ -15,15 +14,15 @@ module scene_charge (
     input  logic                                            clk_i,
     input  logic                                            rst_ni,
     input  logic                                            armed_i,
-    input  logic                                            attract_i,  // selects, as does
-    input  logic                                            repel_i,
+    input  logic                                            attract_i,  // selects, attracting
+    input  logic                                            repel_i,    // selects, repelling
     input  logic signed [feltgate_pkg::SCENE_POSITION_W:0]  gap_i,      // whole counts, held
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
     input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input  logic        [                             31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic signed [   feltgate_pkg::PRODUCT_BITS-1:0] product_i,
-    input  logic                                            beyond_i,   // the limiter's
+    input  logic                                            beyond_i,   // from the limiter
     output logic signed [   feltgate_pkg::SCENE_PART_W-1:0] plus_o,
     output logic signed [   feltgate_pkg::SCENE_PART_W-1:0] minus_o,
     output logic signed [       feltgate_pkg::TORQUE_W-1:0] outside_o
@@ -39,16 +38,17 @@ module scene_charge (
   localparam int Square = feltgate_map_pkg::M_CHARGE_SQUARE;
   localparam int Strength = feltgate_map_pkg::S_ATTRACT_STRENGTH;
   localparam int Core = feltgate_map_pkg::T_CHARGE_CORE;
-  localparam int First = Square + 1;  // of the divider's clocks
+  localparam int First = Square + 1;  // first clock of the divider
   localparam int Last = First + 16;
 
   logic select, minus_q;
   assign select = attract_i || repel_i;
 
-  // Restoring division of the 32-bit strength by x^2. Its upper bits preset the remainder. A square
-  // that needs more than 32 bits never fits, nor does that of a distance beyond 18 bits: one factor
-  // wraps to the other sign, the product is negative. Where it fits at once the quotient saturates:
-  // then nothing is taken off and the square becomes 0, which always fits.
+  // Restoring division of the 32-bit strength by x^2. The strength's upper bits preset the
+  // remainder. A square of more than 32 bits never fits, so the quotient is 0. The same holds for a
+  // distance beyond 18 bits: one factor wraps to the other sign and the product is negative. If the
+  // square fits in the first clock, the quotient saturates: nothing is subtracted, and the square
+  // becomes 0, which fits in every later clock.
   logic [14:0] preset_q;
   logic [16:0] rest_q;
   logic [30:0] remainder_q;
@@ -59,7 +59,7 @@ module scene_charge (
     if (!rst_ni) busy_q <= 1'b0;
     else busy_q <= wave_i[First-1] || (busy_q && !wave_i[Last]);
   end
-  // The next bit of the strength, chosen a clock ahead.
+  // The strength's next bit, selected one clock ahead.
   always_ff @(posedge clk_i) bring_q <= (rest_q & wave_i[Last-1:First-1]) != '0;
   assign difference = {2'b0, remainder_q, bring_q} - {1'b0, square_q};
   assign fits       = !difference[33];
@@ -81,8 +81,7 @@ module scene_charge (
     end
   end
 
-  // Quotient with its sign, most significant bit first: -(2q + 1) = 2 * ~q + 1. It stands for one
-  // clock.
+  // Signed quotient, most significant bit first: -(2q + 1) = 2 * ~q + 1. It is valid for one clock.
   logic        [      15:0] quotient_q;
   logic signed [ForceW-1:0] outside_q;
   logic                     near_q;
@@ -97,7 +96,7 @@ module scene_charge (
   assign torque = (WideW'(outside_q) <<< Up) >>> Down;
   assign outside_o = torque[TorqueW-1:0];
 
-  // Core: |x| up to the half-width, which the limiter compares; a width of 0 is none.
+  // Core: |x| <= half-width; the limiter compares them. A half-width of 0 means no core.
   logic none_q;
   always_ff @(posedge clk_i) begin
     if (wave_i[feltgate_map_pkg::T_CHARGE_WIDTH_LIMITED]) begin
@@ -107,7 +106,7 @@ module scene_charge (
     else if (wave_i[Core]) near_q <= !beyond_i && !none_q;
   end
 
-  // slope * -x attracts, its negative repels.
+  // slope * -x attracts; its negative repels.
   logic signed [feltgate_pkg::SCENE_PART_W-1:0] attract, repel;
   scene_part #(
       .Fraction(DistanceF + feltgate_pkg::P_ATTRACT_CORE_SLOPE_F)

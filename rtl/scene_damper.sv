@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Scene: a damper, tau = -b * velocity, not yet rounded.
+// Scene: a viscous damper, tau = -b * velocity, not yet rounded.
 // Latency: minus_o one clock after the product of velocity and damping, held; 0 while the scene is
 // not selected. docs/blocks/scene_damper.md
 

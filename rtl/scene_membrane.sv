@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Scene: a membrane between two faces. Inside, a constant torque drives the lever back to the side
-// from which it came; it holds that sign until it is left, so it only absorbs.
-// Latency: plus_o or minus_o one clock after the torque's word, held; 0 while the scene is not
-// selected. docs/blocks/scene_membrane.md
+// from which it came. The sign stays until the lever is outside again, so the membrane only absorbs
+// energy. Latency: plus_o or minus_o one clock after the torque's word, held; 0 while the scene is
+// not selected. docs/blocks/scene_membrane.md
 
 `default_nettype none
 
@@ -12,14 +12,14 @@ module scene_membrane (
     input  logic                                     clk_i,
     input  logic                                     rst_ni,
     input  logic                                     select_i,
-    input  logic                                     gap_negative_i,  // of the face on the bus
-    input  logic                                     gap_zero_i,      // but for its fraction
+    input  logic                                     gap_negative_i,  // sign of face - position
+    input  logic                                     gap_zero_i,      // whole counts are 0
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
     input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input  logic        [                      31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */
-    output logic signed [feltgate_pkg::TORQUE_W-1:0] plus_o,   // from above
-    output logic signed [feltgate_pkg::TORQUE_W-1:0] minus_o   // from below
+    output logic signed [feltgate_pkg::TORQUE_W-1:0] plus_o,   // lever came from above
+    output logic signed [feltgate_pkg::TORQUE_W-1:0] minus_o   // lever came from below
 );
   localparam int W = feltgate_pkg::TORQUE_W;
   localparam int Lower = feltgate_map_pkg::S_MEMBRANE_LOWER;
@@ -35,7 +35,7 @@ module scene_membrane (
     if (wave_i[Upper]) above_q <= gap_negative_i;
   end
 
-  // The side seen last is the side of entry.
+  // The side on which the lever was last outside is the side of entry.
   logic seen_q, side_q;  // side 1: above
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -49,7 +49,7 @@ module scene_membrane (
     end
   end
 
-  // A negative word counts as 0: it would drive the lever on.
+  // A negative torque word counts as 0: it would drive the lever further in.
   logic engaged, refused;
   assign engaged = select_i && seen_q && !below_q && !above_q;
   assign refused = wave_i[Torque] && param_i[W-1];

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A product as one term of a scene's torque: its bits below the guard bits are dropped. Where the
-// design rounds to even and the term is Exact, the lowest guard bit tells whether any of them was set, so
-// that the one rounding that follows gives what it would give of the whole product.
+// Converts a product to one term of a scene's torque: it drops the bits below the guard bits. If
+// the design rounds to even and the term is Exact, the lowest guard bit is set when any dropped bit
+// was set (sticky bit). The later rounding then gives the same result as for the whole product.
 // Combinational. docs/blocks/scene_part.md
 
 `default_nettype none

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Scene: a spring, tau = k * (reference - position), not yet rounded. Tension: both ways from the
-// rest position. Compression: only below the contact.
+// Scene: a spring, tau = k * (reference - position), not yet rounded. Tension acts on both sides of
+// the rest position, compression only below the contact.
 // Latency: plus_o one clock after the product of distance and stiffness, held; 0 while the scene is
 // not selected. docs/blocks/scene_spring.md
 
@@ -10,7 +10,7 @@
 
 module scene_spring (
     input  logic                                         clk_i,
-    input  logic                                         tension_i,      // selects, as does
+    input  logic                                         tension_i,      // selects; at most one
     input  logic                                         compression_i,
     input  logic                                         behind_i,       // distance is negative
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks off the wave

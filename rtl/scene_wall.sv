@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Scene: a unilateral spring-damper, tau = k * (contact - position) - b * velocity above the
-// contact, not yet rounded; it never pulls, which the port sees to. Either product keeps the guard bits.
-// Latency: plus_o and minus_o one clock after their products, held; 0 outside the wall and while the
-// scene is not selected. docs/blocks/scene_wall.md
+// contact, not yet rounded. Both products keep the guard bits. The block scenes makes sure that the
+// wall never pulls. Latency: plus_o and minus_o one clock after their products, held; 0 outside the
+// wall and while the scene is not selected. docs/blocks/scene_wall.md
 
 `default_nettype none
 
@@ -35,7 +35,7 @@ module scene_wall (
       .part_o(damper)
   );
 
-  // Behind the contact the spring's term is negative; one that does not fit its format saturates.
+  // Behind the contact the spring's term is negative; if it does not fit its format, it saturates.
   localparam int W = feltgate_pkg::SCENE_PART_W;
   localparam int PartTop = feltgate_pkg::SCENE_DISTANCE_F + feltgate_pkg::P_WALL_STIFFNESS_F -
                            feltgate_pkg::SCENE_PART_F + W - 1;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The port of the scenes: one distance from the reference for all of them, one sum of what they
-// render, one rounding. A scene that is not built renders nothing.
-// Latency: distance_o [1,18,8] one clock after the reference's word and for two clocks; the torque,
-// rounded and not limited, as ahead_o in the clock before the torque limit's word or as late_o in it.
-// Before, ahead_o is a charge's distance for the limiter to compare with its core, and late_o the bits of
-// a quotient so far, which nothing takes. docs/blocks/scenes.md
+// All scenes, with one distance from the reference, one sum of their terms and one rounding. A
+// scene that is not built gives torque 0. Latency: distance_o [1,18,8] counts one clock after the
+// reference's word, for two clocks. The torque, rounded but not limited, is on ahead_o in the clock
+// before the torque limit's word, or on late_o in the clock of that word. Earlier, ahead_o shows a
+// charge's distance, which the limiter compares with the core's half-width, and late_o shows
+// quotient bits that nothing uses. docs/blocks/scenes.md
 
 `default_nettype none
 
@@ -21,16 +21,16 @@ module scenes #(
     input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input  logic        [                              31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */
-    input  logic signed [feltgate_pkg::SCENE_POSITION_W-1:0] position_i,
+    input  logic signed [feltgate_pkg::SCENE_POSITION_W-1:0] position_i,  // counts
     input  logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] product_i,
-    input  logic                                             beyond_i,    // the limiter's
-    input  logic signed [        feltgate_pkg::TORQUE_W-1:0] law_torque_i,  // of a program; counts where law_o
+    input  logic                                             beyond_i,    // from the limiter
+    input  logic signed [        feltgate_pkg::TORQUE_W-1:0] law_torque_i,  // of a program; used if law_o
     input  logic                                             law_late_i,    // it counts as 0
-    output logic                                             law_o,         // the scene of programs is in use
+    output logic                                             law_o,         // scene law selected
     output logic signed [feltgate_pkg::SCENE_DISTANCE_W-1:0] distance_o,
-    output logic                                             square_o,    // distance times itself
-    output logic signed [  feltgate_pkg::SCENE_TORQUE_W-1:0] ahead_o,     // to the limiter, a clock before
-    output logic signed [        feltgate_pkg::TORQUE_W-1:0] late_o       // in the clock of the limit
+    output logic                                             square_o,    // square the distance
+    output logic signed [  feltgate_pkg::SCENE_TORQUE_W-1:0] ahead_o,     // one clock before its limit
+    output logic signed [        feltgate_pkg::TORQUE_W-1:0] late_o       // with its limit
 );
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int PartW = feltgate_pkg::SCENE_PART_W;
@@ -63,8 +63,8 @@ module scenes #(
                        scene_i == feltgate_map_pkg::SCENE_LAW;
   assign square_o    = attract || repel;
 
-  // Reference minus position. Only the whole counts are subtracted: a position has no fraction, and
-  // a charge's centre none that counts.
+  // Reference minus position. Only the whole counts are subtracted: the position has no fraction,
+  // and the fraction of a charge's centre is ignored.
   logic signed [    GapW-1:0] gap, gap_q;
   logic        [OffsetF-1:0] fraction;
   logic                      held_q;
@@ -176,7 +176,7 @@ module scenes #(
   end
   endgenerate
 
-  // At most one scene's terms are not 0, so that they may be ored.
+  // At most one scene has terms that are not 0, so an OR combines them.
   logic signed [  PartW-1:0] plus, minus;
   logic signed [    PartW:0] sum_q;
   assign plus  = spring_plus | charge_plus | wall_plus | (PartW'(membrane_plus) <<< Guard);
@@ -185,7 +185,8 @@ module scenes #(
     if (wave_i[Sum]) sum_q <= (PartW + 1)'(plus) - (PartW + 1)'(minus);
   end
 
-  // The negative of a rounded product where a scene renders one; a wall never pulls.
+  // A scene that subtracts its product (damper, repelling charge) gives the negative of the rounded
+  // product. A wall never pulls: a sum that is not negative becomes 0.
   logic up;
   rounding #(
       .Drop(Guard)
@@ -195,7 +196,7 @@ module scenes #(
       .up_o(up)
   );
   logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] rounded_q;
-  logic signed [                     TorqueW-1:0] word_q, law_q;  // a whole torque needs no rounding
+  logic signed [                     TorqueW-1:0] word_q, law_q;  // already a torque: no rounding
   logic signed [                        GapW-1:0] width_q;
   always_ff @(posedge clk_i) begin
     if (!wave_i[Rounded] || !armed_i || (wall && !sum_q[PartW])) rounded_q <= '0;
@@ -211,7 +212,7 @@ module scenes #(
   assign ahead_o = rounded_q | feltgate_pkg::SCENE_TORQUE_W'(word_q) |
                    feltgate_pkg::SCENE_TORQUE_W'(law_q) | feltgate_pkg::SCENE_TORQUE_W'(width_q);
 
-  // With fewer scenes.
+  // Inputs without a load if fewer scenes are built.
   logic unused;
   assign unused = ^{rst_ni, beyond_i, product_i, setpoint, membrane, compression, tension, law_torque_i, law_late_i};
 endmodule

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// After arming: waits until the lever is at rest, gives it a torque pulse and its opposite, and looks
-// which way it goes, before the scene begins. The wrong way trips.
-// Words are compared as they come by, turns are taken in S_SELF_TEST_ARMS, a trip a clock later.
-// docs/blocks/self_test.md
+// Self-test after arming: waits until the lever is at rest, applies a torque pulse and then its
+// opposite, and checks the direction of motion before the scene begins. A wrong direction trips.
+// Timing: each word is compared when it is on the bus; the state changes in T_SELF_TEST_TURN;
+// trip_o is high in T_SELF_TEST. docs/blocks/self_test.md
 
 `default_nettype none
 
@@ -12,16 +12,16 @@ module self_test (
     input  logic                                             clk_i,
     input  logic                                             rst_ni,
     input  logic                                             armed_i,
-    input  logic                                             direct_i,      // no torque to test with
-    input  logic                                             waits_i,       // no pulse yet: another axis is before
-    input  logic        [                               1:0] travel_i,      // its low bits
+    input  logic                                             direct_i,      // voltage mode: no test
+    input  logic                                             waits_i,       // a lower axis tests first
+    input  logic        [                               1:0] travel_i,      // counts, low bits
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits
     input  logic        [                              31:0] tick_count_i,
     input  logic        [ feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input  logic        [                              31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */
     output logic                                             busy_o,        // the scene waits
-    output logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0]   ahead_o,       // beyond any torque limit, or 0
+    output logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0]   ahead_o,       // +-beyond any limit, or 0
     output logic        [feltgate_map_pkg::W_STATUS_SELF_TEST-1:0] result_o,
     output logic                                             trip_o
 );
@@ -36,7 +36,7 @@ module self_test (
   localparam logic [ResultW-1:0] Held = ResultW'(feltgate_map_pkg::SELF_TEST_HELD);
   localparam logic [ResultW-1:0] Moving = ResultW'(feltgate_map_pkg::SELF_TEST_MOVING);
 
-  // What the lever has moved by since the tick before: one count, or two, whose direction is unknown.
+  // Motion since the previous tick, in counts modulo 4. Of two counts the direction is unknown.
   logic [1:0] now_q, before_q, step;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -49,10 +49,10 @@ module self_test (
   end
   assign step = now_q - before_q;
 
-  // Time in units of the tick counter: one comparator, two words.
+  // Time in units of 2^UnitBit ticks. One comparator serves two words.
   logic [CountW-1:0] count_q, most;
   logic unit_q, patience_q, unit, impatient, enough, quiet_q, over_q;
-  assign most      = |param_i[31:CountW] ? '1 : param_i[CountW-1:0];  // a longer time is the longest there is
+  assign most      = |param_i[31:CountW] ? '1 : param_i[CountW-1:0];  // saturates
   assign unit      = tick_count_i[UnitBit] != unit_q;
   assign impatient = tick_count_i[PatienceBit] != patience_q;
   assign enough    = count_q >= most;
@@ -75,7 +75,7 @@ module self_test (
     end
   end
 
-  // One of these, or none: done.
+  // State: one of wait, first, second, rest; none of them: done.
   logic wait_q, first_q, second_q, rest_q;
   logic still, late_q, gives_up, begins;
   assign still    = step == 2'd0;
@@ -83,8 +83,8 @@ module self_test (
   assign begins   = quiet_q && still && !gives_up && !waits_i;
   assign busy_o   = armed_i && (wait_q || first_q || second_q || rest_q);
 
-  // Counts since the pulse began, up to the answer, where they stay. What begins with the second pulse
-  // is no answer.
+  // net_q: counts since the first pulse began. It stops at +-End, which is the answer. Motion that
+  // begins only in the second pulse does not count.
   localparam logic signed [2:0] End = 3'(feltgate_map_pkg::SELF_TEST_COUNTS);
   logic signed [2:0] net_q, net;
   logic              counts, against, failed, fail_q;
@@ -103,7 +103,7 @@ module self_test (
       late_q   <= 1'b0;
       fail_q   <= 1'b0;
     end else if (wave_i[Turn]) begin
-      // A pulse of no units, 0 >= 0, is no test.
+      // A pulse of 0 units (over_q: 0 >= 0) means no test.
       if (!armed_i) wait_q <= !over_q && !direct_i;
       else if (gives_up || begins) wait_q <= 1'b0;
       first_q  <= armed_i && ((wait_q && begins) || (first_q && !over_q));
@@ -118,7 +118,7 @@ module self_test (
     end
   end
 
-  // Not reset: disarmed, the first wave clears the one, waiting does the other.
+  // No reset: the first wave while disarmed clears count_q, the wait state clears net_q.
   always_ff @(posedge clk_i) begin
     if (wave_i[Turn]) begin
       if (!runs) count_q <= '0;
@@ -128,7 +128,7 @@ module self_test (
     end
   end
 
-  // The limiter makes the pulse of what is beyond its limit, the word of the test.
+  // ahead_o is beyond every limit, so the limiter makes the pulse: +-the word of the test's torque.
   logic up_q, down_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Counts the clocks of a tick, starts one wave per tick and reads the parameter slots ahead of it.
-// Clock c of a tick fetches slot c and is wave clock c - FIRST_WAVE_CLOCK. Documentation: docs/blocks/sequencer.md
+// Counts the clocks of a tick, starts one wave per tick and fetches the parameter slots ahead of
+// it. Clock c of a tick fetches slot c and is wave clock c - FIRST_WAVE_CLOCK.
+// Documentation: docs/blocks/sequencer.md
 `default_nettype none
 
 module sequencer #(
   parameter int ClocksPerTick = feltgate_pkg::CLOCKS_PER_TICK,  // at least WaveLength
   parameter int WaveLength    = feltgate_map_pkg::WAVE_LENGTH,
-  parameter int ResetTicks    = 0  // test only: brings the wrap of the tick count near
+  parameter int ResetTicks    = 0  // test only: start near the wrap of the tick count
 ) (
   input  logic                  clk_i,
   input  logic                  rst_ni,
   output logic                  tick_o,              // last clock of a tick
-  output logic [5:0]            slot_fetch_o,        // on the bus two clocks later
-  output logic                  scene_slot_fetch_o,  // that slot lies in the scene's bank
-  output logic [WaveLength-1:0] wave_o,              // one-hot
+  output logic [5:0]            slot_fetch_o,        // its word is on the bus 2 clocks later
+  output logic                  scene_slot_fetch_o,  // this slot is in the scene's bank
+  output logic [WaveLength-1:0] wave_o,              // one-hot: bit n is clock n of the wave
   output logic [31:0]           tick_count_o
 );
 
@@ -40,7 +41,7 @@ module sequencer #(
 
   generate
   if (CLOCK_W > 6) begin : g_long_tick
-    // Past the last slot nothing is read: hold the word that no block uses.
+    // After the last slot, fetch slot 63, which no block uses.
     assign slot_fetch_o = (clock_q[CLOCK_W-1:6] != '0) ? 6'd63 : clock_q[5:0];
   end else begin : g_short_tick
     assign slot_fetch_o = clock_q[5:0];
@@ -57,7 +58,7 @@ module sequencer #(
     end else begin
       clock_q <= tick_o ? '0 : clock_q + CLOCK_W'(1);
       tick_o  <= clock_q == BEFORE_LAST;
-      // After the tick comes slot 0, which is not a scene's; neither is 63 nor its successor.
+      // Slot 0, which follows the tick, is not in a scene's bank; nor are slot 63 and later clocks.
       scene_slot_fetch_o <= feltgate_map_pkg::SCENE_SLOTS[next_slot] && !tick_o && (clock_q < CLOCK_W'(63));
       wave_o             <= {wave_o[WaveLength-2:0], clock_q == CLOCK_W'(BEFORE_WAVE)};
       if (tick_o) tick_count_o <= tick_count_o + 32'd1;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The snapshot's words: which clocks of the wave hold one on the operand bus, and those that are no
-// operand of a product. One clock to the RAM, for the bus comes late; a word stands until the next.
-// Documentation: docs/blocks/snapshot.md
+// Collects the snapshot's words: some are on the operand bus in known wave clocks, the others come
+// from their own inputs. Latency: one clock to the RAM, because the bus is late in the clock; a
+// word is held until the next one. Documentation: docs/blocks/snapshot.md
 
 `default_nettype none
 
@@ -23,8 +23,8 @@ module snapshot #(
     input  logic signed [31:0] index_position_i,
     input  logic        [15:0] error_count_i,
     input  logic        [15:0] rejected_count_i,
-    input  logic        [31:0] operand_i,  // 0 in the clocks of the other words
-    output logic               valid_o,    // data_o is the word slot_o, new in this clock
+    input  logic        [31:0] operand_i,  // operand bus; 0 in the other words' clocks
+    output logic               valid_o,    // one clock: data_o is the new word of slot_o
     output logic        [ 5:0] slot_o,
     output logic        [31:0] data_o
 );

@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Arms, watches and alone opens the gates. It finds seven of the fourteen causes of fault itself, other
-// blocks bring theirs by trips_i; a fault is latched and the gates are off one clock after its cause is seen. A limit is compared in the clock S_* in which it is on
-// the parameter bus and acts in the clock after, T_*. Estimated current [1,8,8] A, I2t sum [0,31,2]
-// A^2 tick. Documentation: docs/blocks/supervisor.md
+// Supervisor: arms, latches faults, and alone enables the gates. It detects seven of the fourteen
+// fault causes itself; other blocks report theirs on trips_i. A fault is latched and the gates are
+// off one clock after the cause is seen. A limit is compared in the clock S_* in which it is on the
+// parameter bus, and acts in the next clock, T_*. Estimated current [1,8,8] A,
+// I2t sum [0,31,2] A^2 tick. Documentation: docs/blocks/supervisor.md
 `default_nettype none
 
 module supervisor (
   input  logic               clk_i,
   input  logic               rst_ni,
-  input  logic               tick_i,           // last clock of a tick: arming and disarming
+  input  logic               tick_i,           // last clock of a tick; arms and disarms here
   input  logic               period_start_i,   // one clock per period of the PWM
-  input  logic               host_i,           // the host has the say, not the panel
-  input  logic               host_arm_i,       // its request, a level
-  input  logic               arm_i,            // the panel's
-  input  logic               disarm_i,         // no request counts in this tick
-  input  logic               stop_i,           // external stop, asynchronous; a pulse of any width counts
+  input  logic               host_i,           // 1: the host has control, 0: the panel
+  input  logic               host_arm_i,       // the host's request to arm, a level
+  input  logic               arm_i,            // the panel's request to arm, a level
+  input  logic               disarm_i,         // 1: requests to arm do not count in this tick
+  input  logic               stop_i,           // external stop, asynchronous, any pulse width
   input  logic               clear_faults_i,   // in the clock of tick_i
   input  logic               kick_i,           // in the clock of tick_i
   input  logic               encoder_error_i,  // high in a clock with an illegal transition
-  input  logic signed [feltgate_pkg::VELOCITY_W-1:0] velocity_i,     // new from T_VELOCITY + 1
-  input  logic signed [feltgate_pkg::CURRENT_W-1:0]  current_ref_i,  // the previous tick's
+  input  logic signed [feltgate_pkg::VELOCITY_W-1:0] velocity_i,     // rad/s, from T_VELOCITY + 1
+  input  logic signed [feltgate_pkg::CURRENT_W-1:0]  current_ref_i,  // of the previous tick
   /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
   input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
   input  logic        [31:0] param_i,
@@ -30,17 +31,17 @@ module supervisor (
   output logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate_o,
   output logic               armed_o,          // changes only at tick_i
   output logic               gates_enable_o,   // falls at once on a fault
-  output logic               gates_clear_o,    // asynchronous: the stop, from its first edge until it is dealt with
+  output logic               gates_clear_o,    // asynchronous: from the stop's edge until it is handled
   output logic               unkicked_o,       // arming waits for the first kick
-  output logic               asks_o,           // the request of whoever has the say
+  output logic               asks_o,           // request of the one that has control
   output logic               arms_o,           // in the clock of tick_i: armed from the next one on
-  output logic               ready_o,          // nothing speaks against arming
-  output logic               clear_o,          // clear_faults_i, where it acts: while nothing is asked for
-  input  logic               axis_silent_i,    // another axis does not ask
+  output logic               ready_o,          // this axis can be armed
+  output logic               clear_o,          // clear_faults_i while there is no request to arm
+  input  logic               axis_silent_i,    // another axis does not request arming
   input  logic               axis_blocked_i,   // another axis is not ready
   input  logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,  // causes of other blocks, by bit
   output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults_o,  // bit n: cause n was seen
-  output logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault_o  // number of the first, 0 none
+  output logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault_o  // number of the first, 0: none
 );
 
   localparam int FAULTS_W = feltgate_map_pkg::W_FAULTS_SEEN;
@@ -49,12 +50,12 @@ module supervisor (
 
   logic encoder_trip, speed_trip, polarity_trip, i2t_trip, watchdog_trip, stop_trip, tick_trip;
 
-  // Cause 1, encoder errors. So many are borne, the next one trips; every 2^FORGIVE_BITS ticks one is
-  // forgiven.
+  // Cause 1, encoder errors. BORNE errors are tolerated, the next one trips. Every 2^FORGIVE_BITS
+  // ticks the count of errors decreases by one.
   localparam int ERRORS_W = $clog2(feltgate_map_pkg::ERRORS_BORNE + 1);
   localparam logic [ERRORS_W-1:0] BORNE = ERRORS_W'(feltgate_map_pkg::ERRORS_BORNE);
 
-  logic [ERRORS_W-1:0] errors_q;  // not forgiven yet
+  logic [ERRORS_W-1:0] errors_q;  // errors that still count
   logic [feltgate_map_pkg::FORGIVE_BITS-1:0] forgive_ticks_q;
   logic forgive;
 
@@ -72,7 +73,7 @@ module supervisor (
     else if (forgive && errors_q != '0) errors_q <= errors_q - ERRORS_W'(1);
   end
 
-  // What the velocity has gained since the window of cause 3 began, without its lowest bits.
+  // Change of the velocity since the window of cause 3 began, without its lowest bits.
   localparam int GROWTH_DROP = (feltgate_pkg::VELOCITY_F > feltgate_map_pkg::GROWTH_BITS) ?
                                feltgate_pkg::VELOCITY_F - feltgate_map_pkg::GROWTH_BITS : 0;
   localparam int GROWTH_W = feltgate_pkg::VELOCITY_W - GROWTH_DROP;
@@ -81,10 +82,10 @@ module supervisor (
   logic signed [GROWTH_W-1:0] gained;
   assign gained = velocity_i[feltgate_pkg::VELOCITY_W-1:GROWTH_DROP] - begin_q;
 
-  // The size of a signal against the signed limit on the bus, for causes 2 and 3. The signal is taken a
-  // clock ahead, into a register that is 0 outside its clock, so that they are but ored. Of a negative x,
-  // {~x, 1} is 2|x| - 1: twice the size without an adder, for 2|x| - 1 > 2 * limit says |x| > limit.
-  // Above a negative limit everything is.
+  // Comparison of |signal| with the signed limit on the bus, for causes 2 and 3. Each signal is
+  // latched one clock ahead in a register that is 0 outside its clock, so an OR combines them. For
+  // a negative x, {~x, 1} = 2|x| - 1, which needs no adder; 2|x| - 1 > 2 * limit means |x| > limit.
+  // Every signal is above a negative limit.
   logic signed [feltgate_pkg::VELOCITY_W-1:0] speed_q;
   logic signed [GROWTH_W-1:0]                 gained_q;
   logic signed [feltgate_pkg::CURRENT_W-1:0]  current_q;
@@ -114,14 +115,14 @@ module supervisor (
     if (wave_i[feltgate_map_pkg::S_OVERSPEED]) too_fast_q <= over;
   end
 
-  // Two times, in ticks, share an adder and a comparator: that of cause 3 in the clock in which its
-  // limit is on the bus, that of cause 5 in all others. A counter whose top bit is set has come to
-  // every limit, so that none wraps.
+  // Two tick counters share an adder and a comparator: cause 3 uses them in the clock in which its
+  // limit is on the bus, cause 5 in all others. A counter with its top bit set has reached every
+  // limit, so wrapping does not occur.
   localparam int RUNAWAY_W  = feltgate_map_pkg::RUNAWAY_BITS + 1;
   localparam int KICKLESS_W = feltgate_map_pkg::KICKLESS_BITS + 1;
 
-  logic [RUNAWAY_W-1:0]  runaway_ticks_q;   // of the window, with this one
-  logic [KICKLESS_W-1:0] kickless_ticks_q;  // since the last kick, or since arming
+  logic [RUNAWAY_W-1:0]  runaway_ticks_q;   // ticks of the window, including this one
+  logic [KICKLESS_W-1:0] kickless_ticks_q;  // ticks since the last kick or arming
   logic [KICKLESS_W-1:0] ticks, next_ticks;
   logic                  of_runaway, full, in_reach, expired;
 
@@ -132,11 +133,12 @@ module supervisor (
   assign in_reach   = param_i[31:KICKLESS_W-1] == '0;
   assign expired    = full || (in_reach && ticks[KICKLESS_W-2:0] >= param_i[KICKLESS_W-2:0]);
 
-  // Cause 3, wrong polarity: in RUNAWAY_WINDOWS windows of polarity_ticks on end the speed against the
-  // commanded current has grown. A window begins anew where it is not against it.
+  // Cause 3, wrong polarity: in RUNAWAY_WINDOWS consecutive windows of polarity_ticks, the speed
+  // against the commanded current has grown. A window restarts when the speed is not against the
+  // current.
   localparam int GROWN_W = feltgate_map_pkg::RUNAWAY_WINDOWS - 1;
 
-  logic [GROWN_W-1:0] grown_q;  // the windows before this one
+  logic [GROWN_W-1:0] grown_q;  // the previous windows; 1: the speed has grown
   logic grows_q, strong_q, due_q, against;
 
   assign against       = strong_q && gates_enable_o && (velocity_i[feltgate_pkg::VELOCITY_W-1] !=
@@ -162,8 +164,8 @@ module supervisor (
     end
   end
 
-  // Cause 4, I2t. The current is estimated: I = V/R - (Ke/R)*w, with the voltage and the
-  // velocity of the previous tick.
+  // Cause 4, I2t. The current is an estimate: I = V/R - (Ke/R)*w, with the voltage and the velocity
+  // of the previous tick.
   localparam int PART_W = feltgate_pkg::CURRENT_ESTIMATE_PART_W;
   localparam int V_DROP = feltgate_pkg::VOLTAGE_F + feltgate_pkg::P_INVERSE_RESISTANCE_F -
                           feltgate_pkg::CURRENT_ESTIMATE_PART_F;
@@ -183,16 +185,16 @@ module supervisor (
       current_estimate_o <= (PART_W + 1)'(part_v_q) - (PART_W + 1)'(part_w);
   end
 
-  // Its heat: once a tick sum := max(sum - Inom^2, 0) + I^2, and I^2 = 0 while disarmed. Too hot
-  // is sum >= budget, a tick later. From 2^32 on nothing is added, so that the sum cannot wrap.
+  // Heat: once per tick sum := max(sum - Inom^2, 0) + I^2, with I^2 = 0 while disarmed. It trips
+  // one tick after sum >= budget. From 2^32 on nothing is added, so the sum cannot wrap.
   localparam int SQUARED_W = feltgate_pkg::CURRENT_SQUARED_W;
   localparam int SQUARED_DROP = 2 * feltgate_pkg::CURRENT_ESTIMATE_F -
                                 feltgate_pkg::CURRENT_SQUARED_F;
-  localparam int SUM_W = feltgate_pkg::I2T_W + 1;  // a sum at the budget may still grow by I^2
+  localparam int SUM_W = feltgate_pkg::I2T_W + 1;  // a sum at the budget can still grow by I^2
 
-  // No reset clears it: a reset is a way to clear a fault, and the motor stays as hot as it is.
+  // A reset does not clear the sum: a reset clears faults, but the motor stays hot.
   logic        [SUM_W-1:0]     sum_q = SUM_W'(feltgate_pkg::I2T_START);
-  logic        [30:0]          nominal_q;  // its square; a negative word counts as 0
+  logic        [30:0]          nominal_q;  // Inom^2; a negative word counts as 0
   logic signed [SUM_W:0]       rest;
   logic        [SUM_W-1:0]     cooled_q;
   logic        [SQUARED_W-1:0] square_q;
@@ -242,9 +244,11 @@ module supervisor (
     end
   end
 
-  // Cause 6, external stop. The pin itself clears the gates and sets a latch, with or without a clock; the
-  // latch, through two flip-flops, is the cause. It is released once that was seen, with the gates closed
-  // and no fault. It has no asynchronous reset, for few devices have a flip-flop with both; it powers up set.
+  // Cause 6, external stop. The pin itself clears the gates and sets the flip-flop stopped_q, with
+  // or without a clock. stopped_q, through two synchroniser flip-flops, is the cause. It is
+  // released once the cause was seen, the gates are off and no fault is latched. It has no
+  // asynchronous reset, because few devices have a flip-flop with asynchronous set and reset; it
+  // powers up set.
   logic       stopped_q = 1'b1;
   logic [1:0] stop_q;
   logic       dealt_with;
@@ -262,8 +266,8 @@ module supervisor (
     else         stop_q <= {stop_q[0], stopped_q};
   end
 
-  // Cause 9, ticks that stand, low or high. TICK_PERIODS periods of the PWM, whose carrier does not depend on
-  // the ticks, hold at least one; a period more begins without.
+  // Cause 9, tick_i is stuck, low or high. The PWM's carrier does not depend on it. TICK_PERIODS
+  // PWM periods always contain a tick; it trips if one more period begins without a tick.
   localparam int TICK_PERIODS = (feltgate_pkg::CLOCKS_PER_TICK + feltgate_pkg::PWM_PERIOD - 1) /
                                 feltgate_pkg::PWM_PERIOD;
   localparam int PERIODS_W = $clog2(TICK_PERIODS + 1);
@@ -285,7 +289,8 @@ module supervisor (
     end
   end
 
-  // Faults stay until they are cleared. Of several in one clock the lowest number is the first.
+  // Faults stay until they are cleared. If several come in one clock, the lowest number is the
+  // first.
   logic [FAULTS_W-1:0] trip;
   logic                any_trip;
 
@@ -315,8 +320,9 @@ module supervisor (
     end
   end
 
-  // Arming, at the end of a tick. A request that was high during a reset, a fault or a stop, or while the
-  // other one had the say, must fall before it counts; and all axes' requests together must rise.
+  // Arming, at the end of a tick. A request that was high during a reset, a fault or a stop, or
+  // while the other side had control, must fall before it counts. Arming needs a rising edge of the
+  // AND of all axes' requests.
   logic host_counts_q, panel_counts_q, able, asks, asked_q, may_arm, arms;
 
   assign asks_o  = (host_i ? host_arm_i : arm_i) && !disarm_i;
@@ -324,7 +330,7 @@ module supervisor (
   assign able    = first_fault_o == NONE && !stop_q[1] && !unkicked_o;
   assign ready_o = able && (host_i ? host_counts_q : panel_counts_q);
   assign may_arm = !asked_q && ready_o && !axis_blocked_i;
-  assign arms    = asks && (gates_enable_o || may_arm) && !any_trip;  // or stays armed
+  assign arms    = asks && (gates_enable_o || may_arm) && !any_trip;  // arms, or stays armed
 
   assign arms_o = arms;
 

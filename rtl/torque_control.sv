@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Torque control: torque reference to current, voltage and duty.
-//   I = Jn*Kp/Ktn * tau_ref + (1 - Jn*Kp)/Ktn * tau_hat        limited, shown to the observer
-//   V = gain*I + Ke*w + dead voltage; V - Ke*w                 limited: the window around Ke*w
+//   I = Jn*Kp/Ktn * tau_ref + (1 - Jn*Kp)/Ktn * tau_hat        limited; the observer gets it
+//   V = gain*I + Ke*w + dead voltage                           V - Ke*w is limited (the window)
 //   duty = V * period/supply                                   limited
-// Sums here, limits in the core's one limiter: a term is at its input in the clock of the limit's
-// word, its result on limited_i in the clock after and in the output in the clock after that.
+// The core's one limiter limits the sums. A sum is at its input with the limit's word, the result
+// on limited_i one clock later and in the output one more clock later.
 // docs/blocks/torque_control.md
 
 `default_nettype none
@@ -15,23 +15,23 @@ module torque_control (
     input  logic                                                   clk_i,
     input  logic                                                   rst_ni,
     input  logic                                                   armed_i,
-    input  logic        [                                     1:0] mode_i,  // 0 closed, 1 open, 2 voltage
+    input  logic        [                                     1:0] mode_i,  // 0 closed, 1 open loop, 2 voltage
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
     input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input  logic        [                                    31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic signed [          feltgate_pkg::PRODUCT_BITS-1:0] product_i,
-    input  logic signed [              feltgate_pkg::TORQUE_W-1:0] tau_ref_i,
-    output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] ahead_o,  // to the limiter, a clock before
-    output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] late_o,   // in the clock of its limit
+    input  logic signed [              feltgate_pkg::TORQUE_W-1:0] tau_ref_i,  // Nm
+    output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] ahead_o,  // one clock before its limit
+    output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] late_o,   // with its limit
     input  logic signed [             feltgate_pkg::LIMITER_W-1:0] limited_i,
     input  logic                                                   beyond_i,
-    output logic signed [           feltgate_pkg::WITH_ADDEND_W-1:0] applied_o,  // limited_i; with the back-EMF
-    output logic                                                   region_high_o,
-    output logic signed [             feltgate_pkg::CURRENT_W-1:0] current_ref_o,
-    output logic signed [             feltgate_pkg::VOLTAGE_W-1:0] voltage_o,
-    output logic signed [                feltgate_pkg::DUTY_W-1:0] duty_o,
-    output logic                                                   limit_current_o,
+    output logic signed [           feltgate_pkg::WITH_ADDEND_W-1:0] applied_o,  // limited_i + addend
+    output logic                                                   region_high_o,  // high torque
+    output logic signed [             feltgate_pkg::CURRENT_W-1:0] current_ref_o,  // A
+    output logic signed [             feltgate_pkg::VOLTAGE_W-1:0] voltage_o,  // V
+    output logic signed [                feltgate_pkg::DUTY_W-1:0] duty_o,  // PWM clocks
+    output logic                                                   limit_current_o,  // limited in this tick
     output logic                                                   limit_voltage_o,
     output logic                                                   limit_duty_o
 );
@@ -46,7 +46,7 @@ module torque_control (
   localparam int AppliedSumW = feltgate_pkg::WITH_ADDEND_W;
   localparam int SumW = (CurrentSumW > VoltageSumW) ? CurrentSumW : VoltageSumW;
   localparam int Wide = feltgate_pkg::LIMITER_INPUT_W;
-  // Fraction bits that each product has and its sum has not.
+  // Drop: fraction bits of a product below the last bit of its sum.
   localparam int TauRefDrop = TorqueF + feltgate_pkg::P_TORQUE_GAIN_F - CurrentF;
   localparam int TauHatDrop = TorqueF + feltgate_pkg::P_OBSERVER_GAIN_F - CurrentF;
   localparam int DirectDrop = VoltageF + feltgate_pkg::P_VOLTAGE_TO_CURRENT_F - CurrentF;
@@ -54,7 +54,7 @@ module torque_control (
   localparam int DeadDrop = TorqueF + feltgate_pkg::P_DEAD_VOLTAGE_SLOPE_F - VoltageF;
   localparam int GainDrop = CurrentF + feltgate_pkg::P_VOLTAGE_GAIN_F - VoltageF;
   localparam int DutyDrop = VoltageF + feltgate_pkg::P_DUTY_GAIN_F;
-  // Clocks: of the products, and of the limits' words.
+  // Wave clocks: first of the products, then of the limits' words.
   localparam int Emf = feltgate_map_pkg::M_EMF_CONSTANT;
   localparam int TauHat = feltgate_map_pkg::M_OBSERVER_GAIN;
   localparam int Direct = feltgate_map_pkg::M_VOLTAGE_TO_CURRENT;
@@ -85,9 +85,10 @@ module torque_control (
       .up_o(carry)
   );
 
-  // What comes from the limiter, and in three clocks what is added to it: the voltage of the tick
-  // before to a step of its ramp; less the back-EMF to the dead voltage, where the law does not give
-  // the back-EMF back; the back-EMF to what the window let through.
+  // applied is the limiter's result plus an addend. The addend is not 0 in three clocks:
+  //   after S_VOLTAGE_STEP    the voltage of the previous tick, added to the step of its ramp
+  //   after S_DEAD_VOLTAGE    minus the back-EMF, if the law does not compensate the back-EMF
+  //   after S_VOLTAGE_WINDOW  the back-EMF, added to the result of the window
   logic signed [         EmfW-1:0] emf_q;
   logic signed [  AppliedSumW-1:0] addend_q, applied;
   assign applied   = AppliedSumW'(limited_i) + addend_q;
@@ -100,7 +101,7 @@ module torque_control (
     else addend_q <= '0;
   end
 
-  // What the sums start from: one of them at a time is not 0.
+  // Start values of the sums. At most one of them is not 0, so an OR combines them.
   logic signed [VoltageSumW-1:0] fixed_q;
   logic signed [CurrentSumW-1:0] kept_q;
   logic                          fixes;
@@ -112,8 +113,8 @@ module torque_control (
     else if (fixes) fixed_q <= VoltageSumW'(applied);
   end
 
-  // Terms, each 0 outside its clock, so that the limiter's input is but an or: clearing a register
-  // costs no logic, selecting does. Disarmed, current and voltage are 0 before they reach the limiter.
+  // Each term is 0 outside its clock, so an OR forms the limiter's input. A register's synchronous
+  // clear costs no logic, a multiplexer does. Disarmed, current and voltage are 0 at that input.
   logic signed [ feltgate_pkg::TORQUE_W-1:0] border_q;
   logic signed [feltgate_pkg::VOLTAGE_W : 0] error_q;
   logic signed [CurrentSumW-1:0] direct_q;
@@ -142,7 +143,8 @@ module torque_control (
   assign ahead_o = Wide'(border_q) | Wide'(direct_q) | Wide'(dead_q);
   assign late_o  = Wide'(sum_q) | Wide'(duty_q) | Wide'(error_q);
 
-  // No voltage beyond its port: what is applied is below the supply, so this is but for the estimate.
+  // The voltage saturates at the range of its port. The voltage at the motor is below the supply,
+  // so this matters only for the current estimate.
   localparam int VoltageW = feltgate_pkg::VOLTAGE_W;
   logic voltage_over;
   assign voltage_over = applied[AppliedSumW-1:VoltageW-1] != {(AppliedSumW - VoltageW + 1) {applied[AppliedSumW-1]}};
@@ -157,7 +159,7 @@ module torque_control (
       limit_voltage_o <= 1'b0;
       limit_duty_o    <= 1'b0;
     end else begin
-      // The region of the voltage gain, decided before its word is fetched.
+      // The region of the voltage gain is decided before its word is fetched.
       if (wave_i[feltgate_map_pkg::T_REGION]) region_high_o <= beyond_i;
       if (wave_i[feltgate_map_pkg::T_CURRENT]) begin
         current_ref_o   <= limited_i[feltgate_pkg::CURRENT_W-1:0];

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A velocity that moves in one tick by more than its low-pass can, whatever its coefficient: something
-// has broken. |a1 * (x - y)| < 2^(W + 17 - F) bits for every x, y of W bits and every word a1 of 17
-// bits with F fraction bits, so what lies above that weight changes by one at most.
-// Latency: trip in the clock after T_JUMP. docs/blocks/velocity_jump.md
+// Trips if the velocity changes in one tick by more than its low-pass can, whatever its
+// coefficient: then the hardware is faulty. |a1 * (x - y)| < 2^(W + 17 - F) LSB for all x, y of W
+// bits and every word a1 of 17 bits with F fraction bits. So the bits from that weight up change by
+// at most one. Latency: trip_o in the clock after T_JUMP. docs/blocks/velocity_jump.md
 
 `default_nettype none
 
@@ -25,7 +25,7 @@ module velocity_jump (
   if (Weight >= 0 && Weight <= W - 2) begin : gen_compare
     localparam int TopW = W - Weight;
     logic signed [TopW-1:0] before_q;
-    // Of a move of at most one all bits but the last are those of -2 to 1, which is no -2.
+    // slow: moved is -1, 0 or 1. All bits but the lowest are equal in -2..1; -2 is excluded.
     logic signed [TopW  :0] moved;
     logic                   slow;
     assign moved = (TopW + 1)'($signed(velocity_i[W-1:Weight])) - (TopW + 1)'(before_q);
@@ -39,7 +39,7 @@ module velocity_jump (
         if (wave_i[Now]) before_q <= $signed(velocity_i[W-1:Weight]);
       end
     end
-  end else begin : gen_none  // a filter so fast that it may move by its whole range
+  end else begin : gen_none  // the filter may change by its whole range
     logic unused;
     assign unused = ^{clk_i, rst_ni};
     assign trip_o = 1'b0;

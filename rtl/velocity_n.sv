@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// N-method velocity: 2^n (or a quantised gain) times the counts of the last m1 ticks, saturated,
-// through a low-pass.
-// Clocks are those of the wave: travel is taken in T_SAMPLE, the product in T_VELOCITY.
-// Formats: travel [1,15,0] wrapping, velocity as the design says. docs/blocks/velocity_n.md
+// N-method velocity: the counts of the last M1 ticks times 2^n (or a quantised gain), saturated,
+// then low-pass filtered. Wave clocks: travel is sampled in T_SAMPLE, the filter's product is taken
+// in T_VELOCITY. Formats: travel [1,15,0] counts, wraps; velocity in rad/s, format set by the
+// design. docs/blocks/velocity_n.md
 
 `default_nettype none
 
@@ -19,11 +19,11 @@ module velocity_n #(
     /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks
     input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0]       wave_i,
     /* verilator lint_on UNUSEDSIGNAL */
-    input  logic signed [feltgate_pkg::TRAVEL_BITS-1:0]           travel_i,
+    input  logic signed [feltgate_pkg::TRAVEL_BITS-1:0]           travel_i,  // counts, wraps
     output logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] operand_o,
     input  logic signed [feltgate_pkg::PRODUCT_BITS-1:0]          product_i,
-    output logic signed [feltgate_pkg::VELOCITY_W-1:0]            velocity_o,
-    output logic                                                  saturated_o  // raw was limited
+    output logic signed [feltgate_pkg::VELOCITY_W-1:0]            velocity_o,   // rad/s
+    output logic                                                  saturated_o  // raw_q saturated
 );
   localparam int T = feltgate_pkg::TRAVEL_BITS;
   localparam int W = feltgate_pkg::VELOCITY_W;
@@ -40,7 +40,7 @@ module velocity_n #(
   end
   endgenerate
 
-  // Delay line of m1 entries; until it has filled, the position before reset stands for the oldest.
+  // Delay line of M1 entries. Until it is full, the oldest entry counts as 0, the travel at reset.
   logic        [       T-1:0] line    [2**AddressW];
   logic        [       T-1:0] line_q;
   logic        [AddressW-1:0] pointer_q;
@@ -64,7 +64,7 @@ module velocity_n #(
     end
   end
 
-  // Not reset: what a block RAM reads comes late in the clock and has no logic on its way.
+  // No reset: the block RAM's output is late in the clock, so no logic may follow it.
   always_ff @(posedge clk_i) begin
     if (!filled_q) oldest_q <= '0;
     else if (wave_i[feltgate_map_pkg::T_SAMPLE]) oldest_q <= line_q;
@@ -79,7 +79,7 @@ module velocity_n #(
     end
   end
 
-  // Counts to rad/s, saturated where the velocity has too few integer bits for them.
+  // Counts to rad/s. The value saturates if the velocity has too few integer bits.
   logic                over;
   logic signed [W-1:0] raw, raw_q;
   generate
@@ -89,7 +89,7 @@ module velocity_n #(
     assign over = difference_q[T-1:Room-1] != {(T - Room + 1) {difference_q[T-1]}};
     assign raw  = {difference_q[Room-1:0], {Low{1'b0}}};
   end else begin : gen_gain
-    // A quantised gain where no power of two comes near; truncated below the velocity's last bit.
+    // Quantised gain, if no power of two is close enough; truncated below the velocity's LSB.
     localparam int Up      = (F > GainF) ? F - GainF : 0;
     localparam int Down    = (GainF > F) ? GainF - F : 0;
     localparam int ScaledW = T + 18 + Up;

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What stands between the engine and the axes: its port, the check of its programs at each arming, and when
-// a torque may jump. docs/blocks/axes_engine.md
+// Connects the engine to the axes: its register port, the CRC check of the programs at each arming,
+// and the request to ramp when a torque can jump. Timing: reg_rdata_o is valid 33 clocks after the
+// address. docs/blocks/axes_engine.md
 
 `default_nettype none
 
 module axes_engine #(
     parameter int AxisCount = 1,
-    // A law that is there without a host: what `feltgate law --memories` writes.
+    // A law loaded at configuration, without a host: the files that `feltgate law --memories`
+    // writes.
     parameter ProgramContent = "",
     parameter DataContent    = "",
     parameter TableContent   = "",
@@ -17,29 +19,29 @@ module axes_engine #(
     input  logic clk_i,
     input  logic rst_ni,
 
-    // The axes: each is bit n, or the n-th part from below.
-    input  logic [AxisCount-1:0] law_i,     // in the scene of laws
-    input  logic [AxisCount-1:0] asks_i,    // to be armed, or to stay so
+    // Axes: axis n is bit n, or the n-th part from below.
+    input  logic [AxisCount-1:0] law_i,     // the axis is in the scene of laws
+    input  logic [AxisCount-1:0] asks_i,    // requests to arm, or to stay armed
     input  logic [AxisCount-1:0] armed_i,
-    input  logic [AxisCount-1:0] zeroed_i,  // one clock: the position was set to 0
-    input  logic snapshot_i,                // one clock a tick
-    input  logic measured_i,                // one clock a tick: what follows is of it, and held
+    input  logic [AxisCount-1:0] zeroed_i,  // one clock: the position becomes 0
+    input  logic snapshot_i,                // one clock per tick
+    input  logic measured_i,                // one clock per tick: the inputs below are new, held
     input  logic [31:0] tick_count_i,
     input  logic [32*AxisCount-1:0] position_i,
     input  logic [32*AxisCount-1:0] velocity_i,
     input  logic [32*AxisCount-1:0] tau_hat_i,
     output logic [AxisCount*feltgate_pkg::TORQUE_W-1:0] torque_o,
-    output logic late_o,                    // no torque that counts
-    output logic restart_o,                 // in the last clock of a tick: the torque may jump
-    output logic unchecked_o,               // arming must wait
-    output logic unfit_o,                   // it must not be
+    output logic late_o,                    // torque_o is too old or not checked
+    output logic restart_o,                 // read in a tick's last clock: ramp from then on
+    output logic unchecked_o,               // arming must wait for the CRC
+    output logic unfit_o,                   // arming is refused: wrong CRC
 
     // Register port
     input  logic [15:0] reg_addr_i,
     input  logic [31:0] reg_wdata_i,
     input  logic        reg_write_i,
-    input  logic        reg_read_i,         // one clock: the word was taken
-    output logic        reg_busy_o,         // of the engine, where it is addressed
+    input  logic        reg_read_i,         // one clock: the host has taken the word
+    output logic        reg_busy_o,         // the engine is addressed and busy
     output logic [31:0] reg_rdata_o,
 
     // Events of programs
@@ -57,8 +59,8 @@ module axes_engine #(
   localparam logic [15:0] First = 16'(feltgate_engine_pkg::PORT_FIRST);
   assign engine_addressed = reg_addr_i[15:12] == First[15:12];
 
-  // Arming waits until the CRC of the programs is computed: the axes hear that another does not ask.
-  // Looked at once a tick, for a request may come from a pin.
+  // Arming waits until the CRC of the programs is computed: unchecked_o acts like an axis that does
+  // not request arming. Evaluated once per tick, because a request may come from a pin.
   assign check       = snapshot_i && all_ask && !checked_q && !checks_q;
   assign unchecked_o = !checked_q;
   assign unfit_o     = law_any && !crc_good;
@@ -79,8 +81,9 @@ module axes_engine #(
     end
   end
 
-  // From what makes the torque jump until a run that began after it has ended, and its torque was sampled:
-  // a run may be under way, so the second one that ends.
+  // restart_o is 1 from an event that can make the torque jump until a run that began after it has
+  // ended and its torque was sampled. A run may be in progress at the event, so the second run's
+  // end counts.
   logic [1:0] runs_q;
   logic sampled_q, jumps;
   assign jumps     = (law_any && !law_any_q) || (armed && !armed_q) || zeroed_i != '0 || changed;
@@ -101,7 +104,7 @@ module axes_engine #(
     end
   end
 
-  // The engine's word is registered: the port shows an address 33 clocks later.
+  // The engine's word is registered, so reg_rdata_o is valid 33 clocks after the address.
   assign reg_busy_o = engine_addressed && engine_busy;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) reg_rdata_o <= '0;

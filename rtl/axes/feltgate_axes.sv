@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// One to three cores as axes of one device: one tick, one register port, armed together, and a fault of any
-// opens the gates of all; and the engine whose programs give their torques, where the design has one.
-// Axis n is bit n, or the n-th part from below, of each vector.
-// docs/blocks/feltgate_axes.md
+// One to three cores as axes of one device, and the engine whose programs give their torques, if
+// the design has one. The axes share tick and register port and arm together; a fault of one axis
+// turns off the gates of all. In each vector, axis n is bit n, or the n-th part from below. All
+// axes run in step; the timing is that of feltgate_core. docs/blocks/feltgate_axes.md
 
 `default_nettype none
 
 module feltgate_axes #(
     parameter int AxisCount = feltgate_pkg::AXES,
-    parameter int Engine = feltgate_pkg::ENGINE,  // 0: programmed torque comes in by ports
-    parameter int ReadBack = 1,    // as of feltgate_core
-    parameter ParameterFile = "",  // as of feltgate_core, for all axes
+    parameter int Engine = feltgate_pkg::ENGINE,  // 0: programmed torque comes from the ports
+    parameter int ReadBack = 1,    // as in feltgate_core
+    parameter ParameterFile = "",  // as in feltgate_core, for all axes
     /* verilator lint_off UNUSEDPARAM */  // without an engine
-    parameter ProgramContent = "", // as of axes_engine, and the others
+    parameter ProgramContent = "", // as in axes_engine, also those below
     parameter DataContent = "",
     parameter TableContent = "",
     parameter logic [feltgate_engine_pkg::RESET_BITS-1:0] Reset = feltgate_engine_pkg::RESET_EMPTY
@@ -38,7 +38,7 @@ module feltgate_axes #(
     input  logic [  AxisCount-1:0] set_zero_i,
     input  logic [4*AxisCount-1:0] scene_i,
 
-    // Programmed torque, as of feltgate_core; nobody looks where the engine gives it
+    // Programmed torque, as in feltgate_core; not used if the design has an engine
     /* verilator lint_off UNUSEDSIGNAL */
     input  logic [AxisCount*feltgate_pkg::TORQUE_W-1:0] law_torque_i,
     input  logic                                        law_late_i,
@@ -51,9 +51,9 @@ module feltgate_axes #(
     input  logic [31:0] reg_wdata_i,
     input  logic        reg_write_i,
     /* verilator lint_off UNUSEDSIGNAL */
-    input  logic        reg_read_i,  // one clock: the word was taken; of the engine's events
+    input  logic        reg_read_i,  // one clock: the host has taken the word (engine's events)
     /* verilator lint_on UNUSEDSIGNAL */
-    output logic        reg_busy_o,  // of what is addressed
+    output logic        reg_busy_o,  // of the addressed axis or engine
     output logic [31:0] reg_rdata_o,
 
     // Events of programs
@@ -61,7 +61,7 @@ module feltgate_axes #(
     output logic [ 8:0] event_number_o,
     output logic [31:0] event_value_o,
 
-    // Snapshots: all of one tick in the clock in which snapshot_valid_o is high
+    // Snapshots: with snapshot_valid_o high, all values belong to one tick
     output logic                                          snapshot_valid_o,
     output logic [                                  31:0] tick_count_o,
     output logic [                      AxisCount*32-1:0] position_o,
@@ -80,7 +80,7 @@ module feltgate_axes #(
     output logic [                         AxisCount-1:0] gates_enable_o,
     output logic [                         AxisCount-1:0] zeroed_o,
 
-    // The snapshot's words one by one
+    // The snapshot's words, one at a time
     output logic                    word_valid_o,
     output logic [             5:0] word_slot_o,
     output logic [AxisCount*32-1:0] word_data_o
@@ -92,13 +92,14 @@ module feltgate_axes #(
   end
   endgenerate
 
-  // What the axes say of themselves. All of it but asks comes from registers.
+  // State of each axis. All of these except asks come from registers.
   logic [AxisCount-1:0] asks, ready, testing, faulty;
 
-  // The port. An axis that is not addressed is asked for a word that is not there, which reads 0.
+  // Register port. An axis that is not addressed gets an address without a word, which reads 0, so
+  // an OR combines the read data.
   logic [AxisCount-1:0] busy, addressed;
   logic [31:0] rdata[AxisCount];
-  logic engine_busy;  // where it is addressed
+  logic engine_busy;  // only if it is addressed
   logic [31:0] engine_rdata;
   assign reg_busy_o = |(busy & addressed) || engine_busy;
   always_comb begin
@@ -106,7 +107,7 @@ module feltgate_axes #(
     for (int k = 0; k < AxisCount; k++) reg_rdata_o = reg_rdata_o | rdata[k];
   end
 
-  // All axes are in step: what is common is that of the first.
+  // All axes are in step, so common signals come from axis 0.
   logic [AxisCount-1:0] snapshot_valid, word_valid, measured;
   logic [5:0] word_slot[AxisCount];
   logic [31:0] tick_count[AxisCount];
@@ -116,7 +117,7 @@ module feltgate_axes #(
   assign word_slot_o      = word_slot[0];
   assign tick_count_o     = tick_count[0];
 
-  // What the engine asks and says.
+  // Signals from and to the engine.
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   logic [AxisCount*TorqueW-1:0] law_torque;
   logic [AxisCount-1:0] in_law;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// AXI4-Lite slave over the core's register port, every output of the bus from a register. A read takes
-// the port for one clock, in which a write that the core does not take yet steps aside.
-// Documentation: docs/blocks/axi_lite_port.md
+// AXI4-Lite slave on the core's register port; every bus output comes from a register. A read uses
+// the port for one clock; a write that still waits for the core leaves the port in that clock. Read
+// data comes three clocks after the address. Documentation: docs/blocks/axi_lite_port.md
 `default_nettype none
 
 module axi_lite_port (
@@ -12,14 +12,14 @@ module axi_lite_port (
 
   input  logic        awvalid_i,
   output logic        awready_o,
-  input  logic [13:0] awaddr_i,     // counts bytes
+  input  logic [13:0] awaddr_i,     // byte address
   input  logic        wvalid_i,
   output logic        wready_o,
   input  logic [31:0] wdata_i,
   input  logic [ 3:0] wstrb_i,
   output logic        bvalid_o,
   input  logic        bready_i,
-  output logic [ 1:0] bresp_o,      // 2 (SLVERR): nothing was done
+  output logic [ 1:0] bresp_o,      // 0 OKAY, 2 SLVERR: no effect
 
   input  logic        arvalid_i,
   output logic        arready_o,
@@ -36,13 +36,13 @@ module axi_lite_port (
   input  logic        reg_busy_i
 );
 
-  // Addresses that nobody has, or within a word.
+  // 1: an existing word that can be written, at a word-aligned address.
   function automatic logic is_word(input logic [13:0] addr);
     is_word = addr[1:0] == 2'd0 && (addr[13:11] == 3'd0 || addr[13:2] == feltgate_map_pkg::A_CONTROL ||
                                     addr[13:2] == feltgate_map_pkg::A_COMMAND);
   endfunction
 
-  // What the channels brought and the port has not had yet; b_q, r_q: answers that stand.
+  // aw_q, w_q, ar_q: requests that wait for the port. b_q, r_q: responses that wait for the master.
   logic aw_q, aw_good_q, w_q, w_good_q, b_q, b_good_q, ar_q, ar_good_q, r_q, r_good_q;
   logic [11:0] aw_addr_q, ar_addr_q;
   logic [2:0]  reading_q;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Wishbone B4 slave over the core's register port. A request is on the port in the clock in which the bus
-// shows it, and is answered three clocks after it was taken, reads and writes alike, in their order.
+// Wishbone B4 slave on the core's register port. A request is on the port in the same clock as on
+// the bus. Reads and writes are answered in order, three clocks after they were accepted.
 // Documentation: docs/blocks/wishbone_port.md
 `default_nettype none
 
@@ -15,13 +15,13 @@ module wishbone_port #(
   input  logic        cyc_i,
   input  logic        stb_i,
   input  logic        we_i,
-  input  logic [11:0] adr_i,        // counts words
-  input  logic [ 3:0] sel_i,        // of a write; a read gives whole words
+  input  logic [11:0] adr_i,        // word address
+  input  logic [ 3:0] sel_i,        // for writes; a read gives whole words
   input  logic [31:0] dat_i,
-  output logic [31:0] dat_o,        // with ack_o of a read
+  output logic [31:0] dat_o,        // valid with ack_o of a read
   output logic        ack_o,
-  output logic        err_o,        // nothing was done
-  output logic        stall_o,      // pipelined only: the core has a write that waits
+  output logic        err_o,        // error: the request had no effect
+  output logic        stall_o,      // pipelined only: a write waits for the core
 
   output logic [11:0] reg_addr_o,
   output logic [31:0] reg_wdata_o,
@@ -31,9 +31,9 @@ module wishbone_port #(
 );
 
   logic at_word, at_snapshot, good, asks, waits, keep;
-  logic [2:0] good_q, bad_q;  // requests on their way, the oldest on the left
+  logic [2:0] good_q, bad_q;  // requests in progress, the oldest in bit 2
 
-  // Addresses that nobody has, a write of what can only be read, and of a part of a word are errors.
+  // Errors: an address without a word, a write to a read-only word, a write of a part of a word.
   assign at_word     = reg_addr_o[11:9] == 3'd0 || reg_addr_o == feltgate_map_pkg::A_CONTROL ||
                        reg_addr_o == feltgate_map_pkg::A_COMMAND;
   assign at_snapshot = reg_addr_o[11:6] == feltgate_map_pkg::A_SNAPSHOT[11:6];
@@ -51,13 +51,13 @@ module wishbone_port #(
   end
   endgenerate
 
-  // A write is on the port also while the core is busy: a disarm and a stop act then.
+  // A write is on the port also while the core is busy, so a disarm or a stop does not wait.
   assign reg_addr_o  = adr_i;
   assign reg_wdata_o = dat_i;
   assign reg_write_o = asks && we_i && good;
   assign waits       = we_i && good && reg_busy_i;
 
-  // A cycle that ends early is owed nothing.
+  // A cycle that ends early gets no further answers.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       good_q <= 3'd0;

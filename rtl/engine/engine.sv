@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Runs force laws as programs: four threads over program, data and table memory, started with the tick,
-// and a port for the host. A law asks for torques and can do nothing else. docs/blocks/engine.md
+// Engine: runs force laws as programs in four threads over program, data and table memory. Ticks
+// start the runs; a port serves the host. A law can only request torques, nothing else. Timing: an
+// instruction per thread every 6 clocks; a host read 32 clocks. docs/blocks/engine.md
 
 `default_nettype none
 
 module engine #(
     parameter int         AxisCount      = 1,
-    parameter             ProgramContent = "",  // for $readmemh, as of the others
+    parameter             ProgramContent = "",  // $readmemh file, like the other two
     parameter             DataContent    = "",
     parameter             TableContent   = "",
     parameter logic [feltgate_engine_pkg::RESET_BITS-1:0] Reset = feltgate_engine_pkg::RESET_EMPTY
@@ -16,9 +17,9 @@ module engine #(
     input  logic                    clk_i,
     input  logic                    rst_ni,
     input  logic                    armed_i,
-    input  logic                    enter_i,       // one clock: the scene of laws was entered
-    input  logic                    locked_i,      // programs and what belongs to them cannot be written
-    input  logic                    tick_i,        // one clock; the inputs are of this tick, and held
+    input  logic                    enter_i,       // one clock: an axis entered the scene of laws
+    input  logic                    locked_i,      // 1: programs, tables and registers are read-only
+    input  logic                    tick_i,        // one clock; inputs of this tick, held
     input  logic [            31:0] tick_count_i,
     input  logic [32*AxisCount-1:0] position_i,
     input  logic [32*AxisCount-1:0] velocity_i,
@@ -26,22 +27,22 @@ module engine #(
     output logic signed [feltgate_pkg::TORQUE_W*AxisCount-1:0] torque_o,
     output logic                    fresh_o,
     output logic                    late_o,
-    output logic                    changed_o,     // one clock: from now on torques may jump
+    output logic                    changed_o,     // one clock: torques can jump from now on
     input  logic                    crc_start_i,
     output logic                    crc_done_o,    // one clock
     output logic                    crc_good_o,
     output logic                    event_valid_o,
     output logic [             8:0] event_number_o,
     output logic [            31:0] event_value_o,
-    // The host.
+    // Port of the host.
     input  logic [            11:0] addr_i,
     input  logic [            31:0] wdata_i,
-    input  logic                    write_i,       // one clock, while not busy
-    input  logic                    read_i,        // one clock: rdata_o is taken
-    output logic [            31:0] rdata_o,       // of an address held for 32 clocks while not busy
+    input  logic                    write_i,       // one clock, while busy_o is 0
+    input  logic                    read_i,        // one clock: the host has taken rdata_o
+    output logic [            31:0] rdata_o,       // valid when addr_i was held 32 clocks
     output logic                    busy_o
 );
-  // Words of the host that are registers.
+  // Host words that are registers.
   logic [3:0] high_q, run_q;
   logic [9:0] line_base_q;
   logic [5:0] mailbox_first_q;
@@ -64,7 +65,7 @@ module engine #(
   logic started, ended;
   logic [1:0] thread5;
   assign enter = enter_i || (armed_i && !armed_q) || write_run;
-  logic clearing;  // the lines
+  logic clearing;  // the delay lines are being cleared
   assign run = clearing ? 4'd0 : run_q;
   logic bank;
   logic committing, parameter_write, drops, locked_out;
@@ -100,11 +101,11 @@ module engine #(
     end
   end
 
-  // A word of the host for a memory waits for a turn without an instruction.
+  // A host word for a memory waits for a turn without an instruction.
   logic waits_q, waits_program_q, waits_table_q, may_write;
   logic [8:0] address_q;
   logic [31:0] data_q;
-  logic [2:0] lands_q;  // a word on its way into its memory
+  logic [2:0] lands_q;  // shift register: a word is on its way into its memory
   logic free, input_wanted, input_taken, host_taken, line_taken;
   logic checking, minus;
   logic [8:0] commit_address, input_address, line_address;
@@ -133,8 +134,9 @@ module engine #(
     end
   end
 
-  // What the system writes and reads in the barrel. A program's word takes the way of a written one.
-  localparam logic [8:0] Zero = 9'(feltgate_engine_pkg::PRIVATE_WORDS - 1);  // the last of thread 0's inputs: nobody writes it
+  // Writes and reads of the system in the barrel. A program word that is read passes through the
+  // adder like a written word.
+  localparam logic [8:0] Zero = 9'(feltgate_engine_pkg::PRIVATE_WORDS - 1);  // never written: 0
   logic write_data_q, write_program_q, write_table_q;
   logic [8:0] write_address_q, read_data, read_address;
   logic [31:0] write_word_q;
@@ -228,7 +230,7 @@ module engine #(
       .velocity_i(velocity_i),
       .tau_hat_i(tau_hat_i),
       .divide_i(write_divider),
-      .divided_i(addr_i[1:0] ^ 2'b10),  // from address 2 on
+      .divided_i(addr_i[1:0] ^ 2'b10),  // the dividers start at address 2
       .divider_i(wdata_i[11:0]),
       .started_i(started),
       .ended_i(ended),
@@ -313,7 +315,7 @@ module engine #(
       .clk_i(clk_i),
       .rst_ni(rst_ni),
       .start_i(crc_start_i),
-      .wait_i(checking || waits_q),  // a word that waits is in the sum
+      .wait_i(checking || waits_q),  // a waiting word is written first, so the CRC includes it
       .beat_i(beat),
       .word_i({crc_program ? program_high_q : high_read_q, result}),
       .line_base_i(line_base_q),
@@ -349,7 +351,7 @@ module engine #(
   assign event_number_o = number;
   assign event_value_o  = result;
 
-  // What the host reads.
+  // Words that the host reads.
   logic [31:0] read_q, register, status;
   logic [11:0] read_word;
   assign read_word = {feltgate_engine_pkg::H_HIGH[11:5], addr_i[4:0]};

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What the engine's instructions compute, one result a clock. Every result is A + W + carry: W is the
-// product's window, or x, or nothing; A is y, the table's word, acc, or nothing. docs/blocks/engine.md
-// Clocks of an instruction: 2 op and words off the memories, 3 table word, 4 multiplication, 5 window,
-// 6 result.
+// ALU of the engine: one result per clock. Every result is A + W + carry. W is a window of the
+// product, or x, or 0; A is y, the table's word, acc, or 0.
+// Clocks of an instruction: 2 op and operands from the memories, 3 table word, 4 multiplication,
+// 5 window, 6 result. docs/blocks/engine.md
 
 `default_nettype none
 
@@ -15,13 +15,13 @@ module engine_alu (
     input  logic signed [31:0] x2_i,
     input  logic signed [31:0] y2_i,
     input  logic        [35:0] table3_i,
-    input  logic        [31:0] extra3_i,    // or-ed to y, 0 but in slots without an instruction
-    input  logic               flag4_i,     // of the instruction before
-    output logic               flag5_o,     // after this one
-    input  logic               keep6_i,     // the result is acc of the thread's next instruction
+    input  logic        [31:0] extra3_i,    // ORed to y; 0 in turns with an instruction
+    input  logic               flag4_i,     // flag of the previous instruction
+    output logic               flag5_o,     // flag after this instruction
+    input  logic               keep6_i,     // 1: the result is acc of the thread's next instruction
     output logic signed [31:0] result6_o
 );
-  // Operands; tables have no y.
+  // Operands. Table instructions have no y.
   logic [3:0] op3_q;
   logic [1:0] mode3_q;
   logic signed [31:0] x3_q, y3_q;
@@ -35,13 +35,13 @@ module engine_alu (
     y3_q    <= from_table || none ? '0 : y2_i;
   end
 
-  // Into the multipliers: x or its fraction, times y, a slope, or 1.
+  // Inputs of the multipliers: x or its fraction, times y, a slope, or 1.
   logic        lerp, fraction, multiplies, table_word;
   logic [31:0] word, addend4_q, factored4_q;
   logic [17:0] factor4_q;
   logic less4_q, negative4_q;
   /* verilator lint_off UNUSEDSIGNAL */
-  logic signed [32:0] difference;  // its sign
+  logic signed [32:0] difference;  // only its sign is used
   /* verilator lint_on UNUSEDSIGNAL */
   logic [3:0] op4_q;
   logic [1:0] mode4_q;
@@ -65,7 +65,7 @@ module engine_alu (
     mode4_q     <= mode3_q;
   end
 
-  // Products of both halves of x; what the comparison decides.
+  // Products of both halves of x, and the decision of the comparison.
   logic signed [34:0] low5_q;
   logic signed [32:0] high5_q;
   logic [31:0] addend5_q;
@@ -93,7 +93,7 @@ module engine_alu (
     endcase
   end
 
-  // How the result is made.
+  // Control bits of the result.
   logic acc5_q, invert5_q, no_addend5_q, no_window5_q, rounds5_q, carry5_q, wraps5_q, inverse5_q;
   logic [1:0] window5_q;
   always_ff @(posedge clk_i) begin
@@ -161,7 +161,7 @@ module engine_alu (
     endcase
   end
 
-  // The product, its window, and what is added.
+  // Product, window and addend.
   logic signed [32:0] upper;
   logic [49:0] product;
   logic [32:0] window;
@@ -188,13 +188,13 @@ module engine_alu (
     inverse6_q <= inverse5_q;
   end
 
-  // Sum, and its limits.
+  // Sum and saturation.
   logic signed [33:0] sum;
   /* verilator lint_off UNUSEDSIGNAL */
   logic sum_below;
   /* verilator lint_on UNUSEDSIGNAL */
   logic beyond_low, beyond_high, beyond, limited, sign;
-  // The carry enters one adder from below.
+  // One adder: the bit below the operands carries in.
   assign {sum, sum_below} = {34'(addend6_q), 1'b1} + {34'(window6_q), carry6_q};
   assign beyond_high = top6_q[17:12] != {6{top6_q[17]}};
   assign beyond_low  = top6_q[11:0] != {12{top6_q[17]}};
@@ -204,7 +204,7 @@ module engine_alu (
   assign sign        = (beyond ? top6_q[17] : sum[33]) ^ inverse6_q;
   assign result6_o   = limited ? {sign, {31{!sign}}} : sum[31:0] ^ {32{inverse6_q}};
 
-  // acc: the result, until the same thread is in clock 5 again.
+  // acc: the result, delayed until the same thread is in clock 5 again.
   logic signed [31:0] acc1_q, acc2_q, acc3_q, acc4_q;
   logic keep1_q;
   always_ff @(posedge clk_i) begin

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The engine's machine: memories, and four threads that take turns, an instruction each in a round of
-// six clocks; two turns are free, and in the last the system reads. A word of the system is written in
-// any turn without an instruction. docs/blocks/engine.md
+// Barrel processor of the engine: memories and four threads. A round has six turns of one clock:
+// one instruction per thread and two turns of the system; in the second of these the system reads.
+// The system writes a word in any turn without an instruction. Clock n in a comment or a name
+// (x2_q) is the clock of the instruction, 0 to 7. docs/blocks/engine.md
 
 `default_nettype none
 
@@ -14,37 +15,37 @@ module engine_barrel #(
 ) (
     input  logic               clk_i,
     input  logic               rst_ni,
-    // Runs, a bit per thread.
+    // Runs, one bit per thread.
     input  logic        [ 3:0] run_i,      // 0 ends a run
-    input  logic        [ 3:0] request_i,  // to start, held until it has
-    input  logic        [ 3:0] first_i,    // a run that starts has flag 1
-    input  logic               bank_i,     // of parameters, for runs that start
-    output logic               started_o,  // a run of thread5_o starts
-    output logic               ended_o,    // one of thread5_o has ended, or was ended
+    input  logic        [ 3:0] request_i,  // start a run; held until it has started
+    input  logic        [ 3:0] first_i,    // flag at the start of a run
+    input  logic               bank_i,     // parameter bank of the runs that start
+    output logic               started_o,  // thread5_o starts a run
+    output logic               ended_o,    // a run of thread5_o has ended or was aborted
     output logic        [ 1:0] thread5_o,
-    // Results, in clock 7 of their instruction.
+    // Results, valid in clock 7 of their instruction.
     output logic signed [31:0] result_o,
     output logic               output_o,
     output logic               event_o,
     output logic               last_o,
     output logic        [ 1:0] thread7_o,
     output logic        [ 8:0] number_o,
-    // The system writes one word, with the clock after free_o.
+    // The system writes one word, in the clock after free_o.
     output logic               free_o,
     input  logic               write_data_i,
     input  logic               write_program_i,
     input  logic               write_table_i,
     input  logic        [ 8:0] write_address_i,
-    input  logic        [31:0] write_word_i,     // 0 where nothing is written
-    input  logic        [ 3:0] write_high_i,     // 0 but with write_program_i, write_table_i
-    // The system reads once in a round: data or table in result_o with read_o, where the next is
-    // read; the table's upper bits with high_read_o; the program's word with read_o, of the address
-    // a round before.
-    input  logic        [ 3:0] read_op_i,        // ADD, data; SUB, the word kept before minus data;
-                                                 // TAB, table; NOP, write_word_i of that turn
-    input  logic               keeps_i,          // what is in clock 6 is kept
-    input  logic        [ 8:0] read_data_i,      // with TAB a word that is 0
-    input  logic        [ 8:0] read_address_i,   // of program and table
+    input  logic        [31:0] write_word_i,     // 0 if nothing is written
+    input  logic        [ 3:0] write_high_i,     // 0 without write_program_i, write_table_i
+    // The system reads once per round. With read_o, result_o is the data or table word of the
+    // previous read, and program_o is the program word whose address was given one round earlier.
+    // The upper bits of the table word are valid with high_read_o.
+    input  logic        [ 3:0] read_op_i,        // ADD: data; SUB: kept word minus data;
+                                                 // TAB: table; NOP: write_word_i of that turn
+    input  logic               keeps_i,          // keep the system's result in clock 6
+    input  logic        [ 8:0] read_data_i,      // for TAB: address of a word that is 0
+    input  logic        [ 8:0] read_address_i,   // address of program and table
     output logic               read_o,
     output logic        [35:0] program_o,
     output logic               high_read_o,
@@ -53,8 +54,8 @@ module engine_barrel #(
 );
   localparam logic [2:0] System = 3'd5;  // the turn in which the system reads
 
-  // Turns: 0, 4, 1, 5, 2, 3. What a turn writes is written in the clock in which the turn before it
-  // reads, so that of the threads only 3 could meet the words that 0 and 2 exchange.
+  // Turns: 0, 4, 1, 5, 2, 3; 4 and 5 are the system's. A turn writes its word in the clock in which
+  // the turn before it reads. So only thread 3 can collide, with the words of threads 0 and 2.
   logic [2:0] turn0_q, turn1_q, turn2_q, turn3_q, turn4_q, turn5_q, turn6_q;
   logic valid0_q, valid1_q, valid2_q, valid3_q, valid4_q, valid5_q, valid6_q, valid7_q;
   logic last2_q, last3_q, last4_q, last5_q, last6_q, last7_q;
@@ -69,7 +70,7 @@ module engine_barrel #(
     end
   end
 
-  // Whose turn comes next, and whether it goes on or starts.
+  // Next turn: its thread, and whether its run continues or a run starts.
   logic thread, goes_on, starts;
   assign thread    = !turn5_q[2];
   assign goes_on   = valid5_q && !last5_q && run_i[turn5_q[1:0]];
@@ -86,7 +87,7 @@ module engine_barrel #(
     end
   end
 
-  // Flag and bank of each thread go round with it.
+  // Flag and bank of each thread travel with its turn.
   logic flag0_q, flag1_q, flag2_q, flag3_q, flag4_q, flag5;
   logic bank0_q, bank1_q, bank2_q, bank3_q, bank4_q, bank5_q;
   always_ff @(posedge clk_i) begin
@@ -96,7 +97,7 @@ module engine_barrel #(
     {bank1_q, bank2_q, bank3_q, bank4_q, bank5_q} <= {bank0_q, bank1_q, bank2_q, bank3_q, bank4_q};
   end
 
-  // Clock 0: address of the program; clock 1: its word.
+  // Clock 0: address of the program word; clock 1: the word.
   logic [8:0] pc0_q, pc1_q, pc2_q, pc3_q, pc4_q, pc5_q;
   logic [35:0] word1;
   logic [3:0] op1;
@@ -110,7 +111,8 @@ module engine_barrel #(
   assign b1    = word1[feltgate_engine_pkg::B_B+:9];
   assign program_o = word1;
 
-  // Where a thread reads. In turns of nobody b is of no interest.
+  // Physical address of a thread's operand: private words by thread, parameters by bank. In turns
+  // without a thread, y is not used.
   function automatic logic [8:0] seen(input logic [8:0] address, input logic [1:0] by, input logic bank);
     seen = address;
     if (!address[8]) seen[7:6] = by;
@@ -122,13 +124,13 @@ module engine_barrel #(
   assign read_x = reads1 ? read_data_i : seen(a1, turn1_q[1:0], bank1_q);
   assign read_y = seen(b1, turn1_q[1:0], bank1_q);
 
-  // Turns without an instruction do nothing, that of the system adds its word to 0.
+  // A turn without an instruction executes NOP; the system's turn adds its word to 0.
   logic [3:0] op2_q, op3_q, op4_q;
   logic [1:0] mode2_q;
-  logic mode3_q, mode4_q;  // its lower bit
+  logic mode3_q, mode4_q;  // lower bit of the mode
   logic [1:0] dst2_q, dst3_q, dst4_q, dst5_q, dst6_q, dst7_q;
   logic [8:0] d2_q, d3_q, d4_q, d5_q, d6_q, d7_q, b2_q, b3_q, b4_q;
-  logic own2;  // the address of a write is the thread's own
+  logic own2;  // the thread may write to this address
   assign own2 = d2_q[8] ? d2_q[7:6] == 2'd0 && d2_q[5:4] == turn2_q[1:0]
                         : d2_q[5:0] < 6'(feltgate_engine_pkg::INPUT_FIRST);
   always_ff @(posedge clk_i) begin
@@ -148,7 +150,7 @@ module engine_barrel #(
     {b3_q, b4_q} <= {b2_q, b3_q};
   end
 
-  // The next instruction. The system's turn reads the program where it reads the table.
+  // Address of the next instruction. The system's turn reads program and table at the same address.
   logic branches, system4;
   assign branches = op4_q == feltgate_engine_pkg::OP_BRF && flag4_q != mode4_q;
   assign system4  = turn4_q == System;
@@ -161,11 +163,11 @@ module engine_barrel #(
     pc5_q <= branches || system4 ? b4_q : pc4_q;
   end
 
-  // Clock 2: data, and where the table is read; clock 3: its word.
+  // Clock 2: operands and address of the table; clock 3: the table's word.
   logic signed [31:0] x2, y2, result6;
   logic [8:0] table2, table3_q, table4_q, table5_q, table6_q;
   logic [35:0] table3;
-  logic stores3_q, stores4_q, stores5_q, stores6_q;  // TST into a line
+  logic stores3_q, stores4_q, stores5_q, stores6_q;  // TST writes into a line
   assign table2       = x2[20:12] + b2_q;
   assign table_high_o = table3[35:32];
   assign high_read_o  = turn3_q == System;
@@ -176,7 +178,7 @@ module engine_barrel #(
     stores3_q <= op2_q == feltgate_engine_pkg::OP_TST;
   end
 
-  // Words of the system go along as if they were results.
+  // Words that the system writes pass through the pipeline like results.
   logic data4_q, data5_q, data6_q, program4_q, program5_q, program6_q;
   logic [3:0] high4_q, high5_q, high6_q;
   assign free_o = !valid2_q && turn2_q != System;
@@ -242,12 +244,12 @@ module engine_barrel #(
       .data_i({high6_q, result6})
   );
 
-  // Clock 7: what leaves.
+  // Clock 7: outputs of the barrel.
   always_ff @(posedge clk_i) result_o <= result6;
   assign output_o  = valid7_q && dst7_q == 2'd2;
   assign event_o   = valid7_q && dst7_q == 2'd3;
   assign last_o    = valid7_q && last7_q;
-  assign thread7_o = turn1_q[1:0];  // a round later
+  assign thread7_o = turn1_q[1:0];  // clock 7 is clock 1 of the thread's next turn
   assign number_o  = d7_q;
   assign read_o    = reads1;
 endmodule

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Brings the idle bank of parameters into force, if each of its words lies within its range, and says
-// whether one that is no mailbox's is another than before. The barrel subtracts, a word a round.
-// docs/blocks/engine.md
+// Commit of the parameters: checks each word of the idle bank against its range and swaps the banks
+// at the next tick if all pass. It also reports whether a parameter (a word below the mailbox)
+// changes. The barrel subtracts in the system's turns: eight beats per word. docs/blocks/engine.md
 
 `default_nettype none
 
@@ -11,26 +11,27 @@ module engine_commit (
     input  logic       clk_i,
     input  logic       rst_ni,
     input  logic       commit_i,
-    input  logic       wait_i,           // another reads
-    input  logic       tick_i,           // when a bank comes into force
-    input  logic       beat_i,           // a word is read, the one before is there
-    input  logic       negative_i,       // the sign of that
+    input  logic       wait_i,           // another reader uses the barrel: do not begin
+    input  logic       tick_i,           // one clock: the banks may swap
+    input  logic       beat_i,           // this beat's word is read, the previous one is there
+    input  logic       negative_i,       // sign of the difference, one beat later
     input  logic [3:0] running_i,
-    input  logic [5:0] mailbox_first_i,  // words from there on may change at any time
-    output logic       bank_o,           // in force
-    output logic       taken_o,          // the other one comes into force with the next clock
-    output logic       differs_o,        // with a parameter that is another
+    input  logic [5:0] mailbox_first_i,  // words from here on are the mailbox, not parameters
+    output logic       bank_o,           // the bank in force
+    output logic       taken_o,          // the banks swap with the next clock
+    output logic       differs_o,        // a parameter differs from the one in force
     output logic       checking_o,
-    output logic       committing_o,     // until no run uses the bank that was in force
+    output logic       committing_o,     // from the commit until no run uses the old bank
     output logic       refused_o,
     output logic [4:0] refused_word_o,
-    output logic       minus_o,          // the word that was kept minus this one
+    output logic       minus_o,          // difference: previous beat's word minus this one
     output logic [8:0] address_o
 );
-  // Eight beats a word: it, minus lower; upper, minus it; it, minus the one in force; that, minus it. A
-  // difference comes with the next beat.
+  // Eight beats per word, in four pairs. The first beat of a pair reads a word, the second
+  // subtracts another: word - lower bound, upper bound - word, word - word in force, word in force
+  // - word. The sign of a difference is valid in the next beat.
   logic [8:0] beat_q;
-  logic [3:0] old_q;  // runs that began with the other bank
+  logic [3:0] old_q;  // one bit per thread: its run began with the old bank
   logic wanted_q, passed_q, negative, range, parameter_word;
   assign negative       = negative_i && !beat_q[0] && beat_q[8:1] != '0;
   assign range          = beat_q[2] != beat_q[1];
@@ -76,7 +77,7 @@ module engine_commit (
           passed_q   <= !refused_o;
         end
       end
-      // With a tick: what it makes jump is then heard before the next torque is sampled.
+      // The banks swap with a tick, so that a jump is reported before the next torque is sampled.
       if (taken_o) begin
         passed_q <= 1'b0;
         bank_o   <= !bank_o;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Events that wait for the host, oldest first; one that finds no place is counted.
-// docs/blocks/engine.md
+// FIFO of 16 events for the host, oldest first. An event that comes while it is full is lost and
+// counted. An event is readable in the clock after event_i. docs/blocks/engine.md
 
 `default_nettype none
 
@@ -13,12 +13,12 @@ module engine_events (
     input  logic [ 8:0] number_i,
     input  logic [31:0] value_i,
     input  logic [31:0] tick_i,
-    input  logic        take_i,    // the oldest goes
+    input  logic        take_i,    // removes the oldest
     output logic [ 4:0] count_o,
-    output logic [ 8:0] number_o,  // of the oldest
+    output logic [ 8:0] number_o,  // of the oldest event, as the next two
     output logic [31:0] value_o,
     output logic [31:0] tick_o,
-    output logic [ 7:0] lost_o     // stays at its end
+    output logic [ 7:0] lost_o     // events lost; saturates
 );
   logic [72:0] events[0:15];
   initial begin
@@ -33,7 +33,7 @@ module engine_events (
   assign place   = first_q + count_q[3:0];
   assign count_o = count_q;
   assign {number_o, value_o, tick_o} = events[first_q];
-  always @(posedge clk_i) begin  // not always_ff: another process writes the zeros of power-up
+  always @(posedge clk_i) begin  // not always_ff: the initial block writes it too
     if (keeps) events[place] <= {number_i, value_i, tick_i};
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin

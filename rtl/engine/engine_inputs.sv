@@ -1,38 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// When the engine's threads start, and what they are given: each every so many ticks, when its run
-// before has ended, with the inputs of the tick written into its private words. docs/blocks/engine.md
+// Starts the engine's threads and writes their inputs. A thread is due every divider ticks. When
+// its previous run has ended, the block writes the inputs of one tick into the thread's private
+// words, one word per free clock, and then requests the start. docs/blocks/engine.md
 
 `default_nettype none
 
 module engine_inputs #(
     parameter int AxisCount = 1,
-    parameter logic [47:0] Dividers = '0  // of the threads, after configuration
+    parameter logic [47:0] Dividers = '0  // of the threads, 12 bits each, after configuration
 ) (
     input  logic                     clk_i,
     input  logic                     rst_ni,
     input  logic [              3:0] run_i,
-    input  logic                     tick_i,        // one clock; the inputs are of this tick, and held
+    input  logic                     tick_i,        // one clock; inputs of this tick, held
     input  logic [             31:0] tick_count_i,
     input  logic [32*AxisCount-1:0] position_i,
     input  logic [32*AxisCount-1:0] velocity_i,
     input  logic [32*AxisCount-1:0] tau_hat_i,
-    input  logic                     divide_i,      // a divider is written
-    input  logic [              1:0] divided_i,     // of this thread
+    input  logic                     divide_i,      // write divider_i
+    input  logic [              1:0] divided_i,     // thread of divider_i
     input  logic [             11:0] divider_i,
-    input  logic                     started_i,     // by the barrel, of thread_i
+    input  logic                     started_i,     // from the barrel: a run of thread_i started
     input  logic                     ended_i,
     input  logic [              1:0] thread_i,
-    output logic [              3:0] request_o,     // a start
-    output logic [              3:0] running_o,     // about to start, or in a run
-    output logic                     overrun_o,     // a start found one that still waits
-    output logic                     wanted_o,      // a word to write
-    input  logic                     taken_i,       // it is, in this clock
+    output logic [              3:0] request_o,     // per thread: start a run
+    output logic [              3:0] running_o,     // per thread: about to start, or in a run
+    output logic                     overrun_o,     // due again while the last start still waits
+    output logic                     wanted_o,      // word_o is to be written
+    input  logic                     taken_i,       // it is written in this clock
     output logic [              8:0] address_o,
     output logic [             31:0] word_o
 );
-  // Ticks to the next start, a thread after another: at 1 or 0 it is due.
+  // Ticks to the next start, one thread per clock. At 1 or 0 the thread is due.
   logic [11:0] dividers[0:3];
   logic [11:0] counts[0:3];
   initial begin
@@ -46,7 +47,7 @@ module engine_inputs #(
   logic counting_q, due;
   assign count = counts[counted_q];
   assign due   = counting_q && count[11:1] == 11'd0 && run_i[counted_q];
-  always @(posedge clk_i) begin  // not always_ff: another process writes the zeros of power-up
+  always @(posedge clk_i) begin  // not always_ff: the initial block writes it too
     if (divide_i) dividers[divided_i] <= divider_i;
     if (counting_q) begin
       if (!run_i[counted_q]) counts[counted_q] <= 12'd0;
@@ -64,7 +65,7 @@ module engine_inputs #(
     end
   end
 
-  // Due threads wait for their run to end, then for their words to be written.
+  // A due thread waits until its run has ended, then until its inputs are written.
   localparam logic [3:0] Words = 4'(feltgate_engine_pkg::INPUT_AXIS_WORDS * AxisCount + 1);
   localparam logic [5:0] First = 6'(feltgate_engine_pkg::INPUT_FIRST);
   localparam logic [3:0] Tick  = 4'(feltgate_engine_pkg::INPUT_TICK - feltgate_engine_pkg::INPUT_FIRST);
@@ -88,7 +89,7 @@ module engine_inputs #(
       running_o <= '0;
     end else begin
       written_q <= all_written && run_i[loaded_q];
-      if (tick_i || !loading_q) word_q <= '0;  // of one tick
+      if (tick_i || !loading_q) word_q <= '0;  // all words belong to one tick
       else if (taken_i) word_q <= word_q + 4'd1;
       if (!loading_q) begin
         loading_q <= ready != '0;
@@ -105,7 +106,7 @@ module engine_inputs #(
     end
   end
 
-  // The words of all axes, and the tick's number.
+  // Input words: position, velocity, tau_hat of each axis, then the tick count.
   logic [32*(3*AxisCount+1)-1:0] words;
   genvar n;
   generate

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Fills the lines, table words from line_base on, with zeros where states begin anew; no thread runs
-// meanwhile. docs/blocks/engine.md
+// Clears the delay lines (the table from line_base on) when states are reset. It writes one word
+// per free clock, from word 511 down; no thread runs meanwhile. The whole table takes less than 620
+// clocks. docs/blocks/engine.md
 
 `default_nettype none
 
@@ -11,12 +12,12 @@ module engine_lines (
     input  logic       rst_ni,
     input  logic       enter_i,
     input  logic [9:0] line_base_i,
-    input  logic       free_i,      // a word could be written
+    input  logic       free_i,      // a word can be written in this clock
     output logic       clearing_o,
-    output logic       taken_o,     // it is, in this clock
+    output logic       taken_o,     // it is written in this clock
     output logic [8:0] address_o
 );
-  // Two clocks until what the threads had begun is ahead.
+  // Waits two clocks, so that earlier writes of the threads come first.
   logic [1:0] wait_q;
   assign taken_o = clearing_o && !wait_q[1] && free_i && !line_base_i[9];
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The age of what the host feeds: without a commit in its time the torques are 0, until the next. And when
-// torques may jump. docs/blocks/engine.md
+// Age of the mailbox. If no commit comes within max_age_i steps, late_o is 1 (torques 0) until the
+// next commit. jumps_o reports when torques can jump. One step is 64 ticks. docs/blocks/engine.md
 
 `default_nettype none
 
@@ -10,11 +10,11 @@ module engine_mailbox (
     input  logic        clk_i,
     input  logic        rst_ni,
     input  logic        tick_i,
-    input  logic        step_i,     // with tick_i: the age counts
-    input  logic        watched_i,  // there is a mailbox
+    input  logic        step_i,     // with tick_i: the age increments
+    input  logic        watched_i,  // 1: the law has a mailbox
     input  logic [15:0] max_age_i,  // steps
-    input  logic        taken_i,    // a commit comes into force
-    input  logic        differs_i,  // with another parameter
+    input  logic        taken_i,    // one clock: a commit comes into force
+    input  logic        differs_i,  // with taken_i: a parameter changes
     output logic        late_o,
     output logic        jumps_o     // one clock
 );
@@ -25,7 +25,7 @@ module engine_mailbox (
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       age_q   <= '0;
-      late_q  <= 1'b1;  // nothing was fed
+      late_q  <= 1'b1;  // after reset the host has written nothing
       jumps_o <= 1'b0;
     end else begin
       if (taken_i) age_q <= '0;

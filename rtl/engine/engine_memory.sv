@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// 512 words of block RAM with one port to write and one to read, whose words are those of a file
-// after power-up, or 0. Latency: address in clock t, word in clock t + 1. Nobody may read a word in the
-// clock in which it is written: there the block RAM promises nothing. docs/blocks/engine.md
+// Block RAM of 512 words with one write port and one read port. After power-up it holds the words
+// of a file, or 0. Latency: address in clock t, word in clock t + 1. A word must not be read in the
+// clock in which it is written, because block RAM does not define that result.
+// docs/blocks/engine.md
 
 `default_nettype none
 
 module engine_memory #(
     parameter int Width = 32,
-    parameter     Content = ""  // for $readmemh
+    parameter     Content = ""  // $readmemh file; "": all 0
 ) (
     input  logic             clk_i,
     input  logic [      8:0] read_address_i,
@@ -26,7 +27,7 @@ module engine_memory #(
     if (Content != "") $readmemh(Content, words);
   end
 
-  always @(posedge clk_i) begin  // not always_ff: the content is written by another process
+  always @(posedge clk_i) begin  // not always_ff: the initial block writes it too
     word_o <= words[read_address_i];
     if (write_i) words[write_address_i] <= data_i;
   end

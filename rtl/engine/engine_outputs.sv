@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What leaves the engine: the outputs of a run together at its end, limited to the torque's format,
-// and their age. docs/blocks/engine.md
+// Outputs of the engine. All outputs of a run appear together at its end (two clocks after last_i),
+// saturated to the torque's format. The block also watches their age. docs/blocks/engine.md
 
 `default_nettype none
 
@@ -11,21 +11,21 @@ module engine_outputs #(
 ) (
     input  logic               clk_i,
     input  logic               rst_ni,
-    input  logic               clear_i,    // outputs 0
-    input  logic               zero_i,     // outputs 0 while this holds
-    input  logic               watched_i,  // some thread should run
+    input  logic               clear_i,    // clears the outputs and those that wait
+    input  logic               zero_i,     // outputs are 0 while this is 1
+    input  logic               watched_i,  // a thread is enabled
     input  logic               enter_i,
     input  logic               tick_i,
     input  logic        [15:0] max_age_i,  // ticks
-    // Of the barrel, in one clock.
+    // From the barrel, all valid in one clock.
     input  logic signed [31:0] result_i,
     input  logic               output_i,
     input  logic               last_i,
     input  logic        [ 1:0] thread_i,
     input  logic        [ 1:0] number_i,
     output logic signed [feltgate_pkg::TORQUE_W*AxisCount-1:0] torque_o,
-    output logic               fresh_o,    // all outputs were renewed since the last time
-    output logic               late_o      // until enter_i: they were not for max_age ticks
+    output logic               fresh_o,    // one clock: all axes renewed since the last fresh_o
+    output logic               late_o      // not fresh for max_age_i ticks; held until enter_i
 );
   localparam int W = feltgate_pkg::TORQUE_W;
 
@@ -71,7 +71,7 @@ module engine_outputs #(
     end
   endgenerate
 
-  // Their age; a program has no way to it but by outputs of all axes.
+  // Age of the outputs. A program can reset it only by outputs to all axes.
   logic [15:0] age_q;
   logic fresh;
   assign fresh = (renewed_q | appears) == '1;

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The core with its host's link: encoder and UART in, gates and UART out. A board's top instantiates it instead of
-// feltgate_core, or of feltgate_axes where the design has an engine. Documentation: docs/blocks/feltgate_linked.md, docs/link.md
+// The core with the link to its host: encoder and UART in, gates and UART out. A board's top level
+// instantiates it. It contains feltgate_core, or feltgate_axes with one axis if the design has an
+// engine. Documentation: docs/blocks/feltgate_linked.md, docs/link.md
 `default_nettype none
 
 module feltgate_linked #(
     parameter int ClockHz = feltgate_pkg::CLOCK_HZ,
     parameter int Baud = feltgate_link_pkg::BAUD,
     parameter int Simulated = 0,
-    parameter int Board = 0,       // its number: docs/registers.md
-    parameter ParameterFile = "",  // as of feltgate_core
-    // As of axes_engine; nobody looks where the design has no engine.
+    parameter int Board = 0,       // number of the board: docs/registers.md
+    parameter ParameterFile = "",  // as in feltgate_core
+    // As in axes_engine; not used if the design has no engine.
     /* verilator lint_off UNUSEDPARAM */
     parameter ProgramContent = "",
     parameter DataContent = "",
@@ -41,9 +42,9 @@ module feltgate_linked #(
     // Host
     input  logic       uart_rx_i,
     output logic       uart_tx_o,
-    input  logic [7:0] inputs_i,  // what the board tells the host; synchronous
+    input  logic [7:0] inputs_i,  // state of the board for the host; synchronous
 
-    // Lamps
+    // State, for lamps
     output logic signed [31:0]                                  position_o,
     output logic        [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_o,
     output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0]   faults_o,
@@ -71,7 +72,7 @@ module feltgate_linked #(
   /* verilator lint_off PINCONNECTEMPTY */  // the host reads these as words
   generate
   if (feltgate_pkg::ENGINE != 0) begin : g_law
-    // A read that is repeated must change nothing, so an event is taken away by a write to its last word.
+    // A repeated read must change nothing, so a write to the event's last word removes the event.
     feltgate_axes #(
         .AxisCount(1), .Engine(1), .ReadBack(1), .ParameterFile(ParameterFile),
         .ProgramContent(ProgramContent), .DataContent(DataContent), .TableContent(TableContent), .Reset(Reset)

@@ -1,30 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Chosen words of tick after tick into a ring of rows, each row one tick whole; some rows before a
-// trigger, the rest after it. Read through a memory window when it is over.
+// Capture: stores selected snapshot words of consecutive ticks (or of every period-th tick) in a
+// ring of rows, one whole tick per row, some rows before a trigger and the rest from it on. The
+// host reads the rows through a memory window when the capture has ended.
 // Documentation: docs/blocks/link_capture.md
 `default_nettype none
 
 module link_capture #(
     parameter int Rows = 1 << feltgate_link_pkg::ROWS_LOG2,  // a power of two
-    parameter int Events = feltgate_pkg::ENGINE              // 1: an event of a law may trigger
+    parameter int Events = feltgate_pkg::ENGINE              // 1: an event of a law can trigger
 ) (
     input  logic        clk_i,
     input  logic        rst_ni,
 
-    // Words of the snapshot as the core stores them, at least a clock between two ticks
+    // Words of the snapshot as the core stores them; at least one clock without a word between
+    // ticks
     input  logic        word_valid_i,
     input  logic [ 5:0] word_slot_i,
     input  logic [31:0] word_data_i,
 
-    // Events of a law, as they go into the engine's queue
+    // Events of a law, as they enter the engine's queue
     /* verilator lint_off UNUSEDSIGNAL */  // without Events
     input  logic        event_valid_i,
     input  logic [ 8:0] event_number_i,
     /* verilator lint_on UNUSEDSIGNAL */
 
-    // Registers and memory: rdata_o follows addr_i by 3 clocks, 0 where the address is another's
+    // Registers and memory: rdata_o follows addr_i by 3 clocks, 0 for an address of another block
     input  logic [15:0] addr_i,
     input  logic [31:0] wdata_i,
     input  logic        write_i,
@@ -46,21 +48,21 @@ module link_capture #(
 
   enum logic [2:0] {
     Idle = 3'd0,
-    Fill = 3'd1,  // the rows before the trigger
-    Wait = 3'd2,  // for the trigger; the ring goes round
-    Rest = 3'd3,  // the row of the trigger and those after it
+    Fill = 3'd1,  // takes the rows before the trigger
+    Wait = 3'd2,  // waits for the trigger; the ring wraps
+    Rest = 3'd3,  // takes the row of the trigger and the rows after it
     Done = 3'd4
   } state_q;
   logic runs;
   assign runs = state_q == Fill || state_q == Wait || state_q == Rest;
 
-  // The number of the word on the port; 15 is none. A tick ends in the clock after its last word.
+  // Number of the word on the port; 15: none. ends_q: a tick ends in the clock after its last word.
   logic       first, ends_q;
   logic [3:0] number, number_q;
   assign first  = word_valid_i && word_slot_i == feltgate_link_pkg::FIRST_SLOT;
   assign number = first ? 4'd0 : number_q;
 
-  // Registers. What makes up the rows holds still while they are taken.
+  // Registers. Those that define the rows cannot change while a capture runs.
   logic [     Words-1:0] words_q;
   logic [   RowBits-1:0] pre_q, pre;
   logic [PeriodBits-1:0] period_q, period;
@@ -99,7 +101,7 @@ module link_capture #(
     end
   end
 
-  // Trigger: what the word says against what it said a tick ago, in each tick, captured or not.
+  // Trigger: compares the word with its value of the previous tick, in every tick, captured or not.
   logic        at_trigger, high, high_q, known_q, hit_q, hand_q, fires;
   logic [31:0] before_q;
   assign at_trigger = word_valid_i && number == trigger_word_q && number != '1;
@@ -114,7 +116,7 @@ module link_capture #(
     if (!rst_ni) begin
       known_q <= 1'b0;
       hit_q   <= 1'b0;
-    end else if (configures) begin  // what was there before was compared with something else
+    end else if (configures) begin  // the old result belongs to another condition
       known_q <= 1'b0;
       hit_q   <= 1'b0;
     end else if (at_trigger) begin
@@ -128,7 +130,7 @@ module link_capture #(
     end
   end
 
-  // An event since the last tick ended, so of the tick whose last word is to come.
+  // An event since the end of the last tick; it belongs to the tick whose last word is to come.
   logic event_hit, event_q;
   assign event_hit = event_valid_i && Events != 0 && trigger_mode_q == ModeBits'(feltgate_link_pkg::TRIGGER_EVENT) &&
                      ((level_q & 32'(feltgate_link_pkg::ANY_EVENT)) != '0 || event_number_i == level_q[EventBits-1:0]);
@@ -139,12 +141,12 @@ module link_capture #(
   end
 
   // Rows.
-  logic                  seen_q;                    // a tick began since the start
+  logic                  seen_q;                    // a tick has begun since the start
   logic                  begins, takes, taking_q;   // this tick is a row
   logic [PeriodBits-1:0] ticks_q;
   logic [  ColumnBits:0] column, column_q, columns_q;
-  logic [   RowBits-1:0] row_q;                     // that is written next
-  logic [     RowBits:0] rows_q, rest, left_q;      // whole rows; rows to come in this state
+  logic [   RowBits-1:0] row_q;                     // row to be written next
+  logic [     RowBits:0] rows_q, rest, left_q;      // rows_q: whole rows; left_q: rows to take
   logic                  stores, whole;
   assign begins = first && runs && ticks_q == '0;
   assign takes  = first ? begins : taking_q;
@@ -176,7 +178,7 @@ module link_capture #(
       if (first) begin
         seen_q   <= 1'b1;
         taking_q <= begins;
-        if (begins && rows_q == FULL) rows_q <= FULL - 1'b1;  // the oldest is written over
+        if (begins && rows_q == FULL) rows_q <= FULL - 1'b1;  // the oldest row is overwritten
         if (ticks_q != '0) ticks_q <= ticks_q - 1'b1;
         else if (period_q != '0) ticks_q <= period_q - 1'b1;
       end
@@ -213,7 +215,7 @@ module link_capture #(
     end
   end
 
-  // A word of a row per clock.
+  // Capture memory: at most one word per clock is written.
   (* no_rw_check, ram_style = "block", ramstyle = "no_rw_check" *)
   logic [31:0] capture_ram [0:Rows*feltgate_link_pkg::COLUMNS-1];
   logic [31:0] memory_q, memory_q2;
@@ -225,7 +227,7 @@ module link_capture #(
     memory_q2 <= memory_q;
   end
 
-  // Read back. Of the memory what a whole row holds, where no capture runs; else 0.
+  // Read back. The memory shows whole rows only, and only while no capture runs; otherwise 0.
   logic [        15:0] addr_q, addr_q2;
   logic [ RowBits-1:0] first_row, offset;
   logic                holds_q;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Does what a request asks: writes at once, once per sequence; reads as the words of the reply go out. Words
-// are the core's, the link's own, or those of stream and capture. Documentation: docs/blocks/link_port.md
+// Executes a request of the host. It writes at once, and only once per sequence number; it reads
+// each word while the reply is being sent. Words belong to the core, the engine, the link itself,
+// the stream or the capture. Documentation: docs/blocks/link_port.md
 `default_nettype none
 
 module link_port #(
     parameter int Simulated = 0,
     parameter int Board = 0,
-    parameter int Features = 0,  // further bits of the word features
-    parameter int Engine = feltgate_pkg::ENGINE  // 1: the port has the engine's words too
+    parameter int Features = 0,  // more bits of the word FEATURES
+    parameter int Engine = feltgate_pkg::ENGINE  // 1: the port also has the engine's words
 ) (
     input  logic        clk_i,
     input  logic        rst_ni,
@@ -24,22 +25,22 @@ module link_port #(
     input  logic        bad_i,
     output logic        taken_o,
 
-    input  logic        clear_faults_i,  // the panel's, one clock
-    input  logic [ 7:0] inputs_i,        // the board's
-    input  logic        tick_i,          // once a tick, in any one clock of it
+    input  logic        clear_faults_i,  // from the panel, one clock
+    input  logic [ 7:0] inputs_i,        // from the board
+    input  logic        tick_i,          // one clock per tick, any clock of it
 
-    // The core's register port, and the engine's
+    // Register port of the core and of the engine
     output logic [15:0] reg_addr_o,
     output logic [31:0] reg_wdata_o,
     output logic        reg_write_o,
     input  logic        reg_busy_i,
-    input  logic [31:0] reg_rdata_i,     // follows the address by 3 clocks; of the engine by 33 while not busy
+    input  logic [31:0] reg_rdata_i,     // 3 clocks after the address; engine: 33, not busy
 
-    // Stream and capture: 0 where the address is not theirs
+    // Stream and capture: rdata_i is 0 for an address of another block
     output logic [15:0] addr_o,
     output logic [31:0] wdata_o,
     output logic        write_o,
-    input  logic [31:0] rdata_i,         // likewise
+    input  logic [31:0] rdata_i,         // 3 clocks after the address
 
     // Reply
     output logic        valid_o,
@@ -50,12 +51,12 @@ module link_port #(
   localparam int AddressW = 14 + Engine;
   localparam logic [AddressW-1:0] STATUS =
       AddressW'(feltgate_map_pkg::A_SNAPSHOT) + AddressW'(feltgate_map_pkg::R_STATUS);
-  // The engine's words lie where the core's do, with one more bit in front.
+  // The engine's words have the core's addresses with one more bit on top.
   localparam logic [15:0] OF_PORT = {1'b0, 1'(Engine), 2'd0, 12'hfff};
 
-  // Writes. One is done once: not again until a request with another sequence was.
-  logic [8:0] sequence_q;  // of the last, 0x100 none
-  logic       done_q;      // the request that stands is done, or was before
+  // Writes. A repeated write, with the sequence number of the last one, is not executed again.
+  logic [8:0] sequence_q;  // of the last write; 0x100: none
+  logic       done_q;      // the current write is executed, now or earlier
   logic       clear_q;
   logic       fresh, to_core, repeats, writes;
   assign fresh   = valid_i && write_i && !done_q;
@@ -69,28 +70,28 @@ module link_port #(
   assign write_o     = writes && !to_core;
   assign reg_write_o = host_write || panel_write;
   assign wdata_o     = data_i;
-  // A name of its own: within the concatenation Yosys (0.23, 0.70) took it for 32 bits.
+  // A separate signal, because Yosys (0.23, 0.70) took it for 32 bits inside a concatenation.
   logic [feltgate_map_pkg::W_COMMAND-1:0] clear_faults;
   assign clear_faults = feltgate_map_pkg::W_COMMAND'(1) << feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS;
   assign reg_wdata_o  = {data_i[31:feltgate_map_pkg::W_COMMAND],
       host_write ? data_i[feltgate_map_pkg::W_COMMAND-1:0] : clear_faults};
 
-  // Reply: head and words go through one register, four bytes each.
+  // Reply: the head and each word pass through one register, four bytes each.
   localparam logic [1:0] IDLE = 2'd0;
-  localparam logic [1:0] WAIT = 2'd1;   // for a status that knows the write
-  localparam logic [1:0] READ = 2'd2;   // for a word
-  localparam logic [1:0] BYTES = 2'd3;  // sends four
-  localparam int ENGINE_CLOCKS = 40;  // for a word of the engine
+  localparam logic [1:0] WAIT = 2'd1;   // waits for a status that includes the write
+  localparam logic [1:0] READ = 2'd2;   // waits for a word
+  localparam logic [1:0] BYTES = 2'd3;  // sends four bytes
+  localparam int ENGINE_CLOCKS = 40;  // read time of an engine word
   localparam int ClocksW = 2 + 4 * Engine;
   logic [ 1:0] state_q, ticks_q, byte_q;
   logic [ClocksW-1:0] clocks_q, last_clock;
-  logic        status_q;  // the reply is one to a write
+  logic        status_q;  // the reply answers a write
   logic [AddressW-1:0] address_q;
-  logic [ 6:0] left_q;    // words to be read
+  logic [ 6:0] left_q;    // words still to read
   logic [31:0] word_q;
 
   logic [AddressW-1:0] read_address;
-  logic of_engine;  // the word that is read
+  logic of_engine;  // the word being read is the engine's
   assign read_address = status_q ? STATUS : address_q;
   assign of_engine    = Engine != 0 && read_address[AddressW-1] && read_address[13:12] == 2'd0;
   assign last_clock   = of_engine ? ClocksW'(ENGINE_CLOCKS) : ClocksW'(3);
@@ -120,7 +121,7 @@ module link_port #(
   end
   assign word = (read_address[13:12] == 2'd0) ? reg_rdata_i : own | rdata_i;
 
-  // By itself: in a concatenation Yosys (0.23, 0.70) took it for 32 bits.
+  // A separate signal, because Yosys (0.23, 0.70) took it for 32 bits in a concatenation.
   logic [7:0] kind;
   assign kind = 8'(feltgate_link_pkg::KIND_REPLY) |
                 8'(write_i ? feltgate_link_pkg::KIND_WRITE : feltgate_link_pkg::KIND_READ);

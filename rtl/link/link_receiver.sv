@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Bytes of the wire to requests: SLIP, CRC-32, and all that a request must fulfil. A frame that fails any of
-// it is counted and no more. A request stands until it is taken or the next frame begins.
+// Receives requests: decodes SLIP, checks the CRC-32 and the rules of a request. An invalid frame
+// is reported on bad_o and has no other effect. A request is held until it is taken or the next
+// frame begins. Timing: one bit per clock, so a byte takes eight clocks.
 // Documentation: docs/blocks/link_receiver.md
 `default_nettype none
 
 module link_receiver #(
-    parameter int Engine = feltgate_pkg::ENGINE  // 1: the map has the engine's words too, above the others
+    parameter int Engine = feltgate_pkg::ENGINE  // 1: the map also has the engine's words, on top
 ) (
     input  logic        clk_i,
     input  logic        rst_ni,
     input  logic [ 7:0] byte_i,
-    input  logic        valid_i,     // one clock, at least ten clocks after the last
-    input  logic        error_i,     // one clock: a byte that was none
-    input  logic        taken_i,     // the request is no more needed
-    output logic        valid_o,     // a request stands
+    input  logic        valid_i,     // one clock, at least ten clocks after the previous one
+    input  logic        error_i,     // one clock: a byte with a framing error
+    input  logic        taken_i,     // the request is no longer needed
+    output logic        valid_o,     // a request is valid
     output logic        write_o,
     output logic [ 7:0] sequence_o,
     output logic [13+Engine:0] address_o,
-    output logic [31:0] data_o,      // or the number of words
-    output logic        good_o,      // one clock: a frame that is a request
-    output logic        bad_o        // one clock: one that is not
+    output logic [31:0] data_o,      // of a write; of a read: the number of words
+    output logic        good_o,      // one clock: a frame was a valid request
+    output logic        bad_o        // one clock: a frame was not
 );
   localparam logic [7:0] END = 8'(feltgate_link_pkg::FRAME_END);
   localparam logic [7:0] ESCAPE = 8'(feltgate_link_pkg::FRAME_ESCAPE);
@@ -29,11 +30,11 @@ module link_receiver #(
   localparam logic [7:0] ESCAPED_ESCAPE = 8'(feltgate_link_pkg::ESCAPED_ESCAPE);
   localparam logic [3:0] BYTES = 4'(feltgate_link_pkg::REQUEST_BYTES);
 
-  logic [ 3:0] count_q;     // bytes of the frame, no more than one too many
-  logic        escaped_q;   // the last byte changes the meaning of the next
-  logic        spoiled_q;   // the frame is none whatever comes
-  logic [ 7:0] byte_q;      // goes bit by bit into CRC and frame
-  logic [ 3:0] bits_q;      // of it that are left
+  logic [ 3:0] count_q;     // bytes of the frame; saturates at one too many
+  logic        escaped_q;   // the last byte was ESCAPE
+  logic        spoiled_q;   // the frame is already invalid
+  logic [ 7:0] byte_q;      // shifts bit by bit into CRC and frame
+  logic [ 3:0] bits_q;      // bits of byte_q still to shift
   logic [31:0] crc_q;
   logic [63:0] frame_q;     // the first eight bytes
 
@@ -44,7 +45,7 @@ module link_receiver #(
   assign stuffed_escape = escaped_q && byte_i == ESCAPED_ESCAPE;
   assign empty          = count_q == 4'd0 && !escaped_q && !spoiled_q;
 
-  // What a request must be.
+  // Rules of a request.
   logic reads, writes, words_ok, beyond, in_map, whole, sound;
   logic [6:0] over;
   assign reads    = frame_q[7:0] == 8'(feltgate_link_pkg::KIND_READ);

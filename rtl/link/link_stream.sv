@@ -1,27 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Chosen words of one tick, every so many ticks, as a frame that nobody asked for: kind, counter,
-// mask, words. All words of the tick are kept first, so what is sent is of one tick; while a frame is
-// kept or sent the next ones are dropped whole and counted. Documentation: docs/blocks/link_stream.md
+// Stream: every period ticks it sends selected snapshot words of one tick as a frame without a
+// request: kind, counter, mask, words. It first stores all words of the tick, so a frame belongs to
+// one tick. While a frame is stored or sent, frames that fall due are dropped whole and counted.
+// Documentation: docs/blocks/link_stream.md
 `default_nettype none
 
 module link_stream (
     input  logic        clk_i,
     input  logic        rst_ni,
 
-    // Words of the snapshot as the core stores them, at least a clock between two ticks
+    // Words of the snapshot as the core stores them; at least one clock without a word between
+    // ticks
     input  logic        word_valid_i,
     input  logic [ 5:0] word_slot_i,
     input  logic [31:0] word_data_i,
 
-    // Registers: rdata_o follows addr_i by 3 clocks, 0 where the address is another's
+    // Registers: rdata_o follows addr_i by 3 clocks, 0 for an address of another block
     input  logic [15:0] addr_i,
     input  logic [31:0] wdata_i,
     input  logic        write_i,
     output logic [31:0] rdata_o,
 
-    // The frame without its CRC, a byte in each clock with valid and ready
+    // The frame without its CRC; a byte transfers in each clock with valid_o and ready_i
     output logic        valid_o,
     output logic [ 7:0] byte_o,
     output logic        last_o,
@@ -31,7 +33,7 @@ module link_stream (
   localparam int PeriodBits = 24;
   localparam logic [Words-1:0] ALWAYS = Words'(1) << feltgate_link_pkg::N_TICK;
 
-  // The number of the word on the port, right since the first one.
+  // Number of the word on the port; valid from the first slot on.
   logic       first;
   logic [3:0] number, number_q;
   assign first  = word_valid_i && word_slot_i == feltgate_link_pkg::FIRST_SLOT;
@@ -52,18 +54,18 @@ module link_stream (
 
   enum logic [2:0] {
     Idle = 3'd0,  // waits for a tick that is due
-    Take = 3'd1,  // keeps the words of the tick
-    Head = 3'd2,  // sends the four bytes before them
+    Take = 3'd1,  // stores the words of the tick
+    Head = 3'd2,  // sends the four bytes of the head
     Seek = 3'd3,  // looks for the next word of the mask
     Body = 3'd4   // sends its four bytes
   } state_q;
   logic [      7:0] count_q, frame_q;
-  logic [Words-1:0] left_q;  // the word at_q and those above that are to be sent
+  logic [Words-1:0] left_q;  // mask of the words to send, from word at_q on
   logic [      3:0] at_q;
   logic [      1:0] index_q;
   assign begins = due && state_q == Idle;
 
-  // One tick's words.
+  // Words of one tick.
   (* no_rw_check, ramstyle = "no_rw_check" *)
   logic [31:0] tick_ram [0:15];
   logic [31:0] word_q;
@@ -100,7 +102,7 @@ module link_stream (
       at_q      <= '0;
       index_q   <= '0;
     end else begin
-      if (first) ticks_q <= (due ? period_q : ticks_q) - 1'b1;  // without a period it means nothing
+      if (first) ticks_q <= (due ? period_q : ticks_q) - 1'b1;  // not used if the period is 0
       if (due) begin
         count_q <= count_q + 8'd1;
         if (!begins) dropped_q <= dropped_q + 32'd1;
@@ -130,7 +132,7 @@ module link_stream (
             end
           end
         end
-        default: begin  // Seek; meanwhile the word at_q comes out of the RAM
+        default: begin  // Seek; the RAM reads word at_q in the meantime
           if (left_q[0]) state_q <= Body;
           else begin
             at_q   <= at_q + 4'd1;

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Frames to bytes of the wire: SLIP and CRC-32. Two sources take turns frame by frame; where both have one
-// to send, the reply goes first. Documentation: docs/blocks/link_transmitter.md
+// Sends frames: appends the CRC-32 and encodes SLIP. It serves two sources, one whole frame at a
+// time; if both have a frame, the reply goes first. The CRC takes eight clocks per byte.
+// Documentation: docs/blocks/link_transmitter.md
 `default_nettype none
 
 module link_transmitter (
     input  logic       clk_i,
     input  logic       rst_ni,
-    input  logic       reply_valid_i,   // held, with its byte, until it is taken
+    input  logic       reply_valid_i,   // held with its byte until reply_ready_o
     input  logic [7:0] reply_byte_i,
-    input  logic       reply_last_i,    // of the frame
+    input  logic       reply_last_i,    // last byte of the frame
     output logic       reply_ready_o,
     input  logic       stream_valid_i,
     input  logic [7:0] stream_byte_i,
@@ -27,15 +28,15 @@ module link_transmitter (
 
   localparam logic [2:0] IDLE = 3'd0;    // waits for a frame
   localparam logic [2:0] OPEN = 3'd1;    // sends the first END
-  localparam logic [2:0] FETCH = 3'd2;   // takes a byte of the source
-  localparam logic [2:0] SHIFT = 3'd3;   // moves it through the CRC, or a byte of the CRC out of it
-  localparam logic [2:0] SEND = 3'd4;    // sends it, or what stands before one that is escaped
-  localparam logic [2:0] SECOND = 3'd5;  // sends what an escaped one becomes
+  localparam logic [2:0] FETCH = 3'd2;   // takes a byte from the source
+  localparam logic [2:0] SHIFT = 3'd3;   // shifts the byte into the CRC, or a byte of the CRC out
+  localparam logic [2:0] SEND = 3'd4;    // sends the byte, or ESCAPE before a special byte
+  localparam logic [2:0] SECOND = 3'd5;  // sends the replacement of a special byte
   localparam logic [2:0] CLOSE = 3'd6;   // sends the last END
 
   logic [ 2:0] state_q;
-  logic        stream_q, last_q, tail_q;  // of the stream; the source's last byte; in the CRC
-  logic [ 1:0] at_q;                      // byte of the CRC
+  logic        stream_q, last_q, tail_q;  // source is the stream; its last byte; CRC is being sent
+  logic [ 1:0] at_q;                      // number of the CRC byte
   logic [ 2:0] bit_q;
   logic [ 7:0] byte_q;
   logic [31:0] crc_q;

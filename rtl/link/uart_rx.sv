@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Receiver of a UART, 8N1. The phase of the bit is an accumulator that overflows in the middle of each
-// bit, so that any baud rate up to an eighth of the clock works. A level counts where two of three clocks on end
-// have it, so a pulse of one clock changes nothing. Documentation: docs/blocks/uart_rx.md
+// UART receiver, 8N1. A phase accumulator overflows in the middle of each bit, so any baud rate up
+// to an eighth of the clock works. The line level is a majority of three consecutive clocks, so a
+// pulse of one clock is ignored. Documentation: docs/blocks/uart_rx.md
 `default_nettype none
 
 module uart_rx #(
@@ -12,33 +12,33 @@ module uart_rx #(
 ) (
     input  logic       clk_i,
     input  logic       rst_ni,
-    input  logic       rx_i,     // asynchronous, high between bytes
-    output logic [7:0] byte_o,   // with valid_o
+    input  logic       rx_i,     // asynchronous; idle level is high
+    output logic [7:0] byte_o,   // valid with valid_o
     output logic       valid_o,  // one clock
     output logic       error_o   // one clock: the stop bit was low
 );
-  // What is added per clock: 2^16 are a bit.
+  // Phase step per clock; 2^16 is one bit.
   localparam int PhaseW = 16;
   localparam logic [63:0] CLOCK_64 = 64'(ClockHz);
   localparam logic [63:0] STEP_64 = (64'(Baud) * 64'd65536 + CLOCK_64 / 64'd2) / CLOCK_64;
   localparam logic [PhaseW-1:0] STEP = STEP_64[PhaseW-1:0];
-  // The first overflow half a bit after the edge; a step ahead, so that the error is even to both sides.
+  // The first overflow is half a bit after the edge. One step more centres the sampling error.
   localparam logic [PhaseW-1:0] BEGIN = 16'h8000 + STEP;
 
   generate
   if (!(Baud > 0 && ClockHz / 8 >= Baud)) begin : g_check_baud
     a_bit_must_last_eight_clocks missing ();
   end
-  if (!(STEP_64 >= 64'd100)) begin : g_check_step  // half a step in 100: 0.5 % of the baud rate
+  if (!(STEP_64 >= 64'd100)) begin : g_check_step  // rounding: half a step in 100, 0.5 % of Baud
     the_baud_rate_is_too_low_for_the_phase missing ();
   end
   endgenerate
 
-  logic [2:0] seen_q;  // the first two are the synchronizer's
+  logic [2:0] seen_q;  // the first two are the synchroniser
   logic       late_q, line;
   assign line = (seen_q[1] && seen_q[2]) || (seen_q[1] && late_q) || (seen_q[2] && late_q);
 
-  logic              busy_q, ready_q;  // ready: the line was high since the last byte
+  logic              busy_q, ready_q;  // ready_q: the line was high after the last byte
   logic [       3:0] bit_q;            // 0 start, 1 to 8 data, 9 stop
   logic [PhaseW-1:0] phase_q;
   logic [  PhaseW:0] next;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Transmitter of a UART, 8N1. Bits begin where the phase accumulator overflows, bytes follow each other
+// UART transmitter, 8N1. A bit begins when the phase accumulator overflows. Bytes follow each other
 // without a gap. Documentation: docs/blocks/uart_tx.md
 `default_nettype none
 
@@ -12,11 +12,11 @@ module uart_tx #(
     input  logic       clk_i,
     input  logic       rst_ni,
     input  logic [7:0] byte_i,
-    input  logic       valid_i,  // held, with the byte, until it is taken
-    output logic       ready_o,  // it is taken in this clock
+    input  logic       valid_i,  // held with the byte until ready_o
+    output logic       ready_o,  // a valid byte is taken in this clock
     output logic       tx_o
 );
-  // What is added per clock: 2^16 are a bit.
+  // Phase step per clock; 2^16 is one bit.
   localparam int PhaseW = 16;
   localparam logic [63:0] CLOCK_64 = 64'(ClockHz);
   localparam logic [63:0] STEP_64 = (64'(Baud) * 64'd65536 + CLOCK_64 / 64'd2) / CLOCK_64;
@@ -26,13 +26,13 @@ module uart_tx #(
   if (!(Baud > 0 && ClockHz / 8 >= Baud)) begin : g_check_baud
     a_bit_must_last_eight_clocks missing ();
   end
-  if (!(STEP_64 >= 64'd100)) begin : g_check_step  // half a step in 100: 0.5 % of the baud rate
+  if (!(STEP_64 >= 64'd100)) begin : g_check_step  // rounding: half a step in 100, 0.5 % of Baud
     the_baud_rate_is_too_low_for_the_phase missing ();
   end
   endgenerate
 
-  logic [       8:0] bits_q;  // the one on the wire is bit 0; ones follow
-  logic [       3:0] left_q;  // bits after that one
+  logic [       8:0] bits_q;  // bit 0 is on the wire; ones are shifted in
+  logic [       3:0] left_q;  // bits after the one on the wire
   logic              busy_q;
   logic [PhaseW-1:0] phase_q;
   logic [  PhaseW:0] next;

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Top level for the Terasic DE0-Nano (Cyclone IV E, 50 MHz): pins and panel around
-// feltgate_linked. Ports bear the names printed on the board, or those of the wiring table. Never compiled with Quartus. Documentation: docs/boards/de0_nano.md
+// Top level for the Terasic DE0-Nano (Cyclone IV E, 50 MHz): pins and panel around feltgate_linked.
+// Ports have the names printed on the board, or those of the wiring table. Never compiled with
+// Quartus. Documentation: docs/boards/de0_nano.md
 `default_nettype none
 
 module de0_nano #(
-  parameter int DebounceBits    = 19,        // an input counts after 2^19 clocks at rest: 10.5 ms
-  parameter int LoopBits        = 10,        // the encoder's connector after 20 us
+  parameter int DebounceBits    = 19,        // an input counts after 2^19 stable clocks: 10.5 ms
+  parameter int LoopBits        = 10,        // the connector's loop after 2^10 stable clocks: 20 us
   parameter int LongPressClocks = 50000000,  // KEY[1] held this long sets the zero: 1 s
   parameter int LampBits        = 22,        // the limit lamp stays lit 2^22 clocks: 84 ms
   parameter int HeartbeatBits   = 26,        // LED[7]: 0.75 Hz
   parameter int EncoderLoop     = 1,         // 0: ENC_LOOP is not wired
-  parameter int Baud            = feltgate_link_pkg::BAUD,  // of the host's line
+  parameter int Baud            = feltgate_link_pkg::BAUD,  // of the host's UART
   parameter     ParameterFile   = ""         // parameters.mem of this very design; "": the package has the values
 ) (
   input  logic       CLOCK_50,
@@ -22,10 +23,10 @@ module de0_nano #(
   input  logic       ENC_A,      // asynchronous, as all inputs below; synchronised inside
   input  logic       ENC_B,
   input  logic       ENC_Z,
-  input  logic       ENC_LOOP,   // low while the encoder's connector is in: a wire to GND in it
-  input  logic       ESTOP,      // high stops, without a clock: a normally closed switch to GND, pulled up
+  input  logic       ENC_LOOP,   // low while the encoder's connector is plugged in (wire to GND)
+  input  logic       ESTOP,      // high stops, needs no clock: normally closed switch to GND, pull-up
   input  logic       UART_RX,    // from the host
-  output logic       UART_TX,    // to it
+  output logic       UART_TX,    // to the host
   output logic       GATE_A_HI,
   output logic       GATE_A_LO,
   output logic       GATE_B_HI,
@@ -44,7 +45,7 @@ module de0_nano #(
   logic [3:0] scene;
   logic [7:0] inputs;
   logic [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults;
-  // Of these not all bits are looked at here.
+  // Not all bits of these are used here.
   /* verilator lint_off UNUSEDSIGNAL */
   logic [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits;
   logic signed [31:0] position;
@@ -56,7 +57,7 @@ module de0_nano #(
     .rst_no(rst_n)
   );
 
-  // Empty pins: nobody is here to look at them.
+  // Open pins are not used on this board.
   /* verilator lint_off PINCONNECTEMPTY */
   feltgate_linked #(.Baud(Baud), .Board(1), .ParameterFile(ParameterFile)) u_linked (
     .clk_i(CLOCK_50),

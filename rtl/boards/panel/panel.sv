@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Key, four switches and eight lamps around the core, the same on every board. All switches on: the
-// lamps show the encoder, and nothing can be armed here. Documentation: docs/boards/panel.md
+// Panel: a key, four switches and eight lamps around the core, the same on every board. With all
+// switches on, the lamps show the encoder and the key cannot arm.
+// Documentation: docs/boards/panel.md
 `default_nettype none
 
 module panel #(
-  parameter int DebounceBits    = 19,        // an input counts after 2^19 clocks at rest
-  parameter int LoopBits        = 10,        // the encoder's connector after 2^10
-  parameter int LongPressClocks = 50000000,  // a key held this long
+  parameter int DebounceBits    = 19,        // an input counts after 2^19 stable clocks
+  parameter int LoopBits        = 10,        // the connector's loop after 2^10 stable clocks
+  parameter int LongPressClocks = 50000000,  // clocks of a long press of the key
   parameter int LampBits        = 22,        // a short event stays lit 2^22 clocks
   parameter int HeartbeatBits   = 26,        // lamp 7 blinks with this bit of a counter
-  parameter int EncoderLoop     = 1          // 0: no wire in the connector, it counts as plugged in
+  parameter int EncoderLoop     = 1          // 0: no loop wire; it counts as plugged in
 ) (
   input  logic       clk_i,
   input  logic       rst_ni,
-  input  logic       key_i,       // high while pressed; asynchronous, as all down to enc_z_i
+  input  logic       key_i,       // high while pressed; inputs to enc_z_i: asynchronous
   input  logic [3:0] switches_i,
-  input  logic       loop_ni,     // low while the encoder's connector is in
+  input  logic       loop_ni,     // low while the encoder's connector is plugged in
   input  logic       enc_a_i,
   input  logic       enc_b_i,
   input  logic       enc_z_i,
@@ -25,17 +26,17 @@ module panel #(
   input  logic       fault_i,
   input  logic       limit_i,
   input  logic [1:0] count_i,     // lowest bits of the position
-  input  logic [2:0] angle_i,     // higher ones, for the lamps
+  input  logic [2:0] angle_i,     // higher bits of the position, for the lamps
   output logic       arm_o,
   output logic       set_zero_o,
   output logic       clear_faults_o,
-  output logic       stop_o,      // the encoder's connector is not in, or the key stops a host
+  output logic       stop_o,      // connector not plugged in, or the key stops a host
   output logic [3:0] scene_o,
-  output logic [7:0] inputs_o,    // for a host
+  output logic [7:0] inputs_o,    // state of the inputs for a host
   output logic [7:0] lamps_o
 );
 
-  // meta_q may be metastable and feeds nothing but sync_q.
+  // meta_q can be metastable and drives only sync_q.
   logic [8:0] meta_q, sync_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -48,7 +49,7 @@ module panel #(
     end
   end
 
-  // As one word, so that no scene between two settings is ever selected.
+  // The switches are debounced as one word, so no scene between two settings is selected.
   panel_debounce #(.Width(4), .HoldBits(DebounceBits), .ResetValue(0)) u_scene (
     .clk_i(clk_i),
     .rst_ni(rst_ni),
@@ -82,8 +83,8 @@ module panel #(
 
   assign stop_o = unplugged || key_stop;
 
-  // Limits and indices may last for one tick only, so their lamp is stretched. A position moves by one
-  // count at a time, so its two lowest bits tell the direction.
+  // A limit or an index can last for one tick only, so its lamp is stretched. The position changes
+  // by one count at a time, so its two lowest bits give the direction.
   logic [LampBits-1:0]      lamp_q;
   logic [HeartbeatBits-1:0] heartbeat_q;
   logic                     lit_q, up_q, event_now;
@@ -109,7 +110,7 @@ module panel #(
     end
   end
 
-  // Lit: a fault. Four times as fast as the heartbeat: the encoder is not plugged in.
+  // Lit: a fault. Blinking four times as fast as the heartbeat: the encoder is not plugged in.
   logic fault_lamp;
   assign fault_lamp = unplugged ? heartbeat_q[HeartbeatBits-3] : fault_i;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Debounces a word: level_o takes level_i once no bit of it has moved for 2^HoldBits clocks.
+// Debounces a word: level_o follows level_i when no bit of it has changed for 2^HoldBits clocks.
 // Documentation: docs/boards/panel.md
 `default_nettype none
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// One key for four orders. Pressed while armed: stop; by a fault where not this key has armed. Pressed and released within LongPressClocks
-// while stopped: arm; a request that has not armed after LongPressClocks, or that was armed and is no more, is forgotten. Held for LongPressClocks: set zero (one clock), never arm; with a fault, clear the
-// faults (one clock) and leave the zero. What blocks takes the request to arm away, so that arming
-// again needs a new press. Documentation: docs/boards/panel.md
+// One key, four commands. Pressed while armed: stop (through stop_o, a fault, if a host has armed).
+// Pressed and released within LongPressClocks while stopped: request to arm. Held for
+// LongPressClocks: set zero (one clock), or with a fault clear the faults (one clock) and keep the
+// zero; never arms. blocked_i, a fault, a disarm from elsewhere and LongPressClocks without arming
+// cancel the request; arming again then needs a new press. Documentation: docs/boards/panel.md
 `default_nettype none
 
 module panel_key #(
@@ -13,12 +14,12 @@ module panel_key #(
 ) (
   input  logic clk_i,
   input  logic rst_ni,
-  input  logic down_i,    // synchronous to clk_i, bounces
+  input  logic down_i,    // high while pressed; synchronous to clk_i, bounces
   input  logic armed_i,
   input  logic fault_i,
-  input  logic blocked_i, // nothing may be armed; a fault blocks as well
+  input  logic blocked_i, // 1: the key cannot arm; a fault has the same effect
   output logic arm_o,
-  output logic stop_o,    // a host has armed, and this key is down
+  output logic stop_o,    // this key is down and a host has armed
   output logic set_zero_o,
   output logic clear_faults_o
 );
@@ -27,11 +28,11 @@ module panel_key #(
   localparam logic [HELD_BITS-1:0] LONG_PRESS = LongPressClocks[HELD_BITS-1:0];
 
   logic                 down, down_q, armed_q;
-  logic                 spent_q;  // this press has done its work; its release does nothing
+  logic                 spent_q;  // this press has acted; its release does nothing
   logic                 arm_q, stop_q, set_zero_q, clear_faults_q;
-  logic [HELD_BITS-1:0] held_q;   // clocks since the key has moved, up to LongPressClocks
+  logic [HELD_BITS-1:0] held_q;   // clocks since the key moved; saturates at LongPressClocks
 
-  // Counts as down after reset: a key held through it must be let go before it means anything.
+  // The key counts as down after reset: a key held through a reset must be released before it acts.
   panel_debounce #(.Width(1), .HoldBits(HoldBits), .ResetValue(1)) u_debounce (
     .clk_i(clk_i),
     .rst_ni(rst_ni),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Reset from a key: asserted as the key closes, without waiting for the clock; released in step
-// with the clock once the key has been open for 2^HoldBits clocks, and likewise after power-up.
+// Reset from a key: asserted asynchronously when the key closes; released synchronously when the
+// key has been open for 2^HoldBits clocks. After power-up the reset acts in the same way.
 // Documentation: docs/boards/panel.md
 `default_nettype none
 
@@ -14,7 +14,7 @@ module panel_reset #(
   output logic rst_no
 );
 
-  // The FPGA's configuration loads these; nothing else resets the reset.
+  // The FPGA's configuration loads these values; there is no other reset for them.
   logic                open_meta_q = 1'b0;
   logic                open_q      = 1'b0;
   logic [HoldBits-1:0] hold_q      = '0;

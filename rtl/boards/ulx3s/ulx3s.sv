@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Top level for the ULX3S (ECP5 LFE5U-85F): pins, panel and clock around feltgate_linked. Never
-// ran on a board. Documentation: docs/boards/ulx3s.md
+// Top level for the ULX3S (ECP5 LFE5U-85F): pins, panel and clock around feltgate_linked. It has
+// never run on a board. Documentation: docs/boards/ulx3s.md
 `default_nettype none
 
 module ulx3s #(
-  parameter int DebounceBits    = 19,        // an input counts after 2^19 clocks at rest
-  parameter int LoopBits        = 10,        // the encoder's connector after 2^10
+  parameter int DebounceBits    = 19,        // an input counts after 2^19 stable clocks
+  parameter int LoopBits        = 10,        // the connector's loop after 2^10 stable clocks
   parameter int LongPressClocks = feltgate_pkg::CLOCK_HZ,  // btn[1] held this long sets the zero: 1 s
   parameter int LampBits        = 22,        // the limit lamp stays lit 2^22 clocks
   parameter int HeartbeatBits   = 26,        // led[7]
   parameter int EncoderLoop     = 1,         // 0: enc_loop is not wired
-  parameter int Baud            = feltgate_link_pkg::BAUD,  // of the host's line
+  parameter int Baud            = feltgate_link_pkg::BAUD,  // of the host's UART
   parameter     ParameterFile   = ""         // parameters.mem of this very design; "": the package has the values
 ) (
   input  logic       clk_25mhz,
@@ -20,13 +20,13 @@ module ulx3s #(
   input  logic [3:0] sw,
   output logic [7:0] led,
   output logic       ftdi_rxd,   // to the USB serial port
-  input  logic       ftdi_txd,   // from it
+  input  logic       ftdi_txd,   // from the USB serial port
   output logic       wifi_gpio0, // high: the ESP32 leaves the FPGA alone
   input  logic       enc_a,      // asynchronous, as all inputs below; synchronised inside
   input  logic       enc_b,
   input  logic       enc_z,
-  input  logic       enc_loop,   // low while the encoder's connector is in: a wire to GND in it
-  input  logic       estop,      // high stops, without a clock: a normally closed switch to GND, pulled up
+  input  logic       enc_loop,   // low while the encoder's connector is plugged in (wire to GND)
+  input  logic       estop,      // high stops, needs no clock: normally closed switch to GND, pull-up
   output logic       gate_a_hi,
   output logic       gate_a_lo,
   output logic       gate_b_hi,
@@ -40,7 +40,7 @@ module ulx3s #(
   logic [3:0] scene;
   logic [7:0] inputs;
   logic [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults;
-  // Of these not all bits are looked at here.
+  // Not all bits of these are used here.
   /* verilator lint_off UNUSEDSIGNAL */
   logic [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits;
   logic signed [31:0] position;
@@ -52,7 +52,7 @@ module ulx3s #(
     .locked_o(locked)
   );
 
-  // A clock that is not locked is none: then reset, whose first flip-flops need no clock.
+  // Reset while the PLL is not locked; the first flip-flops of the reset need no clock.
   panel_reset #(.HoldBits(DebounceBits)) u_reset (
     .clk_i(clk),
     .key_ni(locked && !btn[2]),
@@ -61,7 +61,7 @@ module ulx3s #(
 
   assign wifi_gpio0 = 1'b1;
 
-  // Empty pins: nobody is here to look at them.
+  // Open pins are not used on this board.
   /* verilator lint_off PINCONNECTEMPTY */
   feltgate_linked #(.Baud(Baud), .Board(2), .ParameterFile(ParameterFile)) u_linked (
     .clk_i(clk),

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The design's clock from the 25 MHz of the board, by one PLL of an ECP5. Its oscillator wants 400 to
-// 800 MHz, its phase detector 3.125 MHz or more: so the clock has to be a multiple of 25 MHz / n, n <= 8.
+// Generates the design's clock from the board's 25 MHz with one PLL of the ECP5. The oscillator
+// needs 400 to 800 MHz, the phase detector at least 3.125 MHz, so the clock must be a multiple of
+// 25 MHz / n, n <= 8.
 // Documentation: docs/boards/ulx3s.md
 `default_nettype none
 
@@ -14,7 +15,7 @@ module ulx3s_clock (
 
   localparam int INPUT_HZ = 25000000;
   localparam int C = feltgate_pkg::CLOCK_HZ;
-  // In steps of 25 kHz, so that the products below fit 32 bits.
+  // Frequencies are in units of 25 kHz, so that the products below fit 32 bits.
   localparam int STEP_HZ = 25000;
   localparam int K = C / STEP_HZ;
   localparam int N = INPUT_HZ / STEP_HZ;
@@ -22,7 +23,7 @@ module ulx3s_clock (
                              (4 * K % N == 0) ? 4 : (5 * K % N == 0) ? 5 : (6 * K % N == 0) ? 6 :
                              (7 * K % N == 0) ? 7 : 8;
   localparam int FEEDBACK_DIV = INPUT_DIV * K / N;
-  // The middle of the oscillator's range.
+  // Aim at 600 MHz, the middle of the oscillator's range.
   localparam int OUTPUT_DIV = (600000000 + C / 2) / C;
 
   generate
@@ -32,7 +33,7 @@ module ulx3s_clock (
   end
   endgenerate
 
-  // What is not connected is not used.
+  // Open pins are not used.
   /* verilator lint_off PINCONNECTEMPTY */
   (* FREQUENCY_PIN_CLKI = "25" *)
   EHXPLLL #(

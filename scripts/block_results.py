@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""What was measured of each block: docs/verification/KIND.json, and the table of docs/blocks.md.
+"""Results of each block: docs/verification/KIND.json, and the table of docs/blocks.md.
 
-One file per kind, written by the command that measures (its --update) and committed:
+There is one file per kind. The command that measures writes it with --update; it is committed:
 
   {"schema": "feltgate-results/1", "kind": "coverage", "command": "...", "machine": "...", "date":
   "2026-11-20",
    "blocks": {"dob": {"line": [40, 40], ..., "seconds": 12.5}}}
 
-A count is [reached, of]. The keys of each kind are in KINDS; seconds are of CPU time. A block, a
-key or a file that is not there is a dash in the table. Rows that are no block of rtl/ are named in
-EXTRA. Where blocks are measured one by one "dates" of a row says when each of its keys was, and
-"machines" where; the file's own date and machine are those of all others. "sources" of a row is
-the fingerprint of what each key was measured on, so that the table can mark what is of an earlier
-source.
+A count is [reached, of]. The keys of each kind are in KINDS; seconds are of CPU time. A missing
+block, key or file is a dash in the table. Rows that are not a block of rtl/ are named in EXTRA. If
+blocks are measured one by one, "dates" of a row says when each of its keys was measured, and "machines" on
+which machine; the file's own date and machine hold for all others. "sources" of a row is the
+fingerprint of the source on which each key was measured, so that the table can mark results of an
+earlier source.
 """
 
 import datetime

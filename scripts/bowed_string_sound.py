@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Writes what the bridge of a bowed string hears, from `feltgate run bowed_string --states FILE`, as
-a WAV file of 40 kHz. A law that runs slower holds each of its values, as a converter would.
+"""Writes the sound at the bridge of a bowed string as a WAV file of 40 kHz, from
+`feltgate run bowed_string --states FILE`. If a law runs slower, each of its values is held, as in a converter.
 
 Documentation: docs/devices/bowed_string.md
 """

@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
 # Configures and builds out of tree with CMake and Ninja; Python venvs. Sourced by
-# feltgate. All messages go to stderr, so that the program's stdout stays its own.
+# feltgate. All messages go to stderr, so stdout has only the program's output.
 
 # Copies stdin to a log; shows its newest line on a terminal, or one line every ten seconds. Lines
 # that begin with [DONE/ALL] tell how long the rest will take.

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Targets of a build folder that is configured, for the commands that build what they run."""
+"""Builds targets in a configured build folder, for commands that build the programs they run."""
 
 import fcntl
 import os

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""One block, one name everywhere: fails when a block lacks one of its siblings.
+"""Each block has one name everywhere: fails when a block lacks one of its files.
 
 Every rtl/<b>.sv, rtl/link/<b>.sv and rtl/bus/<b>.sv has a twin, testbench/<b>/<b>_test.cpp and docs/blocks/<b>.md (scene_* blocks may
 share one folder testbench/scene*/), at least one seeded defect, and a page that links the others. The
-twin is the class of the block's name: in model/include/feltgate/<b>.hpp where the product uses it,
-else in testbench/<b>/<b>_twin.hpp; the law that it evaluates, if any, is in the former then. Beside
-that: no hand-written source of more than 400 lines, no number formatted but by libfmt in model/, and
-the lists made from the blocks are fresh: docs/blocks.md with the results of docs/verification, and the
-sources in rtl/*.f, feltgate.core and the boards' .qsf.
+twin is the class with the block's name. It is in model/include/feltgate/<b>.hpp if the product uses
+it, else in testbench/<b>/<b>_twin.hpp; then the law that it evaluates, if any, is in the former.
+Further checks: no hand-written source has more than 400 lines, only libfmt formats numbers in model/,
+and the lists made from the blocks are up to date: docs/blocks.md with the results of
+docs/verification, and the sources in rtl/*.f, feltgate.core and the boards' .qsf.
 
   check_blocks.py           check; one line 'path: what; mend' for each finding, status 1
   check_blocks.py --write   write the lists again, then check

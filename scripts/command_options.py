@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""What the command lines of `feltgate COMMAND` in Python share: how --help looks, some options."""
+"""Shared parts of the Python command lines of `feltgate COMMAND`: look of --help, some options."""
 
 import argparse
 import os

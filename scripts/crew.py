@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Programs that threads run side by side. A signal reaches the main thread only, so whoever waits
-there ends all of them; none is started afterwards.
+"""Programs that threads run in parallel. A signal reaches only the main thread, so the code that
+waits there ends all programs; none is started afterwards.
 """
 
 import contextlib

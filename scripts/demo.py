@@ -4,7 +4,7 @@
 """The main job: every scene in closed loop and every recording whole, through RTL and twin.
 
 Writes demo.html (one file, pictures inside, no network) and demo.json, and prints the page's path
-last. Ends with 1 when anything mismatched or an expectation broke, after listing it.
+last. The exit code is 1 if there was a mismatch or a broken expectation; these are listed before.
 Documentation: docs/figures.md
 """
 

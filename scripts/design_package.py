@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The package of a design: a name in rtl/designs, or a file of one's own."""
+"""The package of a design, given by a name in rtl/designs or by the user's own file."""
 
 import os
 from pathlib import Path

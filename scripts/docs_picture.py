@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""What the pictures of docs/images that one script draws share: the look, the rows, the file."""
+"""Shared parts of the scripts that draw one picture of docs/images each: look, rows, file."""
 
 import csv
 import sys

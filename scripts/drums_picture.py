@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Draws docs/images/drums.svg: the stick over the drums with the hits that were told, from a run.
+"""Draws docs/images/drums.svg: the stick over the drums with the reported hits, from a run.
 
   ./feltgate run drums --engine twin --csv drums.csv --every 1200 --events hits.txt
   scripts/drums_picture.py drums.csv hits.txt

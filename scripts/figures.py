@@ -3,8 +3,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Redraws the paper's figures 7, 10, 11, 14, 16, 17, 19, 21 and 22 from runs of the RTL.
 
-Each has the float reference and the ideal curve in it, and beside it what the paper says and what
-came out. Writes figures.html (pictures inside), figures.json, and each picture as SVG and PNG.
+Each shows the quad reference and the ideal curve, together with the paper's numbers and our
+results. Writes figures.html (pictures inside), figures.json, and each picture as SVG and PNG.
 Documentation: docs/figures.md
 """
 

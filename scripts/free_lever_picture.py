@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Draws docs/images/free_lever.svg: the hand's torque against the speed, free and damped, from the
-rows of three runs, and what is felt over the damper that is asked for, from the test's table.
+rows of three runs, and the felt damping over the damping asked for, from the test's
+table.
 
   ./feltgate run free_lever --engine twin --every 500 --csv free.csv
   ./feltgate run damped_lever --engine twin --every 500 --csv lever.csv

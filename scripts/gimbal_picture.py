@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Draws docs/images/gimbal.svg: what three motors give while a handle is turned once around, from
-the rows of the scene.
+"""Draws docs/images/gimbal.svg: the torques of three motors while a handle is turned once around,
+from the rows of the scene.
 
   feltgate run gimbal --engine twin --csv gimbal.csv --every 50
   scripts/gimbal_picture.py gimbal.csv

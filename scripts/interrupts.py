@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Signals that end a job: what was started ends too, and the exit code is 128 + the signal.
+"""Signals that end a job: started programs end too, and the exit code is 128 + the signal.
 
 Documentation: docs/json.md
 """

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Draws docs/images/local_plane.svg: a disc felt by its tangents at 50 Hz and 1 kHz, from the rows of
-the two scenes.
+"""Draws docs/images/local_plane.svg: a disc rendered by its tangents at 50 Hz and 1 kHz, from the
+rows of the two scenes.
 
   feltgate run plane_circle_slow --engine twin --csv slow.csv --every 1
   feltgate run plane_circle --engine twin --csv fast.csv --every 1

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Files that appear whole or not at all, as those of the program. Documentation: docs/json.md"""
+"""Files that appear completely or not at all, as the program's do. Documentation: docs/json.md"""
 
 import contextlib
 import json

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# Debian packages by group, why each is needed, and how they get installed. Sourced by feltgate.
+# Debian packages by group, the reason for each, and their installation. Sourced by feltgate.
 
 # Group | package | what for.
 mapfile -t PACKAGES < <(grep -v '^#' "$ROOT/scripts/packages.txt")

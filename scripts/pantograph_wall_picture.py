@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Draws docs/images/pantograph_wall.svg: the pen on a floor of 50 N/m at 1 kHz, without filters and
-behind them, from the rows of two runs.
+"""Draws docs/images/pantograph_wall.svg: the pen on a floor of 50 N/m at 1 kHz, without and
+with filters, from the rows of two runs.
 
   ./feltgate run pantograph_wall --engine twin --every 1000 --csv as_it_is.csv
   ./feltgate run pantograph_wall_filtered --engine twin --every 1000 --csv filtered.csv

@@ -4,11 +4,10 @@
 """SystemVerilog that Quartus Standard and Lite refuse, or that they or Yosys are known to build
 wrongly; run by a Python that has pyslang.
 
-  quartus_subset.py FILE...      FILE:LINE: what stands there, and what to write; status 1 when
-                                 anything does
+  quartus_subset.py FILE...      FILE:LINE: the construct, and what to write instead; status 1 when
+                                 there is any
 
-It knows what others have reported, no more: docs/boards/quartus.md says which report each rule is
-from.
+It knows only what others have reported: docs/boards/quartus.md names the report behind each rule.
 """
 
 import sys

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The files of the RTL, in the order in which any tool can read them: packages, then each module
-after those that it instantiates. scripts/check_blocks.py writes the lists."""
+"""The files of the RTL, in an order that every tool can read: packages first, then each module
+after the modules that it instantiates. scripts/check_blocks.py writes the lists."""
 
 import re
 

@@ -4,10 +4,11 @@
 """Clocks per second of the Verilated core against those of another version, in one run.
 
 OLD and NEW are folders with an rtl/ of this project, or revisions of this repository. Both cores are
-built with the flags of the product into one program and run in turn on the same stimulus. Where the
-linker puts their code moves either by up to two times: the program is linked several times, the object
-files in another order and at other addresses each time. Printed are the median over the links and both
-ends; and, where valgrind is installed, machine instructions per clock, which know no neighbours.
+built with the flags of the product into one program and run in turn on the same stimulus. The
+place where the linker puts their code changes either speed by up to two times. Therefore the program
+is linked several times, each time with the object files in another order and at other addresses. The
+script prints the median over the links and both ends. If valgrind is installed, it also prints the
+machine instructions per clock, which do not depend on the position of the code.
 Documentation: docs/bench.md
 
   scripts/rtl_speed.py 318dd1b                     this tree against a revision

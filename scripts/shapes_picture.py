@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Draws docs/images/shapes.svg: a pen led around inside a fish, the proxy and the force; and how
-the force's direction turns on the way, for the three laws, from ways that `feltgate shape` prints.
+"""Draws docs/images/shapes.svg: a pen that moves around inside a fish, the proxy and the force; and
+how the force's direction turns along the path, for the three laws, from paths that `feltgate shape`
+prints.
 
   for law in proxy walk simple; do
     ./feltgate shape vectors/shapes/fish.svg --radius 3mm --vertices 40 --law $law --path $law.csv

@@ -5,8 +5,8 @@
 
   slang_lint.py --top feltgate_core FILE...      status 1 when slang finds anything
 
-Options of slang, such as -DNAME, may stand among the files. All of -Wextra and -Wpedantic but for casts
-to the width that a word has in one design and not in another.
+Options of slang, such as -DNAME, may be among the files. All of -Wextra and -Wpedantic is on,
+except for casts to a width that a word has in one design and not in another.
 """
 
 import sys

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Budget of `feltgate synth`: what was measured last, and how far a figure may grow past it."""
+"""Budget of `feltgate synth`: the last measurements, and how much a figure may grow past them."""
 
 import datetime
 import os

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""What `feltgate synth` measures: blocks and variants of the core, their wrappers, the figures."""
+"""Measurements of `feltgate synth`: blocks and variants of the core, wrappers, figures."""
 
 import re
 import shutil

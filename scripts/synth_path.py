@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""nextpnr's critical path in the names of the RTL: from which register, through what, to which."""
+"""nextpnr's critical path with the RTL's names: source register, logic between, target register."""
 
 import json
 import re

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Runs Yosys and nextpnr for `feltgate synth`: the recipe, and nothing about tables.
+"""Runs Yosys and nextpnr for `feltgate synth`: the recipe only, no tables.
 
-Both tools may be YoWASP's (WebAssembly from PyPI), which sees /tmp as a folder of its own and loses
-its log after ABC has run; so every run happens inside one working folder, with relative names, and
+Both tools may be YoWASP's (WebAssembly from PyPI). YoWASP has its own folder /tmp and loses its log
+after ABC has run. Therefore every run happens inside one working folder, with relative names, and
 results come back in files.
 """
 

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Draws the images of vectors/textures, in 8-bit grey: docs/devices/texture.md.
 
-ripples.png: a sine of 16 pixels a period, seven periods long. valley.png: 16 x 16, two walls of
-four pixels that meet in the column 8, and level land beside them.
+ripples.png: a sine with 16 pixels per period, seven periods long. valley.png: 16 x 16, two walls of
+four pixels that meet in column 8, and flat areas beside them.
 """
 
 import argparse

@@ -6,9 +6,9 @@
   timing_diagram.py docs/images/tick.json             writes docs/images/tick.svg
   timing_diagram.py --check docs/images/tick.json     status 1 when that file is stale
 
-It knows the part of WaveDrom that our diagrams use: lanes with name, wave (0 1 . x = 2 to 9) and
+It supports the part of WaveDrom that our diagrams use: lanes with name, wave (0 1 . x = 2 to 9) and
 data; empty lanes; head.text, head.tock, foot.text. config.wrap, which WaveDrom ignores, breaks a
-long diagram into rows of so many periods.
+long diagram into rows of that many periods.
 """
 
 import argparse

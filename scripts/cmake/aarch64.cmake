@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
 # Toolchain file: the libraries for AArch64 with Debian's g++-aarch64-linux-gnu, run by qemu-user.
-# Boost, toml++, fmt and Catch2 2 are headers, which this machine's own serve; no library of another
+# Boost, toml++, fmt and Catch2 2 are headers; those of this machine are used. No library of another
 # architecture is needed. docs/library.md
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)

@@ -4,12 +4,12 @@
 # feltgate_block_test(<block> [WITH_DEFECTS] [NAME <test>] [DESIGN <design> | PACKAGE <feltgate_pkg.sv>]
 #                     [ROUNDING <mode>] [SOURCES extra.sv...] [PARAMS -GName=value...]
 #                     [DEFINES NAME=value...] [LIBRARIES target...] [TESTS more.cpp...])
-# verilates rtl/<block>.sv or rtl/FOLDER/<block>.sv, links testbench/<block>/<block>_test.cpp and TESTS beside it to it and adds
-# the CTest <test> (default <block>, labels unit and lockstep). WITH_DEFECTS: also <test>.<defect> (label
-# mutation) for each patch in testbench/<block>/defects, which passes only when an assertion fails, and
+# verilates rtl/<block>.sv or rtl/FOLDER/<block>.sv, links it with testbench/<block>/<block>_test.cpp and with the
+# TESTS in the same folder, and adds the CTest <test> (default <block>, labels unit and lockstep).
+# WITH_DEFECTS: also <test>.<defect> (label mutation) for each patch in testbench/<block>/defects, which passes only when an assertion fails, and
 # mutate.<test>, a share of the block's mutants.
 # ROUNDING is another value of the package's constant. SOURCES are relative to the repository. PARAMS
-# reach the RTL, DEFINES the test. <test>_cover is the same test on RTL that counts what it reaches.
+# go to the RTL, DEFINES to the test. <test>_cover is the same test on RTL with coverage counters.
 # docs/testing.md
 include_guard(GLOBAL)
 

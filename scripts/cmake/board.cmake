@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# feltgate_board: a board without hardware, with the twin; feltgate_board_rtl with the Verilated RTL
-# too. docs/board.md
+# feltgate_board: a simulated board with the twin; feltgate_board_rtl also has the Verilated RTL. docs/board.md
 include_guard(GLOBAL)
 
 feltgate_library(feltgate_board_parts board EXCEPT "/rtl_cores" feltgate_engines feltgate_loop)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# Compiles through ccache where it is installed. testbench/launcher/ccache_test.py checks that nothing
-# stale comes back.
+# Compiles through ccache if it is installed. testbench/launcher/ccache_test.py checks that ccache
+# gives no outdated result.
 if(NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
   find_program(FELTGATE_CCACHE ccache DOC "Keeps what was compiled; FALSE: not used")
   if(FELTGATE_CCACHE)

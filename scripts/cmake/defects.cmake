@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# Seeded defects: patches in testbench/<block>/defects, all of a block in one model, all of a test's headers
-# in one program.
+# Seeded defects: patches in testbench/<block>/defects. All patches of a block are in one model,
+# all patches of a test's headers in one program.
 # docs/testing.md
 include_guard(GLOBAL)
 find_package(Python3 3.11 COMPONENTS Interpreter REQUIRED)

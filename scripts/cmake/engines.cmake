@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# feltgate::engines: the twin and the real chains of each design in rtl/designs, by name. What the
-# Verilated core adds is in rtl.cmake.
+# feltgate::engines: the twin and the real chains of each design in rtl/designs, by name.
+# rtl.cmake adds the engines of the Verilated core.
 include_guard(GLOBAL)
 
 file(GLOB designs CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/designs/*.toml")

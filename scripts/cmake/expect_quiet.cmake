@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# cmake -DTEST=executable -P expect_quiet.cmake: succeeds when the executable passes, to its end; a copy
-# that hangs or crashes is no control. Cases tagged [endurance] only with `./feltgate test --whole`, and where TEST
-# does not choose cases itself. Used by defects.cmake.
+# cmake -DTEST=executable -P expect_quiet.cmake: succeeds when the executable passes and runs to its
+# end; a copy that hangs or crashes fails. Cases tagged [endurance] run only with `./feltgate test
+# --whole`, or if TEST chooses its cases itself. Used by defects.cmake.
 list(LENGTH TEST words)
 if(words EQUAL 1 AND NOT DEFINED ENV{FELTGATE_WHOLE})
   list(APPEND TEST "~[endurance]")

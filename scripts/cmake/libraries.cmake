@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# The libraries for users: feltgate::core (headers, no dependency) and feltgate::sim with its parts,
-# of which feltgate::plant and feltgate::engines read no file. docs/library.md
+# The libraries for users: feltgate::core (headers, no dependency) and feltgate::sim with its parts.
+# Of these, feltgate::plant and feltgate::engines read no file. docs/library.md
 include_guard(GLOBAL)
 
 # Twin, laws, generated designs.

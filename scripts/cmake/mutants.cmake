@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# Mutants of the RTL: a block's test program linked with a netlist that is the block with any of them.
+# Mutants of the RTL: a block's test program linked with a netlist of the block with all its mutants.
 # docs/verification.md
 include_guard(GLOBAL)
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# What `cmake --install` puts where, so that find_package(feltgate) finds it: component `core` is
-# headers alone, `sim` the libraries beside them with the plants and scenes. docs/library.md
+# The files that `cmake --install` installs for find_package(feltgate): component `core` is headers
+# only, `sim` adds the libraries, the plants and the scenes. docs/library.md
 include_guard(GLOBAL)
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# Names all Debian packages that are missing at once, with the line that installs them. The table is
+# Lists all missing Debian packages together, with the command that installs them. The table is
 # scripts/packages.txt.
 set(packages_file "${FELTGATE_ROOT}/scripts/packages.txt")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${packages_file}")

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# feltgate_fast, feltgate_lever_law, ...: the program feltgate with one preset more. An
-# engine costs a minute to build, so these are built when somebody asks for them, and nobody else
-# builds or loads a preset. docs/designs.md
+# feltgate_fast, feltgate_lever_law, ...: the program feltgate with one more preset. An
+# engine takes a minute to build, so each is built only when a command asks for it, and no other
+# command builds or loads a preset. docs/designs.md
 include_guard(GLOBAL)
 
 get_target_property(libraries feltgate LINK_LIBRARIES)

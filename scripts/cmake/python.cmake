@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
 # The Python package feltgate: the extension module, its Python files, and the scenes, plants and
-# designs that it reads, as component `python` of the installation. Alone for pip, and in a build
-# with tests, for them. pyproject.toml, docs/python.md
+# designs that it reads, as component `python` of the installation. It is built alone for
+# pip, and in a build with tests for these tests. pyproject.toml, docs/python.md
 include_guard(GLOBAL)
 
 find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter Development.Module)

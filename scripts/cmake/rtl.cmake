@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# feltgate_rtl: the Verilated core of each design, alone and in lock-step with its twin. Whoever links
-# it gets the engines "rtl" and "lockstep" from make_engine().
+# feltgate_rtl: the Verilated core of each design, alone and in lock-step with its twin. A program that
+# links it gets the engines "rtl" and "lockstep" from make_engine().
 include_guard(GLOBAL)
 include(verilate)
 

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Verilator's coverage.dat, and the sum of many of them.
 
-verilator_coverage 5.006 takes a column of the source for covered when any bit of it is; so it is
-not asked.
+verilator_coverage 5.006 counts a column of the source as covered if any bit of it is covered.
+Therefore it is not used.
 """
 
 import re

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Changes what `verilator --coverage` wrote so that its counts mean what a test needs.
+"""Changes the output of `verilator --coverage` so that its counts fit a test.
 
-As Verilator writes it every model counts for itself, and its counts are lost with it; a bit
-"toggles" where a reset takes it from the random bits that it was born with; and each count is an
-atomic one. Here all models of a program count together, a toggle counts only with the reset high
-after it has been low, and the counts are written when the program ends, by Verilator's own writer,
-to the file that FELTGATE_COVERAGE names.
+In Verilator's output every model has its own counts, which are lost with the model; a bit "toggles"
+when a reset changes its random initial value; and each count is atomic. After the change all models
+of a program count together. A toggle counts only while the reset is high, after it has been low.
+Verilator's own writer writes the counts when the program ends, to the file that FELTGATE_COVERAGE
+names.
 
   instrument.py DIRECTORY CLASS
 """

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The programs that count: each block test again, built by CMake (scripts/cmake/coverage.cmake) and
-run."""
+"""The programs with counters: each block test, built a second time by CMake
+(scripts/cmake/coverage.cmake) and run."""
 
 import os
 import subprocess

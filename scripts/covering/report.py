@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""What was reached of each block: the table, the list of what was not, the JSON."""
+"""Coverage of each block: the table, the list of points that were not reached, the JSON."""
 
 from dataclasses import dataclass, field
 

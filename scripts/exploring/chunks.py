@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Chunk files: what is evaluated, in parts that any process of any machine may take.
+"""Chunk files: the results of a sweep, in parts that any process of any machine may evaluate.
 
-A chunk file is a line that says what it is and one line per point. It grows under a name of its own
-and appears under its name when it is whole. Documentation: docs/explore.md
+A chunk file has one line that says what it is, then one line per point. It is written under a
+temporary name and gets its own name when it is complete. Documentation: docs/explore.md
 """
 
 import importlib

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""A point as a design file: the base's text with the lines changed that the point sets.
+"""A point as a design file: the base's text, with the lines changed that the point sets.
 
 Documentation: docs/explore.md
 """

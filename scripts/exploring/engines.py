@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Who runs the parts of a sweep: processes of this machine, or dask workers with the same folders.
+"""Runs the parts of a sweep in processes of this machine, or in dask workers with the same folders.
 
-Either starts the same command per part, such as `explore run DIR --chunk I/N`, which writes a file;
-nothing but its name comes back. Documentation: docs/explore.md
+Both start the same command per part, such as `explore run DIR --chunk I/N`, which writes a file.
+Only the name of the file comes back. Documentation: docs/explore.md
 """
 
 import os

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""explore.html: every point a dot, hover it and read its figures and its design file. No network.
+"""explore.html: every point is a dot; point at it for its figures and design file. No network.
 
 Documentation: docs/explore.md
 """

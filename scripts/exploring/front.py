@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Which points nobody beats.
+"""Finds the points that no other point beats.
 
 A point beats another when it renders the same scenes, is no worse in any objective and better in
 one. Documentation: docs/explore.md

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Joins chunk files: refuses gaps and duplicates, gives the same bytes whatever ran when.
+"""Joins chunk files: refuses gaps and duplicates, gives the same bytes for any order of the runs.
 
-points.jsonl has all that is known of every point; points.csv the figures as a small table.
+points.jsonl has all results of every point; points.csv has the figures as a small table.
 Documentation: docs/explore.md
 """
 

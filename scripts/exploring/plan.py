@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""A plan: the points of a space in a folder, and how they fall into chunks.
+"""A plan: the points of a space in a folder, and their division into chunks.
 
-Points of one structure stand together and, where there are no more chunks than structures, fall
-into one chunk, since building a structure costs far more than another point of it.
+Points of one structure are next to each other. If there are no more chunks than structures, they
+are in one chunk, because building a structure costs far more than another point of it.
 Documentation: docs/explore.md
 """
 

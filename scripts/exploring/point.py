@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Evaluates one design point: its RTL against its twin, its error, its area, its speed.
 
-What depends on the structure alone, RTL and program, is built once per structure and kept in the
-working folder; the values that registers carry come at run time. Documentation: docs/explore.md
+RTL and program depend only on the structure. They are built once per structure and kept in the
+working folder; the values in registers are set at run time. Documentation: docs/explore.md
 """
 
 import argparse

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Three points of the front that are worth a name, as design files.
+"""Three points of the front that get a name, as design files.
 
-fast has the shortest delay, exact the smallest error, balanced lies between: its distance from the
-best of every objective, each on a logarithmic scale from 0 to 1, is the least.
+fast has the shortest delay, and exact the smallest error. balanced lies between them: its distance
+from the best of every objective, each on a logarithmic scale from 0 to 1, is the smallest.
 Documentation: docs/explore.md
 """
 

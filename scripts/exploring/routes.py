@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Second stage of a sweep: place and route, for points of the front only, since it takes minutes.
+"""Second stage of a sweep: place and route, only for points of the front, as it takes minutes.
 
 Documentation: docs/explore.md
 """

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Is a mutant the same circuit? yosys joins both to one whose output says that they differ,
-yosys-abc proves that it never does (scorr, pdr), or finds inputs for which it does.
+"""Is a mutant the same circuit? yosys joins both into one circuit whose output shows a difference.
+yosys-abc proves that there is never a difference (scorr, pdr), or finds inputs that give one.
 
-All inputs are free in every clock, reset among them; registers start at 0, or at their value at
-power-up. A memory is cut out: what it reads is an input of both, its address, data and enable are
-compared. In place of each of its pins stands a buffer, which is changed as the pin would be.
+All inputs, also the reset, are free in every clock; registers start at 0, or at their value at
+power-up. A memory is cut out: its read data are an input of both circuits, and its address, data
+and enable are compared. A buffer replaces each of its pins and is changed as the pin would be.
 """
 
 import re

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""One netlist that is a block with any of its mutants, chosen at run time. docs/verification.md
+"""One netlist of a block with all its mutants, of which one is chosen at run time.
+
+Documentation: docs/verification.md
 
 Yosys writes the block as a netlist of word-wide cells and proposes the mutants: one bit of one pin
 of one cell inverted, stuck, or changed by another bit of the pin. Every mutant is in the netlist
-behind a comparison with `mutsel`. Around it stands a module of the block's own name and ports, so
-that the block's test program is linked with it as it is.
+behind a comparison with `mutsel`. A module with the block's own name and ports contains the
+netlist, so the block's test program is linked with it without changes.
 """
 
 import json

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Mutants of the RTL: runs a block's test program on each, proves what survives, says what is
-left."""
+"""Mutants of the RTL: runs a block's test program on each, tries to prove the survivors equivalent,
+and reports the rest."""
 
 import json
 import operator

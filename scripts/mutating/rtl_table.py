@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""What became of the RTL's mutants, for a terminal."""
+"""The results of the RTL's mutants, for a terminal."""
 
 from reporting.columns import aligned
 

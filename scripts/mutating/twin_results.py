@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""What is known of the twin's mutants, and what became of them: testbench/mutate/twin.toml, the
+"""Known survivors of the twin's mutants, and the results: testbench/mutate/twin.toml, the
 rows of the table, docs/verification/twin_mutants.json. docs/verification.md
 """
 

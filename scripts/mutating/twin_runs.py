@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Runs test cases with one mutant each. Documentation: docs/verification.md
 
-First every test case runs once without a mutant and notes which ones it reaches. A mutant is then
-only tried by those that reach it, the shortest first, until one fails.
+First every test case runs once without a mutant and records which mutants it reaches. A mutant is
+then tried only by the cases that reach it, the shortest first, until one fails.
 """
 
 import contextlib

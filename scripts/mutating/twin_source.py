@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Mutants of a C++ header, all in one text, chosen at run time (testbench/mutate/twin/mutant.hpp).
 
-The header is parsed by tree-sitter. What only the compiler sees, as constants and template
-arguments, stays. Documentation: docs/verification.md
+tree-sitter parses the header. Code that only the compiler evaluates, such as constants and
+template arguments, is not changed. Documentation: docs/verification.md
 """
 
 import re

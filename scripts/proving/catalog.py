@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""What is to be proven: testbench/BLOCK/proofs/proofs.toml, one table per proof."""
+"""The proofs to make: testbench/BLOCK/proofs/proofs.toml, one table per proof."""
 
 import re
 import tomllib

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Which inputs were proven: docs/verification/proven.json, so that these are not proven every time.
+"""Which inputs were proven: docs/verification/proven.json, so that they are not proven every time.
 
   {"schema": "feltgate-proven/1", "tools": {...}, "inputs": {"ramp.steps lever": "16 hex digits"}}
 
-The digits are of everything that decides base, induction and covers: the sources as the proof reads
-them, without comments, its depths and cuts, the programs' versions, and the scripts that run them.
+The digits are a hash of everything that decides base, induction and covers: the sources as the
+proof reads them, without comments, its depths and cuts, the programs' versions, and the scripts
+that run them.
 """
 
 import hashlib

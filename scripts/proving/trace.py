@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""A counter-example as text: the last clocks of a VCD, the signals of the wrapper that matter."""
+"""A counter-example as text: the last clocks of a VCD, for the wrapper's signals that matter."""
 
 import re
 

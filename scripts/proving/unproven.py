@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""What no property of a proof is about, and why: a block or a port that is missing here fails
-prove.scripts. Documentation: docs/proofs.md"""
+"""Blocks and ports that are in no property of a proof, with the reason. If such a block or port is
+missing here, prove.scripts fails. Documentation: docs/proofs.md"""
 
 # Blocks of which no port is in a property: how they are tested instead.
 BLOCKS = {

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The card of a device of several axes: one sentence, the way of its pen, joints and torques over
-time. Documentation: docs/figures.md
+"""The card of a device with several axes: one sentence, the path of its pen, joints and torques
+over time. Documentation: docs/figures.md
 """
 
 from html import escape

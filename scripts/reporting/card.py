@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""What a stranger sees first of a run: one sentence, the lever as it moved, angle and torque.
+"""The first part of a run's page: one sentence, the moving lever, angle and torque.
 
 Documentation: docs/figures.md
 """

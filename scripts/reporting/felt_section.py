@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""What was felt in a run, as lines and a table, from its JSON's `felt`.
+"""What the hand felt in a run, as lines and a table, from the `felt` of its JSON.
 
 Documentation: docs/json.md, docs/figures.md
 """

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The three numbers at the top of a page, each beside its bound. All come from the runs' JSON and
+"""The three numbers at the top of a page, each with its bound. All come from the runs' JSON and
 the files that set the bounds. Documentation: docs/figures.md, docs/json.md
 """
 

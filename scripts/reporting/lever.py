@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """A lever drawn as SVG and moved by rows of a run: the hand's push and the motor's as arrows.
 
-Without JavaScript it stands where the torque is largest. lever.js moves it. Angle 0 is upright, and
-what counts up turns clockwise. Documentation: docs/figures.md
+Without JavaScript it is shown where the torque is largest. lever.js moves it. Angle 0 is upright;
+counting up turns clockwise. Documentation: docs/figures.md
 """
 
 import math

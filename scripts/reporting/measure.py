@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Numbers taken from runs, and the closed forms and laws that they are held against.
+"""Numbers taken from runs, and the closed forms and laws with which they are compared.
 
 Documentation: docs/figures.md, docs/scenes.md
 """

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""What is measured of each virtual object, and what the paper says of it.
+"""The measured numbers of each virtual object, and the paper's numbers.
 
 Documentation: docs/figures.md, docs/scenes.md
 """

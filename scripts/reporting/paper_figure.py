@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""One figure of the paper redrawn: pictures, a table of what the paper says beside what came out,
+"""One figure of the paper redrawn: pictures, a table with the paper's numbers and our results,
 notes on what cannot be the same. Documentation: docs/figures.md
 """
 

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """The look of every picture: one colour per source of a curve, small enough for a phone.
 
-RTL is a broad pale line and the quad reference a thin dark one over it, so that both show where
-they agree. Documentation: docs/figures.md
+RTL is a broad pale line, and the quad reference is a thin dark line over it, so both are visible
+where they agree. Documentation: docs/figures.md
 """
 
 import base64

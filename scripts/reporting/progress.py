@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Progress on a terminal: a line drawn anew, with the time left; elsewhere a line now and then."""
+"""Progress on a terminal: one line, redrawn, with the time left; elsewhere a line now and then."""
 
 import shutil
 import sys

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Finds encoder recordings and says how each is to be read.
+"""Finds encoder recordings and decides how each is read.
 
 Files that the project knows have fixed options and known numbers of steps; others are tried with
 guesses from their own channel names. Documentation: docs/traces.md, docs/figures.md

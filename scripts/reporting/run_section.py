@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""What a page tells of one run in words and tables. Documentation: docs/figures.md"""
+"""The words and tables of a page about one run. Documentation: docs/figures.md"""
 
 from reporting import felt_section, page
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""What a run's card says: one plain sentence for each object, its numbers from the run's rows.
+"""The sentence of a run's card: one for each object, with numbers from the run's rows.
 
 Documentation: docs/figures.md
 """

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Angle and torque over time as SVG inside the page: the colours are the page's own, so it reads in
-the dark too, and a cursor moves with the lever. Documentation: docs/figures.md
+"""Angle and torque over time as SVG inside the page. It uses the page's colours, so it is readable
+in dark mode too. A cursor moves with the lever. Documentation: docs/figures.md
 """
 
 from html import escape

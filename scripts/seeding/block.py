@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""One SystemVerilog module of a block's name and ports that is the block with any of its defects."""
+"""One SystemVerilog module with a block's name and ports, and any of the block's defects."""
 
 import re
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""C++ files that hold the statements of all patches, chosen when they are executed."""
+"""C++ files that hold the statements of all patches; one patch is chosen at run time."""
 
 import difflib
 import re

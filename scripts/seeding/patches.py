@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Patches that are applied to copies, and what a patch must be."""
+"""Applies patches to copies, and checks the rules for a patch."""
 
 import re
 import subprocess

@@ -17,17 +17,18 @@ namespace {
 
 constexpr const char* kSource = "rtl/engine/engine.toml";
 
-void fields_sv(std::ostringstream& s, const std::string& name, const Field& f) {
+void engine_fields_sv(std::ostringstream& s, const std::string& name, const Field& f) {
   s << fmt::format("  localparam int B_{} = {};\n", upper(name), f.bit);
   if (f.width > 1) s << fmt::format("  localparam int W_{} = {};\n", upper(name), f.width);
 }
 
-void fields_sv(std::ostringstream& s, const std::string& prefix, const std::vector<Field>& fields) {
-  for (const Field& f : fields) fields_sv(s, prefix + f.name, f);
+void engine_fields_sv(std::ostringstream& s, const std::string& prefix,
+                      const std::vector<Field>& fields) {
+  for (const Field& f : fields) engine_fields_sv(s, prefix + f.name, f);
 }
 
-void fields_cpp(std::ostringstream& s, const std::string& prefix,
-                const std::vector<Field>& fields) {
+void engine_fields_cpp(std::ostringstream& s, const std::string& prefix,
+                       const std::vector<Field>& fields) {
   for (const Field& f : fields) {
     s << fmt::format("    static constexpr int {}{} = {};  ///< {}\n", prefix, f.name, f.bit, f.doc)
       << fmt::format("    static constexpr int {}{}_width = {};\n", prefix, f.name, f.width);
@@ -56,7 +57,7 @@ std::string engine_package(const EngineDescription& e) {
     s << fmt::format("  localparam int SHIFT_{} = {};\n", n, e.shifts[n]);
   }
   s << "\n  // Bits (B) and widths (W) of a program word's fields.\n";
-  fields_sv(s, "", e.fields);
+  engine_fields_sv(s, "", e.fields);
   s << "\n  // Instructions.\n";
   for (const Cause& c : e.ops) {
     s << fmt::format("  localparam logic [3:0] OP_{} = 4'd{};\n", upper(c.name), c.number);
@@ -68,14 +69,14 @@ std::string engine_package(const EngineDescription& e) {
   s << "\n  // Addresses of the host, and bits of what is there.\n";
   for (const EngineWords& w : e.host) {
     s << fmt::format("  localparam logic [11:0] H_{} = 12'h{:03x};\n", upper(w.name), w.first);
-    fields_sv(s, w.name + "_", w.fields);
+    engine_fields_sv(s, w.name + "_", w.fields);
   }
   s << "\n  // What the engine's words hold after a reset: fields, and an engine that waits for a "
        "host.\n";
   int bits = 0;
   std::string parts;
   for (const EngineResetField& w : e.reset) {
-    fields_sv(s, "reset_" + w.field.name, w.field);
+    engine_fields_sv(s, "reset_" + w.field.name, w.field);
     bits = w.field.bit + w.field.width;
     parts = fmt::format("{}'d{}", w.field.width, w.value) + (parts.empty() ? "" : ", ") + parts;
   }
@@ -103,7 +104,7 @@ std::string engine_header(const EngineDescription& e) {
     << "  static constexpr std::string_view op_names[] = {\n     ";
   for (const Cause& c : e.ops) s << fmt::format(" \"{}\",", c.name);
   s << "};\n\n  /// Lowest bits of a program word's fields, and their widths.\n  struct B {\n";
-  fields_cpp(s, "", e.fields);
+  engine_fields_cpp(s, "", e.fields);
   s << "  };\n\n  /// First data words of the regions.\n  struct D {\n";
   for (const EngineWords& w : e.regions) {
     s << fmt::format("    static constexpr int {} = {};\n", w.name, w.first);
@@ -113,7 +114,7 @@ std::string engine_header(const EngineDescription& e) {
     s << fmt::format("    static constexpr int {} = 0x{:03x};\n", w.name, w.first);
   }
   s << "  };\n\n  /// Bits of the host's words.\n  struct S {\n";
-  for (const EngineWords& w : e.host) fields_cpp(s, w.name + "_", w.fields);
+  for (const EngineWords& w : e.host) engine_fields_cpp(s, w.name + "_", w.fields);
   s << "  };\n};\n\n/// What the engine's words hold after a reset.\nstruct EngineReset {\n";
   for (const EngineResetField& w : e.reset) {
     s << fmt::format("  unsigned {} = {};  ///< {}\n", w.field.name, w.value, w.field.doc);

@@ -12,7 +12,6 @@ namespace feltgate::law {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kFastest = 1.8;  ///< of a lowpass's frequency beside the rate: exp(-2 pi 1.8)
 
 }  // namespace

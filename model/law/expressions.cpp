@@ -13,7 +13,6 @@ namespace feltgate::law {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kMostPower = 8;
 constexpr int kMostAxes = 3;
 constexpr long kMostSteps = 300'000;

@@ -14,7 +14,6 @@ namespace feltgate::law {
 namespace {
 
 constexpr std::size_t kMostNodes = 20'000;
-constexpr double kLargest = 1e300;
 
 /// Whether a node is surely a whole number.
 bool is_whole(const Law& law, const Node& n) {

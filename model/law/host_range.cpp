@@ -11,7 +11,6 @@ namespace feltgate::law {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kLargest = 1e300;
 
 Range wider(double lower, double upper) {
   if (!(lower >= -kLargest) || !(upper <= kLargest)) {

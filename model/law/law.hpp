@@ -35,6 +35,10 @@ struct Range {
 /// A node's number in Law::nodes. Arguments come before their users.
 using NodeId = int;
 
+constexpr double kPi = 3.14159265358979323846;
+/// Largest magnitude of a value of a law.
+constexpr double kLargest = 1e300;
+
 /// An index that is known not to be negative.
 inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
 

@@ -11,17 +11,16 @@ namespace feltgate::law {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kMostPower = 8;
 
-struct Symbol {
+struct KnownUnit {
   const char* name;
   Unit unit;
   double to_si;
   bool prefixed;  ///< whether n, u, m, k, M may stand before it
 };
 
-constexpr Symbol kSymbols[] = {
+constexpr KnownUnit kSymbols[] = {
     {"Nm", kNewtonMetre, 1, true},      {"N", {{1, 1, -2, 0}}, 1, true},
     {"m", {{1, 0, 0, 0}}, 1, true},     {"rad", kNumber, 1, true},
     {"deg", kNumber, kPi / 180, false}, {"turn", kNumber, 2 * kPi, false},
@@ -146,7 +145,7 @@ class Scanner {
 }  // namespace
 
 std::optional<UnitValue> unit_symbol(std::string_view symbol) {
-  for (const Symbol& s : kSymbols) {
+  for (const KnownUnit& s : kSymbols) {
     const std::string_view name = s.name;
     if (symbol == name) return UnitValue{s.unit, s.to_si};
     if (s.prefixed && symbol.size() == name.size() + 1 && symbol.substr(1) == name &&
@@ -160,7 +159,7 @@ std::optional<UnitValue> unit_symbol(std::string_view symbol) {
 const std::vector<std::string>& unit_symbols() {
   static const std::vector<std::string> all = [] {
     std::vector<std::string> names;
-    for (const Symbol& s : kSymbols) names.emplace_back(s.name);
+    for (const KnownUnit& s : kSymbols) names.emplace_back(s.name);
     for (const char* often : {"mm", "um", "ms", "us", "kHz", "kg", "mNm"})
       names.emplace_back(often);
     return names;

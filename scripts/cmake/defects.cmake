@@ -77,6 +77,7 @@ function(feltgate_seeded_sources variable)
   foreach(part IN LISTS ARGN)
     file(CONFIGURE OUTPUT "seeded_${part}.cpp" CONTENT "#include \"law/${part}.cpp\"\n")
     list(APPEND seeded "${CMAKE_CURRENT_BINARY_DIR}/seeded_${part}.cpp")
+    set_source_files_properties("${CMAKE_CURRENT_BINARY_DIR}/seeded_${part}.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     set_source_files_properties("${FELTGATE_ROOT}/model/law/${part}.cpp" TARGET_DIRECTORY feltgate_law
       PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   endforeach()

@@ -11,7 +11,7 @@ using namespace feltgate::test;
 namespace {
 
 template <int Axes>
-EngineMemory program(int instructions) {
+EngineMemory adds(int instructions) {
   EngineMemory m;
   for (int n = 0; n < instructions; ++n) {
     EngineInstruction i;
@@ -31,7 +31,7 @@ void exact() {
     const int period = engine_period(n, Axes);
     INFO(Axes << " axes, " << n << " instructions, " << period << " clocks");
     for (int phase = 0; phase < EngineMap::round_clocks; ++phase) {
-      const EngineMemory m = program<Axes>(n);
+      const EngineMemory m = adds<Axes>(n);
       for (const int clocks : {period, period + 1, period + 4}) {
         const Seen enough = run<Axes>(m, 1, clocks, phase, ticks);
         REQUIRE_FALSE(enough.overrun);

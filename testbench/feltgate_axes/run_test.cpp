@@ -15,15 +15,15 @@ using namespace feltgate::test;
 
 namespace {
 
-constexpr int kAxes = AXES;
+constexpr int kCores = AXES;
 using D = LeverLaw;
-using In = AxesIn<kAxes>;
+using In = AxesIn<kCores>;
 
 bool same(const In& a, const In& b) {
   bool all = a.arm == b.arm && a.stop == b.stop && a.law_late == b.law_late &&
              a.law_restart == b.law_restart && a.reg_addr == b.reg_addr &&
              a.reg_wdata == b.reg_wdata && a.reg_write == b.reg_write;
-  for (std::size_t n = 0; n < kAxes; ++n) {
+  for (std::size_t n = 0; n < kCores; ++n) {
     all = all && a.axis[n].encoder == b.axis[n].encoder &&
           a.axis[n].set_zero == b.axis[n].set_zero && a.axis[n].scene == b.axis[n].scene &&
           a.axis[n].law_torque == b.axis[n].law_torque;
@@ -40,9 +40,9 @@ bool strobes(const In& in) {
 
 TEST_CASE("axes: from event to event as clock by clock") {
   for (const std::uint32_t longest : {30u, 4'000u}) {
-    AxesStimulus<D, kAxes> stimulus(longest);
+    AxesStimulus<D, kCores> stimulus(longest);
     Random cut(longest);
-    FeltgateAxes<D, kAxes> by_clock, by_event;
+    FeltgateAxes<D, kCores> by_clock, by_event;
     const std::int64_t clocks = scaled_clocks(400'000);
     std::int64_t done = 0, snapshots = 0, faults = 0;
     In in = stimulus(0);
@@ -53,14 +53,14 @@ TEST_CASE("axes: from event to event as clock by clock") {
       do {
         in = stimulus(done + ++length);
       } while (same(in, held) && !strobes(held) && length < limit);
-      std::vector<AxesOut<kAxes>> of_clocks;
+      std::vector<AxesOut<kCores>> of_clocks;
       for (std::int64_t k = 0; k < length; ++k) {
         by_clock.clock(held);
         if (by_clock.out().axis[0].snapshot_valid) of_clocks.push_back(by_clock.out());
       }
       std::size_t next = 0;
-      const auto check = [&](const AxesOut<kAxes>& a, const AxesOut<kAxes>& b, bool whole) {
-        for (std::size_t n = 0; n < kAxes; ++n) {
+      const auto check = [&](const AxesOut<kCores>& a, const AxesOut<kCores>& b, bool whole) {
+        for (std::size_t n = 0; n < kCores; ++n) {
           CoreOut one = a.axis[n], other = b.axis[n];
           if (!whole) {  // amid a stretch the words are not shown one by one
             for (CoreOut* o : {&one, &other}) {
@@ -91,16 +91,16 @@ TEST_CASE("axes: from event to event as clock by clock") {
       done += length;
     }
     CHECK(snapshots == clocks / D::clocks_per_tick + (done - clocks) / D::clocks_per_tick);
-    CHECK((kAxes == 1 || faults > 0));
+    CHECK((kCores == 1 || faults > 0));
   }
 }
 
 TEST_CASE("axes: one that faults in the tick that would arm them all") {
-  using Axes = FeltgateAxes<D, kAxes>;
+  using Axes = FeltgateAxes<D, kCores>;
   const auto made = [] {
     Axes axes;
     In in;
-    for (int n = 0; n < kAxes; ++n) {
+    for (int n = 0; n < kCores; ++n) {
       in.reg_addr = static_cast<std::uint16_t>(n * axes_stride + D::A::self_test_pulse);
       in.reg_write = true;
       axes.clock(in);
@@ -118,7 +118,7 @@ TEST_CASE("axes: one that faults in the tick that would arm them all") {
     calm.clock(in);
   }
   int armed = 0, refused = 0;
-  for (int n = 0; n < kAxes; ++n) {
+  for (int n = 0; n < kCores; ++n) {
     for (std::int64_t before = 0; before <= arms; ++before) {
       Axes by_clock = made(), by_event = made();
       In now = in;
@@ -128,7 +128,7 @@ TEST_CASE("axes: one that faults in the tick that would arm them all") {
         for (std::int64_t k = 0; k < clocks; ++k) by_clock.clock(now);
         by_event.run(now, clocks, [] {});
         done += clocks;
-        for (std::size_t m = 0; m < kAxes; ++m) {
+        for (std::size_t m = 0; m < kCores; ++m) {
           INFO("axis " << m << ", clock " << done << " of " << arms << ", fault of axis " << n);
           if (!(by_clock.out().axis[m] == by_event.out().axis[m])) FAIL("another output");
         }
@@ -156,8 +156,8 @@ TEST_CASE("axes: one that faults in the tick that would arm them all") {
 }
 
 TEST_CASE("axes: as made they show what their cores do, and measure once in a tick") {
-  FeltgateAxes<D, kAxes> axes;
-  for (int n = 0; n < kAxes; ++n) {
+  FeltgateAxes<D, kCores> axes;
+  for (int n = 0; n < kCores; ++n) {
     CHECK(axes.out().axis[static_cast<std::size_t>(n)] == axes.core(n).out());
   }
   constexpr int ticks = 5;
@@ -165,7 +165,7 @@ TEST_CASE("axes: as made they show what their cores do, and measure once in a ti
   for (int k = 0; k < ticks * D::clocks_per_tick; ++k) {
     axes.clock({});
     measured += axes.measured();
-    CHECK(axes.measured() == axes.core(kAxes - 1).measured());
+    CHECK(axes.measured() == axes.core(kCores - 1).measured());
   }
   CHECK(measured == ticks);
 }
@@ -176,7 +176,7 @@ TEST_CASE("axes: without an engine a watcher is told of ticks, not of events") {
     void event(std::int64_t, int) { ++events; }
     void words() { ++ticks; }
   };
-  FeltgateAxes<D, kAxes> axes;
+  FeltgateAxes<D, kCores> axes;
   Watcher watcher;
   int snapshots = 0;
   for (int k = 0; k < 40; ++k) {
@@ -199,7 +199,7 @@ TEST_CASE("axes: inputs that nobody gives are 0, those of a core are one axis's"
     CHECK((axis.encoder == EncoderPins{} && !axis.set_zero));
     CHECK((axis.scene | axis.law_torque) == 0);
   }
-  const AxesOut<kAxes> silent;
+  const AxesOut<kCores> silent;
   CHECK_FALSE((silent.reg_busy || silent.event_valid));
   CHECK(silent.rdata_known);
   CHECK(silent.reg_rdata == 0);

@@ -7,13 +7,12 @@
 #include <catch2/catch.hpp>
 #include <map>
 
+#include "compiled.hpp"
 #include "engine/machine.hpp"
 #include "law/measure.hpp"
 
 namespace feltgate::law {
 namespace {
-
-Compiled compiled(const std::string& text) { return compile_text(text, "x.law", Target{}); }
 
 void require_within(const Compiled& c, bool free_running) {
   const Measured m = measure(c, 3, 20000, free_running);

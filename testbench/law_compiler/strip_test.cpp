@@ -7,12 +7,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "compiled.hpp"
 #include "law/measure.hpp"
 
 namespace feltgate::law {
 namespace {
-
-Compiled compiled(const std::string& text) { return compile_text(text, "x.law", Target{}); }
 
 /// Few runs are left out, the others within the bound.
 void require_within(const Compiled& c, std::int64_t runs) {

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "compiled.hpp"
 #include "feltgate/largest.hpp"
 #include "law/diagnostics.hpp"
 #include "law/listing.hpp"
@@ -18,8 +19,6 @@ namespace feltgate::law {
 namespace {
 
 using Catch::Matchers::Contains;
-
-Compiled compiled(const std::string& text) { return compile_text(text, "x.law", Target{}); }
 
 std::string refusal(const std::string& text) {
   try {

@@ -20,8 +20,6 @@ namespace {
 using feltgate::law::Compiled;
 using feltgate::law::ImageWord;
 
-std::size_t at(long i) { return static_cast<std::size_t>(i); }
-
 class Judge {
  public:
   Judge(const Law& law, const Printer& printer, const Compiled& c, std::uint64_t seed)

@@ -15,6 +15,8 @@
 
 namespace feltgate::judge {
 
+inline std::size_t at(long i) { return static_cast<std::size_t>(i); }
+
 using Real = long double;
 
 // clang-format off

@@ -71,7 +71,7 @@ struct Node {
   int index = -1;    ///< where `op` says so
   double value = 0;  ///< of a constant
   bool truth = false;
-  bool whole = false;  ///< surely a whole number
+  bool whole = false;  ///< certainly a whole number
   Unit unit;
   Place place;
 };

@@ -16,8 +16,8 @@
 
 namespace feltgate::law {
 
-/// The source of an operand: a step's result, Law::inputs, Law::states after the previous run, a
-/// parameter word, a constant.
+/// The source of an operand: a step's result, an input (Law::inputs), a state after the previous
+/// run (Program::states), a parameter word, a constant.
 enum class From : std::uint8_t { none, step, input, state, word, constant };
 
 struct Operand {

@@ -46,7 +46,8 @@ std::vector<Span> ranges(const Law& law, const Cell& cell);
 Jet table_jet(const Law& law, const Table& table, const Span& argument);
 double table_value(const Law& law, const Table& table, double argument);
 
-/// Narrows the range of x - y to values of at least 0 if the law requires y <= x of these nodes.
+/// Narrows the range of a node x - y if requirement `r` orders these two nodes: to at least 0 for
+/// y <= x, to at most 0 for x <= y.
 void narrow_difference(const Node& n, const Requirement& r, double* lower, double* upper);
 
 /// Nodes that outputs, events and states need, arguments before users.

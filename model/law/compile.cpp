@@ -164,7 +164,8 @@ Compiled settled(const Read& read, const Target& target) {
     const Law law = read(0.0);
     if (law.rate_hz > 0) return compile(law, target);
   } catch (const LawError&) {
-    // Tries again at this rate in case only the rate was missing; the file's own rate is kept.
+    // Reading succeeds now if only the rate was missing. If the file has an own rate, the first
+    // error stands.
     if (read(rate).own_rate) throw;
   }
   // The file has no own rate: the assumed rate only serves dt and filters.

@@ -26,7 +26,7 @@ struct ImageWord {
   /// Empty: the word is the parameter `name` itself and carries its value. Otherwise the formula by
   /// which the host computes the word from the values of other words, before it rounds: postfix, in
   /// SI, tokens separated by spaces: numbers, names of parameters,
-  /// + - * / neg abs min max sqrt exp sin cos.
+  /// + - * / neg abs min max sqrt exp log sin cos < not and or ?
   std::string formula;
 };
 

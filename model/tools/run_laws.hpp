@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What feltgate run needs for scenes with a law or a device of several axes. A program for scenes
-// of the core alone leaves it out. Documentation: docs/architecture.md
+// The parts of feltgate run for scenes with a law or a device of several axes. A program that runs
+// only scenes of the core does not link them. Documentation: docs/architecture.md
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace feltgate {
 
-/// Options of `feltgate run` that a scene of several axes takes.
+/// Options of `feltgate run` that apply to a scene of several axes.
 struct AxesArguments {
   std::string scene_path, design, engine, json, csv, fst;
   std::vector<std::string> set;
@@ -28,10 +28,10 @@ struct AxesArguments {
 struct LawScenes {
   /// As make_scene_law().
   std::unique_ptr<SceneLaw> (*law)(const std::string& path, const DesignInfo& design) = nullptr;
-  /// Runs and prints; the exit code.
+  /// Runs the scene and prints the result; returns the exit code.
   int (*axes)(const AxesArguments& arguments) = nullptr;
 };
-/// Those of this program.
+/// The functions of this program.
 LawScenes& law_scenes();
 
 }  // namespace feltgate

@@ -39,7 +39,7 @@ class Runner {
   virtual ~Runner() = default;
   const std::string& name() const { return name_; }
   bool integer() const { return arithmetic_ == Arithmetic::integer; }
-  /// Whether it works clock by clock, so that clocks per second mean something.
+  /// Whether the engine simulates single clocks, so that clocks per second are defined.
   virtual bool has_clocks() const { return false; }
   /// Number of simultaneous runs of the work: a batch has several lanes.
   virtual int lanes() const { return 1; }

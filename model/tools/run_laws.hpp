@@ -21,10 +21,10 @@ struct AxesArguments {
   std::uint64_t seed = 1;
   int every = 0;  ///< 0: sane_every()
   bool quiet = false;
-  bool columns = false;  ///< print their names alone
+  bool columns = false;  ///< only print the names of the columns
 };
 
-/// Set before main() by run_axes.cpp, where it is linked.
+/// Functions that run_axes.cpp, if linked, sets before main().
 struct LawScenes {
   /// As make_scene_law().
   std::unique_ptr<SceneLaw> (*law)(const std::string& path, const DesignInfo& design) = nullptr;

@@ -19,9 +19,9 @@
 namespace feltgate::host {
 
 /// Exit codes, with the codes of all commands: 0 done, 1 the board refused, 2 unusable input.
-constexpr int exit_link = 3;  ///< the link broke down, or nothing answers
+constexpr int exit_link = 3;  ///< the link failed, or nothing answers
 
-/// The words before the verb.
+/// The options before the verb.
 struct SessionOptions {
   std::string port, design, law;
   int baud = 0;

@@ -36,7 +36,7 @@ struct ChainNumbers {
   std::vector<Number> numbers;
   std::vector<std::string> scenes;  ///< those built in
 
-  /// Throws std::out_of_range where there is none.
+  /// The parameter of this name. Throws std::out_of_range when there is none.
   const Number& at(const std::string& name) const;
   bool built(const std::string& scene) const;
   /// Sets a value, rounded to the parameter's word. Throws std::out_of_range as above.

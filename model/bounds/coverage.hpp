@@ -54,7 +54,7 @@ class Coverage {
   std::int64_t outside() const { return outside_; }  ///< ticks without the torques' bounds
 
  private:
-  /// Ticks in which a one-pole state forgets all but 2^-40 of an error.
+  /// Number of ticks in which an error of a one-pole state decays to 2^-40.
   static std::int64_t memory(double rate) {
     constexpr double never = 1e15;
     const double ticks = rate > 0 ? std::ceil(40.0 * std::log(2.0) / rate) : never;

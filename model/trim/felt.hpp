@@ -26,7 +26,7 @@ struct Felt {
   std::vector<double> position_rad;  ///< from where the lever starts
   std::vector<double> force_n;       ///< of the hand
   double simulated_s = 0;
-  double cpu_s = 0;  ///< of the thread that ran it
+  double cpu_s = 0;  ///< CPU time of the thread that ran it
   std::size_t states = 0;
   plant::Evaluations evaluations;
   std::vector<std::string> broken;  ///< expectations of the scene that do not hold
